@@ -1,0 +1,1 @@
+//! Swimmers in viscous fluid.

@@ -1,0 +1,2 @@
+//! The program `alewife`.
+fn main() {}

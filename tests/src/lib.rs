@@ -1,0 +1,1 @@
+//! Exact solutions and refinement studies shared by the tests of the whole project.
