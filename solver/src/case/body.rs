@@ -1,0 +1,134 @@
+//! `[[body]]`: outline, place, density, motion and gait of one body.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::domain::TimeFunction;
+
+/// `shape`: one of these, in the body's own frame.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub enum ShapeSpec {
+    /// Disc (planar).
+    Disc {
+        /// Radius (m).
+        radius: f64,
+    },
+    /// Ellipse (planar).
+    Ellipse {
+        /// Semi-axes along the body's x and y (m).
+        semi_axes: [f64; 2],
+    },
+    /// Closed smooth spline (planar).
+    Spline {
+        /// Points counter-clockwise in the body frame (m), the first not repeated.
+        points: Vec<[f64; 2]>,
+    },
+    /// Sphere (axisymmetric).
+    Sphere {
+        /// Radius (m).
+        radius: f64,
+    },
+    /// Ellipsoid of revolution (axisymmetric).
+    Spheroid {
+        /// Semi-axes along and across the axis of revolution (m).
+        semi_axes: [f64; 2],
+    },
+}
+
+/// How a body moves as a whole.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Motion {
+    /// It does not move.
+    Held,
+    /// It obeys Newton and Euler under the fluid's load, gravity and external loads.
+    Free,
+    /// Its velocity is given; the reaction is an output.
+    Imposed(ImposedMotion),
+}
+
+/// A rigid velocity given as a function of time.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ImposedMotion {
+    /// Velocity (m/s), one number per dimension.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub velocity: Vec<f64>,
+    /// Angular velocity, counter-clockwise (rad/s; planar).
+    #[serde(default)]
+    pub angular_velocity: f64,
+    /// Factor in time for both.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub factor: Option<TimeFunction>,
+}
+
+/// A motion a free body may not make.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Lock {
+    /// Along x.
+    X,
+    /// Along y.
+    Y,
+    /// Turning.
+    Rotation,
+}
+
+/// How a swimmer's surface moves by itself.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Gait {
+    /// Tangential slip of a spherical or circular squirmer.
+    Squirmer(SquirmerGait),
+}
+
+/// `gait.squirmer`: u_theta = sum of B_n V_n(theta), theta from the swimming axis.
+///
+/// V_n = 2/(n(n+1)) sin(theta) P_n'(cos theta) on a sphere (V_1 = sin, V_2 = sin cos);
+/// V_n = sin(n theta) on a disc.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SquirmerGait {
+    /// B_1, B_2, ... (m/s).
+    pub modes: Vec<f64>,
+    /// Direction of the swimming axis in the body frame, from x, counter-clockwise (rad);
+    /// 0 or pi for a body on the axis.
+    #[serde(default)]
+    pub heading: f64,
+}
+
+/// `[[body]]`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Body {
+    /// Name, used in outputs, references and as the name of its boundary.
+    pub name: String,
+    /// Outline.
+    pub shape: ShapeSpec,
+    /// Position of the shape's origin (m), one number per dimension.
+    pub center: Vec<f64>,
+    /// Rotation of the body frame, counter-clockwise (rad).
+    #[serde(default)]
+    pub angle: f64,
+    /// Density (kg/m3); that of the fluid if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub density: Option<f64>,
+    /// How it moves as a whole.
+    pub motion: Motion,
+    /// Motions a free body may not make.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub locked: Vec<Lock>,
+    /// Surface motion of a swimmer.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub gait: Option<Gait>,
+    /// External force (N; N/m in planar cases), one number per dimension.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub force: Vec<f64>,
+    /// External torque, counter-clockwise (N m).
+    #[serde(default)]
+    pub torque: f64,
+    /// Cell size on its surface (m); that of `[mesh]` if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub size: Option<f64>,
+}

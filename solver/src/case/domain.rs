@@ -1,0 +1,140 @@
+//! `[domain]` and `[boundary]`: the region, its sides, and what holds on them.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Dimension and symmetry of the problem.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Geometry {
+    /// Two dimensions; loads are per unit length.
+    Planar,
+    /// Half plane y >= 0 turned about the x axis; loads are those of the whole body.
+    Axisymmetric,
+}
+
+/// `[domain]`: one of these.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub enum DomainSpec {
+    /// Rectangle with sides `left`, `right`, `bottom`, `top` (planar).
+    Box {
+        /// Lower left corner (m).
+        min: [f64; 2],
+        /// Upper right corner (m).
+        max: [f64; 2],
+    },
+    /// Rectangle with its lower left corner at the origin; sides as those of a box (planar).
+    Channel {
+        /// Extent along x (m).
+        length: f64,
+        /// Extent along y (m).
+        height: f64,
+    },
+    /// Disc with the side `wall` (planar).
+    Disc {
+        /// Centre (m).
+        #[serde(default)]
+        center: [f64; 2],
+        /// Radius (m).
+        radius: f64,
+    },
+    /// A ball cut by its meridian plane, with the sides `wall` and `axis` (axisymmetric).
+    HalfDisc {
+        /// Centre on the axis (m).
+        #[serde(default)]
+        center: f64,
+        /// Radius (m).
+        radius: f64,
+    },
+    /// A cylinder cut by its meridian plane, with the sides `left`, `right`, `wall` and `axis`
+    /// (axisymmetric).
+    Cylinder {
+        /// Both ends on the axis (m).
+        x: [f64; 2],
+        /// Radius (m).
+        radius: f64,
+    },
+}
+
+/// A named function of time (1), used as a factor.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub enum TimeFunction {
+    /// From 0 to 1 over the duration, linearly, then 1.
+    Ramp {
+        /// Time until the full value (s).
+        duration: f64,
+    },
+    /// From 0 to 1 as (1 - cos(pi t / duration)) / 2, then 1.
+    SmoothRamp {
+        /// Time until the full value (s).
+        duration: f64,
+    },
+    /// mean + amplitude sin(2 pi frequency t + phase).
+    Sine {
+        /// Mean value (1).
+        #[serde(default)]
+        mean: f64,
+        /// Amplitude (1).
+        #[serde(default = "one")]
+        amplitude: f64,
+        /// Frequency (1/s).
+        frequency: f64,
+        /// Phase (rad).
+        #[serde(default)]
+        phase: f64,
+    },
+    /// Straight lines between (time, value) knots, constant outside them.
+    Table(Vec<[f64; 2]>),
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+/// What holds on a side of the domain.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub enum BoundaryCondition {
+    /// Zero velocity.
+    NoSlip,
+    /// Open: mu du/dn - p n = 0, which lets a developed flow leave undisturbed.
+    DoNothing,
+    /// Open: zero traction, sigma n = 0.
+    TractionFree,
+    /// Mirror plane: no normal velocity, no tangential traction. Also a frictionless wall.
+    Symmetry,
+    /// The axis of an axisymmetric domain (taken for granted there, may be left out).
+    Axis,
+    /// The same velocity everywhere on the side.
+    Velocity {
+        /// Velocity (m/s), one number per dimension.
+        value: Vec<f64>,
+        /// Factor in time.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        factor: Option<TimeFunction>,
+    },
+    /// Parabolic velocity along x, zero at both ends of the side (on an axisymmetric domain:
+    /// largest on the axis).
+    Parabolic {
+        /// Largest velocity (m/s), negative towards -x.
+        peak: f64,
+        /// Factor in time.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        factor: Option<TimeFunction>,
+    },
+    /// Velocity of a simple shear: u = rate (y - origin) along x.
+    Shear {
+        /// Shear rate (1/s).
+        rate: f64,
+        /// Height of zero velocity (m).
+        #[serde(default)]
+        origin: f64,
+        /// Factor in time.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        factor: Option<TimeFunction>,
+    },
+    /// One of a periodic pair: the side opposite, by name.
+    Periodic(String),
+}

@@ -1,0 +1,33 @@
+//! `[fluid]`: density, viscosity, gravity and which equations hold.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Which equations the fluid obeys.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Model {
+    /// Quasi-steady: no inertia of fluid or bodies.
+    Stokes,
+    /// Inertia without convection.
+    UnsteadyStokes,
+    /// The full equations.
+    NavierStokes,
+}
+
+/// `[fluid]`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Fluid {
+    /// Which equations hold.
+    pub model: Model,
+    /// Dynamic viscosity (Pa s).
+    pub viscosity: f64,
+    /// Density (kg/m3); needed unless the model is `stokes`.
+    #[serde(default)]
+    pub density: f64,
+    /// Acceleration of gravity (m/s2), one number per dimension; it acts on bodies through their
+    /// weight less buoyancy, so that the pressure is the one without its hydrostatic part.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub gravity: Vec<f64>,
+}

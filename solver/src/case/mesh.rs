@@ -1,0 +1,63 @@
+//! `[mesh]`: cell sizes.
+
+use std::collections::BTreeMap;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// `[mesh]`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct MeshSettings {
+    /// Largest edge length anywhere (m).
+    pub size: f64,
+    /// Edge length on body surfaces (m); `size` if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub surface: Option<f64>,
+    /// Edge lengths on sides of the domain, by name (m).
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub sides: BTreeMap<String, f64>,
+    /// Growth of the edge length per unit distance (1).
+    #[serde(default = "default_growth")]
+    pub growth: f64,
+    /// Layers of cells wanted across the gap between two surfaces.
+    #[serde(default = "default_gap_layers")]
+    pub gap_layers: f64,
+    /// Rectangles with finer cells.
+    #[serde(default, skip_serializing_if = "Vec::is_empty", rename = "box")]
+    pub boxes: Vec<RefinementBox>,
+    /// Whether cells follow curved boundaries (isoparametric P2) or stay straight.
+    #[serde(default = "default_curved")]
+    pub curved: bool,
+    /// Factor on every length above: 0.5 is the same mesh twice as fine (1).
+    #[serde(default = "default_scale")]
+    pub scale: f64,
+}
+
+/// `[[mesh.box]]`.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RefinementBox {
+    /// Lower corner (m).
+    pub min: [f64; 2],
+    /// Upper corner (m).
+    pub max: [f64; 2],
+    /// Largest edge length inside (m).
+    pub size: f64,
+}
+
+fn default_growth() -> f64 {
+    0.2
+}
+
+fn default_gap_layers() -> f64 {
+    4.0
+}
+
+fn default_curved() -> bool {
+    true
+}
+
+fn default_scale() -> f64 {
+    1.0
+}

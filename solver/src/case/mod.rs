@@ -1,0 +1,83 @@
+//! `Case`: the typed contents of a case file.
+
+mod body;
+mod domain;
+mod fluid;
+mod mesh;
+mod output;
+mod reference;
+mod time;
+
+use std::collections::BTreeMap;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+pub use body::{Body, Gait, ImposedMotion, Lock, Motion, ShapeSpec, SquirmerGait};
+pub use domain::{BoundaryCondition, DomainSpec, Geometry, TimeFunction};
+pub use fluid::{Fluid, Model};
+pub use mesh::{MeshSettings, RefinementBox};
+pub use output::{Cadence, Output, Precision, Probe};
+pub use reference::{Numbers, Reference, Scales, Statistic, Statistics, Variant};
+pub use time::{Convection, Initial, Scheme, Steady, TimeSettings, Unsteady};
+
+/// A problem to solve: what one case file declares, after `extends`, variants and `--set`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Case {
+    /// One line saying what is solved.
+    pub title: String,
+    /// A paragraph for `alewife show`: physics, source, what to expect.
+    #[serde(default)]
+    pub description: String,
+    /// Planar, axisymmetric (x along the axis, y the distance from it) or spatial.
+    pub geometry: Geometry,
+    /// The consistent units of all numbers: `dimensionless`, `SI`, `cm g s`, ...
+    #[serde(default = "dimensionless")]
+    pub units: String,
+    /// Name of the body the frame of reference travels with; the laboratory frame if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub frame: Option<String>,
+    /// The fluid and its equations.
+    pub fluid: Fluid,
+    /// The region, with named sides.
+    pub domain: DomainSpec,
+    /// What holds on each side of the domain, by the side's name.
+    #[serde(default)]
+    pub boundary: BTreeMap<String, BoundaryCondition>,
+    /// The bodies in the fluid.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub body: Vec<Body>,
+    /// Cell sizes.
+    pub mesh: MeshSettings,
+    /// Steady solution or march in time.
+    pub time: TimeSettings,
+    /// What is written, and how often.
+    #[serde(default)]
+    pub output: Output,
+    /// Points at which the flow is measured.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub probe: Vec<Probe>,
+    /// Length and velocity that make coefficients and numbers dimensionless.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub scales: Option<Scales>,
+    /// Dimensionless numbers the author expects; they must agree with the derived ones.
+    #[serde(default)]
+    pub numbers: Numbers,
+    /// The stretch of time over which statistics are taken.
+    #[serde(default)]
+    pub statistics: Statistics,
+    /// Published values this case is held against.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub reference: Vec<Reference>,
+    /// Whether `alewife validate --quick` runs the case (its variants say so themselves).
+    #[serde(default)]
+    pub quick: bool,
+    /// Members of a family: the same case with some keys set, and its own references.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub variant: Vec<Variant>,
+}
+
+fn dimensionless() -> String {
+    "dimensionless".to_owned()
+}

@@ -1,0 +1,121 @@
+//! `[[reference]]`, `[[variant]]`, `[scales]`, `[numbers]`, `[statistics]`: what a case is held against.
+
+use std::collections::BTreeMap;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// `[scales]`: what makes coefficients and numbers dimensionless.
+///
+/// Force coefficient c = 2 F / (density velocity^2 area), with area = length in planar cases.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Scales {
+    /// Length (m).
+    pub length: f64,
+    /// Velocity (m/s).
+    pub velocity: f64,
+    /// Area of force coefficients (m2); `length` per unit width in planar cases, and
+    /// pi length^2 / 4 in axisymmetric ones, if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub area: Option<f64>,
+}
+
+/// `[numbers]`: dimensionless numbers the author expects.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Numbers {
+    /// density * scales.velocity * scales.length / viscosity.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub reynolds: Option<f64>,
+    /// Density of the first body over that of the fluid.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub density_ratio: Option<f64>,
+}
+
+/// How a time series becomes one number.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Statistic {
+    /// The last value.
+    #[default]
+    Final,
+    /// The value at `at`, interpolated.
+    At,
+    /// Largest value in the window, refined by a parabola.
+    Max,
+    /// Smallest value in the window, refined by a parabola.
+    Min,
+    /// Time average over the window (over whole periods where the series is periodic).
+    Mean,
+    /// Root mean square over the window.
+    Rms,
+    /// Frequency times scales.length / scales.velocity, from mean crossings in the window.
+    Strouhal,
+    /// The value half a period after the largest value of `statistics.phase_of`.
+    HalfPeriodAfterMax,
+}
+
+/// `[statistics]`.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Statistics {
+    /// Start and end of the window (s); the whole run if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub window: Option<[f64; 2]>,
+    /// The quantity whose largest value starts a period.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub phase_of: Option<String>,
+}
+
+/// `[[reference]]`: a published value, where it comes from and how near we should be.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Reference {
+    /// What is compared: a column of `series.csv`, such as `cylinder.drag_coefficient`.
+    pub quantity: String,
+    /// How its time series becomes a number.
+    #[serde(default)]
+    pub statistic: Statistic,
+    /// Time of statistic `at` (s).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub at: Option<f64>,
+    /// The published value.
+    pub value: f64,
+    /// What the computed quantity is divided by before it is compared (say, 6 pi mu a U).
+    #[serde(default = "one")]
+    pub per: f64,
+    /// Accepted difference relative to the value (1); this or `absolute`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub relative: Option<f64>,
+    /// Accepted difference; this or `relative`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub absolute: Option<f64>,
+    /// Where the value was published.
+    pub source: String,
+    /// What a reader should know: disagreements in words.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub note: Option<String>,
+}
+
+/// `[[variant]]`: the same case with some keys set.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Variant {
+    /// Name; `alewife run CASE/NAME` runs it.
+    pub name: String,
+    /// Keys to set, written as on the command line: `"body.0.center" = [2.0, 0.0]`.
+    #[serde(default)]
+    #[schemars(with = "BTreeMap<String, serde_json::Value>")]
+    pub set: BTreeMap<String, toml::Value>,
+    /// Whether `alewife validate --quick` runs it.
+    #[serde(default)]
+    pub quick: bool,
+    /// Its published values, besides those of the case.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub reference: Vec<Reference>,
+}
+
+fn one() -> f64 {
+    1.0
+}

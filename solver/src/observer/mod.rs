@@ -1,0 +1,1 @@
+//! Sees everything, changes nothing: files, progress, log.

@@ -1,0 +1,64 @@
+//! `RunError`: what stopped a run, at which step, for which body or cell.
+
+use alewife_mesh::Point;
+use thiserror::Error;
+
+/// Every way a run can stop before its end.
+#[derive(Debug, Error)]
+pub enum RunError {
+    /// Newton's method did not converge.
+    #[error(
+        "step {step} (t = {time}): Newton's method stopped at residual {residual:.3e} after \
+         {iterations} iterations; lower time.unsteady.step, refine the mesh, or lower the Reynolds number"
+    )]
+    NewtonStalled {
+        /// Step, 0 for a steady solution.
+        step: usize,
+        /// Time (s).
+        time: f64,
+        /// Residual relative to the first one.
+        residual: f64,
+        /// Iterations made.
+        iterations: usize,
+    },
+    /// A velocity or pressure is no longer a number.
+    #[error(
+        "step {step} (t = {time}): the solution is not finite near {place:?}; \
+         lower time.unsteady.step or refine the mesh there"
+    )]
+    NotFinite {
+        /// Step.
+        step: usize,
+        /// Time (s).
+        time: f64,
+        /// Where (m).
+        place: Point<2>,
+    },
+    /// The linear system is singular.
+    #[error("step {step} (t = {time}): the linear system is singular: {reason}")]
+    Singular {
+        /// Step.
+        step: usize,
+        /// Time (s).
+        time: f64,
+        /// Which unknown, and why it may be.
+        reason: String,
+    },
+    /// A request the solver cannot meet (a case that `check` should have refused).
+    #[error("{0}")]
+    Unsupported(String),
+    /// The mesh could not be made.
+    #[error("mesh: {0}")]
+    Mesh(String),
+    /// An observer could not write.
+    #[error("output: {0}")]
+    Output(#[from] std::io::Error),
+    /// A signal asked the run to stop.
+    #[error("stopped by a signal at step {step} (t = {time})")]
+    Stopped {
+        /// Step.
+        step: usize,
+        /// Time (s).
+        time: f64,
+    },
+}

@@ -1,0 +1,82 @@
+//! CPU and wall-clock time of each stage of a run.
+
+use std::time::Instant;
+
+/// A stage of a run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Stage {
+    /// Generating the mesh.
+    Mesh,
+    /// Moving the mesh.
+    MeshMotion,
+    /// Assembling matrix and right-hand side.
+    Assembly,
+    /// Factorising the matrix (with its symbolic analysis).
+    Factorisation,
+    /// Forward and backward substitution, refinement.
+    Solve,
+    /// Loads, power and other measurements.
+    Loads,
+    /// Writing files.
+    Output,
+}
+
+impl Stage {
+    /// All stages, in the order in which they are reported.
+    pub const ALL: [Self; 7] = [
+        Self::Mesh,
+        Self::MeshMotion,
+        Self::Assembly,
+        Self::Factorisation,
+        Self::Solve,
+        Self::Loads,
+        Self::Output,
+    ];
+
+    /// Name in reports.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Mesh => "mesh",
+            Self::MeshMotion => "mesh_motion",
+            Self::Assembly => "assembly",
+            Self::Factorisation => "factorisation",
+            Self::Solve => "solve",
+            Self::Loads => "loads",
+            Self::Output => "output",
+        }
+    }
+}
+
+/// Seconds spent in each stage.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Timing {
+    /// CPU seconds of the whole process, by [`Stage::ALL`].
+    pub cpu: [f64; 7],
+    /// Wall-clock seconds, by [`Stage::ALL`].
+    pub wall: [f64; 7],
+}
+
+impl Timing {
+    /// Runs `work` and books its time under `stage`.
+    pub fn measure<T>(&mut self, stage: Stage, work: impl FnOnce() -> T) -> T {
+        let (wall, cpu) = (Instant::now(), cpu_seconds());
+        let result = work();
+        self.wall[stage as usize] += wall.elapsed().as_secs_f64();
+        self.cpu[stage as usize] += cpu_seconds() - cpu;
+        result
+    }
+}
+
+/// CPU seconds (user and system) of this process so far, all threads; 0 where the system does
+/// not tell.
+#[must_use]
+pub fn cpu_seconds() -> f64 {
+    let Ok(stat) = std::fs::read_to_string("/proc/self/stat") else { return 0.0 };
+    // Fields are counted from behind the command name, which may itself hold spaces.
+    let Some((_, rest)) = stat.rsplit_once(')') else { return 0.0 };
+    let ticks: f64 =
+        rest.split_whitespace().skip(11).take(2).filter_map(|field| field.parse::<f64>().ok()).sum();
+    // The kernel reports in units of 1/100 s on every architecture Linux supports.
+    ticks / 100.0
+}
