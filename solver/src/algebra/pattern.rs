@@ -80,7 +80,7 @@ impl CellMaps {
         for cell in 0..n_cells {
             let start = unknowns.len();
             let mut is_plain = true;
-            for &raw in maps.raw_unknowns(cell) {
+            for &raw in &maps.raw[cell * n_local_raw..(cell + 1) * n_local_raw] {
                 let row = constraints.row(raw as usize);
                 is_plain &= row.len() == 1 && row[0].1 == 1.0;
                 for &(unknown, _) in row {

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use alewife_mesh::{BoundaryKind, Domain, Mesh, PlacedShape, Point, Shape, SizeBox, Sizing, generate};
+use alewife_mesh::{BoundaryKind, Domain, Mesh, PlacedShape, Point, SecondMoments, Shape, SizeBox, Sizing, generate};
 use nalgebra::Vector3;
 
 use super::RunError;
@@ -215,7 +215,14 @@ fn rigid_body(
     boundary: usize,
     axisymmetric: bool,
 ) -> Result<RigidBody, RunError> {
-    let moments = shape(&body.shape).moments();
+    let moments = shape(&body.shape).moments().ok_or_else(|| {
+        RunError::Unsupported(format!("body `{}`: its spline has no valid outline", body.name))
+    })?;
+    let second_moment = match moments.second {
+        SecondMoments::Planar { polar } => polar,
+        // On the axis a body does not turn.
+        SecondMoments::Revolved { across, .. } => across,
+    };
     let has_inertia = case.fluid.model != Model::Stokes;
     let density = body.density.unwrap_or(case.fluid.density);
     // Weight less buoyancy: the pressure is the one without its hydrostatic part.
@@ -240,6 +247,8 @@ fn rigid_body(
             Drive::Given(value)
         }
     });
+    // The centre of mass of a spline is not the origin of its points.
+    let offset = nalgebra::Rotation2::new(body.angle) * moments.centroid;
     let gait: Option<Box<dyn Gait>> = match &body.gait {
         None => None,
         Some(GaitSpec::Squirmer(squirmer)) => {
@@ -259,10 +268,14 @@ fn rigid_body(
     Ok(RigidBody {
         name: body.name.clone(),
         boundary,
-        pose: Pose::planar(body.center[0], body.center[1], body.angle),
+        pose: Pose::planar(
+            body.center[0] + offset[0],
+            body.center[1] + offset[1],
+            body.angle,
+        ),
         drives,
         mass: if has_inertia { density * moments.measure } else { 0.0 },
-        inertia: if has_inertia { density * moments.second_moment } else { 0.0 },
+        inertia: if has_inertia { density * second_moment } else { 0.0 },
         external: Wrench {
             force: Vector3::new(force[0], force[1], 0.0),
             torque: Vector3::new(0.0, 0.0, body.torque),

@@ -40,11 +40,13 @@ impl Measure {
         let locator = Locator::new(mesh);
         let find = |probe: &Probe, point: &[f64], sign: f64| {
             let place = Point::<2>::new(point[0], point[1]);
-            let found = locator.locate(mesh, &place);
-            let (cell, xi) = found.ok_or_else(|| {
+            // A point on an exact curve may lie outside the quadratic geometry by a trifle.
+            let reach = 0.01 * case.mesh.surface.unwrap_or(case.mesh.size);
+            let found = locator.nearest(place).filter(|found| found.distance <= reach);
+            let found = found.ok_or_else(|| {
                 format!("probe `{}`: point {point:?} is not in the fluid", probe.name)
             })?;
-            Ok::<_, String>(ProbePoint { cell, xi, sign })
+            Ok::<_, String>(ProbePoint { cell: found.cell, xi: found.reference.into(), sign })
         };
         let mut probes = Vec::new();
         for probe in &case.probe {
