@@ -3,7 +3,7 @@
 use super::border::Border;
 use super::triangulation::{Triangulation, WALL};
 use crate::curved::jacobian_coefficients;
-use crate::{Facet, Mesh, MeshError, Point};
+use crate::{Facet, Mesh, MeshError};
 
 /// Mesh with quadratic geometry; `periodic` are the boundary edge pairs (copy, original).
 ///
@@ -117,13 +117,4 @@ fn pair_nodes(
     };
     copies.sort_unstable();
     copies.into_iter().map(|copy| (copy, root(copy))).collect()
-}
-
-impl Mesh<2> {
-    /// Places of the six nodes of a cell (m).
-    #[must_use]
-    pub fn cell_nodes(&self, cell: usize) -> [Point<2>; 6] {
-        let nodes = self.cell(cell);
-        std::array::from_fn(|i| self.nodes[nodes[i] as usize])
-    }
 }
