@@ -64,7 +64,7 @@ pub fn finish(
         boundaries: border.boundaries.clone(),
         periodic: Vec::new(),
     };
-    mesh.periodic = pair_nodes(&mesh, border, &triangles, periodic);
+    mesh.periodic = pair_nodes(&mesh, &triangles, periodic);
     for cell in (0..n_cells).filter(|c| mesh.curved[*c]) {
         let nodes = mesh.cell_nodes(cell);
         let lowest = jacobian_coefficients(&nodes).into_iter().fold(f64::INFINITY, f64::min);
@@ -81,11 +81,9 @@ pub fn finish(
     Ok(mesh)
 }
 
-/// Periodic pairs of nodes, chains resolved, sorted by copy; copies are moved onto their originals
-/// plus the period exactly.
+/// Periodic pairs of nodes, chains resolved, sorted by copy.
 fn pair_nodes(
     mesh: &Mesh<2>,
-    border: &Border,
     triangles: &Triangulation,
     periodic: &[(u32, u32)],
 ) -> Vec<(u32, u32)> {
@@ -98,9 +96,6 @@ fn pair_nodes(
     for (copy, source) in periodic {
         let [a, b] = triangles.edges[*copy as usize].vertices;
         let [c, d] = triangles.edges[*source as usize].vertices;
-        debug_assert!(
-            border.pieces[triangles.edges[*copy as usize].piece as usize].copy_of.is_some()
-        );
         for (to, from) in [(a, d), (middle(*copy), middle(*source)), (b, c)] {
             // A corner of a doubly periodic box is a copy twice
             if original[to as usize] == to {
