@@ -1,12 +1,15 @@
 //! `Case`: the typed contents of a case file.
 
 mod body;
+mod check;
 mod deserialize;
 mod domain;
 mod fluid;
+mod geometry;
 pub mod library;
 mod mesh;
 mod nearest;
+mod numbers;
 mod output;
 mod problem;
 mod read;
@@ -21,10 +24,13 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 pub use body::{Body, Gait, ImposedMotion, Lock, Motion, ShapeSpec, SquirmerGait};
+pub use check::{check, known_quantities};
 pub use domain::{BoundaryCondition, DomainSpec, Geometry, TimeFunction};
 pub use fluid::{Fluid, Model};
+pub use geometry::opposite;
 pub use mesh::{MeshSettings, RefinementBox};
 pub use nearest::nearest;
+pub use numbers::{DerivedNumber, derived_numbers, geometry_name, number_table, significant};
 pub use output::{Cadence, Output, Precision, Probe};
 pub use problem::{CaseError, Problem, Severity, Topic};
 pub use read::CaseFile;

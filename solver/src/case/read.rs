@@ -13,11 +13,12 @@ use std::sync::Arc;
 use serde::Deserialize;
 
 use super::deserialize::{Mismatch, TypeError, suggestion};
+use super::geometry::opposite;
 use super::nearest::nearest;
 use super::problem::{CaseError, Problem, Severity, Topic};
 use super::source::{Origin, Place, Source};
 use super::tree::{self, Node, TreeError, Value};
-use super::{Case, library};
+use super::{BoundaryCondition, Case, library};
 
 /// Keys of a file that those who extend it do not inherit.
 const OWN_KEYS: [&str; 3] = ["reference", "variant", "quick"];
@@ -50,6 +51,13 @@ impl CaseFile {
         let is_value = is_exact && node.table().is_none();
         let origin = if is_value { &node.origin } else { &node.key };
         (!origin.span.is_empty()).then(|| origin.place())
+    }
+
+    /// Paths of all numbers that are infinite or not a number.
+    pub(super) fn not_finite(&self) -> Vec<String> {
+        let mut paths = Vec::new();
+        collect_not_finite(&self.root, String::new(), &mut paths);
+        paths
     }
 
     /// Name and variant: `disc-settling/heavy`.
@@ -98,6 +106,25 @@ struct CaseText {
     /// Where relative paths start; a shipped case has none.
     directory: Option<PathBuf>,
     source: Arc<Source>,
+}
+
+fn collect_not_finite(node: &Node, path: String, paths: &mut Vec<String>) {
+    let below =
+        |step: &str| if path.is_empty() { step.to_owned() } else { format!("{path}.{step}") };
+    match &node.value {
+        Value::Float(number) if !number.is_finite() => paths.push(path),
+        Value::Array(items) => {
+            for (index, item) in items.iter().enumerate() {
+                collect_not_finite(item, below(&index.to_string()), paths);
+            }
+        }
+        Value::Table(entries) => {
+            for (key, entry) in entries {
+                collect_not_finite(entry, below(key), paths);
+            }
+        }
+        _ => {}
+    }
 }
 
 /// Name of a case by its file: `cases/jets/case.toml` is `jets`, `mine.toml` is `mine`.
@@ -184,7 +211,8 @@ fn assemble(
     for setting in settings {
         apply_setting(&mut root, setting).map_err(wrong)?;
     }
-    let case = typed(&root)?;
+    let mut case = typed(&root)?;
+    complete_periodic(&mut case);
     Ok(CaseFile {
         case,
         name: text.name.clone(),
@@ -344,6 +372,22 @@ fn apply_setting(root: &mut Node, setting: &str) -> Result<(), TreeError> {
     };
     value.key = place(0..start - 1);
     root.set(path, value)
+}
+
+/// A side whose partner is periodic is periodic, too, and need not say so.
+fn complete_periodic(case: &mut Case) {
+    let pairs: Vec<(String, String)> = case
+        .boundary
+        .iter()
+        .filter_map(|(side, condition)| match condition {
+            BoundaryCondition::Periodic(partner) => Some((side.clone(), partner.clone())),
+            _ => None,
+        })
+        .filter(|(side, partner)| opposite(side) == Some(partner))
+        .collect();
+    for (side, partner) in pairs {
+        case.boundary.entry(partner).or_insert(BoundaryCondition::Periodic(side));
+    }
 }
 
 /// Types a tree; unknown keys are left out and noted, so that all of them are found at once.
