@@ -59,4 +59,81 @@ impl Domain {
             Self::Cylinder { .. } => &["left", "right", "wall", "axis"],
         }
     }
+
+    /// Distance from a point to the nearest side, the axis left out (m); negative outside.
+    #[must_use]
+    pub fn clearance(&self, point: Point<2>) -> f64 {
+        (0..self.sides().len()).map(|side| self.side_gap(side, point)).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Signed distance from a point to one side (m), positive towards the fluid; infinite for the
+    /// axis, which is not a surface.
+    #[must_use]
+    pub fn side_gap(&self, side: usize, point: Point<2>) -> f64 {
+        match self {
+            Self::Box { min, max, .. } => {
+                [point.x - min.x, max.x - point.x, point.y - min.y, max.y - point.y][side]
+            }
+            Self::Disc { center, radius } => radius - (point - center).norm(),
+            Self::HalfDisc { center, radius } => {
+                [radius - (point - Point::<2>::new(*center, 0.0)).norm(), f64::INFINITY][side]
+            }
+            Self::Cylinder { x, radius, .. } => {
+                [point.x - x[0], x[1] - point.x, radius - point.y, f64::INFINITY][side]
+            }
+        }
+    }
+
+    /// Whether a side belongs to a periodic pair.
+    #[must_use]
+    pub fn is_periodic(&self, side: usize) -> bool {
+        match self {
+            Self::Box { periodic_x, periodic_y, .. } => {
+                if side < 2 {
+                    *periodic_x
+                } else {
+                    *periodic_y
+                }
+            }
+            Self::Cylinder { periodic_x, .. } => side < 2 && *periodic_x,
+            Self::Disc { .. } | Self::HalfDisc { .. } => false,
+        }
+    }
+
+    /// Distance between a side and the side facing it across the fluid (m), infinite without one.
+    #[must_use]
+    pub fn facing(&self, side: usize) -> f64 {
+        match self {
+            Self::Box { min, max, .. } => {
+                if side < 2 {
+                    max.x - min.x
+                } else {
+                    max.y - min.y
+                }
+            }
+            Self::Disc { radius, .. } => 2.0 * radius,
+            Self::HalfDisc { radius, .. } => [2.0 * radius, f64::INFINITY][side],
+            Self::Cylinder { x, radius, .. } => {
+                [x[1] - x[0], x[1] - x[0], 2.0 * radius, f64::INFINITY][side]
+            }
+        }
+    }
+
+    /// The vectors by which a periodic domain repeats next to itself, zero first (m).
+    #[must_use]
+    pub fn images(&self) -> Vec<Point<2>> {
+        let (width, height) = match self {
+            Self::Box { min, max, periodic_x, periodic_y } => {
+                (periodic_x.then_some(max.x - min.x), periodic_y.then_some(max.y - min.y))
+            }
+            Self::Cylinder { x, periodic_x, .. } => (periodic_x.then_some(x[1] - x[0]), None),
+            Self::Disc { .. } | Self::HalfDisc { .. } => (None, None),
+        };
+        let steps = |length: Option<f64>| length.map_or(vec![0.0], |l| vec![0.0, l, -l]);
+        let mut images = Vec::new();
+        for y in steps(height) {
+            images.extend(steps(width).iter().map(|x| Point::<2>::new(*x, y)));
+        }
+        images
+    }
 }

@@ -4,12 +4,33 @@
 //! half plane y >= 0 with x along the axis and y the distance from it. Every mesh carries P2
 //! (quadratic) geometry: vertices first, then one node per edge.
 
+mod check;
+mod curved;
 mod domain;
+mod error;
+mod generate;
+mod locate;
 mod mesh;
+mod outline;
+mod quadrature;
+mod quality;
 mod shape;
 mod sizing;
+mod spline;
+mod vtu;
 
+pub use check::check_mesh;
+pub use curved::{
+    det_jacobian, jacobian_coefficients, map_quadratic, shape_functions, shape_gradients,
+};
 pub use domain::Domain;
+pub use error::MeshError;
+pub use generate::{check_placement, generate};
+pub use locate::{Located, Locator};
 pub use mesh::{Boundary, BoundaryKind, Facet, Mesh, Point, nodes_per_cell};
-pub use shape::{PlacedShape, Shape};
-pub use sizing::{SizeBox, Sizing};
+pub use outline::{Nearest, Outline};
+pub use quality::{Quality, WorstCell};
+pub use shape::{Moments, PlacedShape, SecondMoments, Shape};
+pub use sizing::{SizeBox, SizeField, Sizing};
+pub use spline::Spline;
+pub use vtu::{Array, Precision, write_vtu, write_vtu_as};

@@ -1,6 +1,10 @@
 //! `Sizing`: what is asked of the cell size h(x): fine at bodies and in gaps, coarse far away.
 
-use crate::Point;
+use crate::generate::{Border, SizeTree, place, surface_sizes};
+use crate::{Domain, MeshError, PlacedShape, Point};
+
+/// Largest growth: beyond it neighbouring cells differ too much for good angles.
+const MAX_GROWTH: f64 = 1.0;
 
 /// A rectangle in which cells are at most `size`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -15,7 +19,8 @@ pub struct SizeBox {
 
 /// What is asked of the size field.
 ///
-/// h(x) = min(size, surface sizes + growth * distance, gap / gap_layers, box sizes + growth * distance)
+/// h(x) = min(size, min(surface size, gap / gap_layers, curvature radius / 2) + growth * distance,
+/// box sizes + growth * distance)
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sizing {
     /// Largest edge length anywhere (m).
@@ -32,4 +37,112 @@ pub struct Sizing {
     pub boxes: Vec<SizeBox>,
     /// Whether cells at curved boundaries take the curve (isoparametric P2) or stay straight.
     pub curved: bool,
+}
+
+impl Sizing {
+    /// Sizing with one size on all surfaces that grows to another away from them (m).
+    #[must_use]
+    pub fn graded(surface: f64, growth: f64, size: f64) -> Self {
+        Self {
+            size,
+            surface,
+            sides: Vec::new(),
+            growth,
+            gap_layers: 3.0,
+            boxes: Vec::new(),
+            curved: true,
+        }
+    }
+
+    /// Whether all entries are in range and the named sides exist.
+    ///
+    /// # Errors
+    /// [`MeshError::Sizing`] or [`MeshError::UnknownSide`].
+    pub fn check(&self, domain: &Domain) -> Result<(), MeshError> {
+        let refuse = |what: String, value, wanted| Err(MeshError::Sizing { what, value, wanted });
+        for (name, _) in &self.sides {
+            if !domain.sides().contains(&name.as_str()) {
+                let sides = domain.sides().to_vec();
+                return Err(MeshError::UnknownSide { name: name.clone(), sides });
+            }
+        }
+        let sizes = [("size".to_string(), self.size), ("surface".to_string(), self.surface)]
+            .into_iter()
+            .chain([("gap_layers".to_string(), self.gap_layers)])
+            .chain(self.sides.iter().map(|(name, size)| (format!("sides.{name}"), *size)))
+            .chain(
+                self.boxes.iter().enumerate().map(|(i, b)| (format!("boxes[{i}].size"), b.size)),
+            );
+        for (what, value) in sizes {
+            if value.is_nan() || value <= 0.0 {
+                return refuse(what, value, "positive");
+            }
+        }
+        if !(0.0..=MAX_GROWTH).contains(&self.growth) {
+            return refuse("growth".to_string(), self.growth, "between 0 and 1");
+        }
+        Ok(())
+    }
+}
+
+/// The wanted cell size h(x) of a domain with its bodies.
+///
+/// h(x) = min(size, h_i + growth |x - x_i| over places x_i of the boundary, the same of boxes).
+#[derive(Debug, Clone)]
+pub struct SizeField {
+    tree: SizeTree,
+    growth: f64,
+    size: f64,
+    boxes: Vec<SizeBox>,
+}
+
+impl SizeField {
+    /// Size field of a domain with its bodies.
+    ///
+    /// # Errors
+    /// Those of [`crate::check_placement`] and of [`Sizing::check`], and
+    /// [`MeshError::TooManyCells`].
+    pub fn new(
+        domain: &Domain,
+        bodies: &[PlacedShape],
+        sizing: &Sizing,
+    ) -> Result<Self, MeshError> {
+        sizing.check(domain)?;
+        let border = Border::new(domain, bodies, place(domain, bodies)?);
+        Self::from_border(domain, bodies, sizing, &border)
+    }
+
+    pub(crate) fn from_border(
+        domain: &Domain,
+        bodies: &[PlacedShape],
+        sizing: &Sizing,
+        border: &Border,
+    ) -> Result<Self, MeshError> {
+        let sources = surface_sizes(domain, bodies, sizing, border)?;
+        Ok(Self {
+            tree: SizeTree::new(sources),
+            growth: sizing.growth,
+            size: sizing.size,
+            boxes: sizing.boxes.clone(),
+        })
+    }
+
+    /// Wanted edge length at a point (m).
+    #[must_use]
+    pub fn at(&self, point: Point<2>) -> f64 {
+        let mut limit = self.size;
+        for b in &self.boxes {
+            let x = (b.min.x - point.x).max(point.x - b.max.x).max(0.0);
+            let y = (b.min.y - point.y).max(point.y - b.max.y).max(0.0);
+            limit = limit.min(b.size + self.growth * x.hypot(y));
+        }
+        self.tree.envelope(point, self.growth, limit)
+    }
+
+    /// Smallest size prescribed anywhere (m).
+    #[must_use]
+    pub fn smallest(&self) -> f64 {
+        let boxes = self.boxes.iter().map(|b| b.size);
+        self.tree.sources().iter().map(|s| s.1).chain(boxes).fold(self.size, f64::min)
+    }
 }

@@ -1,0 +1,121 @@
+//! Interior points: a front that starts at the boundary and lays equilateral triangles of size h.
+
+use std::collections::VecDeque;
+use std::f64::consts::FRAC_PI_3;
+
+use super::edges::BoundaryEdges;
+use super::point_tree::PointTree;
+use crate::outline::cross;
+use crate::{MeshError, Point, SizeField};
+
+/// Largest number of interior points.
+const MOST_POINTS: usize = 10_000_000;
+
+/// A point is laid only where no other is nearer than this many h.
+const CLEARANCE: f64 = 0.72;
+
+/// A point keeps this distance from boundary edges, in h.
+const STANDOFF: f64 = 0.5;
+
+/// Points for the inside of the domain, about h(x) from each other and from the boundary.
+///
+/// Every boundary edge proposes the apex of its equilateral triangle; every accepted point then
+/// proposes its six neighbours in the directions of its parent, first come first served.
+///
+/// # Errors
+/// [`MeshError::TooManyCells`].
+pub fn lay_points(boundary: &BoundaryEdges, sizes: &SizeField) -> Result<Vec<Point<2>>, MeshError> {
+    let rim = Rim::new(boundary);
+    let mut tree = PointTree::new(&boundary.points);
+    let mut laid = Vec::new();
+    let mut front = VecDeque::new();
+    let consider = |place: Point<2>, h: f64, tree: &PointTree| {
+        !tree.any_within(place, CLEARANCE * h, |_| true) && rim.is_clear(place, h)
+    };
+    for edge in &boundary.edges {
+        let [a, b] = edge.vertices.map(|v| boundary.points[v as usize]);
+        let along = b - a;
+        let inward = Point::<2>::new(-along.y, along.x) / along.norm();
+        let middle = (a + b) * 0.5;
+        let h = sizes.at(middle + inward * along.norm());
+        let place = middle + inward * (0.5 * 3.0_f64.sqrt() * (0.5 * (h + along.norm())));
+        if consider(place, h, &tree) {
+            tree.insert(place);
+            laid.push(place);
+            front.push_back((place, sizes.at(place), along / along.norm()));
+        }
+    }
+    while let Some((from, h, direction)) = front.pop_front() {
+        for k in 0..6 {
+            let (sin, cos) = (FRAC_PI_3 * f64::from(k)).sin_cos();
+            let way = Point::<2>::new(
+                cos * direction.x - sin * direction.y,
+                sin * direction.x + cos * direction.y,
+            );
+            // The first guess is refused cheaply, without asking for the size there
+            if tree.any_within(from + way * h, 0.5 * h, |_| true) {
+                continue;
+            }
+            let mut step = 0.5 * (h + sizes.at(from + way * h));
+            let size = sizes.at(from + way * step);
+            step = 0.5 * (h + size);
+            let place = from + way * step;
+            if consider(place, size, &tree) {
+                if laid.len() >= MOST_POINTS {
+                    return Err(MeshError::TooManyCells {
+                        what: "interior points",
+                        limit: MOST_POINTS,
+                        smallest: sizes.smallest(),
+                    });
+                }
+                tree.insert(place);
+                laid.push(place);
+                front.push_back((place, size, way));
+            }
+        }
+    }
+    Ok(laid)
+}
+
+/// The boundary edges, to keep points inside and off them.
+struct Rim<'a> {
+    boundary: &'a BoundaryEdges,
+    tree: PointTree,
+    /// Edges that end and start at each vertex.
+    around: Vec<[u32; 2]>,
+}
+
+impl<'a> Rim<'a> {
+    fn new(boundary: &'a BoundaryEdges) -> Self {
+        let mut around = vec![[0; 2]; boundary.points.len()];
+        for (i, edge) in boundary.edges.iter().enumerate() {
+            around[edge.vertices[1] as usize][0] = i as u32;
+            around[edge.vertices[0] as usize][1] = i as u32;
+        }
+        Self { boundary, tree: PointTree::new(&boundary.points), around }
+    }
+
+    /// Whether a point about h from a point inside is itself inside and off the boundary edges.
+    fn is_clear(&self, place: Point<2>, h: f64) -> bool {
+        // Edges are at most a little longer than h, so the one crossed has an end in this radius
+        let mut nearest = (f64::INFINITY, 0.0_f64);
+        self.tree.any_within(place, 2.5 * h, |vertex| {
+            for edge in self.around[vertex] {
+                let [a, b] = self.boundary.edges[edge as usize]
+                    .vertices
+                    .map(|v| self.boundary.points[v as usize]);
+                let along = b - a;
+                let t = ((place - a).dot(&along) / along.norm_squared()).clamp(0.0, 1.0);
+                let gap = (place - a - along * t).norm();
+                let side = cross(along, place - a) / along.norm();
+                // At a shared end the edge seen more from its face decides about the side
+                let tie = (gap - nearest.0).abs() <= 1e-12 * h;
+                if (!tie && gap < nearest.0) || (tie && side.abs() > nearest.1.abs()) {
+                    nearest = (gap, side);
+                }
+            }
+            false
+        });
+        nearest.0 == f64::INFINITY || (nearest.1 > 0.0 && nearest.0 > STANDOFF * h)
+    }
+}

@@ -1,0 +1,235 @@
+//! Improvement of a triangulation: flips, smoothing, merged and split edges, worst cells first.
+//!
+//! No move makes the worst triangle of those it touches worse, except that moves between good
+//! triangles may trade a little quality for a lower energy Σ (1/q - 1)².
+
+use super::border::Border;
+use super::triangulation::{Corner, Triangulation, WALL, mean_ratio};
+use crate::{Point, SizeField};
+
+/// Triangles above this mean ratio may lose a little in favour of their neighbours.
+const GOOD: f64 = 0.85;
+
+/// Triangles below this mean ratio are repaired one by one; an isosceles one with the angle 30
+/// degrees at its tip has 0.77, with 30 at its base 0.69.
+const POOR: f64 = 0.8;
+
+/// Edges shorter than this many h are merged.
+const SHORT: f64 = 0.62;
+
+/// Edges longer than this many h are split.
+const LONG: f64 = 1.5;
+
+/// A change must improve by more than rounding.
+const PROGRESS: f64 = 1e-9;
+
+/// Improves a triangulation until the repairs no longer help; see the file's sentence.
+pub fn improve(mesh: &mut Triangulation, sizes: &SizeField, border: &Border, frozen: &[bool]) {
+    open_corners(mesh);
+    flip_all(mesh);
+    for _ in 0..3 {
+        smooth_all(mesh);
+        flip_all(mesh);
+    }
+    for _ in 0..2 {
+        fit_edges(mesh, sizes);
+        flip_all(mesh);
+        for _ in 0..2 {
+            smooth_all(mesh);
+            flip_all(mesh);
+        }
+    }
+    repair(mesh);
+    let _ = (border, frozen);
+    mesh.compact();
+}
+
+/// Gives every triangle at most one boundary edge, so that no corner locks pressure or velocity.
+pub fn open_corners(mesh: &mut Triangulation) {
+    for t in 0..mesh.triangles.len() {
+        if mesh.n_walls(t) < 2 {
+            continue;
+        }
+        let inner = (0..3).find(|s| mesh.across[t][*s] & WALL == 0);
+        match inner.map(|s| ((t, s), mesh.flipped_quality((t, s)))) {
+            Some((side, Some(quality))) if quality > 0.3 => mesh.flip(side),
+            _ => {
+                let [a, b, c] = mesh.corners(t);
+                mesh.insert(t, (a + b + c) / 3.0);
+            }
+        }
+    }
+}
+
+/// Flips sides as long as the worse triangle of a pair becomes better.
+pub fn flip_all(mesh: &mut Triangulation) {
+    let mut waiting: Vec<Corner> = Vec::new();
+    for t in (0..mesh.triangles.len()).rev().filter(|t| mesh.is_alive(*t)) {
+        waiting.extend([2, 1, 0].map(|s| (t, s)).iter().filter(|(_, s)| {
+            let other = mesh.across[t][*s];
+            other & WALL == 0 && (other as usize) > t
+        }));
+    }
+    flip_from(mesh, &mut waiting);
+}
+
+fn flip_from(mesh: &mut Triangulation, waiting: &mut Vec<Corner>) {
+    while let Some((t, s)) = waiting.pop() {
+        let Some((u, _)) = mesh.behind((t, s)) else { continue };
+        let now = mesh.quality(t).min(mesh.quality(u));
+        if mesh.flipped_quality((t, s)).is_some_and(|then| then > now + PROGRESS) {
+            mesh.flip((t, s));
+            waiting.extend([(t, 0), (t, 2), (u, 0), (u, 1)]);
+        }
+    }
+}
+
+/// One sweep of smoothing over all inner vertices.
+pub fn smooth_all(mesh: &mut Triangulation) {
+    let mut star = Vec::new();
+    for v in 0..mesh.points.len() as u32 {
+        if !mesh.is_fixed(v) && mesh.is_used(v) {
+            mesh.star(v, &mut star);
+            smooth(mesh, v, &star);
+        }
+    }
+}
+
+/// Sum of (1/q - 1)² over the triangles around a place, and the worst quality.
+fn energy(ring: &[[Point<2>; 2]], place: Point<2>) -> (f64, f64) {
+    let mut sum = 0.0;
+    let mut worst = f64::INFINITY;
+    for [a, b] in ring {
+        let q = mean_ratio(place, *a, *b);
+        worst = worst.min(q);
+        let excess = 1.0 / q.max(1e-9) - 1.0;
+        sum += excess * excess;
+    }
+    (sum, worst)
+}
+
+fn ring(mesh: &Triangulation, star: &[Corner]) -> Vec<[Point<2>; 2]> {
+    star.iter()
+        .map(|(t, local)| {
+            let corners = mesh.triangles[*t];
+            [1, 2].map(|i| mesh.points[corners[(local + i) % 3] as usize])
+        })
+        .collect()
+}
+
+/// Moves a vertex towards the mean apex of equilateral triangles on the sides around it.
+fn smooth(mesh: &mut Triangulation, v: u32, star: &[Corner]) {
+    let ring = ring(mesh, star);
+    let here = mesh.points[v as usize];
+    let mut target = Point::<2>::zeros();
+    for [a, b] in &ring {
+        let along = b - a;
+        target += (a + b) * 0.5 + Point::<2>::new(-along.y, along.x) * (0.5 * 3.0_f64.sqrt());
+    }
+    target /= ring.len() as f64;
+    let (sum, worst) = energy(&ring, here);
+    let mut step = target - here;
+    for _ in 0..3 {
+        let place = here + step;
+        let (new_sum, new_worst) = energy(&ring, place);
+        if new_sum < sum * (1.0 - 1e-4) && new_worst >= worst.min(GOOD) {
+            mesh.points[v as usize] = place;
+            return;
+        }
+        step *= 0.5;
+    }
+}
+
+/// Moves a vertex to where its worst triangle is best: a pattern search; whether it gained.
+fn raise_worst(mesh: &mut Triangulation, v: u32) -> bool {
+    let mut star = Vec::new();
+    mesh.star(v, &mut star);
+    let ring = ring(mesh, &star);
+    let mut place = mesh.points[v as usize];
+    let start = energy(&ring, place).1;
+    let mut worst = start;
+    let reach = ring.iter().map(|[a, _]| (a - place).norm()).fold(f64::INFINITY, f64::min);
+    let mut step = 0.3 * reach;
+    while step > 1e-3 * reach {
+        let mut moved = false;
+        for k in 0..8 {
+            let (sin, cos) = (std::f64::consts::FRAC_PI_4 * f64::from(k)).sin_cos();
+            let there = place + Point::<2>::new(cos, sin) * step;
+            let quality = energy(&ring, there).1;
+            if quality > worst + PROGRESS {
+                (place, worst, moved) = (there, quality, true);
+            }
+        }
+        if !moved {
+            step *= 0.5;
+        }
+    }
+    mesh.points[v as usize] = place;
+    worst > start + 1e-4
+}
+
+/// Merges edges that are much too short and splits those much too long.
+fn fit_edges(mesh: &mut Triangulation, sizes: &SizeField) {
+    let mut star = Vec::new();
+    for t in 0..mesh.triangles.len() {
+        for s in 0..3 {
+            if !mesh.is_alive(t) || mesh.across[t][s] & WALL != 0 {
+                continue;
+            }
+            let [a, b] = [0, 1].map(|i| mesh.triangles[t][(s + i) % 3]);
+            let [p, q] = [a, b].map(|v| mesh.points[v as usize]);
+            let middle = (p + q) * 0.5;
+            let length = (q - p).norm() / sizes.at(middle);
+            if length < SHORT {
+                let Some((u, r)) = mesh.behind((t, s)) else { continue };
+                let corner = if !mesh.is_fixed(a) {
+                    (t, s)
+                } else if !mesh.is_fixed(b) {
+                    (u, r)
+                } else {
+                    continue;
+                };
+                mesh.star(mesh.triangles[corner.0][corner.1], &mut star);
+                if mesh.merged_quality(corner, &star).is_some_and(|q| q > 0.4) {
+                    mesh.merge(corner, &star);
+                }
+            } else if length > LONG {
+                mesh.split((t, s), middle, 0.0);
+            }
+        }
+    }
+}
+
+/// Repairs the poor triangles, worst first, until a round no longer helps.
+fn repair(mesh: &mut Triangulation) {
+    for _ in 0..12 {
+        let mut poor: Vec<(f64, usize)> = (0..mesh.triangles.len())
+            .filter(|t| mesh.is_alive(*t))
+            .map(|t| (mesh.quality(t), t))
+            .filter(|(q, _)| *q < POOR)
+            .collect();
+        poor.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        let mut gained = false;
+        for (_, t) in poor {
+            if mesh.is_alive(t) && mesh.quality(t) < POOR {
+                gained |= repair_one(mesh, t);
+            }
+        }
+        if !gained {
+            break;
+        }
+    }
+}
+
+fn repair_one(mesh: &mut Triangulation, t: usize) -> bool {
+    let mut gained = false;
+    for v in mesh.triangles[t] {
+        if !mesh.is_fixed(v) {
+            gained |= raise_worst(mesh, v);
+        }
+    }
+    let mut waiting: Vec<Corner> = (0..3).map(|s| (t, s)).collect();
+    let before = mesh.quality(t);
+    flip_from(mesh, &mut waiting);
+    gained || mesh.quality(t) > before
+}

@@ -1,0 +1,176 @@
+//! Wanted sizes on the boundary: own size, gap to what faces it, curvature.
+//!
+//! The gap is Lipschitz with constant one, so samples closer than half of the size they find
+//! cannot miss a narrow place between them.
+
+use super::border::{Border, Curve};
+use crate::{BoundaryKind, Domain, MeshError, PlacedShape, Point, Sizing};
+
+/// Largest number of samples on the boundary.
+const MOST_SAMPLES: usize = 4_000_000;
+
+/// Edges turn by at most this angle (rad), about 30 degrees.
+const LARGEST_TURN: f64 = 0.5;
+
+/// Two parts of one curve face each other when their normals enclose a cosine below this.
+const FACING: f64 = -0.5;
+
+/// Places per quarter of a spline that are compared with each other to find facing parts.
+const FACING_SAMPLES: usize = 96;
+
+/// Places on the boundary, close enough to each other, with the size wanted there (m).
+///
+/// # Errors
+/// [`MeshError::TooManyCells`] when a gap is so small that millions of places are needed.
+pub fn surface_sizes(
+    domain: &Domain,
+    bodies: &[PlacedShape],
+    sizing: &Sizing,
+    border: &Border,
+) -> Result<Vec<(Point<2>, f64)>, MeshError> {
+    let surfaces = Surfaces::new(domain, bodies, sizing, border);
+    let images = domain.images();
+    let mut sources = Vec::new();
+    for (index, piece) in border.pieces.iter().enumerate() {
+        if border.boundaries[piece.boundary as usize].kind == BoundaryKind::Axis {
+            continue;
+        }
+        let mut samples = Vec::new();
+        let first = surfaces.sample(index, 0.0);
+        samples.push(first);
+        // Depth-first from the left; the right ends still to be reached wait on the stack
+        let mut ends: Vec<(f64, u32)> = vec![(1.0, 0)];
+        let mut from = (0.0, first);
+        while let Some((to, depth)) = ends.pop() {
+            let next = surfaces.sample(index, to);
+            let length = (next.0 - from.1.0).norm();
+            if depth < 4 || length > 0.5 * next.1.min(from.1.1) {
+                ends.push((to, depth + 1));
+                ends.push((0.5 * (from.0 + to), depth + 1));
+                if samples.len() + sources.len() > MOST_SAMPLES || depth > 60 {
+                    return Err(MeshError::TooManyCells {
+                        what: "places on the boundary",
+                        limit: MOST_SAMPLES,
+                        smallest: next.1.min(from.1.1),
+                    });
+                }
+                continue;
+            }
+            samples.push(next);
+            from = (to, next);
+        }
+        for shift in &images {
+            sources.extend(samples.iter().map(|(x, size)| (x + shift, *size)));
+        }
+    }
+    sources.retain(|(_, size)| *size < sizing.size);
+    Ok(sources)
+}
+
+/// All surfaces, to ask for the distance from one to the others.
+struct Surfaces<'a> {
+    domain: &'a Domain,
+    border: &'a Border,
+    n_bodies: usize,
+    gap_layers: f64,
+    /// Own size of every boundary (m).
+    own: Vec<f64>,
+    images: Vec<Point<2>>,
+    /// Places and normals of the bodies that may face themselves, empty for the convex ones.
+    facing: Vec<Vec<(Point<2>, Point<2>)>>,
+}
+
+impl<'a> Surfaces<'a> {
+    fn new(
+        domain: &'a Domain,
+        bodies: &[PlacedShape],
+        sizing: &Sizing,
+        border: &'a Border,
+    ) -> Self {
+        let side_size = |name: &str| {
+            let sizes = sizing.sides.iter().filter(|(side, _)| side == name);
+            sizes.map(|(_, size)| *size).fold(f64::INFINITY, f64::min)
+        };
+        let own = border
+            .boundaries
+            .iter()
+            .map(|boundary| match boundary.kind {
+                BoundaryKind::Body(i) => bodies[i].size.unwrap_or(sizing.surface),
+                BoundaryKind::Side | BoundaryKind::Axis => side_size(&boundary.name),
+            })
+            .map(|size| size.min(sizing.size))
+            .collect();
+        let mut facing = vec![Vec::new(); bodies.len()];
+        for (index, piece) in border.pieces.iter().enumerate() {
+            if let Curve::Quarter { outline, .. } = piece.curve
+                && outline < bodies.len()
+                && !border.outlines[outline].is_ellipse()
+            {
+                facing[outline].extend((0..FACING_SAMPLES).map(|i| {
+                    let parameter = i as f64 / FACING_SAMPLES as f64;
+                    (border.point(index, parameter), border.frame(index, parameter).0)
+                }));
+            }
+        }
+        let n_bodies = bodies.len();
+        let images = domain.images();
+        Self { domain, border, n_bodies, gap_layers: sizing.gap_layers, own, images, facing }
+    }
+
+    /// Place of a piece and the size wanted there.
+    fn sample(&self, piece: usize, parameter: f64) -> (Point<2>, f64) {
+        let point = self.border.point(piece, parameter);
+        let (normal, radius) = self.border.frame(piece, parameter);
+        let boundary = self.border.pieces[piece].boundary as usize;
+        let layers = self.gap_layers;
+        let size = match self.border.boundaries[boundary].kind {
+            BoundaryKind::Body(body) => {
+                let walls = (0..self.domain.sides().len()).map(|side| {
+                    let gap = self.domain.side_gap(side, point);
+                    // A periodic side is no surface: one layer up to it is enough
+                    if self.domain.is_periodic(side) { gap } else { gap / layers }
+                });
+                let walls = walls.fold(f64::INFINITY, f64::min);
+                let gap = self
+                    .gap_to_bodies(point, Some(body))
+                    .min(self.gap_to_self(body, point, normal));
+                walls.min(gap / layers)
+            }
+            BoundaryKind::Side | BoundaryKind::Axis => {
+                let gap = self.gap_to_bodies(point, None);
+                if self.domain.is_periodic(boundary) {
+                    gap
+                } else {
+                    gap.min(self.domain.facing(boundary)) / layers
+                }
+            }
+        };
+        (point, size.min(self.own[boundary]).min(LARGEST_TURN * radius))
+    }
+
+    /// Distance to the nearest body, the images of all and the body itself left out.
+    fn gap_to_bodies(&self, point: Point<2>, but: Option<usize>) -> f64 {
+        let mut gap = f64::INFINITY;
+        for (body, outline) in self.border.outlines[..self.n_bodies].iter().enumerate() {
+            for (i, shift) in self.images.iter().enumerate() {
+                if i > 0 || but != Some(body) {
+                    gap = gap.min(outline.nearest(point - shift).gap);
+                }
+            }
+        }
+        gap
+    }
+
+    /// Diameter of the largest empty circle that touches the body here, seen from its own parts.
+    fn gap_to_self(&self, body: usize, point: Point<2>, normal: Point<2>) -> f64 {
+        let mut gap = f64::INFINITY;
+        for (place, other) in &self.facing[body] {
+            let across = place - point;
+            let height = across.dot(&normal);
+            if normal.dot(other) < FACING && height > 0.0 {
+                gap = gap.min(across.norm_squared() / height);
+            }
+        }
+        gap
+    }
+}

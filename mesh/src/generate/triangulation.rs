@@ -1,0 +1,367 @@
+//! `Triangulation`: triangles with their neighbours, and the moves that change them.
+//!
+//! Side s of a triangle joins its corners s and s + 1 (counter-clockwise).
+
+use super::edges::BoundaryEdge;
+use crate::Point;
+use crate::outline::cross;
+
+/// Bit of a neighbour entry that marks a boundary edge; the other bits are its index.
+pub const WALL: u32 = 1 << 31;
+
+/// Corners of a triangle that was removed.
+const REMOVED: [u32; 3] = [u32::MAX; 3];
+
+/// A triangle and the local number of a corner or side.
+pub type Corner = (usize, usize);
+
+/// Triangles with neighbours.
+#[derive(Debug, Clone)]
+pub struct Triangulation {
+    /// Places of the vertices (m).
+    pub points: Vec<Point<2>>,
+    /// Corners, counter-clockwise.
+    pub triangles: Vec<[u32; 3]>,
+    /// Triangle behind each side, or [`WALL`] with the index of a boundary edge.
+    pub across: Vec<[u32; 3]>,
+    /// Edges of the boundary.
+    pub edges: Vec<BoundaryEdge>,
+    /// A triangle at each vertex.
+    incident: Vec<u32>,
+    /// Whether a vertex lies on the boundary.
+    fixed: Vec<bool>,
+}
+
+/// Mean ratio of a triangle: 1 equilateral, 0 flat, negative inverted.
+///
+/// 4 √3 area / (sum of squared edges)
+///
+/// # Source
+/// @liu1994, shape measures of simplices.
+pub fn mean_ratio(a: Point<2>, b: Point<2>, c: Point<2>) -> f64 {
+    let (u, v, w) = (b - a, c - b, a - c);
+    let squares = u.norm_squared() + v.norm_squared() + w.norm_squared();
+    2.0 * 3.0_f64.sqrt() * cross(u, -w) / squares
+}
+
+impl Triangulation {
+    /// From corners and neighbours of all triangles.
+    pub fn new(
+        points: Vec<Point<2>>,
+        triangles: Vec<[u32; 3]>,
+        across: Vec<[u32; 3]>,
+        edges: Vec<BoundaryEdge>,
+    ) -> Self {
+        let mut incident = vec![0; points.len()];
+        for (t, corners) in triangles.iter().enumerate() {
+            for v in corners {
+                incident[*v as usize] = t as u32;
+            }
+        }
+        let mut fixed = vec![false; points.len()];
+        for edge in &edges {
+            for v in edge.vertices {
+                fixed[v as usize] = true;
+            }
+        }
+        Self { points, triangles, across, edges, incident, fixed }
+    }
+
+    /// Whether a triangle is still there.
+    pub fn is_alive(&self, triangle: usize) -> bool {
+        self.triangles[triangle] != REMOVED
+    }
+
+    /// Whether a vertex lies on the boundary.
+    pub fn is_fixed(&self, vertex: u32) -> bool {
+        self.fixed[vertex as usize]
+    }
+
+    /// Places of the corners.
+    pub fn corners(&self, triangle: usize) -> [Point<2>; 3] {
+        self.triangles[triangle].map(|v| self.points[v as usize])
+    }
+
+    /// Mean ratio of a triangle.
+    pub fn quality(&self, triangle: usize) -> f64 {
+        let [a, b, c] = self.corners(triangle);
+        mean_ratio(a, b, c)
+    }
+
+    /// Number of boundary edges of a triangle.
+    pub fn n_walls(&self, triangle: usize) -> usize {
+        self.across[triangle].iter().filter(|n| **n & WALL != 0).count()
+    }
+
+    /// The same side seen from the triangle behind it, if there is one.
+    pub fn behind(&self, (triangle, side): Corner) -> Option<Corner> {
+        let other = self.across[triangle][side];
+        (other & WALL == 0).then(|| (other as usize, self.slot(other as usize, triangle)))
+    }
+
+    fn slot(&self, triangle: usize, neighbour: usize) -> usize {
+        let slot = self.across[triangle].iter().position(|n| *n as usize == neighbour);
+        slot.expect("neighbours know each other")
+    }
+
+    fn local(&self, triangle: usize, vertex: u32) -> usize {
+        let local = self.triangles[triangle].iter().position(|v| *v == vertex);
+        local.expect("the triangle has the vertex")
+    }
+
+    /// Triangles around a vertex with its local number there, counter-clockwise; from boundary to
+    /// boundary when the vertex lies on it.
+    pub fn star(&self, vertex: u32, star: &mut Vec<Corner>) {
+        star.clear();
+        let start = self.incident[vertex as usize] as usize;
+        let mut at = (start, self.local(start, vertex));
+        if self.is_fixed(vertex) {
+            while let Some((before, side)) = self.behind(at) {
+                at = (before, (side + 1) % 3);
+            }
+        }
+        let first = at.0;
+        loop {
+            star.push(at);
+            let Some((next, side)) = self.behind((at.0, (at.1 + 2) % 3)) else { break };
+            if next == first {
+                break;
+            }
+            at = (next, side);
+        }
+    }
+
+    fn repoint(&mut self, neighbour: u32, from: usize, to: usize) {
+        if neighbour & WALL == 0 {
+            let slot = self.slot(neighbour as usize, from);
+            self.across[neighbour as usize][slot] = to as u32;
+        }
+    }
+
+    /// Quality of the two triangles that a flip of a side would make, the worse one; `None` when
+    /// the side is on the boundary or one of them would have two boundary edges.
+    pub fn flipped_quality(&self, (t, s): Corner) -> Option<f64> {
+        let (u, r) = self.behind((t, s))?;
+        let wall = |triangle: usize, side: usize| self.across[triangle][side % 3] & WALL != 0;
+        if (wall(t, s + 2) && wall(u, r + 1)) || (wall(t, s + 1) && wall(u, r + 2)) {
+            return None;
+        }
+        let [a, b, c] = [0, 1, 2].map(|i| self.points[self.triangles[t][(s + i) % 3] as usize]);
+        let d = self.points[self.triangles[u][(r + 2) % 3] as usize];
+        Some(mean_ratio(a, d, c).min(mean_ratio(d, b, c)))
+    }
+
+    /// Replaces the common side of two triangles by the other diagonal.
+    pub fn flip(&mut self, (t, s): Corner) {
+        let (u, r) = self.behind((t, s)).expect("only inner sides are flipped");
+        let [a, b, c] = [0, 1, 2].map(|i| self.triangles[t][(s + i) % 3]);
+        let d = self.triangles[u][(r + 2) % 3];
+        let [bc, ca] = [1, 2].map(|i| self.across[t][(s + i) % 3]);
+        let [ad, db] = [1, 2].map(|i| self.across[u][(r + i) % 3]);
+        self.triangles[t] = [a, d, c];
+        self.across[t] = [ad, u as u32, ca];
+        self.triangles[u] = [d, b, c];
+        self.across[u] = [db, bc, t as u32];
+        self.repoint(ad, u, t);
+        self.repoint(bc, t, u);
+        self.incident[a as usize] = t as u32;
+        self.incident[b as usize] = u as u32;
+        self.incident[c as usize] = t as u32;
+        self.incident[d as usize] = t as u32;
+    }
+
+    /// Adds a vertex.
+    fn add(&mut self, point: Point<2>, fixed: bool) -> u32 {
+        self.points.push(point);
+        self.fixed.push(fixed);
+        self.incident.push(0);
+        self.points.len() as u32 - 1
+    }
+
+    /// Puts a vertex on a side and cuts the triangles next to it in two.
+    ///
+    /// A boundary edge is cut in two edges; `parameter` is that of the new vertex on its piece.
+    pub fn split(&mut self, (t, s): Corner, point: Point<2>, parameter: f64) -> u32 {
+        let behind = self.behind((t, s));
+        let m = self.add(point, behind.is_none());
+        let (ends, half) = if behind.is_none() {
+            let edge = (self.across[t][s] & !WALL) as usize;
+            let mut second = self.edges[edge];
+            second.vertices[0] = m;
+            second.parameters[0] = parameter;
+            self.edges[edge].vertices[1] = m;
+            self.edges[edge].parameters[1] = parameter;
+            self.edges.push(second);
+            ((edge as u32 | WALL), (self.edges.len() as u32 - 1) | WALL)
+        } else {
+            (0, 0)
+        };
+        let first = self.halve((t, s), m);
+        if let Some((u, r)) = behind {
+            let second = self.halve((u, r), m);
+            // t keeps the side from a to m, u the one from b to m: they face the new ones
+            self.across[t][s] = second as u32;
+            self.across[second][0] = t as u32;
+            self.across[u][r] = first as u32;
+            self.across[first][0] = u as u32;
+        } else {
+            self.across[t][s] = ends;
+            self.across[first][0] = half;
+        }
+        m
+    }
+
+    /// Cuts a triangle from the middle of a side to the opposite corner; the new one holds the
+    /// second half of the side as its side 0.
+    fn halve(&mut self, (t, s): Corner, m: u32) -> usize {
+        let [_, b, c] = [0, 1, 2].map(|i| self.triangles[t][(s + i) % 3]);
+        let bc = self.across[t][(s + 1) % 3];
+        let new = self.triangles.len();
+        self.triangles.push([m, b, c]);
+        self.across.push([0, bc, t as u32]);
+        self.triangles[t][(s + 1) % 3] = m;
+        self.across[t][(s + 1) % 3] = new as u32;
+        self.repoint(bc, t, new);
+        self.incident[m as usize] = new as u32;
+        self.incident[b as usize] = new as u32;
+        self.incident[c as usize] = new as u32;
+        new
+    }
+
+    /// Puts a vertex inside a triangle.
+    pub fn insert(&mut self, t: usize, point: Point<2>) -> u32 {
+        let m = self.add(point, false);
+        let [a, b, c] = self.triangles[t];
+        let [ab, bc, ca] = self.across[t];
+        let u = self.triangles.len();
+        let w = u + 1;
+        self.triangles[t] = [a, b, m];
+        self.across[t] = [ab, u as u32, w as u32];
+        self.triangles.push([b, c, m]);
+        self.across.push([bc, w as u32, t as u32]);
+        self.triangles.push([c, a, m]);
+        self.across.push([ca, t as u32, u as u32]);
+        self.repoint(bc, t, u);
+        self.repoint(ca, t, w);
+        self.incident[a as usize] = t as u32;
+        self.incident[b as usize] = u as u32;
+        self.incident[c as usize] = u as u32;
+        self.incident[m as usize] = t as u32;
+        m
+    }
+
+    /// Worst quality after the inner vertex at a corner is merged into the next corner of the
+    /// triangle; `None` when that would put two boundary edges on a triangle.
+    pub fn merged_quality(&self, (t, s): Corner, star: &[Corner]) -> Option<f64> {
+        let v = self.triangles[t][s];
+        let into = self.triangles[t][(s + 1) % 3];
+        debug_assert!(!self.is_fixed(v));
+        let mut worst = f64::INFINITY;
+        for (triangle, local) in star {
+            let corners = self.triangles[*triangle];
+            if corners.contains(&into) {
+                continue;
+            }
+            let (x, y) = (corners[(local + 1) % 3], corners[(local + 2) % 3]);
+            let [p, q, r] = [into, x, y].map(|v| self.points[v as usize]);
+            worst = worst.min(mean_ratio(p, q, r));
+            let mut walls = usize::from(self.across[*triangle][(local + 1) % 3] & WALL != 0);
+            for side in [*local, (local + 2) % 3] {
+                // A dying neighbour hands its outer side over
+                if let Some((dying, r)) = self.behind((*triangle, side))
+                    && self.triangles[dying].contains(&into)
+                {
+                    let away = self.local(dying, v);
+                    debug_assert!(r != (away + 1) % 3);
+                    walls += usize::from(self.across[dying][(away + 1) % 3] & WALL != 0);
+                }
+            }
+            if walls > 1 {
+                return None;
+            }
+        }
+        Some(worst)
+    }
+
+    /// Merges the inner vertex at a corner into the next corner of the triangle.
+    pub fn merge(&mut self, (t, s): Corner, star: &[Corner]) {
+        let v = self.triangles[t][s];
+        let into = self.triangles[t][(s + 1) % 3];
+        for (triangle, _) in star {
+            if !self.triangles[*triangle].contains(&into) {
+                let local = self.local(*triangle, v);
+                self.triangles[*triangle][local] = into;
+                self.incident[into as usize] = *triangle as u32;
+            }
+        }
+        for (dying, _) in star {
+            // Those that held both lose their common side: their other two become one
+            let corners = self.triangles[*dying];
+            if !(corners.contains(&v) && corners.contains(&into)) {
+                continue;
+            }
+            let away = self.local(*dying, v);
+            let outer = self.across[*dying][(away + 1) % 3];
+            let gone = self.local(*dying, into);
+            let kept =
+                self.across[*dying][if (gone + 2) % 3 == away { (away + 2) % 3 } else { away }];
+            let slot = self.slot(kept as usize, *dying);
+            self.across[kept as usize][slot] = outer;
+            self.repoint(outer, *dying, kept as usize);
+            for c in corners {
+                if c != v {
+                    self.incident[c as usize] = kept;
+                }
+            }
+            self.triangles[*dying] = REMOVED;
+        }
+        self.incident[v as usize] = u32::MAX;
+    }
+
+    /// Whether a vertex still has triangles.
+    pub fn is_used(&self, vertex: u32) -> bool {
+        self.incident[vertex as usize] != u32::MAX
+    }
+
+    /// Drops removed triangles and unused vertices, keeping the order of the rest.
+    pub fn compact(&mut self) {
+        let mut vertex = vec![u32::MAX; self.points.len()];
+        let mut n = 0;
+        for (v, new) in vertex.iter_mut().enumerate() {
+            if self.incident[v] != u32::MAX {
+                *new = n as u32;
+                self.points[n] = self.points[v];
+                self.fixed[n] = self.fixed[v];
+                n += 1;
+            }
+        }
+        self.points.truncate(n);
+        self.fixed.truncate(n);
+        let mut triangle = vec![u32::MAX; self.triangles.len()];
+        let mut n = 0;
+        for (t, new) in triangle.iter_mut().enumerate() {
+            if self.is_alive(t) {
+                *new = n as u32;
+                self.triangles[n] = self.triangles[t].map(|v| vertex[v as usize]);
+                self.across[n] = self.across[t];
+                n += 1;
+            }
+        }
+        self.triangles.truncate(n);
+        self.across.truncate(n);
+        for neighbour in self.across.iter_mut().flatten() {
+            if *neighbour & WALL == 0 {
+                *neighbour = triangle[*neighbour as usize];
+            }
+        }
+        for edge in &mut self.edges {
+            edge.vertices = edge.vertices.map(|v| vertex[v as usize]);
+        }
+        self.incident = vec![0; self.points.len()];
+        for (t, corners) in self.triangles.iter().enumerate() {
+            for v in corners {
+                self.incident[*v as usize] = t as u32;
+            }
+        }
+    }
+}

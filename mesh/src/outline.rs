@@ -1,0 +1,441 @@
+//! `Outline`: the closed curve around a placed body, in four quarters cut at its extreme points.
+//!
+//! Quarter k runs counter-clockwise from the extreme point in direction k of the body frame (+x,
+//! +y, -x, -y) to the next one, with a parameter in [0, 1]. For an ellipse the parameter is the
+//! eccentric angle over π/2.
+
+use std::f64::consts::FRAC_PI_2;
+
+use crate::{MeshError, PlacedShape, Point, Shape, Spline};
+
+/// The closed curve around a body, in the world.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Outline {
+    center: Point<2>,
+    cos: f64,
+    sin: f64,
+    form: Form,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+enum Form {
+    Ellipse([f64; 2]),
+    Spline { spline: Spline, cuts: [f64; 5], samples: Vec<f64> },
+}
+
+/// The place of an outline nearest to a point.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Nearest {
+    /// Where on the outline (m).
+    pub point: Point<2>,
+    /// Unit normal there, out of the body.
+    pub normal: Point<2>,
+    /// Curvature there (1/m), positive where the body is convex.
+    pub curvature: f64,
+    /// Signed distance (m), negative inside the body.
+    pub gap: f64,
+}
+
+/// Samples of a spline between two of its points, to start searches from.
+const SAMPLES_PER_SPAN: usize = 12;
+
+impl Outline {
+    /// Outline of a body in its place.
+    ///
+    /// # Errors
+    /// [`MeshError::Body`] when a length is not positive or a spline has no valid points,
+    /// [`MeshError::SelfIntersection`] when a spline crosses itself.
+    pub fn new(body: &PlacedShape) -> Result<Self, MeshError> {
+        let refuse =
+            |what, value, wanted| MeshError::Body { body: body.name.clone(), what, value, wanted };
+        for (what, value) in
+            [("centre x", body.center.x), ("centre y", body.center.y), ("angle", body.angle)]
+        {
+            if !value.is_finite() {
+                return Err(refuse(what, value, "finite"));
+            }
+        }
+        let (what, semi_axes) = match &body.shape {
+            Shape::Disc { radius } | Shape::Sphere { radius } => ("radius", [*radius; 2]),
+            Shape::Ellipse { semi_axes } | Shape::Spheroid { semi_axes } => {
+                ("semi_axes", *semi_axes)
+            }
+            Shape::Spline { points } => {
+                let spline = Spline::through(points).ok_or_else(|| {
+                    let wanted = "three or more, finite, no two neighbours equal";
+                    refuse("number of points", points.len() as f64, wanted)
+                })?;
+                let form = Form::spline(spline, &body.name)?;
+                return Ok(Self::with_form(body.center, body.angle, form));
+            }
+        };
+        if let Some(value) = semi_axes.into_iter().find(|a| !(*a > 0.0 && a.is_finite())) {
+            return Err(refuse(what, value, "positive and finite"));
+        }
+        Ok(Self::with_form(body.center, body.angle, Form::Ellipse(semi_axes)))
+    }
+
+    /// Circle around a point.
+    #[must_use]
+    pub fn circle(center: Point<2>, radius: f64) -> Self {
+        Self::with_form(center, 0.0, Form::Ellipse([radius; 2]))
+    }
+
+    fn with_form(center: Point<2>, angle: f64, form: Form) -> Self {
+        Self { center, cos: angle.cos(), sin: angle.sin(), form }
+    }
+
+    /// The same outline moved by a vector (m).
+    #[must_use]
+    pub fn shifted(&self, by: Point<2>) -> Self {
+        Self { center: self.center + by, ..self.clone() }
+    }
+
+    /// Point (m), first and second derivative at a parameter in [0, 1] of one of the quarters.
+    #[must_use]
+    pub fn evaluate(&self, quarter: usize, parameter: f64) -> [Point<2>; 3] {
+        let [point, first, second] = match &self.form {
+            Form::Ellipse([a, b]) => {
+                let (c, s) = quarter_circle(quarter, parameter);
+                let rate = FRAC_PI_2;
+                [
+                    Point::<2>::new(a * c, b * s),
+                    Point::<2>::new(-a * s, b * c) * rate,
+                    Point::<2>::new(-a * c, -b * s) * (rate * rate),
+                ]
+            }
+            Form::Spline { spline, cuts, .. } => {
+                let rate = cuts[quarter + 1] - cuts[quarter];
+                let [point, first, second] = spline.evaluate(cuts[quarter] + rate * parameter);
+                [point, first * rate, second * (rate * rate)]
+            }
+        };
+        [self.center + self.turn(point), self.turn(first), self.turn(second)]
+    }
+
+    /// Radius when the outline is a circle.
+    #[must_use]
+    pub fn circle_radius(&self) -> Option<f64> {
+        match &self.form {
+            Form::Ellipse([a, b]) if a == b => Some(*a),
+            _ => None,
+        }
+    }
+
+    /// Whether the body is convex by construction (no two parts of it face each other).
+    #[must_use]
+    pub fn is_ellipse(&self) -> bool {
+        matches!(self.form, Form::Ellipse(_))
+    }
+
+    /// Nearest place on the outline.
+    #[must_use]
+    pub fn nearest(&self, point: Point<2>) -> Nearest {
+        let offset = point - self.center;
+        let local = Point::<2>::new(
+            self.cos * offset.x + self.sin * offset.y,
+            -self.sin * offset.x + self.cos * offset.y,
+        );
+        let (at, normal, curvature) = match &self.form {
+            Form::Ellipse(semi_axes) => nearest_on_ellipse(*semi_axes, local),
+            Form::Spline { spline, samples, .. } => nearest_on_spline(spline, samples, local),
+        };
+        let gap = (local - at).dot(&normal);
+        // The foot of the perpendicular makes the offset parallel to the normal
+        let gap = gap.signum() * (local - at).norm();
+        Nearest { point: self.center + self.turn(at), normal: self.turn(normal), curvature, gap }
+    }
+
+    fn turn(&self, v: Point<2>) -> Point<2> {
+        Point::<2>::new(self.cos * v.x - self.sin * v.y, self.sin * v.x + self.cos * v.y)
+    }
+}
+
+/// Cosine and sine of (quarter + parameter) π/2, exact at the ends of the quarter.
+fn quarter_circle(quarter: usize, parameter: f64) -> (f64, f64) {
+    let (c, s) = if parameter >= 1.0 {
+        (0.0, 1.0)
+    } else {
+        ((parameter * FRAC_PI_2).cos(), (parameter * FRAC_PI_2).sin())
+    };
+    match quarter % 4 {
+        0 => (c, s),
+        1 => (-s, c),
+        2 => (-c, -s),
+        _ => (s, -c),
+    }
+}
+
+/// Nearest point of an axis-parallel ellipse, normal and curvature there.
+///
+/// With x, y >= 0 the foot is (a² x / (t + a²), b² y / (t + b²)) for the largest root t of
+/// (a x / (t + a²))² + (b y / (t + b²))² = 1, which is bracketed and found by bisected Newton.
+///
+/// # Source
+/// @eberly2013, distance from a point to an ellipse.
+fn nearest_on_ellipse([a, b]: [f64; 2], point: Point<2>) -> (Point<2>, Point<2>, f64) {
+    let (x, y) = (point.x.abs(), point.y.abs());
+    let foot = if a == b {
+        let r = x.hypot(y);
+        if r > 0.0 { Point::<2>::new(a * x / r, a * y / r) } else { Point::<2>::new(a, 0.0) }
+    } else if a > b {
+        foot_on_ellipse(a, b, x, y)
+    } else {
+        let foot = foot_on_ellipse(b, a, y, x);
+        Point::<2>::new(foot.y, foot.x)
+    };
+    let foot = Point::<2>::new(foot.x.copysign(point.x), foot.y.copysign(point.y));
+    let gradient = Point::<2>::new(foot.x / (a * a), foot.y / (b * b));
+    let steepness = gradient.norm();
+    (foot, gradient / steepness, 1.0 / (a * a * b * b * steepness.powi(3)))
+}
+
+/// Foot of the perpendicular on an ellipse with a > b, in the first quadrant.
+fn foot_on_ellipse(a: f64, b: f64, x: f64, y: f64) -> Point<2> {
+    if y <= 0.0 {
+        let reach = (a * a - b * b) / a;
+        return if x < reach {
+            let cos = a * x / (a * a - b * b);
+            Point::<2>::new(a * cos, b * (1.0 - cos * cos).max(0.0).sqrt())
+        } else {
+            Point::<2>::new(a, 0.0)
+        };
+    }
+    let excess = |t: f64| {
+        let (p, q) = (a * x / (t + a * a), b * y / (t + b * b));
+        let slope = -2.0 * (p * p / (t + a * a) + q * q / (t + b * b));
+        (p * p + q * q - 1.0, slope)
+    };
+    let (mut low, mut high) = (b * y - b * b, (a * x).hypot(b * y) - b * b);
+    let mut t = low;
+    for _ in 0..200 {
+        let (value, slope) = excess(t);
+        if value > 0.0 {
+            low = low.max(t);
+        } else {
+            high = high.min(t);
+        }
+        let newton = t - value / slope;
+        let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
+        if (next - t).abs() <= 1e-16 * (b * b + t.abs()) {
+            break;
+        }
+        t = next;
+    }
+    let foot = Point::<2>::new(a * a * x / (t + a * a), b * b * y / (t + b * b));
+    // Rounding leaves the foot a little off the curve: push it back along its ray
+    foot / (foot.x / a).hypot(foot.y / b)
+}
+
+fn nearest_on_spline(
+    spline: &Spline,
+    samples: &[f64],
+    point: Point<2>,
+) -> (Point<2>, Point<2>, f64) {
+    let n = samples.len();
+    let gaps: Vec<f64> =
+        samples.iter().map(|s| (spline.evaluate(*s)[0] - point).norm_squared()).collect();
+    let mut best = (f64::INFINITY, 0.0);
+    for i in 0..n {
+        let (before, after) = ((i + n - 1) % n, (i + 1) % n);
+        if gaps[i] > gaps[before] || gaps[i] > gaps[after] {
+            continue;
+        }
+        let low = samples[before] - if i == 0 { spline.period() } else { 0.0 };
+        let high = samples[after] + if after == 0 { spline.period() } else { 0.0 };
+        let s = foot_on_spline(spline, low, high, samples[i], point);
+        let gap = (spline.evaluate(s)[0] - point).norm_squared();
+        if gap < best.0 {
+            best = (gap, s);
+        }
+    }
+    let [at, first, second] = spline.evaluate(best.1);
+    let speed = first.norm();
+    (at, Point::<2>::new(first.y, -first.x) / speed, cross(first, second) / speed.powi(3))
+}
+
+/// Root of (c(s) - x) . c'(s) between two parameters, by Newton kept inside the bracket.
+fn foot_on_spline(spline: &Spline, mut low: f64, mut high: f64, start: f64, x: Point<2>) -> f64 {
+    let mut s = start;
+    for _ in 0..60 {
+        let [at, first, second] = spline.evaluate(s);
+        let value = (at - x).dot(&first);
+        if value > 0.0 {
+            high = s;
+        } else {
+            low = s;
+        }
+        let slope = first.norm_squared() + (at - x).dot(&second);
+        let newton = s - value / slope;
+        let next =
+            if slope > 0.0 && newton > low && newton < high { newton } else { 0.5 * (low + high) };
+        if (next - s).abs() <= 1e-15 * spline.period() {
+            break;
+        }
+        s = next;
+    }
+    s
+}
+
+impl Form {
+    /// Cuts a spline at its extreme points and refuses one that is clockwise or crosses itself.
+    fn spline(spline: Spline, name: &str) -> Result<Self, MeshError> {
+        let knots = spline.knots();
+        let samples: Vec<f64> = knots
+            .windows(2)
+            .flat_map(|k| {
+                let step = (k[1] - k[0]) / SAMPLES_PER_SPAN as f64;
+                (0..SAMPLES_PER_SPAN).map(move |i| k[0] + step * i as f64)
+            })
+            .collect();
+        let places: Vec<Point<2>> = samples.iter().map(|s| spline.evaluate(*s)[0]).collect();
+        let n = places.len();
+        let area: f64 = (0..n).map(|i| 0.5 * cross(places[i], places[(i + 1) % n])).sum();
+        if area <= 0.0 {
+            return Err(MeshError::Body {
+                body: name.to_string(),
+                what: "enclosed area of the spline",
+                value: area,
+                wanted: "positive: list its points counter-clockwise",
+            });
+        }
+        if let Some(at) = crossing(&places) {
+            return Err(MeshError::SelfIntersection { body: name.to_string(), x: at.x, y: at.y });
+        }
+        let directions = [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]].map(Point::<2>::from);
+        let mut cuts = [0.0; 5];
+        for (k, direction) in directions.iter().enumerate() {
+            let s = extreme(&spline, &samples, *direction);
+            // A simple counter-clockwise loop meets its extremes in this order
+            cuts[k] = if k > 0 && s < cuts[0] { s + spline.period() } else { s };
+        }
+        cuts[4] = cuts[0] + spline.period();
+        Ok(Self::Spline { spline, cuts, samples })
+    }
+}
+
+/// Parameter of the point of the spline farthest in a direction.
+fn extreme(spline: &Spline, samples: &[f64], direction: Point<2>) -> f64 {
+    let n = samples.len();
+    let height = |s: f64| spline.evaluate(s)[0].dot(&direction);
+    let mut top = 0;
+    for i in 1..n {
+        if height(samples[i]) > height(samples[top]) {
+            top = i;
+        }
+    }
+    let step = spline.period() / n as f64;
+    let (mut low, mut high) = (samples[top] - step, samples[top] + step);
+    let before = samples[(top + n - 1) % n];
+    low = low.max(if before < samples[top] { before } else { before - spline.period() });
+    let after = samples[(top + 1) % n];
+    high = high.min(if after > samples[top] { after } else { after + spline.period() });
+    let mut s = samples[top];
+    for _ in 0..100 {
+        let [_, first, second] = spline.evaluate(s);
+        let slope = first.dot(&direction);
+        if slope > 0.0 {
+            low = s;
+        } else {
+            high = s;
+        }
+        let newton = s - slope / second.dot(&direction);
+        let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
+        if (next - s).abs() <= 1e-16 * spline.period() {
+            break;
+        }
+        s = next;
+    }
+    s.rem_euclid(spline.period())
+}
+
+/// Where two sides of a closed polygon cross, if any do.
+fn crossing(polygon: &[Point<2>]) -> Option<Point<2>> {
+    let n = polygon.len();
+    for i in 0..n {
+        let (a, b) = (polygon[i], polygon[(i + 1) % n]);
+        for j in i + 2..n {
+            let (c, d) = (polygon[j], polygon[(j + 1) % n]);
+            let apart = c.x.min(d.x) > a.x.max(b.x)
+                || c.x.max(d.x) < a.x.min(b.x)
+                || c.y.min(d.y) > a.y.max(b.y)
+                || c.y.max(d.y) < a.y.min(b.y);
+            if apart || (j + 1) % n == i {
+                continue;
+            }
+            let (p, q) = (cross(b - a, c - a), cross(b - a, d - a));
+            let (r, s) = (cross(d - c, a - c), cross(d - c, b - c));
+            if p * q <= 0.0 && r * s <= 0.0 {
+                return Some((a + b + c + d) / 4.0);
+            }
+        }
+    }
+    None
+}
+
+/// Third component of the cross product.
+pub(crate) fn cross(a: Point<2>, b: Point<2>) -> f64 {
+    a.x * b.y - a.y * b.x
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn ellipse(a: f64, b: f64) -> PlacedShape {
+        PlacedShape {
+            name: "body".into(),
+            shape: Shape::Ellipse { semi_axes: [a, b] },
+            center: Point::<2>::new(0.3, -0.2),
+            angle: 0.7,
+            size: None,
+        }
+    }
+
+    #[test]
+    fn the_nearest_point_of_an_ellipse_is_the_foot_of_its_normal() {
+        for (a, b) in [(2.0, 1.0), (0.5, 1.5), (1.0, 1.0), (10.0, 0.1)] {
+            let outline = Outline::new(&ellipse(a, b)).unwrap();
+            for quarter in 0..4 {
+                for i in 0..20 {
+                    let [on, first, second] = outline.evaluate(quarter, f64::from(i) / 20.0);
+                    let normal = Point::<2>::new(first.y, -first.x).normalize();
+                    let nearest = outline.nearest(on + normal * 0.37);
+                    assert!((nearest.point - on).norm() < 1e-7 * a.max(b), "{a} {b}");
+                    assert!((nearest.gap - 0.37).abs() < 1e-12, "{a} {b} {}", nearest.gap);
+                    assert!((nearest.normal - normal).norm() < 1e-6);
+                    let curvature = cross(first, second) / first.norm().powi(3);
+                    assert!((nearest.curvature / curvature - 1.0).abs() < 1e-4);
+                }
+            }
+            assert!(outline.nearest(outline.center).gap < 0.0);
+        }
+    }
+
+    #[test]
+    fn a_spline_is_cut_at_its_extreme_points() {
+        let points = (0..12)
+            .map(|i| std::f64::consts::TAU * f64::from(i) / 12.0 + 0.1)
+            .map(|t| [2.0 * t.cos() + 0.2 * (2.0 * t).cos(), t.sin()])
+            .collect();
+        let body = PlacedShape { shape: Shape::Spline { points }, angle: 0.0, ..ellipse(1.0, 1.0) };
+        let outline = Outline::new(&body).unwrap();
+        for (quarter, axis) in [(0, 0), (1, 1), (2, 0), (3, 1)] {
+            assert!(outline.evaluate(quarter, 0.0)[1][axis].abs() < 1e-12);
+        }
+        let nearest = outline.nearest(Point::<2>::new(5.0, 1.0));
+        let around = (0..4000).map(|i| outline.evaluate(i / 1000, (i % 1000) as f64 / 1000.0)[0]);
+        let closest = around.map(|p| (p - Point::<2>::new(5.0, 1.0)).norm()).reduce(f64::min);
+        assert!((nearest.gap - closest.unwrap()).abs() < 1e-5);
+    }
+
+    #[test]
+    fn a_figure_of_eight_is_refused() {
+        let points = vec![[2.0, -1.0], [2.0, 1.0], [-2.0, -1.5], [-2.0, 1.5]];
+        let body = PlacedShape { shape: Shape::Spline { points }, ..ellipse(1.0, 1.0) };
+        let error = Outline::new(&body).unwrap_err();
+        let clockwise_or_crossing =
+            matches!(error, MeshError::SelfIntersection { .. } | MeshError::Body { .. });
+        assert!(clockwise_or_crossing, "{error}");
+    }
+}
