@@ -14,6 +14,7 @@
 //! | `lock` | Held while a run lives | – |
 
 mod csv;
+mod fields;
 mod foxglove;
 mod log;
 mod mcap;
@@ -26,11 +27,13 @@ mod status;
 mod terminal;
 #[cfg(test)]
 mod tests;
+mod vorticity;
 
 use crate::case::Case;
 use crate::simulation::Observer;
 
 pub use csv::SeriesFile;
+pub use fields::FieldFiles;
 pub use log::start_log;
 pub use mcap::MessageFile;
 pub use progress::Progress;
@@ -53,6 +56,7 @@ pub fn observers(
     let mut everyone: Vec<Box<dyn Observer<2>>> = vec![
         Box::new(SeriesFile::create(directory.path(), case)?),
         Box::new(MessageFile::create(directory, case)?),
+        Box::new(FieldFiles::new(directory.path(), case)),
     ];
     if !quiet {
         everyone.push(Box::new(Progress::new(case)));

@@ -164,11 +164,23 @@ fn a_run_leaves_exactly_the_promised_files() {
     let names: Vec<_> = files(place.path())
         .iter()
         .map(|file| file.strip_prefix(place.path()).unwrap().to_str().unwrap().to_owned())
-        .filter(|name| !name.starts_with("fields"))
         .collect();
     assert_eq!(
         names,
-        ["case.toml", "lock", "provenance.json", "run.mcap", "series.csv", "status.json"]
+        [
+            "case.toml",
+            "fields/000000.vtu",
+            "fields/000010.vtu",
+            "fields/000020.vtu",
+            "fields/000030.vtu",
+            "fields/000040.vtu",
+            "fields.pvd",
+            "lock",
+            "provenance.json",
+            "run.mcap",
+            "series.csv",
+            "status.json",
+        ]
     );
 }
 
@@ -298,6 +310,24 @@ fn two_runs_write_the_same_bytes_after_the_provenance() {
     if first_start == second_start {
         assert!(first == second);
     }
+}
+
+#[test]
+fn the_list_of_frames_names_every_frame_and_is_closed() {
+    let place = tempfile::tempdir().unwrap();
+    Run::new().complete(place.path());
+    let text = std::fs::read_to_string(place.path().join("fields.pvd")).unwrap();
+    for (time, file) in [("0.0", "000000"), ("1.0", "000010"), ("4.0", "000040")] {
+        let line = format!("timestep=\"{time}\" part=\"0\" file=\"fields/{file}.vtu\"/>");
+        assert!(text.contains(&line), "{line} is not in\n{text}");
+    }
+    assert!(text.ends_with("</Collection>\n</VTKFile>\n"));
+    let frame = std::fs::read(place.path().join("fields/000040.vtu")).unwrap();
+    let header = String::from_utf8_lossy(&frame);
+    for name in ["TimeValue", "velocity", "pressure", "vorticity"] {
+        assert!(header.contains(&format!("Name=\"{name}\"")), "{name}");
+    }
+    assert!(header.ends_with("</VTKFile>\n"));
 }
 
 #[test]

@@ -3,7 +3,7 @@
 //! Inside a cell the velocity is u(x(X)) = sum_i u_i phi_i(X), so grad u = J^-T grad_X u with
 //! J = dx/dX. It jumps from cell to cell; a picture wants one value a node.
 
-use alewife_mesh::{Mesh, Point};
+use alewife_mesh::{Mesh, Point, map_quadratic};
 
 /// Reference coordinates (X, Y) of the six nodes of a triangle.
 const NODES: [[f64; 2]; 6] =
@@ -21,42 +21,20 @@ pub fn nodal_vorticity(mesh: &Mesh<2>, velocity: &[Point<2>]) -> Vec<f64> {
     let mut n_cells = vec![0_u32; mesh.n_nodes()];
     for cell in 0..mesh.n_cells() {
         let nodes = mesh.cell(cell);
-        for (place, &node) in NODES.iter().zip(nodes) {
-            let gradients = reference_gradients(*place);
-            // Rows of `position` and `speed`: derivatives along X and Y.
-            let (mut position, mut speed) = ([[0.0; 2]; 2], [[0.0; 2]; 2]);
-            for (gradient, &other) in gradients.iter().zip(nodes) {
-                let (x, u) = (&mesh.nodes[other as usize], &velocity[other as usize]);
-                for along in 0..2 {
-                    for component in 0..2 {
-                        position[along][component] += gradient[along] * x[component];
-                        speed[along][component] += gradient[along] * u[component];
-                    }
-                }
-            }
-            let [[x_x, y_x], [x_y, y_y]] = position;
-            let [[u_x, v_x], [u_y, v_y]] = speed;
-            let det_jacobian = x_x * y_y - x_y * y_x;
-            let dv_dx = (y_y * v_x - y_x * v_y) / det_jacobian;
-            let du_dy = (x_x * u_y - x_y * u_x) / det_jacobian;
+        let positions: [_; 6] = std::array::from_fn(|i| mesh.nodes[nodes[i] as usize]);
+        let velocities: [_; 6] = std::array::from_fn(|i| velocity[nodes[i] as usize]);
+        for (&node, place) in nodes.iter().zip(NODES) {
+            // Velocity and position are the same kind of field: columns d/dX and d/dY of both.
+            let (_, [x_x, x_y]) = map_quadratic(&positions, place);
+            let (_, [u_x, u_y]) = map_quadratic(&velocities, place);
+            let det_jacobian = x_x.perp(&x_y);
+            let dv_dx = (x_y.y * u_x.y - x_x.y * u_y.y) / det_jacobian;
+            let du_dy = (x_x.x * u_y.x - x_y.x * u_x.x) / det_jacobian;
             sum[node as usize] += dv_dx - du_dy;
             n_cells[node as usize] += 1;
         }
     }
     sum.iter().zip(&n_cells).map(|(sum, &n)| sum / f64::from(n.max(1))).collect()
-}
-
-/// Gradients of the six quadratic shape functions at a reference place.
-///
-/// With l_0 = 1 - X - Y, l_1 = X, l_2 = Y: l_i (2 l_i - 1) at vertex i, 4 l_i l_j between i and j.
-fn reference_gradients([x, y]: [f64; 2]) -> [[f64; 2]; 6] {
-    let l = [1.0 - x - y, x, y];
-    let grad_l = [[-1.0, -1.0], [1.0, 0.0], [0.0, 1.0]];
-    let vertex = |i: usize| grad_l[i].map(|g: f64| (4.0 * l[i] - 1.0) * g);
-    let middle = |i: usize, j: usize| {
-        [0, 1].map(|along| 4.0 * (l[i] * grad_l[j][along] + l[j] * grad_l[i][along]))
-    };
-    [vertex(0), vertex(1), vertex(2), middle(0, 1), middle(1, 2), middle(2, 0)]
 }
 
 #[cfg(test)]
