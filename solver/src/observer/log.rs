@@ -4,6 +4,7 @@ use std::fmt::{Debug, Write as _};
 use std::fs::File;
 use std::io;
 use std::path::Path;
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use tracing::field::{Field, Visit};
 use tracing::{Event, Level, Subscriber};
@@ -13,7 +14,10 @@ use tracing_subscriber::{EnvFilter, fmt};
 
 use super::terminal::{AboveBars, TERMINAL};
 
-/// Starts the log of this process; later calls change nothing.
+/// The file JSON lines go to just now. One process has one log, but may make several runs.
+static FILE: Mutex<Option<File>> = Mutex::new(None);
+
+/// Starts the log of this process; later calls only turn to the `log.jsonl` of another run.
 ///
 /// `verbosity` is the number of `-v` on the command line: warnings, then 1 for what the program
 /// does, 2 for details, 3 for everything; negative for errors only. The variable `ALEWIFE_LOG`
@@ -36,15 +40,30 @@ pub fn start_log(directory: Option<&Path>, verbosity: i8) -> io::Result<()> {
         .with_target(false)
         .without_time()
         .with_filter(filter(i8::MIN)?);
-    let json = match directory {
+    let json = fmt::layer().json().with_writer(|| ToFile).with_filter(filter(1)?);
+    *the_file() = match directory {
         None => None,
-        Some(directory) => {
-            let file = File::create(directory.join("log.jsonl"))?;
-            Some(fmt::layer().json().with_writer(file).with_filter(filter(1)?))
-        }
+        Some(directory) => Some(File::create(directory.join("log.jsonl"))?),
     };
     let _ = tracing_subscriber::registry().with(text).with(json).with(Latest).try_init();
     Ok(())
+}
+
+/// Writes to [`FILE`]; what is said while there is none is not kept.
+struct ToFile;
+
+impl io::Write for ToFile {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        the_file().as_mut().map_or(Ok(bytes.len()), |file| file.write(bytes))
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+fn the_file() -> MutexGuard<'static, Option<File>> {
+    FILE.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 fn level_name(verbosity: i8) -> &'static str {
