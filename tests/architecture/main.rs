@@ -30,9 +30,9 @@ const ROOMS: [(&str, &[&str]); 14] = [
 const FOREIGN: [(&str, &str); 5] = [
     ("faer", "solver/src/algebra/"),
     ("spade", "mesh/src/generate/"),
-    ("mcap", "solver/src/observer/mcap.rs"),
+    ("mcap", "solver/src/observer/"),
     ("clap", "solver/src/cli/"),
-    ("indicatif", "solver/src/observer/progress.rs"),
+    ("indicatif", "solver/src/observer/"),
 ];
 
 fn root() -> PathBuf {
