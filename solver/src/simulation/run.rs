@@ -34,10 +34,7 @@ const START_PIECES: u32 = 7;
 ///
 /// # Errors
 /// Whatever stops the run; observers are told before it is returned.
-pub fn simulate(
-    case: &Case,
-    observers: &mut [Box<dyn Observer<2>>],
-) -> Result<Outcome, RunError> {
+pub fn simulate(case: &Case, observers: &mut [Box<dyn Observer<2>>]) -> Result<Outcome, RunError> {
     let mut run = Run { case, observers, timing: Timing::default(), series: Series::default() };
     let result = run.start();
     if let Err(error) = &result {
@@ -82,16 +79,15 @@ impl Run<'_> {
         unknown_frame: bool,
     ) -> Result<Parts, RunError> {
         let poses: Vec<_> = problem.bodies.iter().map(|body| body.pose).collect();
-        let system = self.timing.measure(Stage::Assembly, || {
-            FluidSystem::new(&problem, &mesh, &poses, unknown_frame)
-        });
+        let system = self
+            .timing
+            .measure(Stage::Assembly, || FluidSystem::new(&problem, &mesh, &poses, unknown_frame));
         let measure = Measure::new(self.case, &mesh).map_err(RunError::Unsupported)?;
         self.series.names = measure.names().to_vec();
         let at_rest = Solution::at_rest(&system.layout);
         let angles: Vec<f64> = self.case.body.iter().map(|body| body.angle).collect();
-        let places = poses.iter().zip(&angles).map(|(pose, angle)| {
-            [pose.center.x, pose.center.y, *angle]
-        });
+        let places =
+            poses.iter().zip(&angles).map(|(pose, angle)| [pose.center.x, pose.center.y, *angle]);
         let state = State {
             step: 0,
             time: 0.0,
@@ -184,9 +180,8 @@ impl Run<'_> {
         is_last: bool,
     ) -> Result<(), RunError> {
         let Parts { problem, system, measure, state } = parts;
-        let (bodies, values) = self
-            .timing
-            .measure(Stage::Loads, || measure.measure(system, problem, state, residual));
+        let (bodies, values) =
+            self.timing.measure(Stage::Loads, || measure.measure(system, problem, state, residual));
         self.series.times.push(state.time);
         let timing = self.timing;
         let snapshot = Snapshot {
