@@ -8,6 +8,6 @@ mod system;
 pub use constrain::NodeSides;
 pub use loads::{BodyLoads, body_loads};
 pub use problem::{Drive, Problem, RigidBody, Side, TimeValue, VelocityProfile};
-pub use system::{FluidSystem, Levels, Solution, SolveError, embed, flatten};
+pub use system::{FluidSystem, Levels, SolveError, Solution, embed, flatten};
 
 pub(crate) use system::newton_convection;

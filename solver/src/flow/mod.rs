@@ -8,4 +8,4 @@ mod terms;
 
 pub use assemble::{Assembly, assemble, residual};
 pub use surface_load::surface_load;
-pub use terms::{BodyForce, Convection, Fields, FlowTerms};
+pub use terms::{BodyForce, Convection, FlowTerms, Fields};

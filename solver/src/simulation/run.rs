@@ -8,9 +8,8 @@ use super::snapshot::{Observer, Snapshot};
 use super::state::State;
 use super::steady::solve_steady;
 use super::{RunError, Series, Stage, Timing, build_mesh, build_problem};
-use crate::body::Twist;
 use crate::case::{Case, Initial, Scheme, Steady, TimeSettings, Unsteady};
-use crate::coupling::{FluidSystem, Problem, Solution};
+use crate::coupling::{FluidSystem, Problem};
 use crate::time::Bdf;
 
 /// What a finished run leaves in memory.
@@ -34,7 +33,10 @@ const START_PIECES: u32 = 7;
 ///
 /// # Errors
 /// Whatever stops the run; observers are told before it is returned.
-pub fn simulate(case: &Case, observers: &mut [Box<dyn Observer<2>>]) -> Result<Outcome, RunError> {
+pub fn simulate(
+    case: &Case,
+    observers: &mut [Box<dyn Observer<2>>],
+) -> Result<Outcome, RunError> {
     let mut run = Run { case, observers, timing: Timing::default(), series: Series::default() };
     let result = run.start();
     if let Err(error) = &result {
@@ -79,27 +81,12 @@ impl Run<'_> {
         unknown_frame: bool,
     ) -> Result<Parts, RunError> {
         let poses: Vec<_> = problem.bodies.iter().map(|body| body.pose).collect();
-        let system = self
-            .timing
-            .measure(Stage::Assembly, || FluidSystem::new(&problem, &mesh, &poses, unknown_frame));
+        let system = self.timing.measure(Stage::Assembly, || {
+            FluidSystem::new(&problem, &mesh, &poses, unknown_frame)
+        });
         let measure = Measure::new(self.case, &mesh).map_err(RunError::Unsupported)?;
         self.series.names = measure.names().to_vec();
-        let at_rest = Solution::at_rest(&system.layout);
-        let angles: Vec<f64> = self.case.body.iter().map(|body| body.angle).collect();
-        let places =
-            poses.iter().zip(&angles).map(|(pose, angle)| [pose.center.x, pose.center.y, *angle]);
-        let state = State {
-            step: 0,
-            time: 0.0,
-            time_step: 0.0,
-            now: at_rest.clone(),
-            previous: at_rest,
-            previous_places: places.collect(),
-            accelerations: vec![Twist::default(); poses.len()],
-            poses,
-            angles,
-            mesh,
-        };
+        let state = State::at_rest(&problem, mesh);
         Ok(Parts { problem, system, measure, state })
     }
 
@@ -180,8 +167,9 @@ impl Run<'_> {
         is_last: bool,
     ) -> Result<(), RunError> {
         let Parts { problem, system, measure, state } = parts;
-        let (bodies, values) =
-            self.timing.measure(Stage::Loads, || measure.measure(system, problem, state, residual));
+        let (bodies, values) = self
+            .timing
+            .measure(Stage::Loads, || measure.measure(system, problem, state, residual));
         self.series.times.push(state.time);
         let timing = self.timing;
         let snapshot = Snapshot {
