@@ -4,6 +4,7 @@
 pub mod algebra;
 pub mod body;
 pub mod case;
+pub mod cli;
 pub mod coupling;
 pub mod flow;
 pub mod gait;
@@ -12,3 +13,4 @@ pub mod simulation;
 pub mod space;
 pub mod time;
 pub mod timing;
+pub mod validation;

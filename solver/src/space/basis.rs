@@ -47,8 +47,7 @@ pub fn p2_values<const D: usize>(xi: &SVector<f64, D>) -> Vec<f64> {
         let l = barycentric(xi, i);
         l * (2.0 * l - 1.0)
     });
-    let at_edges =
-        edges::<D>().iter().map(|&(i, j)| 4.0 * barycentric(xi, i) * barycentric(xi, j));
+    let at_edges = edges::<D>().iter().map(|&(i, j)| 4.0 * barycentric(xi, i) * barycentric(xi, j));
     at_vertices.chain(at_edges).collect()
 }
 
