@@ -47,8 +47,11 @@ def picture(
     `frame` names a body whose velocity is subtracted. Speed has streamlines unless `lines` says
     otherwise. An axisymmetric run is shown on both sides of its axis unless `mirror` is false.
     """
+    can_render = painter != "matplotlib" and scene.can_render()
     if painter == "auto":
-        painter = "vtk" if scene.can_render() else "matplotlib"
+        painter = "vtk" if can_render else "matplotlib"
+    elif painter == "vtk" and not can_render:
+        raise ValueError("VTK can have no window here: install libosmesa6, or draw by matplotlib")
     style.use()
     field = run.field(time)
     poses, twists = body_states(run, field.time)
@@ -91,8 +94,11 @@ def picture(
     axes.set_ylim(view[2], view[3])
     axes.set_xlabel(style.length_label("x", units))
     axes.set_ylabel(style.length_label("y", units))
-    # A wide picture has room for few marks across it.
-    axes.yaxis.set_major_locator(MaxNLocator(nbins=max(2, min(7, round(2.2 * height)))))
+    # A flat picture has room for few marks on its short side.
+    for axis, inches in ((axes.xaxis, width), (axes.yaxis, height - 0.9)):
+        axis.set_major_locator(
+            MaxNLocator(int(np.clip(2 * inches, 2, 9)), steps=[1, 2, 2.5, 5, 10])
+        )
     is_unsteady = "unsteady" in run.case["time"]
     moment = f", {style.time_text(field.time, units)}" if is_unsteady else ""
     axes.set_title(run.case["title"] + moment)
@@ -109,7 +115,7 @@ def nodal_values(field: Field, quantity: str) -> Array:
 
 
 def body_states(run: Run, time: float) -> tuple[dict[str, tuple[Array, float]], dict[str, Array]]:
-    """Pose (centre `(2,)`, angle) and velocity `(2,)` of each body at the message nearest to `time`."""
+    """Pose (centre `(2,)`, angle) and velocity `(2,)` of each body, from the message nearest."""
     poses, velocities = {}, {}
     for body in run.case.get("body", []):
         name, history = body["name"], run.bodies.get(body["name"])
@@ -128,7 +134,8 @@ def default_view(run: Run, field: Field, poses: dict[str, tuple[Array, float]]) 
     """All of the domain, or the surroundings of the bodies if they are small in it."""
     low, high = field.nodes.min(axis=0), field.nodes.max(axis=0)
     radii = [_radius(body["shape"]) for body in run.case.get("body", [])]
-    if radii and 2 * max(radii) < SMALL_BODY * (high - low).min():
+    across = (high - low) * [1.0, 2.0 if run.is_axisymmetric and low[1] >= 0.0 else 1.0]
+    if radii and 2 * max(radii) < SMALL_BODY * across.min():
         centers = np.array([center for center, _ in poses.values()])
         reach = 4.0 * max(radii) + 0.25 * np.ptp(centers, axis=0).max()
         low = np.maximum(low, centers.min(axis=0) - reach)
@@ -148,7 +155,7 @@ def _size(view: View) -> tuple[float, float]:
     aspect = (view[1] - view[0]) / (view[3] - view[2])
     width = min(largest_width, aspect * largest_height)
     # Room for title, labels and a bar below.
-    return width + 0.6, width / aspect + 1.3
+    return width + 0.6, width / aspect + 0.9
 
 
 def _colour_bar(
@@ -193,7 +200,7 @@ def series_figure(
         axes.set_ylabel(name.replace(".", "\n", 1).replace("_", " "))
         axes.margins(x=0.01)
         axes.spines[["top", "right"]].set_visible(False)
-    panels[0].set_title(run.case["title"])
+    figure.suptitle(run.case["title"], fontsize=style.PARAMETERS["axes.titlesize"])
     panels[-1].set_xlabel("t (s)" if run.case.get("units", "").upper() == "SI" else "t")
     return figure
 
@@ -220,4 +227,4 @@ def draw_published(axes: Axes, case: dict[str, Any], name: str) -> None:
         drawn = True
     if drawn:
         # Above the panel, where no curve can be.
-        axes.legend(loc="lower right", bbox_to_anchor=(1.0, 0.98), borderaxespad=0.0)
+        axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), borderaxespad=0.0)

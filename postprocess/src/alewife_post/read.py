@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
+import struct
 import tomllib
 import xml.etree.ElementTree as ElementTree
 from collections.abc import Iterator
@@ -140,7 +141,7 @@ class Run:
                 for _schema, channel, message in found:
                     time = message.log_time * 1e-9
                     yield Message(channel.topic, time, json.loads(message.data))
-            except McapError:
+            except (McapError, struct.error):
                 return
 
     @cached_property

@@ -57,9 +57,9 @@ def render(
     limits: style.Limits,
     show_edges: bool,
 ) -> Array:
-    """An image `(height, width, 4)` that fills the view `(x0, x1, y0, y1)`, clear outside the fluid.
+    """An image `(height, width, 4)` that fills the view `(x0, x1, y0, y1)`.
 
-    Without nodal `values` `(n_nodes,)` the fluid has one colour.
+    It is clear outside the fluid. Without nodal `values` `(n_nodes,)` the fluid has one colour.
     """
     import pyvista
 
@@ -84,7 +84,7 @@ def render(
         lines = cells.extract_feature_edges(
             boundary_edges=True, feature_edges=False, manifold_edges=False, non_manifold_edges=False
         )
-        plotter.add_mesh(lines, color=style.EDGE, line_width=width / 1000, lighting=False)
+        plotter.add_mesh(lines, color=style.EDGE, line_width=width / 600, lighting=False)
     plotter.view_xy()
     camera = plotter.camera
     camera.parallel_projection = True

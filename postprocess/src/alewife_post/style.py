@@ -17,7 +17,7 @@ BOUNDARY = "#22262b"
 EDGE = "#5b6b7a"
 STREAMLINE = "#ffffff"
 STREAMLINE_ON_LIGHT = "#30363d"
-SERIES = ("#1f5f99", "#c8553d", "#3f8f5f", "#8a5a9e", "#b08900")
+SERIES = ("#1f5f99", "#3f8f5f", "#8a5a9e", "#b08900", "#4f8a8b")
 PUBLISHED = "#c8553d"
 
 DPI = 200
@@ -87,7 +87,9 @@ def colours(quantity: str, values: Array) -> tuple[str, Limits]:
     look = LOOKS[quantity]
     if quantity == "speed":
         return look.one_sided, (0.0, float(values.max()) or 1.0)
-    low, high = (float(limit) for limit in np.percentile(values, [0.2, 99.8]))
+    # Cells, and so nodes, crowd at bodies, where the vorticity is far larger than in a wake.
+    share = 3.0 if quantity == "vorticity" else 0.2
+    low, high = (float(limit) for limit in np.percentile(values, [share, 100.0 - share]))
     largest = max(abs(low), abs(high)) or 1.0
     if quantity == "vorticity" or min(-low, high) > 0.2 * largest:
         return look.two_sided, (-largest, largest)
