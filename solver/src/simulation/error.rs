@@ -3,6 +3,8 @@
 use alewife_mesh::Point;
 use thiserror::Error;
 
+use crate::coupling::SolveError;
+
 /// Every way a run can stop before its end.
 #[derive(Debug, Error)]
 pub enum RunError {
@@ -61,4 +63,15 @@ pub enum RunError {
         /// Time (s).
         time: f64,
     },
+}
+
+impl RunError {
+    /// The failure of a linear solve, at a step and time.
+    #[must_use]
+    pub fn from_solve(error: SolveError, step: usize, time: f64) -> Self {
+        match error {
+            SolveError::Singular(singular) => Self::Singular { step, time, reason: singular.0 },
+            SolveError::NotFinite { place } => Self::NotFinite { step, time, place },
+        }
+    }
 }

@@ -1,11 +1,22 @@
 //! The sentence itself: bodies move, one system gives fluid and bodies together, observers look on.
 
+mod build;
 mod error;
+mod march;
+mod measure;
+mod run;
 mod series;
 mod snapshot;
+mod state;
+mod steady;
 mod timing;
 
+pub use build::{build_mesh, build_problem, domain, placed_shapes, sizing};
 pub use error::RunError;
+pub use march::{StepResult, advance};
+pub use run::{Outcome, simulate};
 pub use series::Series;
 pub use snapshot::{BodyReport, Observer, Snapshot};
-pub use timing::{Stage, Timing};
+pub use state::State;
+pub use steady::{SteadyFlow, solve_steady};
+pub use timing::{Stage, Timing, cpu_seconds};

@@ -1,0 +1,192 @@
+//! `AffineConstraints`: every raw unknown as a weighted sum of free unknowns plus a value.
+//!
+//! x = P y + g, with one row of P and one entry of g for each raw unknown. Dirichlet values,
+//! periodicity, symmetry planes, the axis and rigid motion (u = U + omega x r + slip) are all of
+//! this form, so a system A x = b is solved as P^T A P y = P^T (b - A g) without forming P: the
+//! idea of AffineConstraints in deal.II (@bangerth2007).
+
+/// A constraint under construction: entries name raw unknowns.
+#[derive(Debug, Clone, Default, PartialEq)]
+struct Line {
+    entries: Vec<(usize, f64)>,
+    value: f64,
+}
+
+/// Collects constraints, then resolves those that refer to constrained unknowns.
+#[derive(Debug, Clone)]
+pub struct ConstraintBuilder {
+    lines: Vec<Option<Line>>,
+}
+
+impl ConstraintBuilder {
+    /// No constraint on any of `n_raw` unknowns.
+    #[must_use]
+    pub fn new(n_raw: usize) -> Self {
+        Self { lines: vec![None; n_raw] }
+    }
+
+    /// Whether a raw unknown is constrained already.
+    #[must_use]
+    pub fn is_constrained(&self, raw: usize) -> bool {
+        self.lines[raw].is_some()
+    }
+
+    /// Sets x\[raw\] = sum of weight x\[other\] + value; the last call for an unknown counts.
+    pub fn constrain(&mut self, raw: usize, entries: Vec<(usize, f64)>, value: f64) {
+        self.lines[raw] = Some(Line { entries, value });
+    }
+
+    /// Numbers the free unknowns in the order of the raw ones and expands all constraints.
+    ///
+    /// # Panics
+    /// When constraints refer to each other in a circle, which is a mistake of ours.
+    #[must_use]
+    pub fn build(self) -> AffineConstraints {
+        let mut unknown_of = vec![None; self.lines.len()];
+        let mut n_unknowns = 0;
+        for (raw, line) in self.lines.iter().enumerate() {
+            if line.is_none() {
+                unknown_of[raw] = Some(n_unknowns);
+                n_unknowns += 1;
+            }
+        }
+        let mut constraints = AffineConstraints {
+            offsets: vec![0],
+            entries: Vec::with_capacity(self.lines.len()),
+            values: Vec::with_capacity(self.lines.len()),
+            unknown_of: unknown_of.clone(),
+            n_unknowns: n_unknowns as usize,
+        };
+        for raw in 0..self.lines.len() {
+            let value = self.expand(raw, 1.0, &unknown_of, &mut constraints.entries, 0);
+            constraints.values.push(value);
+            constraints.offsets.push(constraints.entries.len() as u32);
+        }
+        constraints
+    }
+
+    /// Appends the free unknowns behind `weight` x\[raw\] to `entries` and returns its value.
+    fn expand(
+        &self,
+        raw: usize,
+        weight: f64,
+        unknown_of: &[Option<u32>],
+        entries: &mut Vec<(u32, f64)>,
+        depth: usize,
+    ) -> f64 {
+        assert!(depth < 8, "constraints of unknown {raw} refer to each other in a circle");
+        match &self.lines[raw] {
+            None => {
+                let unknown = unknown_of[raw].expect("an unconstrained raw unknown is free");
+                entries.push((unknown, weight));
+                0.0
+            }
+            Some(line) => {
+                let referred: f64 = line
+                    .entries
+                    .iter()
+                    .map(|&(other, factor)| {
+                        self.expand(other, weight * factor, unknown_of, entries, depth + 1)
+                    })
+                    .sum();
+                weight * line.value + referred
+            }
+        }
+    }
+}
+
+/// x = P y + g: raw unknowns x from free unknowns y.
+#[derive(Debug, Clone, PartialEq)]
+pub struct AffineConstraints {
+    offsets: Vec<u32>,
+    entries: Vec<(u32, f64)>,
+    values: Vec<f64>,
+    unknown_of: Vec<Option<u32>>,
+    n_unknowns: usize,
+}
+
+impl AffineConstraints {
+    /// Number of free unknowns.
+    #[must_use]
+    pub fn n_unknowns(&self) -> usize {
+        self.n_unknowns
+    }
+
+    /// Number of raw unknowns.
+    #[must_use]
+    pub fn n_raw(&self) -> usize {
+        self.values.len()
+    }
+
+    /// The row of P of a raw unknown: (free unknown, weight).
+    #[must_use]
+    pub fn row(&self, raw: usize) -> &[(u32, f64)] {
+        &self.entries[self.offsets[raw] as usize..self.offsets[raw + 1] as usize]
+    }
+
+    /// The entry of g of a raw unknown.
+    #[must_use]
+    pub fn value(&self, raw: usize) -> f64 {
+        self.values[raw]
+    }
+
+    /// The free unknown a raw one is, if it is free itself.
+    #[must_use]
+    pub fn unknown(&self, raw: usize) -> Option<usize> {
+        self.unknown_of[raw].map(|unknown| unknown as usize)
+    }
+
+    /// P y + g.
+    #[must_use]
+    pub fn expand(&self, free: &[f64]) -> Vec<f64> {
+        (0..self.n_raw())
+            .map(|raw| {
+                self.row(raw)
+                    .iter()
+                    .fold(self.values[raw], |sum, &(unknown, weight)| {
+                        sum + weight * free[unknown as usize]
+                    })
+            })
+            .collect()
+    }
+
+    /// P^T r.
+    #[must_use]
+    pub fn restrict(&self, raw_values: &[f64]) -> Vec<f64> {
+        let mut restricted = vec![0.0; self.n_unknowns];
+        for (raw, value) in raw_values.iter().enumerate() {
+            for &(unknown, weight) in self.row(raw) {
+                restricted[unknown as usize] += weight * value;
+            }
+        }
+        restricted
+    }
+
+    /// The free unknowns among raw values.
+    #[must_use]
+    pub fn pick(&self, raw_values: &[f64]) -> Vec<f64> {
+        raw_values
+            .iter()
+            .zip(&self.unknown_of)
+            .filter_map(|(value, unknown)| unknown.map(|_| *value))
+            .collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn chains_are_resolved_and_values_carried_along() {
+        let mut builder = ConstraintBuilder::new(4);
+        builder.constrain(0, vec![(1, 2.0)], 1.0);
+        builder.constrain(1, vec![(2, 3.0), (3, 1.0)], 0.5);
+        builder.constrain(3, vec![], 4.0);
+        let constraints = builder.build();
+        assert_eq!(constraints.n_unknowns(), 1);
+        assert_eq!(constraints.expand(&[1.0]), vec![16.0, 7.5, 1.0, 4.0]);
+        assert_eq!(constraints.restrict(&[1.0, 1.0, 1.0, 1.0]), vec![10.0]);
+        assert_eq!(constraints.pick(&[9.0, 8.0, 7.0, 6.0]), vec![7.0]);
+    }
+}

@@ -1,0 +1,151 @@
+//! From boundary conditions and bodies to constraints on the raw unknowns.
+//!
+//! A node on a body: u = U + omega x (x - G) + slip, with U and omega raw unknowns themselves.
+//! Where boundaries meet, bodies come first, then walls, then inflows, then symmetry planes.
+
+use alewife_mesh::{BoundaryKind, Mesh};
+
+use super::problem::{Drive, Problem, Side};
+use crate::algebra::{AffineConstraints, ConstraintBuilder};
+use crate::body::Pose;
+use crate::space::DofLayout;
+
+/// The boundaries each node lies on.
+#[derive(Debug, Clone)]
+pub struct NodeSides {
+    /// (node, boundary), sorted, each pair once.
+    pairs: Vec<(u32, u16)>,
+}
+
+impl NodeSides {
+    /// Collects the nodes of all boundary facets.
+    #[must_use]
+    pub fn new(mesh: &Mesh<2>) -> Self {
+        let mut pairs = Vec::with_capacity(3 * mesh.facets.len());
+        for facet in &mesh.facets {
+            let side = usize::from(facet.side);
+            let cell = mesh.cell(facet.cell as usize);
+            for local in [side, (side + 1) % 3, side + 3] {
+                pairs.push((cell[local], facet.boundary));
+            }
+        }
+        pairs.sort_unstable();
+        pairs.dedup();
+        Self { pairs }
+    }
+
+    /// Nodes with the boundaries they lie on.
+    pub fn iter(&self) -> impl Iterator<Item = (usize, Vec<usize>)> + '_ {
+        self.pairs.chunk_by(|one, other| one.0 == other.0).map(|pairs| {
+            let boundaries = pairs.iter().map(|&(_, boundary)| usize::from(boundary)).collect();
+            (pairs[0].0 as usize, boundaries)
+        })
+    }
+
+    /// Nodes on one boundary.
+    pub fn nodes_on(&self, boundary: usize) -> impl Iterator<Item = usize> + '_ {
+        self.pairs
+            .iter()
+            .filter(move |&&(_, other)| usize::from(other) == boundary)
+            .map(|&(node, _)| node as usize)
+    }
+}
+
+/// The constraints at a time, for bodies at these poses.
+#[must_use]
+pub(super) fn constrain(
+    problem: &Problem,
+    mesh: &Mesh<2>,
+    layout: &DofLayout<2>,
+    sides: &NodeSides,
+    poses: &[Pose],
+    time: f64,
+) -> AffineConstraints {
+    let mut builder = ConstraintBuilder::new(layout.n_raw());
+    for (body, rigid) in problem.bodies.iter().enumerate() {
+        for (mode, drive) in rigid.drives.iter().enumerate() {
+            if let Drive::Given(value) = drive {
+                builder.constrain(layout.rigid(body, mode), vec![], value(time));
+            }
+        }
+    }
+    for (node, boundaries) in sides.iter() {
+        constrain_node(problem, mesh, layout, &mut builder, poses, time, node, &boundaries);
+    }
+    for &(copy, original) in &mesh.periodic {
+        let (copy, original) = (copy as usize, original as usize);
+        for axis in 0..2 {
+            let raw = layout.velocity(copy, axis);
+            if !builder.is_constrained(raw) {
+                builder.constrain(raw, vec![(layout.velocity(original, axis), 1.0)], 0.0);
+            }
+        }
+        if copy < layout.n_vertices {
+            builder.constrain(
+                layout.pressure(copy),
+                vec![(layout.pressure(original), 1.0)],
+                0.0,
+            );
+        }
+    }
+    if problem.is_enclosed() {
+        // Any vertex will do that is not itself a periodic copy.
+        let pinned = (0..layout.n_vertices)
+            .map(|vertex| layout.pressure(vertex))
+            .find(|&raw| !builder.is_constrained(raw));
+        if let Some(raw) = pinned {
+            builder.constrain(raw, vec![], 0.0);
+        }
+    }
+    builder.build()
+}
+
+#[expect(clippy::too_many_arguments, reason = "one node's share of the function above")]
+fn constrain_node(
+    problem: &Problem,
+    mesh: &Mesh<2>,
+    layout: &DofLayout<2>,
+    builder: &mut ConstraintBuilder,
+    poses: &[Pose],
+    time: f64,
+    node: usize,
+    boundaries: &[usize],
+) {
+    let place = mesh.nodes[node];
+    let body = boundaries.iter().find_map(|&boundary| match mesh.boundaries[boundary].kind {
+        BoundaryKind::Body(body) => Some(body),
+        _ => None,
+    });
+    if let Some(body) = body {
+        let pose = &poses[body];
+        let slip = problem.bodies[body].slip(pose, &place, time);
+        let lever = [place[0] - pose.center.x, place[1] - pose.center.y];
+        let turning = [-lever[1], lever[0]];
+        for axis in 0..2 {
+            let entries = vec![
+                (layout.rigid(body, axis), 1.0),
+                (layout.rigid(body, 2), turning[axis]),
+            ];
+            builder.constrain(layout.velocity(node, axis), entries, slip[axis]);
+        }
+        return;
+    }
+    let given = |walls: bool| {
+        boundaries.iter().find_map(|&boundary| match &problem.sides[boundary] {
+            Some(Side::Velocity { profile, is_wall }) if *is_wall == walls => Some(profile),
+            _ => None,
+        })
+    };
+    if let Some(profile) = given(true).or_else(|| given(false)) {
+        let velocity = profile(&place, time);
+        for axis in 0..2 {
+            builder.constrain(layout.velocity(node, axis), vec![], velocity[axis]);
+        }
+        return;
+    }
+    for &boundary in boundaries {
+        if let Some(Side::Symmetry { normal_axis }) = problem.sides[boundary] {
+            builder.constrain(layout.velocity(node, normal_axis), vec![], 0.0);
+        }
+    }
+}

@@ -1,0 +1,113 @@
+//! `Problem`: what never changes during a run: fluid, sides of the domain, bodies.
+
+use alewife_mesh::Point;
+use nalgebra::Vector3;
+
+use crate::body::{Pose, Wrench};
+use crate::flow::BodyForce;
+use crate::gait::Gait;
+
+/// A velocity as a function of place and time (m, s, m/s).
+pub type VelocityProfile = Box<dyn Fn(&Point<2>, f64) -> Point<2> + Send + Sync>;
+
+/// A number as a function of time.
+pub type TimeValue = Box<dyn Fn(f64) -> f64 + Send + Sync>;
+
+/// What holds on a boundary that is not a body.
+pub enum Side {
+    /// Given velocity. Where two such sides meet, a wall's value counts.
+    Velocity {
+        /// The velocity.
+        profile: VelocityProfile,
+        /// Whether the side is a wall rather than an inflow.
+        is_wall: bool,
+    },
+    /// mu du/dn - p n = 0.
+    DoNothing,
+    /// sigma n = 0.
+    TractionFree,
+    /// No velocity along this coordinate, no traction along the other.
+    Symmetry {
+        /// 0 for x, 1 for y.
+        normal_axis: usize,
+    },
+    /// One of a periodic pair; the mesh knows the partner nodes.
+    Periodic,
+}
+
+/// One of the three rigid velocities of a body: U_x, U_y, omega.
+pub enum Drive {
+    /// An unknown of the system.
+    Free,
+    /// Given in time (m/s or rad/s); the reaction is an output.
+    Given(TimeValue),
+}
+
+/// A body in the fluid.
+pub struct RigidBody {
+    /// Name in the case file.
+    pub name: String,
+    /// Its boundary in the mesh.
+    pub boundary: usize,
+    /// Pose at time zero.
+    pub pose: Pose,
+    /// U_x, U_y, omega.
+    pub drives: [Drive; 3],
+    /// Mass (kg; kg/m planar).
+    pub mass: f64,
+    /// Moment of inertia about z through the centre of mass (kg m2; kg m planar).
+    pub inertia: f64,
+    /// External load, weight less buoyancy included.
+    pub external: Wrench,
+    /// Surface motion.
+    pub gait: Option<Box<dyn Gait>>,
+}
+
+impl RigidBody {
+    /// Velocity of the surface relative to the rigid motion, in the world (m/s), at a world
+    /// point of the plane.
+    #[must_use]
+    pub fn slip(&self, pose: &Pose, point: &Point<2>, time: f64) -> Point<2> {
+        let Some(gait) = &self.gait else { return Point::<2>::zeros() };
+        let in_body = pose.rotation.inverse() * (Vector3::new(point[0], point[1], 0.0) - pose.center);
+        let velocity = pose.rotation * gait.velocity(&in_body, time);
+        Point::<2>::new(velocity.x, velocity.y)
+    }
+}
+
+/// Everything that is given.
+pub struct Problem {
+    /// Whether the half plane y >= 0 is turned about x.
+    pub axisymmetric: bool,
+    /// Density (kg/m3).
+    pub density: f64,
+    /// Dynamic viscosity (Pa s).
+    pub viscosity: f64,
+    /// Whether fluid and bodies have inertia (else quasi-steady Stokes flow).
+    pub has_inertia: bool,
+    /// Whether the fluid is convected.
+    pub has_convection: bool,
+    /// What holds on each boundary of the mesh; `None` for bodies.
+    pub sides: Vec<Option<Side>>,
+    /// The bodies, in the order of their boundaries.
+    pub bodies: Vec<RigidBody>,
+    /// The body the frame travels with.
+    pub frame: Option<usize>,
+    /// Force per unit volume, for manufactured solutions.
+    pub body_force: Option<BodyForce<'static, 2>>,
+}
+
+impl Problem {
+    /// Whether no boundary fixes the level of the pressure.
+    #[must_use]
+    pub fn is_enclosed(&self) -> bool {
+        !self.sides.iter().flatten().any(|side| matches!(side, Side::DoNothing | Side::TractionFree))
+    }
+
+    /// Boundaries with the do-nothing condition.
+    #[must_use]
+    pub fn do_nothing_sides(&self) -> Vec<usize> {
+        let is_open = |side: &Option<Side>| matches!(side, Some(Side::DoNothing));
+        (0..self.sides.len()).filter(|&boundary| is_open(&self.sides[boundary])).collect()
+    }
+}

@@ -1,0 +1,316 @@
+//! One linear system for the fluid and every body in it.
+//!
+//! A step of Newton's method on R(x) = 0 with x = P y + g: solve P^T J P dy = -P^T R(x). On the
+//! rows of U and omega, P^T gathers minus the fluid's load, to which Newton and Euler add
+//! m dU/dt - F_ext and I domega/dt - T_ext: no interface stress, no multiplier, and no added-mass
+//! instability at any density ratio.
+
+use alewife_mesh::{Mesh, Point};
+use thiserror::Error;
+
+use super::constrain::{NodeSides, constrain};
+use super::problem::{Drive, Problem};
+use crate::algebra::{AffineConstraints, DirectSolver, Pattern, SingularMatrix};
+use crate::body::{Pose, Twist};
+use crate::flow::{Assembly, Convection, Fields, FlowTerms, assemble, residual};
+use crate::simulation::{Stage, Timing};
+use crate::space::{CellValues, DofLayout};
+
+/// Why a system could not be solved.
+#[derive(Debug, Error)]
+pub enum SolveError {
+    /// No inverse.
+    #[error(transparent)]
+    Singular(#[from] SingularMatrix),
+    /// A value of the solution is not a number.
+    #[error("the solution is not finite near ({}, {})", .place[0], .place[1])]
+    NotFinite {
+        /// Where (m).
+        place: Point<2>,
+    },
+}
+
+/// Values of all raw unknowns.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Solution {
+    /// Velocity at the nodes (m/s).
+    pub velocity: Vec<Point<2>>,
+    /// Pressure at the vertices (Pa).
+    pub pressure: Vec<f64>,
+    /// Rigid velocities of the bodies.
+    pub twists: Vec<Twist>,
+}
+
+impl Solution {
+    /// Everything at rest.
+    #[must_use]
+    pub fn at_rest(layout: &DofLayout<2>) -> Self {
+        Self {
+            velocity: vec![Point::<2>::zeros(); layout.n_nodes],
+            pressure: vec![0.0; layout.n_vertices],
+            twists: vec![Twist::default(); layout.n_bodies],
+        }
+    }
+
+    /// The fields among the unknowns.
+    #[must_use]
+    pub fn fields(&self) -> Fields<'_, 2> {
+        Fields { velocity: &self.velocity, pressure: &self.pressure }
+    }
+}
+
+/// A solution as one vector of raw unknowns.
+#[must_use]
+pub fn flatten(solution: &Solution) -> Vec<f64> {
+    let velocities = solution.velocity.iter().flat_map(|velocity| [velocity[0], velocity[1]]);
+    let rigid =
+        solution.twists.iter().flat_map(|twist| [twist.linear.x, twist.linear.y, twist.angular.z]);
+    velocities.chain(solution.pressure.iter().copied()).chain(rigid).collect()
+}
+
+/// A vector of raw unknowns as a solution.
+#[must_use]
+pub fn embed(layout: &DofLayout<2>, raw: &[f64]) -> Solution {
+    let mut solution = Solution::at_rest(layout);
+    for (node, velocity) in solution.velocity.iter_mut().enumerate() {
+        *velocity = Point::<2>::new(raw[layout.velocity(node, 0)], raw[layout.velocity(node, 1)]);
+    }
+    let pressures = layout.pressure(0)..layout.n_fluid();
+    solution.pressure.copy_from_slice(&raw[pressures]);
+    for (body, twist) in solution.twists.iter_mut().enumerate() {
+        twist.linear.x = raw[layout.rigid(body, 0)];
+        twist.linear.y = raw[layout.rigid(body, 1)];
+        twist.angular.z = raw[layout.rigid(body, 2)];
+    }
+    solution
+}
+
+/// Time derivative of the bodies' velocities: rate * new value + older part.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Levels {
+    /// Factor of the new value (1/s), 0 when steady.
+    pub rate: f64,
+    /// Older part of U_x, U_y, omega for each body (m/s2, rad/s2).
+    pub history: Vec<[f64; 3]>,
+}
+
+/// Pattern, factorisation and workspace for the systems on one mesh.
+pub struct FluidSystem {
+    /// Numbering of the raw unknowns.
+    pub layout: DofLayout<2>,
+    /// Boundaries of the nodes.
+    pub sides: NodeSides,
+    /// Number of free unknowns.
+    pub n_unknowns: usize,
+    assembly: Assembly,
+    pattern: Pattern,
+    values: Vec<f64>,
+    solver: Option<DirectSolver>,
+    /// Unknowns with dense columns: the velocity of a frame.
+    border: Vec<usize>,
+    /// int psi dx of each vertex, to spread a flux imbalance evenly.
+    pressure_weights: Vec<f64>,
+}
+
+impl FluidSystem {
+    /// Analyses a problem on a mesh. `unknown_frame` makes the frame's velocity an unknown of the
+    /// convection.
+    #[must_use]
+    pub fn new(problem: &Problem, mesh: &Mesh<2>, poses: &[Pose], unknown_frame: bool) -> Self {
+        let layout = DofLayout::new(mesh, problem.bodies.len());
+        let sides = NodeSides::new(mesh);
+        let constraints = constrain(problem, mesh, &layout, &sides, poses, 0.0);
+        let frame = problem.frame.filter(|_| unknown_frame);
+        let (pattern, assembly) = Assembly::new(
+            mesh,
+            layout,
+            &constraints,
+            problem.axisymmetric,
+            &problem.do_nothing_sides(),
+            frame,
+        );
+        let mut pressure_weights = vec![0.0; layout.n_vertices];
+        let mut workspace = CellValues::default();
+        for cell in 0..mesh.n_cells() {
+            let nodes = mesh.cell(cell);
+            workspace.for_each_point(assembly.tables(), mesh, cell, |at| {
+                for (&vertex, psi) in nodes.iter().zip(at.psi) {
+                    pressure_weights[vertex as usize] += psi * at.dx;
+                }
+            });
+        }
+        let values = vec![0.0; pattern.rows.len()];
+        let frame_velocities =
+            frame.into_iter().flat_map(|body| [layout.rigid(body, 0), layout.rigid(body, 1)]);
+        let border = frame_velocities.filter_map(|raw| constraints.unknown(raw)).collect();
+        Self {
+            layout,
+            sides,
+            n_unknowns: constraints.n_unknowns(),
+            assembly,
+            pattern,
+            values,
+            solver: None,
+            border,
+            pressure_weights,
+        }
+    }
+
+    /// Entries of the matrix.
+    #[must_use]
+    pub fn n_entries(&self) -> usize {
+        self.pattern.rows.len()
+    }
+
+    /// Constraints at a time.
+    #[must_use]
+    pub fn constraints(
+        &self,
+        problem: &Problem,
+        mesh: &Mesh<2>,
+        poses: &[Pose],
+        time: f64,
+    ) -> AffineConstraints {
+        constrain(problem, mesh, &self.layout, &self.sides, poses, time)
+    }
+
+    /// The raw residual of the fluid's equations at a solution.
+    #[must_use]
+    pub fn fluid_residual(
+        &self,
+        mesh: &Mesh<2>,
+        terms: &FlowTerms<'_, 2>,
+        solution: &Solution,
+    ) -> Vec<f64> {
+        residual(&self.assembly, mesh, terms, &solution.fields())
+    }
+
+    /// P^T R: the residual of fluid and bodies on the free unknowns.
+    #[must_use]
+    pub fn reduced_residual(
+        &self,
+        problem: &Problem,
+        constraints: &AffineConstraints,
+        levels: &Levels,
+        solution: &Solution,
+        mut raw: Vec<f64>,
+    ) -> Vec<f64> {
+        if problem.is_enclosed() {
+            // Boundary values interpolated on curved sides may carry a tiny net flux, which an
+            // enclosed incompressible fluid cannot take: spread it evenly instead of leaving it
+            // to the one vertex whose pressure is fixed.
+            let pressures = self.layout.pressure(0)..self.layout.n_fluid();
+            let flux: f64 = raw[pressures.clone()].iter().sum();
+            let volume: f64 = self.pressure_weights.iter().sum();
+            for (value, weight) in raw[pressures].iter_mut().zip(&self.pressure_weights) {
+                *value -= flux * weight / volume;
+            }
+        }
+        for (body, rigid) in problem.bodies.iter().enumerate() {
+            let twist = &solution.twists[body];
+            let rates = [twist.linear.x, twist.linear.y, twist.angular.z];
+            let external =
+                [rigid.external.force.x, rigid.external.force.y, rigid.external.torque.z];
+            let inertia = [rigid.mass, rigid.mass, rigid.inertia];
+            for mode in 0..3 {
+                let older = levels.history.get(body).map_or(0.0, |history| history[mode]);
+                raw[self.layout.rigid(body, mode)] +=
+                    inertia[mode] * (levels.rate * rates[mode] + older) - external[mode];
+            }
+        }
+        constraints.restrict(&raw)
+    }
+
+    /// One Newton step: assembles and factorises the Jacobian at `solution` and returns the next
+    /// solution for a given reduced residual.
+    ///
+    /// # Errors
+    /// When the matrix is singular or the solution not finite.
+    #[expect(clippy::too_many_arguments, reason = "the step needs all that defines the system")]
+    pub fn newton_step(
+        &mut self,
+        problem: &Problem,
+        mesh: &Mesh<2>,
+        constraints: &AffineConstraints,
+        terms: &FlowTerms<'_, 2>,
+        levels: &Levels,
+        solution: &Solution,
+        reduced: &[f64],
+        timing: &mut Timing,
+    ) -> Result<Solution, SolveError> {
+        timing.measure(Stage::Assembly, || {
+            let fields = solution.fields();
+            assemble(&self.assembly, mesh, constraints, terms, &fields, &mut self.values);
+            self.add_rigid_inertia(problem, constraints, levels);
+        });
+        timing.measure(Stage::Factorisation, || {
+            if self.solver.is_none() {
+                self.solver = Some(DirectSolver::analyse(&self.pattern, &self.border)?);
+            }
+            let solver = self.solver.as_mut().expect("the analysis was just made");
+            solver.factorise(&self.values)
+        })?;
+        let raw = timing.measure(Stage::Solve, || {
+            let mut step: Vec<f64> = reduced.iter().map(|value| -value).collect();
+            let solver = self.solver.as_mut().expect("the matrix was just factorised");
+            solver.solve(&self.pattern, &self.values, &mut step)?;
+            let mut free = constraints.pick(&flatten(solution));
+            for (value, correction) in free.iter_mut().zip(&step) {
+                *value += correction;
+            }
+            Ok::<_, SingularMatrix>(constraints.expand(&free))
+        })?;
+        if let Some(raw_index) = raw.iter().position(|value| !value.is_finite()) {
+            let node = (raw_index / 2).min(self.layout.n_nodes - 1);
+            return Err(SolveError::NotFinite { place: mesh.nodes[node] });
+        }
+        Ok(embed(&self.layout, &raw))
+    }
+
+    fn add_rigid_inertia(
+        &mut self,
+        problem: &Problem,
+        constraints: &AffineConstraints,
+        levels: &Levels,
+    ) {
+        for (body, rigid) in problem.bodies.iter().enumerate() {
+            for (mode, inertia) in [rigid.mass, rigid.mass, rigid.inertia].into_iter().enumerate() {
+                let unknown = constraints.unknown(self.layout.rigid(body, mode));
+                let (Drive::Free, Some(unknown)) = (&rigid.drives[mode], unknown) else { continue };
+                if let Some(position) = self.pattern.position(unknown, unknown) {
+                    self.values[position] += inertia * levels.rate;
+                }
+            }
+        }
+    }
+
+    /// Shifts the pressure of an enclosed flow to zero mean.
+    pub fn center_pressure(&self, problem: &Problem, solution: &mut Solution) {
+        if !problem.is_enclosed() {
+            return;
+        }
+        let volume: f64 = self.pressure_weights.iter().sum();
+        let weighted = solution.pressure.iter().zip(&self.pressure_weights);
+        let mean = weighted.map(|(pressure, weight)| pressure * weight).sum::<f64>() / volume;
+        for pressure in &mut solution.pressure {
+            *pressure -= mean;
+        }
+    }
+
+    /// Basis tables, for measurements.
+    #[must_use]
+    pub fn tables(&self) -> &crate::space::Tables<2> {
+        self.assembly.tables()
+    }
+}
+
+/// How a convection acts when the frame's velocity may be an unknown.
+#[must_use]
+pub(crate) fn newton_convection(problem: &Problem) -> Convection {
+    let frame_is_unknown = problem.frame.is_some();
+    match (problem.has_convection, frame_is_unknown) {
+        (false, _) => Convection::None,
+        (true, false) => Convection::Newton,
+        (true, true) => Convection::NewtonInFrame,
+    }
+}

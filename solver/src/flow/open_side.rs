@@ -1,0 +1,85 @@
+//! Open sides with mu du/dn - p n = 0: what the symmetric stress has too much there.
+//!
+//! With the stress 2 mu D(u) a free side means sigma n = 0. A developed flow leaves undisturbed
+//! when mu (grad u) n - p n = 0 instead, so the part mu (grad u)^T n is taken off again:
+//! - int_side mu d_i u_j n_j v_i ds.
+
+use std::f64::consts::TAU;
+
+use alewife_mesh::{Facet, Mesh, Point};
+use nalgebra::SMatrix;
+
+use crate::space::{CellValues, Rule, triangle_side_point};
+
+/// Values at one quadrature point of a boundary facet.
+pub(super) struct FacetPoint<const D: usize> {
+    pub phi: Vec<f64>,
+    pub grad_phi: Vec<Point<D>>,
+    /// Outward normal of the fluid times the length of the facet's piece (m; m2 axisymmetric).
+    pub normal_ds: Point<D>,
+    pub position: Point<D>,
+    pub s: f64,
+}
+
+/// Visits the quadrature points of a boundary facet of a planar mesh.
+pub(super) fn for_each_facet_point(
+    mesh: &Mesh<2>,
+    facet: &Facet,
+    rule: &Rule<1>,
+    axisymmetric: bool,
+    mut visit: impl FnMut(&FacetPoint<2>),
+) {
+    let side = usize::from(facet.side);
+    let along = triangle_side_point(side, 1.0) - triangle_side_point(side, 0.0);
+    for (point, weight) in rule.points.iter().zip(&rule.weights) {
+        let xi = triangle_side_point(side, point[0]);
+        let (phi, grad_phi, map, position) = CellValues::at(mesh, facet.cell as usize, &xi);
+        let tangent: Point<2> = map * along;
+        // Cells run counter-clockwise, so the outward normal is to the right of the side.
+        let ring = if axisymmetric { TAU * position[1] } else { 1.0 };
+        let normal_ds = Point::<2>::new(tangent[1], -tangent[0]) * (weight * ring);
+        visit(&FacetPoint { phi, grad_phi, normal_ds, position, s: point[0] });
+    }
+}
+
+/// Adds the term to a cell's raw matrix (row length `size`) or, given velocities, its residual.
+pub(super) fn add_open_side(
+    mesh: &Mesh<2>,
+    facet: &Facet,
+    rule: &Rule<1>,
+    axisymmetric: bool,
+    viscosity: f64,
+    matrix: Option<(&mut [f64], usize)>,
+    residual: Option<(&mut [f64], &[Point<2>])>,
+) {
+    const D: usize = 2;
+    let nodes = mesh.cell(facet.cell as usize);
+    let mut matrix = matrix;
+    let mut residual = residual;
+    for_each_facet_point(mesh, facet, rule, axisymmetric, |at| {
+        if let Some((matrix, size)) = matrix.as_mut() {
+            for a in 0..nodes.len() {
+                for b in 0..nodes.len() {
+                    for i in 0..D {
+                        let weight = viscosity * at.phi[a] * at.grad_phi[b][i];
+                        for j in 0..D {
+                            matrix[(a * D + i) * *size + b * D + j] -= weight * at.normal_ds[j];
+                        }
+                    }
+                }
+            }
+        }
+        if let Some((residual, velocity)) = residual.as_mut() {
+            let gradient: SMatrix<f64, D, D> =
+                nodes.iter().zip(&at.grad_phi).fold(SMatrix::zeros(), |sum, (&node, grad)| {
+                    sum + velocity[node as usize] * grad.transpose()
+                });
+            let traction = gradient.transpose() * at.normal_ds * viscosity;
+            for a in 0..nodes.len() {
+                for i in 0..D {
+                    residual[a * D + i] -= traction[i] * at.phi[a];
+                }
+            }
+        }
+    });
+}

@@ -1,0 +1,285 @@
+//! From a `Case` to a mesh and a `Problem`.
+
+use std::f64::consts::PI;
+
+use alewife_mesh::{BoundaryKind, Domain, Mesh, PlacedShape, Point, SecondMoments, Shape, SizeBox, Sizing, generate};
+use nalgebra::Vector3;
+
+use super::RunError;
+use crate::body::{Pose, Wrench};
+use crate::case::{
+    Body, BoundaryCondition, Case, DomainSpec, Gait as GaitSpec, Geometry, Lock, Model, Motion,
+    ShapeSpec, TimeFunction,
+};
+use crate::coupling::{Drive, Problem, RigidBody, Side, TimeValue, VelocityProfile};
+use crate::gait::{Gait, Squirmer};
+use crate::time::factor_at;
+
+/// The mesh of a case.
+///
+/// # Errors
+/// When a body does not fit, or the mesh cannot be made.
+pub fn build_mesh(case: &Case) -> Result<Mesh<2>, RunError> {
+    generate(&domain(case), &placed_shapes(case), &sizing(case))
+        .map_err(|error| RunError::Mesh(error.to_string()))
+}
+
+fn is_periodic(case: &Case, side: &str) -> bool {
+    matches!(case.boundary.get(side), Some(BoundaryCondition::Periodic(_)))
+}
+
+/// The domain of a case as the mesh crate knows it.
+#[must_use]
+pub fn domain(case: &Case) -> Domain {
+    let periodic_x = is_periodic(case, "left") || is_periodic(case, "right");
+    let periodic_y = is_periodic(case, "bottom") || is_periodic(case, "top");
+    match &case.domain {
+        DomainSpec::Box { min, max } => {
+            Domain::Box { min: (*min).into(), max: (*max).into(), periodic_x, periodic_y }
+        }
+        DomainSpec::Channel { length, height } => Domain::Box {
+            min: Point::<2>::zeros(),
+            max: Point::<2>::new(*length, *height),
+            periodic_x,
+            periodic_y,
+        },
+        DomainSpec::Disc { center, radius } => {
+            Domain::Disc { center: (*center).into(), radius: *radius }
+        }
+        DomainSpec::HalfDisc { center, radius } => {
+            Domain::HalfDisc { center: *center, radius: *radius }
+        }
+        DomainSpec::Cylinder { x, radius } => {
+            Domain::Cylinder { x: *x, radius: *radius, periodic_x }
+        }
+    }
+}
+
+/// The bodies of a case as the mesh crate knows them.
+#[must_use]
+pub fn placed_shapes(case: &Case) -> Vec<PlacedShape> {
+    case.body
+        .iter()
+        .map(|body| PlacedShape {
+            name: body.name.clone(),
+            shape: shape(&body.shape),
+            center: Point::<2>::new(body.center[0], body.center[1]),
+            angle: body.angle,
+            size: body.size.map(|size| size * case.mesh.scale),
+        })
+        .collect()
+}
+
+fn shape(spec: &ShapeSpec) -> Shape {
+    match spec {
+        ShapeSpec::Disc { radius } => Shape::Disc { radius: *radius },
+        ShapeSpec::Ellipse { semi_axes } => Shape::Ellipse { semi_axes: *semi_axes },
+        ShapeSpec::Spline { points } => Shape::Spline { points: points.clone() },
+        ShapeSpec::Sphere { radius } => Shape::Sphere { radius: *radius },
+        ShapeSpec::Spheroid { semi_axes } => Shape::Spheroid { semi_axes: *semi_axes },
+    }
+}
+
+/// The wanted cell sizes of a case.
+#[must_use]
+pub fn sizing(case: &Case) -> Sizing {
+    let mesh = &case.mesh;
+    let boxes = mesh.boxes.iter().map(|refined| SizeBox {
+        min: refined.min.into(),
+        max: refined.max.into(),
+        size: refined.size * mesh.scale,
+    });
+    Sizing {
+        size: mesh.size * mesh.scale,
+        surface: mesh.surface.unwrap_or(mesh.size) * mesh.scale,
+        sides: mesh.sides.iter().map(|(name, size)| (name.clone(), size * mesh.scale)).collect(),
+        // A finer mesh has the same shape: more layers in gaps, slower growth.
+        growth: mesh.growth * mesh.scale,
+        gap_layers: mesh.gap_layers / mesh.scale,
+        boxes: boxes.collect(),
+        curved: mesh.curved,
+    }
+}
+
+/// The problem of a case on its mesh.
+///
+/// # Errors
+/// When the case asks for something that is not there yet.
+pub fn build_problem(case: &Case, mesh: &Mesh<2>) -> Result<Problem, RunError> {
+    let axisymmetric = case.geometry == Geometry::Axisymmetric;
+    let mut sides = Vec::new();
+    let mut bodies = Vec::new();
+    for (boundary, known) in mesh.boundaries.iter().enumerate() {
+        sides.push(match known.kind {
+            BoundaryKind::Body(body) => {
+                bodies.push(rigid_body(case, &case.body[body], boundary, axisymmetric)?);
+                None
+            }
+            BoundaryKind::Axis => Some(Side::Symmetry { normal_axis: 1 }),
+            BoundaryKind::Side => Some(side(case, &known.name)?),
+        });
+    }
+    let frame = match &case.frame {
+        None => None,
+        Some(name) => Some(case.body.iter().position(|body| body.name == *name).ok_or_else(
+            || RunError::Unsupported(format!("frame = \"{name}\" names no body")),
+        )?),
+    };
+    let has_inertia = case.fluid.model != Model::Stokes;
+    Ok(Problem {
+        axisymmetric,
+        density: if has_inertia { case.fluid.density } else { 0.0 },
+        viscosity: case.fluid.viscosity,
+        has_inertia,
+        has_convection: case.fluid.model == Model::NavierStokes,
+        sides,
+        bodies,
+        frame,
+        body_force: None,
+    })
+}
+
+/// Extent of the domain along y, where profiles are zero, and its lower end.
+fn height_range(case: &Case) -> [f64; 2] {
+    match &case.domain {
+        DomainSpec::Box { min, max } => [min[1], max[1]],
+        DomainSpec::Channel { height, .. } => [0.0, *height],
+        DomainSpec::Disc { center, radius } => [center[1] - radius, center[1] + radius],
+        // Symmetric about the axis.
+        DomainSpec::HalfDisc { radius, .. } | DomainSpec::Cylinder { radius, .. } => {
+            [-radius, *radius]
+        }
+    }
+}
+
+fn side(case: &Case, name: &str) -> Result<Side, RunError> {
+    let condition = case.boundary.get(name).ok_or_else(|| {
+        RunError::Unsupported(format!("side `{name}` of the domain has no condition in [boundary]"))
+    })?;
+    let scaled = |profile: VelocityProfile, factor: &Option<TimeFunction>| {
+        let factor = factor.clone();
+        Side::Velocity {
+            profile: Box::new(move |place, time| {
+                profile(place, time) * factor_at(factor.as_ref(), time)
+            }),
+            is_wall: false,
+        }
+    };
+    Ok(match condition {
+        BoundaryCondition::NoSlip => {
+            Side::Velocity { profile: Box::new(|_, _| Point::<2>::zeros()), is_wall: true }
+        }
+        BoundaryCondition::DoNothing => Side::DoNothing,
+        BoundaryCondition::TractionFree => Side::TractionFree,
+        BoundaryCondition::Periodic(_) => Side::Periodic,
+        BoundaryCondition::Axis => Side::Symmetry { normal_axis: 1 },
+        BoundaryCondition::Symmetry => match name {
+            "left" | "right" => Side::Symmetry { normal_axis: 0 },
+            "bottom" | "top" => Side::Symmetry { normal_axis: 1 },
+            "wall" if matches!(case.domain, DomainSpec::Cylinder { .. }) => {
+                Side::Symmetry { normal_axis: 1 }
+            }
+            _ => {
+                return Err(RunError::Unsupported(format!(
+                    "side `{name}` is curved, and a symmetry plane is straight"
+                )));
+            }
+        },
+        BoundaryCondition::Velocity { value, factor } => {
+            let value = Point::<2>::new(value[0], value[1]);
+            scaled(Box::new(move |_, _| value), factor)
+        }
+        BoundaryCondition::Parabolic { peak, factor } => {
+            let ([low, high], peak) = (height_range(case), *peak);
+            scaled(
+                Box::new(move |place, _| {
+                    let s = (place[1] - low) / (high - low);
+                    Point::<2>::new(4.0 * peak * s * (1.0 - s), 0.0)
+                }),
+                factor,
+            )
+        }
+        BoundaryCondition::Shear { rate, origin, factor } => {
+            let (rate, origin) = (*rate, *origin);
+            scaled(
+                Box::new(move |place, _| Point::<2>::new(rate * (place[1] - origin), 0.0)),
+                factor,
+            )
+        }
+    })
+}
+
+fn rigid_body(
+    case: &Case,
+    body: &Body,
+    boundary: usize,
+    axisymmetric: bool,
+) -> Result<RigidBody, RunError> {
+    let moments = shape(&body.shape).moments().ok_or_else(|| {
+        RunError::Unsupported(format!("body `{}`: its spline has no valid outline", body.name))
+    })?;
+    let second_moment = match moments.second {
+        SecondMoments::Planar { polar } => polar,
+        // On the axis a body does not turn.
+        SecondMoments::Revolved { across, .. } => across,
+    };
+    let has_inertia = case.fluid.model != Model::Stokes;
+    let density = body.density.unwrap_or(case.fluid.density);
+    // Weight less buoyancy: the pressure is the one without its hydrostatic part.
+    let net_mass = (density - case.fluid.density) * moments.measure;
+    let along = |values: &[f64], axis: usize| values.get(axis).copied().unwrap_or(0.0);
+    let force = [0, 1].map(|axis| {
+        along(&body.force, axis) + net_mass * along(&case.fluid.gravity, axis)
+    });
+    let locked = |mode: usize| {
+        let lock = [Lock::X, Lock::Y, Lock::Rotation][mode];
+        body.locked.contains(&lock) || (axisymmetric && mode > 0)
+    };
+    let drives = [0, 1, 2].map(|mode| match &body.motion {
+        Motion::Free if !locked(mode) => Drive::Free,
+        Motion::Held | Motion::Free => Drive::Given(Box::new(|_| 0.0)),
+        Motion::Imposed(imposed) => {
+            let value =
+                if mode == 2 { imposed.angular_velocity } else { along(&imposed.velocity, mode) };
+            let factor = imposed.factor.clone();
+            let value: TimeValue =
+                Box::new(move |time| value * factor_at(factor.as_ref(), time));
+            Drive::Given(value)
+        }
+    });
+    // The centre of mass of a spline is not the origin of its points.
+    let offset = nalgebra::Rotation2::new(body.angle) * moments.centroid;
+    let gait: Option<Box<dyn Gait>> = match &body.gait {
+        None => None,
+        Some(GaitSpec::Squirmer(squirmer)) => {
+            // On the axis the heading is 0 or pi, and must be so to the last bit.
+            let axis = if axisymmetric {
+                Vector3::x() * if (squirmer.heading.abs() - PI).abs() < 1e-3 { -1.0 } else { 1.0 }
+            } else {
+                Vector3::new(squirmer.heading.cos(), squirmer.heading.sin(), 0.0)
+            };
+            Some(Box::new(Squirmer {
+                modes: squirmer.modes.clone(),
+                axis,
+                is_sphere: matches!(body.shape, ShapeSpec::Sphere { .. }),
+            }))
+        }
+    };
+    Ok(RigidBody {
+        name: body.name.clone(),
+        boundary,
+        pose: Pose::planar(
+            body.center[0] + offset[0],
+            body.center[1] + offset[1],
+            body.angle,
+        ),
+        drives,
+        mass: if has_inertia { density * moments.measure } else { 0.0 },
+        inertia: if has_inertia { density * second_moment } else { 0.0 },
+        external: Wrench {
+            force: Vector3::new(force[0], force[1], 0.0),
+            torque: Vector3::new(0.0, 0.0, body.torque),
+        },
+        gait,
+    })
+}

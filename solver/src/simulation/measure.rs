@@ -1,0 +1,226 @@
+//! The quantities of a run: loads and motions of bodies, probes, integrals of the flow.
+
+use alewife_mesh::{Locator, Mesh, Point};
+use nalgebra::SMatrix;
+
+use super::snapshot::BodyReport;
+use super::state::State;
+use crate::body::{Twist, Wrench};
+use crate::case::{Case, Geometry, Probe};
+use crate::coupling::{FluidSystem, Problem, Solution, body_loads};
+use crate::flow::surface_load;
+use crate::space::{CellValues, p1_values, p2_values};
+
+/// One value of a probe's point: where it is in the mesh, and with which sign it counts.
+struct ProbePoint {
+    cell: usize,
+    xi: Point<2>,
+    sign: f64,
+}
+
+/// Measures a run; made once a mesh.
+pub(super) struct Measure {
+    names: Vec<String>,
+    probes: Vec<Vec<ProbePoint>>,
+    /// Force coefficient per force, moment coefficient per torque; none without `[scales]`.
+    coefficients: Option<[f64; 2]>,
+}
+
+/// Integrals over the flow.
+#[derive(Debug, Clone, Copy, Default)]
+struct Integrals {
+    dissipation: f64,
+    kinetic_energy: f64,
+    mass_defect: f64,
+}
+
+impl Measure {
+    /// Finds the probes in the mesh and names the quantities.
+    pub(super) fn new(case: &Case, mesh: &Mesh<2>) -> Result<Self, String> {
+        let locator = Locator::new(mesh);
+        let find = |probe: &Probe, point: &[f64], sign: f64| {
+            let place = Point::<2>::new(point[0], point[1]);
+            // A point on an exact curve may lie outside the quadratic geometry by a trifle.
+            let reach = 0.01 * case.mesh.surface.unwrap_or(case.mesh.size);
+            let found = locator.nearest(place).filter(|found| found.distance <= reach);
+            let found = found.ok_or_else(|| {
+                format!("probe `{}`: point {point:?} is not in the fluid", probe.name)
+            })?;
+            Ok::<_, String>(ProbePoint { cell: found.cell, xi: found.reference.into(), sign })
+        };
+        let mut probes = Vec::new();
+        for probe in &case.probe {
+            let mut points = vec![find(probe, &probe.point, 1.0)?];
+            if !probe.minus.is_empty() {
+                points.push(find(probe, &probe.minus, -1.0)?);
+            }
+            probes.push(points);
+        }
+        let coefficients = case.scales.map(|scales| {
+            let area = scales.area.unwrap_or(match case.geometry {
+                Geometry::Planar => scales.length,
+                Geometry::Axisymmetric => std::f64::consts::PI * scales.length.powi(2) / 4.0,
+            });
+            let force = 2.0 / (case.fluid.density * scales.velocity.powi(2) * area);
+            [force, force / scales.length]
+        });
+        Ok(Self { names: names(case), probes, coefficients })
+    }
+
+    pub(super) fn names(&self) -> &[String] {
+        &self.names
+    }
+
+    /// Reports of all bodies and the values of all quantities.
+    pub(super) fn measure(
+        &self,
+        system: &FluidSystem,
+        problem: &Problem,
+        state: &State,
+        residual: &[f64],
+    ) -> (Vec<BodyReport>, Vec<f64>) {
+        let Solution { velocity, pressure, twists } = &state.now;
+        let loads = body_loads(
+            problem,
+            &state.mesh,
+            &system.layout,
+            &system.sides,
+            &state.poses,
+            residual,
+            velocity,
+        );
+        let mut reports = Vec::new();
+        let mut values = Vec::with_capacity(self.names.len());
+        for (body, rigid) in problem.bodies.iter().enumerate() {
+            let pose = state.poses[body];
+            let surface = surface_load(
+                &state.mesh,
+                rigid.boundary,
+                &state.now.fields(),
+                problem.viscosity,
+                problem.axisymmetric,
+                Point::<2>::new(pose.center.x, pose.center.y),
+            );
+            let report = BodyReport {
+                name: rigid.name.clone(),
+                pose,
+                twist: twists[body],
+                load: loads[body].load,
+                surface_load: surface,
+                power: loads[body].power,
+            };
+            let acceleration = &state.accelerations[body];
+            values.extend(body_values(&report, state.angles[body], acceleration));
+            if let Some([force, moment]) = self.coefficients {
+                let Wrench { force: load, torque } = report.load;
+                values.extend([load.x * force, load.y * force, torque.z * moment]);
+            }
+            reports.push(report);
+        }
+        for points in &self.probes {
+            let mut sum = [0.0; 3];
+            for point in points {
+                let nodes = state.mesh.cell(point.cell);
+                for (&node, phi) in nodes.iter().zip(p2_values(&point.xi)) {
+                    sum[0] += point.sign * phi * velocity[node as usize][0];
+                    sum[1] += point.sign * phi * velocity[node as usize][1];
+                }
+                for (&node, psi) in nodes.iter().zip(p1_values(&point.xi)) {
+                    sum[2] += point.sign * psi * pressure[node as usize];
+                }
+            }
+            values.extend(sum);
+        }
+        let integrals = integrate(system, problem, state);
+        values.extend([
+            integrals.dissipation,
+            integrals.kinetic_energy,
+            integrals.mass_defect,
+        ]);
+        (reports, values)
+    }
+}
+
+/// Names of all quantities of a case, in the order of their values.
+fn names(case: &Case) -> Vec<String> {
+    const BODY: [&str; 15] = [
+        "x",
+        "y",
+        "angle",
+        "velocity.x",
+        "velocity.y",
+        "angular_velocity",
+        "acceleration.x",
+        "acceleration.y",
+        "force.x",
+        "force.y",
+        "torque",
+        "surface_force.x",
+        "surface_force.y",
+        "surface_torque",
+        "power",
+    ];
+    const COEFFICIENTS: [&str; 3] = ["drag_coefficient", "lift_coefficient", "moment_coefficient"];
+    let mut names = Vec::new();
+    for body in &case.body {
+        names.extend(BODY.iter().map(|name| format!("{}.{name}", body.name)));
+        if case.scales.is_some() {
+            names.extend(COEFFICIENTS.iter().map(|name| format!("{}.{name}", body.name)));
+        }
+    }
+    for probe in &case.probe {
+        let values = ["velocity.x", "velocity.y", "pressure"];
+        names.extend(values.iter().map(|name| format!("{}.{name}", probe.name)));
+    }
+    let flow = ["dissipation", "kinetic_energy", "mass_defect"];
+    names.extend(flow.iter().map(|name| format!("flow.{name}")));
+    names
+}
+
+fn body_values(report: &BodyReport, angle: f64, acceleration: &Twist) -> [f64; 15] {
+    [
+        report.pose.center.x,
+        report.pose.center.y,
+        angle,
+        report.twist.linear.x,
+        report.twist.linear.y,
+        report.twist.angular.z,
+        acceleration.linear.x,
+        acceleration.linear.y,
+        report.load.force.x,
+        report.load.force.y,
+        report.load.torque.z,
+        report.surface_load.force.x,
+        report.surface_load.force.y,
+        report.surface_load.torque.z,
+        report.power,
+    ]
+}
+
+/// Dissipation int 2 mu D : D, kinetic energy int rho u^2 / 2, and int div u.
+fn integrate(system: &FluidSystem, problem: &Problem, state: &State) -> Integrals {
+    let mut sums = Integrals::default();
+    let mut workspace = CellValues::default();
+    for cell in 0..state.mesh.n_cells() {
+        let nodes = state.mesh.cell(cell);
+        workspace.for_each_point(system.tables(), &state.mesh, cell, |at| {
+            let mut velocity = Point::<2>::zeros();
+            let mut gradient = SMatrix::<f64, 2, 2>::zeros();
+            for (a, &node) in nodes.iter().enumerate() {
+                let nodal = &state.now.velocity[node as usize];
+                velocity += nodal * at.phi[a];
+                gradient += nodal * at.grad_phi[a].transpose();
+            }
+            let rate = (gradient + gradient.transpose()) / 2.0;
+            let stretch =
+                if problem.axisymmetric { velocity[1] / at.position[1] } else { 0.0 };
+            sums.dissipation += 2.0
+                * problem.viscosity
+                * (rate.norm_squared() + stretch * stretch)
+                * at.dx;
+            sums.kinetic_energy += problem.density * velocity.norm_squared() / 2.0 * at.dx;
+            sums.mass_defect += (gradient.trace() + stretch) * at.dx;
+        });
+    }
+    sums
+}

@@ -1,0 +1,245 @@
+//! The run: build, solve or march, measure, tell the observers.
+
+use alewife_mesh::Mesh;
+
+use super::march::{StepResult, advance};
+use super::measure::Measure;
+use super::snapshot::{Observer, Snapshot};
+use super::state::State;
+use super::steady::solve_steady;
+use super::{RunError, Series, Stage, Timing, build_mesh, build_problem};
+use crate::case::{Case, Initial, Scheme, Steady, TimeSettings, Unsteady};
+use crate::coupling::{FluidSystem, Problem};
+use crate::time::Bdf;
+
+/// What a finished run leaves in memory.
+#[derive(Debug, Clone)]
+pub struct Outcome {
+    /// All quantities at all steps.
+    pub series: Series,
+    /// Time spent.
+    pub timing: Timing,
+    /// Free unknowns of the linear system.
+    pub n_dofs: usize,
+    /// Steps made.
+    pub steps: usize,
+}
+
+/// The first step is made in pieces of 1/128, 1/128, 1/64, ... 1/2 of it: the only first-order
+/// piece is so short that it does not lower the order of the whole.
+const START_PIECES: u32 = 7;
+
+/// Runs a case from beginning to end.
+///
+/// # Errors
+/// Whatever stops the run; observers are told before it is returned.
+pub fn simulate(
+    case: &Case,
+    observers: &mut [Box<dyn Observer<2>>],
+) -> Result<Outcome, RunError> {
+    let mut run = Run { case, observers, timing: Timing::default(), series: Series::default() };
+    let result = run.start();
+    if let Err(error) = &result {
+        for observer in run.observers.iter_mut() {
+            observer.on_failure(error)?;
+        }
+    }
+    let (n_dofs, steps) = result?;
+    Ok(Outcome { series: run.series, timing: run.timing, n_dofs, steps })
+}
+
+struct Run<'a> {
+    case: &'a Case,
+    observers: &'a mut [Box<dyn Observer<2>>],
+    timing: Timing,
+    series: Series,
+}
+
+/// What a run is made of once it is built.
+struct Parts {
+    problem: Problem,
+    system: FluidSystem,
+    measure: Measure,
+    state: State,
+}
+
+impl Run<'_> {
+    fn start(&mut self) -> Result<(usize, usize), RunError> {
+        let case = self.case;
+        let mesh = self.timing.measure(Stage::Mesh, || build_mesh(case))?;
+        let problem = build_problem(case, &mesh)?;
+        match &case.time {
+            TimeSettings::Steady(settings) => self.steady(settings, problem, mesh),
+            TimeSettings::Unsteady(settings) => self.unsteady(settings, problem, mesh),
+        }
+    }
+
+    fn parts(
+        &mut self,
+        problem: Problem,
+        mesh: Mesh<2>,
+        unknown_frame: bool,
+    ) -> Result<Parts, RunError> {
+        let poses: Vec<_> = problem.bodies.iter().map(|body| body.pose).collect();
+        let system = self.timing.measure(Stage::Assembly, || {
+            FluidSystem::new(&problem, &mesh, &poses, unknown_frame)
+        });
+        let measure = Measure::new(self.case, &mesh).map_err(RunError::Unsupported)?;
+        self.series.names = measure.names().to_vec();
+        let state = State::at_rest(&problem, mesh);
+        Ok(Parts { problem, system, measure, state })
+    }
+
+    fn steady(
+        &mut self,
+        settings: &Steady,
+        problem: Problem,
+        mesh: Mesh<2>,
+    ) -> Result<(usize, usize), RunError> {
+        let unknown_frame = problem.frame.is_some() && problem.has_convection;
+        let mut parts = self.parts(problem, mesh, unknown_frame)?;
+        let flow = solve_steady(
+            &mut parts.system,
+            &parts.problem,
+            &parts.state.mesh,
+            &parts.state.poses,
+            0.0,
+            settings,
+            &mut self.timing,
+        )?;
+        parts.state.now = flow.solution;
+        self.report(&parts, &flow.residual, flow.iterations, true)?;
+        Ok((parts.system.n_unknowns, 0))
+    }
+
+    fn unsteady(
+        &mut self,
+        settings: &Unsteady,
+        problem: Problem,
+        mesh: Mesh<2>,
+    ) -> Result<(usize, usize), RunError> {
+        let newton = settings.convection == crate::case::Convection::Newton;
+        let unknown_frame = problem.frame.is_some() && problem.has_convection && newton;
+        let mut parts = self.parts(problem, mesh, unknown_frame)?;
+        let mut residual = vec![0.0; parts.system.layout.n_raw()];
+        if settings.initial == Initial::Stokes {
+            let convects = std::mem::replace(&mut parts.problem.has_convection, false);
+            let flow = solve_steady(
+                &mut parts.system,
+                &parts.problem,
+                &parts.state.mesh,
+                &parts.state.poses,
+                0.0,
+                &Steady { tolerance: 1e-10, max_iterations: 5 },
+                &mut self.timing,
+            )?;
+            parts.problem.has_convection = convects;
+            parts.state.now = flow.solution.clone();
+            parts.state.previous = flow.solution;
+            residual = flow.residual;
+        }
+        self.report(&parts, &residual, 0, false)?;
+        let steps = step_sizes(settings);
+        let n_steps = steps.len();
+        for (index, (step, before)) in steps.into_iter().enumerate() {
+            let bdf = match (settings.scheme, before) {
+                (Scheme::Bdf2, Some(before)) => Bdf::second_order(step, before),
+                _ => Bdf::first_order(step),
+            };
+            let StepResult { residual, iterations } = advance(
+                &mut parts.system,
+                &parts.problem,
+                &mut parts.state,
+                &bdf,
+                settings.convection,
+                &mut self.timing,
+            )?;
+            self.report(&parts, &residual, iterations, index + 1 == n_steps)?;
+        }
+        Ok((parts.system.n_unknowns, n_steps))
+    }
+
+    fn report(
+        &mut self,
+        parts: &Parts,
+        residual: &[f64],
+        iterations: usize,
+        is_last: bool,
+    ) -> Result<(), RunError> {
+        let Parts { problem, system, measure, state } = parts;
+        let (bodies, values) = self
+            .timing
+            .measure(Stage::Loads, || measure.measure(system, problem, state, residual));
+        self.series.times.push(state.time);
+        let timing = self.timing;
+        let snapshot = Snapshot {
+            case: self.case,
+            step: state.step,
+            time: state.time,
+            time_step: state.time_step,
+            mesh: &state.mesh,
+            velocity: &state.now.velocity,
+            pressure: &state.now.pressure,
+            bodies: &bodies,
+            names: measure.names(),
+            values: &values,
+            n_dofs: system.n_unknowns,
+            iterations,
+            timing: &timing,
+            is_last,
+        };
+        let observers = &mut self.observers;
+        self.timing.measure(Stage::Output, || {
+            observers.iter_mut().try_for_each(|observer| observer.on_step(&snapshot))
+        })?;
+        self.series.rows.push(values);
+        Ok(())
+    }
+}
+
+/// Sizes of all steps, each with the one before it.
+fn step_sizes(settings: &Unsteady) -> Vec<(f64, Option<f64>)> {
+    let n_steps = (settings.end / settings.step - 1e-9).ceil().max(1.0) as usize;
+    let mut sizes = Vec::with_capacity(n_steps + START_PIECES as usize);
+    for index in 0..n_steps {
+        // The last step ends at the end.
+        let step = if index + 1 == n_steps {
+            settings.end - settings.step * (n_steps - 1) as f64
+        } else {
+            settings.step
+        };
+        if index == 0 && settings.scheme == Scheme::Bdf2 {
+            sizes.push(step / f64::from(1u32 << START_PIECES));
+            for piece in (1..=START_PIECES).rev() {
+                sizes.push(step / f64::from(1u32 << piece));
+            }
+        } else {
+            sizes.push(step);
+        }
+    }
+    let before = std::iter::once(None).chain(sizes.iter().map(|size| Some(*size)));
+    sizes.iter().copied().zip(before).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::Convection;
+
+    #[test]
+    fn steps_end_at_the_end_and_never_more_than_double() {
+        let settings = Unsteady {
+            step: 0.1,
+            end: 0.95,
+            scheme: Scheme::Bdf2,
+            convection: Convection::Extrapolated,
+            initial: Initial::Rest,
+        };
+        let steps = step_sizes(&settings);
+        let total: f64 = steps.iter().map(|(step, _)| step).sum();
+        assert!((total - 0.95).abs() < 1e-14);
+        for (step, before) in &steps {
+            assert!(before.is_none_or(|before| step / before <= 2.0 + 1e-12));
+        }
+    }
+}

@@ -1,0 +1,117 @@
+//! Linear and quadratic Lagrange bases on the reference simplex.
+//!
+//! With barycentric coordinates l_0 = 1 - sum xi, l_i = xi_i: P1 is l_i; P2 is l_i (2 l_i - 1) at
+//! the vertices and 4 l_i l_j at the mid node of edge (i, j), edges in VTK's order.
+
+use nalgebra::SVector;
+
+/// Edges of the triangle in the order of its mid nodes.
+const TRIANGLE_EDGES: [(usize, usize); 3] = [(0, 1), (1, 2), (2, 0)];
+/// Edges of the tetrahedron in the order of its mid nodes.
+const TETRAHEDRON_EDGES: [(usize, usize); 6] = [(0, 1), (1, 2), (0, 2), (0, 3), (1, 3), (2, 3)];
+
+fn edges<const D: usize>() -> &'static [(usize, usize)] {
+    if D == 2 { &TRIANGLE_EDGES } else { &TETRAHEDRON_EDGES }
+}
+
+fn barycentric<const D: usize>(xi: &SVector<f64, D>, vertex: usize) -> f64 {
+    if vertex == 0 { 1.0 - xi.sum() } else { xi[vertex - 1] }
+}
+
+fn barycentric_gradient<const D: usize>(vertex: usize) -> SVector<f64, D> {
+    if vertex == 0 {
+        SVector::repeat(-1.0)
+    } else {
+        let mut gradient = SVector::zeros();
+        gradient[vertex - 1] = 1.0;
+        gradient
+    }
+}
+
+/// Values of the D + 1 linear basis functions at reference point `xi`.
+#[must_use]
+pub fn p1_values<const D: usize>(xi: &SVector<f64, D>) -> Vec<f64> {
+    (0..=D).map(|vertex| barycentric(xi, vertex)).collect()
+}
+
+/// Gradients of the D + 1 linear basis functions in reference coordinates.
+#[must_use]
+pub fn p1_gradients<const D: usize>() -> Vec<SVector<f64, D>> {
+    (0..=D).map(barycentric_gradient).collect()
+}
+
+/// Values of the quadratic basis functions at reference point `xi`: vertices, then mid nodes.
+#[must_use]
+pub fn p2_values<const D: usize>(xi: &SVector<f64, D>) -> Vec<f64> {
+    let at_vertices = (0..=D).map(|i| {
+        let l = barycentric(xi, i);
+        l * (2.0 * l - 1.0)
+    });
+    let at_edges =
+        edges::<D>().iter().map(|&(i, j)| 4.0 * barycentric(xi, i) * barycentric(xi, j));
+    at_vertices.chain(at_edges).collect()
+}
+
+/// Gradients of the quadratic basis functions in reference coordinates at `xi`.
+#[must_use]
+pub fn p2_gradients<const D: usize>(xi: &SVector<f64, D>) -> Vec<SVector<f64, D>> {
+    let at_vertices =
+        (0..=D).map(|i| barycentric_gradient::<D>(i) * (4.0 * barycentric(xi, i) - 1.0));
+    let at_edges = edges::<D>().iter().map(|&(i, j)| {
+        (barycentric_gradient::<D>(i) * barycentric(xi, j)
+            + barycentric_gradient::<D>(j) * barycentric(xi, i))
+            * 4.0
+    });
+    at_vertices.chain(at_edges).collect()
+}
+
+/// Reference coordinates of the point at parameter `s` in \[0, 1\] along a side of the triangle.
+#[must_use]
+pub fn triangle_side_point(side: usize, s: f64) -> SVector<f64, 2> {
+    match side {
+        0 => SVector::<f64, 2>::new(s, 0.0),
+        1 => SVector::<f64, 2>::new(1.0 - s, s),
+        _ => SVector::<f64, 2>::new(0.0, 1.0 - s),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn check_lagrange<const D: usize>() {
+        let mut nodes: Vec<SVector<f64, D>> = (0..=D)
+            .map(|i| if i == 0 { SVector::zeros() } else { SVector::ith(i - 1, 1.0) })
+            .collect();
+        for &(i, j) in edges::<D>() {
+            nodes.push((nodes[i] + nodes[j]) / 2.0);
+        }
+        for (i, node) in nodes.iter().enumerate() {
+            for (j, value) in p2_values(node).into_iter().enumerate() {
+                assert!((value - f64::from(i == j)).abs() < 1e-15);
+            }
+        }
+    }
+
+    #[test]
+    fn each_quadratic_function_is_one_at_its_node_and_zero_at_the_others() {
+        check_lagrange::<2>();
+        check_lagrange::<3>();
+    }
+
+    #[test]
+    fn gradients_sum_to_zero_and_match_differences() {
+        let xi = SVector::<f64, 3>::new(0.2, 0.3, 0.1);
+        let gradients = p2_gradients(&xi);
+        assert!(gradients.iter().sum::<SVector<f64, 3>>().norm() < 1e-14);
+        let step = 1e-6;
+        for k in 0..3 {
+            let shift = SVector::<f64, 3>::ith(k, step);
+            let (ahead, behind) = (p2_values(&(xi + shift)), p2_values(&(xi - shift)));
+            for node in 0..10 {
+                let slope = (ahead[node] - behind[node]) / (2.0 * step);
+                assert!((slope - gradients[node][k]).abs() < 1e-9);
+            }
+        }
+    }
+}

@@ -1,0 +1,50 @@
+//! Named functions of time at a time.
+
+use std::f64::consts::{PI, TAU};
+
+use crate::case::TimeFunction;
+
+/// Value of a factor in time, 1 where there is none.
+#[must_use]
+pub fn factor_at(function: Option<&TimeFunction>, time: f64) -> f64 {
+    match function {
+        None => 1.0,
+        Some(TimeFunction::Ramp { duration }) => (time / duration).clamp(0.0, 1.0),
+        Some(TimeFunction::SmoothRamp { duration }) => {
+            (1.0 - (PI * (time / duration).clamp(0.0, 1.0)).cos()) / 2.0
+        }
+        Some(TimeFunction::Sine { mean, amplitude, frequency, phase }) => {
+            mean + amplitude * (TAU * frequency * time + phase).sin()
+        }
+        Some(TimeFunction::Table(knots)) => table_at(knots, time),
+    }
+}
+
+fn table_at(knots: &[[f64; 2]], time: f64) -> f64 {
+    let after = knots.partition_point(|knot| knot[0] <= time);
+    match (after.checked_sub(1).map(|before| knots[before]), knots.get(after)) {
+        (Some([t0, v0]), Some(&[t1, v1])) => v0 + (v1 - v0) * (time - t0) / (t1 - t0),
+        (Some([_, value]), None) | (None, Some(&[_, value])) => value,
+        (None, None) => 1.0,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_function_has_its_values() {
+        let at = |function: &TimeFunction, t| factor_at(Some(function), t);
+        assert_eq!(at(&TimeFunction::Ramp { duration: 2.0 }, 0.5), 0.25);
+        assert_eq!(at(&TimeFunction::Ramp { duration: 2.0 }, 5.0), 1.0);
+        assert!((at(&TimeFunction::SmoothRamp { duration: 2.0 }, 1.0) - 0.5).abs() < 1e-15);
+        let sine =
+            TimeFunction::Sine { mean: 1.0, amplitude: 2.0, frequency: 0.25, phase: 0.0 };
+        assert!((at(&sine, 1.0) - 3.0).abs() < 1e-15);
+        let table = TimeFunction::Table(vec![[0.0, 1.0], [1.0, 3.0]]);
+        assert_eq!(at(&table, -1.0), 1.0);
+        assert_eq!(at(&table, 0.5), 2.0);
+        assert_eq!(at(&table, 2.0), 3.0);
+    }
+}
