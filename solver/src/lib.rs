@@ -11,3 +11,4 @@ pub mod observer;
 pub mod simulation;
 pub mod space;
 pub mod time;
+pub mod timing;
