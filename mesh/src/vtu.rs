@@ -203,7 +203,7 @@ mod tests {
     }
 
     #[test]
-    fn half_precision_is_for_arrays_only() {
+    fn single_precision_is_for_arrays_only() {
         let mut out = Vec::new();
         let speed = [0.5; 12];
         let arrays: [Array<'_>; 1] = [("speed", 2, &speed)];

@@ -13,8 +13,8 @@ use crate::outline::cross;
 /// Triangles above this mean ratio may lose a little in favour of their neighbours.
 const GOOD: f64 = 0.85;
 
-/// Triangles below this mean ratio are repaired one by one; an isosceles one with the angle 30
-/// degrees at its tip has 0.77, with 30 at its base 0.69.
+/// Triangles below this mean ratio are repaired one by one; an isosceles one with 30 degrees at its
+/// tip has 0.76, with twice 30 at its base 0.60.
 const POOR: f64 = 0.8;
 
 /// Triangles below this mean ratio justify to split their boundary edge.
