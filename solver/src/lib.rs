@@ -12,4 +12,5 @@ pub mod observer;
 pub mod simulation;
 pub mod space;
 pub mod time;
+pub mod timing;
 pub mod validation;
