@@ -85,12 +85,6 @@ impl Outline {
         Self { center, cos: angle.cos(), sin: angle.sin(), form }
     }
 
-    /// The same outline moved by a vector (m).
-    #[must_use]
-    pub fn shifted(&self, by: Point<2>) -> Self {
-        Self { center: self.center + by, ..self.clone() }
-    }
-
     /// Point (m), first and second derivative at a parameter in [0, 1] of one of the quarters.
     #[must_use]
     pub fn evaluate(&self, quarter: usize, parameter: f64) -> [Point<2>; 3] {

@@ -5,6 +5,8 @@
 
 use super::border::Border;
 use super::triangulation::{Corner, Triangulation, WALL, mean_ratio};
+use crate::curved::jacobian_coefficients;
+use crate::outline::cross;
 use crate::{Point, SizeField};
 
 /// Triangles above this mean ratio may lose a little in favour of their neighbours.
@@ -13,6 +15,12 @@ const GOOD: f64 = 0.85;
 /// Triangles below this mean ratio are repaired one by one; an isosceles one with the angle 30
 /// degrees at its tip has 0.77, with 30 at its base 0.69.
 const POOR: f64 = 0.8;
+
+/// Triangles below this mean ratio justify to split their boundary edge.
+const BAD: f64 = 0.65;
+
+/// A curved triangle whose det J falls below this part of its mean counts as folded.
+const FOLDED: f64 = 0.2;
 
 /// Edges shorter than this many h are merged.
 const SHORT: f64 = 0.62;
@@ -23,8 +31,14 @@ const LONG: f64 = 1.5;
 /// A change must improve by more than rounding.
 const PROGRESS: f64 = 1e-9;
 
+/// Rounds in which boundary edges may be split.
+const ROUNDS: usize = 4;
+
 /// Improves a triangulation until the repairs no longer help; see the file's sentence.
-pub fn improve(mesh: &mut Triangulation, sizes: &SizeField, border: &Border, frozen: &[bool]) {
+///
+/// Boundary edges are split, on the exact curve, only where nothing else helps. Those of periodic
+/// sides never are, since their partners would have to follow.
+pub fn improve(mesh: &mut Triangulation, sizes: &SizeField, border: &Border, is_curved: bool) {
     open_corners(mesh);
     flip_all(mesh);
     for _ in 0..3 {
@@ -40,7 +54,13 @@ pub fn improve(mesh: &mut Triangulation, sizes: &SizeField, border: &Border, fro
         }
     }
     repair(mesh);
-    let _ = (border, frozen);
+    for _ in 0..ROUNDS {
+        if !split_boundary(mesh, border, is_curved) {
+            break;
+        }
+        flip_all(mesh);
+        repair(mesh);
+    }
     mesh.compact();
 }
 
@@ -198,6 +218,36 @@ fn fit_edges(mesh: &mut Triangulation, sizes: &SizeField) {
             }
         }
     }
+}
+
+/// Splits boundary edges that are the longest side of a bad triangle or fold a curved one.
+fn split_boundary(mesh: &mut Triangulation, border: &Border, is_curved: bool) -> bool {
+    let mut has_split = false;
+    for t in 0..mesh.triangles.len() {
+        let Some(s) = (0..3).find(|s| mesh.is_alive(t) && mesh.across[t][*s] & WALL != 0) else {
+            continue;
+        };
+        let edge = mesh.edges[(mesh.across[t][s] & !WALL) as usize];
+        let piece = edge.piece as usize;
+        if border.is_periodic(piece) {
+            continue;
+        }
+        let corners = mesh.corners(t);
+        let [a, b, c] = [0, 1, 2].map(|i| corners[(s + i) % 3]);
+        let is_longest = (b - a).norm() > (c - b).norm().max((a - c).norm());
+        let middle = border.cut(piece, edge.parameters[0], edge.parameters[1], 0.5);
+        let place = border.point(piece, middle);
+        let is_folded = is_curved && !border.is_straight(piece) && {
+            let nodes = [a, b, c, place, (b + c) * 0.5, (c + a) * 0.5];
+            let lowest = jacobian_coefficients(&nodes).into_iter().fold(f64::INFINITY, f64::min);
+            lowest < FOLDED * cross(b - a, c - a)
+        };
+        if is_folded || (is_longest && mesh.quality(t) < BAD) {
+            mesh.split((t, s), place, middle);
+            has_split = true;
+        }
+    }
+    has_split
 }
 
 /// Repairs the poor triangles, worst first, until a round no longer helps.

@@ -62,6 +62,6 @@ pub fn generate(
     let boundary = BoundaryEdges::new(&border, &sizes)?;
     let interior = front::lay_points(&boundary, &sizes)?;
     let mut triangles = planar::triangulate(&boundary, &interior)?;
-    improve::improve(&mut triangles, &sizes, &border, &[]);
+    improve::improve(&mut triangles, &sizes, &border, sizing.curved);
     quadratic::finish(triangles, &border, &boundary.periodic, sizing.curved)
 }

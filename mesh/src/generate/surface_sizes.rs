@@ -44,7 +44,7 @@ pub fn surface_sizes(
         while let Some((to, depth)) = ends.pop() {
             let next = surfaces.sample(index, to);
             let length = (next.0 - from.1.0).norm();
-            if depth < 4 || length > 0.5 * next.1.min(from.1.1) {
+            if depth < surfaces.halvings(index) || length > 0.5 * next.1.min(from.1.1) {
                 ends.push((to, depth + 1));
                 ends.push((0.5 * (from.0 + to), depth + 1));
                 if samples.len() + sources.len() > MOST_SAMPLES || depth > 60 {
@@ -115,6 +115,15 @@ impl<'a> Surfaces<'a> {
         let n_bodies = bodies.len();
         let images = domain.images();
         Self { domain, border, n_bodies, gap_layers: sizing.gap_layers, own, images, facing }
+    }
+
+    /// Halvings of a piece before its samples are trusted to have seen its bends.
+    fn halvings(&self, piece: usize) -> u32 {
+        match self.border.pieces[piece].curve {
+            Curve::Segment(..) => 2,
+            Curve::Quarter { outline, .. } if self.border.outlines[outline].is_ellipse() => 4,
+            Curve::Quarter { .. } => 8,
+        }
     }
 
     /// Place of a piece and the size wanted there.
