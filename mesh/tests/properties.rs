@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::f64::consts::{PI, TAU};
 
 use alewife_mesh::{
-    Domain, Facet, Mesh, PlacedShape, Point, Quality, Shape, SizeBox, SizeField, Sizing,
+    Domain, Facet, Locator, Mesh, PlacedShape, Point, Quality, Shape, SizeBox, SizeField, Sizing,
     check_mesh, check_placement, generate,
 };
 use proptest::prelude::*;
@@ -273,6 +273,32 @@ fn edges_follow_the_size_field_in_boxes_gaps_and_on_named_sides() {
         }
     }
     assert!(outside * 100 < 3 * mesh.n_cells(), "{outside} edges of {} cells", mesh.n_cells());
+}
+
+/// On the shortest way across a gap lie about as many cells as layers asked for.
+#[test]
+fn gaps_hold_the_layers_asked_for() {
+    let tube = Domain::Cylinder { x: [-3.0, 3.0], radius: 2.0, periodic_x: false };
+    for gap in [0.2, 0.05, 0.005] {
+        for layers in [2.0, 3.0, 4.0, 6.0] {
+            let body = placed("s", Shape::Sphere { radius: 1.0 }, -2.0 + gap, 0.0, 0.0);
+            let sizing = Sizing { gap_layers: layers, ..Sizing::graded(0.2, 0.2, 0.6) };
+            let mesh = generate(&tube, &[body], &sizing).expect("is meshed");
+            let locator = Locator::new(&mesh);
+            // A little off the axis, so that the line does not follow its edges
+            let height = 0.4 * gap / layers;
+            let across = |i: i32| Point::<2>::new(-3.0 + gap * f64::from(i) / 400.0, height);
+            let cells: std::collections::BTreeSet<usize> =
+                (0..400).filter_map(|i| locator.locate(across(i)).map(|found| found.0)).collect();
+            assert!(cells.len() as f64 >= layers, "gap {gap}: {} of {layers}", cells.len());
+            let axis = mesh.facets.iter().filter(|f| {
+                let middle = mesh.nodes[mesh.cell(f.cell as usize)[3 + f.side as usize] as usize];
+                f.boundary == 3 && middle.x < -3.0 + gap
+            });
+            let n = axis.count() as f64;
+            assert!((layers - 0.5..layers + 1.5).contains(&n), "{n} edges of {layers}");
+        }
+    }
 }
 
 /// A sphere in a ball ten thousand times larger costs a few thousand cells, since h grows with

@@ -1,1 +1,5 @@
-//! x
+//! Fluid and bodies in one system: loads, free motion, reciprocity, energy, frames, threads.
+
+mod free;
+mod loads;
+mod threads;

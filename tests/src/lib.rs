@@ -1,5 +1,6 @@
 //! Exact solutions, error norms and refinement studies shared by the tests of the whole project.
 
+pub mod cases;
 pub mod exact;
 mod norms;
 mod setup;

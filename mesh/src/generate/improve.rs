@@ -5,9 +5,9 @@
 
 use super::border::Border;
 use super::triangulation::{Corner, Triangulation, WALL, mean_ratio};
+use crate::Point;
 use crate::curved::jacobian_coefficients;
 use crate::outline::cross;
-use crate::{Point, SizeField};
 
 /// Triangles above this mean ratio may lose a little in favour of their neighbours.
 const GOOD: f64 = 0.85;
@@ -38,7 +38,7 @@ const ROUNDS: usize = 4;
 ///
 /// Boundary edges are split, on the exact curve, only where nothing else helps. Those of periodic
 /// sides never are, since their partners would have to follow.
-pub fn improve(mesh: &mut Triangulation, sizes: &SizeField, border: &Border, is_curved: bool) {
+pub fn improve(mesh: &mut Triangulation, border: &Border, is_curved: bool) {
     open_corners(mesh);
     flip_all(mesh);
     for _ in 0..3 {
@@ -46,7 +46,7 @@ pub fn improve(mesh: &mut Triangulation, sizes: &SizeField, border: &Border, is_
         flip_all(mesh);
     }
     for _ in 0..2 {
-        fit_edges(mesh, sizes);
+        fit_edges(mesh);
         flip_all(mesh);
         for _ in 0..2 {
             smooth_all(mesh);
@@ -189,7 +189,7 @@ fn raise_worst(mesh: &mut Triangulation, v: u32) -> bool {
 }
 
 /// Merges edges that are much too short and splits those much too long.
-fn fit_edges(mesh: &mut Triangulation, sizes: &SizeField) {
+fn fit_edges(mesh: &mut Triangulation) {
     let mut star = Vec::new();
     for t in 0..mesh.triangles.len() {
         for s in 0..3 {
@@ -198,8 +198,8 @@ fn fit_edges(mesh: &mut Triangulation, sizes: &SizeField) {
             }
             let [a, b] = [0, 1].map(|i| mesh.triangles[t][(s + i) % 3]);
             let [p, q] = [a, b].map(|v| mesh.points[v as usize]);
-            let middle = (p + q) * 0.5;
-            let length = (q - p).norm() / sizes.at(middle);
+            let size = 0.5 * (mesh.sizes[a as usize] + mesh.sizes[b as usize]);
+            let length = (q - p).norm() / size;
             if length < SHORT {
                 let Some((u, r)) = mesh.behind((t, s)) else { continue };
                 let corner = if !mesh.is_fixed(a) {
@@ -214,7 +214,7 @@ fn fit_edges(mesh: &mut Triangulation, sizes: &SizeField) {
                     mesh.merge(corner, &star);
                 }
             } else if length > LONG {
-                mesh.split((t, s), middle, 0.0);
+                mesh.split((t, s), (p + q) * 0.5, 0.0);
             }
         }
     }

@@ -67,12 +67,21 @@ pub fn surface_sizes(
     Ok(sources)
 }
 
+/// Gap over the size at its surfaces that gives a number of layers across it.
+///
+/// The size grows towards the middle, so the layers are ∫ ds / h = 2/g ln(1 + g gap / 2h), which is
+/// solved for gap / h.
+fn layers_at_surface(layers: f64, growth: f64) -> f64 {
+    if growth > 0.0 { 2.0 / growth * (0.5 * growth * layers).exp_m1() } else { layers }
+}
+
 /// All surfaces, to ask for the distance from one to the others.
 struct Surfaces<'a> {
     domain: &'a Domain,
     border: &'a Border,
     n_bodies: usize,
-    gap_layers: f64,
+    /// Gap over the size at its surfaces.
+    layers: f64,
     /// Own size of every boundary (m).
     own: Vec<f64>,
     images: Vec<Point<2>>,
@@ -114,7 +123,8 @@ impl<'a> Surfaces<'a> {
         }
         let n_bodies = bodies.len();
         let images = domain.images();
-        Self { domain, border, n_bodies, gap_layers: sizing.gap_layers, own, images, facing }
+        let layers = layers_at_surface(sizing.gap_layers, sizing.growth);
+        Self { domain, border, n_bodies, layers, own, images, facing }
     }
 
     /// Halvings of a piece before its samples are trusted to have seen its bends.
@@ -131,7 +141,7 @@ impl<'a> Surfaces<'a> {
         let point = self.border.point(piece, parameter);
         let (normal, radius) = self.border.frame(piece, parameter);
         let boundary = self.border.pieces[piece].boundary as usize;
-        let layers = self.gap_layers;
+        let layers = self.layers;
         let size = match self.border.boundaries[boundary].kind {
             BoundaryKind::Body(body) => {
                 let walls = (0..self.domain.sides().len()).map(|side| {

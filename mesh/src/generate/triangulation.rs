@@ -20,6 +20,8 @@ pub type Corner = (usize, usize);
 pub struct Triangulation {
     /// Places of the vertices (m).
     pub points: Vec<Point<2>>,
+    /// Edge lengths wanted at the vertices (m), about where they are.
+    pub sizes: Vec<f64>,
     /// Corners, counter-clockwise.
     pub triangles: Vec<[u32; 3]>,
     /// Triangle behind each side, or [`WALL`] with the index of a boundary edge.
@@ -48,6 +50,7 @@ impl Triangulation {
     /// From corners and neighbours of all triangles.
     pub fn new(
         points: Vec<Point<2>>,
+        sizes: Vec<f64>,
         triangles: Vec<[u32; 3]>,
         across: Vec<[u32; 3]>,
         edges: Vec<BoundaryEdge>,
@@ -64,7 +67,7 @@ impl Triangulation {
                 fixed[v as usize] = true;
             }
         }
-        Self { points, triangles, across, edges, incident, fixed }
+        Self { points, sizes, triangles, across, edges, incident, fixed }
     }
 
     /// Whether a triangle is still there.
@@ -171,8 +174,9 @@ impl Triangulation {
     }
 
     /// Adds a vertex.
-    fn add(&mut self, point: Point<2>, fixed: bool) -> u32 {
+    fn add(&mut self, point: Point<2>, size: f64, fixed: bool) -> u32 {
         self.points.push(point);
+        self.sizes.push(size);
         self.fixed.push(fixed);
         self.incident.push(0);
         self.points.len() as u32 - 1
@@ -183,8 +187,9 @@ impl Triangulation {
     /// A boundary edge is cut in two edges; `parameter` is that of the new vertex on its piece.
     pub fn split(&mut self, (t, s): Corner, point: Point<2>, parameter: f64) -> u32 {
         let behind = self.behind((t, s));
-        let m = self.add(point, behind.is_none());
-        let (ends, half) = if behind.is_none() {
+        let ends = [0, 1].map(|i| self.sizes[self.triangles[t][(s + i) % 3] as usize]);
+        let m = self.add(point, 0.5 * (ends[0] + ends[1]), behind.is_none());
+        let (first_half, second_half) = if behind.is_none() {
             let edge = (self.across[t][s] & !WALL) as usize;
             let mut second = self.edges[edge];
             second.vertices[0] = m;
@@ -205,8 +210,8 @@ impl Triangulation {
             self.across[u][r] = first as u32;
             self.across[first][0] = u as u32;
         } else {
-            self.across[t][s] = ends;
-            self.across[first][0] = half;
+            self.across[t][s] = first_half;
+            self.across[first][0] = second_half;
         }
         m
     }
@@ -230,8 +235,9 @@ impl Triangulation {
 
     /// Puts a vertex inside a triangle.
     pub fn insert(&mut self, t: usize, point: Point<2>) -> u32 {
-        let m = self.add(point, false);
         let [a, b, c] = self.triangles[t];
+        let size = [a, b, c].map(|v| self.sizes[v as usize]).iter().sum::<f64>() / 3.0;
+        let m = self.add(point, size, false);
         let [ab, bc, ca] = self.across[t];
         let u = self.triangles.len();
         let w = u + 1;
@@ -331,11 +337,13 @@ impl Triangulation {
             if self.incident[v] != u32::MAX {
                 *new = n as u32;
                 self.points[n] = self.points[v];
+                self.sizes[n] = self.sizes[v];
                 self.fixed[n] = self.fixed[v];
                 n += 1;
             }
         }
         self.points.truncate(n);
+        self.sizes.truncate(n);
         self.fixed.truncate(n);
         let mut triangle = vec![u32::MAX; self.triangles.len()];
         let mut n = 0;

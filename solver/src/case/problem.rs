@@ -16,22 +16,11 @@ pub enum Severity {
     Warning,
 }
 
-/// Which exit code a problem leads to.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Topic {
-    /// Anything but the place of a body.
-    General,
-    /// Bodies that overlap, or touch or leave the domain.
-    Placement,
-}
-
 /// One thing that is wrong in a case.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Problem {
     /// Whether it stops a run.
     pub severity: Severity,
-    /// What it is about.
-    pub topic: Topic,
     /// The key, with its tables: `body.0.shape.disc.radius`.
     pub key: String,
     /// What is wrong, with the value found.

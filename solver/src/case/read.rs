@@ -15,7 +15,7 @@ use serde::Deserialize;
 use super::deserialize::{Mismatch, TypeError, suggestion};
 use super::geometry::opposite;
 use super::nearest::nearest;
-use super::problem::{CaseError, Problem, Severity, Topic};
+use super::problem::{CaseError, Problem, Severity};
 use super::source::{Origin, Place, Source};
 use super::tree::{self, Node, TreeError, Value};
 use super::{BoundaryCondition, Case, library};
@@ -226,7 +226,6 @@ fn assemble(
 fn wrong(error: TreeError) -> CaseError {
     CaseError::Wrong(vec![Problem {
         severity: Severity::Error,
-        topic: Topic::General,
         key: String::new(),
         message: error.message,
         help: error.help,
@@ -431,7 +430,6 @@ fn typed(root: &Node) -> Result<Case, CaseError> {
 fn problem(error: &TypeError, key: String) -> Problem {
     Problem {
         severity: Severity::Error,
-        topic: Topic::General,
         key,
         message: error.message(),
         help: error.help(),

@@ -13,8 +13,8 @@ use super::problem::{Drive, Problem};
 use crate::algebra::{AffineConstraints, DirectSolver, Pattern, SingularMatrix};
 use crate::body::{Pose, Twist};
 use crate::flow::{Assembly, Convection, Fields, FlowTerms, assemble, residual};
-use crate::simulation::{Stage, Timing};
 use crate::space::{CellValues, DofLayout};
+use crate::timing::{Stage, Timing};
 
 /// Why a system could not be solved.
 #[derive(Debug, Error)]

@@ -1,5 +1,4 @@
-//! What the operating system knows of this process: memory, CPU time, host; and the clock on the
-//! wall.
+//! What the operating system knows of this process: memory, host, and the clock on the wall.
 
 use std::time::{SystemTime, UNIX_EPOCH};
 
@@ -9,17 +8,6 @@ pub fn peak_memory() -> Option<u64> {
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
     let kibibytes: u64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
     Some(kibibytes * 1024)
-}
-
-/// CPU seconds (user and system) of all threads of this process so far; `None` where the system
-/// does not tell.
-pub fn cpu_seconds() -> Option<f64> {
-    let stat = std::fs::read_to_string("/proc/self/stat").ok()?;
-    // The command name, in brackets, may itself hold spaces.
-    let (_, rest) = stat.rsplit_once(')')?;
-    let ticks = rest.split_whitespace().skip(11).take(2).map(str::parse::<f64>);
-    // One tick is 1/100 s on every architecture Linux supports.
-    Some(ticks.sum::<Result<f64, _>>().ok()? / 100.0)
 }
 
 /// Name of this computer, if it tells.
@@ -68,7 +56,6 @@ mod tests {
     fn a_process_on_linux_has_used_memory() {
         if cfg!(target_os = "linux") {
             assert!(peak_memory().is_some_and(|bytes| bytes > 100_000));
-            assert!(cpu_seconds().is_some());
         }
     }
 }

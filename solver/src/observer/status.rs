@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{process, write_atomic};
 use crate::case::{Case, TimeSettings};
-use crate::simulation::{Observer, RunError, Snapshot, Stage, Timing};
+use crate::simulation::{Observer, RunError, Snapshot, Stage, Timing, cpu_seconds};
 
 /// Longest time a status on the disk may be behind.
 const INTERVAL: Duration = Duration::from_secs(1);
@@ -37,7 +37,8 @@ pub struct Status {
     pub reason: Option<String>,
     /// Accepted steps so far.
     pub step: usize,
-    /// Steps expected in all; nothing for a steady solution.
+    /// Steps expected in all, not counting the short ones a run may start with; the true number
+    /// once it is known, nothing for a steady solution.
     pub steps: Option<usize>,
     /// Time reached (s).
     pub time: f64,
@@ -116,9 +117,7 @@ impl StatusFile {
         self.written = Instant::now();
         let wall = self.written.duration_since(self.started).as_secs_f64();
         self.status.wall_seconds.insert("total".to_owned(), wall);
-        if let Some(cpu) = process::cpu_seconds() {
-            self.status.cpu_seconds.insert("total".to_owned(), cpu);
-        }
+        self.status.cpu_seconds.insert("total".to_owned(), cpu_seconds());
         self.status.peak_memory = process::peak_memory();
         self.status.updated_at = process::now();
         let mut text = serde_json::to_vec_pretty(&self.status)?;
@@ -135,6 +134,7 @@ impl<const D: usize> Observer<D> for StatusFile {
         by_stage(&mut self.status, snapshot.timing);
         if snapshot.is_last {
             self.status.state = RunState::Finished;
+            self.status.steps = self.status.steps.map(|_| snapshot.step);
         }
         let is_due = snapshot.is_last || snapshot.step == 0 || self.written.elapsed() >= INTERVAL;
         if is_due { self.write() } else { Ok(()) }

@@ -9,7 +9,6 @@ mod series;
 mod snapshot;
 mod state;
 mod steady;
-mod timing;
 
 pub use build::{build_mesh, build_problem, domain, placed_shapes, sizing};
 pub use error::RunError;
@@ -19,4 +18,4 @@ pub use series::Series;
 pub use snapshot::{BodyReport, Observer, Snapshot};
 pub use state::State;
 pub use steady::{SteadyFlow, solve_steady};
-pub use timing::{Stage, Timing, cpu_seconds};
+pub use crate::timing::{Stage, Timing, cpu_seconds};

@@ -11,7 +11,7 @@ mod placement;
 mod references;
 mod time;
 
-use super::problem::{Problem, Severity, Topic};
+use super::problem::{Problem, Severity};
 use super::read::CaseFile;
 use super::{Case, DomainSpec, Geometry};
 
@@ -120,7 +120,7 @@ impl<'a> Findings<'a> {
     fn add(&mut self, severity: Severity, key: &str, message: String, help: &str) {
         let place = self.file.place(key);
         let (key, help) = (key.to_owned(), help.to_owned());
-        self.problems.push(Problem { severity, topic: Topic::General, key, message, help, place });
+        self.problems.push(Problem { severity, key, message, help, place });
     }
 
     fn error(&mut self, key: &str, message: String, help: &str) {

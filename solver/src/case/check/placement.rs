@@ -2,7 +2,7 @@
 
 use alewife_mesh::{Domain, MeshError, Outline, PlacedShape, Point, check_placement};
 
-use super::{Findings, Severity, Topic};
+use super::{Findings, Severity};
 use crate::case::Problem;
 
 /// Distance out of the fluid, over the size of the domain or a body, that is taken for rounding.
@@ -36,7 +36,6 @@ pub fn check(findings: &mut Findings<'_>) {
         let place = findings.file.place(&key);
         findings.problems.push(Problem {
             severity: Severity::Error,
-            topic: Topic::Placement,
             key,
             message,
             help: help.to_owned(),
