@@ -22,10 +22,10 @@ pub fn check(cases: &[String], settings: &[String], has_mesh: bool) -> Result<Ex
         if index > 0 {
             say("");
         }
-        if let Err(failure) = check_one(argument, settings, has_mesh) {
-            if let Some(earlier) = worst.replace(failure) {
-                style::complain(&earlier.message);
-            }
+        if let Err(failure) = check_one(argument, settings, has_mesh)
+            && let Some(earlier) = worst.replace(failure)
+        {
+            style::complain(&earlier.message);
         }
     }
     match worst {
