@@ -47,8 +47,8 @@ impl CaseFile {
     #[must_use]
     pub fn place(&self, path: &str) -> Option<Place> {
         let (node, is_exact) = self.root.find(path);
-        // A value that is a default is nowhere; its table is the next best place.
-        let is_value = is_exact && node.table().is_none();
+        // A default is nowhere: its table is the next best place, by its header or its key.
+        let is_value = is_exact && (node.table().is_none() || node.is_inline());
         let origin = if is_value { &node.origin } else { &node.key };
         (!origin.span.is_empty()).then(|| origin.place())
     }
@@ -389,11 +389,10 @@ fn complete_periodic(case: &mut Case) {
     }
 }
 
-/// Types a tree; unknown keys are left out and noted, so that all of them are found at once.
+/// Types a tree; unknown keys are noted and taken as meant, so that all of them are found at once.
 fn typed(root: &Node) -> Result<Case, CaseError> {
     let mut root = root.clone();
     let mut problems: Vec<Problem> = Vec::new();
-    let mut meant: Vec<String> = Vec::new();
     loop {
         let error = match Case::deserialize(&root) {
             Ok(case) if problems.is_empty() => return Ok(case),
@@ -404,26 +403,17 @@ fn typed(root: &Node) -> Result<Case, CaseError> {
         let inside =
             |key: &str| if path.is_empty() { key.to_owned() } else { format!("{path}.{key}") };
         match error.mismatch() {
-            Mismatch::UnknownKey { key, accepted } if problems.len() < MOST_PROBLEMS => {
+            Mismatch::UnknownKey { key, accepted } => {
                 problems.push(problem(&error, inside(key)));
-                meant.extend(nearest(key, accepted).map(inside));
-                if !remove(&mut root, &path, key) {
-                    return Err(CaseError::Wrong(problems));
+                let is_replaced = replace_key(&mut root, &path, key, nearest(key, accepted));
+                if is_replaced && problems.len() < MOST_PROBLEMS {
+                    continue;
                 }
             }
-            // The key is there, but misspelt: said already.
-            Mismatch::MissingKey(key) if meant.contains(&inside(key)) => {
-                return Err(CaseError::Wrong(problems));
-            }
-            Mismatch::MissingKey(key) => {
-                problems.push(problem(&error, inside(key)));
-                return Err(CaseError::Wrong(problems));
-            }
-            _ => {
-                problems.push(problem(&error, path));
-                return Err(CaseError::Wrong(problems));
-            }
+            Mismatch::MissingKey(key) => problems.push(problem(&error, inside(key))),
+            _ => problems.push(problem(&error, path)),
         }
+        return Err(CaseError::Wrong(problems));
     }
 }
 
@@ -437,17 +427,12 @@ fn problem(error: &TypeError, key: String) -> Problem {
     }
 }
 
-/// Takes a key out of the table at a path.
-fn remove(root: &mut Node, path: &str, key: &str) -> bool {
-    let mut here = root;
-    for step in path.split('.').filter(|step| !step.is_empty()) {
-        let next = match &mut here.value {
-            Value::Table(entries) => entries.get_mut(step),
-            Value::Array(items) => step.parse().ok().and_then(|index: usize| items.get_mut(index)),
-            _ => None,
-        };
-        let Some(next) = next else { return false };
-        here = next;
+/// Gives a key of the table at a path the name that was meant, or takes it out.
+fn replace_key(root: &mut Node, path: &str, key: &str, meant: Option<&str>) -> bool {
+    let Some(entries) = root.find_mut(path).and_then(Node::table_mut) else { return false };
+    let Some(node) = entries.remove(key) else { return false };
+    if let Some(meant) = meant {
+        entries.entry(meant.to_owned()).or_insert(node);
     }
-    here.table_mut().is_some_and(|entries| entries.remove(key).is_some())
+    true
 }

@@ -177,6 +177,25 @@ impl Node {
         (here, true)
     }
 
+    /// The value at a dotted path, to be changed.
+    pub fn find_mut(&mut self, path: &str) -> Option<&mut Self> {
+        let mut here = self;
+        for step in path.split('.').filter(|step| !step.is_empty()) {
+            here = match &mut here.value {
+                Value::Table(entries) => entries.get_mut(step)?,
+                Value::Array(items) => items.get_mut(step.parse::<usize>().ok()?)?,
+                _ => return None,
+            };
+        }
+        Some(here)
+    }
+
+    /// Whether it is a table written within a line, in braces.
+    pub fn is_inline(&self) -> bool {
+        let Origin { source, span } = &self.origin;
+        self.table().is_some() && source.text[span.start.min(source.text.len())..].starts_with('{')
+    }
+
     /// Puts a value at a dotted path; tables on the way that are not there yet are made.
     ///
     /// Whether the path leads to a key that is known is found out when the case is typed.

@@ -56,7 +56,7 @@ fn check_one(argument: &str, settings: &[String], has_mesh: bool) -> Result<(), 
         ));
     }
     for warning in &warnings {
-        say(&format!("\n{}", style::problem(warning)));
+        style::complain(&format!("\n{}", style::problem(warning)));
     }
     check_variants(argument, &file, settings)?;
     say("\nno solve is made");
@@ -225,7 +225,7 @@ fn costs(case: &Case, mesh: &Mesh<2>) -> String {
                 .to_owned(),
             place: None,
         };
-        let _ = write!(text, "\n\n{}", style::problem(&warning));
+        style::complain(&style::problem(&warning));
     }
     text
 }

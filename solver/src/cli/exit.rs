@@ -20,7 +20,6 @@ pub enum Exit {
     /// The mesh could not be made.
     Mesh = 11,
     /// Bodies came to overlap.
-    #[expect(dead_code, reason = "bodies do not move through the mesh yet")]
     Overlap = 12,
     /// A result is outside its tolerance.
     OutsideTolerance = 20,

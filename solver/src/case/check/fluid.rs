@@ -1,7 +1,7 @@
 //! Problems of `[fluid]` and `[scales]`, and numbers that disagree.
 
 use super::Findings;
-use crate::case::numbers::{density_ratio, reynolds};
+use crate::case::numbers::{density_ratio, reynolds, significant};
 use crate::case::{Geometry, Model};
 
 /// Largest relative difference between a declared number and the derived one.
@@ -66,8 +66,9 @@ fn declared_numbers(findings: &mut Findings<'_>) {
                     findings.error(
                         key,
                         format!(
-                            "the {name} is declared as {declared}, but the case gives {derived} \
-                             = {formula}"
+                            "the {name} is declared as {declared}, but the case gives {} \
+                             = {formula}",
+                            significant(derived)
                         ),
                         "correct the declared number, or the values it follows from",
                     );
