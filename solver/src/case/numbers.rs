@@ -153,7 +153,7 @@ mod tests {
     #[test]
     fn six_digits_are_shown_without_trailing_zeros() {
         assert_eq!(significant(0.5), "0.5");
-        assert_eq!(significant(1234.567_89), "1234.57");
+        assert_eq!(significant(1_234.567_89), "1234.57");
         assert_eq!(significant(2e-7), "2.00000e-7");
         assert_eq!(significant(0.0), "0");
         assert_eq!(significant(100_000.0), "100000");
