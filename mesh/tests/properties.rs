@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::f64::consts::{PI, TAU};
 
 use alewife_mesh::{
-    Domain, Facet, Locator, Mesh, PlacedShape, Point, Quality, Shape, SizeBox, SizeField, Sizing,
+    Domain, Locator, Mesh, PlacedShape, Point, Quality, Shape, SizeBox, SizeField, Sizing,
     check_mesh, check_placement, generate,
 };
 use proptest::prelude::*;
@@ -111,11 +111,6 @@ fn is_polygon(domain: &Domain, bodies: &[PlacedShape]) -> bool {
     bodies.is_empty() && matches!(domain, Domain::Box { .. } | Domain::Cylinder { .. })
 }
 
-fn facet_nodes<'a>(mesh: &'a Mesh<2>, facet: &'a Facet) -> impl Iterator<Item = u32> + 'a {
-    let side = facet.side as usize;
-    [side, 3 + side, (side + 1) % 3].into_iter().map(|i| mesh.cell(facet.cell as usize)[i])
-}
-
 /// Every node of a periodic side appears, apart from its original by a period.
 fn assert_periodic(domain: &Domain, mesh: &Mesh<2>) {
     let periods = domain.images();
@@ -129,7 +124,7 @@ fn assert_periodic(domain: &Domain, mesh: &Mesh<2>) {
         let side = facet.boundary as usize;
         // The second of each pair of sides is the copy
         if side < domain.sides().len() && side % 2 == 1 && domain.is_periodic(side) {
-            assert!(facet_nodes(mesh, facet).all(|node| original.contains_key(&node)));
+            assert!(mesh.facet_nodes(facet).iter().all(|node| original.contains_key(node)));
         }
     }
 }
@@ -209,9 +204,7 @@ fn the_area_is_of_fourth_order_with_curved_sides_and_of_second_with_straight_one
 fn boundary_nodes(mesh: &Mesh<2>, name: &str) -> Vec<Point<2>> {
     let index = mesh.boundaries.iter().position(|b| b.name == name).expect("exists");
     let facets = mesh.facets.iter().filter(|f| f.boundary as usize == index);
-    facets
-        .flat_map(|f| facet_nodes(mesh, f).map(|n| mesh.nodes[n as usize]).collect::<Vec<_>>())
-        .collect()
+    facets.flat_map(|f| mesh.facet_nodes(f).map(|node| mesh.nodes[node as usize])).collect()
 }
 
 #[test]
@@ -242,10 +235,10 @@ fn mid_nodes_halve_the_arc_of_the_exact_curve() {
     let mesh = generate(&square(false, false), &[body], &Sizing::graded(0.2, 0.3, 0.5)).unwrap();
     let center = Point::<2>::new(0.3, 0.1);
     for facet in mesh.facets.iter().filter(|f| f.boundary == 4) {
-        let nodes: Vec<Point<2>> =
-            facet_nodes(&mesh, facet).map(|n| mesh.nodes[n as usize] - center).collect();
-        assert!(nodes.iter().all(|n| (n.norm() - 0.7).abs() < 1e-14));
-        assert!(((nodes[1] - nodes[0]).norm() - (nodes[2] - nodes[1]).norm()).abs() < 1e-14);
+        let [from, to, middle] =
+            mesh.facet_nodes(facet).map(|node| mesh.nodes[node as usize] - center);
+        assert!([from, to, middle].iter().all(|x| (x.norm() - 0.7).abs() < 1e-14));
+        assert!(((middle - from).norm() - (to - middle).norm()).abs() < 1e-14);
     }
 }
 
@@ -292,7 +285,7 @@ fn gaps_hold_the_layers_asked_for() {
                 (0..400).filter_map(|i| locator.locate(across(i)).map(|found| found.0)).collect();
             assert!(cells.len() as f64 >= layers, "gap {gap}: {} of {layers}", cells.len());
             let axis = mesh.facets.iter().filter(|f| {
-                let middle = mesh.nodes[mesh.cell(f.cell as usize)[3 + f.side as usize] as usize];
+                let middle = mesh.nodes[mesh.facet_nodes(f)[2] as usize];
                 f.boundary == 3 && middle.x < -3.0 + gap
             });
             let n = axis.count() as f64;

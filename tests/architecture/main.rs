@@ -94,7 +94,8 @@ fn foreign_crates_are_named_in_one_room_only() {
         for (name, home) in FOREIGN {
             let uses = text.lines().any(|line| {
                 line.trim_start().starts_with(&format!("use {name}::"))
-                    || (!line.trim_start().starts_with("//") && line.contains(&format!(" {name}::")))
+                    || (!line.trim_start().starts_with("//")
+                        && line.contains(&format!(" {name}::")))
             });
             if uses && !file.starts_with(home) {
                 wrong.push(format!("{file} names `{name}`, which lives in {home}"));
@@ -129,4 +130,31 @@ fn the_map_agrees_with_the_first_line_of_each_file() {
     } else {
         assert_eq!(&text[start..stop], table, "see this test's comment for how to update the map");
     }
+}
+
+/// A source is cited as `@key`, with the key in docs/references.bib.
+#[test]
+fn every_citation_has_its_entry() {
+    let bibliography =
+        fs::read_to_string(root().join("docs/references.bib")).expect("the bibliography exists");
+    let mut texts: BTreeMap<String, String> =
+        ["mesh/src", "solver/src", "tests"].into_iter().flat_map(sources).collect();
+    for page in fs::read_dir(root().join("docs")).expect("docs exists") {
+        let path = page.expect("the entry is readable").path();
+        if path.extension().is_some_and(|extension| extension == "md") {
+            let text = fs::read_to_string(&path).expect("the page is text");
+            texts.insert(path.display().to_string(), text);
+        }
+    }
+    let mut wrong = Vec::new();
+    for (file, text) in texts {
+        for cited in text.split('@').skip(1) {
+            let key: String = cited.chars().take_while(char::is_ascii_alphanumeric).collect();
+            let is_key = key.len() > 5 && key.chars().rev().take(4).all(|c| c.is_ascii_digit());
+            if is_key && !bibliography.contains(&format!("{{{key},")) {
+                wrong.push(format!("{file} cites @{key}, which docs/references.bib does not have"));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }

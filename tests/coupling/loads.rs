@@ -35,8 +35,7 @@ fn drag_error(scale: f64, curved: bool, quantity: &str) -> f64 {
 /// Twice the order of the H1 norm, since the residual form is superconvergent.
 #[test]
 fn the_drag_converges_at_fourth_order_with_curved_cells() {
-    let study =
-        Study::run(&[1.0, 0.5, 0.25], |scale| drag_error(scale, true, "sphere.force.x"));
+    let study = Study::run(&[1.0, 0.5, 0.25], |scale| drag_error(scale, true, "sphere.force.x"));
     study.assert_order("drag, curved cells", 4.0, 0.5);
     assert!(study.errors[2] < 2e-5);
 }
@@ -44,16 +43,14 @@ fn the_drag_converges_at_fourth_order_with_curved_cells() {
 /// Chords instead of arcs leave an error of second order, however exact the elements are.
 #[test]
 fn the_drag_converges_at_second_order_with_straight_cells() {
-    let study =
-        Study::run(&[1.0, 0.5, 0.25], |scale| drag_error(scale, false, "sphere.force.x"));
+    let study = Study::run(&[1.0, 0.5, 0.25], |scale| drag_error(scale, false, "sphere.force.x"));
     study.assert_order("drag, straight cells", 2.0, 0.3);
 }
 
 #[test]
 fn the_integral_of_the_stress_tends_to_the_same_drag_at_a_lower_order() {
-    let study = Study::run(&[0.5, 0.25, 0.125], |scale| {
-        drag_error(scale, true, "sphere.surface_force.x")
-    });
+    let study =
+        Study::run(&[0.5, 0.25, 0.125], |scale| drag_error(scale, true, "sphere.surface_force.x"));
     assert!((1.5..3.5).contains(&study.order()), "{study:?}");
     assert!(study.errors[2] < 1e-3);
 }
@@ -62,8 +59,7 @@ fn the_integral_of_the_stress_tends_to_the_same_drag_at_a_lower_order() {
 #[test]
 fn the_power_of_the_bodies_is_the_dissipation_of_the_flow() {
     let outcome = run(&case(&shell(1.0, true)));
-    let (power, dissipation) =
-        (last(&outcome, "sphere.power"), last(&outcome, "flow.dissipation"));
+    let (power, dissipation) = (last(&outcome, "sphere.power"), last(&outcome, "flow.dissipation"));
     assert!((power / dissipation - 1.0).abs() < 1e-11);
 }
 

@@ -9,9 +9,7 @@ use alewife::simulation::{Outcome, simulate};
 /// When the text is not a valid case.
 #[must_use]
 pub fn case(text: &str) -> Case {
-    Case::parse("test", text, &[])
-        .unwrap_or_else(|error| panic!("{error}"))
-        .case
+    Case::parse("test", text, &[]).unwrap_or_else(|error| panic!("{error}")).case
 }
 
 /// Runs a case without writing anything.

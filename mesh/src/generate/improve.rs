@@ -4,6 +4,7 @@
 //! triangles may trade a little quality for a lower energy Σ (1/q - 1)².
 
 use super::border::Border;
+use super::trial::try_moves;
 use super::triangulation::{Corner, Triangulation, WALL, mean_ratio};
 use crate::Point;
 use crate::curved::jacobian_coefficients;
@@ -12,8 +13,8 @@ use crate::outline::cross;
 /// Triangles above this mean ratio may lose a little in favour of their neighbours.
 const GOOD: f64 = 0.85;
 
-/// Triangles below this mean ratio are repaired one by one; an isosceles one with the angle 30
-/// degrees at its tip has 0.77, with 30 at its base 0.69.
+/// Triangles below this mean ratio are repaired one by one; an isosceles one with 30 degrees at its
+/// tip has 0.76, with twice 30 at its base 0.60.
 const POOR: f64 = 0.8;
 
 /// Triangles below this mean ratio justify to split their boundary edge.
@@ -31,7 +32,7 @@ const LONG: f64 = 1.5;
 /// A change must improve by more than rounding.
 const PROGRESS: f64 = 1e-9;
 
-/// Rounds in which boundary edges may be split.
+/// Rounds of trials, and rounds in which boundary edges may be split.
 const ROUNDS: usize = 4;
 
 /// Improves a triangulation until the repairs no longer help; see the file's sentence.
@@ -54,6 +55,12 @@ pub fn improve(mesh: &mut Triangulation, border: &Border, is_curved: bool) {
         }
     }
     repair(mesh);
+    for _ in 0..ROUNDS {
+        if !try_moves(mesh) {
+            break;
+        }
+        repair(mesh);
+    }
     for _ in 0..ROUNDS {
         if !split_boundary(mesh, border, is_curved) {
             break;
@@ -93,7 +100,7 @@ pub fn flip_all(mesh: &mut Triangulation) {
     flip_from(mesh, &mut waiting);
 }
 
-fn flip_from(mesh: &mut Triangulation, waiting: &mut Vec<Corner>) {
+pub fn flip_from(mesh: &mut Triangulation, waiting: &mut Vec<Corner>) {
     while let Some((t, s)) = waiting.pop() {
         let Some((u, _)) = mesh.behind((t, s)) else { continue };
         let now = mesh.quality(t).min(mesh.quality(u));
@@ -161,7 +168,7 @@ fn smooth(mesh: &mut Triangulation, v: u32, star: &[Corner]) {
 }
 
 /// Moves a vertex to where its worst triangle is best: a pattern search; whether it gained.
-fn raise_worst(mesh: &mut Triangulation, v: u32) -> bool {
+pub fn raise_worst(mesh: &mut Triangulation, v: u32) -> bool {
     let mut star = Vec::new();
     mesh.star(v, &mut star);
     let ring = ring(mesh, &star);

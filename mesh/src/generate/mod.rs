@@ -13,6 +13,7 @@ mod point_tree;
 mod quadratic;
 mod size_tree;
 mod surface_sizes;
+mod trial;
 mod triangulation;
 
 use crate::{Domain, Mesh, MeshError, PlacedShape, SizeField, Sizing};

@@ -172,7 +172,8 @@ impl<'a> Surfaces<'a> {
         let mut gap = f64::INFINITY;
         for (body, outline) in self.border.outlines[..self.n_bodies].iter().enumerate() {
             for (i, shift) in self.images.iter().enumerate() {
-                if i > 0 || but != Some(body) {
+                let is_other = i > 0 || but != Some(body);
+                if is_other && outline.least_gap(point - shift) < gap {
                     gap = gap.min(outline.nearest(point - shift).gap);
                 }
             }

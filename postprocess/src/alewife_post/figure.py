@@ -97,7 +97,7 @@ def picture(
     # A flat picture has room for few marks on its short side.
     for axis, inches in ((axes.xaxis, width), (axes.yaxis, height - 0.9)):
         axis.set_major_locator(
-            MaxNLocator(int(np.clip(2 * inches, 2, 9)), steps=[1, 2, 2.5, 5, 10])
+            MaxNLocator(int(np.clip(2 * inches, 4, 9)), steps=[1, 2, 2.5, 5, 10])
         )
     is_unsteady = "unsteady" in run.case["time"]
     moment = f", {style.time_text(field.time, units)}" if is_unsteady else ""

@@ -141,11 +141,9 @@ impl AffineConstraints {
     pub fn expand(&self, free: &[f64]) -> Vec<f64> {
         (0..self.n_raw())
             .map(|raw| {
-                self.row(raw)
-                    .iter()
-                    .fold(self.values[raw], |sum, &(unknown, weight)| {
-                        sum + weight * free[unknown as usize]
-                    })
+                self.row(raw).iter().fold(self.values[raw], |sum, &(unknown, weight)| {
+                    sum + weight * free[unknown as usize]
+                })
             })
             .collect()
     }

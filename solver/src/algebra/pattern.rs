@@ -101,7 +101,8 @@ impl CellMaps {
         let pattern = build_pattern(constraints.n_unknowns(), &unknowns, &maps, &couples);
         maps.positions = vec![NOT_STORED; maps.position_offsets[n_cells]];
         for cell in 0..n_cells {
-            let range = maps.unknown_offsets[cell] as usize..maps.unknown_offsets[cell + 1] as usize;
+            let range =
+                maps.unknown_offsets[cell] as usize..maps.unknown_offsets[cell + 1] as usize;
             let local = &unknowns[range];
             let positions =
                 &mut maps.positions[maps.position_offsets[cell]..maps.position_offsets[cell + 1]];
@@ -196,9 +197,7 @@ fn build_pattern(
     couples: &impl Fn(usize, usize) -> bool,
 ) -> Pattern {
     let cells = || {
-        maps.unknown_offsets
-            .windows(2)
-            .map(|range| &unknowns[range[0] as usize..range[1] as usize])
+        maps.unknown_offsets.windows(2).map(|range| &unknowns[range[0] as usize..range[1] as usize])
     };
     let mut counts = vec![0usize; n];
     for cell in cells() {

@@ -7,7 +7,9 @@ use clap::Args;
 use super::exit::{Exit, Failure};
 use super::style::{Ink, on_stdout, say};
 use super::{Settings, engine, read_case, threads};
+use crate::case::{Case, significant};
 use crate::observer::{RunDirectory, write_atomic};
+use crate::simulation::Outcome;
 use crate::validation::{Comparison, Verdict, compare, comparison_table, comparisons_to_json};
 
 /// File of a run that holds its comparison with published values.
@@ -63,6 +65,9 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
     }
     if !options.quiet {
         tell(&comparisons);
+        if comparisons.is_empty() {
+            tell_last_values(&file.case, &outcome);
+        }
         let seconds: f64 = outcome.timing.cpu.iter().sum();
         say(&format!(
             "{} unknowns, {} steps, {seconds:.2} s of CPU time; written to {}",
@@ -72,6 +77,18 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
         ));
     }
     Ok(Exit::Done)
+}
+
+/// Prints how the bodies ended, for a case without published values.
+fn tell_last_values(case: &Case, outcome: &Outcome) {
+    let Some(last) = outcome.series.rows.last() else { return };
+    let body_of =
+        |name: &str| case.body.iter().any(|body| name.starts_with(&format!("{}.", body.name)));
+    for (name, value) in outcome.series.names.iter().zip(last) {
+        if body_of(name) && !name.contains("surface_") {
+            say(&format!("{name:32}  {}", significant(*value)));
+        }
+    }
 }
 
 /// Prints the table of comparisons, verdicts in colour, with what there is to say about them.

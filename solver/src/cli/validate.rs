@@ -6,7 +6,9 @@ use super::exit::{Exit, Failure};
 use super::style::{Ink, complain, on_stdout, say};
 use super::{engine, read_and_check, run, threads};
 use crate::case::{Case, library};
-use crate::validation::{Comparison, Verdict, compare, comparisons_to_json, not_computed};
+use crate::validation::{
+    Comparison, Verdict, compare, comparison_page, comparisons_to_json, not_computed,
+};
 
 /// What `validate` is asked for.
 #[derive(Debug, Args)]
@@ -26,6 +28,9 @@ pub struct Options {
     /// Print JSON instead of a table
     #[arg(long)]
     json: bool,
+    /// Print a page of Markdown instead of a table
+    #[arg(long, conflicts_with = "json")]
+    markdown: bool,
     /// Threads; by default those the batch system or the machine grants
     #[arg(long, short, value_name = "N")]
     threads: Option<usize>,
@@ -52,6 +57,8 @@ pub fn validate(options: &Options) -> Result<Exit, Failure> {
     let n_bad = comparisons.iter().filter(|row| row.verdict != Verdict::Within).count();
     if options.json {
         say(&format!("{:#}", comparisons_to_json(&comparisons)));
+    } else if options.markdown {
+        say(comparison_page(&comparisons).trim_end());
     } else {
         run::tell(&comparisons);
         let n_good = comparisons.len() - n_bad;

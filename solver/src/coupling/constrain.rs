@@ -81,11 +81,7 @@ pub(super) fn constrain(
             }
         }
         if copy < layout.n_vertices {
-            builder.constrain(
-                layout.pressure(copy),
-                vec![(layout.pressure(original), 1.0)],
-                0.0,
-            );
+            builder.constrain(layout.pressure(copy), vec![(layout.pressure(original), 1.0)], 0.0);
         }
     }
     if problem.is_enclosed() {
@@ -122,10 +118,8 @@ fn constrain_node(
         let lever = [place[0] - pose.center.x, place[1] - pose.center.y];
         let turning = [-lever[1], lever[0]];
         for axis in 0..2 {
-            let entries = vec![
-                (layout.rigid(body, axis), 1.0),
-                (layout.rigid(body, 2), turning[axis]),
-            ];
+            let entries =
+                vec![(layout.rigid(body, axis), 1.0), (layout.rigid(body, 2), turning[axis])];
             builder.constrain(layout.velocity(node, axis), entries, slip[axis]);
         }
         return;

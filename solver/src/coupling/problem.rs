@@ -69,7 +69,8 @@ impl RigidBody {
     #[must_use]
     pub fn slip(&self, pose: &Pose, point: &Point<2>, time: f64) -> Point<2> {
         let Some(gait) = &self.gait else { return Point::<2>::zeros() };
-        let in_body = pose.rotation.inverse() * (Vector3::new(point[0], point[1], 0.0) - pose.center);
+        let in_body =
+            pose.rotation.inverse() * (Vector3::new(point[0], point[1], 0.0) - pose.center);
         let velocity = pose.rotation * gait.velocity(&in_body, time);
         Point::<2>::new(velocity.x, velocity.y)
     }
@@ -101,7 +102,11 @@ impl Problem {
     /// Whether no boundary fixes the level of the pressure.
     #[must_use]
     pub fn is_enclosed(&self) -> bool {
-        !self.sides.iter().flatten().any(|side| matches!(side, Side::DoNothing | Side::TractionFree))
+        !self
+            .sides
+            .iter()
+            .flatten()
+            .any(|side| matches!(side, Side::DoNothing | Side::TractionFree))
     }
 
     /// Boundaries with the do-nothing condition.

@@ -28,8 +28,11 @@ pub fn surface_load(
                     sum + fields.velocity[node as usize] * grad.transpose()
                 });
             let psi = p1_values(&triangle_side_point(usize::from(facet.side), at.s));
-            let pressure: f64 =
-                nodes.iter().zip(&psi).map(|(&node, psi)| fields.pressure[node as usize] * psi).sum();
+            let pressure: f64 = nodes
+                .iter()
+                .zip(&psi)
+                .map(|(&node, psi)| fields.pressure[node as usize] * psi)
+                .sum();
             let traction = (gradient + gradient.transpose()) * at.normal_ds * viscosity
                 - at.normal_ds * pressure;
             let lever = at.position - center;

@@ -120,7 +120,6 @@ pub fn assemble(
                             fields,
                             &mut workspace,
                             &mut matrix,
-                            n_local,
                         );
                         if let Some(facet) = &assembly.open[cell] {
                             add_open_side(

@@ -1,11 +1,15 @@
 //! Element matrix and residual of one cell: mass, convection, viscous stress, pressure, divergence.
 //!
 //! Matrix of test function phi_a e_i and trial function phi_b e_j:
+//!
+//! ```text
 //! int rho (a0 phi_b + c . grad phi_b) phi_a delta_ij
 //!   + mu (grad phi_a . grad phi_b delta_ij + d_j phi_a d_i phi_b)   (= 2 mu D(u) : D(v))
-//!   + rho phi_a phi_b d_j u0_i (Newton);
-//! pressure: -psi_v d_i phi_a and its transpose. Axisymmetric problems, with axis x and radius
-//! y = r, add the hoop stress 2 mu u_r v_r / r^2 and div u = d_x u_x + d_r u_r + u_r / r.
+//!   + rho phi_a phi_b d_j u0_i                                      (Newton)
+//! ```
+//!
+//! and -psi_v d_i phi_a for the pressure, with its transpose. Axisymmetric problems, with axis x
+//! and radius y = r, add the hoop stress 2 mu u_r v_r / r^2 and div u = d_x u_x + d_r u_r + u_r / r.
 
 use alewife_mesh::{Mesh, Point};
 use nalgebra::SMatrix;
@@ -120,7 +124,7 @@ pub(super) fn cell_residual<const D: usize, const N: usize>(
     });
 }
 
-/// Overwrites `matrix` with the cell's raw matrix, rows of length `size`.
+/// Overwrites the square `matrix`, row by row, with the cell's raw matrix.
 pub(super) fn cell_matrix<const D: usize, const N: usize>(
     mesh: &Mesh<D>,
     cell: usize,
@@ -129,8 +133,8 @@ pub(super) fn cell_matrix<const D: usize, const N: usize>(
     fields: &Fields<'_, D>,
     values: &mut CellValues<D>,
     matrix: &mut [f64],
-    size: usize,
 ) {
+    let size = matrix.len().isqrt();
     let layout = LocalLayout::<D, N>;
     let nodes = mesh.cell(cell);
     let newton = matches!(terms.convection, Convection::Newton | Convection::NewtonInFrame);

@@ -7,4 +7,4 @@ mod terms;
 
 pub use assemble::{Assembly, assemble, residual};
 pub use open_side::{FacetPoint, for_each_facet_point};
-pub use terms::{BodyForce, Convection, FlowTerms, Fields};
+pub use terms::{BodyForce, Convection, Fields, FlowTerms};

@@ -10,7 +10,7 @@ use super::{Provenance, RunState, Status};
 use crate::case::Case;
 
 /// Files and directories a run makes; nothing else is ever removed.
-const MADE_BY_A_RUN: [&str; 11] = [
+const MADE_BY_A_RUN: [&str; 12] = [
     "case.toml",
     "provenance.json",
     "status.json",
@@ -19,6 +19,7 @@ const MADE_BY_A_RUN: [&str; 11] = [
     "run.mcap",
     "fields",
     "fields.pvd",
+    "comparison.json",
     "checkpoint.a",
     "checkpoint.b",
     "failure",

@@ -2,7 +2,9 @@
 
 use std::f64::consts::PI;
 
-use alewife_mesh::{BoundaryKind, Domain, Mesh, PlacedShape, Point, SecondMoments, Shape, SizeBox, Sizing, generate};
+use alewife_mesh::{
+    BoundaryKind, Domain, Mesh, PlacedShape, Point, SecondMoments, Shape, SizeBox, Sizing, generate,
+};
 use nalgebra::Vector3;
 
 use super::RunError;
@@ -121,9 +123,11 @@ pub fn build_problem(case: &Case, mesh: &Mesh<2>) -> Result<Problem, RunError> {
     }
     let frame = match &case.frame {
         None => None,
-        Some(name) => Some(case.body.iter().position(|body| body.name == *name).ok_or_else(
-            || RunError::Unsupported(format!("frame = \"{name}\" names no body")),
-        )?),
+        Some(name) => {
+            Some(case.body.iter().position(|body| body.name == *name).ok_or_else(|| {
+                RunError::Unsupported(format!("frame = \"{name}\" names no body"))
+            })?)
+        }
     };
     let has_inertia = case.fluid.model != Model::Stokes;
     Ok(Problem {
@@ -228,9 +232,8 @@ fn rigid_body(
     // Weight less buoyancy: the pressure is the one without its hydrostatic part.
     let net_mass = (density - case.fluid.density) * moments.measure;
     let along = |values: &[f64], axis: usize| values.get(axis).copied().unwrap_or(0.0);
-    let force = [0, 1].map(|axis| {
-        along(&body.force, axis) + net_mass * along(&case.fluid.gravity, axis)
-    });
+    let force =
+        [0, 1].map(|axis| along(&body.force, axis) + net_mass * along(&case.fluid.gravity, axis));
     let locked = |mode: usize| {
         let lock = [Lock::X, Lock::Y, Lock::Rotation][mode];
         body.locked.contains(&lock) || (axisymmetric && mode > 0)
@@ -242,8 +245,7 @@ fn rigid_body(
             let value =
                 if mode == 2 { imposed.angular_velocity } else { along(&imposed.velocity, mode) };
             let factor = imposed.factor.clone();
-            let value: TimeValue =
-                Box::new(move |time| value * factor_at(factor.as_ref(), time));
+            let value: TimeValue = Box::new(move |time| value * factor_at(factor.as_ref(), time));
             Drive::Given(value)
         }
     });
@@ -268,11 +270,7 @@ fn rigid_body(
     Ok(RigidBody {
         name: body.name.clone(),
         boundary,
-        pose: Pose::planar(
-            body.center[0] + offset[0],
-            body.center[1] + offset[1],
-            body.angle,
-        ),
+        pose: Pose::planar(body.center[0] + offset[0], body.center[1] + offset[1], body.angle),
         drives,
         mass: if has_inertia { density * moments.measure } else { 0.0 },
         inertia: if has_inertia { density * second_moment } else { 0.0 },

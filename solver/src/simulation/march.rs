@@ -60,8 +60,7 @@ pub fn advance(
                 state.now.twists[body].angular.z,
                 state.previous.twists[body].angular.z,
             );
-            let angle =
-                bdf.integrate(spin, state.angles[body], state.previous_places[body][2]);
+            let angle = bdf.integrate(spin, state.angles[body], state.previous_places[body][2]);
             let center = &state.poses[body].center;
             Pose::planar(center.x, center.y, angle)
         })
@@ -159,20 +158,13 @@ pub fn advance(
 }
 
 /// The one place where a state moves on in time.
-fn accept(
-    problem: &Problem,
-    state: &mut State,
-    bdf: &Bdf,
-    solution: Solution,
-    levels: &Levels,
-) {
+fn accept(problem: &Problem, state: &mut State, bdf: &Bdf, solution: Solution, levels: &Levels) {
     for body in 0..problem.bodies.len() {
         let now = state.place(body);
         let before = state.previous_places[body];
         let velocity = rigid(&solution.twists[body]);
         let next = [0, 1, 2].map(|mode| bdf.integrate(velocity[mode], now[mode], before[mode]));
-        let rate =
-            [0, 1, 2].map(|mode| levels.rate * velocity[mode] + levels.history[body][mode]);
+        let rate = [0, 1, 2].map(|mode| levels.rate * velocity[mode] + levels.history[body][mode]);
         state.accelerations[body] = Twist {
             linear: Vector3::new(rate[0], rate[1], 0.0),
             angular: Vector3::new(0.0, 0.0, rate[2]),
@@ -185,7 +177,8 @@ fn accept(
             }
         }
         // Without a frame of its own the body stays where its mesh is, and only turns.
-        let [x, y] = if problem.frame == Some(body) { [next[0], next[1]] } else { [now[0], now[1]] };
+        let [x, y] =
+            if problem.frame == Some(body) { [next[0], next[1]] } else { [now[0], now[1]] };
         state.poses[body] = Pose::planar(x, y, next[2]);
         state.angles[body] = next[2];
         state.previous_places[body] = now;

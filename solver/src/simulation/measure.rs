@@ -131,11 +131,7 @@ impl Measure {
             values.extend(sum);
         }
         let integrals = integrate(system, problem, state);
-        values.extend([
-            integrals.dissipation,
-            integrals.kinetic_energy,
-            integrals.mass_defect,
-        ]);
+        values.extend([integrals.dissipation, integrals.kinetic_energy, integrals.mass_defect]);
         (reports, values)
     }
 }
@@ -211,12 +207,9 @@ fn integrate(system: &FluidSystem, problem: &Problem, state: &State) -> Integral
                 gradient += nodal * at.grad_phi[a].transpose();
             }
             let rate = (gradient + gradient.transpose()) / 2.0;
-            let stretch =
-                if problem.axisymmetric { velocity[1] / at.position[1] } else { 0.0 };
-            sums.dissipation += 2.0
-                * problem.viscosity
-                * (rate.norm_squared() + stretch * stretch)
-                * at.dx;
+            let stretch = if problem.axisymmetric { velocity[1] / at.position[1] } else { 0.0 };
+            sums.dissipation +=
+                2.0 * problem.viscosity * (rate.norm_squared() + stretch * stretch) * at.dx;
             sums.kinetic_energy += problem.density * velocity.norm_squared() / 2.0 * at.dx;
             sums.mass_defect += (gradient.trace() + stretch) * at.dx;
         });

@@ -10,6 +10,7 @@ mod snapshot;
 mod state;
 mod steady;
 
+pub use crate::timing::{Stage, Timing, cpu_seconds};
 pub use build::{build_mesh, build_problem, domain, placed_shapes, sizing};
 pub use error::RunError;
 pub use march::{StepResult, advance};
@@ -18,4 +19,3 @@ pub use series::Series;
 pub use snapshot::{BodyReport, Observer, Snapshot};
 pub use state::State;
 pub use steady::{SteadyFlow, solve_steady};
-pub use crate::timing::{Stage, Timing, cpu_seconds};

@@ -33,10 +33,7 @@ const START_PIECES: u32 = 7;
 ///
 /// # Errors
 /// Whatever stops the run; observers are told before it is returned.
-pub fn simulate(
-    case: &Case,
-    observers: &mut [Box<dyn Observer<2>>],
-) -> Result<Outcome, RunError> {
+pub fn simulate(case: &Case, observers: &mut [Box<dyn Observer<2>>]) -> Result<Outcome, RunError> {
     let mut run = Run { case, observers, timing: Timing::default(), series: Series::default() };
     let result = run.start();
     if let Err(error) = &result {
@@ -67,6 +64,7 @@ impl Run<'_> {
     fn start(&mut self) -> Result<(usize, usize), RunError> {
         let case = self.case;
         let mesh = self.timing.measure(Stage::Mesh, || build_mesh(case))?;
+        tracing::info!(cells = mesh.n_cells(), nodes = mesh.n_nodes(), "mesh made");
         let problem = build_problem(case, &mesh)?;
         match &case.time {
             TimeSettings::Steady(settings) => self.steady(settings, problem, mesh),
@@ -81,9 +79,10 @@ impl Run<'_> {
         unknown_frame: bool,
     ) -> Result<Parts, RunError> {
         let poses: Vec<_> = problem.bodies.iter().map(|body| body.pose).collect();
-        let system = self.timing.measure(Stage::Assembly, || {
-            FluidSystem::new(&problem, &mesh, &poses, unknown_frame)
-        });
+        let system = self
+            .timing
+            .measure(Stage::Assembly, || FluidSystem::new(&problem, &mesh, &poses, unknown_frame));
+        tracing::info!(unknowns = system.n_unknowns, entries = system.n_entries(), "system built");
         let measure = Measure::new(self.case, &mesh).map_err(RunError::Unsupported)?;
         self.series.names = measure.names().to_vec();
         let state = State::at_rest(&problem, mesh);
@@ -167,9 +166,8 @@ impl Run<'_> {
         is_last: bool,
     ) -> Result<(), RunError> {
         let Parts { problem, system, measure, state } = parts;
-        let (bodies, values) = self
-            .timing
-            .measure(Stage::Loads, || measure.measure(system, problem, state, residual));
+        let (bodies, values) =
+            self.timing.measure(Stage::Loads, || measure.measure(system, problem, state, residual));
         self.series.times.push(state.time);
         let timing = self.timing;
         let snapshot = Snapshot {

@@ -39,9 +39,8 @@ impl State {
         let at_rest = Solution::at_rest(&layout);
         let poses: Vec<_> = problem.bodies.iter().map(|body| body.pose).collect();
         let angles: Vec<f64> = poses.iter().map(Pose::angle).collect();
-        let places = poses.iter().zip(&angles).map(|(pose, angle)| {
-            [pose.center.x, pose.center.y, *angle]
-        });
+        let places =
+            poses.iter().zip(&angles).map(|(pose, angle)| [pose.center.x, pose.center.y, *angle]);
         Self {
             step: 0,
             time: 0.0,

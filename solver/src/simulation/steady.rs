@@ -137,6 +137,7 @@ impl Newton<'_> {
                 self.scale = size;
             }
             let relative = if self.scale > 0.0 { size / self.scale } else { 0.0 };
+            tracing::info!(density_part = part, iteration, residual = relative, "newton");
             let at_rounding = relative < ROUNDING && relative > 0.3 * last;
             if relative <= self.settings.tolerance || at_rounding {
                 return Ok(Attempt::Converged(solution, raw));

@@ -79,9 +79,8 @@ mod tests {
     use super::*;
 
     fn check_lagrange<const D: usize>() {
-        let mut nodes: Vec<SVector<f64, D>> = (0..=D)
-            .map(|i| SVector::from_fn(|axis, _| f64::from(axis + 1 == i)))
-            .collect();
+        let mut nodes: Vec<SVector<f64, D>> =
+            (0..=D).map(|i| SVector::from_fn(|axis, _| f64::from(axis + 1 == i))).collect();
         for &(i, j) in edges::<D>() {
             nodes.push((nodes[i] + nodes[j]) / 2.0);
         }

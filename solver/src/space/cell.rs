@@ -121,8 +121,8 @@ impl<const D: usize> CellValues<D> {
         self.corners.extend(mesh.cell(cell).iter().map(|&node| mesh.nodes[node as usize]));
         let affine = (!curved).then(|| invert(&jacobian(&self.corners[..=D], &p1_gradients())));
         for q in 0..table.rule.points.len() {
-            let (determinant, inverse_transposed) = affine
-                .unwrap_or_else(|| invert(&jacobian(&self.corners, &table.grad_phi[q])));
+            let (determinant, inverse_transposed) =
+                affine.unwrap_or_else(|| invert(&jacobian(&self.corners, &table.grad_phi[q])));
             self.grad_phi.clear();
             self.grad_phi.extend(table.grad_phi[q].iter().map(|grad| inverse_transposed * grad));
             let position = if curved {

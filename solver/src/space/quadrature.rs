@@ -86,8 +86,8 @@ mod tests {
                             .zip(&rule.weights)
                             .map(|(x, w)| w * x[0].powi(i) * x[1].powi(j) * x[2].powi(k))
                             .sum();
-                        let exact = factorial(i) * factorial(j) * factorial(k)
-                            / factorial(i + j + k + 3);
+                        let exact =
+                            factorial(i) * factorial(j) * factorial(k) / factorial(i + j + k + 3);
                         assert!((sum - exact).abs() < 1e-14);
                     }
                 }

@@ -39,8 +39,7 @@ mod tests {
         assert_eq!(at(&TimeFunction::Ramp { duration: 2.0 }, 0.5), 0.25);
         assert_eq!(at(&TimeFunction::Ramp { duration: 2.0 }, 5.0), 1.0);
         assert!((at(&TimeFunction::SmoothRamp { duration: 2.0 }, 1.0) - 0.5).abs() < 1e-15);
-        let sine =
-            TimeFunction::Sine { mean: 1.0, amplitude: 2.0, frequency: 0.25, phase: 0.0 };
+        let sine = TimeFunction::Sine { mean: 1.0, amplitude: 2.0, frequency: 0.25, phase: 0.0 };
         assert!((at(&sine, 1.0) - 3.0).abs() < 1e-15);
         let table = TimeFunction::Table(vec![[0.0, 1.0], [1.0, 3.0]]);
         assert_eq!(at(&table, -1.0), 1.0);

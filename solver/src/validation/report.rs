@@ -184,6 +184,44 @@ pub fn comparisons_to_json(comparisons: &[Comparison]) -> Value {
     Value::Array(comparisons.iter().map(Comparison::to_json).collect())
 }
 
+/// The comparisons as a page of Markdown: one table a case, with sources and notes.
+#[must_use]
+pub fn comparison_page(comparisons: &[Comparison]) -> String {
+    let n_within = comparisons.iter().filter(|row| row.verdict == Verdict::Within).count();
+    let mut page = format!(
+        "# Validation\n\nWritten by `alewife validate --markdown` of version {}; not edited by hand. \
+         {n_within} of {} values are within their tolerance.\n",
+        env!("CARGO_PKG_VERSION"),
+        comparisons.len()
+    );
+    let case_of = |row: &Comparison| row.case.split('/').next().unwrap_or_default().to_owned();
+    for rows in comparisons.chunk_by(|one, other| case_of(one) == case_of(other)) {
+        page += &format!("\n## {}\n\n", case_of(&rows[0]));
+        page += "| variant | quantity | computed | published | difference | tolerance | verdict | unknowns | CPU (s) |\n";
+        page += "|---|---|---|---|---|---|---|---|---|\n";
+        for row in rows {
+            let [case, quantity, computed, published, difference, tolerance, verdict] = row.cells();
+            let variant = case.split_once('/').map_or("", |(_, variant)| variant);
+            page += &format!(
+                "| {variant} | {quantity} | {computed} | {published} | {difference} | {tolerance} \
+                 | {verdict} | {} | {:.2} |\n",
+                row.dofs, row.cpu_seconds
+            );
+        }
+        let mut told = Vec::new();
+        for row in rows {
+            let note =
+                row.reference.note.as_ref().map_or(String::new(), |note| format!(" ({note})"));
+            let line = format!("{}{note}", row.reference.source);
+            if !told.contains(&line) {
+                told.push(line);
+            }
+        }
+        page += &format!("\nSources: {}.\n", told.join("; "));
+    }
+    page
+}
+
 /// The table, its header first, one line a comparison in their order.
 #[must_use]
 pub fn comparison_table(comparisons: &[Comparison]) -> Vec<String> {
@@ -253,6 +291,9 @@ mod tests {
         assert!(table[1].contains("-0.50%") && table[1].contains("1.0%"), "{}", table[1]);
         assert!(table[2].ends_with("NOT COMPUTED"), "{}", table[2]);
         assert_eq!(table[0].find("verdict"), table[1].find("within"));
+        let page = comparison_page(&rows);
+        assert!(page.contains("1 of 2 values") && page.contains("## long-name"), "{page}");
+        assert!(page.contains("| variant | body.force.x (max) | -2.01"), "{page}");
         let json = comparisons_to_json(&rows);
         assert_eq!(json[0]["computed"], -2.01);
         assert_eq!(json[1]["reason"], "it diverged");

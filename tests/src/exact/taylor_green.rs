@@ -24,7 +24,8 @@ impl TaylorGreen {
 
 impl Exact for TaylorGreen {
     fn velocity(&self, place: &Point<2>, time: f64) -> Point<2> {
-        let ((sin_x, cos_x), (sin_y, cos_y)) = ((PI * place[0]).sin_cos(), (PI * place[1]).sin_cos());
+        let ((sin_x, cos_x), (sin_y, cos_y)) =
+            ((PI * place[0]).sin_cos(), (PI * place[1]).sin_cos());
         Point::<2>::new(-cos_x * sin_y, sin_x * cos_y) * self.decay(time)
     }
 
