@@ -55,6 +55,12 @@ fn a_run_leaves_its_files_and_is_not_replaced_unasked() {
     for file in ["case.toml", "series.csv", "status.json", "comparison.json"] {
         assert!(out.join(file).is_file(), "no {file}");
     }
+    // What is known before a run is what the run measures.
+    let series = std::fs::read_to_string(out.join("series.csv")).unwrap();
+    let columns: Vec<&str> = series.lines().next().unwrap().split(',').skip(1).collect();
+    let case = alewife::case::Case::read("squirmer-alone", &[]).unwrap().case;
+    assert_eq!(columns, alewife::case::known_quantities(&case));
+
     // The case as it was run is a case, and the same one.
     let again = done(directory.path(), &["check", "--no-mesh", "runs/squirmer-alone/case.toml"]);
     assert!(again.contains("squirmer: sphere of radius 1"), "{again}");

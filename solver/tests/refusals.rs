@@ -375,7 +375,7 @@ fn a_squirmer_is_round() {
     let ellipse =
         edited("{ disc = { radius = 0.05 } }", "{ ellipse = { semi_axes = [0.05, 0.02] } }")
             .replace("motion = \"held\"", gait);
-    assert_refused(&check(&ellipse, &[]), &["a squirmer is a disc or a sphere", "wrong.toml:24:"]);
+    assert_refused(&check(&ellipse, &[]), &["a squirmer is a disc or a sphere", "wrong.toml:24:8"]);
 }
 
 #[test]
@@ -442,7 +442,7 @@ fn a_wrong_setting_is_refused() {
         "fluid.viscocity=2",
         &["unknown key `viscocity`", "--> --set:1:1", "did you mean `viscosity`?"],
     );
-    refused("body.1.center=[1, 1]", &["there is no `body.1`", "`body` has 1 entries"]);
+    refused("body.1.center=[1, 1]", &["there is no `body.1`", "`body` has 1 of them"]);
     refused("fluid.viscosity", &["sets nothing", "--set KEY=VALUE"]);
     refused("fluid.viscosity=-1", &["must be positive", "--> --set:1:17"]);
 }

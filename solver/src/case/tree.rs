@@ -228,7 +228,7 @@ impl Node {
                     item.ok_or_else(|| {
                         refused(
                             format!("`{path}`: there is no `{so_far}.{step}`"),
-                            format!("`{so_far}` has {n} entries, counted from 0"),
+                            format!("entries are counted from 0; `{so_far}` has {n} of them"),
                         )
                     })?
                 }
@@ -332,7 +332,7 @@ mod tests {
         set(&mut root, "modes.1", "3").unwrap();
         assert_eq!(root.find("modes.1").0.value, Value::Integer(3));
         let error = set(&mut root, "modes.2", "3").unwrap_err();
-        assert!(error.help.contains("2 entries"), "{error:?}");
+        assert!(error.help.contains("has 2 of them"), "{error:?}");
         assert!(set(&mut root, "modes.1.x", "3").is_err());
     }
 }

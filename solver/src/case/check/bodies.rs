@@ -167,7 +167,7 @@ fn check_gait(findings: &mut Findings<'_>, key: &str, body: &Body) {
         findings.error(
             &format!("{key}.gait"),
             format!(
-                "a squirmer is a disc or a sphere, but \"{}\" is a {}",
+                "a squirmer is a disc or a sphere, but \"{}\" is of shape `{}`",
                 body.name,
                 body.shape.name()
             ),
