@@ -22,7 +22,7 @@ pub struct SizeBox {
 /// h(x) = min(size, surface sizes + growth * distance, box sizes + growth * distance)
 ///
 /// A surface size is the smallest of its own, of what gives `gap_layers` layers across the gap to
-/// the surface that faces it, and of half its radius of curvature.
+/// the surface that faces it, and of `turn` times its radius of curvature.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sizing {
     /// Largest edge length anywhere (m).
@@ -35,6 +35,8 @@ pub struct Sizing {
     pub growth: f64,
     /// Layers of cells wanted in the gap between two surfaces.
     pub gap_layers: f64,
+    /// Largest angle by which a curved boundary turns along one edge (rad); 0.5 is about 30 degrees.
+    pub turn: f64,
     /// Refinement boxes.
     pub boxes: Vec<SizeBox>,
     /// Whether cells at curved boundaries take the curve (isoparametric P2) or stay straight.
@@ -51,6 +53,7 @@ impl Sizing {
             sides: Vec::new(),
             growth,
             gap_layers: 3.0,
+            turn: 0.5,
             boxes: Vec::new(),
             curved: true,
         }
@@ -70,7 +73,7 @@ impl Sizing {
         }
         let sizes = [("size".to_string(), self.size), ("surface".to_string(), self.surface)]
             .into_iter()
-            .chain([("gap_layers".to_string(), self.gap_layers)])
+            .chain([("gap_layers".to_string(), self.gap_layers), ("turn".to_string(), self.turn)])
             .chain(self.sides.iter().map(|(name, size)| (format!("sides.{name}"), *size)))
             .chain(
                 self.boxes.iter().enumerate().map(|(i, b)| (format!("boxes[{i}].size"), b.size)),

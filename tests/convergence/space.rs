@@ -14,15 +14,7 @@ const SLACK: f64 = 0.15;
 const SETTINGS: Steady = Steady { tolerance: 1e-11, max_iterations: 25 };
 
 fn uniform(size: f64) -> Sizing {
-    Sizing {
-        size,
-        surface: size,
-        sides: vec![],
-        growth: 0.3,
-        gap_layers: 1.0,
-        boxes: vec![],
-        curved: true,
-    }
+    Sizing { gap_layers: 1.0, ..Sizing::graded(size, 0.3, size) }
 }
 
 fn solve(problem: &Problem, mesh: &Mesh<2>) -> Solution {

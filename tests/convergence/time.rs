@@ -15,15 +15,7 @@ const END: f64 = 0.5;
 fn mesh() -> Mesh<2> {
     let (min, max) = (Point::<2>::new(0.1, -0.3), Point::<2>::new(1.1, 0.7));
     let domain = Domain::Box { min, max, periodic_x: false, periodic_y: false };
-    let sizing = Sizing {
-        size: 0.1,
-        surface: 0.1,
-        sides: vec![],
-        growth: 0.3,
-        gap_layers: 1.0,
-        boxes: vec![],
-        curved: true,
-    };
+    let sizing = Sizing { gap_layers: 1.0, ..Sizing::graded(0.1, 0.3, 0.1) };
     generate(&domain, &[], &sizing).expect("a rectangle is meshed")
 }
 

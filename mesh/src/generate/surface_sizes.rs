@@ -9,9 +9,6 @@ use crate::{BoundaryKind, Domain, MeshError, PlacedShape, Point, Sizing};
 /// Largest number of samples on the boundary.
 const MOST_SAMPLES: usize = 4_000_000;
 
-/// Edges turn by at most this angle (rad), about 30 degrees.
-const LARGEST_TURN: f64 = 0.5;
-
 /// Two parts of one curve face each other when their normals enclose a cosine below this.
 const FACING: f64 = -0.5;
 
@@ -84,6 +81,8 @@ struct Surfaces<'a> {
     layers: f64,
     /// Own size of every boundary (m).
     own: Vec<f64>,
+    /// Largest angle an edge turns by (rad).
+    turn: f64,
     images: Vec<Point<2>>,
     /// Places and normals of the bodies that may face themselves, empty for the convex ones.
     facing: Vec<Vec<(Point<2>, Point<2>)>>,
@@ -124,7 +123,7 @@ impl<'a> Surfaces<'a> {
         let n_bodies = bodies.len();
         let images = domain.images();
         let layers = layers_at_surface(sizing.gap_layers, sizing.growth);
-        Self { domain, border, n_bodies, layers, own, images, facing }
+        Self { domain, border, n_bodies, layers, own, turn: sizing.turn, images, facing }
     }
 
     /// Halvings of a piece before its samples are trusted to have seen its bends.
@@ -164,7 +163,7 @@ impl<'a> Surfaces<'a> {
                 }
             }
         };
-        (point, size.min(self.own[boundary]).min(LARGEST_TURN * radius))
+        (point, size.min(self.own[boundary]).min(self.turn * radius))
     }
 
     /// Distance to the nearest body, the images of all and the body itself left out.

@@ -82,6 +82,9 @@ fn shape(spec: &ShapeSpec) -> Shape {
     }
 }
 
+/// Angle by which an outline turns along one edge at most (rad), however large its size.
+const LARGEST_TURN: f64 = 0.5;
+
 /// The wanted cell sizes of a case.
 #[must_use]
 pub fn sizing(case: &Case) -> Sizing {
@@ -98,6 +101,7 @@ pub fn sizing(case: &Case) -> Sizing {
         // A finer mesh has the same shape: more layers in gaps, slower growth.
         growth: mesh.growth * mesh.scale,
         gap_layers: mesh.gap_layers / mesh.scale,
+        turn: LARGEST_TURN * mesh.scale,
         boxes: boxes.collect(),
         curved: mesh.curved,
     }
