@@ -22,7 +22,7 @@ const ROOMS: [(&str, &[&str]); 14] = [
     ),
     ("observer", &["body", "case", "simulation"]),
     ("validation", &["case", "simulation"]),
-    ("cli", &["case", "observer", "simulation", "validation"]),
+    ("cli", &["case", "coupling", "observer", "simulation", "validation"]),
     ("main", &["cli"]),
 ];
 

@@ -1,8 +1,9 @@
 //! Sparse LU with its symbolic part reused while the pattern lasts, and iterative refinement.
 //!
-//! A few unknowns may be bordered: kept out of the sparse factorisation because their columns are
-//! dense (the velocity of a travelling frame enters the convection of every cell). With A split
-//! into the inner block K, the border's columns C, rows R and corner D,
+//! A few unknowns may be bordered: kept out of the sparse factorisation because their rows or
+//! columns are dense, which would fill it. The rigid velocities of a body touch all cells at its
+//! surface, and that of a travelling frame the convection of every cell. With A split into the
+//! inner block K, the border's columns C, rows R and corner D,
 //! (D - R K^-1 C) z = g - R K^-1 f and x = K^-1 (f - C z).
 
 use faer::Par;
@@ -269,7 +270,7 @@ impl Border {
         let factors = schur.lu();
         if !factors.is_invertible() {
             return Err(SingularMatrix(
-                "the velocity of the frame is not determined by the flow".to_owned(),
+                "the velocity of a free body is not determined by the equations".to_owned(),
             ));
         }
         self.schur = Some(factors);

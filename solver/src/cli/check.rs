@@ -11,6 +11,7 @@ use crate::case::{
     BoundaryCondition, Cadence, Case, CaseFile, DomainSpec, Gait, Model, Motion, Precision,
     Problem, ShapeSpec, TimeSettings, geometry_name, known_quantities, number_table, significant,
 };
+use crate::coupling::memory_estimate;
 
 /// Output above which a warning is given (bytes).
 const LARGE_OUTPUT: f64 = 2e9;
@@ -198,8 +199,8 @@ fn n_systems(case: &Case) -> f64 {
 /// Unknowns, memory, time and files of a run.
 fn costs(case: &Case, mesh: &Mesh<2>) -> String {
     let n_dofs = (2 * mesh.n_nodes() + mesh.n_vertices) as f64;
+    let memory = memory_estimate(2 * mesh.n_nodes() + mesh.n_vertices);
     // Measured on planar runs with 6 10^4 and 2.7 10^5 unknowns, on one core.
-    let memory = 110e6 * (n_dofs / 1e4).powf(1.18);
     let factorisation = 0.087 * (n_dofs / 1e4).powf(1.6);
     let assembly = 1.8e-6 * n_dofs;
     let systems = n_systems(case);

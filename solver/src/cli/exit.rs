@@ -79,7 +79,7 @@ pub fn exit_of(error: &RunError) -> Exit {
         RunError::NewtonStalled { .. } | RunError::NotFinite { .. } | RunError::Singular { .. } => {
             Exit::Diverged
         }
-        RunError::Unsupported(_) => Exit::BadCase,
+        RunError::Unsupported(_) | RunError::TooLarge { .. } => Exit::BadCase,
         RunError::Mesh(_) => Exit::Mesh,
         RunError::Output(_) => Exit::InputOutput,
         RunError::Stopped { .. } => Exit::Stopped,

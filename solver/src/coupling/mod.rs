@@ -10,6 +10,6 @@ pub use constrain::NodeSides;
 pub use loads::{BodyLoads, body_loads};
 pub use problem::{Drive, Problem, RigidBody, Side, TimeValue, VelocityProfile};
 pub use surface_load::surface_load;
-pub use system::{FluidSystem, Levels, Solution, SolveError, embed, flatten};
+pub use system::{FluidSystem, Levels, Solution, SolveError, embed, flatten, memory_estimate};
 
 pub(crate) use system::newton_convection;

@@ -106,7 +106,7 @@ pub struct FluidSystem {
     pattern: Pattern,
     values: Vec<f64>,
     solver: Option<DirectSolver>,
-    /// Unknowns with dense columns: the velocity of a frame.
+    /// Unknowns with dense rows or columns: the rigid velocities of free bodies.
     border: Vec<usize>,
     /// int psi dx of each vertex, to spread a flux imbalance evenly.
     pressure_weights: Vec<f64>,
@@ -140,9 +140,9 @@ impl FluidSystem {
             });
         }
         let values = vec![0.0; pattern.rows.len()];
-        let frame_velocities =
-            frame.into_iter().flat_map(|body| [layout.rigid(body, 0), layout.rigid(body, 1)]);
-        let border = frame_velocities.filter_map(|raw| constraints.unknown(raw)).collect();
+        let rigid = (0..layout.n_bodies)
+            .flat_map(|body| (0..DofLayout::<2>::RIGID).map(move |mode| layout.rigid(body, mode)));
+        let border = rigid.filter_map(|raw| constraints.unknown(raw)).collect();
         Self {
             layout,
             sides,
@@ -302,6 +302,14 @@ impl FluidSystem {
     pub fn tables(&self) -> &crate::space::Tables<2> {
         self.assembly.tables()
     }
+}
+
+/// Memory a system takes with its factors (bytes), from the velocities and pressures of its mesh.
+///
+/// Fitted to planar runs with 6 10^4 and 2.7 10^5 unknowns (0.94 and 5.3 GB).
+#[must_use]
+pub fn memory_estimate(n_dofs: usize) -> f64 {
+    110e6 * (n_dofs as f64 / 1e4).powf(1.18)
 }
 
 /// How a convection acts when the frame's velocity may be an unknown.

@@ -46,6 +46,19 @@ pub enum RunError {
         /// Which unknown, and why it may be.
         reason: String,
     },
+    /// The system would not fit into memory.
+    #[error(
+        "{n_dofs} unknowns need about {needed:.0} GB of memory and {available:.0} GB are free; \
+         raise mesh.size, mesh.surface or mesh.growth, or lower mesh.gap_layers"
+    )]
+    TooLarge {
+        /// Velocities and pressures.
+        n_dofs: usize,
+        /// Estimate (GB).
+        needed: f64,
+        /// Free memory (GB).
+        available: f64,
+    },
     /// A request the solver cannot meet (a case that `check` should have refused).
     #[error("{0}")]
     Unsupported(String),

@@ -9,7 +9,7 @@ use super::state::State;
 use super::steady::{SteadyFlow, solve_steady};
 use super::{RunError, Series, Stage, Timing, build_mesh, build_problem};
 use crate::case::{Case, Convection, Initial, Scheme, Steady, TimeSettings, Unsteady};
-use crate::coupling::{FluidSystem, Problem};
+use crate::coupling::{FluidSystem, Problem, memory_estimate};
 use crate::time::Bdf;
 
 /// What a finished run leaves in memory.
@@ -73,6 +73,7 @@ impl Run<'_> {
         let case = self.case;
         let mesh = self.timing.measure(Stage::Mesh, || build_mesh(case))?;
         tracing::info!(cells = mesh.n_cells(), nodes = mesh.n_nodes(), "mesh made");
+        check_memory(&mesh)?;
         let problem = build_problem(case, &mesh)?;
         // A frame whose velocity is itself sought enters the convection of every cell.
         let is_linear = match &case.time {
@@ -189,6 +190,22 @@ impl Run<'_> {
         })?;
         self.series.rows.push(values);
         Ok(())
+    }
+}
+
+/// Refuses a mesh whose system would not fit into the memory that is free, where the system tells.
+fn check_memory(mesh: &Mesh<2>) -> Result<(), RunError> {
+    const GIGABYTE: f64 = 1e9;
+    let n_dofs = 2 * mesh.n_nodes() + mesh.n_vertices;
+    let needed = memory_estimate(n_dofs) / GIGABYTE;
+    let told = std::fs::read_to_string("/proc/meminfo").unwrap_or_default();
+    let line = told.lines().find_map(|line| line.strip_prefix("MemAvailable:"));
+    let kilobytes = line.and_then(|line| line.trim().trim_end_matches(" kB").parse::<f64>().ok());
+    match kilobytes.map(|kilobytes| kilobytes * 1024.0 / GIGABYTE) {
+        Some(available) if needed > available => {
+            Err(RunError::TooLarge { n_dofs, needed, available })
+        }
+        _ => Ok(()),
     }
 }
 
