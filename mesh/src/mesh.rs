@@ -85,3 +85,12 @@ impl<const D: usize> Mesh<D> {
         &self.cells[cell * n..(cell + 1) * n]
     }
 }
+
+impl Mesh<2> {
+    /// Nodes of a facet: start, end, middle; the fluid is on the left from start to end.
+    #[must_use]
+    pub fn facet_nodes(&self, facet: &Facet) -> [u32; 3] {
+        let (cell, side) = (self.cell(facet.cell as usize), facet.side as usize);
+        [cell[side], cell[(side + 1) % 3], cell[3 + side]]
+    }
+}

@@ -15,12 +15,21 @@ pub struct Outline {
     cos: f64,
     sin: f64,
     form: Form,
+    /// No point of the outline is farther from the centre (m).
+    reach: f64,
 }
 
 #[derive(Debug, Clone, PartialEq)]
 enum Form {
     Ellipse([f64; 2]),
-    Spline { spline: Spline, cuts: [f64; 5], samples: Vec<f64> },
+    Spline {
+        spline: Spline,
+        cuts: [f64; 5],
+        /// Parameters and places from which searches start.
+        samples: Vec<(f64, Point<2>)>,
+        /// Largest distance between neighbouring samples (m).
+        spacing: f64,
+    },
 }
 
 /// The place of an outline nearest to a point.
@@ -82,13 +91,20 @@ impl Outline {
     }
 
     fn with_form(center: Point<2>, angle: f64, form: Form) -> Self {
-        Self { center, cos: angle.cos(), sin: angle.sin(), form }
+        let reach = match &form {
+            Form::Ellipse([a, b]) => a.max(*b),
+            Form::Spline { samples, spacing, .. } => {
+                let farthest = samples.iter().map(|(_, place)| place.norm());
+                spacing + farthest.fold(0.0, f64::max)
+            }
+        };
+        Self { center, cos: angle.cos(), sin: angle.sin(), form, reach }
     }
 
-    /// The same outline moved by a vector (m).
+    /// A lower bound of the gap to a point (m), at no cost.
     #[must_use]
-    pub fn shifted(&self, by: Point<2>) -> Self {
-        Self { center: self.center + by, ..self.clone() }
+    pub fn least_gap(&self, point: Point<2>) -> f64 {
+        (point - self.center).norm() - self.reach
     }
 
     /// Point (m), first and second derivative at a parameter in [0, 1] of one of the quarters.
@@ -138,7 +154,9 @@ impl Outline {
         );
         let (at, normal, curvature) = match &self.form {
             Form::Ellipse(semi_axes) => nearest_on_ellipse(*semi_axes, local),
-            Form::Spline { spline, samples, .. } => nearest_on_spline(spline, samples, local),
+            Form::Spline { spline, samples, spacing, .. } => {
+                nearest_on_spline(spline, samples, *spacing, local)
+            }
         };
         let gap = (local - at).dot(&normal);
         // The foot of the perpendicular makes the offset parallel to the normal
@@ -229,22 +247,25 @@ fn foot_on_ellipse(a: f64, b: f64, x: f64, y: f64) -> Point<2> {
 
 fn nearest_on_spline(
     spline: &Spline,
-    samples: &[f64],
+    samples: &[(f64, Point<2>)],
+    spacing: f64,
     point: Point<2>,
 ) -> (Point<2>, Point<2>, f64) {
     let n = samples.len();
-    let gaps: Vec<f64> =
-        samples.iter().map(|s| (spline.evaluate(*s)[0] - point).norm_squared()).collect();
+    let gaps: Vec<f64> = samples.iter().map(|(_, place)| (place - point).norm()).collect();
+    let shortest = gaps.iter().copied().fold(f64::INFINITY, f64::min);
     let mut best = (f64::INFINITY, 0.0);
     for i in 0..n {
         let (before, after) = ((i + n - 1) % n, (i + 1) % n);
-        if gaps[i] > gaps[before] || gaps[i] > gaps[after] {
+        // Between samples the curve comes nearer than they by less than their spacing
+        let is_hopeless = gaps[i] > shortest + spacing;
+        if is_hopeless || gaps[i] > gaps[before] || gaps[i] > gaps[after] {
             continue;
         }
-        let low = samples[before] - if i == 0 { spline.period() } else { 0.0 };
-        let high = samples[after] + if after == 0 { spline.period() } else { 0.0 };
-        let s = foot_on_spline(spline, low, high, samples[i], point);
-        let gap = (spline.evaluate(s)[0] - point).norm_squared();
+        let low = samples[before].0 - if i == 0 { spline.period() } else { 0.0 };
+        let high = samples[after].0 + if after == 0 { spline.period() } else { 0.0 };
+        let s = foot_on_spline(spline, low, high, samples[i].0, point);
+        let gap = (spline.evaluate(s)[0] - point).norm();
         if gap < best.0 {
             best = (gap, s);
         }
@@ -290,6 +311,7 @@ impl Form {
             .collect();
         let places: Vec<Point<2>> = samples.iter().map(|s| spline.evaluate(*s)[0]).collect();
         let n = places.len();
+        let spacing = (0..n).map(|i| (places[(i + 1) % n] - places[i]).norm()).fold(0.0, f64::max);
         let area: f64 = (0..n).map(|i| 0.5 * cross(places[i], places[(i + 1) % n])).sum();
         if area <= 0.0 {
             return Err(MeshError::Body {
@@ -310,7 +332,8 @@ impl Form {
             cuts[k] = if k > 0 && s < cuts[0] { s + spline.period() } else { s };
         }
         cuts[4] = cuts[0] + spline.period();
-        Ok(Self::Spline { spline, cuts, samples })
+        let samples = samples.into_iter().zip(places).collect();
+        Ok(Self::Spline { spline, cuts, samples, spacing })
     }
 }
 

@@ -203,6 +203,18 @@ mod tests {
     }
 
     #[test]
+    fn single_precision_is_for_arrays_only() {
+        let mut out = Vec::new();
+        let speed = [0.5; 12];
+        let arrays: [Array<'_>; 1] = [("speed", 2, &speed)];
+        write_vtu_as(Precision::F32, &mut out, &triangle(), None, &arrays, &[]).unwrap();
+        let header = String::from_utf8_lossy(&out).into_owned();
+        assert!(header.contains("type=\"Float32\" Name=\"speed\" NumberOfComponents=\"2\""));
+        assert!(header.contains("type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\""));
+        assert!(!header.contains("TimeValue"));
+    }
+
+    #[test]
     fn an_array_of_the_wrong_length_is_refused() {
         let error = write_vtu(Vec::new(), &triangle(), None, &[("u", 2, &[0.0])], &[]);
         assert_eq!(error.unwrap_err().kind(), io::ErrorKind::InvalidInput);

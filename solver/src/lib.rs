@@ -4,6 +4,7 @@
 pub mod algebra;
 pub mod body;
 pub mod case;
+pub mod cli;
 pub mod coupling;
 pub mod flow;
 pub mod gait;
@@ -11,3 +12,5 @@ pub mod observer;
 pub mod simulation;
 pub mod space;
 pub mod time;
+pub mod timing;
+pub mod validation;

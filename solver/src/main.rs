@@ -1,2 +1,9 @@
-//! The program `alewife`.
-fn main() {}
+//! Command line: `list`, `show`, `check`, `mesh`, `run`, `validate`.
+
+use std::process::ExitCode;
+
+use alewife::cli;
+
+fn main() -> ExitCode {
+    cli::guard(cli::run)
+}

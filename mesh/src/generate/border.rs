@@ -177,6 +177,12 @@ impl Border {
         matches!(self.pieces[piece].curve, Curve::Segment(..))
     }
 
+    /// Whether a piece is one of a periodic pair.
+    pub fn is_periodic(&self, piece: usize) -> bool {
+        let copies = self.pieces.iter().filter_map(|p| p.copy_of);
+        self.pieces[piece].copy_of.is_some() || copies.into_iter().any(|(of, _)| of == piece)
+    }
+
     /// Length per parameter where it is constant: segments and circles.
     fn speed(&self, piece: usize) -> Option<f64> {
         match &self.pieces[piece].curve {

@@ -17,6 +17,15 @@ const CLEARANCE: f64 = 0.72;
 /// A point keeps this distance from boundary edges, in h.
 const STANDOFF: f64 = 0.5;
 
+/// Points with the size wanted there.
+#[derive(Debug, Clone, Default)]
+pub struct SizedPoints {
+    /// Places (m).
+    pub points: Vec<Point<2>>,
+    /// Wanted edge lengths (m).
+    pub sizes: Vec<f64>,
+}
+
 /// Points for the inside of the domain, about h(x) from each other and from the boundary.
 ///
 /// Every boundary edge proposes the apex of its equilateral triangle; every accepted point then
@@ -24,57 +33,72 @@ const STANDOFF: f64 = 0.5;
 ///
 /// # Errors
 /// [`MeshError::TooManyCells`].
-pub fn lay_points(boundary: &BoundaryEdges, sizes: &SizeField) -> Result<Vec<Point<2>>, MeshError> {
-    let rim = Rim::new(boundary);
-    let mut tree = PointTree::new(&boundary.points);
-    let mut laid = Vec::new();
-    let mut front = VecDeque::new();
-    let consider = |place: Point<2>, h: f64, tree: &PointTree| {
-        !tree.any_within(place, CLEARANCE * h, |_| true) && rim.is_clear(place, h)
+pub fn lay_points(boundary: &BoundaryEdges, sizes: &SizeField) -> Result<SizedPoints, MeshError> {
+    let mut front = Front {
+        rim: Rim::new(boundary),
+        tree: PointTree::new(&boundary.points),
+        laid: SizedPoints::default(),
+        waiting: VecDeque::new(),
     };
     for edge in &boundary.edges {
         let [a, b] = edge.vertices.map(|v| boundary.points[v as usize]);
-        let along = b - a;
-        let inward = Point::<2>::new(-along.y, along.x) / along.norm();
-        let middle = (a + b) * 0.5;
-        let h = sizes.at(middle + inward * along.norm());
-        let place = middle + inward * (0.5 * 3.0_f64.sqrt() * (0.5 * (h + along.norm())));
-        if consider(place, h, &tree) {
-            tree.insert(place);
-            laid.push(place);
-            front.push_back((place, sizes.at(place), along / along.norm()));
-        }
+        let (middle, length) = ((a + b) * 0.5, (b - a).norm());
+        let along = (b - a) / length;
+        let inward = Point::<2>::new(-along.y, along.x);
+        let h = 0.5 * (length + sizes.at(middle + inward * length));
+        let place = middle + inward * (0.5 * 3.0_f64.sqrt() * h);
+        front.offer(place, h, along);
     }
-    while let Some((from, h, direction)) = front.pop_front() {
+    // Nothing nearer than this can be accepted, whatever the size turns out to be
+    let growth = sizes.growth();
+    let surely_taken = (CLEARANCE * (1.0 - growth) - 0.5 * growth).max(0.2);
+    while let Some((from, h, direction)) = front.waiting.pop_front() {
         for k in 0..6 {
             let (sin, cos) = (FRAC_PI_3 * f64::from(k)).sin_cos();
             let way = Point::<2>::new(
                 cos * direction.x - sin * direction.y,
                 sin * direction.x + cos * direction.y,
             );
-            // The first guess is refused cheaply, without asking for the size there
-            if tree.any_within(from + way * h, 0.5 * h, |_| true) {
+            let guess = from + way * h;
+            if front.tree.any_within(guess, surely_taken * h, |_| true) {
                 continue;
             }
-            let mut step = 0.5 * (h + sizes.at(from + way * h));
-            let size = sizes.at(from + way * step);
-            step = 0.5 * (h + size);
-            let place = from + way * step;
-            if consider(place, size, &tree) {
-                if laid.len() >= MOST_POINTS {
-                    return Err(MeshError::TooManyCells {
-                        what: "interior points",
-                        limit: MOST_POINTS,
-                        smallest: sizes.smallest(),
-                    });
-                }
-                tree.insert(place);
-                laid.push(place);
-                front.push_back((place, size, way));
+            // A step is as long as the mean of the sizes at its ends
+            let step = 0.5 * (h + sizes.at_from(guess, from, h));
+            let size = sizes.at_from(from + way * step, from, h);
+            front.offer(from + way * (0.5 * (h + size)), size, way);
+            if front.laid.points.len() > MOST_POINTS {
+                return Err(MeshError::TooManyCells {
+                    what: "interior points",
+                    limit: MOST_POINTS,
+                    smallest: sizes.smallest(),
+                });
             }
         }
     }
-    Ok(laid)
+    Ok(front.laid)
+}
+
+/// The points laid so far and those that still have to propose their neighbours.
+struct Front<'a> {
+    rim: Rim<'a>,
+    tree: PointTree,
+    laid: SizedPoints,
+    /// Place, size and direction.
+    waiting: VecDeque<(Point<2>, f64, Point<2>)>,
+}
+
+impl Front<'_> {
+    /// Lays a point if nothing is too near.
+    fn offer(&mut self, place: Point<2>, h: f64, direction: Point<2>) {
+        if self.tree.any_within(place, CLEARANCE * h, |_| true) || !self.rim.is_clear(place, h) {
+            return;
+        }
+        self.tree.insert(place);
+        self.laid.points.push(place);
+        self.laid.sizes.push(h);
+        self.waiting.push_back((place, h, direction));
+    }
 }
 
 /// The boundary edges, to keep points inside and off them.

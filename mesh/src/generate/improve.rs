@@ -4,15 +4,24 @@
 //! triangles may trade a little quality for a lower energy Σ (1/q - 1)².
 
 use super::border::Border;
+use super::trial::try_moves;
 use super::triangulation::{Corner, Triangulation, WALL, mean_ratio};
-use crate::{Point, SizeField};
+use crate::Point;
+use crate::curved::jacobian_coefficients;
+use crate::outline::cross;
 
 /// Triangles above this mean ratio may lose a little in favour of their neighbours.
 const GOOD: f64 = 0.85;
 
-/// Triangles below this mean ratio are repaired one by one; an isosceles one with the angle 30
-/// degrees at its tip has 0.77, with 30 at its base 0.69.
+/// Triangles below this mean ratio are repaired one by one; an isosceles one with 30 degrees at its
+/// tip has 0.76, with twice 30 at its base 0.60.
 const POOR: f64 = 0.8;
+
+/// Triangles below this mean ratio justify to split their boundary edge.
+const BAD: f64 = 0.65;
+
+/// A curved triangle whose det J falls below this part of its mean counts as folded.
+const FOLDED: f64 = 0.2;
 
 /// Edges shorter than this many h are merged.
 const SHORT: f64 = 0.62;
@@ -23,8 +32,14 @@ const LONG: f64 = 1.5;
 /// A change must improve by more than rounding.
 const PROGRESS: f64 = 1e-9;
 
+/// Rounds of trials, and rounds in which boundary edges may be split.
+const ROUNDS: usize = 4;
+
 /// Improves a triangulation until the repairs no longer help; see the file's sentence.
-pub fn improve(mesh: &mut Triangulation, sizes: &SizeField, border: &Border, frozen: &[bool]) {
+///
+/// Boundary edges are split, on the exact curve, only where nothing else helps. Those of periodic
+/// sides never are, since their partners would have to follow.
+pub fn improve(mesh: &mut Triangulation, border: &Border, is_curved: bool) {
     open_corners(mesh);
     flip_all(mesh);
     for _ in 0..3 {
@@ -32,7 +47,7 @@ pub fn improve(mesh: &mut Triangulation, sizes: &SizeField, border: &Border, fro
         flip_all(mesh);
     }
     for _ in 0..2 {
-        fit_edges(mesh, sizes);
+        fit_edges(mesh);
         flip_all(mesh);
         for _ in 0..2 {
             smooth_all(mesh);
@@ -40,7 +55,19 @@ pub fn improve(mesh: &mut Triangulation, sizes: &SizeField, border: &Border, fro
         }
     }
     repair(mesh);
-    let _ = (border, frozen);
+    for _ in 0..ROUNDS {
+        if !try_moves(mesh) {
+            break;
+        }
+        repair(mesh);
+    }
+    for _ in 0..ROUNDS {
+        if !split_boundary(mesh, border, is_curved) {
+            break;
+        }
+        flip_all(mesh);
+        repair(mesh);
+    }
     mesh.compact();
 }
 
@@ -73,7 +100,7 @@ pub fn flip_all(mesh: &mut Triangulation) {
     flip_from(mesh, &mut waiting);
 }
 
-fn flip_from(mesh: &mut Triangulation, waiting: &mut Vec<Corner>) {
+pub fn flip_from(mesh: &mut Triangulation, waiting: &mut Vec<Corner>) {
     while let Some((t, s)) = waiting.pop() {
         let Some((u, _)) = mesh.behind((t, s)) else { continue };
         let now = mesh.quality(t).min(mesh.quality(u));
@@ -141,7 +168,7 @@ fn smooth(mesh: &mut Triangulation, v: u32, star: &[Corner]) {
 }
 
 /// Moves a vertex to where its worst triangle is best: a pattern search; whether it gained.
-fn raise_worst(mesh: &mut Triangulation, v: u32) -> bool {
+pub fn raise_worst(mesh: &mut Triangulation, v: u32) -> bool {
     let mut star = Vec::new();
     mesh.star(v, &mut star);
     let ring = ring(mesh, &star);
@@ -169,7 +196,7 @@ fn raise_worst(mesh: &mut Triangulation, v: u32) -> bool {
 }
 
 /// Merges edges that are much too short and splits those much too long.
-fn fit_edges(mesh: &mut Triangulation, sizes: &SizeField) {
+fn fit_edges(mesh: &mut Triangulation) {
     let mut star = Vec::new();
     for t in 0..mesh.triangles.len() {
         for s in 0..3 {
@@ -178,8 +205,8 @@ fn fit_edges(mesh: &mut Triangulation, sizes: &SizeField) {
             }
             let [a, b] = [0, 1].map(|i| mesh.triangles[t][(s + i) % 3]);
             let [p, q] = [a, b].map(|v| mesh.points[v as usize]);
-            let middle = (p + q) * 0.5;
-            let length = (q - p).norm() / sizes.at(middle);
+            let size = 0.5 * (mesh.sizes[a as usize] + mesh.sizes[b as usize]);
+            let length = (q - p).norm() / size;
             if length < SHORT {
                 let Some((u, r)) = mesh.behind((t, s)) else { continue };
                 let corner = if !mesh.is_fixed(a) {
@@ -194,10 +221,40 @@ fn fit_edges(mesh: &mut Triangulation, sizes: &SizeField) {
                     mesh.merge(corner, &star);
                 }
             } else if length > LONG {
-                mesh.split((t, s), middle, 0.0);
+                mesh.split((t, s), (p + q) * 0.5, 0.0);
             }
         }
     }
+}
+
+/// Splits boundary edges that are the longest side of a bad triangle or fold a curved one.
+fn split_boundary(mesh: &mut Triangulation, border: &Border, is_curved: bool) -> bool {
+    let mut has_split = false;
+    for t in 0..mesh.triangles.len() {
+        let Some(s) = (0..3).find(|s| mesh.is_alive(t) && mesh.across[t][*s] & WALL != 0) else {
+            continue;
+        };
+        let edge = mesh.edges[(mesh.across[t][s] & !WALL) as usize];
+        let piece = edge.piece as usize;
+        if border.is_periodic(piece) {
+            continue;
+        }
+        let corners = mesh.corners(t);
+        let [a, b, c] = [0, 1, 2].map(|i| corners[(s + i) % 3]);
+        let is_longest = (b - a).norm() > (c - b).norm().max((a - c).norm());
+        let middle = border.cut(piece, edge.parameters[0], edge.parameters[1], 0.5);
+        let place = border.point(piece, middle);
+        let is_folded = is_curved && !border.is_straight(piece) && {
+            let nodes = [a, b, c, place, (b + c) * 0.5, (c + a) * 0.5];
+            let lowest = jacobian_coefficients(&nodes).into_iter().fold(f64::INFINITY, f64::min);
+            lowest < FOLDED * cross(b - a, c - a)
+        };
+        if is_folded || (is_longest && mesh.quality(t) < BAD) {
+            mesh.split((t, s), place, middle);
+            has_split = true;
+        }
+    }
+    has_split
 }
 
 /// Repairs the poor triangles, worst first, until a round no longer helps.

@@ -13,6 +13,7 @@ mod point_tree;
 mod quadratic;
 mod size_tree;
 mod surface_sizes;
+mod trial;
 mod triangulation;
 
 use crate::{Domain, Mesh, MeshError, PlacedShape, SizeField, Sizing};
@@ -61,7 +62,7 @@ pub fn generate(
     let sizes = SizeField::from_border(domain, bodies, sizing, &border)?;
     let boundary = BoundaryEdges::new(&border, &sizes)?;
     let interior = front::lay_points(&boundary, &sizes)?;
-    let mut triangles = planar::triangulate(&boundary, &interior)?;
-    improve::improve(&mut triangles, &sizes, &border, &[]);
+    let mut triangles = planar::triangulate(&boundary, &interior, &sizes)?;
+    improve::improve(&mut triangles, &border, sizing.curved);
     quadratic::finish(triangles, &border, &boundary.periodic, sizing.curved)
 }

@@ -183,7 +183,7 @@ mod tests {
 
     #[test]
     fn overlap_is_refused_with_its_depth_and_both_names() {
-        for x in [1.9, 0.1, 2.0] {
+        for x in [1.9, 1.0, 2.0] {
             let bodies = [disc("a", 0.0, 0.0, 1.0), disc("b", x, 0.0, 1.0)];
             match check_placement(&UNIT, &bodies) {
                 Err(MeshError::Overlap { first, second, gap, .. }) => {

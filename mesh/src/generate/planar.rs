@@ -3,8 +3,9 @@
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation as _};
 
 use super::edges::BoundaryEdges;
+use super::front::SizedPoints;
 use super::triangulation::{Triangulation, WALL};
-use crate::{MeshError, Point};
+use crate::{MeshError, Point, SizeField};
 
 /// Triangles of the fluid between the boundary edges, through all given interior points.
 ///
@@ -12,9 +13,10 @@ use crate::{MeshError, Point};
 /// [`MeshError::Boundary`] when boundary edges cross each other or vertices coincide.
 pub fn triangulate(
     boundary: &BoundaryEdges,
-    interior: &[Point<2>],
+    interior: &SizedPoints,
+    sizes: &SizeField,
 ) -> Result<Triangulation, MeshError> {
-    let points: Vec<Point<2>> = boundary.points.iter().chain(interior).copied().collect();
+    let points: Vec<Point<2>> = boundary.points.iter().chain(&interior.points).copied().collect();
     let refuse = |vertex: usize, reason| {
         let at = points[vertex.min(points.len() - 1)];
         MeshError::Boundary { x: at.x, y: at.y, reason }
@@ -84,5 +86,7 @@ pub fn triangulate(
             })
         })
         .collect();
-    Ok(Triangulation::new(points, triangles, across, boundary.edges.clone()))
+    let at_boundary = boundary.points.iter().map(|x| sizes.at(*x));
+    let sizes = at_boundary.chain(interior.sizes.iter().copied()).collect();
+    Ok(Triangulation::new(points, sizes, triangles, across, boundary.edges.clone()))
 }

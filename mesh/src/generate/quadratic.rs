@@ -3,7 +3,7 @@
 use super::border::Border;
 use super::triangulation::{Triangulation, WALL};
 use crate::curved::jacobian_coefficients;
-use crate::{Facet, Mesh, MeshError, Point};
+use crate::{Facet, Mesh, MeshError};
 
 /// Mesh with quadratic geometry; `periodic` are the boundary edge pairs (copy, original).
 ///
@@ -64,7 +64,7 @@ pub fn finish(
         boundaries: border.boundaries.clone(),
         periodic: Vec::new(),
     };
-    mesh.periodic = pair_nodes(&mesh, border, &triangles, periodic);
+    mesh.periodic = pair_nodes(&mesh, &triangles, periodic);
     for cell in (0..n_cells).filter(|c| mesh.curved[*c]) {
         let nodes = mesh.cell_nodes(cell);
         let lowest = jacobian_coefficients(&nodes).into_iter().fold(f64::INFINITY, f64::min);
@@ -81,11 +81,9 @@ pub fn finish(
     Ok(mesh)
 }
 
-/// Periodic pairs of nodes, chains resolved, sorted by copy; copies are moved onto their originals
-/// plus the period exactly.
+/// Periodic pairs of nodes, chains resolved, sorted by copy.
 fn pair_nodes(
     mesh: &Mesh<2>,
-    border: &Border,
     triangles: &Triangulation,
     periodic: &[(u32, u32)],
 ) -> Vec<(u32, u32)> {
@@ -98,9 +96,6 @@ fn pair_nodes(
     for (copy, source) in periodic {
         let [a, b] = triangles.edges[*copy as usize].vertices;
         let [c, d] = triangles.edges[*source as usize].vertices;
-        debug_assert!(
-            border.pieces[triangles.edges[*copy as usize].piece as usize].copy_of.is_some()
-        );
         for (to, from) in [(a, d), (middle(*copy), middle(*source)), (b, c)] {
             // A corner of a doubly periodic box is a copy twice
             if original[to as usize] == to {
@@ -117,13 +112,4 @@ fn pair_nodes(
     };
     copies.sort_unstable();
     copies.into_iter().map(|copy| (copy, root(copy))).collect()
-}
-
-impl Mesh<2> {
-    /// Places of the six nodes of a cell (m).
-    #[must_use]
-    pub fn cell_nodes(&self, cell: usize) -> [Point<2>; 6] {
-        let nodes = self.cell(cell);
-        std::array::from_fn(|i| self.nodes[nodes[i] as usize])
-    }
 }

@@ -44,7 +44,7 @@ pub fn surface_sizes(
         while let Some((to, depth)) = ends.pop() {
             let next = surfaces.sample(index, to);
             let length = (next.0 - from.1.0).norm();
-            if depth < 4 || length > 0.5 * next.1.min(from.1.1) {
+            if depth < surfaces.halvings(index) || length > 0.5 * next.1.min(from.1.1) {
                 ends.push((to, depth + 1));
                 ends.push((0.5 * (from.0 + to), depth + 1));
                 if samples.len() + sources.len() > MOST_SAMPLES || depth > 60 {
@@ -67,12 +67,21 @@ pub fn surface_sizes(
     Ok(sources)
 }
 
+/// Gap over the size at its surfaces that gives a number of layers across it.
+///
+/// The size grows towards the middle, so the layers are ∫ ds / h = 2/g ln(1 + g gap / 2h), which is
+/// solved for gap / h.
+fn layers_at_surface(layers: f64, growth: f64) -> f64 {
+    if growth > 0.0 { 2.0 / growth * (0.5 * growth * layers).exp_m1() } else { layers }
+}
+
 /// All surfaces, to ask for the distance from one to the others.
 struct Surfaces<'a> {
     domain: &'a Domain,
     border: &'a Border,
     n_bodies: usize,
-    gap_layers: f64,
+    /// Gap over the size at its surfaces.
+    layers: f64,
     /// Own size of every boundary (m).
     own: Vec<f64>,
     images: Vec<Point<2>>,
@@ -114,7 +123,17 @@ impl<'a> Surfaces<'a> {
         }
         let n_bodies = bodies.len();
         let images = domain.images();
-        Self { domain, border, n_bodies, gap_layers: sizing.gap_layers, own, images, facing }
+        let layers = layers_at_surface(sizing.gap_layers, sizing.growth);
+        Self { domain, border, n_bodies, layers, own, images, facing }
+    }
+
+    /// Halvings of a piece before its samples are trusted to have seen its bends.
+    fn halvings(&self, piece: usize) -> u32 {
+        match self.border.pieces[piece].curve {
+            Curve::Segment(..) => 2,
+            Curve::Quarter { outline, .. } if self.border.outlines[outline].is_ellipse() => 4,
+            Curve::Quarter { .. } => 8,
+        }
     }
 
     /// Place of a piece and the size wanted there.
@@ -122,7 +141,7 @@ impl<'a> Surfaces<'a> {
         let point = self.border.point(piece, parameter);
         let (normal, radius) = self.border.frame(piece, parameter);
         let boundary = self.border.pieces[piece].boundary as usize;
-        let layers = self.gap_layers;
+        let layers = self.layers;
         let size = match self.border.boundaries[boundary].kind {
             BoundaryKind::Body(body) => {
                 let walls = (0..self.domain.sides().len()).map(|side| {
@@ -153,7 +172,8 @@ impl<'a> Surfaces<'a> {
         let mut gap = f64::INFINITY;
         for (body, outline) in self.border.outlines[..self.n_bodies].iter().enumerate() {
             for (i, shift) in self.images.iter().enumerate() {
-                if i > 0 || but != Some(body) {
+                let is_other = i > 0 || but != Some(body);
+                if is_other && outline.least_gap(point - shift) < gap {
                     gap = gap.min(outline.nearest(point - shift).gap);
                 }
             }

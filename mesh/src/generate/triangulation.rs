@@ -20,6 +20,8 @@ pub type Corner = (usize, usize);
 pub struct Triangulation {
     /// Places of the vertices (m).
     pub points: Vec<Point<2>>,
+    /// Edge lengths wanted at the vertices (m), about where they are.
+    pub sizes: Vec<f64>,
     /// Corners, counter-clockwise.
     pub triangles: Vec<[u32; 3]>,
     /// Triangle behind each side, or [`WALL`] with the index of a boundary edge.
@@ -48,6 +50,7 @@ impl Triangulation {
     /// From corners and neighbours of all triangles.
     pub fn new(
         points: Vec<Point<2>>,
+        sizes: Vec<f64>,
         triangles: Vec<[u32; 3]>,
         across: Vec<[u32; 3]>,
         edges: Vec<BoundaryEdge>,
@@ -64,7 +67,7 @@ impl Triangulation {
                 fixed[v as usize] = true;
             }
         }
-        Self { points, triangles, across, edges, incident, fixed }
+        Self { points, sizes, triangles, across, edges, incident, fixed }
     }
 
     /// Whether a triangle is still there.
@@ -171,8 +174,9 @@ impl Triangulation {
     }
 
     /// Adds a vertex.
-    fn add(&mut self, point: Point<2>, fixed: bool) -> u32 {
+    fn add(&mut self, point: Point<2>, size: f64, fixed: bool) -> u32 {
         self.points.push(point);
+        self.sizes.push(size);
         self.fixed.push(fixed);
         self.incident.push(0);
         self.points.len() as u32 - 1
@@ -183,8 +187,9 @@ impl Triangulation {
     /// A boundary edge is cut in two edges; `parameter` is that of the new vertex on its piece.
     pub fn split(&mut self, (t, s): Corner, point: Point<2>, parameter: f64) -> u32 {
         let behind = self.behind((t, s));
-        let m = self.add(point, behind.is_none());
-        let (ends, half) = if behind.is_none() {
+        let ends = [0, 1].map(|i| self.sizes[self.triangles[t][(s + i) % 3] as usize]);
+        let m = self.add(point, 0.5 * (ends[0] + ends[1]), behind.is_none());
+        let (first_half, second_half) = if behind.is_none() {
             let edge = (self.across[t][s] & !WALL) as usize;
             let mut second = self.edges[edge];
             second.vertices[0] = m;
@@ -205,8 +210,8 @@ impl Triangulation {
             self.across[u][r] = first as u32;
             self.across[first][0] = u as u32;
         } else {
-            self.across[t][s] = ends;
-            self.across[first][0] = half;
+            self.across[t][s] = first_half;
+            self.across[first][0] = second_half;
         }
         m
     }
@@ -230,8 +235,9 @@ impl Triangulation {
 
     /// Puts a vertex inside a triangle.
     pub fn insert(&mut self, t: usize, point: Point<2>) -> u32 {
-        let m = self.add(point, false);
         let [a, b, c] = self.triangles[t];
+        let size = [a, b, c].map(|v| self.sizes[v as usize]).iter().sum::<f64>() / 3.0;
+        let m = self.add(point, size, false);
         let [ab, bc, ca] = self.across[t];
         let u = self.triangles.len();
         let w = u + 1;
@@ -331,11 +337,13 @@ impl Triangulation {
             if self.incident[v] != u32::MAX {
                 *new = n as u32;
                 self.points[n] = self.points[v];
+                self.sizes[n] = self.sizes[v];
                 self.fixed[n] = self.fixed[v];
                 n += 1;
             }
         }
         self.points.truncate(n);
+        self.sizes.truncate(n);
         self.fixed.truncate(n);
         let mut triangle = vec![u32::MAX; self.triangles.len()];
         let mut n = 0;
@@ -363,5 +371,110 @@ impl Triangulation {
                 self.incident[*v as usize] = t as u32;
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A hexagon of radius one around an inner vertex, boundary edge i from corner i.
+    fn hexagon() -> Triangulation {
+        let corner = |i: u32| {
+            let angle = std::f64::consts::FRAC_PI_3 * f64::from(i);
+            Point::<2>::new(angle.cos(), angle.sin())
+        };
+        let mut points: Vec<Point<2>> = (0..6).map(corner).collect();
+        points.push(Point::<2>::zeros());
+        let edge = |i: u32| BoundaryEdge {
+            vertices: [i, (i + 1) % 6],
+            piece: 0,
+            parameters: [f64::from(i) / 6.0, f64::from(i + 1) / 6.0],
+        };
+        Triangulation::new(
+            points,
+            vec![1.0; 7],
+            (0..6).map(|i| [i, (i + 1) % 6, 6]).collect(),
+            (0..6).map(|i| [WALL | i, (i + 1) % 6, (i + 5) % 6]).collect(),
+            (0..6).map(edge).collect(),
+        )
+    }
+
+    /// Neighbours know each other, stars are complete, the area is that of the hexagon.
+    fn assert_consistent(mesh: &Triangulation) {
+        let mut area = 0.0;
+        for t in (0..mesh.triangles.len()).filter(|t| mesh.is_alive(*t)) {
+            let [a, b, c] = mesh.corners(t);
+            assert!(mesh.quality(t) > 0.0);
+            area += 0.5 * cross(b - a, c - a);
+            for s in 0..3 {
+                let ends = [mesh.triangles[t][s], mesh.triangles[t][(s + 1) % 3]];
+                if let Some((u, r)) = mesh.behind((t, s)) {
+                    let other = [mesh.triangles[u][(r + 1) % 3], mesh.triangles[u][r]];
+                    assert_eq!(other, ends);
+                } else {
+                    let edge = (mesh.across[t][s] & !WALL) as usize;
+                    assert_eq!(mesh.edges[edge].vertices, ends);
+                }
+            }
+        }
+        assert!((area - 1.5 * 3.0_f64.sqrt()).abs() < 1e-14, "{area}");
+        let mut star = Vec::new();
+        for v in (0..mesh.points.len() as u32).filter(|v| mesh.is_used(*v)) {
+            mesh.star(v, &mut star);
+            let around = mesh.triangles.iter().filter(|corners| corners.contains(&v)).count();
+            assert_eq!(star.len(), around);
+            assert!(star.iter().all(|(t, local)| mesh.triangles[*t][*local] == v));
+        }
+    }
+
+    #[test]
+    fn every_move_keeps_the_triangulation_consistent() {
+        let mut mesh = hexagon();
+        assert_consistent(&mesh);
+        let inner = mesh.insert(2, Point::<2>::new(-0.4, 0.55));
+        assert_consistent(&mesh);
+        let middle = (mesh.points[0] + mesh.points[6]) * 0.5;
+        mesh.split((0, 2), middle, 0.0);
+        assert_consistent(&mesh);
+        let middle = (mesh.points[4] + mesh.points[5]) * 0.5;
+        let wall = mesh.split((4, 0), middle, 0.75);
+        assert!(mesh.is_fixed(wall) && !mesh.is_fixed(inner));
+        assert_eq!(mesh.edges[6].parameters, [0.75, 5.0 / 6.0]);
+        assert_consistent(&mesh);
+        let mut n_flips = 0;
+        for t in 0..mesh.triangles.len() {
+            for s in 0..3 {
+                if mesh.flipped_quality((t, s)).is_some_and(|q| q > 0.1) {
+                    mesh.flip((t, s));
+                    n_flips += 1;
+                    assert_consistent(&mesh);
+                }
+            }
+        }
+        assert!(n_flips > 0);
+    }
+
+    #[test]
+    fn merging_an_inner_vertex_undoes_its_insertion() {
+        let mut mesh = hexagon();
+        let inner = mesh.insert(3, Point::<2>::new(-0.5, -0.2));
+        let mut star = Vec::new();
+        mesh.star(inner, &mut star);
+        let corner = star[0];
+        assert!(mesh.merged_quality(corner, &star).is_some_and(|q| q > 0.99));
+        mesh.merge(corner, &star);
+        assert!(!mesh.is_used(inner));
+        assert_consistent(&mesh);
+        mesh.compact();
+        assert_eq!((mesh.points.len(), mesh.triangles.len()), (7, 6));
+        assert_consistent(&mesh);
+    }
+
+    #[test]
+    fn a_flip_never_gives_a_triangle_two_boundary_edges() {
+        let mesh = hexagon();
+        // The spokes end at the boundary: flipped, one triangle would have both edges there
+        assert!((0..6).all(|t| mesh.flipped_quality((t, 1)).is_none()));
     }
 }

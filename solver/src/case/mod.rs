@@ -1,12 +1,23 @@
 //! `Case`: the typed contents of a case file.
 
 mod body;
+mod check;
+mod deserialize;
 mod domain;
 mod fluid;
+mod geometry;
+pub mod library;
 mod mesh;
+mod nearest;
+mod numbers;
 mod output;
+mod problem;
+mod read;
 mod reference;
+mod schema;
+mod source;
 mod time;
+mod tree;
 
 use std::collections::BTreeMap;
 
@@ -14,11 +25,19 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 pub use body::{Body, Gait, ImposedMotion, Lock, Motion, ShapeSpec, SquirmerGait};
+pub use check::{check, known_quantities};
 pub use domain::{BoundaryCondition, DomainSpec, Geometry, TimeFunction};
 pub use fluid::{Fluid, Model};
+pub use geometry::opposite;
 pub use mesh::{MeshSettings, RefinementBox};
+pub use nearest::nearest;
+pub use numbers::{DerivedNumber, derived_numbers, geometry_name, number_table, significant};
 pub use output::{Cadence, Output, Precision, Probe};
+pub use problem::{CaseError, Problem, Severity};
+pub use read::CaseFile;
 pub use reference::{Numbers, Reference, Scales, Statistic, Statistics, Variant};
+pub use schema::schema;
+pub use source::Place;
 pub use time::{Convection, Initial, Scheme, Steady, TimeSettings, Unsteady};
 
 /// A problem to solve: what one case file declares, after `extends`, variants and `--set`.

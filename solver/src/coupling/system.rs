@@ -13,8 +13,8 @@ use super::problem::{Drive, Problem};
 use crate::algebra::{AffineConstraints, DirectSolver, Pattern, SingularMatrix};
 use crate::body::{Pose, Twist};
 use crate::flow::{Assembly, Convection, Fields, FlowTerms, assemble, residual};
-use crate::simulation::{Stage, Timing};
 use crate::space::{CellValues, DofLayout};
+use crate::timing::{Stage, Timing};
 
 /// Why a system could not be solved.
 #[derive(Debug, Error)]
@@ -106,6 +106,8 @@ pub struct FluidSystem {
     pattern: Pattern,
     values: Vec<f64>,
     solver: Option<DirectSolver>,
+    /// Unknowns with dense columns: the velocity of a frame.
+    border: Vec<usize>,
     /// int psi dx of each vertex, to spread a flux imbalance evenly.
     pressure_weights: Vec<f64>,
 }
@@ -138,6 +140,9 @@ impl FluidSystem {
             });
         }
         let values = vec![0.0; pattern.rows.len()];
+        let frame_velocities =
+            frame.into_iter().flat_map(|body| [layout.rigid(body, 0), layout.rigid(body, 1)]);
+        let border = frame_velocities.filter_map(|raw| constraints.unknown(raw)).collect();
         Self {
             layout,
             sides,
@@ -146,6 +151,7 @@ impl FluidSystem {
             pattern,
             values,
             solver: None,
+            border,
             pressure_weights,
         }
     }
@@ -239,10 +245,10 @@ impl FluidSystem {
         });
         timing.measure(Stage::Factorisation, || {
             if self.solver.is_none() {
-                self.solver = Some(DirectSolver::analyse(&self.pattern)?);
+                self.solver = Some(DirectSolver::analyse(&self.pattern, &self.border)?);
             }
             let solver = self.solver.as_mut().expect("the analysis was just made");
-            solver.factorise(&self.pattern, &self.values)
+            solver.factorise(&self.values)
         })?;
         let raw = timing.measure(Stage::Solve, || {
             let mut step: Vec<f64> = reduced.iter().map(|value| -value).collect();

@@ -3,9 +3,8 @@
 mod assemble;
 mod cell_terms;
 mod open_side;
-mod surface_load;
 mod terms;
 
 pub use assemble::{Assembly, assemble, residual};
-pub use surface_load::surface_load;
+pub use open_side::{FacetPoint, for_each_facet_point};
 pub use terms::{BodyForce, Convection, FlowTerms, Fields};

@@ -12,17 +12,22 @@ use nalgebra::SMatrix;
 use crate::space::{CellValues, Rule, triangle_side_point};
 
 /// Values at one quadrature point of a boundary facet.
-pub(super) struct FacetPoint<const D: usize> {
+#[derive(Debug, Clone)]
+pub struct FacetPoint<const D: usize> {
+    /// Quadratic basis of the cell.
     pub phi: Vec<f64>,
+    /// Its gradients (1/m).
     pub grad_phi: Vec<Point<D>>,
     /// Outward normal of the fluid times the length of the facet's piece (m; m2 axisymmetric).
     pub normal_ds: Point<D>,
+    /// Position (m).
     pub position: Point<D>,
+    /// Parameter along the side, from 0 to 1.
     pub s: f64,
 }
 
 /// Visits the quadrature points of a boundary facet of a planar mesh.
-pub(super) fn for_each_facet_point(
+pub fn for_each_facet_point(
     mesh: &Mesh<2>,
     facet: &Facet,
     rule: &Rule<1>,

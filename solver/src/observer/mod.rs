@@ -1,1 +1,68 @@
 //! Sees everything, changes nothing: files, progress, log.
+//!
+//! A run writes one directory:
+//!
+//! | File | What it holds | When it is written |
+//! |---|---|---|
+//! | `case.toml` | The case as it is run, all defaults filled in | at the start |
+//! | `provenance.json` | Which program ran it, where and how | at the start |
+//! | `status.json` | State, step, time, cost of each stage | every second and at the end |
+//! | `log.jsonl` | Log, one JSON object a line | as it happens |
+//! | `series.csv` | One row a step | flushed every second |
+//! | `run.mcap` | Bodies and quantities as messages | flushed every few steps |
+//! | `fields/*.vtu`, `fields.pvd` | Velocity, pressure, vorticity | whole files only |
+//! | `comparison.json` | Computed against published values, by the command line | at the end |
+//! | `lock` | Held while a run lives | – |
+
+mod csv;
+mod fields;
+mod foxglove;
+mod log;
+mod mcap;
+mod process;
+mod progress;
+mod provenance;
+mod run_directory;
+mod schedule;
+mod status;
+mod terminal;
+#[cfg(test)]
+mod tests;
+mod vorticity;
+
+use crate::case::Case;
+use crate::simulation::Observer;
+
+pub use csv::SeriesFile;
+pub use fields::FieldFiles;
+pub use log::start_log;
+pub use mcap::MessageFile;
+pub use progress::Progress;
+pub use provenance::Provenance;
+pub use run_directory::{RunDirectory, RunDirectoryError, write_atomic};
+pub use status::{RunState, Status, StatusFile};
+
+/// Everyone who looks on at a run in `directory`; with `quiet`, without progress on the terminal.
+///
+/// Make them before the mesh is made: `status.json` says from then on that the run lives, and a
+/// failure to build the simulation can be told to them.
+///
+/// # Errors
+/// When a file cannot be made.
+pub fn observers(
+    case: &Case,
+    directory: &RunDirectory,
+    quiet: bool,
+) -> std::io::Result<Vec<Box<dyn Observer<2>>>> {
+    let mut everyone: Vec<Box<dyn Observer<2>>> = vec![
+        Box::new(SeriesFile::create(directory.path(), case)?),
+        Box::new(MessageFile::create(directory, case)?),
+        Box::new(FieldFiles::new(directory.path(), case)),
+    ];
+    if !quiet {
+        everyone.push(Box::new(Progress::new(case)));
+    }
+    // The status comes last: when it says `finished`, all other files are complete.
+    everyone.push(Box::new(StatusFile::create(directory.path(), case)?));
+    Ok(everyone)
+}

@@ -24,7 +24,8 @@ const TOLERANCE: f64 = 1e-10;
 const ROUNDING: f64 = 1e-7;
 
 /// What a step leaves for measurements.
-pub(super) struct StepResult {
+#[derive(Debug, Clone)]
+pub struct StepResult {
     /// Raw residual of the fluid's equations at the new solution.
     pub residual: Vec<f64>,
     /// Linear systems solved.
@@ -36,7 +37,10 @@ fn rigid(twist: &Twist) -> [f64; 3] {
 }
 
 /// Advances `state` by the step of `bdf`. On error the state is where it was.
-pub(super) fn advance(
+///
+/// # Errors
+/// When the system is singular, the solution not finite, or Newton's method stalls.
+pub fn advance(
     system: &mut FluidSystem,
     problem: &Problem,
     state: &mut State,

@@ -7,8 +7,7 @@ use super::snapshot::BodyReport;
 use super::state::State;
 use crate::body::{Twist, Wrench};
 use crate::case::{Case, Geometry, Probe};
-use crate::coupling::{FluidSystem, Problem, Solution, body_loads};
-use crate::flow::surface_load;
+use crate::coupling::{FluidSystem, Problem, Solution, body_loads, surface_load};
 use crate::space::{CellValues, p1_values, p2_values};
 
 /// One value of a probe's point: where it is in the mesh, and with which sign it counts.

@@ -9,12 +9,13 @@ mod series;
 mod snapshot;
 mod state;
 mod steady;
-mod timing;
 
 pub use build::{build_mesh, build_problem, domain, placed_shapes, sizing};
 pub use error::RunError;
+pub use march::{StepResult, advance};
 pub use run::{Outcome, simulate};
 pub use series::Series;
 pub use snapshot::{BodyReport, Observer, Snapshot};
 pub use state::State;
-pub use timing::{Stage, Timing, cpu_seconds};
+pub use steady::{SteadyFlow, solve_steady};
+pub use crate::timing::{Stage, Timing, cpu_seconds};

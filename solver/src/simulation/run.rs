@@ -8,9 +8,8 @@ use super::snapshot::{Observer, Snapshot};
 use super::state::State;
 use super::steady::solve_steady;
 use super::{RunError, Series, Stage, Timing, build_mesh, build_problem};
-use crate::body::Twist;
 use crate::case::{Case, Initial, Scheme, Steady, TimeSettings, Unsteady};
-use crate::coupling::{FluidSystem, Problem, Solution};
+use crate::coupling::{FluidSystem, Problem};
 use crate::time::Bdf;
 
 /// What a finished run leaves in memory.
@@ -87,23 +86,7 @@ impl Run<'_> {
         });
         let measure = Measure::new(self.case, &mesh).map_err(RunError::Unsupported)?;
         self.series.names = measure.names().to_vec();
-        let at_rest = Solution::at_rest(&system.layout);
-        let angles: Vec<f64> = self.case.body.iter().map(|body| body.angle).collect();
-        let places = poses.iter().zip(&angles).map(|(pose, angle)| {
-            [pose.center.x, pose.center.y, *angle]
-        });
-        let state = State {
-            step: 0,
-            time: 0.0,
-            time_step: 0.0,
-            now: at_rest.clone(),
-            previous: at_rest,
-            previous_places: places.collect(),
-            accelerations: vec![Twist::default(); poses.len()],
-            poses,
-            angles,
-            mesh,
-        };
+        let state = State::at_rest(&problem, mesh);
         Ok(Parts { problem, system, measure, state })
     }
 

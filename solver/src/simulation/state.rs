@@ -3,7 +3,8 @@
 use alewife_mesh::Mesh;
 
 use crate::body::{Pose, Twist};
-use crate::coupling::Solution;
+use crate::coupling::{Problem, Solution};
+use crate::space::DofLayout;
 
 /// Everything that evolves.
 #[derive(Debug, Clone)]
@@ -31,6 +32,30 @@ pub struct State {
 }
 
 impl State {
+    /// Everything at rest at time zero.
+    #[must_use]
+    pub fn at_rest(problem: &Problem, mesh: Mesh<2>) -> Self {
+        let layout = DofLayout::new(&mesh, problem.bodies.len());
+        let at_rest = Solution::at_rest(&layout);
+        let poses: Vec<_> = problem.bodies.iter().map(|body| body.pose).collect();
+        let angles: Vec<f64> = poses.iter().map(Pose::angle).collect();
+        let places = poses.iter().zip(&angles).map(|(pose, angle)| {
+            [pose.center.x, pose.center.y, *angle]
+        });
+        Self {
+            step: 0,
+            time: 0.0,
+            time_step: 0.0,
+            now: at_rest.clone(),
+            previous: at_rest,
+            previous_places: places.collect(),
+            accelerations: vec![Twist::default(); poses.len()],
+            poses,
+            angles,
+            mesh,
+        }
+    }
+
     /// Centre and angle of a body now (m, rad).
     #[must_use]
     pub fn place(&self, body: usize) -> [f64; 3] {

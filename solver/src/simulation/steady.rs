@@ -16,7 +16,9 @@ use crate::coupling::{
 use crate::flow::{Convection, FlowTerms};
 
 /// A converged flow.
-pub(super) struct SteadyFlow {
+#[derive(Debug, Clone)]
+pub struct SteadyFlow {
+    /// The fields and rigid velocities.
     pub solution: Solution,
     /// Raw residual of the fluid's equations at it.
     pub residual: Vec<f64>,
@@ -52,7 +54,7 @@ struct Newton<'a> {
 ///
 /// # Errors
 /// When the system is singular or Newton's method stalls at the smallest step of continuation.
-pub(super) fn solve_steady(
+pub fn solve_steady(
     system: &mut FluidSystem,
     problem: &Problem,
     mesh: &Mesh<2>,

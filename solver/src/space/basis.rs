@@ -47,8 +47,7 @@ pub fn p2_values<const D: usize>(xi: &SVector<f64, D>) -> Vec<f64> {
         let l = barycentric(xi, i);
         l * (2.0 * l - 1.0)
     });
-    let at_edges =
-        edges::<D>().iter().map(|&(i, j)| 4.0 * barycentric(xi, i) * barycentric(xi, j));
+    let at_edges = edges::<D>().iter().map(|&(i, j)| 4.0 * barycentric(xi, i) * barycentric(xi, j));
     at_vertices.chain(at_edges).collect()
 }
 
@@ -81,7 +80,7 @@ mod tests {
 
     fn check_lagrange<const D: usize>() {
         let mut nodes: Vec<SVector<f64, D>> = (0..=D)
-            .map(|i| if i == 0 { SVector::zeros() } else { SVector::ith(i - 1, 1.0) })
+            .map(|i| SVector::from_fn(|axis, _| f64::from(axis + 1 == i)))
             .collect();
         for &(i, j) in edges::<D>() {
             nodes.push((nodes[i] + nodes[j]) / 2.0);

@@ -3,9 +3,8 @@
 use alewife_mesh::{Mesh, Point};
 use nalgebra::{SMatrix, Vector3};
 
-use super::open_side::for_each_facet_point;
-use super::terms::Fields;
 use crate::body::Wrench;
+use crate::flow::{Fields, for_each_facet_point};
 use crate::space::{interval_rule, p1_values, triangle_side_point};
 
 /// Force and torque about `center` of the fluid on a boundary:

@@ -68,15 +68,9 @@ impl Timing {
     }
 }
 
-/// CPU seconds (user and system) of this process so far, all threads; 0 where the system does
-/// not tell.
+/// CPU seconds (user and system) of this process so far, all threads.
 #[must_use]
 pub fn cpu_seconds() -> f64 {
-    let Ok(stat) = std::fs::read_to_string("/proc/self/stat") else { return 0.0 };
-    // Fields are counted from behind the command name, which may itself hold spaces.
-    let Some((_, rest)) = stat.rsplit_once(')') else { return 0.0 };
-    let ticks: f64 =
-        rest.split_whitespace().skip(11).take(2).filter_map(|field| field.parse::<f64>().ok()).sum();
-    // The kernel reports in units of 1/100 s on every architecture Linux supports.
-    ticks / 100.0
+    let time = rustix::time::clock_gettime(rustix::time::ClockId::ProcessCPUTime);
+    time.tv_sec as f64 + time.tv_nsec as f64 * 1e-9
 }

@@ -1,0 +1,307 @@
+//! Any valid placement of bodies gives a mesh: invariants, angles, area, symmetry, periodicity.
+
+use std::collections::HashMap;
+use std::f64::consts::{PI, TAU};
+
+use alewife_mesh::{
+    Domain, Locator, Mesh, PlacedShape, Point, Quality, Shape, SizeBox, SizeField, Sizing,
+    check_mesh, check_placement, generate,
+};
+use proptest::prelude::*;
+
+/// Smallest angle promised (degrees) in smooth domains with right-angled corners.
+const SMALLEST_ANGLE: f64 = 25.0;
+
+fn placed(name: &str, shape: Shape, x: f64, y: f64, angle: f64) -> PlacedShape {
+    PlacedShape { name: name.into(), shape, center: Point::<2>::new(x, y), angle, size: None }
+}
+
+/// A star-shaped curve with lobes, through 20 points.
+fn lobed(radius: f64, lobes: i32, depth: f64) -> Shape {
+    let points = (0..20).map(|i| TAU * f64::from(i) / 20.0).map(|t| {
+        let r = radius * (1.0 + depth * (f64::from(lobes) * t).cos());
+        [r * t.cos(), r * t.sin()]
+    });
+    Shape::Spline { points: points.collect() }
+}
+
+fn planar_shape() -> impl Strategy<Value = Shape> {
+    prop_oneof![
+        (0.2..1.0).prop_map(|radius| Shape::Disc { radius }),
+        (0.3..1.2, 0.1..0.8).prop_map(|(a, b)| Shape::Ellipse { semi_axes: [a, b] }),
+        (0.3..0.9, 2..5, 0.0..0.3).prop_map(|(r, lobes, depth)| lobed(r, lobes, depth)),
+    ]
+}
+
+fn planar_bodies() -> impl Strategy<Value = Vec<PlacedShape>> {
+    let one = (planar_shape(), -2.5..2.5, -2.5..2.5, 0.0..TAU);
+    prop::collection::vec(one, 1..4).prop_map(|all| {
+        let body = |(i, (shape, x, y, angle))| placed(&format!("body{i}"), shape, x, y, angle);
+        all.into_iter().enumerate().map(body).collect()
+    })
+}
+
+fn axial_bodies() -> impl Strategy<Value = Vec<PlacedShape>> {
+    let shape = prop_oneof![
+        (0.2..1.0).prop_map(|radius| Shape::Sphere { radius }),
+        (0.2..1.0, 0.15..1.2).prop_map(|(a, b)| Shape::Spheroid { semi_axes: [a, b] }),
+    ];
+    prop::collection::vec((shape, -2.8..2.8), 1..4).prop_map(|all| {
+        let body = |(i, (shape, x))| placed(&format!("body{i}"), shape, x, 0.0, 0.0);
+        all.into_iter().enumerate().map(body).collect()
+    })
+}
+
+fn square(periodic_x: bool, periodic_y: bool) -> Domain {
+    let (min, max) = (Point::<2>::new(-3.0, -3.0), Point::<2>::new(3.0, 3.2));
+    Domain::Box { min, max, periodic_x, periodic_y }
+}
+
+fn planar() -> impl Strategy<Value = (Domain, Vec<PlacedShape>)> {
+    let domain = prop_oneof![
+        (any::<bool>(), any::<bool>()).prop_map(|(x, y)| square(x, y)),
+        Just(Domain::Disc { center: Point::<2>::new(0.1, 0.0), radius: 3.5 }),
+    ];
+    (domain, planar_bodies())
+}
+
+fn axial() -> impl Strategy<Value = (Domain, Vec<PlacedShape>)> {
+    let domain = prop_oneof![
+        Just(Domain::HalfDisc { center: 0.2, radius: 4.0 }),
+        Just(Domain::HalfDisc { center: 0.0, radius: 30.0 }),
+        any::<bool>().prop_map(|periodic_x| Domain::Cylinder {
+            x: [-4.0, 4.1],
+            radius: 1.3,
+            periodic_x,
+        }),
+    ];
+    (domain, axial_bodies())
+}
+
+fn sizing() -> impl Strategy<Value = Sizing> {
+    (0.05..0.3, 0.05..0.35, 0.3..1.5, 2.0..4.0, any::<bool>()).prop_map(
+        |(surface, growth, size, gap_layers, curved)| Sizing {
+            gap_layers,
+            curved,
+            ..Sizing::graded(surface, growth, size)
+        },
+    )
+}
+
+/// Everything that is promised of any mesh.
+fn assert_mesh(domain: &Domain, bodies: &[PlacedShape], sizing: &Sizing) {
+    if check_placement(domain, bodies).is_err() {
+        assert!(generate(domain, bodies, sizing).is_err());
+        return;
+    }
+    let mesh = generate(domain, bodies, sizing).expect("a valid placement is meshed");
+    check_mesh(&mesh).expect("it is a mesh");
+    let quality = Quality::of(&mesh);
+    assert!(quality.min_angle > SMALLEST_ANGLE, "{quality}");
+    assert!(quality.mean_ratio > 0.9, "{quality}");
+    assert!(quality.min_curved_jacobian > 0.1, "{quality}");
+    assert_eq!(mesh.curved.iter().any(|c| *c), sizing.curved && !is_polygon(domain, bodies));
+    let names: Vec<&str> = mesh.boundaries.iter().map(|b| b.name.as_str()).collect();
+    let bodies = bodies.iter().map(|b| b.name.as_str());
+    assert_eq!(names, domain.sides().iter().copied().chain(bodies).collect::<Vec<_>>());
+    assert_periodic(domain, &mesh);
+}
+
+fn is_polygon(domain: &Domain, bodies: &[PlacedShape]) -> bool {
+    bodies.is_empty() && matches!(domain, Domain::Box { .. } | Domain::Cylinder { .. })
+}
+
+/// Every node of a periodic side appears, apart from its original by a period.
+fn assert_periodic(domain: &Domain, mesh: &Mesh<2>) {
+    let periods = domain.images();
+    let original: HashMap<u32, u32> = mesh.periodic.iter().copied().collect();
+    for (copy, of) in &mesh.periodic {
+        let apart = mesh.nodes[*copy as usize] - mesh.nodes[*of as usize];
+        assert!(periods.iter().any(|p| (apart - p).norm() < 1e-12 * (1.0 + p.norm())), "{apart}");
+        assert!(apart.norm() > 0.1);
+    }
+    for facet in &mesh.facets {
+        let side = facet.boundary as usize;
+        // The second of each pair of sides is the copy
+        if side < domain.sides().len() && side % 2 == 1 && domain.is_periodic(side) {
+            assert!(mesh.facet_nodes(facet).iter().all(|node| original.contains_key(node)));
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(96) })]
+
+    #[test]
+    fn any_valid_planar_placement_gives_a_good_mesh(
+        (domain, bodies) in planar(), sizing in sizing(),
+    ) {
+        assert_mesh(&domain, &bodies, &sizing);
+    }
+
+    #[test]
+    fn any_valid_axisymmetric_placement_gives_a_good_mesh(
+        (domain, bodies) in axial(), sizing in sizing(),
+    ) {
+        assert_mesh(&domain, &bodies, &sizing);
+    }
+
+    /// Two bodies a fraction of their radius apart, down to 0.002.
+    #[test]
+    fn narrow_gaps_are_meshed_well(
+        exponent in 0.5..2.7_f64, radius in 0.3..1.0_f64, angle in 0.0..TAU, layers in 2.0..5.0,
+    ) {
+        let gap = 10.0_f64.powf(-exponent);
+        let far = (0.8 + radius + gap) * Point::<2>::new(angle.cos(), angle.sin());
+        let disc = |name, radius, at: Point<2>| placed(name, Shape::Disc { radius }, at.x, at.y, 0.0);
+        let bodies = [disc("a", 0.8, Point::<2>::zeros()), disc("b", radius, far)];
+        let sizing = Sizing { gap_layers: layers, ..Sizing::graded(0.2, 0.25, 0.6) };
+        assert_mesh(&square(false, true), &bodies, &sizing);
+        let mirror = [placed("s", Shape::Sphere { radius }, -3.0 + radius + gap, 0.0, 0.0)];
+        let tube = Domain::Cylinder { x: [-3.0, 3.0], radius: 2.0, periodic_x: false };
+        assert_mesh(&tube, &mirror, &sizing);
+    }
+
+    #[test]
+    fn the_same_input_gives_the_same_bits((domain, bodies) in planar(), sizing in sizing()) {
+        prop_assert_eq!(
+            generate(&domain, &bodies, &sizing), generate(&domain, &bodies, &sizing)
+        );
+    }
+}
+
+/// Area of the meshes for halved surface sizes: error against the number of edges on the body.
+fn area_order(body: PlacedShape, exact: f64, curved: bool) -> f64 {
+    let study = |surface: f64| {
+        let sizing = Sizing { curved, ..Sizing::graded(surface, 0.3, 0.5) };
+        let mesh = generate(&square(false, false), std::slice::from_ref(&body), &sizing)
+            .expect("is meshed");
+        let n = mesh.facets.iter().filter(|f| f.boundary == 4).count() as f64;
+        (n, (mesh.area() - (6.0 * 6.2 - exact)).abs())
+    };
+    let [(n0, e0), (n1, e1)] = [0.1, 0.025].map(study);
+    (e0 / e1).ln() / (n1 / n0).ln()
+}
+
+#[test]
+fn the_area_is_of_fourth_order_with_curved_sides_and_of_second_with_straight_ones() {
+    let shapes =
+        [Shape::Disc { radius: 0.8 }, Shape::Ellipse { semi_axes: [1.5, 0.5] }, lobed(1.0, 3, 0.2)];
+    for shape in shapes {
+        let exact = shape.moments().unwrap().measure;
+        for (curved, expected) in [(true, 4.0), (false, 2.0)] {
+            let order = area_order(placed("b", shape.clone(), 0.2, 0.1, 0.3), exact, curved);
+            // Between coarse and fine a spline may still converge a little faster
+            assert!(
+                (-0.2..0.4).contains(&(order - expected)),
+                "{shape:?}: order {order}, not {expected}"
+            );
+        }
+    }
+}
+
+/// Nodes on the boundary with this name.
+fn boundary_nodes(mesh: &Mesh<2>, name: &str) -> Vec<Point<2>> {
+    let index = mesh.boundaries.iter().position(|b| b.name == name).expect("exists");
+    let facets = mesh.facets.iter().filter(|f| f.boundary as usize == index);
+    facets.flat_map(|f| mesh.facet_nodes(f).map(|node| mesh.nodes[node as usize])).collect()
+}
+
+#[test]
+fn surface_nodes_are_mirror_symmetric_and_contain_the_extreme_points() {
+    let tube = Domain::Cylinder { x: [-4.0, 4.0], radius: 2.0, periodic_x: false };
+    let body = placed("s", Shape::Spheroid { semi_axes: [1.1, 0.7] }, 0.0, 0.0, 0.0);
+    let mesh = generate(&tube, &[body], &Sizing::graded(0.1, 0.2, 0.4)).unwrap();
+    let has = |nodes: &[Point<2>], x: Point<2>| nodes.iter().any(|n| (n - x).norm() < 1e-12);
+    let nodes = boundary_nodes(&mesh, "s");
+    for [x, y] in [[1.1, 0.0], [0.0, 0.7], [-1.1, 0.0]] {
+        assert!(nodes.contains(&Point::<2>::new(x, y)), "({x}, {y}) is a vertex exactly");
+    }
+    assert!(nodes.iter().all(|n| has(&nodes, Point::<2>::new(-n.x, n.y))));
+
+    let ellipse = placed("e", Shape::Ellipse { semi_axes: [1.3, 0.4] }, 0.0, 0.1, 0.0);
+    let mesh = generate(&square(false, false), &[ellipse], &Sizing::graded(0.1, 0.2, 0.4)).unwrap();
+    let nodes = boundary_nodes(&mesh, "e");
+    for (sx, sy) in [(-1.0, 1.0), (1.0, -1.0), (-1.0, -1.0)] {
+        assert!(
+            nodes.iter().all(|n| has(&nodes, Point::<2>::new(sx * n.x, 0.1 + sy * (n.y - 0.1))))
+        );
+    }
+}
+
+#[test]
+fn mid_nodes_halve_the_arc_of_the_exact_curve() {
+    let body = placed("b", Shape::Disc { radius: 0.7 }, 0.3, 0.1, 0.0);
+    let mesh = generate(&square(false, false), &[body], &Sizing::graded(0.2, 0.3, 0.5)).unwrap();
+    let center = Point::<2>::new(0.3, 0.1);
+    for facet in mesh.facets.iter().filter(|f| f.boundary == 4) {
+        let [from, to, middle] =
+            mesh.facet_nodes(facet).map(|node| mesh.nodes[node as usize] - center);
+        assert!([from, to, middle].iter().all(|x| (x.norm() - 0.7).abs() < 1e-14));
+        assert!(((middle - from).norm() - (to - middle).norm()).abs() < 1e-14);
+    }
+}
+
+#[test]
+fn edges_follow_the_size_field_in_boxes_gaps_and_on_named_sides() {
+    let domain = square(false, false);
+    let body = placed("b", Shape::Disc { radius: 0.5 }, 0.0, 0.0, 0.0);
+    let wake =
+        SizeBox { min: Point::<2>::new(0.5, -0.3), max: Point::<2>::new(2.0, 0.3), size: 0.05 };
+    let sizing = Sizing {
+        boxes: vec![wake],
+        sides: vec![("top".into(), 0.1)],
+        ..Sizing::graded(0.1, 0.2, 0.5)
+    };
+    let sizes = SizeField::new(&domain, std::slice::from_ref(&body), &sizing).unwrap();
+    let mesh = generate(&domain, &[body], &sizing).unwrap();
+    let mut outside = 0;
+    for cell in 0..mesh.n_cells() {
+        let nodes = mesh.cell_nodes(cell);
+        for side in 0..3 {
+            let (a, b) = (nodes[side], nodes[(side + 1) % 3]);
+            let relative = (b - a).norm() / sizes.at((a + b) * 0.5);
+            assert!((0.4..2.0).contains(&relative), "{relative}");
+            outside += usize::from(!(0.6..1.5).contains(&relative));
+        }
+    }
+    assert!(outside * 100 < 3 * mesh.n_cells(), "{outside} edges of {} cells", mesh.n_cells());
+}
+
+/// On the shortest way across a gap lie about as many cells as layers asked for.
+#[test]
+fn gaps_hold_the_layers_asked_for() {
+    let tube = Domain::Cylinder { x: [-3.0, 3.0], radius: 2.0, periodic_x: false };
+    for gap in [0.2, 0.05, 0.005] {
+        for layers in [2.0, 3.0, 4.0, 6.0] {
+            let body = placed("s", Shape::Sphere { radius: 1.0 }, -2.0 + gap, 0.0, 0.0);
+            let sizing = Sizing { gap_layers: layers, ..Sizing::graded(0.2, 0.2, 0.6) };
+            let mesh = generate(&tube, &[body], &sizing).expect("is meshed");
+            let locator = Locator::new(&mesh);
+            // A little off the axis, so that the line does not follow its edges
+            let height = 0.4 * gap / layers;
+            let across = |i: i32| Point::<2>::new(-3.0 + gap * f64::from(i) / 400.0, height);
+            let cells: std::collections::BTreeSet<usize> =
+                (0..400).filter_map(|i| locator.locate(across(i)).map(|found| found.0)).collect();
+            assert!(cells.len() as f64 >= layers, "gap {gap}: {} of {layers}", cells.len());
+            let axis = mesh.facets.iter().filter(|f| {
+                let middle = mesh.nodes[mesh.facet_nodes(f)[2] as usize];
+                f.boundary == 3 && middle.x < -3.0 + gap
+            });
+            let n = axis.count() as f64;
+            assert!((layers - 0.5..layers + 1.5).contains(&n), "{n} edges of {layers}");
+        }
+    }
+}
+
+/// A sphere in a ball ten thousand times larger costs a few thousand cells, since h grows with
+/// distance: about 2π / (√3/4 growth²) cells per factor e of distance in the half plane over two.
+#[test]
+fn a_very_large_domain_is_cheap() {
+    let half = Domain::HalfDisc { center: 0.0, radius: 1e4 };
+    let sphere = placed("s", Shape::Sphere { radius: 1.0 }, 0.0, 0.0, 0.0);
+    let mesh = generate(&half, &[sphere], &Sizing::graded(0.05, 0.2, 1e4)).unwrap();
+    assert!(mesh.n_cells() < 4000, "{}", mesh.n_cells());
+    let exact = 0.5 * PI * (1e8 - 1.0);
+    assert!((mesh.area() / exact - 1.0).abs() < 1e-4);
+}

@@ -1,0 +1,227 @@
+"""Files of a run to arrays; the only file that knows the formats."""
+
+from __future__ import annotations
+
+import csv
+import json
+import struct
+import tomllib
+import xml.etree.ElementTree as ElementTree
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from mcap.exceptions import McapError
+from mcap.reader import NonSeekingReader
+
+if TYPE_CHECKING:
+    import pandas
+
+Array = np.ndarray
+
+QUADRATIC_TRIANGLE = 22
+
+
+@dataclass(frozen=True)
+class Frame:
+    """One field file."""
+
+    time: float
+    path: Path
+
+
+@dataclass(frozen=True)
+class Field:
+    """Flow on the mesh of one time. Nodes are those of quadratic triangles.
+
+    A cell lists its vertices counter-clockwise, then the nodes of its edges 01, 12, 20.
+    """
+
+    time: float
+    nodes: Array
+    """Positions, `(n_nodes, 2)`."""
+    cells: Array
+    """Nodes of each cell, `(n_cells, 6)`."""
+    velocity: Array
+    """`(n_nodes, 2)`."""
+    pressure: Array
+    """`(n_nodes,)`."""
+    vorticity: Array
+    """`(n_nodes,)`, counter-clockwise."""
+
+
+@dataclass(frozen=True)
+class BodyHistory:
+    """One body over time; vectors are those of the world, `(n, 3)`."""
+
+    time: Array
+    """`(n,)`."""
+    center: Array
+    angle: Array
+    """Turn about z (rad), continuous, `(n,)`."""
+    rotation: Array
+    """Quaternion x, y, z, w, `(n, 4)`."""
+    velocity: Array
+    angular_velocity: Array
+    force: Array
+    torque: Array
+    surface_force: Array
+    surface_torque: Array
+    power: Array
+    """Work of the surface on the fluid per time, `(n,)`."""
+
+
+@dataclass(frozen=True)
+class Message:
+    """One message of `run.mcap`."""
+
+    topic: str
+    time: float
+    content: dict[str, Any]
+
+
+@dataclass(frozen=True)
+class Run:
+    """A run directory. Files are read when first asked for."""
+
+    path: Path
+
+    @cached_property
+    def case(self) -> dict[str, Any]:
+        """The case as it was run, all defaults filled in."""
+        return tomllib.loads((self.path / "case.toml").read_text())
+
+    @cached_property
+    def status(self) -> dict[str, Any]:
+        """State, step, time and cost of each stage."""
+        return json.loads((self.path / "status.json").read_text())
+
+    @cached_property
+    def provenance(self) -> dict[str, Any]:
+        """Which program ran the case, where and how."""
+        return json.loads((self.path / "provenance.json").read_text())
+
+    @cached_property
+    def series(self) -> dict[str, Array]:
+        """Columns of `series.csv`, `time` among them, each `(n_rows,)`."""
+        with (self.path / "series.csv").open(newline="") as file:
+            rows = list(csv.reader(file))
+        if not rows:
+            return {"time": np.empty(0)}
+        names, rows = rows[0], rows[1:]
+        # A row cut short by a full disk is no row.
+        values = [[float(text) for text in row] for row in rows if len(row) == len(names)]
+        table = np.array(values, dtype=float).reshape(-1, len(names))
+        return dict(zip(names, table.T, strict=True))
+
+    def to_dataframe(self) -> pandas.DataFrame:
+        """The series as a pandas table, indexed by time."""
+        import pandas
+
+        return pandas.DataFrame(self.series).set_index("time")
+
+    @cached_property
+    def bodies(self) -> dict[str, BodyHistory]:
+        """All bodies of `run.mcap`, by name."""
+        reports: dict[str, list[dict[str, Any]]] = {}
+        for message in self.messages():
+            if message.topic.startswith("/body/"):
+                reports.setdefault(message.topic.removeprefix("/body/"), []).append(message.content)
+        return {name: _body_history(found) for name, found in reports.items()}
+
+    def messages(self) -> Iterator[Message]:
+        """All messages of `run.mcap` that were wholly written, in the order they were sent."""
+        with (self.path / "run.mcap").open("rb") as file:
+            # The index at the end of the file is missing while the run goes on.
+            found = NonSeekingReader(file).iter_messages(log_time_order=False)
+            try:
+                for _schema, channel, message in found:
+                    time = message.log_time * 1e-9
+                    yield Message(channel.topic, time, json.loads(message.data))
+            except (McapError, struct.error):
+                return
+
+    @cached_property
+    def fields(self) -> list[Frame]:
+        """All field files in the order of time."""
+        listing = self.path / "fields.pvd"
+        if not listing.exists():
+            return []
+        sets = ElementTree.parse(listing).getroot().iter("DataSet")
+        frames = [Frame(float(s.attrib["timestep"]), self.path / s.attrib["file"]) for s in sets]
+        return sorted(frames, key=lambda frame: frame.time)
+
+    def field(self, time: float | None = None) -> Field:
+        """The flow at the frame nearest to `time`, or at the last one."""
+        if not self.fields:
+            raise FileNotFoundError(
+                f"{self.path} has no field files: see output.fields of its case"
+            )
+        if time is None:
+            return read_field(self.fields[-1].path)
+        return read_field(min(self.fields, key=lambda frame: abs(frame.time - time)).path)
+
+    @property
+    def is_axisymmetric(self) -> bool:
+        """Whether x is an axis of revolution and y the distance from it."""
+        return self.case["geometry"] == "axisymmetric"
+
+
+def open_run(path: str | Path) -> Run:
+    """Open a run directory, finished or not."""
+    path = Path(path)
+    if not (path / "case.toml").is_file():
+        raise FileNotFoundError(f"{path} is not a run: it has no case.toml")
+    return Run(path)
+
+
+def read_field(path: str | Path) -> Field:
+    """Read one field file."""
+    # VTK takes seconds to load, and series need none of it.
+    import pyvista
+
+    grid = pyvista.read(path)
+    by_type = grid.cells_dict
+    if set(by_type) != {QUADRATIC_TRIANGLE}:
+        raise ValueError(f"{path}: cells of VTK types {sorted(by_type)}; only 22 can be drawn")
+    time = grid.field_data.get("TimeValue", [0.0])[0]
+    return Field(
+        time=float(time),
+        nodes=np.array(grid.points[:, :2], dtype=float),
+        cells=np.array(by_type[QUADRATIC_TRIANGLE]),
+        velocity=np.array(grid.point_data["velocity"][:, :2], dtype=float),
+        pressure=np.array(grid.point_data["pressure"], dtype=float),
+        vorticity=np.array(grid.point_data["vorticity"], dtype=float),
+    )
+
+
+def _body_history(reports: list[dict[str, Any]]) -> BodyHistory:
+    def numbers(*path: str) -> Array:
+        values = []
+        for report in reports:
+            value: Any = report
+            for key in path:
+                value = value[key]
+            # What is not a number is null in JSON.
+            values.append(np.nan if value is None else value)
+        return np.array(values, dtype=float)
+
+    def vectors(*path: str, axes: str = "xyz") -> Array:
+        return np.stack([numbers(*path, axis) for axis in axes], axis=1)
+
+    return BodyHistory(
+        time=numbers("time"),
+        center=vectors("pose", "center"),
+        angle=np.unwrap(numbers("pose", "angle")),
+        rotation=vectors("pose", "rotation", axes="xyzw"),
+        velocity=vectors("twist", "linear"),
+        angular_velocity=vectors("twist", "angular"),
+        force=vectors("load", "force"),
+        torque=vectors("load", "torque"),
+        surface_force=vectors("surface_load", "force"),
+        surface_torque=vectors("surface_load", "torque"),
+        power=numbers("power"),
+    )

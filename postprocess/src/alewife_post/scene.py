@@ -1,0 +1,105 @@
+"""One snapshot rendered by VTK, which draws quadratic triangles with their curved sides."""
+
+from __future__ import annotations
+
+import ctypes
+import os
+import sys
+
+import numpy as np
+
+from alewife_post import style
+from alewife_post.read import QUADRATIC_TRIANGLE, Field
+
+Array = np.ndarray
+View = tuple[float, float, float, float]
+
+SUBDIVISION = 4
+"""Halvings of each side of a curved cell: circles look round at any size of a page."""
+
+WINDOWS = {
+    "vtkEGLRenderWindow": ("libEGL.so.1",),
+    "vtkOSOpenGLRenderWindow": ("libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so"),
+}
+
+
+def can_render() -> bool:
+    """Whether VTK can have a window here; chooses an off-screen one if there is no display.
+
+    Call it before anything loads VTK: a window that cannot be had ends the process, with no
+    exception to catch.
+    """
+    if not sys.platform.startswith("linux") or os.environ.get("DISPLAY"):
+        return True
+    if os.environ.get("VTK_DEFAULT_OPENGL_WINDOW"):
+        return True
+    for window, libraries in WINDOWS.items():
+        if any(map(_can_load, libraries)):
+            os.environ["VTK_DEFAULT_OPENGL_WINDOW"] = window
+            return True
+    return False
+
+
+def _can_load(library: str) -> bool:
+    try:
+        ctypes.CDLL(library)
+    except OSError:
+        return False
+    return True
+
+
+def render(
+    field: Field,
+    view: View,
+    width: int,
+    values: Array | None,
+    colour_map: str,
+    limits: style.Limits,
+    show_edges: bool,
+) -> Array:
+    """An image `(height, width, 4)` that fills the view `(x0, x1, y0, y1)`.
+
+    It is clear outside the fluid. Without nodal `values` `(n_nodes,)` the fluid has one colour.
+    """
+    import pyvista
+
+    x0, x1, y0, y1 = view
+    height = max(1, round(width * (y1 - y0) / (x1 - x0)))
+    grid = _grid(field)
+    plotter = pyvista.Plotter(off_screen=True, window_size=(width, height))
+    look = {"color": style.FLUID, "lighting": False, "show_scalar_bar": False}
+    if values is not None:
+        grid.point_data["values"] = values
+        look |= {"scalars": "values", "cmap": colour_map, "clim": limits}
+    # Without subdivision each quadratic triangle would be four flat ones.
+    surface = grid.extract_surface(
+        nonlinear_subdivision=SUBDIVISION, algorithm="dataset_surface", pass_pointid=False
+    )
+    plotter.add_mesh(surface, **look)
+    if show_edges:
+        # Cells must be parted first: edges between two cells are no boundary of the whole.
+        cells = grid.separate_cells().extract_surface(
+            nonlinear_subdivision=SUBDIVISION, algorithm="dataset_surface", pass_pointid=False
+        )
+        lines = cells.extract_feature_edges(
+            boundary_edges=True, feature_edges=False, manifold_edges=False, non_manifold_edges=False
+        )
+        plotter.add_mesh(lines, color=style.EDGE, line_width=width / 600, lighting=False)
+    plotter.view_xy()
+    camera = plotter.camera
+    camera.parallel_projection = True
+    camera.focal_point = (0.5 * (x0 + x1), 0.5 * (y0 + y1), 0.0)
+    camera.position = (*camera.focal_point[:2], 1.0)
+    camera.up = (0.0, 1.0, 0.0)
+    camera.parallel_scale = 0.5 * (y1 - y0)
+    plotter.enable_anti_aliasing("ssaa")
+    image = plotter.screenshot(transparent_background=True, return_img=True)
+    plotter.close()
+    return np.asarray(image)
+
+
+def _grid(field: Field):  # noqa: ANN202  (naming the type would load VTK)
+    import pyvista
+
+    points = np.column_stack([field.nodes, np.zeros(len(field.nodes))])
+    return pyvista.UnstructuredGrid({QUADRATIC_TRIANGLE: field.cells}, points)

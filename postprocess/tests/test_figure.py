@@ -1,0 +1,123 @@
+"""Figures show the flow where it is, and nothing over it."""
+
+from pathlib import Path
+
+import matplotlib.image
+import numpy as np
+import pytest
+from conftest import CAN_RENDER
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+
+from alewife_post import Run, cli, figure, style
+from alewife_post.drawing import smooth_outline
+
+VTK = pytest.param(
+    "vtk", marks=pytest.mark.skipif(not CAN_RENDER, reason="VTK can have no window here")
+)
+PAINTERS = ["matplotlib", VTK]
+
+
+def painted(drawn: Figure) -> np.ndarray:
+    """The pixels of a figure, `(height, width, 4)` in [0, 1], after its layout is settled."""
+    canvas = FigureCanvasAgg(drawn)
+    canvas.draw()
+    return np.asarray(canvas.buffer_rgba()) / 255.0
+
+
+@pytest.mark.parametrize("painter", PAINTERS)
+@pytest.mark.parametrize("quantity", figure.QUANTITIES)
+def test_every_quantity_is_written(
+    planar_run: Run, tmp_path: Path, quantity: str, painter: str
+) -> None:
+    out = tmp_path / "picture.png"
+    arguments = [str(planar_run.path), "--out", str(out), "--quantity", quantity]
+    assert cli.picture([*arguments, "--painter", painter]) == 0
+    image = matplotlib.image.imread(out)
+    assert image.shape[1] > 700
+    assert image[..., :3].std() > 0.05
+
+
+@pytest.mark.parametrize("painter", PAINTERS)
+def test_both_painters_put_colours_in_the_same_places(planar_run: Run, painter: str) -> None:
+    drawn = figure.picture(planar_run, "pressure", time=0.0, painter=painter)
+    image = painted(drawn)
+    axes = drawn.axes[0]
+
+    def colour(x: float, y: float) -> np.ndarray:
+        across, up = axes.transData.transform((x, y))
+        return image[image.shape[0] - 1 - round(up), round(across), :3]
+
+    # The pressure is x: warm on the right, cool on the left; the disc has its own colour, and
+    # there is nothing in the corners.
+    right, left = colour(1.5, 0.1), colour(-1.5, 0.1)
+    assert right[0] > right[2] + 0.2
+    assert left[2] > left[0] + 0.05
+    body = np.array(matplotlib.colors.to_rgb(style.BODY))
+    np.testing.assert_allclose(colour(0.02, 0.02), body, atol=0.02)
+    np.testing.assert_allclose(colour(1.95, 1.95), 1.0, atol=0.02)
+
+
+@pytest.mark.parametrize("lines", ["streamlines", "arrows", "none"])
+def test_lines_of_each_kind_can_be_drawn(axisymmetric_run: Run, lines: str) -> None:
+    drawn = figure.picture(axisymmetric_run, "speed", lines=lines, painter="matplotlib")
+    painted(drawn)
+    assert drawn.axes[0].get_ylim() == (-2.0, 2.0)
+
+
+def test_one_side_of_the_axis_can_be_shown(axisymmetric_run: Run) -> None:
+    drawn = figure.picture(axisymmetric_run, "vorticity", mirror=False, painter="matplotlib")
+    assert drawn.axes[0].get_ylim() == (0.0, 2.0)
+
+
+def test_the_bar_lies_beside_the_picture_and_scales_are_equal(planar_run: Run) -> None:
+    for view in [None, (-2.0, 2.0, -0.5, 0.5)]:
+        drawn = figure.picture(planar_run, "speed", view=view, painter="matplotlib")
+        painted(drawn)
+        axes, bar = drawn.axes
+        assert not axes.get_window_extent().overlaps(bar.get_window_extent())
+        box = axes.get_window_extent()
+        x, y = np.ptp(axes.get_xlim()), np.ptp(axes.get_ylim())
+        assert abs(box.width / box.height / (x / y) - 1) < 0.01
+        assert bar.get_xlabel() + bar.get_ylabel() == "speed (m/s)"
+
+
+def test_a_frame_that_moves_with_a_body_loses_its_velocity(planar_run: Run) -> None:
+    _, twists = figure.body_states(planar_run, 4.0)
+    np.testing.assert_allclose(twists["disc"], [0.5, 0.0])
+    drawn = figure.picture(planar_run, "speed", frame="disc", lines="none", painter="matplotlib")
+    assert drawn.axes[1].get_ylabel() == "speed (m/s) relative to disc"
+
+
+def test_a_series_shows_the_published_interval(planar_run: Run, tmp_path: Path) -> None:
+    drawn = figure.series_figure(planar_run, ["disc.speed"])
+    (axes,) = drawn.axes
+    (text,) = axes.get_legend().get_texts()
+    # value 0.5 times per 2.0, within a tenth
+    assert text.get_text() == "max, published: 1 ± 0.1 (nobody2000)"
+    (band,) = axes.collections
+    corners = band.get_paths()[0].vertices
+    np.testing.assert_allclose([corners.min(axis=0), corners.max(axis=0)], [[2, 0.9], [4, 1.1]])
+    arguments = [str(planar_run.path), "--out", str(tmp_path / "series.svg")]
+    assert cli.series([*arguments, "--quantity", "disc.speed", "--window", "1", "3"]) == 0
+
+
+def test_an_unknown_quantity_is_answered_with_the_known_ones(
+    planar_run: Run, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert cli.series([str(planar_run.path), "--out", "no.png", "--quantity", "speed"]) == 1
+    assert "there are time, disc.speed" in capsys.readouterr().err
+
+
+def test_a_smooth_outline_passes_its_points_and_stays_near_a_circle() -> None:
+    angles = np.arange(12) * np.pi / 6
+    points = np.stack([np.cos(angles), np.sin(angles)], axis=1)
+    outline = smooth_outline(points, 8)
+    np.testing.assert_allclose(outline[::8], points)
+    assert abs(np.linalg.norm(outline, axis=1) - 1).max() < 2e-3
+
+
+def test_a_computed_run_is_drawn(computed_run: Run, tmp_path: Path) -> None:
+    out = tmp_path / "picture.png"
+    assert cli.picture([str(computed_run.path), "--out", str(out)]) == 0
+    assert matplotlib.image.imread(out)[..., :3].std() > 0.05

@@ -1,0 +1,217 @@
+//! Problems of `[[body]]`: names, shapes, motions, and gaits that do not fit.
+
+use std::f64::consts::PI;
+
+use super::Findings;
+use super::boundary::check_factor;
+use crate::case::{Body, Gait, Geometry, Motion, ShapeSpec};
+
+/// Largest difference between a heading and the axis that is taken for rounding (rad).
+const HEADING_ROUNDING: f64 = 1e-3;
+
+/// Names that stand for something else in `series.csv`.
+const RESERVED: [&str; 2] = ["flow", "time"];
+
+pub fn check(findings: &mut Findings<'_>) {
+    let case = findings.case();
+    let mut taken: Vec<&str> = Vec::new();
+    for (index, body) in case.body.iter().enumerate() {
+        let key = format!("body.{index}");
+        check_name(findings, &format!("{key}.name"), &body.name, &taken);
+        taken.push(&body.name);
+        check_shape(findings, &format!("{key}.shape"), &body.shape);
+        let has_place = findings.vector(&format!("{key}.center"), &body.center);
+        if let Some(density) = body.density {
+            findings.not_negative(&format!("{key}.density"), density);
+        }
+        if let Some(size) = body.size {
+            findings.positive(&format!("{key}.size"), size);
+        }
+        if !body.force.is_empty() {
+            findings.vector(&format!("{key}.force"), &body.force);
+        }
+        check_motion(findings, &key, body);
+        check_gait(findings, &key, body);
+        if case.geometry == Geometry::Axisymmetric && has_place {
+            check_on_axis(findings, &key, body);
+        }
+    }
+    for (index, probe) in case.probe.iter().enumerate() {
+        check_name(findings, &format!("probe.{index}.name"), &probe.name, &taken);
+        taken.push(&probe.name);
+    }
+}
+
+/// A name is one word, and means one thing.
+fn check_name(findings: &mut Findings<'_>, key: &str, name: &str, taken: &[&str]) {
+    let sides = findings.case().domain.sides();
+    let is_word =
+        !name.is_empty() && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '-' || c == '_');
+    if !is_word {
+        findings.error(
+            key,
+            format!("\"{name}\" cannot be a name"),
+            "write one word of the letters a-z, digits, - and _",
+        );
+    }
+    if taken.contains(&name) {
+        findings.error(
+            key,
+            format!("the name \"{name}\" is taken by a body or probe above"),
+            "give every body and every probe a name of its own",
+        );
+    }
+    if sides.contains(&name) || RESERVED.contains(&name) {
+        findings.error(
+            key,
+            format!("\"{name}\" cannot be a name here: it stands for something else"),
+            &format!("taken are the sides {} and the words flow, time", sides.join(", ")),
+        );
+    }
+}
+
+fn check_shape(findings: &mut Findings<'_>, key: &str, shape: &ShapeSpec) {
+    let (geometry, is_planar) = match findings.case().geometry {
+        Geometry::Planar => ("planar", true),
+        Geometry::Axisymmetric => ("axisymmetric", false),
+    };
+    let name = shape.name();
+    let (fits, allowed) = match shape {
+        ShapeSpec::Disc { .. } | ShapeSpec::Ellipse { .. } | ShapeSpec::Spline { .. } => {
+            (is_planar, "sphere, spheroid")
+        }
+        ShapeSpec::Sphere { .. } | ShapeSpec::Spheroid { .. } => {
+            (!is_planar, "disc, ellipse, spline")
+        }
+    };
+    if !fits {
+        findings.error(
+            key,
+            format!("a {name} cannot stand in a case with `geometry = \"{geometry}\"`"),
+            &format!("{geometry} shapes: {allowed}"),
+        );
+    }
+    match shape {
+        ShapeSpec::Disc { radius } | ShapeSpec::Sphere { radius } => {
+            findings.positive(&format!("{key}.{name}.radius"), *radius);
+        }
+        ShapeSpec::Ellipse { semi_axes } | ShapeSpec::Spheroid { semi_axes } => {
+            for (axis, length) in semi_axes.iter().enumerate() {
+                findings.positive(&format!("{key}.{name}.semi_axes.{axis}"), *length);
+            }
+        }
+        ShapeSpec::Spline { points } => {
+            let key = format!("{key}.spline.points");
+            let n = points.len();
+            if n < 3 {
+                findings.error(
+                    &key,
+                    format!("a closed spline through {n} points has no inside"),
+                    "give at least 3 points, the first not repeated",
+                );
+            } else if signed_area(points) <= 0.0 {
+                findings.error(
+                    &key,
+                    "the points of the spline run clockwise".to_owned(),
+                    "list them counter-clockwise",
+                );
+            }
+        }
+    }
+}
+
+/// Area of a polygon (m2), positive if its corners run counter-clockwise.
+fn signed_area(points: &[[f64; 2]]) -> f64 {
+    let n = points.len();
+    let twice: f64 = (0..n)
+        .map(|i| {
+            let ([ax, ay], [bx, by]) = (points[i], points[(i + 1) % n]);
+            ax * by - bx * ay
+        })
+        .sum();
+    0.5 * twice
+}
+
+fn check_motion(findings: &mut Findings<'_>, key: &str, body: &Body) {
+    if let Motion::Imposed(imposed) = &body.motion {
+        let motion = format!("{key}.motion.imposed");
+        if !imposed.velocity.is_empty() {
+            findings.vector(&format!("{motion}.velocity"), &imposed.velocity);
+        }
+        if let Some(factor) = &imposed.factor {
+            check_factor(findings, &format!("{motion}.factor"), factor);
+        }
+    }
+    if body.motion == Motion::Free {
+        return;
+    }
+    let idle = [
+        ("locked", !body.locked.is_empty()),
+        ("force", body.force.iter().any(|part| *part != 0.0)),
+        ("torque", body.torque != 0.0),
+    ];
+    for (name, is_given) in idle {
+        if is_given {
+            findings.warning(
+                &format!("{key}.{name}"),
+                format!("`{name}` has no effect on body \"{}\", which is not free", body.name),
+                "leave it out, or write motion = \"free\"",
+            );
+        }
+    }
+}
+
+fn check_gait(findings: &mut Findings<'_>, key: &str, body: &Body) {
+    let Some(Gait::Squirmer(squirmer)) = &body.gait else { return };
+    if !matches!(body.shape, ShapeSpec::Disc { .. } | ShapeSpec::Sphere { .. }) {
+        findings.error(
+            &format!("{key}.gait"),
+            format!(
+                "a squirmer is a disc or a sphere, but \"{}\" is a {}",
+                body.name,
+                body.shape.name()
+            ),
+            "write shape = { disc = ... } (planar) or { sphere = ... } (axisymmetric)",
+        );
+    }
+    if squirmer.modes.is_empty() {
+        findings.error(
+            &format!("{key}.gait.squirmer.modes"),
+            format!("the squirmer \"{}\" has no modes", body.name),
+            "write modes = [B1, B2, ...]",
+        );
+    }
+}
+
+/// What moves or points off the axis breaks the symmetry.
+fn check_on_axis(findings: &mut Findings<'_>, key: &str, body: &Body) {
+    let name = &body.name;
+    let mut zero = |field: &str, value: f64, what: &str| {
+        if value != 0.0 {
+            findings.error(
+                &format!("{key}.{field}"),
+                format!("`{key}.{field}` is {value}: {what} of \"{name}\" breaks the symmetry"),
+                "in an axisymmetric case it must be 0",
+            );
+        }
+    };
+    zero("center.1", body.center[1], "the distance from the axis");
+    zero("angle", body.angle, "the angle");
+    zero("torque", body.torque, "the torque");
+    zero("force.1", body.force.get(1).copied().unwrap_or(0.0), "the force across the axis");
+    if let Motion::Imposed(imposed) = &body.motion {
+        let across = imposed.velocity.get(1).copied().unwrap_or(0.0);
+        zero("motion.imposed.velocity.1", across, "the velocity across the axis");
+        zero("motion.imposed.angular_velocity", imposed.angular_velocity, "the rotation");
+    }
+    if let Some(Gait::Squirmer(squirmer)) = &body.gait {
+        let heading = squirmer.heading;
+        if heading != 0.0 && (heading.abs() - PI).abs() > HEADING_ROUNDING {
+            findings.error(
+                &format!("{key}.gait.squirmer.heading"),
+                format!("the heading {heading} of \"{name}\" is not along the axis"),
+                "write heading = 0.0 (towards +x) or heading = 3.141592653589793 (towards -x)",
+            );
+        }
+    }
+}

@@ -1,0 +1,245 @@
+//! Problems of `[boundary]`: sides, conditions that cannot hold there, and fluid that piles up.
+
+use std::f64::consts::PI;
+
+use super::Findings;
+use crate::case::deserialize::suggestion;
+use crate::case::geometry::opposite;
+use crate::case::{BoundaryCondition, DomainSpec, TimeFunction, TimeSettings};
+
+/// Net inflow over gross flow above which fluid piles up.
+const BALANCE: f64 = 1e-9;
+
+pub fn check(findings: &mut Findings<'_>) {
+    let case = findings.case();
+    let sides = case.domain.sides();
+    for (side, condition) in &case.boundary {
+        let key = format!("boundary.{side}");
+        if sides.contains(&side.as_str()) {
+            check_side(findings, &key, side, condition);
+        } else {
+            findings.error(
+                &key,
+                format!("this domain has no side `{side}`"),
+                &suggestion(side, sides),
+            );
+        }
+    }
+    let bare: Vec<&str> = sides
+        .iter()
+        .copied()
+        .filter(|side| *side != "axis" && !case.boundary.contains_key(*side))
+        .collect();
+    if !bare.is_empty() {
+        let list = bare.join("`, `");
+        findings.error(
+            "boundary",
+            format!(
+                "nothing is said about the side{} `{list}`",
+                if bare.len() > 1 { "s" } else { "" }
+            ),
+            "add to [boundary] for each: no-slip, do-nothing, traction-free, symmetry, \
+             { velocity = ... }, { parabolic = ... }, { shear = ... } or { periodic = ... }",
+        );
+    }
+    check_balance(findings);
+}
+
+/// Whether a condition can hold on a side.
+fn check_side(findings: &mut Findings<'_>, key: &str, side: &str, condition: &BoundaryCondition) {
+    let case = findings.case();
+    let is_curved = matches!(case.domain, DomainSpec::Disc { .. } | DomainSpec::HalfDisc { .. });
+    let is_axisymmetric = case.domain.is_axisymmetric();
+    match (side, condition) {
+        ("axis", BoundaryCondition::Axis) => {}
+        ("axis", _) => {
+            findings.error(
+                key,
+                "the axis takes no condition of its own".to_owned(),
+                "leave it out, or write axis = \"axis\"",
+            );
+            return;
+        }
+        (_, BoundaryCondition::Axis) => findings.error(
+            key,
+            format!("`axis` holds on the axis only, not on `{side}`"),
+            "for a mirror plane or a frictionless wall write \"symmetry\"",
+        ),
+        (_, BoundaryCondition::Symmetry) if is_curved => findings.error(
+            key,
+            format!("`symmetry` holds on straight sides, and `{side}` is curved"),
+            "write \"no-slip\" or \"traction-free\", or take a straight domain",
+        ),
+        (_, BoundaryCondition::Periodic(partner)) => check_periodic(findings, key, side, partner),
+        (_, BoundaryCondition::Parabolic { .. }) if !["left", "right"].contains(&side) => findings
+            .error(
+                key,
+                format!("a parabolic velocity enters through `left` or `right`, not `{side}`"),
+                "on other sides write { velocity = { value = [u, v] } }",
+            ),
+        (_, BoundaryCondition::Shear { .. }) if is_axisymmetric => findings.error(
+            key,
+            "a simple shear is not axisymmetric".to_owned(),
+            "take a planar geometry, or write { velocity = ... } or { parabolic = ... }",
+        ),
+        (_, BoundaryCondition::Velocity { value, .. }) => {
+            findings.vector(&format!("{key}.velocity.value"), value);
+        }
+        _ => {}
+    }
+    let (name, factor) = match condition {
+        BoundaryCondition::Velocity { factor, .. } => ("velocity", factor),
+        BoundaryCondition::Parabolic { factor, .. } => ("parabolic", factor),
+        BoundaryCondition::Shear { factor, .. } => ("shear", factor),
+        _ => return,
+    };
+    if let Some(factor) = factor {
+        check_factor(findings, &format!("{key}.{name}.factor"), factor);
+    }
+}
+
+/// Numbers of a function of time.
+pub(super) fn check_factor(findings: &mut Findings<'_>, key: &str, factor: &TimeFunction) {
+    match factor {
+        TimeFunction::Ramp { duration } => {
+            findings.positive(&format!("{key}.ramp.duration"), *duration)
+        }
+        TimeFunction::SmoothRamp { duration } => {
+            findings.positive(&format!("{key}.smooth-ramp.duration"), *duration);
+        }
+        TimeFunction::Sine { frequency, .. } => {
+            findings.positive(&format!("{key}.sine.frequency"), *frequency);
+        }
+        TimeFunction::Table(knots) => {
+            let is_rising = knots.windows(2).all(|pair| pair[1][0] > pair[0][0]);
+            if knots.is_empty() || !is_rising {
+                findings.error(
+                    &format!("{key}.table"),
+                    "the times of a table must rise from knot to knot".to_owned(),
+                    "write table = [[t0, f0], [t1, f1], ...] with t0 < t1 < ...",
+                );
+            }
+        }
+    }
+    if matches!(findings.case().time, TimeSettings::Steady(_)) {
+        findings.warning(
+            key,
+            "a steady solution knows no time: the factor is taken at time 0".to_owned(),
+            "leave the factor out, or march in time with [time.unsteady]",
+        );
+    }
+}
+
+fn check_periodic(findings: &mut Findings<'_>, key: &str, side: &str, partner: &str) {
+    let case = findings.case();
+    let sides = case.domain.sides();
+    let Some(wanted) = opposite(side).filter(|wanted| sides.contains(wanted)) else {
+        findings.error(
+            key,
+            format!("`{side}` has no side opposite to it, so it cannot be periodic"),
+            "periodic pairs are left and right, bottom and top of a box, a channel or a cylinder",
+        );
+        return;
+    };
+    if partner != wanted {
+        findings.error(
+            key,
+            format!("`{side}` cannot be periodic with `{partner}`"),
+            &format!("write {side} = {{ periodic = \"{wanted}\" }}"),
+        );
+        return;
+    }
+    let refers_back =
+        matches!(case.boundary.get(wanted), None | Some(BoundaryCondition::Periodic(_)));
+    if !refers_back {
+        findings.error(
+            &format!("boundary.{wanted}"),
+            format!("`{side}` is periodic with `{wanted}`, but `{wanted}` has another condition"),
+            &format!("write {wanted} = {{ periodic = \"{side}\" }}, or leave `{wanted}` out"),
+        );
+    }
+}
+
+/// An incompressible fluid that enters a closed region has nowhere to go.
+fn check_balance(findings: &mut Findings<'_>) {
+    let case = findings.case();
+    let is_open = |condition: &BoundaryCondition| {
+        matches!(condition, BoundaryCondition::DoNothing | BoundaryCondition::TractionFree)
+    };
+    if case.boundary.values().any(is_open) {
+        return;
+    }
+    // Flows that vary differently in time cannot balance each other.
+    let mut groups: Vec<(Option<&TimeFunction>, f64, f64)> = Vec::new();
+    for (side, condition) in &case.boundary {
+        let (inflow, factor) = inflow(&case.domain, side, condition);
+        match groups.iter_mut().find(|(known, ..)| *known == factor) {
+            Some((_, net, gross)) => {
+                *net += inflow;
+                *gross += inflow.abs();
+            }
+            None => groups.push((factor, inflow, inflow.abs())),
+        }
+    }
+    for (_, net, gross) in groups {
+        if net.abs() > BALANCE * gross {
+            let (verb, unit) = if net > 0.0 { ("enters", "") } else { ("leaves", "-") };
+            let kind = if case.domain.is_axisymmetric() { "m3/s" } else { "m2/s" };
+            findings.error(
+                "boundary",
+                format!(
+                    "fluid {verb} the domain and has nowhere to go: net inflow {unit}{:.6} {kind} \
+                     through the prescribed velocities, and no side is open",
+                    net.abs()
+                ),
+                "make one side open with \"do-nothing\" or \"traction-free\", or prescribe a \
+                 velocity that balances the flow",
+            );
+        }
+    }
+}
+
+/// Flow into the domain through a side (m2/s planar, m3/s axisymmetric), and its factor in time.
+fn inflow<'a>(
+    domain: &DomainSpec,
+    side: &str,
+    condition: &'a BoundaryCondition,
+) -> (f64, Option<&'a TimeFunction>) {
+    let [[x0, y0], [x1, y1]] = domain.extent();
+    let (length, height) = (x1 - x0, y1 - y0);
+    // Inward normal of a straight side.
+    let (inward, axis) = match side {
+        "left" => (1.0, 0),
+        "right" => (-1.0, 0),
+        "bottom" => (1.0, 1),
+        _ => (-1.0, 1),
+    };
+    match condition {
+        BoundaryCondition::Velocity { value, factor } => {
+            let normal_velocity = inward * value.get(axis).copied().unwrap_or(0.0);
+            let area = match (domain, axis) {
+                // What enters a closed curve on one side leaves it on the other.
+                (DomainSpec::Disc { .. }, _) => 0.0,
+                // The radial part of a velocity along y on a sphere: 2 pi R^2 int sin^2.
+                (DomainSpec::HalfDisc { radius, .. }, _) => PI * PI * radius * radius,
+                (DomainSpec::Cylinder { radius, .. }, 0) => PI * radius * radius,
+                (DomainSpec::Cylinder { radius, .. }, _) => 2.0 * PI * radius * length,
+                (_, 0) => height,
+                (_, _) => length,
+            };
+            (normal_velocity * area, factor.as_ref())
+        }
+        BoundaryCondition::Parabolic { peak, factor } if axis == 0 => {
+            let area = match domain {
+                DomainSpec::Cylinder { radius, .. } => 0.5 * PI * radius * radius,
+                _ => 2.0 / 3.0 * height,
+            };
+            (inward * peak * area, factor.as_ref())
+        }
+        BoundaryCondition::Shear { rate, origin, factor } if axis == 0 => {
+            let mean = 0.5 * (y0 + y1) - origin;
+            (inward * rate * mean * height, factor.as_ref())
+        }
+        _ => (0.0, None),
+    }
+}

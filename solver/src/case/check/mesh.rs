@@ -1,0 +1,79 @@
+//! Problems of `[mesh]`, `[output]` and cells too coarse for a body.
+
+use super::Findings;
+use crate::case::Cadence;
+use crate::case::deserialize::suggestion;
+
+/// Edges on an outline below which a body is hardly round.
+const FEWEST_EDGES: f64 = 8.0;
+
+pub fn check(findings: &mut Findings<'_>) {
+    let case = findings.case();
+    let mesh = &case.mesh;
+    findings.positive("mesh.size", mesh.size);
+    if let Some(surface) = mesh.surface {
+        findings.positive("mesh.surface", surface);
+    }
+    findings.positive("mesh.scale", mesh.scale);
+    findings.positive("mesh.gap_layers", mesh.gap_layers);
+    findings.not_negative("mesh.growth", mesh.growth);
+    if mesh.growth > 1.0 {
+        findings.error(
+            "mesh.growth",
+            format!("`mesh.growth` is {}, but cells this uneven cannot be made", mesh.growth),
+            "write a number from 0 to 1; 0.2 is usual",
+        );
+    }
+    let sides = case.domain.sides();
+    for (side, size) in &mesh.sides {
+        let key = format!("mesh.sides.{side}");
+        findings.positive(&key, *size);
+        if !sides.contains(&side.as_str()) {
+            let help = suggestion(side, sides);
+            findings.error(&key, format!("this domain has no side `{side}`"), &help);
+        }
+    }
+    for (index, refined) in mesh.boxes.iter().enumerate() {
+        let key = format!("mesh.box.{index}");
+        findings.positive(&format!("{key}.size"), refined.size);
+        if (0..2).any(|axis| refined.max[axis] <= refined.min[axis]) {
+            findings.error(
+                &format!("{key}.max"),
+                format!("the box from {:?} to {:?} is empty", refined.min, refined.max),
+                "both numbers of `max` must be larger than those of `min`",
+            );
+        }
+    }
+    for (index, body) in case.body.iter().enumerate() {
+        let (key, declared) = match (body.size, mesh.surface) {
+            (Some(size), _) => (format!("body.{index}.size"), size),
+            (None, Some(surface)) => ("mesh.surface".to_owned(), surface),
+            (None, None) => ("mesh.size".to_owned(), mesh.size),
+        };
+        let size = declared * mesh.scale;
+        let edges = body.shape.perimeter() / size;
+        if size > 0.0 && edges > 0.0 && edges < FEWEST_EDGES {
+            findings.warning(
+                &key,
+                format!("the outline of \"{}\" is about {edges:.1} edges long", body.name),
+                &format!(
+                    "for {FEWEST_EDGES} edges write at most {:.3}",
+                    body.shape.perimeter() / FEWEST_EDGES / mesh.scale
+                ),
+            );
+        }
+    }
+    for (key, cadence) in
+        [("output.fields", case.output.fields), ("output.series", case.output.series)]
+    {
+        match cadence {
+            Cadence::Steps(0) => findings.error(
+                &format!("{key}.steps"),
+                format!("`{key}` is every 0 steps"),
+                "write { steps = 1 } or more, \"end\", or \"never\"",
+            ),
+            Cadence::Time(interval) => findings.positive(&format!("{key}.time"), interval),
+            _ => {}
+        }
+    }
+}

@@ -1,0 +1,190 @@
+//! Problems of `[[reference]]` and `[statistics]`: quantities, statistics and tolerances.
+
+use super::Findings;
+use crate::case::deserialize::suggestion;
+use crate::case::{Case, Reference, Statistic, TimeSettings};
+
+/// What is measured on every body.
+const OF_A_BODY: [&str; 15] = [
+    "x",
+    "y",
+    "angle",
+    "velocity.x",
+    "velocity.y",
+    "angular_velocity",
+    "acceleration.x",
+    "acceleration.y",
+    "force.x",
+    "force.y",
+    "torque",
+    "surface_force.x",
+    "surface_force.y",
+    "surface_torque",
+    "power",
+];
+
+/// What is measured on every body besides, when there are `[scales]`.
+const COEFFICIENTS: [&str; 3] = ["drag_coefficient", "lift_coefficient", "moment_coefficient"];
+
+/// What is measured at every probe.
+const OF_A_PROBE: [&str; 3] = ["velocity.x", "velocity.y", "pressure"];
+
+/// What is measured on the flow.
+const OF_THE_FLOW: [&str; 3] = ["dissipation", "kinetic_energy", "mass_defect"];
+
+/// Names of all quantities of a run: the columns of `series.csv` after `time`.
+#[must_use]
+pub fn known_quantities(case: &Case) -> Vec<String> {
+    let mut names = Vec::new();
+    let mut add = |owner: &str, what: &[&str]| {
+        names.extend(what.iter().map(|quantity| format!("{owner}.{quantity}")));
+    };
+    for body in &case.body {
+        add(&body.name, &OF_A_BODY);
+        if case.scales.is_some() {
+            add(&body.name, &COEFFICIENTS);
+        }
+    }
+    for probe in &case.probe {
+        add(&probe.name, &OF_A_PROBE);
+    }
+    add("flow", &OF_THE_FLOW);
+    names
+}
+
+pub fn check(findings: &mut Findings<'_>) {
+    let case = findings.case();
+    let known = known_quantities(case);
+    let end = match &case.time {
+        TimeSettings::Steady(_) => None,
+        TimeSettings::Unsteady(time) => Some(time.end),
+    };
+    if let Some([start, stop]) = case.statistics.window {
+        let latest = end.unwrap_or(f64::INFINITY);
+        if start < 0.0 || stop <= start || start >= latest {
+            findings.error(
+                "statistics.window",
+                format!("the window from {start} to {stop} is not within the run"),
+                "write window = [start, end] with 0 <= start < end <= time.unsteady.end",
+            );
+        }
+    }
+    if let Some(quantity) = &case.statistics.phase_of {
+        check_quantity(findings, "statistics.phase_of", quantity, &known);
+    }
+    for (index, reference) in case.reference.iter().enumerate() {
+        let key = format!("reference.{index}");
+        check_quantity(findings, &format!("{key}.quantity"), &reference.quantity, &known);
+        check_tolerance(findings, &key, reference);
+        check_statistic(findings, &key, reference, end);
+        if reference.per == 0.0 {
+            let help = "leave it out, or write the scale the quantity is divided by";
+            findings.error(&format!("{key}.per"), "`per` is 0".to_owned(), help);
+        }
+        if reference.source.trim().is_empty() {
+            findings.error(
+                &format!("{key}.source"),
+                "the source of a reference is empty".to_owned(),
+                "say who published the value and where, or how it follows",
+            );
+        }
+    }
+    let is_compared = !case.reference.is_empty()
+        || case.variant.iter().any(|variant| !variant.reference.is_empty());
+    if !is_compared {
+        findings.warning(
+            "",
+            "no reference: nothing tells whether the result is right".to_owned(),
+            "add a [[reference]] with quantity, value, tolerance and source where one is known",
+        );
+    }
+}
+
+fn check_quantity(findings: &mut Findings<'_>, key: &str, quantity: &str, known: &[String]) {
+    if !known.iter().any(|name| name == quantity) {
+        let mut help = suggestion(quantity, known);
+        let is_coefficient = COEFFICIENTS.iter().any(|name| quantity.ends_with(name));
+        if is_coefficient && findings.case().scales.is_none() {
+            help = "coefficients need [scales] with length and velocity".to_owned();
+        }
+        findings.error(key, format!("there is no quantity `{quantity}`"), &help);
+    }
+}
+
+fn check_tolerance(findings: &mut Findings<'_>, key: &str, reference: &Reference) {
+    match (reference.relative, reference.absolute) {
+        (Some(_), Some(_)) => findings.error(
+            &format!("{key}.absolute"),
+            "both `relative` and `absolute` are given".to_owned(),
+            "keep the one that decides",
+        ),
+        (None, None) => findings.error(
+            key,
+            format!("the reference for `{}` has no tolerance", reference.quantity),
+            "add relative = ... (a fraction of the value) or absolute = ...",
+        ),
+        (Some(relative), None) => {
+            findings.positive(&format!("{key}.relative"), relative);
+            if reference.value == 0.0 {
+                findings.error(
+                    &format!("{key}.relative"),
+                    "no value but 0 is near 0 in relative terms".to_owned(),
+                    "write absolute = ... instead",
+                );
+            }
+        }
+        (None, Some(absolute)) => findings.positive(&format!("{key}.absolute"), absolute),
+    }
+}
+
+fn check_statistic(
+    findings: &mut Findings<'_>,
+    key: &str,
+    reference: &Reference,
+    end: Option<f64>,
+) {
+    let case = findings.case();
+    let statistic = format!("{key}.statistic");
+    match (reference.statistic, reference.at) {
+        (Statistic::At, None) => findings.error(
+            &statistic,
+            "the statistic `at` needs a time".to_owned(),
+            "add at = ... to the reference",
+        ),
+        (Statistic::At, Some(at)) if at < 0.0 || end.is_some_and(|end| at > end) => findings.error(
+            &format!("{key}.at"),
+            format!("the time {at} is not within the run"),
+            "write a time between 0 and time.unsteady.end",
+        ),
+        (Statistic::At, Some(_)) => {}
+        (_, Some(_)) => findings.error(
+            &format!("{key}.at"),
+            "`at` goes with the statistic `at` only".to_owned(),
+            "write statistic = \"at\", or leave `at` out",
+        ),
+        (_, None) => {}
+    }
+    let needs_period =
+        matches!(reference.statistic, Statistic::Strouhal | Statistic::HalfPeriodAfterMax);
+    if needs_period && end.is_none() {
+        findings.error(
+            &statistic,
+            "a steady solution has no period".to_owned(),
+            "march in time with [time.unsteady], or take the statistic \"final\"",
+        );
+    }
+    if reference.statistic == Statistic::Strouhal && case.scales.is_none() {
+        findings.error(
+            &statistic,
+            "a Strouhal number needs a length and a velocity".to_owned(),
+            "add [scales] with length and velocity",
+        );
+    }
+    if reference.statistic == Statistic::HalfPeriodAfterMax && case.statistics.phase_of.is_none() {
+        findings.error(
+            &statistic,
+            "nothing says which quantity's maximum starts the period".to_owned(),
+            "add phase_of = \"...\" to [statistics]",
+        );
+    }
+}

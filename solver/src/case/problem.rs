@@ -1,0 +1,91 @@
+//! `Problem`: what is wrong in a case, where, and what to do about it; `CaseError`.
+
+use std::fmt;
+use std::path::PathBuf;
+
+use thiserror::Error;
+
+use super::source::Place;
+
+/// Whether a problem stops a run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Severity {
+    /// The case cannot be run.
+    Error,
+    /// The case can be run, but may not do what is meant.
+    Warning,
+}
+
+/// One thing that is wrong in a case.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Problem {
+    /// Whether it stops a run.
+    pub severity: Severity,
+    /// The key, with its tables: `body.0.shape.disc.radius`.
+    pub key: String,
+    /// What is wrong, with the value found.
+    pub message: String,
+    /// What is accepted, or what to do.
+    pub help: String,
+    /// Where it is written; nowhere if it is a default.
+    pub place: Option<Place>,
+}
+
+/// `error: ...`, the place, the line with a caret below, and the help.
+impl fmt::Display for Problem {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let severity = match self.severity {
+            Severity::Error => "error",
+            Severity::Warning => "warning",
+        };
+        write!(f, "{severity}: {}", self.message)?;
+        let margin = match &self.place {
+            Some(place) => {
+                let number = place.line.to_string();
+                let margin = " ".repeat(number.len());
+                write!(f, "\n{margin}--> {place}")?;
+                write!(f, "\n{margin} |\n{number} | {}", place.text)?;
+                // Tabs stay tabs, so that the caret stands below what it points at.
+                let indent: String = place
+                    .text
+                    .chars()
+                    .take(place.column - 1)
+                    .map(|c| if c == '\t' { '\t' } else { ' ' })
+                    .collect();
+                write!(f, "\n{margin} | {indent}{}", "^".repeat(place.width))?;
+                margin
+            }
+            None => String::new(),
+        };
+        if self.help.is_empty() { Ok(()) } else { write!(f, "\n{margin} = {}", self.help) }
+    }
+}
+
+/// Why there is no case to run.
+#[derive(Debug, Error)]
+pub enum CaseError {
+    /// There is no such file, or no case of that name.
+    #[error("{what}; {help}")]
+    NotFound {
+        /// What was asked for.
+        what: String,
+        /// What there is.
+        help: String,
+    },
+    /// The file is there but cannot be read.
+    #[error("cannot read {path}: {source}")]
+    Unreadable {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// The file is read but wrong.
+    #[error("{}", listing(.0))]
+    Wrong(Vec<Problem>),
+}
+
+/// All problems, one below the other.
+fn listing(problems: &[Problem]) -> String {
+    problems.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n\n")
+}

@@ -1,0 +1,438 @@
+//! TOML to `Case`; unknown keys refused with file, line and column.
+//!
+//! A case is put together in this order, the later over the earlier: the file it `extends`, the
+//! file itself, the variant, the settings of the command line. Tables are merged, everything else
+//! is replaced. `reference`, `variant` and `quick` of an extended file are not inherited: what was
+//! published for one problem does not hold for another.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use serde::Deserialize;
+
+use super::deserialize::{Mismatch, TypeError, suggestion};
+use super::geometry::opposite;
+use super::nearest::nearest;
+use super::problem::{CaseError, Problem, Severity};
+use super::source::{Origin, Place, Source};
+use super::tree::{self, Node, TreeError, Value};
+use super::{BoundaryCondition, Case, library};
+
+/// Keys of a file that those who extend it do not inherit.
+const OWN_KEYS: [&str; 3] = ["reference", "variant", "quick"];
+
+/// Most problems listed at once.
+const MOST_PROBLEMS: usize = 20;
+
+/// A case and where everything in it is written.
+#[derive(Debug, Clone)]
+pub struct CaseFile {
+    /// The case, with `extends`, variant and settings applied.
+    pub case: Case,
+    /// Name: that of the file, or of its directory if the file is `case.toml`.
+    pub name: String,
+    /// The variant that was applied.
+    pub variant: Option<String>,
+    /// Names of all variants the file has.
+    pub variants: Vec<String>,
+    /// Name of the file that was read.
+    pub file: String,
+    root: Node,
+}
+
+impl CaseFile {
+    /// Where the value at a dotted path is written, or the table it would stand in.
+    #[must_use]
+    pub fn place(&self, path: &str) -> Option<Place> {
+        let (node, is_exact) = self.root.find(path);
+        // A default is nowhere: its table is the next best place, by its header or its key.
+        let is_value = is_exact && (node.table().is_none() || node.is_inline());
+        let origin = if is_value { &node.origin } else { &node.key };
+        (!origin.span.is_empty()).then(|| origin.place())
+    }
+
+    /// Paths of all numbers that are infinite or not a number.
+    pub(super) fn not_finite(&self) -> Vec<String> {
+        let mut paths = Vec::new();
+        collect_not_finite(&self.root, String::new(), &mut paths);
+        paths
+    }
+
+    /// Name and variant: `disc-settling/heavy`.
+    #[must_use]
+    pub fn full_name(&self) -> String {
+        match &self.variant {
+            Some(variant) => format!("{}/{variant}", self.name),
+            None => self.name.clone(),
+        }
+    }
+}
+
+impl Case {
+    /// Reads a case: a path to a TOML file, the name of a shipped case, or either followed by
+    /// `/VARIANT`; then sets `KEY=VALUE` for each of `settings`.
+    ///
+    /// # Errors
+    /// [`CaseError`]: no such case, a file that cannot be read, or all that is wrong in it.
+    pub fn read(argument: &str, settings: &[String]) -> Result<CaseFile, CaseError> {
+        let (text, variant) = locate(argument)?;
+        assemble(&text, variant.as_deref(), settings)
+    }
+
+    /// Reads a case from a text; `name` stands for its file in messages.
+    ///
+    /// # Errors
+    /// [`CaseError::Wrong`] with all that is wrong in it.
+    pub fn parse(name: &str, text: &str, settings: &[String]) -> Result<CaseFile, CaseError> {
+        let source = Source { name: name.to_owned(), text: text.to_owned() };
+        let text = CaseText { name: stem(name), directory: None, source: Arc::new(source) };
+        assemble(&text, None, settings)
+    }
+
+    /// The case as a TOML text, with all defaults written out.
+    ///
+    /// # Errors
+    /// When a value cannot be written as TOML.
+    pub fn to_toml(&self) -> Result<String, toml::ser::Error> {
+        toml::to_string_pretty(self)
+    }
+}
+
+/// The text of a case before it is understood.
+struct CaseText {
+    name: String,
+    /// Where relative paths start; a shipped case has none.
+    directory: Option<PathBuf>,
+    source: Arc<Source>,
+}
+
+fn collect_not_finite(node: &Node, path: String, paths: &mut Vec<String>) {
+    let below =
+        |step: &str| if path.is_empty() { step.to_owned() } else { format!("{path}.{step}") };
+    match &node.value {
+        Value::Float(number) if !number.is_finite() => paths.push(path),
+        Value::Array(items) => {
+            for (index, item) in items.iter().enumerate() {
+                collect_not_finite(item, below(&index.to_string()), paths);
+            }
+        }
+        Value::Table(entries) => {
+            for (key, entry) in entries {
+                collect_not_finite(entry, below(key), paths);
+            }
+        }
+        _ => {}
+    }
+}
+
+/// Name of a case by its file: `cases/jets/case.toml` is `jets`, `mine.toml` is `mine`.
+fn stem(file: &str) -> String {
+    let path = Path::new(file);
+    let of = |path: &Path| path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
+    match of(path) {
+        Some(stem) if stem == "case" => path.parent().and_then(of).unwrap_or(stem),
+        Some(stem) => stem,
+        None => "case".to_owned(),
+    }
+}
+
+/// Finds the text and the variant an argument means.
+fn locate(argument: &str) -> Result<(CaseText, Option<String>), CaseError> {
+    let is_path = |text: &str| text.ends_with(".toml");
+    if is_path(argument) || Path::new(argument).is_file() {
+        return Ok((read_file(Path::new(argument))?, None));
+    }
+    if let Some(shipped) = library::find(argument) {
+        return Ok((shipped_text(shipped), None));
+    }
+    let directory = Path::new(argument).join("case.toml");
+    if directory.is_file() {
+        return Ok((read_file(&directory)?, None));
+    }
+    let Some((case, variant)) = argument.rsplit_once('/') else {
+        return Err(no_such_case(argument));
+    };
+    let text = if is_path(case) {
+        read_file(Path::new(case))?
+    } else if let Some(shipped) = library::find(case) {
+        shipped_text(shipped)
+    } else if Path::new(case).join("case.toml").is_file() {
+        read_file(&Path::new(case).join("case.toml"))?
+    } else {
+        return Err(no_such_case(case));
+    };
+    Ok((text, Some(variant.to_owned())))
+}
+
+fn no_such_case(name: &str) -> CaseError {
+    let known: Vec<&str> = library::list().iter().map(|case| case.name).collect();
+    let mut help = match nearest(name, &known) {
+        Some(word) => format!("did you mean `{word}`? "),
+        None => String::new(),
+    };
+    help += &format!("shipped cases: {}; a file of your own ends in .toml", known.join(", "));
+    CaseError::NotFound { what: format!("there is no case `{name}`"), help }
+}
+
+fn shipped_text(case: &library::Shipped) -> CaseText {
+    let source = Source { name: case.file.to_owned(), text: case.text.to_owned() };
+    CaseText { name: case.name.to_owned(), directory: None, source: Arc::new(source) }
+}
+
+fn read_file(path: &Path) -> Result<CaseText, CaseError> {
+    let text = fs::read_to_string(path).map_err(|error| match error.kind() {
+        std::io::ErrorKind::NotFound => CaseError::NotFound {
+            what: format!("there is no file {}", path.display()),
+            help: "give the path of a case file, or a name from `alewife list`".to_owned(),
+        },
+        _ => CaseError::Unreadable { path: path.to_owned(), source: error },
+    })?;
+    let name = path.display().to_string();
+    Ok(CaseText {
+        name: stem(&path.canonicalize().unwrap_or_else(|_| path.to_owned()).to_string_lossy()),
+        directory: Some(path.parent().unwrap_or(Path::new("")).to_owned()),
+        source: Arc::new(Source { name, text }),
+    })
+}
+
+/// Puts the tree together, and types it.
+fn assemble(
+    text: &CaseText,
+    variant: Option<&str>,
+    settings: &[String],
+) -> Result<CaseFile, CaseError> {
+    let mut root = extended(text)?;
+    let variants = variant_names(&root);
+    if let Some(variant) = variant {
+        apply_variant(&mut root, &text.source, variant).map_err(wrong)?;
+    }
+    for setting in settings {
+        apply_setting(&mut root, setting).map_err(wrong)?;
+    }
+    let mut case = typed(&root)?;
+    complete_periodic(&mut case);
+    Ok(CaseFile {
+        case,
+        name: text.name.clone(),
+        variant: variant.map(ToOwned::to_owned),
+        variants,
+        file: text.source.name.clone(),
+        root,
+    })
+}
+
+fn wrong(error: TreeError) -> CaseError {
+    CaseError::Wrong(vec![Problem {
+        severity: Severity::Error,
+        key: String::new(),
+        message: error.message,
+        help: error.help,
+        place: Some(error.origin.place()),
+    }])
+}
+
+/// The tree of a text, laid over that of the file it extends.
+fn extended(text: &CaseText) -> Result<Node, CaseError> {
+    let mut root = tree::parse(&text.source).map_err(wrong)?;
+    let Some(extends) = root.table_mut().and_then(|entries| entries.remove("extends")) else {
+        return Ok(root);
+    };
+    let refused = |message: String, help: &str| {
+        wrong(TreeError { origin: extends.origin.clone(), message, help: help.to_owned() })
+    };
+    let Some(name) = extends.text() else {
+        return Err(refused(
+            "`extends` is not a string".to_owned(),
+            "give the relative path of a case file, or the name of a shipped case",
+        ));
+    };
+    let found = match (&text.directory, name.ends_with(".toml")) {
+        (Some(directory), true) => read_file(&directory.join(name)),
+        (None, true) => {
+            return Err(refused(
+                format!("`{name}` cannot be reached from here"),
+                "a shipped case, or a text without a file, extends a shipped case by its name",
+            ));
+        }
+        (_, false) => library::find(name).map(shipped_text).ok_or_else(|| no_such_case(name)),
+    };
+    let parent = found.map_err(|error| match error {
+        CaseError::NotFound { what, help } => refused(format!("`extends`: {what}"), &help),
+        other => other,
+    })?;
+    let mut base = tree::parse(&parent.source).map_err(wrong)?;
+    if let Some(entries) = base.table_mut() {
+        if let Some(second) = entries.get("extends") {
+            return Err(wrong(TreeError {
+                origin: second.key.clone(),
+                message: format!("{} extends another file itself", parent.source.name),
+                help: format!(
+                    "one level of `extends` is allowed: let {} extend that file directly",
+                    text.source.name
+                ),
+            }));
+        }
+        entries.retain(|key, _| !OWN_KEYS.contains(&key.as_str()));
+    }
+    base.merge(root);
+    Ok(base)
+}
+
+fn variant_tables(root: &Node) -> impl Iterator<Item = &BTreeMap<String, Node>> {
+    let (variants, is_there) = root.find("variant");
+    let items = if is_there { variants.array().unwrap_or_default() } else { &[] };
+    items.iter().filter_map(Node::table)
+}
+
+fn variant_names(root: &Node) -> Vec<String> {
+    variant_tables(root)
+        .filter_map(|table| table.get("name")?.text().map(ToOwned::to_owned))
+        .collect()
+}
+
+/// Sets what a variant sets, adds its references, and forgets all variants.
+fn apply_variant(root: &mut Node, source: &Arc<Source>, name: &str) -> Result<(), TreeError> {
+    let table = variant_tables(root)
+        .find(|table| table.get("name").and_then(Node::text) == Some(name))
+        .cloned();
+    let Some(table) = table else {
+        let known = variant_names(root);
+        let (variants, is_there) = root.find("variant");
+        let first = if is_there { variants.array().and_then(<[Node]>::first) } else { None };
+        let start = Origin { source: Arc::clone(source), span: 0..0 };
+        return Err(TreeError {
+            origin: first.map_or(start, |node| node.origin.clone()),
+            message: format!("there is no variant `{name}`"),
+            help: if known.is_empty() {
+                "this case has no [[variant]]; leave out what follows the /".to_owned()
+            } else {
+                suggestion(name, &known)
+            },
+        });
+    };
+    if let Some(entries) = root.table_mut() {
+        entries.remove("variant");
+        match table.get("quick") {
+            Some(quick) => entries.insert("quick".to_owned(), quick.clone()),
+            None => entries.remove("quick"),
+        };
+        if let Some(Value::Array(more)) = table.get("reference").map(|node| &node.value) {
+            match entries.get_mut("reference").map(|node| &mut node.value) {
+                Some(Value::Array(references)) => references.extend(more.iter().cloned()),
+                _ => {
+                    entries.insert("reference".to_owned(), table["reference"].clone());
+                }
+            }
+        }
+    }
+    for (path, value) in table.get("set").and_then(Node::table).into_iter().flatten() {
+        root.set(path, value.clone())?;
+    }
+    Ok(())
+}
+
+/// Sets one `KEY=VALUE` of the command line.
+fn apply_setting(root: &mut Node, setting: &str) -> Result<(), TreeError> {
+    let source = Arc::new(Source { name: "--set".to_owned(), text: setting.to_owned() });
+    let place = |span| Origin { source: Arc::clone(&source), span };
+    let whole = place(0..setting.len());
+    let Some((path, raw)) = setting.split_once('=') else {
+        return Err(TreeError {
+            origin: whole,
+            message: format!("`{setting}` sets nothing"),
+            help: "write --set KEY=VALUE, such as --set mesh.scale=0.5".to_owned(),
+        });
+    };
+    let start = path.len() + 1;
+    let path = path.trim();
+    let (known, is_known) = root.find(path);
+    let wants_text = is_known && known.text().is_some();
+    let as_text = || Node {
+        key: whole.clone(),
+        origin: place(start..setting.len()),
+        value: Value::String(raw.trim().to_owned()),
+    };
+    let mut value = match tree::parse_value(&source, start) {
+        Ok(node) if wants_text && matches!(node.value, Value::Integer(_) | Value::Float(_)) => {
+            as_text()
+        }
+        Ok(node) => node,
+        // A word without quotes is a string; what starts like something else is a mistake.
+        Err(reason) if raw.trim().is_empty() || raw.trim().starts_with(['[', '{', '"', '\'']) => {
+            return Err(TreeError {
+                origin: place(start..setting.len()),
+                message: format!("`{}` is not a TOML value: {reason}", raw.trim()),
+                help: "close every quote and bracket; quote the setting for your shell".to_owned(),
+            });
+        }
+        Err(_) => as_text(),
+    };
+    value.key = place(0..start - 1);
+    root.set(path, value)
+}
+
+/// A side whose partner is periodic is periodic, too, and need not say so.
+fn complete_periodic(case: &mut Case) {
+    let pairs: Vec<(String, String)> = case
+        .boundary
+        .iter()
+        .filter_map(|(side, condition)| match condition {
+            BoundaryCondition::Periodic(partner) => Some((side.clone(), partner.clone())),
+            _ => None,
+        })
+        .filter(|(side, partner)| opposite(side) == Some(partner))
+        .collect();
+    for (side, partner) in pairs {
+        case.boundary.entry(partner).or_insert(BoundaryCondition::Periodic(side));
+    }
+}
+
+/// Types a tree; unknown keys are noted and taken as meant, so that all of them are found at once.
+fn typed(root: &Node) -> Result<Case, CaseError> {
+    let mut root = root.clone();
+    let mut problems: Vec<Problem> = Vec::new();
+    loop {
+        let error = match Case::deserialize(&root) {
+            Ok(case) if problems.is_empty() => return Ok(case),
+            Ok(_) => return Err(CaseError::Wrong(problems)),
+            Err(error) => error,
+        };
+        let path = error.path();
+        let inside =
+            |key: &str| if path.is_empty() { key.to_owned() } else { format!("{path}.{key}") };
+        match error.mismatch() {
+            Mismatch::UnknownKey { key, accepted } => {
+                problems.push(problem(&error, inside(key)));
+                let is_replaced = replace_key(&mut root, &path, key, nearest(key, accepted));
+                if is_replaced && problems.len() < MOST_PROBLEMS {
+                    continue;
+                }
+            }
+            Mismatch::MissingKey(key) => problems.push(problem(&error, inside(key))),
+            _ => problems.push(problem(&error, path)),
+        }
+        return Err(CaseError::Wrong(problems));
+    }
+}
+
+fn problem(error: &TypeError, key: String) -> Problem {
+    Problem {
+        severity: Severity::Error,
+        key,
+        message: error.message(),
+        help: error.help(),
+        place: error.origin().map(Origin::place),
+    }
+}
+
+/// Gives a key of the table at a path the name that was meant, or takes it out.
+fn replace_key(root: &mut Node, path: &str, key: &str, meant: Option<&str>) -> bool {
+    let Some(entries) = root.find_mut(path).and_then(Node::table_mut) else { return false };
+    let Some(node) = entries.remove(key) else { return false };
+    if let Some(meant) = meant {
+        entries.entry(meant.to_owned()).or_insert(node);
+    }
+    true
+}

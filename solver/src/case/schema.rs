@@ -1,0 +1,98 @@
+//! JSON Schema of case files, for editors: `#:schema alewife.schema.json` in the first line.
+
+use serde_json::{Value, json};
+
+use super::Case;
+
+/// The schema: that of `Case`, and `extends`, which only reading knows.
+#[must_use]
+pub fn schema() -> Value {
+    let mut schema = schemars::schema_for!(Case).to_value();
+    schema["title"] = json!("alewife case");
+    schema["properties"]["extends"] = json!({
+        "type": "string",
+        "description": "The case this one starts from: the relative path of a case file, or the \
+                        name of a shipped case. Tables are merged, everything else is replaced; \
+                        reference, variant and quick are not inherited.",
+    });
+    // What is needed may stand in the extended file.
+    let required = schema["required"].take();
+    if let Some(object) = schema.as_object_mut() {
+        object.remove("required");
+        object.insert(
+            "anyOf".to_owned(),
+            json!([{ "required": ["extends"] }, { "required": required }]),
+        );
+    }
+    schema
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::tree::CHOICES;
+
+    /// The schema a `$ref` leads to.
+    fn resolved<'a>(root: &'a Value, schema: &'a Value) -> &'a Value {
+        match schema["$ref"].as_str() {
+            Some(path) => root.pointer(path.trim_start_matches('#')).unwrap(),
+            None => schema,
+        }
+    }
+
+    fn has_alternatives_with_values(root: &Value, property: &Value) -> bool {
+        let options = ["oneOf", "anyOf"];
+        let alternatives =
+            |schema: &Value| options.iter().find_map(|key| schema[*key].as_array().cloned());
+        let property = resolved(root, property);
+        alternatives(property).is_some_and(|list| {
+            list.iter().any(|option| {
+                let option = resolved(root, option);
+                let is_tagged = option["type"] == "object" && option["required"].is_array();
+                let is_one_of_one =
+                    option["properties"].as_object().is_some_and(|keys| keys.len() == 1);
+                (is_tagged && is_one_of_one) || has_alternatives_with_values(root, option)
+            })
+        })
+    }
+
+    #[test]
+    fn every_table_of_alternatives_is_known_to_merging() {
+        let root = schema();
+        let mut found = Vec::new();
+        let structs = root["$defs"].as_object().unwrap().values().chain([&root]);
+        for definition in structs {
+            let variants = definition["oneOf"].as_array().cloned().unwrap_or_default();
+            let tables = std::iter::once(definition.clone()).chain(
+                variants.iter().filter_map(|v| v["properties"].as_object()).flat_map(
+                    |properties| properties.values().map(|inner| resolved(&root, inner).clone()),
+                ),
+            );
+            for table in tables.collect::<Vec<_>>() {
+                if table["required"].as_array().is_some_and(|keys| keys.len() == 1)
+                    && table["properties"].as_object().is_some_and(|keys| keys.len() == 1)
+                {
+                    continue;
+                }
+                for (key, property) in table["properties"].as_object().into_iter().flatten() {
+                    if has_alternatives_with_values(&root, property) {
+                        found.push(key.clone());
+                    }
+                }
+            }
+        }
+        found.sort();
+        found.dedup();
+        let mut known: Vec<String> = CHOICES.iter().map(ToString::to_string).collect();
+        known.sort();
+        assert_eq!(found, known);
+    }
+
+    #[test]
+    fn unknown_keys_are_refused_and_extends_is_known() {
+        let root = schema();
+        assert_eq!(root["additionalProperties"], false);
+        assert!(root["properties"]["extends"].is_object());
+        assert!(root.get("required").is_none());
+    }
+}

@@ -1,0 +1,338 @@
+//! `Node`: a case before it is typed: TOML values that know where they were written.
+//!
+//! A case is put together from several texts (a parent, the file, a variant, `--set`); each value
+//! keeps the place it came from, so that every later complaint can point at it.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use toml::de::{DeTable, DeValue};
+
+use super::source::{Origin, Source};
+
+/// Tables that hold exactly one of several alternatives.
+///
+/// Where two texts name different alternatives, the later one replaces the earlier one whole.
+pub const CHOICES: [&str; 8] =
+    ["domain", "time", "shape", "motion", "gait", "factor", "fields", "series"];
+
+/// A value and where it is written.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Node {
+    /// Where its key is written; the value itself within an array.
+    pub key: Origin,
+    /// Where it is written; the header of a table.
+    pub origin: Origin,
+    /// The value.
+    pub value: Value,
+}
+
+/// A TOML value.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Value {
+    /// Text.
+    String(String),
+    /// Whole number.
+    Integer(i64),
+    /// Number.
+    Float(f64),
+    /// True or false.
+    Boolean(bool),
+    /// A date, which no key of a case takes.
+    Date(String),
+    /// Values in order.
+    Array(Vec<Node>),
+    /// Values by key.
+    Table(BTreeMap<String, Node>),
+}
+
+/// Why a text or a path could not be followed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TreeError {
+    /// Where.
+    pub origin: Origin,
+    /// What is wrong.
+    pub message: String,
+    /// What to do.
+    pub help: String,
+}
+
+/// Reads a TOML text.
+pub fn parse(source: &Arc<Source>) -> Result<Node, TreeError> {
+    let table = DeTable::parse(&source.text).map_err(|error| {
+        let span = error.span().unwrap_or(0..0);
+        TreeError {
+            origin: Origin { source: Arc::clone(source), span },
+            message: format!("this is not TOML: {}", error.message()),
+            help: "strings stand in quotes, arrays in [ ], tables in { } or under a [header]"
+                .to_owned(),
+        }
+    })?;
+    let start = Origin { source: Arc::clone(source), span: 0..0 };
+    Ok(Node { key: start.clone(), origin: start, value: table_value(source, table.get_ref())? })
+}
+
+/// Reads one TOML value, such as the right-hand side of `--set`.
+pub fn parse_value(source: &Arc<Source>, start: usize) -> Result<Node, String> {
+    let text = &source.text[start..];
+    let value = DeValue::parse(text).map_err(|error| error.message().to_owned())?;
+    // Spans within the value are not needed: the whole setting is one line.
+    let whole = Origin { source: Arc::clone(source), span: start..source.text.len() };
+    let mut node = node(source, &whole, value.get_ref()).map_err(|error| error.message)?;
+    node.relocate(&whole);
+    Ok(node)
+}
+
+fn table_value(source: &Arc<Source>, table: &DeTable<'_>) -> Result<Value, TreeError> {
+    let mut entries = BTreeMap::new();
+    for (key, value) in table {
+        let place = |span| Origin { source: Arc::clone(source), span };
+        let mut entry = node(source, &place(value.span()), value.get_ref())?;
+        entry.key = place(key.span());
+        entries.insert(key.get_ref().to_string(), entry);
+    }
+    Ok(Value::Table(entries))
+}
+
+fn node(source: &Arc<Source>, origin: &Origin, value: &DeValue<'_>) -> Result<Node, TreeError> {
+    let refused = |what: &str| TreeError {
+        origin: origin.clone(),
+        message: format!("this number cannot be read: {what}"),
+        help: "write it as 12, -0.5 or 1e-3".to_owned(),
+    };
+    let value = match value {
+        DeValue::String(text) => Value::String(text.to_string()),
+        DeValue::Integer(number) => Value::Integer(
+            i64::from_str_radix(number.as_str(), number.radix())
+                .map_err(|error| refused(&error.to_string()))?,
+        ),
+        DeValue::Float(number) => Value::Float(
+            number
+                .as_str()
+                .parse()
+                .map_err(|error: std::num::ParseFloatError| refused(&error.to_string()))?,
+        ),
+        DeValue::Boolean(value) => Value::Boolean(*value),
+        DeValue::Datetime(date) => Value::Date(date.to_string()),
+        DeValue::Array(items) => Value::Array(
+            items
+                .iter()
+                .map(|item| {
+                    let place = Origin { source: Arc::clone(source), span: item.span() };
+                    node(source, &place, item.get_ref())
+                })
+                .collect::<Result<_, _>>()?,
+        ),
+        DeValue::Table(table) => table_value(source, table)?,
+    };
+    Ok(Node { key: origin.clone(), origin: origin.clone(), value })
+}
+
+impl Node {
+    /// Says of this value and all within that they are written at `origin`.
+    fn relocate(&mut self, origin: &Origin) {
+        self.key = origin.clone();
+        self.origin = origin.clone();
+        match &mut self.value {
+            Value::Array(items) => items.iter_mut().for_each(|item| item.relocate(origin)),
+            Value::Table(entries) => entries.values_mut().for_each(|entry| entry.relocate(origin)),
+            _ => {}
+        }
+    }
+
+    /// The entries of a table.
+    pub fn table(&self) -> Option<&BTreeMap<String, Node>> {
+        if let Value::Table(entries) = &self.value { Some(entries) } else { None }
+    }
+
+    /// The entries of a table, to be changed.
+    pub fn table_mut(&mut self) -> Option<&mut BTreeMap<String, Node>> {
+        if let Value::Table(entries) = &mut self.value { Some(entries) } else { None }
+    }
+
+    /// The items of an array.
+    pub fn array(&self) -> Option<&[Node]> {
+        if let Value::Array(items) = &self.value { Some(items) } else { None }
+    }
+
+    /// The text of a string.
+    pub fn text(&self) -> Option<&str> {
+        if let Value::String(text) = &self.value { Some(text) } else { None }
+    }
+
+    /// The value at a dotted path, or the nearest table around it that is written.
+    pub fn find(&self, path: &str) -> (&Self, bool) {
+        let mut here = self;
+        for step in path.split('.').filter(|step| !step.is_empty()) {
+            let next = match &here.value {
+                Value::Table(entries) => entries.get(step),
+                Value::Array(items) => step.parse().ok().and_then(|index: usize| items.get(index)),
+                _ => None,
+            };
+            match next {
+                Some(node) => here = node,
+                None => return (here, false),
+            }
+        }
+        (here, true)
+    }
+
+    /// The value at a dotted path, to be changed.
+    pub fn find_mut(&mut self, path: &str) -> Option<&mut Self> {
+        let mut here = self;
+        for step in path.split('.').filter(|step| !step.is_empty()) {
+            here = match &mut here.value {
+                Value::Table(entries) => entries.get_mut(step)?,
+                Value::Array(items) => items.get_mut(step.parse::<usize>().ok()?)?,
+                _ => return None,
+            };
+        }
+        Some(here)
+    }
+
+    /// Whether it is a table written within a line, in braces.
+    pub fn is_inline(&self) -> bool {
+        let Origin { source, span } = &self.origin;
+        self.table().is_some() && source.text[span.start.min(source.text.len())..].starts_with('{')
+    }
+
+    /// Puts a value at a dotted path; tables on the way that are not there yet are made.
+    ///
+    /// Whether the path leads to a key that is known is found out when the case is typed.
+    pub fn set(&mut self, path: &str, value: Self) -> Result<(), TreeError> {
+        let refused =
+            |message: String, help: String| TreeError { origin: value.key.clone(), message, help };
+        let steps: Vec<&str> = path.split('.').collect();
+        if steps.iter().any(|step| step.trim().is_empty()) {
+            return Err(refused(
+                format!("`{path}` is not a path"),
+                "write keys joined by dots, such as body.0.center.1".to_owned(),
+            ));
+        }
+        let mut here = self;
+        let mut above = "";
+        for (depth, step) in steps.iter().enumerate() {
+            let so_far = steps[..depth].join(".");
+            let fresh =
+                Self { key: value.key.clone(), origin: value.origin.clone(), value: empty() };
+            // One alternative gives way to another, bare or with a table.
+            let has_it = here.table().is_some_and(|entries| entries.contains_key(*step));
+            if is_choice(above, &so_far) && !has_it {
+                here.value = empty();
+            }
+            here = match &mut here.value {
+                Value::Table(entries) => entries.entry((*step).to_owned()).or_insert(fresh),
+                Value::Array(items) => {
+                    let n = items.len();
+                    let item = step.parse().ok().and_then(|index: usize| items.get_mut(index));
+                    item.ok_or_else(|| {
+                        refused(
+                            format!("`{path}`: there is no `{so_far}.{step}`"),
+                            format!("`{so_far}` has {n} entries, counted from 0"),
+                        )
+                    })?
+                }
+                _ => {
+                    return Err(refused(
+                        format!("`{path}`: `{so_far}` is not a table, so it has no `{step}`"),
+                        format!("set `{so_far}` itself"),
+                    ));
+                }
+            };
+            above = step;
+        }
+        *here = value;
+        Ok(())
+    }
+
+    /// Lays `child` over this: tables are merged, everything else is replaced.
+    pub fn merge(&mut self, child: Self) {
+        self.merge_at("", "", child);
+    }
+
+    fn merge_at(&mut self, name: &str, path: &str, child: Self) {
+        match (&mut self.value, child.value) {
+            (Value::Table(ours), Value::Table(theirs)) => {
+                if is_choice(name, path) && theirs.keys().any(|key| !ours.contains_key(key)) {
+                    ours.clear();
+                }
+                for (key, entry) in theirs {
+                    match ours.get_mut(&key) {
+                        Some(old) => old.merge_at(&key, &format!("{path}.{key}"), entry),
+                        None => {
+                            ours.insert(key, entry);
+                        }
+                    }
+                }
+                self.key = child.key;
+                self.origin = child.origin;
+            }
+            (_, value) => *self = Self { key: child.key, origin: child.origin, value },
+        }
+    }
+}
+
+fn empty() -> Value {
+    Value::Table(BTreeMap::new())
+}
+
+/// Whether the table with this key holds one of several alternatives.
+fn is_choice(name: &str, path: &str) -> bool {
+    let mut back = path.rsplit('.');
+    let parent = back.nth(1).unwrap_or_default();
+    CHOICES.contains(&name) || parent == "boundary"
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn tree(text: &str) -> Node {
+        let source = Arc::new(Source { name: "t.toml".to_owned(), text: text.to_owned() });
+        parse(&source).unwrap()
+    }
+
+    fn set(root: &mut Node, path: &str, value: &str) -> Result<(), TreeError> {
+        let source = Arc::new(Source { name: "--set".to_owned(), text: value.to_owned() });
+        root.set(path, parse_value(&source, 0).unwrap())
+    }
+
+    #[test]
+    fn every_value_knows_its_line_and_column() {
+        let root = tree("[fluid]\nviscosity = 1.0\n[[body]]\nname = \"a\"\n[[body]]\nx = [1, 2]\n");
+        let place = |path: &str| {
+            let (node, exact) = root.find(path);
+            assert!(exact, "{path}");
+            let place = node.origin.place();
+            (place.line, place.column)
+        };
+        assert_eq!(place("fluid"), (1, 1));
+        assert_eq!(place("fluid.viscosity"), (2, 13));
+        assert_eq!(place("body.0"), (3, 1));
+        assert_eq!(place("body.1"), (5, 1));
+        assert_eq!(place("body.1.x.1"), (6, 9));
+    }
+
+    #[test]
+    fn another_alternative_replaces_the_first_one() {
+        let mut root = tree("time = { steady = {} }\nboundary = { left = \"no-slip\" }");
+        set(&mut root, "time.unsteady.step", "0.1").unwrap();
+        assert!(!root.find("time.steady").1 && root.find("time.unsteady.step").1);
+        set(&mut root, "boundary.left.parabolic.peak", "2").unwrap();
+        assert_eq!(root.find("boundary.left.parabolic.peak").0.value, Value::Integer(2));
+        let mut parent = tree("[time.steady]\n[mesh]\nsize = 1\ngrowth = 0.1");
+        parent.merge(tree("[time.unsteady]\nstep = 1\n[mesh]\nsize = 2"));
+        assert!(!parent.find("time.steady").1 && parent.find("mesh.growth").1);
+        assert_eq!(parent.find("mesh.size").0.value, Value::Integer(2));
+    }
+
+    #[test]
+    fn an_index_past_the_end_is_refused() {
+        let mut root = tree("modes = [1, 2]");
+        set(&mut root, "modes.1", "3").unwrap();
+        assert_eq!(root.find("modes.1").0.value, Value::Integer(3));
+        let error = set(&mut root, "modes.2", "3").unwrap_err();
+        assert!(error.help.contains("2 entries"), "{error:?}");
+        assert!(set(&mut root, "modes.1.x", "3").is_err());
+    }
+}

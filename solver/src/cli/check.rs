@@ -1,0 +1,284 @@
+//! `check`: what a case is, what follows from it, and what it would cost; no solve is made.
+
+use std::fmt::Write as _;
+
+use alewife_mesh::{Mesh, Quality};
+
+use super::exit::{Exit, Failure};
+use super::style::{self, Ink, on_stdout, say};
+use super::{engine, read_and_check};
+use crate::case::{
+    BoundaryCondition, Cadence, Case, CaseFile, DomainSpec, Gait, Model, Motion, Precision,
+    Problem, ShapeSpec, TimeSettings, geometry_name, known_quantities, number_table, significant,
+};
+
+/// Output above which a warning is given (bytes).
+const LARGE_OUTPUT: f64 = 2e9;
+
+/// Checks cases one after the other; the first bad one decides the exit code.
+pub fn check(cases: &[String], settings: &[String], has_mesh: bool) -> Result<Exit, Failure> {
+    let mut worst: Option<Failure> = None;
+    for (index, argument) in cases.iter().enumerate() {
+        if index > 0 {
+            say("");
+        }
+        if let Err(failure) = check_one(argument, settings, has_mesh) {
+            if let Some(earlier) = worst.replace(failure) {
+                style::complain(&earlier.message);
+            }
+        }
+    }
+    match worst {
+        Some(failure) => Err(failure),
+        None => Ok(Exit::Done),
+    }
+}
+
+fn check_one(argument: &str, settings: &[String], has_mesh: bool) -> Result<(), Failure> {
+    let (file, warnings) = read_and_check(argument, settings)?;
+    let mut text = format!("{}  {}\n", on_stdout(Ink::Bold, &file.full_name()), file.case.title);
+    text += &facts(&file);
+    let numbers = number_table(&file.case);
+    if !numbers.is_empty() {
+        let _ = write!(text, "\n{}\n{numbers}", on_stdout(Ink::Bold, "derived numbers"));
+    }
+    say(text.trim_end());
+    if has_mesh {
+        let mesh = engine::build_mesh(&file.case)?;
+        say(&format!("\n{}", on_stdout(Ink::Bold, "mesh")));
+        for line in Quality::of(&mesh).to_string().lines() {
+            say(&format!("  {line}"));
+        }
+        say(&format!(
+            "\n{}\n{}",
+            on_stdout(Ink::Bold, "cost (a rough guess)"),
+            costs(&file.case, &mesh)
+        ));
+    }
+    for warning in &warnings {
+        style::complain(&format!("\n{}", style::problem(warning)));
+    }
+    check_variants(argument, &file, settings)?;
+    say("\nno solve is made");
+    Ok(())
+}
+
+/// Every variant has to be right, too.
+fn check_variants(argument: &str, file: &CaseFile, settings: &[String]) -> Result<(), Failure> {
+    for variant in &file.case.variant {
+        let name = format!("{argument}/{}", variant.name);
+        read_and_check(&name, settings).map_err(|failure| Failure {
+            message: format!("in variant {name}\n{}", failure.message),
+            ..failure
+        })?;
+    }
+    if !file.case.variant.is_empty() {
+        say(&format!("\n{} variants are right, too", file.case.variant.len()));
+    }
+    Ok(())
+}
+
+/// What a case consists of, as lines `what  value`.
+pub fn facts(file: &CaseFile) -> String {
+    let case = &file.case;
+    let mut text = String::new();
+    let mut line = |what: &str, value: String| {
+        // Writing to a String cannot fail.
+        let _ = writeln!(text, "  {what:<10} {value}");
+    };
+    line("file", file.file.clone());
+    let units = format!("{}, units: {}", geometry_name(case.geometry), case.units);
+    line("geometry", units);
+    line("fluid", fluid(case));
+    line("domain", domain(&case.domain));
+    let sides = case.domain.sides().iter().filter(|side| **side != "axis").map(|side| {
+        let condition = case.boundary.get(*side).map_or("nothing", condition_name);
+        format!("{side} {condition}")
+    });
+    line("boundary", sides.collect::<Vec<_>>().join(", "));
+    for body in &case.body {
+        line("body", body_line(case, body));
+    }
+    line("time", time(case));
+    if let Some(frame) = &case.frame {
+        line("frame", format!("travels with {frame}"));
+    }
+    let n = case.reference.len();
+    line("reference", format!("{n} published value{}", if n == 1 { "" } else { "s" }));
+    text
+}
+
+fn fluid(case: &Case) -> String {
+    let fluid = &case.fluid;
+    let model = match fluid.model {
+        Model::Stokes => "Stokes",
+        Model::UnsteadyStokes => "unsteady Stokes",
+        Model::NavierStokes => "Navier-Stokes",
+    };
+    let density = if fluid.density > 0.0 {
+        format!(", density {}", significant(fluid.density))
+    } else {
+        String::new()
+    };
+    format!("{model}, viscosity {}{density}", significant(fluid.viscosity))
+}
+
+fn domain(domain: &DomainSpec) -> String {
+    match domain {
+        DomainSpec::Box { min, max } => format!("box from {min:?} to {max:?}"),
+        DomainSpec::Channel { length, height } => format!("channel {length} long, {height} high"),
+        DomainSpec::Disc { radius, .. } => format!("disc of radius {radius}"),
+        DomainSpec::HalfDisc { radius, .. } => format!("ball of radius {radius}"),
+        DomainSpec::Cylinder { x: [start, end], radius } => {
+            format!("cylinder from x = {start} to {end} of radius {radius}")
+        }
+    }
+}
+
+fn condition_name(condition: &BoundaryCondition) -> &'static str {
+    match condition {
+        BoundaryCondition::NoSlip => "no-slip",
+        BoundaryCondition::DoNothing => "do-nothing",
+        BoundaryCondition::TractionFree => "traction-free",
+        BoundaryCondition::Symmetry => "symmetry",
+        BoundaryCondition::Axis => "axis",
+        BoundaryCondition::Velocity { .. } => "velocity",
+        BoundaryCondition::Parabolic { .. } => "parabolic",
+        BoundaryCondition::Shear { .. } => "shear",
+        BoundaryCondition::Periodic(_) => "periodic",
+    }
+}
+
+fn body_line(case: &Case, body: &crate::case::Body) -> String {
+    let shape = match &body.shape {
+        ShapeSpec::Disc { radius } | ShapeSpec::Sphere { radius } => {
+            format!("{} of radius {radius}", body.shape.name())
+        }
+        ShapeSpec::Ellipse { semi_axes } | ShapeSpec::Spheroid { semi_axes } => {
+            format!("{} with semi-axes {semi_axes:?}", body.shape.name())
+        }
+        ShapeSpec::Spline { points } => format!("spline through {} points", points.len()),
+    };
+    let motion = match &body.motion {
+        Motion::Held => "held",
+        Motion::Free => "free",
+        Motion::Imposed(_) => "imposed motion",
+    };
+    let gait = match &body.gait {
+        Some(Gait::Squirmer(_)) => ", squirmer",
+        None => "",
+    };
+    let size = body.size.or(case.mesh.surface).unwrap_or(case.mesh.size) * case.mesh.scale;
+    let edges = body.shape.perimeter() / size;
+    format!("{}: {shape} at {:?}, {motion}{gait}, about {edges:.0} edges", body.name, body.center)
+}
+
+fn time(case: &Case) -> String {
+    match &case.time {
+        TimeSettings::Steady(_) => "steady".to_owned(),
+        TimeSettings::Unsteady(time) => format!(
+            "{} steps of {} to {}",
+            (time.end / time.step).ceil(),
+            significant(time.step),
+            significant(time.end)
+        ),
+    }
+}
+
+/// Linear systems a run solves: exact for Stokes flow, a usual number for Newton's method.
+fn n_systems(case: &Case) -> f64 {
+    match (&case.time, case.fluid.model) {
+        (TimeSettings::Steady(_), Model::NavierStokes) => 6.0,
+        (TimeSettings::Steady(_), _) => 1.0,
+        (TimeSettings::Unsteady(time), _) => (time.end / time.step).ceil(),
+    }
+}
+
+/// Unknowns, memory, time and files of a run.
+fn costs(case: &Case, mesh: &Mesh<2>) -> String {
+    let n_dofs = (2 * mesh.n_nodes() + mesh.n_vertices) as f64;
+    // Fitted to factorisations of planar Oseen matrices with 10^4 to 2 10^5 unknowns.
+    let memory = 34e6 * (n_dofs / 1e4).powf(1.27);
+    let factorisation = 0.05 * (n_dofs / 1e4).powf(1.44);
+    let assembly = 8e-6 * n_dofs;
+    let systems = n_systems(case);
+    let output = output_size(case, mesh);
+    let mut text = String::new();
+    let _ = writeln!(text, "  {:<16} {n_dofs}", "unknowns");
+    let _ = writeln!(text, "  {:<16} {}", "factorisation", bytes(memory));
+    let seconds = systems * (factorisation + assembly);
+    let _ = writeln!(
+        text,
+        "  {:<16} {} for {systems} linear system{}",
+        "CPU time",
+        duration(seconds),
+        if systems == 1.0 { "" } else { "s" }
+    );
+    let _ = write!(text, "  {:<16} {}", "output", bytes(output));
+    if output > LARGE_OUTPUT {
+        let warning = Problem {
+            severity: crate::case::Severity::Warning,
+            key: "output".to_owned(),
+            message: format!("the run would write about {}", bytes(output)),
+            help: "write fields less often with output.fields = { time = ... }, or \
+                   output.precision = \"f32\""
+                .to_owned(),
+            place: None,
+        };
+        style::complain(&style::problem(&warning));
+    }
+    text
+}
+
+/// Files of a run (bytes).
+fn output_size(case: &Case, mesh: &Mesh<2>) -> f64 {
+    let times = |cadence: Cadence| match (cadence, &case.time) {
+        (Cadence::Never, _) => 0.0,
+        (Cadence::End, _) | (_, TimeSettings::Steady(_)) => 1.0,
+        (Cadence::Steps(n), TimeSettings::Unsteady(time)) => {
+            1.0 + (time.end / time.step / n.max(1) as f64).ceil()
+        }
+        (Cadence::Time(interval), TimeSettings::Unsteady(time)) => {
+            1.0 + (time.end / interval).ceil()
+        }
+    };
+    let number = match case.output.precision {
+        Precision::F32 => 4.0,
+        Precision::F64 => 8.0,
+    };
+    // Positions as doubles; velocity, pressure and vorticity; six indices a cell. zlib halves it.
+    let frame = 0.5
+        * (mesh.n_nodes() as f64 * (3.0 * 8.0 + 5.0 * number) + mesh.n_cells() as f64 * 6.0 * 8.0);
+    // A row of text, and a message a body.
+    let row = 20.0 * known_quantities(case).len() as f64 + 300.0 * case.body.len() as f64;
+    times(case.output.fields) * frame + times(case.output.series) * row
+}
+
+fn bytes(size: f64) -> String {
+    let units = ["bytes", "kB", "MB", "GB", "TB"];
+    let step = if size < 1.0 { 0 } else { ((size.log10() / 3.0) as usize).min(units.len() - 1) };
+    format!("{:.3} {}", size / 1000_f64.powi(step as i32), units[step])
+        .replace(".000 bytes", " bytes")
+}
+
+fn duration(seconds: f64) -> String {
+    match seconds {
+        s if s < 1.0 => "less than a second".to_owned(),
+        s if s < 120.0 => format!("{s:.0} s"),
+        s if s < 7200.0 => format!("{:.0} min", s / 60.0),
+        s => format!("{:.1} h", s / 3600.0),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sizes_are_told_in_their_unit() {
+        assert_eq!(bytes(12.0), "12 bytes");
+        assert_eq!(bytes(1.5e6), "1.500 MB");
+        assert_eq!(duration(90.0), "90 s");
+        assert_eq!(duration(9000.0), "2.5 h");
+    }
+}

@@ -1,0 +1,34 @@
+//! The one place where the command line meets mesh and solver.
+
+use std::path::Path;
+
+use alewife_mesh::Mesh;
+
+use crate::case::Case;
+use crate::observer::{self, RunDirectory};
+use crate::simulation::{self, Outcome, RunError};
+
+/// The mesh of a case.
+pub fn build_mesh(case: &Case) -> Result<Mesh<2>, RunError> {
+    simulation::build_mesh(case)
+}
+
+/// Runs a case with nobody looking on.
+pub fn simulate(case: &Case) -> Result<Outcome, RunError> {
+    simulation::simulate(case, &mut [])
+}
+
+/// Runs a case with its files in `directory`; with `quiet`, without progress on the terminal.
+pub fn simulate_into(
+    case: &Case,
+    directory: &RunDirectory,
+    quiet: bool,
+) -> Result<Outcome, RunError> {
+    let mut observers = observer::observers(case, directory, quiet)?;
+    simulation::simulate(case, &mut observers)
+}
+
+/// Starts the log: to standard error, and to `log.jsonl` of a run.
+pub fn start_log(directory: Option<&Path>, verbosity: i8) -> std::io::Result<()> {
+    observer::start_log(directory, verbosity)
+}

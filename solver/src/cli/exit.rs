@@ -1,0 +1,103 @@
+//! `Exit`: the codes the program ends with, after sysexits where there is one.
+
+use std::process::ExitCode;
+
+use super::style;
+use crate::case::{CaseError, Problem};
+use crate::observer::RunDirectoryError;
+use crate::simulation::RunError;
+
+/// What became of it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[repr(u8)]
+pub enum Exit {
+    /// Done.
+    Done = 0,
+    /// The command line makes no sense.
+    Usage = 2,
+    /// The solver diverged.
+    Diverged = 10,
+    /// The mesh could not be made.
+    Mesh = 11,
+    /// Bodies came to overlap.
+    Overlap = 12,
+    /// A result is outside its tolerance.
+    OutsideTolerance = 20,
+    /// The case is wrong.
+    BadCase = 65,
+    /// There is no such case.
+    NoInput = 66,
+    /// A bug in the program.
+    Bug = 70,
+    /// A file could not be read or written.
+    InputOutput = 74,
+    /// A signal stopped the run.
+    Stopped = 75,
+}
+
+impl From<Exit> for ExitCode {
+    fn from(exit: Exit) -> Self {
+        Self::from(exit as u8)
+    }
+}
+
+/// Why the program did not do what it was asked for.
+#[derive(Debug)]
+pub struct Failure {
+    /// Code to end with.
+    pub exit: Exit,
+    /// What to tell.
+    pub message: String,
+}
+
+impl Failure {
+    /// A failure told as `error: ...`.
+    pub fn new(exit: Exit, message: impl AsRef<str>) -> Self {
+        Self { exit, message: style::error(message.as_ref()) }
+    }
+
+    /// A case with problems, all of them told.
+    pub fn wrong(problems: &[Problem]) -> Self {
+        let told: Vec<String> = problems.iter().map(style::problem).collect();
+        Self { exit: Exit::BadCase, message: told.join("\n\n") }
+    }
+}
+
+impl From<CaseError> for Failure {
+    fn from(error: CaseError) -> Self {
+        match error {
+            CaseError::Wrong(problems) => Self::wrong(&problems),
+            CaseError::NotFound { .. } => Self::new(Exit::NoInput, error.to_string()),
+            CaseError::Unreadable { .. } => Self::new(Exit::InputOutput, error.to_string()),
+        }
+    }
+}
+
+/// The code a stopped run ends with.
+pub fn exit_of(error: &RunError) -> Exit {
+    match error {
+        RunError::NewtonStalled { .. } | RunError::NotFinite { .. } | RunError::Singular { .. } => {
+            Exit::Diverged
+        }
+        RunError::Unsupported(_) => Exit::BadCase,
+        RunError::Mesh(_) => Exit::Mesh,
+        RunError::Output(_) => Exit::InputOutput,
+        RunError::Stopped { .. } => Exit::Stopped,
+    }
+}
+
+impl From<RunError> for Failure {
+    fn from(error: RunError) -> Self {
+        Self::new(exit_of(&error), error.to_string())
+    }
+}
+
+impl From<RunDirectoryError> for Failure {
+    fn from(error: RunDirectoryError) -> Self {
+        let exit = match error {
+            RunDirectoryError::Finished { .. } | RunDirectoryError::NotARun { .. } => Exit::Usage,
+            _ => Exit::InputOutput,
+        };
+        Self::new(exit, error.to_string())
+    }
+}

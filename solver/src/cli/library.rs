@@ -1,0 +1,113 @@
+//! `list` and `show`: the shipped cases, and what one is about.
+
+use std::fmt::Write as _;
+
+use super::exit::{Exit, Failure};
+use super::style::{Ink, on_stdout, say};
+use crate::case::{
+    Case, CaseFile, Reference, Statistic, check, library, number_table, significant,
+};
+use crate::validation::statistic_name;
+
+/// Lists the shipped cases.
+pub fn list(is_long: bool) -> Result<Exit, Failure> {
+    let shipped = library::list();
+    let width = shipped.iter().map(|case| case.name.len()).max().unwrap_or(0);
+    for entry in shipped {
+        let file = Case::read(entry.name, &[])?;
+        let case = &file.case;
+        let name = on_stdout(Ink::Bold, &format!("{:<width$}", entry.name));
+        let variants = match case.variant.len() {
+            0 => String::new(),
+            1 => " (1 variant)".to_owned(),
+            n => format!(" ({n} variants)"),
+        };
+        say(&format!("{name}  {}{variants}", case.title));
+        if is_long {
+            for reference in &case.reference {
+                say(&format!("{:width$}    {}", "", reference_line(reference)));
+            }
+            for variant in &case.variant {
+                say(&format!("{:width$}    {}/{}", "", entry.name, variant.name));
+                for reference in &variant.reference {
+                    say(&format!("{:width$}      {}", "", reference_line(reference)));
+                }
+            }
+        }
+    }
+    Ok(Exit::Done)
+}
+
+/// Tells what a case is about, or prints its text.
+pub fn show(argument: &str, is_source: bool) -> Result<Exit, Failure> {
+    let file = Case::read(argument, &[])?;
+    if is_source {
+        let shipped = library::find(argument.split('/').next().unwrap_or(argument));
+        let text = match shipped {
+            Some(case) => case.text.to_owned(),
+            None => std::fs::read_to_string(&file.file)?,
+        };
+        say(text.trim_end());
+        return Ok(Exit::Done);
+    }
+    say(&summary(&file));
+    Ok(Exit::Done)
+}
+
+/// Everything there is to tell about a case without solving or meshing it.
+fn summary(file: &CaseFile) -> String {
+    let case = &file.case;
+    let mut text = format!("{}\n", on_stdout(Ink::Bold, &file.full_name()));
+    // Writing to a String cannot fail.
+    let _ = writeln!(text, "{}\n", case.title);
+    if !case.description.trim().is_empty() {
+        let _ = writeln!(text, "{}\n", case.description.trim());
+    }
+    text += &super::check::facts(file);
+    let numbers = number_table(case);
+    if !numbers.is_empty() {
+        let _ = write!(text, "\n{}\n{numbers}", on_stdout(Ink::Bold, "derived numbers"));
+    }
+    if !case.reference.is_empty() {
+        let _ = writeln!(text, "\n{}", on_stdout(Ink::Bold, "published values"));
+        for reference in &case.reference {
+            let _ = writeln!(text, "  {}", reference_line(reference));
+            let _ = writeln!(text, "    {}", reference.source);
+            if let Some(note) = &reference.note {
+                let _ = writeln!(text, "    note: {note}");
+            }
+        }
+    }
+    if !case.variant.is_empty() {
+        let _ = writeln!(text, "\n{}", on_stdout(Ink::Bold, "variants"));
+        for variant in &case.variant {
+            let set: Vec<String> =
+                variant.set.iter().map(|(key, value)| format!("{key} = {value}")).collect();
+            let _ = writeln!(text, "  {}/{}  {}", file.name, variant.name, set.join(", "));
+        }
+    }
+    let n_problems = check(file).len();
+    if n_problems > 0 {
+        let _ = writeln!(text, "\n{n_problems} remarks: see `alewife check {}`", file.full_name());
+    }
+    text.trim_end().to_owned()
+}
+
+/// A reference in one line.
+fn reference_line(reference: &Reference) -> String {
+    let statistic = match reference.statistic {
+        Statistic::Final => String::new(),
+        other => format!(" ({})", statistic_name(other)),
+    };
+    let tolerance = match (reference.relative, reference.absolute) {
+        (Some(relative), _) => format!("within {} %", significant(100.0 * relative)),
+        (None, Some(absolute)) => format!("within {}", significant(absolute)),
+        (None, None) => "no tolerance".to_owned(),
+    };
+    let per = if reference.per == 1.0 {
+        String::new()
+    } else {
+        format!(" / {}", significant(reference.per))
+    };
+    format!("{}{statistic}{per} = {}, {tolerance}", reference.quantity, reference.value)
+}

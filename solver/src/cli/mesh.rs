@@ -1,0 +1,28 @@
+//! `mesh`: the mesh of a case as a file, and how good it is.
+
+use std::fs::File;
+use std::io::BufWriter;
+use std::path::PathBuf;
+
+use alewife_mesh::{Quality, write_vtu};
+
+use super::engine;
+use super::exit::{Exit, Failure};
+use super::read_case;
+use super::style::say;
+
+/// Makes the mesh of a case, writes it as VTU, and tells its quality.
+pub fn mesh(argument: &str, settings: &[String], out: Option<PathBuf>) -> Result<Exit, Failure> {
+    let file = read_case(argument, settings)?;
+    let mesh = engine::build_mesh(&file.case)?;
+    let path =
+        out.unwrap_or_else(|| PathBuf::from(format!("{}.vtu", file.full_name().replace('/', "-"))));
+    let failed = |error: std::io::Error| {
+        Failure::new(Exit::InputOutput, format!("cannot write {}: {error}", path.display()))
+    };
+    let writer = BufWriter::new(File::create(&path).map_err(failed)?);
+    write_vtu(writer, &mesh, None, &[], &[]).map_err(failed)?;
+    say(Quality::of(&mesh).to_string().trim_end());
+    say(&format!("written to {}", path.display()));
+    Ok(Exit::Done)
+}

@@ -1,0 +1,176 @@
+//! The command line: what is asked for, what is said back, and which code the program ends with.
+
+mod check;
+mod engine;
+mod exit;
+mod library;
+mod mesh;
+mod panic;
+mod run;
+mod style;
+mod threads;
+mod validate;
+
+use std::io;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::{Args, CommandFactory, Parser, Subcommand};
+use clap_complete::Shell;
+
+use crate::case::{CaseFile, Problem, Severity};
+use exit::{Exit, Failure};
+use style::{complain, say};
+
+pub use panic::guard;
+
+const EXAMPLES: &str = "\
+Examples:
+  alewife list                                  the shipped cases
+  alewife run squirmer-alone                    run one of them, into runs/squirmer-alone
+  alewife show squirmer-alone --source > my.toml
+  alewife check my.toml                         read it, mesh it, estimate the cost; no solve
+  alewife run my.toml --set mesh.scale=0.5      the same on a mesh twice as fine
+  alewife validate --quick                      do the shipped cases give the published numbers?
+
+A CASE is the path of a .toml file, the name of a shipped case, or either with /VARIANT behind it.
+
+Exit codes: 0 done; 2 usage; 10 solver diverged; 11 mesh; 12 bodies overlap; 20 outside tolerance;
+65 bad case; 66 no such case; 70 bug in alewife; 74 input or output; 75 stopped by a signal.";
+
+/// Swimmers in viscous fluid: Taylor-Hood finite elements on body-fitted meshes.
+#[derive(Debug, Parser)]
+#[command(name = "alewife", version, after_help = EXAMPLES, arg_required_else_help = true)]
+struct CommandLine {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// List the shipped cases
+    List {
+        /// With their variants and published values
+        #[arg(long, short)]
+        long: bool,
+    },
+    /// Tell what a case is about: physics, derived numbers, published values, variants
+    Show {
+        /// Which case
+        case: String,
+        /// The text of the case file instead, to start a case of your own from
+        #[arg(long)]
+        source: bool,
+    },
+    /// Read cases, mesh them, and say what they would cost; nothing is solved
+    Check {
+        /// Which cases
+        #[arg(required = true)]
+        cases: Vec<String>,
+        #[command(flatten)]
+        settings: Settings,
+        /// Do not make the mesh: no sizes and no costs
+        #[arg(long)]
+        no_mesh: bool,
+    },
+    /// Make the mesh of a case, write it as VTU, and tell its quality
+    Mesh {
+        /// Which case
+        case: String,
+        #[command(flatten)]
+        settings: Settings,
+        /// Where to write it; `<case>.vtu` here if absent
+        #[arg(long, short, value_name = "FILE")]
+        out: Option<PathBuf>,
+    },
+    /// Run a case and compare it with what was published
+    Run(run::Options),
+    /// Run shipped cases and hold them against published values
+    Validate(validate::Options),
+    /// Print the JSON Schema of case files
+    ///
+    /// Editors complete and check case files with it: write it to a file and put
+    /// `#:schema ./alewife.schema.json` in the first line of the case.
+    Schema,
+    /// Print completions for a shell
+    ///
+    /// For bash: alewife completions bash > ~/.local/share/bash-completion/completions/alewife
+    Completions {
+        /// Which shell
+        shell: Shell,
+    },
+}
+
+/// Keys set on the command line.
+#[derive(Debug, Clone, Args)]
+struct Settings {
+    /// Set a key of the case, such as mesh.scale=0.5 or body.0.gait.squirmer.modes.1=3; repeat at will
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    set: Vec<String>,
+}
+
+/// Does what the command line says.
+#[must_use]
+pub fn run() -> ExitCode {
+    let command_line = CommandLine::parse();
+    match dispatch(command_line.command) {
+        Ok(exit) => exit.into(),
+        Err(failure) => {
+            complain(&failure.message);
+            failure.exit.into()
+        }
+    }
+}
+
+fn dispatch(command: Command) -> Result<Exit, Failure> {
+    match command {
+        Command::List { long } => library::list(long),
+        Command::Show { case, source } => library::show(&case, source),
+        Command::Check { cases, settings, no_mesh } => {
+            check::check(&cases, &settings.set, !no_mesh)
+        }
+        Command::Mesh { case, settings, out } => mesh::mesh(&case, &settings.set, out),
+        Command::Run(options) => run::run(&options),
+        Command::Validate(options) => validate::validate(&options),
+        Command::Schema => {
+            let text = serde_json::to_string_pretty(&crate::case::schema())
+                .map_err(|error| Failure::new(Exit::Bug, error.to_string()))?;
+            say(&text);
+            Ok(Exit::Done)
+        }
+        Command::Completions { shell } => {
+            let mut text = Vec::new();
+            clap_complete::generate(shell, &mut CommandLine::command(), "alewife", &mut text);
+            say(String::from_utf8_lossy(&text).trim_end());
+            Ok(Exit::Done)
+        }
+    }
+}
+
+/// Reads a case and refuses it if it is wrong; warnings are told and let through.
+fn read_case(argument: &str, settings: &[String]) -> Result<CaseFile, Failure> {
+    let (file, problems) = read_and_check(argument, settings)?;
+    for warning in &problems {
+        complain(&style::problem(warning));
+    }
+    Ok(file)
+}
+
+/// Reads a case and refuses it if it is wrong; warnings are handed back.
+fn read_and_check(
+    argument: &str,
+    settings: &[String],
+) -> Result<(CaseFile, Vec<Problem>), Failure> {
+    let file = crate::case::Case::read(argument, settings)?;
+    let problems = crate::case::check(&file);
+    if problems.iter().any(|problem| problem.severity == Severity::Error) {
+        return Err(Failure::wrong(&problems));
+    }
+    Ok((file, problems))
+}
+
+impl From<io::Error> for Failure {
+    fn from(error: io::Error) -> Self {
+        Self::new(Exit::InputOutput, error.to_string())
+    }
+}

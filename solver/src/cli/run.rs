@@ -1,0 +1,99 @@
+//! `run`: one case, its files, and how it compares with what was published.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use super::exit::{Exit, Failure};
+use super::style::{Ink, on_stdout, say};
+use super::{Settings, engine, read_case, threads};
+use crate::observer::{RunDirectory, write_atomic};
+use crate::validation::{Comparison, Verdict, compare, comparison_table, comparisons_to_json};
+
+/// File of a run that holds its comparison with published values.
+const COMPARISON_FILE: &str = "comparison.json";
+
+/// What `run` is asked for.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  alewife run squirmer-alone
+  alewife run disc-settling/heavy --threads 4 --out heavy
+  alewife run my.toml --set fluid.viscosity=0.5 --set 'body.0.center=[1.0, 2.0]'
+
+The run directory holds the case as it was run (case.toml), series.csv, run.mcap, fields/ and
+fields.pvd, status.json, log.jsonl, provenance.json and comparison.json.")]
+pub struct Options {
+    /// Which case
+    case: String,
+    #[command(flatten)]
+    settings: Settings,
+    /// Directory of the run; `runs/<case>` if absent
+    #[arg(long, short, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Threads; by default those the batch system or the machine grants
+    #[arg(long, short, value_name = "N")]
+    threads: Option<usize>,
+    /// Replace a finished run
+    #[arg(long)]
+    overwrite: bool,
+    /// No progress on the terminal
+    #[arg(long, short)]
+    quiet: bool,
+    /// Tell more on the terminal; repeat for details
+    #[arg(long, short, action = clap::ArgAction::Count)]
+    verbose: u8,
+}
+
+/// Runs a case.
+pub fn run(options: &Options) -> Result<Exit, Failure> {
+    let file = read_case(&options.case, &options.settings.set)?;
+    let n_threads = threads::start(options.threads)?;
+    let name = file.full_name();
+    let out = options.out.clone().unwrap_or_else(|| Path::new("runs").join(name.replace('/', "-")));
+    let directory = RunDirectory::create(&out, &file.case, n_threads, options.overwrite)?;
+    let verbosity = i8::try_from(options.verbose).unwrap_or(i8::MAX) - i8::from(options.quiet);
+    engine::start_log(Some(&out), verbosity)?;
+
+    let outcome = engine::simulate_into(&file.case, &directory, options.quiet)?;
+    let comparisons = compare(&name, &file.case, &outcome);
+    if !comparisons.is_empty() {
+        let text = format!("{:#}\n", comparisons_to_json(&comparisons));
+        write_atomic(&out.join(COMPARISON_FILE), text.as_bytes())?;
+    }
+    if !options.quiet {
+        tell(&comparisons);
+        let seconds: f64 = outcome.timing.cpu.iter().sum();
+        say(&format!(
+            "{} unknowns, {} steps, {seconds:.2} s of CPU time; written to {}",
+            outcome.n_dofs,
+            outcome.steps,
+            out.display()
+        ));
+    }
+    Ok(Exit::Done)
+}
+
+/// Prints the table of comparisons, verdicts in colour, with what there is to say about them.
+pub fn tell(comparisons: &[Comparison]) {
+    if comparisons.is_empty() {
+        return;
+    }
+    let table = comparison_table(comparisons);
+    let mut lines = table.iter();
+    if let Some(header) = lines.next() {
+        say(&on_stdout(Ink::Bold, header));
+    }
+    for (line, comparison) in lines.zip(comparisons) {
+        let ink = match comparison.verdict {
+            Verdict::Within => Ink::Green,
+            Verdict::Outside | Verdict::NotComputed => Ink::Red,
+        };
+        let word = comparison.verdict.name();
+        let start = line.len() - word.len();
+        say(&format!("{}{}", &line[..start], on_stdout(ink, word)));
+        if let Err(reason) = &comparison.computed {
+            say(&format!("    {reason}"));
+        }
+    }
+}

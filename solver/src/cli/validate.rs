@@ -1,0 +1,88 @@
+//! `validate`: shipped cases against published values, as a table or as JSON, with an exit code.
+
+use clap::Args;
+
+use super::exit::{Exit, Failure};
+use super::style::{Ink, complain, on_stdout, say};
+use super::{engine, read_and_check, run, threads};
+use crate::case::{Case, library};
+use crate::validation::{Comparison, Verdict, compare, comparisons_to_json, not_computed};
+
+/// What `validate` is asked for.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  alewife validate --quick
+  alewife validate squirmer-alone cylinder-wake/steady
+  alewife validate --json > validation.json
+
+The exit code is 20 if a value is outside its tolerance or could not be computed.")]
+pub struct Options {
+    /// Which cases, with all their variants; all shipped ones if absent
+    cases: Vec<String>,
+    /// Only those marked `quick = true`
+    #[arg(long)]
+    quick: bool,
+    /// Print JSON instead of a table
+    #[arg(long)]
+    json: bool,
+    /// Threads; by default those the batch system or the machine grants
+    #[arg(long, short, value_name = "N")]
+    threads: Option<usize>,
+}
+
+/// Runs cases and compares them with what was published.
+pub fn validate(options: &Options) -> Result<Exit, Failure> {
+    let names = if options.cases.is_empty() {
+        library::list().iter().map(|case| case.name.to_owned()).collect()
+    } else {
+        options.cases.clone()
+    };
+    let mut members = Vec::new();
+    for name in &names {
+        members.extend(members_of(name, options.quick)?);
+    }
+    threads::start(options.threads)?;
+
+    let mut comparisons: Vec<Comparison> = Vec::new();
+    for (index, member) in members.iter().enumerate() {
+        complain(&format!("[{}/{}] {member}", index + 1, members.len()));
+        comparisons.extend(validate_one(member)?);
+    }
+    let n_bad = comparisons.iter().filter(|row| row.verdict != Verdict::Within).count();
+    if options.json {
+        say(&format!("{:#}", comparisons_to_json(&comparisons)));
+    } else {
+        run::tell(&comparisons);
+        let n_good = comparisons.len() - n_bad;
+        let words = format!("{n_good} of {} values within their tolerance", comparisons.len());
+        say(&on_stdout(if n_bad == 0 { Ink::Green } else { Ink::Red }, &words));
+    }
+    Ok(if n_bad == 0 { Exit::Done } else { Exit::OutsideTolerance })
+}
+
+/// The case and its variants that have something to be compared with.
+fn members_of(name: &str, only_quick: bool) -> Result<Vec<String>, Failure> {
+    let file = Case::read(name, &[])?;
+    let mut members = Vec::new();
+    if !file.case.reference.is_empty() && (file.case.quick || !only_quick) {
+        members.push(name.to_owned());
+    }
+    for variant in &file.case.variant {
+        let has_reference = !(variant.reference.is_empty() && file.case.reference.is_empty());
+        if has_reference && (variant.quick || !only_quick) {
+            members.push(format!("{name}/{}", variant.name));
+        }
+    }
+    Ok(members)
+}
+
+/// Runs one case; a run that fails is a row of the table, not the end of the validation.
+fn validate_one(member: &str) -> Result<Vec<Comparison>, Failure> {
+    let (file, _) = read_and_check(member, &[])?;
+    let name = file.full_name();
+    Ok(match engine::simulate(&file.case) {
+        Ok(outcome) => compare(&name, &file.case, &outcome),
+        Err(error) => not_computed(&name, &file.case, &error.to_string()),
+    })
+}

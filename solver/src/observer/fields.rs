@@ -1,0 +1,115 @@
+//! `fields/*.vtu` and `fields.pvd`: velocity, pressure and vorticity on the mesh, for ParaView.
+//!
+//! All three are given at the P2 nodes of quadratic triangles. The pressure is linear in a cell,
+//! so that its value at a mid-edge node is the mean of the edge's ends.
+
+use std::fmt::Write as _;
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use alewife_mesh::{Mesh, write_vtu_as};
+
+use super::schedule::Schedule;
+use super::vorticity::nodal_vorticity;
+use super::write_atomic;
+use crate::case::{Case, Precision};
+use crate::simulation::{Observer, Snapshot};
+
+/// Ends of the edges of a triangle, in the order of its mid-edge nodes 3, 4, 5.
+const EDGES: [[usize; 2]; 3] = [[0, 1], [1, 2], [2, 0]];
+
+/// The files written so far.
+#[derive(Debug)]
+pub struct FieldFiles {
+    directory: PathBuf,
+    schedule: Schedule,
+    precision: alewife_mesh::Precision,
+    /// Time and name of each file, relative to the run directory.
+    frames: Vec<(f64, String)>,
+}
+
+impl FieldFiles {
+    /// Field files in `directory`; none are written before the first step that is due.
+    #[must_use]
+    pub fn new(directory: &Path, case: &Case) -> Self {
+        Self {
+            directory: directory.to_owned(),
+            schedule: Schedule::new(case.output.fields),
+            precision: match case.output.precision {
+                Precision::F32 => alewife_mesh::Precision::F32,
+                Precision::F64 => alewife_mesh::Precision::F64,
+            },
+            frames: Vec::new(),
+        }
+    }
+
+    /// The list of all frames, as ParaView wants it.
+    fn collection(&self) -> String {
+        let mut text = String::from(
+            "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" \
+             byte_order=\"LittleEndian\">\n<Collection>\n",
+        );
+        for (time, file) in &self.frames {
+            // Writing to a string cannot fail.
+            let _ = writeln!(text, "<DataSet timestep=\"{time:?}\" part=\"0\" file=\"{file}\"/>");
+        }
+        text + "</Collection>\n</VTKFile>\n"
+    }
+}
+
+impl Observer<2> for FieldFiles {
+    fn on_step(&mut self, snapshot: &Snapshot<'_, 2>) -> io::Result<()> {
+        if !self.schedule.is_due(snapshot.step, snapshot.time, snapshot.is_last) {
+            return Ok(());
+        }
+        if self.frames.is_empty() {
+            fs::create_dir_all(self.directory.join("fields"))?;
+        }
+        let mesh = snapshot.mesh;
+        let velocity: Vec<f64> = snapshot.velocity.iter().flat_map(|u| [u.x, u.y, 0.0]).collect();
+        let pressure = nodal_pressure(mesh, snapshot.pressure);
+        let vorticity = nodal_vorticity(mesh, snapshot.velocity);
+        let arrays = [
+            ("velocity", 3, &velocity[..]),
+            ("pressure", 1, &pressure[..]),
+            ("vorticity", 1, &vorticity[..]),
+        ];
+        let mut bytes = Vec::new();
+        write_vtu_as(self.precision, &mut bytes, mesh, Some(snapshot.time), &arrays, &[])?;
+
+        let name = format!("fields/{:06}.vtu", snapshot.step);
+        write_atomic(&self.directory.join(&name), &bytes)?;
+        self.frames.push((snapshot.time, name));
+        // The list names a file only once it is there, and is itself replaced as a whole: a list
+        // without its last line cannot be read at all.
+        write_atomic(&self.directory.join("fields.pvd"), self.collection().as_bytes())
+    }
+}
+
+/// Pressure at all P2 nodes from that at the vertices.
+fn nodal_pressure(mesh: &Mesh<2>, at_vertices: &[f64]) -> Vec<f64> {
+    let mut pressure = vec![0.0; mesh.n_nodes()];
+    pressure[..mesh.n_vertices].copy_from_slice(&at_vertices[..mesh.n_vertices]);
+    for cell in 0..mesh.n_cells() {
+        let nodes = mesh.cell(cell);
+        for (middle, [start, end]) in nodes[3..].iter().zip(EDGES) {
+            let ends = [start, end].map(|vertex| at_vertices[nodes[vertex] as usize]);
+            pressure[*middle as usize] = 0.5 * (ends[0] + ends[1]);
+        }
+    }
+    pressure
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::two_triangles;
+    use super::*;
+
+    #[test]
+    fn a_linear_pressure_is_exact_at_every_node() {
+        let mesh = two_triangles();
+        let exact: Vec<f64> = mesh.nodes.iter().map(|x| 1.0 + x.x - 3.0 * x.y).collect();
+        assert_eq!(nodal_pressure(&mesh, &exact[..mesh.n_vertices]), exact);
+    }
+}

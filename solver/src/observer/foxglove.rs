@@ -1,0 +1,292 @@
+//! The messages of `run.mcap` as JSON: those viewers know by name, and our own.
+//!
+//! Viewers recognise a schema by its name alone, so the names of the `foxglove` messages and
+//! their fields are theirs. Times are simulated seconds.
+
+use nalgebra::{UnitQuaternion, Vector3};
+use serde_json::{Value, json};
+
+use crate::body::{Pose, Twist, Wrench};
+use crate::case::{Body, Geometry, ShapeSpec};
+use crate::simulation::{BodyReport, Snapshot};
+
+/// Frame all others are given in.
+pub const WORLD: &str = "world";
+
+/// Kinds of message.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// Pose of each body's frame in the world.
+    Transforms,
+    /// Outlines of the bodies, each in its body's frame.
+    Scene,
+    /// What happened to the run.
+    Log,
+    /// One step: numbers of the solver and all quantities.
+    Step,
+    /// One body: pose, twist, loads.
+    Body,
+}
+
+impl Kind {
+    /// Name of the schema.
+    pub fn schema_name(self) -> &'static str {
+        match self {
+            Self::Transforms => "foxglove.FrameTransforms",
+            Self::Scene => "foxglove.SceneUpdate",
+            Self::Log => "foxglove.Log",
+            Self::Step => "alewife.Step",
+            Self::Body => "alewife.Body",
+        }
+    }
+
+    /// The schema, by the rules of JSON Schema.
+    pub fn schema(self) -> Value {
+        let number = || json!({"type": "number"});
+        let text = || json!({"type": "string"});
+        let vector = || object(&[("x", number()), ("y", number()), ("z", number())]);
+        let rotation =
+            || object(&[("x", number()), ("y", number()), ("z", number()), ("w", number())]);
+        let wrench = || object(&[("force", vector()), ("torque", vector())]);
+        let mut schema = match self {
+            Self::Transforms => object(&[(
+                "transforms",
+                list(object(&[
+                    ("timestamp", timestamp_schema()),
+                    ("parent_frame_id", text()),
+                    ("child_frame_id", text()),
+                    ("translation", vector()),
+                    ("rotation", rotation()),
+                ])),
+            )]),
+            Self::Scene => {
+                let pose = || object(&[("position", vector()), ("orientation", rotation())]);
+                let colour = || {
+                    object(&[("r", number()), ("g", number()), ("b", number()), ("a", number())])
+                };
+                let solid = || object(&[("pose", pose()), ("size", vector()), ("color", colour())]);
+                object(&[
+                    ("deletions", list(json!({"type": "object"}))),
+                    (
+                        "entities",
+                        list(object(&[
+                            ("timestamp", timestamp_schema()),
+                            ("frame_id", text()),
+                            ("id", text()),
+                            ("lifetime", timestamp_schema()),
+                            ("frame_locked", json!({"type": "boolean"})),
+                            ("spheres", list(solid())),
+                            ("cylinders", list(solid())),
+                            ("lines", list(json!({"type": "object"}))),
+                        ])),
+                    ),
+                ])
+            }
+            Self::Log => object(&[
+                ("timestamp", timestamp_schema()),
+                ("level", json!({"type": "integer"})),
+                ("message", text()),
+                ("name", text()),
+                ("file", text()),
+                ("line", json!({"type": "integer"})),
+            ]),
+            Self::Step => object(&[
+                ("step", json!({"type": "integer"})),
+                ("time", number()),
+                ("time_step", number()),
+                ("iterations", json!({"type": "integer"})),
+                ("n_dofs", json!({"type": "integer"})),
+                ("quantities", json!({"type": "object", "additionalProperties": number()})),
+            ]),
+            Self::Body => object(&[
+                ("step", json!({"type": "integer"})),
+                ("time", number()),
+                (
+                    "pose",
+                    object(&[("center", vector()), ("rotation", rotation()), ("angle", number())]),
+                ),
+                ("twist", object(&[("linear", vector()), ("angular", vector())])),
+                ("load", wrench()),
+                ("surface_load", wrench()),
+                ("power", number()),
+            ]),
+        };
+        schema["title"] = json!(self.schema_name());
+        schema
+    }
+}
+
+/// Poses of all body frames in the world.
+pub fn transforms(bodies: &[BodyReport], time: f64) -> Value {
+    let transforms = bodies.iter().map(|body| {
+        json!({
+            "timestamp": timestamp(time),
+            "parent_frame_id": WORLD,
+            "child_frame_id": body.name,
+            "translation": vector(&body.pose.center),
+            "rotation": quaternion(&body.pose.rotation),
+        })
+    });
+    json!({"transforms": transforms.collect::<Vec<_>>()})
+}
+
+/// Outlines of all bodies, which stay with the bodies' frames.
+pub fn scene(bodies: &[Body], geometry: Geometry, time: f64) -> Value {
+    let entities = bodies.iter().map(|body| {
+        let (mut spheres, mut cylinders, mut lines) = (vec![], vec![], vec![]);
+        match &body.shape {
+            ShapeSpec::Disc { radius } => cylinders.push(solid([*radius, *radius, *radius / 50.0])),
+            ShapeSpec::Ellipse { semi_axes: [a, b] } => cylinders.push(solid([*a, *b, *b / 50.0])),
+            ShapeSpec::Sphere { radius } => spheres.push(solid([*radius; 3])),
+            ShapeSpec::Spheroid { semi_axes: [a, b] } => spheres.push(solid([*a, *b, *b])),
+            ShapeSpec::Spline { points } => lines.push(closed_line(points)),
+        }
+        json!({
+            "timestamp": timestamp(time),
+            "frame_id": body.name,
+            "id": body.name,
+            "lifetime": timestamp(0.0),
+            "frame_locked": true,
+            "metadata": [{"key": "geometry", "value": match geometry {
+                Geometry::Planar => "planar",
+                Geometry::Axisymmetric => "axisymmetric",
+            }}],
+            "arrows": [],
+            "cubes": [],
+            "spheres": spheres,
+            "cylinders": cylinders,
+            "lines": lines,
+            "triangles": [],
+            "texts": [],
+            "models": [],
+        })
+    });
+    json!({"deletions": [], "entities": entities.collect::<Vec<_>>()})
+}
+
+/// Severity of a log message.
+#[derive(Debug, Clone, Copy)]
+pub enum Severity {
+    /// As expected.
+    Info = 2,
+    /// The run stopped.
+    Error = 4,
+}
+
+/// One line about the run.
+pub fn log(severity: Severity, message: &str, time: f64) -> Value {
+    json!({
+        "timestamp": timestamp(time),
+        "level": severity as u8,
+        "message": message,
+        "name": "alewife",
+        "file": "",
+        "line": 0,
+    })
+}
+
+/// One step.
+pub fn step<const D: usize>(snapshot: &Snapshot<'_, D>) -> Value {
+    let quantities = snapshot.names.iter().cloned().zip(snapshot.values.iter().map(|v| json!(v)));
+    json!({
+        "step": snapshot.step,
+        "time": snapshot.time,
+        "time_step": snapshot.time_step,
+        "iterations": snapshot.iterations,
+        "n_dofs": snapshot.n_dofs,
+        "quantities": quantities.collect::<serde_json::Map<_, _>>(),
+    })
+}
+
+/// One body.
+pub fn body(report: &BodyReport, step: usize, time: f64) -> Value {
+    let Pose { center, rotation } = &report.pose;
+    let Twist { linear, angular } = &report.twist;
+    json!({
+        "step": step,
+        "time": time,
+        "pose": {
+            "center": vector(center),
+            "rotation": quaternion(rotation),
+            "angle": report.pose.angle(),
+        },
+        "twist": {"linear": vector(linear), "angular": vector(angular)},
+        "load": wrench(&report.load),
+        "surface_load": wrench(&report.surface_load),
+        "power": report.power,
+    })
+}
+
+/// Simulated time as the unsigned nanoseconds of a message; times before zero count as zero.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates")]
+pub fn nanoseconds(time: f64) -> u64 {
+    (time * 1e9).round() as u64
+}
+
+fn timestamp(time: f64) -> Value {
+    let nanoseconds = nanoseconds(time);
+    json!({"sec": nanoseconds / 1_000_000_000, "nsec": nanoseconds % 1_000_000_000})
+}
+
+fn timestamp_schema() -> Value {
+    object(&[("sec", json!({"type": "integer"})), ("nsec", json!({"type": "integer"}))])
+}
+
+fn object(properties: &[(&str, Value)]) -> Value {
+    let properties = properties.iter().map(|(name, value)| ((*name).to_owned(), value.clone()));
+    json!({"type": "object", "properties": properties.collect::<serde_json::Map<_, _>>()})
+}
+
+fn list(items: Value) -> Value {
+    json!({"type": "array", "items": items})
+}
+
+fn vector(vector: &Vector3<f64>) -> Value {
+    json!({"x": vector.x, "y": vector.y, "z": vector.z})
+}
+
+fn quaternion(rotation: &UnitQuaternion<f64>) -> Value {
+    json!({"x": rotation.i, "y": rotation.j, "z": rotation.k, "w": rotation.w})
+}
+
+fn wrench(wrench: &Wrench) -> Value {
+    json!({"force": vector(&wrench.force), "torque": vector(&wrench.torque)})
+}
+
+fn body_colour() -> Value {
+    json!({"r": 0.25, "g": 0.27, "b": 0.30, "a": 1.0})
+}
+
+fn no_offset() -> Value {
+    json!({
+        "position": vector(&Vector3::zeros()),
+        "orientation": quaternion(&UnitQuaternion::identity()),
+    })
+}
+
+/// A sphere or cylinder with these semi-axes.
+fn solid(semi_axes: [f64; 3]) -> Value {
+    let size = 2.0 * Vector3::from(semi_axes);
+    json!({
+        "pose": no_offset(),
+        "size": vector(&size),
+        "bottom_scale": 1.0,
+        "top_scale": 1.0,
+        "color": body_colour(),
+    })
+}
+
+fn closed_line(points: &[[f64; 2]]) -> Value {
+    const LINE_LOOP: u8 = 1;
+    let points = points.iter().map(|&[x, y]| vector(&Vector3::new(x, y, 0.0)));
+    json!({
+        "type": LINE_LOOP,
+        "pose": no_offset(),
+        "thickness": 2.0,
+        "scale_invariant": true,
+        "points": points.collect::<Vec<_>>(),
+        "color": body_colour(),
+        "colors": [],
+        "indices": [],
+    })
+}

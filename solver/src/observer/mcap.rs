@@ -1,0 +1,163 @@
+//! `run.mcap`: bodies and quantities as messages, for viewers and for post-processing.
+//!
+//! Messages are stamped with the simulated time, so that two runs of one case write the same
+//! bytes after the provenance. The file is read from its start: what was flushed before a run was
+//! killed can be read, though the index at its end is missing.
+
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+use std::fs::File;
+use std::io::{self, BufWriter};
+
+use mcap::records::{MessageHeader, Metadata};
+use mcap::{Attachment, Compression, McapError, WriteOptions, Writer};
+use serde_json::Value;
+
+use super::RunDirectory;
+use super::foxglove::{self, Kind, Severity};
+use super::schedule::Schedule;
+use crate::case::{Body, Case, Geometry};
+use crate::simulation::{Observer, RunError, Snapshot};
+
+/// Size of a chunk, the unit of compression (bytes).
+const CHUNK: u64 = 256 * 1024;
+
+/// Steps between two flushes, except for the first few. Steps and not seconds, because a flush
+/// ends a chunk, and the bytes of a file shall not depend on the speed of a machine.
+const FLUSH_STEPS: usize = 16;
+
+/// The open file.
+pub struct MessageFile {
+    /// Nothing once the file is finished.
+    writer: Option<Writer<BufWriter<File>>>,
+    schedule: Schedule,
+    channels: BTreeMap<String, u16>,
+    sequence: u32,
+    title: String,
+    bodies: Vec<Body>,
+    geometry: Geometry,
+    time: f64,
+}
+
+impl MessageFile {
+    /// `run.mcap` in `directory`, with the case as attachment and the provenance as metadata.
+    ///
+    /// # Errors
+    /// When it cannot be written.
+    pub fn create(directory: &RunDirectory, case: &Case) -> io::Result<Self> {
+        let file = BufWriter::new(File::create(directory.path().join("run.mcap"))?);
+        let mut writer = WriteOptions::new()
+            .library(concat!("alewife ", env!("CARGO_PKG_VERSION")))
+            .compression(Some(Compression::Zstd))
+            .compression_threads(0)
+            .chunk_size(Some(CHUNK))
+            // A chunk's length is then written with the chunk, never patched in later: a killed
+            // run ends in a plain end of file.
+            .disable_seeking(true)
+            .create(file)
+            .map_err(to_io)?;
+        let provenance = directory.provenance().flattened();
+        writer
+            .write_metadata(&Metadata { name: "provenance".to_owned(), metadata: provenance })
+            .map_err(to_io)?;
+        writer
+            .attach(&Attachment {
+                log_time: 0,
+                create_time: 0,
+                name: "case.toml".to_owned(),
+                media_type: "application/toml".to_owned(),
+                data: Cow::Borrowed(directory.case_text().as_bytes()),
+            })
+            .map_err(to_io)?;
+        writer.flush().map_err(to_io)?;
+        Ok(Self {
+            writer: Some(writer),
+            schedule: Schedule::new(case.output.series),
+            channels: BTreeMap::new(),
+            sequence: 0,
+            title: case.title.clone(),
+            bodies: case.body.clone(),
+            geometry: case.geometry,
+            time: 0.0,
+        })
+    }
+
+    fn send(&mut self, topic: &str, kind: Kind, message: &Value) -> io::Result<()> {
+        let Some(writer) = &mut self.writer else { return Ok(()) };
+        let channel_id = match self.channels.get(topic) {
+            Some(&id) => id,
+            None => {
+                let schema = serde_json::to_vec(&kind.schema())?;
+                let schema_id =
+                    writer.add_schema(kind.schema_name(), "jsonschema", &schema).map_err(to_io)?;
+                let id = writer
+                    .add_channel(schema_id, topic, "json", &BTreeMap::new())
+                    .map_err(to_io)?;
+                self.channels.insert(topic.to_owned(), id);
+                id
+            }
+        };
+        let time = foxglove::nanoseconds(self.time);
+        let header = MessageHeader {
+            channel_id,
+            sequence: self.sequence,
+            log_time: time,
+            publish_time: time,
+        };
+        self.sequence = self.sequence.wrapping_add(1);
+        writer.write_to_known_channel(&header, &serde_json::to_vec(message)?).map_err(to_io)
+    }
+
+    fn log(&mut self, severity: Severity, message: &str) -> io::Result<()> {
+        self.send("/log", Kind::Log, &foxglove::log(severity, message, self.time))
+    }
+
+    fn finish(&mut self) -> io::Result<()> {
+        let Some(mut writer) = self.writer.take() else { return Ok(()) };
+        writer.finish().map_err(to_io)?;
+        writer.into_inner().into_inner().map_err(io::IntoInnerError::into_error)?.sync_all()
+    }
+}
+
+impl<const D: usize> Observer<D> for MessageFile {
+    fn on_step(&mut self, snapshot: &Snapshot<'_, D>) -> io::Result<()> {
+        self.time = snapshot.time;
+        let is_first = self.sequence == 0;
+        if is_first {
+            let title = format!("start: {}", self.title);
+            self.log(Severity::Info, &title)?;
+            let scene = foxglove::scene(&self.bodies, self.geometry, self.time);
+            self.send("/scene", Kind::Scene, &scene)?;
+        }
+        if self.schedule.is_due(snapshot.step, snapshot.time, snapshot.is_last) {
+            self.send("/step", Kind::Step, &foxglove::step(snapshot))?;
+            let transforms = foxglove::transforms(snapshot.bodies, self.time);
+            self.send("/tf", Kind::Transforms, &transforms)?;
+            for report in snapshot.bodies {
+                let message = foxglove::body(report, snapshot.step, self.time);
+                self.send(&format!("/body/{}", report.name), Kind::Body, &message)?;
+            }
+        }
+        if snapshot.is_last {
+            self.log(Severity::Info, "end")?;
+            return self.finish();
+        }
+        let is_due = snapshot.step < FLUSH_STEPS || snapshot.step.is_multiple_of(FLUSH_STEPS);
+        match &mut self.writer {
+            Some(writer) if is_due => writer.flush().map_err(to_io),
+            _ => Ok(()),
+        }
+    }
+
+    fn on_failure(&mut self, error: &RunError) -> io::Result<()> {
+        self.log(Severity::Error, &error.to_string())?;
+        self.finish()
+    }
+}
+
+fn to_io(error: McapError) -> io::Error {
+    match error {
+        McapError::Io(error) => error,
+        other => io::Error::other(other),
+    }
+}

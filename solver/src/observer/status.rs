@@ -1,0 +1,158 @@
+//! `status.json`: whether a run lives, how far it is, and what each stage has cost.
+
+use std::collections::BTreeMap;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use serde::{Deserialize, Serialize};
+
+use super::{process, write_atomic};
+use crate::case::{Case, TimeSettings};
+use crate::simulation::{Observer, RunError, Snapshot, Stage, Timing, cpu_seconds};
+
+/// Longest time a status on the disk may be behind.
+const INTERVAL: Duration = Duration::from_secs(1);
+
+/// Where a run stands.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum RunState {
+    /// It lives, or its process was killed: `pid` and `updated_at` tell which.
+    Running,
+    /// It came to its end.
+    Finished,
+    /// It stopped with an error.
+    Failed,
+    /// A signal stopped it.
+    Stopped,
+}
+
+/// The content of `status.json`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Status {
+    /// Where the run stands.
+    pub state: RunState,
+    /// Why it stopped.
+    pub reason: Option<String>,
+    /// Accepted steps so far.
+    pub step: usize,
+    /// Steps expected in all, not counting the short ones a run may start with; the true number
+    /// once it is known, nothing for a steady solution.
+    pub steps: Option<usize>,
+    /// Time reached (s).
+    pub time: f64,
+    /// Time at which the run ends (s); nothing for a steady solution.
+    pub end: Option<f64>,
+    /// Unknowns of the linear system.
+    pub dofs: usize,
+    /// CPU seconds of all threads by stage, and of the whole process as `total`.
+    pub cpu_seconds: BTreeMap<String, f64>,
+    /// Wall-clock seconds by stage, and since the start of the run as `total`.
+    pub wall_seconds: BTreeMap<String, f64>,
+    /// Most memory the process ever held (bytes).
+    pub peak_memory: Option<u64>,
+    /// The process.
+    pub pid: u32,
+    /// When this was written (UTC).
+    pub updated_at: String,
+}
+
+impl Status {
+    /// The status of the run in `directory`.
+    ///
+    /// # Errors
+    /// When there is none, or it cannot be read.
+    pub fn read(directory: &Path) -> io::Result<Self> {
+        Ok(serde_json::from_slice(&std::fs::read(directory.join("status.json"))?)?)
+    }
+}
+
+/// Keeps `status.json` at most a second behind the run.
+#[derive(Debug)]
+pub struct StatusFile {
+    path: PathBuf,
+    status: Status,
+    started: Instant,
+    written: Instant,
+}
+
+impl StatusFile {
+    /// Says from now on that a run lives in `directory`.
+    ///
+    /// # Errors
+    /// When the file cannot be written.
+    pub fn create(directory: &Path, case: &Case) -> io::Result<Self> {
+        let (steps, end) = match &case.time {
+            TimeSettings::Steady(_) => (None, None),
+            TimeSettings::Unsteady(march) => {
+                // Of an end that is a multiple of the step, rounding shall not make one step more.
+                #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+                let steps = (march.end / march.step - 1e-9).ceil().max(0.0) as usize;
+                (Some(steps), Some(march.end))
+            }
+        };
+        let status = Status {
+            state: RunState::Running,
+            reason: None,
+            step: 0,
+            steps,
+            time: 0.0,
+            end,
+            dofs: 0,
+            cpu_seconds: BTreeMap::new(),
+            wall_seconds: BTreeMap::new(),
+            peak_memory: None,
+            pid: std::process::id(),
+            updated_at: String::new(),
+        };
+        let now = Instant::now();
+        let mut file =
+            Self { path: directory.join("status.json"), status, started: now, written: now };
+        file.write()?;
+        Ok(file)
+    }
+
+    fn write(&mut self) -> io::Result<()> {
+        self.written = Instant::now();
+        let wall = self.written.duration_since(self.started).as_secs_f64();
+        self.status.wall_seconds.insert("total".to_owned(), wall);
+        self.status.cpu_seconds.insert("total".to_owned(), cpu_seconds());
+        self.status.peak_memory = process::peak_memory();
+        self.status.updated_at = process::now();
+        let mut text = serde_json::to_vec_pretty(&self.status)?;
+        text.push(b'\n');
+        write_atomic(&self.path, &text)
+    }
+}
+
+impl<const D: usize> Observer<D> for StatusFile {
+    fn on_step(&mut self, snapshot: &Snapshot<'_, D>) -> io::Result<()> {
+        self.status.step = snapshot.step;
+        self.status.time = snapshot.time;
+        self.status.dofs = snapshot.n_dofs;
+        by_stage(&mut self.status, snapshot.timing);
+        if snapshot.is_last {
+            self.status.state = RunState::Finished;
+            self.status.steps = self.status.steps.map(|_| snapshot.step);
+        }
+        let is_due = snapshot.is_last || snapshot.step == 0 || self.written.elapsed() >= INTERVAL;
+        if is_due { self.write() } else { Ok(()) }
+    }
+
+    fn on_failure(&mut self, error: &RunError) -> io::Result<()> {
+        self.status.state = match error {
+            RunError::Stopped { .. } => RunState::Stopped,
+            _ => RunState::Failed,
+        };
+        self.status.reason = Some(error.to_string());
+        self.write()
+    }
+}
+
+fn by_stage(status: &mut Status, timing: &Timing) {
+    for stage in Stage::ALL {
+        status.cpu_seconds.insert(stage.name().to_owned(), timing.cpu[stage as usize]);
+        status.wall_seconds.insert(stage.name().to_owned(), timing.wall[stage as usize]);
+    }
+}

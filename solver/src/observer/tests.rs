@@ -1,0 +1,355 @@
+//! The files of a run on a mesh of two triangles, written and read back.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use alewife_mesh::{Boundary, BoundaryKind, Facet, Mesh, Point};
+use nalgebra::Vector3;
+
+use super::*;
+use crate::body::{Pose, Twist, Wrench};
+use crate::case::Case;
+use crate::simulation::{BodyReport, RunError, Snapshot, Timing};
+
+const CASE: &str = r#"
+title = "Two triangles"
+geometry = "planar"
+[fluid]
+model = "navier-stokes"
+viscosity = 0.1
+density = 1.0
+[domain.channel]
+length = 1.0
+height = 1.0
+[[body]]
+name = "swimmer"
+shape = { disc = { radius = 0.5 } }
+center = [0.0, 0.0]
+motion = "free"
+gait = { squirmer = { modes = [1.0] } }
+[mesh]
+size = 1.0
+[time.unsteady]
+step = 0.1
+end = 4.0
+[output]
+fields = { steps = 10 }
+"#;
+
+/// The unit square, split from its lower left to its upper right corner.
+pub fn two_triangles() -> Mesh<2> {
+    let nodes = [
+        [0.0, 0.0],
+        [1.0, 0.0],
+        [1.0, 1.0],
+        [0.0, 1.0],
+        [0.5, 0.0],
+        [1.0, 0.5],
+        [0.5, 0.5],
+        [0.5, 1.0],
+        [0.0, 0.5],
+    ];
+    Mesh {
+        nodes: nodes.map(Point::<2>::from).to_vec(),
+        n_vertices: 4,
+        cells: vec![0, 1, 2, 4, 5, 6, 0, 2, 3, 6, 7, 8],
+        curved: vec![false, false],
+        facets: vec![Facet { cell: 0, side: 0, boundary: 0 }],
+        boundaries: vec![Boundary { name: "bottom".to_owned(), kind: BoundaryKind::Side }],
+        periodic: Vec::new(),
+    }
+}
+
+/// A run that is only looked at, never computed.
+struct Run {
+    case: Case,
+    mesh: Mesh<2>,
+    velocity: Vec<Point<2>>,
+    pressure: Vec<f64>,
+    names: Vec<String>,
+    timing: Timing,
+}
+
+const STEPS: usize = 40;
+
+impl Run {
+    fn new() -> Self {
+        let mesh = two_triangles();
+        Self {
+            case: toml::from_str(CASE).unwrap(),
+            // Vorticity of (-y^2 / 2 + x y, x^2) is 2 x - (x - y) = x + y.
+            velocity: mesh
+                .nodes
+                .iter()
+                .map(|x| Point::<2>::new(x.x * x.y - x.y * x.y / 2.0, x.x * x.x))
+                .collect(),
+            pressure: mesh.nodes[..mesh.n_vertices].iter().map(|x| x.x + 2.0 * x.y).collect(),
+            mesh,
+            names: vec!["swimmer.speed".to_owned(), "swimmer.force.x".to_owned()],
+            timing: Timing { cpu: [1.0; 7], wall: [0.5; 7] },
+        }
+    }
+
+    fn values(step: usize) -> Vec<f64> {
+        vec![(step as f64).sqrt() / 3.0, -1.0e-17 * step as f64]
+    }
+
+    /// Shows one step to `everyone`.
+    fn step(&self, everyone: &mut [Box<dyn Observer<2>>], step: usize) {
+        let time = step as f64 * 0.1;
+        let bodies = [BodyReport {
+            name: "swimmer".to_owned(),
+            pose: Pose::planar(0.3 * time, 0.0, 0.1 * time),
+            twist: Twist { linear: Vector3::new(0.3, 0.0, 0.0), angular: Vector3::z() * 0.1 },
+            load: Wrench::default(),
+            surface_load: Wrench::default(),
+            power: 0.25,
+        }];
+        let snapshot = Snapshot {
+            case: &self.case,
+            step,
+            time,
+            time_step: 0.1,
+            mesh: &self.mesh,
+            velocity: &self.velocity,
+            pressure: &self.pressure,
+            bodies: &bodies,
+            names: &self.names,
+            values: &Self::values(step),
+            n_dofs: 22,
+            iterations: 1,
+            timing: &self.timing,
+            is_last: step == STEPS,
+        };
+        for observer in everyone {
+            observer.on_step(&snapshot).unwrap();
+        }
+    }
+
+    /// A complete run in `path`.
+    fn complete(&self, path: &Path) {
+        let directory = RunDirectory::create(path, &self.case, 1, false).unwrap();
+        let mut everyone = observers(&self.case, &directory, true).unwrap();
+        (0..=STEPS).for_each(|step| self.step(&mut everyone, step));
+    }
+}
+
+/// The files below `path`, sorted.
+fn files(path: &Path) -> Vec<PathBuf> {
+    let mut found = Vec::new();
+    for entry in std::fs::read_dir(path).unwrap() {
+        let entry = entry.unwrap().path();
+        if entry.is_dir() { found.extend(files(&entry)) } else { found.push(entry) }
+    }
+    found.sort();
+    found
+}
+
+/// Topic, time and content of every message that can be read, and whether the file ends well.
+fn messages(bytes: &[u8]) -> (Vec<(String, u64, serde_json::Value)>, bool) {
+    let mut found = Vec::new();
+    let options = [::mcap::read::Options::IgnoreEndMagic].into_iter().collect();
+    for message in ::mcap::MessageStream::new_with_options(bytes, options).unwrap() {
+        let Ok(message) = message else { return (found, false) };
+        let content = serde_json::from_slice(&message.data).unwrap();
+        found.push((message.channel.topic.clone(), message.log_time, content));
+    }
+    (found, ::mcap::Summary::read(bytes).is_ok_and(|summary| summary.is_some()))
+}
+
+#[test]
+fn a_run_leaves_exactly_the_promised_files() {
+    let place = tempfile::tempdir().unwrap();
+    Run::new().complete(place.path());
+    let names: Vec<_> = files(place.path())
+        .iter()
+        .map(|file| file.strip_prefix(place.path()).unwrap().to_str().unwrap().to_owned())
+        .collect();
+    assert_eq!(
+        names,
+        [
+            "case.toml",
+            "fields/000000.vtu",
+            "fields/000010.vtu",
+            "fields/000020.vtu",
+            "fields/000030.vtu",
+            "fields/000040.vtu",
+            "fields.pvd",
+            "lock",
+            "provenance.json",
+            "run.mcap",
+            "series.csv",
+            "status.json",
+        ]
+    );
+}
+
+#[test]
+fn the_resolved_case_reads_back_as_the_same_case() {
+    let place = tempfile::tempdir().unwrap();
+    let run = Run::new();
+    run.complete(place.path());
+    let text = std::fs::read_to_string(place.path().join("case.toml")).unwrap();
+    assert_eq!(toml::from_str::<Case>(&text).unwrap(), run.case);
+}
+
+#[test]
+fn the_series_reads_back_to_the_last_bit() {
+    let place = tempfile::tempdir().unwrap();
+    Run::new().complete(place.path());
+    let text = std::fs::read_to_string(place.path().join("series.csv")).unwrap();
+    let mut lines = text.lines();
+    assert_eq!(lines.next(), Some("time,swimmer.speed,swimmer.force.x"));
+    for step in 0..=STEPS {
+        let row: Vec<f64> =
+            lines.next().unwrap().split(',').map(|number| number.parse().unwrap()).collect();
+        assert_eq!(row[0], step as f64 * 0.1);
+        assert_eq!(row[1..], Run::values(step));
+    }
+    assert_eq!(lines.next(), None);
+}
+
+#[test]
+fn the_status_tells_state_and_cost() {
+    let place = tempfile::tempdir().unwrap();
+    let run = Run::new();
+    let directory = RunDirectory::create(place.path(), &run.case, 1, false).unwrap();
+    let mut everyone = observers(&run.case, &directory, true).unwrap();
+    let before = Status::read(place.path()).unwrap();
+    assert_eq!((before.state, before.step, before.steps), (RunState::Running, 0, Some(40)));
+
+    (0..=STEPS).for_each(|step| run.step(&mut everyone, step));
+    let after = Status::read(place.path()).unwrap();
+    assert_eq!((after.state, after.step, after.dofs), (RunState::Finished, STEPS, 22));
+    assert_eq!((after.time, after.end), (4.0, Some(4.0)));
+    assert_eq!(after.cpu_seconds["factorisation"], 1.0);
+    assert_eq!(after.wall_seconds["mesh_motion"], 0.5);
+    assert!(after.wall_seconds.contains_key("total"));
+}
+
+#[test]
+fn a_failure_is_told_with_its_reason() {
+    let place = tempfile::tempdir().unwrap();
+    let run = Run::new();
+    let directory = RunDirectory::create(place.path(), &run.case, 1, false).unwrap();
+    let mut everyone = observers(&run.case, &directory, true).unwrap();
+    run.step(&mut everyone, 0);
+    let error = RunError::Mesh("no room between the bodies".to_owned());
+    everyone.iter_mut().for_each(|observer| observer.on_failure(&error).unwrap());
+
+    let status = Status::read(place.path()).unwrap();
+    assert_eq!(status.state, RunState::Failed);
+    assert_eq!(status.reason.as_deref(), Some("mesh: no room between the bodies"));
+    let (messages, is_whole) = messages(&std::fs::read(place.path().join("run.mcap")).unwrap());
+    assert!(is_whole);
+    assert_eq!(messages.last().unwrap().2["message"], "mesh: no room between the bodies");
+
+    for observer in &mut everyone {
+        observer.on_failure(&RunError::Stopped { step: 0, time: 0.0 }).unwrap();
+    }
+    assert_eq!(Status::read(place.path()).unwrap().state, RunState::Stopped);
+}
+
+#[test]
+fn a_killed_run_leaves_whole_files_and_readable_messages() {
+    let place = tempfile::tempdir().unwrap();
+    let run = Run::new();
+    let directory = RunDirectory::create(place.path(), &run.case, 1, false).unwrap();
+    let mut everyone = observers(&run.case, &directory, true).unwrap();
+    (0..20).for_each(|step| run.step(&mut everyone, step));
+
+    // What is on the disk now is what a kill would leave: nothing of this process is written any
+    // more.
+    let (messages, is_whole) = messages(&std::fs::read(place.path().join("run.mcap")).unwrap());
+    assert!(!is_whole);
+    let last = messages.iter().rfind(|(topic, ..)| topic == "/step").unwrap();
+    assert_eq!((last.1, &last.2["step"]), (1_600_000_000, &16.into()));
+    assert_eq!(Status::read(place.path()).unwrap().state, RunState::Running);
+    let series = std::fs::read_to_string(place.path().join("series.csv")).unwrap();
+    assert!(series.is_empty() || series.ends_with('\n'));
+    assert!(files(place.path()).iter().all(|file| !file.to_string_lossy().contains("unfinished")));
+}
+
+#[test]
+fn messages_tell_every_step_of_every_body() {
+    let place = tempfile::tempdir().unwrap();
+    Run::new().complete(place.path());
+    let bytes = std::fs::read(place.path().join("run.mcap")).unwrap();
+    let (messages, is_whole) = messages(&bytes);
+    assert!(is_whole);
+    let mut count = BTreeMap::<&str, usize>::new();
+    messages.iter().for_each(|(topic, ..)| *count.entry(topic).or_default() += 1);
+    let expected = [("/body/swimmer", 41), ("/log", 2), ("/scene", 1), ("/step", 41), ("/tf", 41)];
+    assert_eq!(count, expected.into());
+
+    let (_, time, body) = messages.iter().rfind(|(topic, ..)| topic == "/body/swimmer").unwrap();
+    assert_eq!(*time, 4_000_000_000);
+    assert_eq!(body["pose"]["center"]["x"], 0.3 * 4.0);
+    assert_eq!(body["twist"]["angular"]["z"], 0.1);
+    assert_eq!(body["power"], 0.25);
+    let summary = ::mcap::Summary::read(&bytes).unwrap().unwrap();
+    assert_eq!(summary.attachment_indexes[0].name, "case.toml");
+    assert_eq!(summary.metadata_indexes[0].name, "provenance");
+}
+
+#[test]
+fn two_runs_write_the_same_bytes_after_the_provenance() {
+    let run = Run::new();
+    let bytes = [(); 2].map(|()| {
+        let place = tempfile::tempdir().unwrap();
+        run.complete(place.path());
+        // Both runs are of this process and, as a rule, of one second: only the second can differ.
+        let provenance: Provenance =
+            serde_json::from_slice(&std::fs::read(place.path().join("provenance.json")).unwrap())
+                .unwrap();
+        (std::fs::read(place.path().join("run.mcap")).unwrap(), provenance.started_at)
+    });
+    let [(first, first_start), (second, second_start)] = bytes;
+    assert_eq!(first.len(), second.len());
+    assert_eq!(messages(&first), messages(&second));
+    if first_start == second_start {
+        assert!(first == second);
+    }
+}
+
+#[test]
+fn the_list_of_frames_names_every_frame_and_is_closed() {
+    let place = tempfile::tempdir().unwrap();
+    Run::new().complete(place.path());
+    let text = std::fs::read_to_string(place.path().join("fields.pvd")).unwrap();
+    for (time, file) in [("0.0", "000000"), ("1.0", "000010"), ("4.0", "000040")] {
+        let line = format!("timestep=\"{time}\" part=\"0\" file=\"fields/{file}.vtu\"/>");
+        assert!(text.contains(&line), "{line} is not in\n{text}");
+    }
+    assert!(text.ends_with("</Collection>\n</VTKFile>\n"));
+    let frame = std::fs::read(place.path().join("fields/000040.vtu")).unwrap();
+    let header = String::from_utf8_lossy(&frame);
+    for name in ["TimeValue", "velocity", "pressure", "vorticity"] {
+        assert!(header.contains(&format!("Name=\"{name}\"")), "{name}");
+    }
+    assert!(header.ends_with("</VTKFile>\n"));
+}
+
+#[test]
+fn a_finished_run_is_refused_and_an_unfinished_one_replaced() {
+    let place = tempfile::tempdir().unwrap();
+    let run = Run::new();
+    let create = |overwrite| RunDirectory::create(place.path(), &run.case, 1, overwrite);
+    let held = create(false).unwrap();
+    assert!(matches!(create(true), Err(RunDirectoryError::InUse { .. })));
+    drop(held);
+    run.complete(place.path());
+    assert!(matches!(create(false), Err(RunDirectoryError::Finished { .. })));
+    assert!(place.path().join("series.csv").exists());
+    drop(create(true).unwrap());
+    assert!(!place.path().join("series.csv").exists());
+}
+
+#[test]
+fn files_of_others_are_never_touched() {
+    let place = tempfile::tempdir().unwrap();
+    std::fs::write(place.path().join("thesis.tex"), "text").unwrap();
+    let refused = RunDirectory::create(place.path(), &Run::new().case, 1, true);
+    assert!(matches!(refused, Err(RunDirectoryError::NotARun { .. })));
+    assert_eq!(files(place.path()).len(), 1);
+}

@@ -1,0 +1,66 @@
+//! Vorticity dv/dx - du/dy at the P2 nodes: the mean over the cells around each node.
+//!
+//! Inside a cell the velocity is u(x(X)) = sum_i u_i phi_i(X), so grad u = J^-T grad_X u with
+//! J = dx/dX. It jumps from cell to cell; a picture wants one value a node.
+
+use alewife_mesh::{Mesh, Point, map_quadratic};
+
+/// Reference coordinates (X, Y) of the six nodes of a triangle.
+const NODES: [[f64; 2]; 6] =
+    [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [0.5, 0.0], [0.5, 0.5], [0.0, 0.5]];
+
+/// Vorticity at the P2 nodes (1/s), positive counter-clockwise.
+///
+/// On the half plane of an axisymmetric flow it is the component along the azimuth that makes a
+/// right-handed frame with x and y.
+///
+/// # Shape
+/// `velocity` and the result have one entry a node of `mesh`.
+pub fn nodal_vorticity(mesh: &Mesh<2>, velocity: &[Point<2>]) -> Vec<f64> {
+    let mut sum = vec![0.0; mesh.n_nodes()];
+    let mut n_cells = vec![0_u32; mesh.n_nodes()];
+    for cell in 0..mesh.n_cells() {
+        let nodes = mesh.cell(cell);
+        let positions: [_; 6] = std::array::from_fn(|i| mesh.nodes[nodes[i] as usize]);
+        let velocities: [_; 6] = std::array::from_fn(|i| velocity[nodes[i] as usize]);
+        for (&node, place) in nodes.iter().zip(NODES) {
+            // Velocity and position are the same kind of field: columns d/dX and d/dY of both.
+            let (_, [x_x, x_y]) = map_quadratic(&positions, place);
+            let (_, [u_x, u_y]) = map_quadratic(&velocities, place);
+            let det_jacobian = x_x.perp(&x_y);
+            let dv_dx = (x_y.y * u_x.y - x_x.y * u_y.y) / det_jacobian;
+            let du_dy = (x_x.x * u_y.x - x_y.x * u_x.x) / det_jacobian;
+            sum[node as usize] += dv_dx - du_dy;
+            n_cells[node as usize] += 1;
+        }
+    }
+    sum.iter().zip(&n_cells).map(|(sum, &n)| sum / f64::from(n.max(1))).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::two_triangles;
+    use super::*;
+
+    #[test]
+    fn vorticity_of_a_quadratic_velocity_is_exact_on_straight_cells() {
+        let mesh = two_triangles();
+        let velocity: Vec<_> =
+            mesh.nodes.iter().map(|x| Point::<2>::new(-x.y * x.y, x.x * x.y)).collect();
+        for (x, vorticity) in mesh.nodes.iter().zip(nodal_vorticity(&mesh, &velocity)) {
+            assert!((vorticity - 3.0 * x.y).abs() < 1e-13);
+        }
+    }
+
+    #[test]
+    fn a_rigid_turn_has_twice_its_rate_on_curved_cells_too() {
+        let mut mesh = two_triangles();
+        // The bottom bulges: isoparametric cells still carry linear fields exactly.
+        mesh.nodes[4] = Point::<2>::new(0.5, -0.1);
+        mesh.curved[0] = true;
+        let velocity: Vec<_> = mesh.nodes.iter().map(|x| Point::<2>::new(-x.y, x.x)).collect();
+        for vorticity in nodal_vorticity(&mesh, &velocity) {
+            assert!((vorticity - 2.0).abs() < 1e-13);
+        }
+    }
+}

@@ -1,0 +1,9 @@
+//! Did the case reproduce what was published?
+
+mod report;
+mod statistic;
+
+pub use report::{
+    Comparison, Verdict, compare, comparison_table, comparisons_to_json, not_computed,
+};
+pub use statistic::{StatisticError, measured_value, statistic_name};

@@ -1,0 +1,495 @@
+//! Wrong cases are refused with exit code 65, the place in the file, and a remedy.
+#![expect(clippy::unwrap_used, reason = "a test that cannot write its files has failed")]
+
+use std::path::Path;
+use std::process::Command;
+
+/// A case with nothing wrong in it: a disc held in a channel. Lines are counted from 1.
+const RIGHT: &str = r#"title = "A disc in a channel"
+geometry = "planar"
+
+[fluid]
+model = "navier-stokes"
+viscosity = 0.001
+density = 1.0
+
+[domain.channel]
+length = 2.2
+height = 0.41
+
+[boundary]
+left = { parabolic = { peak = 0.3 } }
+right = "do-nothing"
+bottom = "no-slip"
+top = "no-slip"
+
+[[body]]
+name = "disc"
+shape = { disc = { radius = 0.05 } }
+center = [0.2, 0.2]
+motion = "held"
+
+[mesh]
+size = 0.1
+surface = 0.02
+
+[time.steady]
+
+[scales]
+length = 0.1
+velocity = 0.2
+
+[numbers]
+reynolds = 20.0
+
+[[probe]]
+name = "drop"
+point = [0.15, 0.2]
+minus = [0.25, 0.2]
+
+[[reference]]
+quantity = "disc.drag_coefficient"
+value = 5.579535
+relative = 0.05
+source = "a published benchmark"
+
+[[variant]]
+name = "slow"
+set = { "boundary.left.parabolic.peak" = 0.03, "numbers.reynolds" = 2.0, "scales.velocity" = 0.02 }
+"#;
+
+struct Said {
+    code: i32,
+    stdout: String,
+    stderr: String,
+}
+
+fn alewife(directory: &Path, arguments: &[&str]) -> Said {
+    let output = Command::new(env!("CARGO_BIN_EXE_alewife"))
+        .args(arguments)
+        .current_dir(directory)
+        .env_remove("RUST_BACKTRACE")
+        .output()
+        .unwrap();
+    Said {
+        code: output.status.code().unwrap(),
+        stdout: String::from_utf8(output.stdout).unwrap(),
+        stderr: String::from_utf8(output.stderr).unwrap(),
+    }
+}
+
+/// Checks a text as `wrong.toml`, with more arguments behind it.
+fn check(text: &str, arguments: &[&str]) -> Said {
+    let directory = tempfile::tempdir().unwrap();
+    std::fs::write(directory.path().join("wrong.toml"), text).unwrap();
+    let all: Vec<&str> =
+        ["check", "--no-mesh", "wrong.toml"].iter().chain(arguments).copied().collect();
+    alewife(directory.path(), &all)
+}
+
+/// The right case with one stretch of it replaced.
+fn edited(from: &str, to: &str) -> String {
+    assert!(RIGHT.contains(from), "`{from}` is not in the right case");
+    RIGHT.replacen(from, to, 1)
+}
+
+fn without_variant(text: &str) -> &str {
+    text.split("[[variant]]").next().unwrap()
+}
+
+#[track_caller]
+fn assert_accepted(said: &Said) {
+    assert_eq!(said.code, 0, "{}{}", said.stdout, said.stderr);
+}
+
+#[track_caller]
+fn assert_refused(said: &Said, wanted: &[&str]) {
+    assert_eq!(said.code, 65, "{}{}", said.stdout, said.stderr);
+    for text in wanted {
+        assert!(said.stderr.contains(text), "`{text}` is not in:\n{}", said.stderr);
+    }
+}
+
+#[track_caller]
+fn refused(from: &str, to: &str, wanted: &[&str]) {
+    assert_refused(&check(&edited(from, to), &[]), wanted);
+}
+
+#[test]
+fn a_right_case_is_accepted_with_its_variants() {
+    let said = check(RIGHT, &[]);
+    assert_accepted(&said);
+    assert_eq!(said.stderr, "");
+    assert!(said.stdout.contains("Reynolds number"), "{}", said.stdout);
+    assert!(said.stdout.contains("no solve is made"), "{}", said.stdout);
+}
+
+#[test]
+fn a_misspelt_key_is_named_with_the_nearest_one_and_all_others() {
+    refused(
+        "viscosity = 0.001",
+        "viscocity = 0.001",
+        &[
+            "unknown key `viscocity` in `fluid`",
+            "--> wrong.toml:6:1",
+            "6 | viscocity = 0.001",
+            "  | ^^^^^^^^^",
+            "did you mean `viscosity`? accepted: model, viscosity, density, gravity",
+        ],
+    );
+}
+
+#[test]
+fn all_misspelt_keys_are_named_at_once() {
+    let text = edited("size = 0.1", "sise = 0.1").replace("length = 2.2", "lenght = 2.2");
+    let said = check(&text, &[]);
+    assert_refused(&said, &["wrong.toml:10:1", "`length`", "wrong.toml:26:1", "`size`"]);
+    assert!(!said.stderr.contains("missing key"), "{}", said.stderr);
+}
+
+#[test]
+fn a_misspelt_key_inside_an_alternative_is_pointed_at() {
+    refused(
+        "{ disc = { radius = 0.05 } }",
+        "{ disc = { radios = 0.05 } }",
+        &["unknown key `radios` in `body.0.shape.disc`", "wrong.toml:21:20", "`radius`?"],
+    );
+}
+
+#[test]
+fn a_quoted_number_is_a_wrong_type() {
+    refused(
+        "viscosity = 0.001",
+        "viscosity = \"0.001 Pa s\"",
+        &[
+            "`fluid.viscosity` is the string \"0.001 Pa s\" where a number is wanted",
+            "wrong.toml:6:13",
+            "without quotes",
+        ],
+    );
+}
+
+#[test]
+fn an_unknown_alternative_is_refused_with_the_known_ones() {
+    refused(
+        "model = \"navier-stokes\"",
+        "model = \"navier-stoks\"",
+        &["wrong.toml:5:9", "`navier-stokes`?", "accepted: stokes, unsteady-stokes"],
+    );
+    refused(
+        "motion = \"held\"",
+        "motion = \"imposed\"",
+        &["wrong.toml:23:10", "{ imposed = ... }"],
+    );
+    refused("[time.steady]", "[time]", &["wrong.toml:29:", "exactly one", "steady, unsteady"]);
+}
+
+#[test]
+fn a_missing_radius_is_named_with_its_table() {
+    refused(
+        "{ disc = { radius = 0.05 } }",
+        "{ disc = { } }",
+        &["missing key `radius` in `body.0.shape.disc`", "wrong.toml:21:18", "radius = ..."],
+    );
+}
+
+#[test]
+fn text_that_is_not_toml_is_pointed_at() {
+    refused("size = 0.1", "size = 0,1", &["this is not TOML", "wrong.toml:26:"]);
+}
+
+#[test]
+fn overlapping_bodies_are_named_with_their_gap() {
+    let second = "[[body]]\nname = \"other\"\nshape = { disc = { radius = 0.05 } }\n\
+                  center = [0.28, 0.2]\nmotion = \"held\"\n\n[mesh]";
+    refused(
+        "[mesh]",
+        second,
+        &[
+            "bodies \"disc\" and \"other\" touch or overlap",
+            "gap -2.0",
+            "wrong.toml:28:10",
+            "move them apart",
+        ],
+    );
+}
+
+#[test]
+fn a_body_outside_the_domain_is_refused_and_so_is_one_that_touches_it() {
+    let remedy = ["body \"disc\" touches or leaves the domain", "wrong.toml:22:10", "enlarge"];
+    refused("center = [0.2, 0.2]", "center = [0.2, 0.5]", &remedy);
+    refused("center = [0.2, 0.2]", "center = [0.2, 0.05]", &remedy);
+}
+
+#[test]
+fn a_negative_viscosity_is_refused() {
+    refused(
+        "viscosity = 0.001",
+        "viscosity = -0.001",
+        &["`fluid.viscosity` is -0.001, but must be positive", "wrong.toml:6:13", "larger than 0"],
+    );
+    refused("viscosity = 0.001", "viscosity = nan", &["not a finite number", "wrong.toml:6:13"]);
+}
+
+#[test]
+fn inertia_needs_a_density() {
+    refused("density = 1.0\n", "", &["the fluid has no density", "wrong.toml:4:", "add `density"]);
+}
+
+#[test]
+fn an_unknown_side_is_refused_and_a_side_without_condition_too() {
+    refused(
+        "top = \"no-slip\"",
+        "topp = \"no-slip\"",
+        &[
+            "this domain has no side `topp`",
+            "wrong.toml:17:8",
+            "did you mean `top`? accepted: left",
+            "nothing is said about the side `top`",
+        ],
+    );
+    refused(
+        "surface = 0.02",
+        "surface = 0.02\nsides = { wall = 0.1 }",
+        &["no side `wall`", "wrong.toml:28:18", "accepted: left, right, bottom, top"],
+    );
+}
+
+#[test]
+fn inflow_without_outflow_is_refused_with_its_flux() {
+    // 2/3 of 0.3 times 0.41.
+    refused(
+        "right = \"do-nothing\"",
+        "right = \"no-slip\"",
+        &["net inflow 0.082000 m2/s", "wrong.toml:13:", "do-nothing"],
+    );
+    let balanced = edited("right = \"do-nothing\"", "right = { parabolic = { peak = 0.3 } }");
+    assert_accepted(&check(without_variant(&balanced), &[]));
+}
+
+#[test]
+fn conditions_that_cannot_hold_on_a_side_are_refused() {
+    refused("top = \"no-slip\"", "top = \"axis\"", &["wrong.toml:17:7", "symmetry"]);
+    refused(
+        "top = \"no-slip\"",
+        "top = { periodic = \"left\" }",
+        &["`top` cannot be periodic with `left`", "top = { periodic = \"bottom\" }"],
+    );
+    refused(
+        "top = \"no-slip\"",
+        "top = { periodic = \"bottom\" }",
+        &["`bottom` has another condition", "wrong.toml:16:10"],
+    );
+    refused(
+        "top = \"no-slip\"",
+        "top = { parabolic = { peak = 1.0 } }",
+        &["enters through `left` or `right`", "wrong.toml:17:"],
+    );
+}
+
+#[test]
+fn a_periodic_partner_may_be_left_out() {
+    let sides = "left = { parabolic = { peak = 0.3 } }\nright = \"do-nothing\"";
+    let text = edited(sides, "left = { periodic = \"right\" }");
+    assert_accepted(&check(without_variant(&text), &[]));
+}
+
+#[test]
+fn a_vector_of_the_wrong_length_is_refused() {
+    refused(
+        "center = [0.2, 0.2]",
+        "center = [0.2, 0.2, 0.0]",
+        &[
+            "`body.0.center` has 3 numbers, but this case has 2 dimensions",
+            "wrong.toml:22:10",
+            "write [x, y]",
+        ],
+    );
+    refused(
+        "minus = [0.25, 0.2]",
+        "minus = [0.25]",
+        &["`probe.0.minus` has 1 number,", "wrong.toml:41:9"],
+    );
+}
+
+#[test]
+fn probes_are_in_the_fluid_or_on_its_boundary() {
+    let outside = ["outside the domain", "wrong.toml:40:9"];
+    refused("point = [0.15, 0.2]", "point = [0.15, 0.6]", &outside);
+    refused("point = [0.15, 0.2]", "point = [0.17, 0.2]", &["inside the body \"disc\""]);
+}
+
+#[test]
+fn shapes_fit_the_geometry() {
+    refused(
+        "{ disc = { radius = 0.05 } }",
+        "{ sphere = { radius = 0.05 } }",
+        &["a sphere cannot stand", "wrong.toml:21:9", "disc, ellipse, spline"],
+    );
+    refused("geometry = \"planar\"", "geometry = \"axisymmetric\"", &["half-disc, cylinder"]);
+}
+
+#[test]
+fn names_mean_one_thing() {
+    refused(
+        "name = \"disc\"",
+        "name = \"left\"",
+        &["stands for something else", "wrong.toml:20:8"],
+    );
+    refused("name = \"drop\"", "name = \"disc\"", &["is taken", "wrong.toml:39:8"]);
+    refused("name = \"disc\"", "name = \"a disc\"", &["cannot be a name"]);
+}
+
+#[test]
+fn bodies_do_not_move_through_the_mesh_yet() {
+    let unsteady = edited("[time.steady]", "[time.unsteady]\nstep = 0.1\nend = 1.0")
+        .replace("motion = \"held\"", "motion = \"free\"");
+    assert_refused(
+        &check(&unsteady, &[]),
+        &["moving meshes are not there yet", "wrong.toml:23:10", "frame = \"disc\""],
+    );
+    let followed = unsteady.replace("[fluid]", "frame = \"disc\"\n[fluid]");
+    assert_accepted(&check(&followed, &[]));
+    let ellipse = followed
+        .replace("{ disc = { radius = 0.05 } }", "{ ellipse = { semi_axes = [0.05, 0.02] } }");
+    assert_refused(&check(&ellipse, &[]), &["turns and is not a disc", "locked = [\"rotation\"]"]);
+}
+
+#[test]
+fn the_frame_is_that_of_a_body() {
+    refused("[fluid]", "frame = \"disk\"\n[fluid]", &["no body has that name", "`disc`?"]);
+}
+
+#[test]
+fn unsteady_stokes_is_not_steady() {
+    refused(
+        "model = \"navier-stokes\"",
+        "model = \"unsteady-stokes\"",
+        &["no steady solution", "wrong.toml:29:7", "[time.unsteady]"],
+    );
+}
+
+#[test]
+fn a_squirmer_is_round() {
+    let gait = "motion = \"held\"\ngait = { squirmer = { modes = [1.0] } }";
+    let ellipse =
+        edited("{ disc = { radius = 0.05 } }", "{ ellipse = { semi_axes = [0.05, 0.02] } }")
+            .replace("motion = \"held\"", gait);
+    assert_refused(&check(&ellipse, &[]), &["a squirmer is a disc or a sphere", "wrong.toml:24:1"]);
+}
+
+#[test]
+fn a_reynolds_number_that_disagrees_is_shown_with_the_derived_one() {
+    refused(
+        "reynolds = 20.0",
+        "reynolds = 100.0",
+        &[
+            "declared as 100, but the case gives 20 = density * scales.velocity * scales.length / \
+             viscosity",
+            "wrong.toml:36:12",
+            "correct the declared number",
+        ],
+    );
+}
+
+#[test]
+fn an_unknown_quantity_is_refused_with_the_nearest_one() {
+    refused(
+        "quantity = \"disc.drag_coefficient\"",
+        "quantity = \"disc.drag_coeficient\"",
+        &[
+            "there is no quantity `disc.drag_coeficient`",
+            "wrong.toml:44:12",
+            "did you mean `disc.drag_coefficient`?",
+            "drop.pressure",
+            "flow.dissipation",
+        ],
+    );
+}
+
+#[test]
+fn a_reference_has_one_tolerance_and_a_statistic_has_what_it_needs() {
+    refused("relative = 0.05\n", "", &["has no tolerance", "wrong.toml:43:", "relative = ..."]);
+    refused("relative = 0.05", "relative = 0.05\nabsolute = 1.0", &["both", "wrong.toml:47:12"]);
+    refused("relative = 0.05", "relative = 0.05\nstatistic = \"at\"", &["add at = ..."]);
+    refused("relative = 0.05", "relative = 0.05\nstatistic = \"strouhal\"", &["no period"]);
+}
+
+#[test]
+fn an_unknown_variant_is_refused_with_the_known_ones() {
+    let directory = tempfile::tempdir().unwrap();
+    std::fs::write(directory.path().join("wrong.toml"), RIGHT).unwrap();
+    let said = alewife(directory.path(), &["check", "--no-mesh", "wrong.toml/slaw"]);
+    assert_refused(&said, &["there is no variant `slaw`", "wrong.toml:49:", "`slow`?"]);
+    assert_accepted(&alewife(directory.path(), &["check", "--no-mesh", "wrong.toml/slow"]));
+}
+
+#[test]
+fn a_variant_that_is_wrong_is_found_from_its_case() {
+    refused(
+        "\"numbers.reynolds\" = 2.0",
+        "\"numbers.reynolds\" = 3.0",
+        &["in variant wrong.toml/slow", "declared as 3", "wrong.toml:51:"],
+    );
+}
+
+#[test]
+fn a_wrong_setting_is_refused() {
+    let refused = |setting: &str, wanted: &[&str]| {
+        assert_refused(&check(RIGHT, &["--set", setting]), wanted);
+    };
+    refused(
+        "fluid.viscocity=2",
+        &["unknown key `viscocity`", "--> --set:1:1", "did you mean `viscosity`?"],
+    );
+    refused("body.1.center=[1, 1]", &["there is no `body.1`", "`body` has 1 entries"]);
+    refused("fluid.viscosity", &["sets nothing", "--set KEY=VALUE"]);
+    refused("fluid.viscosity=-1", &["must be positive", "--> --set:1:17"]);
+}
+
+#[test]
+fn settings_reach_into_arrays_and_take_words_without_quotes() {
+    let said = check(RIGHT, &["--set", "body.0.center.0=0.3", "--set", "fluid.model=stokes"]);
+    assert_accepted(&said);
+    assert!(said.stdout.contains("at [0.3, 0.2]"), "{}", said.stdout);
+    assert!(said.stdout.contains("Stokes, viscosity"), "{}", said.stdout);
+}
+
+#[test]
+fn a_file_extends_another_one_for_one_level() {
+    let directory = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: &str| std::fs::write(directory.path().join(name), text).unwrap();
+    let check = |name: &str| alewife(directory.path(), &["check", "--no-mesh", name]);
+    let child = "extends = \"base.toml\"\n[fluid]\nviscosity = 0.002\n[numbers]\nreynolds = 10\n";
+    write("base.toml", RIGHT);
+    write("child.toml", child);
+    write("grandchild.toml", "extends = \"child.toml\"\n");
+    write("orphan.toml", "extends = \"bass.toml\"\n");
+
+    let said = check("child.toml");
+    assert_accepted(&said);
+    assert!(said.stdout.contains("viscosity 0.002, density 1"), "{}", said.stdout);
+    assert!(said.stderr.contains("no reference"), "{}", said.stderr);
+    assert_refused(&check("grandchild.toml"), &["child.toml:1:1", "one level of `extends`"]);
+    assert_refused(&check("orphan.toml"), &["orphan.toml:1:11", "there is no file bass.toml"]);
+
+    write("base.toml", &edited("density = 1.0", "densty = 1.0"));
+    assert_refused(&check("child.toml"), &["base.toml:7:1", "`density`?"]);
+}
+
+#[test]
+fn what_is_not_there_is_exit_code_66() {
+    let directory = tempfile::tempdir().unwrap();
+    let said = alewife(directory.path(), &["check", "absent.toml"]);
+    assert_eq!(said.code, 66, "{}", said.stderr);
+    let said = alewife(directory.path(), &["show", "squirmer-alon"]);
+    assert_eq!(said.code, 66);
+    assert!(said.stderr.contains("did you mean `squirmer-alone`?"), "{}", said.stderr);
+}
+
+#[test]
+fn usage_is_exit_code_2() {
+    let directory = tempfile::tempdir().unwrap();
+    assert_eq!(alewife(directory.path(), &["fly"]).code, 2);
+    assert_eq!(alewife(directory.path(), &["run"]).code, 2);
+}

@@ -1,0 +1,132 @@
+//! The map in docs/architecture.md agrees with the code, and rooms use only the rooms below them.
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// The rooms of the solver, lowest first, and the rooms each may use.
+const ROOMS: [(&str, &[&str]); 14] = [
+    ("case", &[]),
+    ("timing", &[]),
+    ("space", &[]),
+    ("algebra", &[]),
+    ("time", &["case"]),
+    ("body", &[]),
+    ("gait", &["body"]),
+    ("flow", &["algebra", "space"]),
+    ("coupling", &["algebra", "body", "flow", "gait", "space", "time", "timing"]),
+    (
+        "simulation",
+        &["algebra", "body", "case", "coupling", "flow", "gait", "space", "time", "timing"],
+    ),
+    ("observer", &["body", "case", "simulation"]),
+    ("validation", &["case", "simulation"]),
+    ("cli", &["case", "observer", "simulation", "validation"]),
+    ("main", &["cli"]),
+];
+
+/// Foreign crates that may be named in one room or file only.
+const FOREIGN: [(&str, &str); 5] = [
+    ("faer", "solver/src/algebra/"),
+    ("spade", "mesh/src/generate/"),
+    ("mcap", "solver/src/observer/"),
+    ("clap", "solver/src/cli/"),
+    ("indicatif", "solver/src/observer/"),
+];
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the package is in the root").to_owned()
+}
+
+/// All source files below a folder, by path relative to the root.
+fn sources(folder: &str) -> BTreeMap<String, String> {
+    fn collect(folder: &Path, found: &mut BTreeMap<String, String>) {
+        for entry in fs::read_dir(folder).expect("the folder exists") {
+            let path = entry.expect("the entry is readable").path();
+            if path.is_dir() {
+                collect(&path, found);
+            } else if path.extension().is_some_and(|extension| extension == "rs") {
+                let name = path.strip_prefix(root()).expect("below the root").display().to_string();
+                found.insert(name, fs::read_to_string(&path).expect("the file is text"));
+            }
+        }
+    }
+    let mut found = BTreeMap::new();
+    collect(&root().join(folder), &mut found);
+    found
+}
+
+/// The room of a file of the solver: its folder, or its own name at the top.
+fn room(file: &str) -> Option<&str> {
+    let inside = file.strip_prefix("solver/src/")?;
+    let room = inside.split('/').next()?;
+    Some(room.trim_end_matches(".rs"))
+}
+
+#[test]
+fn rooms_use_only_the_rooms_below_them() {
+    let rules: BTreeMap<_, _> = ROOMS.into_iter().collect();
+    let mut wrong = Vec::new();
+    for (file, text) in sources("solver/src") {
+        let Some(room) = room(&file).filter(|&room| room != "lib") else { continue };
+        let allowed = rules.get(room);
+        for (number, line) in text.lines().enumerate() {
+            for used in line.split("crate::").skip(1) {
+                let used = used.split(|c: char| !c.is_ascii_lowercase() && c != '_').next();
+                let Some(used) = used.filter(|used| rules.contains_key(used)) else { continue };
+                if used != room && !allowed.is_some_and(|allowed| allowed.contains(&used)) {
+                    wrong.push(format!("{file}:{}: `{room}` may not use `{used}`", number + 1));
+                }
+            }
+        }
+        if allowed.is_none() {
+            wrong.push(format!("{file}: `{room}` is no known room"));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn foreign_crates_are_named_in_one_room_only() {
+    let mut wrong = Vec::new();
+    for (file, text) in sources("solver/src").into_iter().chain(sources("mesh/src")) {
+        for (name, home) in FOREIGN {
+            let uses = text.lines().any(|line| {
+                line.trim_start().starts_with(&format!("use {name}::"))
+                    || (!line.trim_start().starts_with("//") && line.contains(&format!(" {name}::")))
+            });
+            if uses && !file.starts_with(home) {
+                wrong.push(format!("{file} names `{name}`, which lives in {home}"));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// Each file's first line is its row in the map. To write the map anew:
+/// `ALEWIFE_UPDATE=1 cargo test --release -p tests --test architecture`.
+#[test]
+fn the_map_agrees_with_the_first_line_of_each_file() {
+    let page = root().join("docs/architecture.md");
+    let text = fs::read_to_string(&page).expect("docs/architecture.md exists");
+    let (begin, end) = ("<!-- map: begin -->\n", "<!-- map: end -->");
+    let mut table = String::from("| File | What lives there |\n|---|---|\n");
+    for folder in ["mesh/src", "solver/src"] {
+        for (file, text) in sources(folder) {
+            let first = text.lines().next().unwrap_or_default();
+            let sentence = first.strip_prefix("//! ").unwrap_or_else(|| {
+                panic!("{file}: a file opens with `//! ` and a sentence, not `{first}`")
+            });
+            writeln!(table, "| `{file}` | {sentence} |").expect("a string takes all");
+        }
+    }
+    let start = text.find(begin).expect("the page marks the map's beginning") + begin.len();
+    let stop = text.find(end).expect("the page marks the map's end");
+    if std::env::var_os("ALEWIFE_UPDATE").is_some() {
+        let updated = format!("{}{table}{}", &text[..start], &text[stop..]);
+        fs::write(&page, updated).expect("the page can be written");
+    } else {
+        assert_eq!(&text[start..stop], table, "see this test's comment for how to update the map");
+    }
+}

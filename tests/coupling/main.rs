@@ -1,0 +1,5 @@
+//! Fluid and bodies in one system: loads, free motion, reciprocity, energy, frames, threads.
+
+mod free;
+mod loads;
+mod threads;

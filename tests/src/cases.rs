@@ -1,0 +1,34 @@
+//! Cases given as text, for tests that need a whole run.
+
+use alewife::case::Case;
+use alewife::simulation::{Outcome, simulate};
+
+/// A case from its text.
+///
+/// # Panics
+/// When the text is not a valid case.
+#[must_use]
+pub fn case(text: &str) -> Case {
+    Case::parse("test", text, &[])
+        .unwrap_or_else(|error| panic!("{error}"))
+        .case
+}
+
+/// Runs a case without writing anything.
+///
+/// # Panics
+/// When the run fails.
+#[must_use]
+pub fn run(case: &Case) -> Outcome {
+    simulate(case, &mut []).expect("the case runs")
+}
+
+/// The last value of a quantity.
+///
+/// # Panics
+/// When there is no such quantity.
+#[must_use]
+pub fn last(outcome: &Outcome, quantity: &str) -> f64 {
+    let column = outcome.series.column(quantity).expect("the quantity exists");
+    *column.last().expect("the run has a row")
+}
