@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 
 use super::schedule::Schedule;
 use crate::case::Case;
-use crate::simulation::{Observer, RunError, Snapshot};
+use crate::simulation::{Observer, Remains, RunError, Snapshot};
 
 /// Longest time a row waits in memory.
 const INTERVAL: Duration = Duration::from_secs(1);
@@ -74,7 +74,11 @@ impl<const D: usize> Observer<D> for SeriesFile {
         if snapshot.is_last { self.file.sync_all() } else { Ok(()) }
     }
 
-    fn on_failure(&mut self, _error: &RunError) -> io::Result<()> {
+    fn on_failure(
+        &mut self,
+        _error: &RunError,
+        _remains: Option<&Remains<'_, D>>,
+    ) -> io::Result<()> {
         self.flush()?;
         self.file.sync_all()
     }

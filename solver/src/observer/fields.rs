@@ -8,13 +8,13 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use alewife_mesh::{Mesh, write_vtu_as};
+use alewife_mesh::{Mesh, Point, write_vtu_as};
 
 use super::schedule::Schedule;
 use super::vorticity::nodal_vorticity;
 use super::write_atomic;
 use crate::case::{Case, Precision};
-use crate::simulation::{Observer, Snapshot};
+use crate::simulation::{Observer, Remains, RunError, Snapshot};
 
 /// Ends of the edges of a triangle, in the order of its mid-edge nodes 3, 4, 5.
 const EDGES: [[usize; 2]; 3] = [[0, 1], [1, 2], [2, 0]];
@@ -44,6 +44,27 @@ impl FieldFiles {
         }
     }
 
+    /// The content of one field file.
+    fn frame(
+        &self,
+        time: f64,
+        mesh: &Mesh<2>,
+        velocity: &[Point<2>],
+        pressure: &[f64],
+    ) -> io::Result<Vec<u8>> {
+        let vorticity = nodal_vorticity(mesh, velocity);
+        let velocity: Vec<f64> = velocity.iter().flat_map(|u| [u.x, u.y, 0.0]).collect();
+        let pressure = nodal_pressure(mesh, pressure);
+        let arrays = [
+            ("velocity", 3, &velocity[..]),
+            ("pressure", 1, &pressure[..]),
+            ("vorticity", 1, &vorticity[..]),
+        ];
+        let mut bytes = Vec::new();
+        write_vtu_as(self.precision, &mut bytes, mesh, Some(time), &arrays, &[])?;
+        Ok(bytes)
+    }
+
     /// The list of all frames, as ParaView wants it.
     fn collection(&self) -> String {
         let mut text = String::from(
@@ -66,24 +87,26 @@ impl Observer<2> for FieldFiles {
         if self.frames.is_empty() {
             fs::create_dir_all(self.directory.join("fields"))?;
         }
-        let mesh = snapshot.mesh;
-        let velocity: Vec<f64> = snapshot.velocity.iter().flat_map(|u| [u.x, u.y, 0.0]).collect();
-        let pressure = nodal_pressure(mesh, snapshot.pressure);
-        let vorticity = nodal_vorticity(mesh, snapshot.velocity);
-        let arrays = [
-            ("velocity", 3, &velocity[..]),
-            ("pressure", 1, &pressure[..]),
-            ("vorticity", 1, &vorticity[..]),
-        ];
-        let mut bytes = Vec::new();
-        write_vtu_as(self.precision, &mut bytes, mesh, Some(snapshot.time), &arrays, &[])?;
-
+        let bytes =
+            self.frame(snapshot.time, snapshot.mesh, snapshot.velocity, snapshot.pressure)?;
         let name = format!("fields/{:06}.vtu", snapshot.step);
         write_atomic(&self.directory.join(&name), &bytes)?;
         self.frames.push((snapshot.time, name));
         // The list names a file only once it is there, and is itself replaced as a whole: a list
         // without its last line cannot be read at all.
         write_atomic(&self.directory.join("fields.pvd"), self.collection().as_bytes())
+    }
+
+    fn on_failure(
+        &mut self,
+        _error: &RunError,
+        remains: Option<&Remains<'_, 2>>,
+    ) -> io::Result<()> {
+        let Some(remains) = remains else { return Ok(()) };
+        let bytes = self.frame(remains.time, remains.mesh, remains.velocity, remains.pressure)?;
+        let folder = self.directory.join("failure");
+        fs::create_dir_all(&folder)?;
+        write_atomic(&folder.join("flow.vtu"), &bytes)
     }
 }
 

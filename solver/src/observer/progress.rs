@@ -7,7 +7,7 @@ use indicatif::{HumanDuration, ProgressBar, ProgressStyle};
 
 use super::terminal::{LINE_INTERVAL, TERMINAL};
 use crate::case::{Case, TimeSettings};
-use crate::simulation::{Observer, RunError, Snapshot};
+use crate::simulation::{Observer, Remains, RunError, Snapshot};
 
 /// Parts of a full bar.
 const FULL: u64 = 10_000;
@@ -103,7 +103,11 @@ impl<const D: usize> Observer<D> for Progress {
         Ok(())
     }
 
-    fn on_failure(&mut self, _error: &RunError) -> io::Result<()> {
+    fn on_failure(
+        &mut self,
+        _error: &RunError,
+        _remains: Option<&Remains<'_, D>>,
+    ) -> io::Result<()> {
         self.stop();
         Ok(())
     }

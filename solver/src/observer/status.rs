@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{process, write_atomic};
 use crate::case::{Case, TimeSettings};
-use crate::simulation::{Observer, RunError, Snapshot, Stage, Timing, cpu_seconds};
+use crate::simulation::{Observer, Remains, RunError, Snapshot, Stage, Timing, cpu_seconds};
 
 /// Longest time a status on the disk may be behind.
 const INTERVAL: Duration = Duration::from_secs(1);
@@ -140,7 +140,11 @@ impl<const D: usize> Observer<D> for StatusFile {
         if is_due { self.write() } else { Ok(()) }
     }
 
-    fn on_failure(&mut self, error: &RunError) -> io::Result<()> {
+    fn on_failure(
+        &mut self,
+        error: &RunError,
+        _remains: Option<&Remains<'_, D>>,
+    ) -> io::Result<()> {
         self.status.state = match error {
             RunError::Stopped { .. } => RunState::Stopped,
             _ => RunState::Failed,

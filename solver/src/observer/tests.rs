@@ -235,7 +235,7 @@ fn a_failure_is_told_with_its_reason() {
     let mut everyone = observers(&run.case, &directory, true).unwrap();
     run.step(&mut everyone, 0);
     let error = RunError::Mesh("no room between the bodies".to_owned());
-    everyone.iter_mut().for_each(|observer| observer.on_failure(&error).unwrap());
+    everyone.iter_mut().for_each(|observer| observer.on_failure(&error, None).unwrap());
 
     let status = Status::read(place.path()).unwrap();
     assert_eq!(status.state, RunState::Failed);
@@ -245,7 +245,7 @@ fn a_failure_is_told_with_its_reason() {
     assert_eq!(messages.last().unwrap().2["message"], "mesh: no room between the bodies");
 
     for observer in &mut everyone {
-        observer.on_failure(&RunError::Stopped { step: 0, time: 0.0 }).unwrap();
+        observer.on_failure(&RunError::Stopped { step: 0, time: 0.0 }, None).unwrap();
     }
     assert_eq!(Status::read(place.path()).unwrap().state, RunState::Stopped);
 }

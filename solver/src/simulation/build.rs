@@ -2,9 +2,7 @@
 
 use std::f64::consts::PI;
 
-use alewife_mesh::{
-    BoundaryKind, Domain, Mesh, PlacedShape, Point, SecondMoments, Shape, SizeBox, Sizing, generate,
-};
+use alewife_mesh::{BoundaryKind, Mesh, Point, SecondMoments, SizeBox, Sizing, generate};
 use nalgebra::Vector3;
 
 use super::RunError;
@@ -22,64 +20,9 @@ use crate::time::factor_at;
 /// # Errors
 /// When a body does not fit, or the mesh cannot be made.
 pub fn build_mesh(case: &Case) -> Result<Mesh<2>, RunError> {
-    generate(&domain(case), &placed_shapes(case), &sizing(case))
+    let bodies: Vec<_> = case.body.iter().map(|body| body.placed(case.mesh.scale)).collect();
+    generate(&case.mesh_domain(), &bodies, &sizing(case))
         .map_err(|error| RunError::Mesh(error.to_string()))
-}
-
-fn is_periodic(case: &Case, side: &str) -> bool {
-    matches!(case.boundary.get(side), Some(BoundaryCondition::Periodic(_)))
-}
-
-/// The domain of a case as the mesh crate knows it.
-#[must_use]
-pub fn domain(case: &Case) -> Domain {
-    let periodic_x = is_periodic(case, "left") || is_periodic(case, "right");
-    let periodic_y = is_periodic(case, "bottom") || is_periodic(case, "top");
-    match &case.domain {
-        DomainSpec::Box { min, max } => {
-            Domain::Box { min: (*min).into(), max: (*max).into(), periodic_x, periodic_y }
-        }
-        DomainSpec::Channel { length, height } => Domain::Box {
-            min: Point::<2>::zeros(),
-            max: Point::<2>::new(*length, *height),
-            periodic_x,
-            periodic_y,
-        },
-        DomainSpec::Disc { center, radius } => {
-            Domain::Disc { center: (*center).into(), radius: *radius }
-        }
-        DomainSpec::HalfDisc { center, radius } => {
-            Domain::HalfDisc { center: *center, radius: *radius }
-        }
-        DomainSpec::Cylinder { x, radius } => {
-            Domain::Cylinder { x: *x, radius: *radius, periodic_x }
-        }
-    }
-}
-
-/// The bodies of a case as the mesh crate knows them.
-#[must_use]
-pub fn placed_shapes(case: &Case) -> Vec<PlacedShape> {
-    case.body
-        .iter()
-        .map(|body| PlacedShape {
-            name: body.name.clone(),
-            shape: shape(&body.shape),
-            center: Point::<2>::new(body.center[0], body.center[1]),
-            angle: body.angle,
-            size: body.size.map(|size| size * case.mesh.scale),
-        })
-        .collect()
-}
-
-fn shape(spec: &ShapeSpec) -> Shape {
-    match spec {
-        ShapeSpec::Disc { radius } => Shape::Disc { radius: *radius },
-        ShapeSpec::Ellipse { semi_axes } => Shape::Ellipse { semi_axes: *semi_axes },
-        ShapeSpec::Spline { points } => Shape::Spline { points: points.clone() },
-        ShapeSpec::Sphere { radius } => Shape::Sphere { radius: *radius },
-        ShapeSpec::Spheroid { semi_axes } => Shape::Spheroid { semi_axes: *semi_axes },
-    }
 }
 
 /// Angle by which an outline turns along one edge at most (rad), however large its size.
@@ -223,7 +166,7 @@ fn rigid_body(
     boundary: usize,
     axisymmetric: bool,
 ) -> Result<RigidBody, RunError> {
-    let moments = shape(&body.shape).moments().ok_or_else(|| {
+    let moments = body.shape.outline().moments().ok_or_else(|| {
         RunError::Unsupported(format!("body `{}`: its spline has no valid outline", body.name))
     })?;
     let second_moment = match moments.second {

@@ -6,7 +6,7 @@ use nalgebra::SMatrix;
 use super::snapshot::BodyReport;
 use super::state::State;
 use crate::body::{Twist, Wrench};
-use crate::case::{Case, Geometry, Probe};
+use crate::case::{Case, Geometry, Probe, known_quantities};
 use crate::coupling::{FluidSystem, Problem, Solution, body_loads, surface_load};
 use crate::space::{CellValues, p1_values, p2_values};
 
@@ -63,7 +63,7 @@ impl Measure {
             let force = 2.0 / (case.fluid.density * scales.velocity.powi(2) * area);
             [force, force / scales.length]
         });
-        Ok(Self { names: names(case), probes, coefficients })
+        Ok(Self { names: known_quantities(case), probes, coefficients })
     }
 
     pub(super) fn names(&self) -> &[String] {
@@ -136,42 +136,7 @@ impl Measure {
     }
 }
 
-/// Names of all quantities of a case, in the order of their values.
-fn names(case: &Case) -> Vec<String> {
-    const BODY: [&str; 15] = [
-        "x",
-        "y",
-        "angle",
-        "velocity.x",
-        "velocity.y",
-        "angular_velocity",
-        "acceleration.x",
-        "acceleration.y",
-        "force.x",
-        "force.y",
-        "torque",
-        "surface_force.x",
-        "surface_force.y",
-        "surface_torque",
-        "power",
-    ];
-    const COEFFICIENTS: [&str; 3] = ["drag_coefficient", "lift_coefficient", "moment_coefficient"];
-    let mut names = Vec::new();
-    for body in &case.body {
-        names.extend(BODY.iter().map(|name| format!("{}.{name}", body.name)));
-        if case.scales.is_some() {
-            names.extend(COEFFICIENTS.iter().map(|name| format!("{}.{name}", body.name)));
-        }
-    }
-    for probe in &case.probe {
-        let values = ["velocity.x", "velocity.y", "pressure"];
-        names.extend(values.iter().map(|name| format!("{}.{name}", probe.name)));
-    }
-    let flow = ["dissipation", "kinetic_energy", "mass_defect"];
-    names.extend(flow.iter().map(|name| format!("flow.{name}")));
-    names
-}
-
+/// Values in the order of [`known_quantities`].
 fn body_values(report: &BodyReport, angle: f64, acceleration: &Twist) -> [f64; 15] {
     [
         report.pose.center.x,

@@ -11,11 +11,11 @@ mod state;
 mod steady;
 
 pub use crate::timing::{Stage, Timing, cpu_seconds};
-pub use build::{build_mesh, build_problem, domain, placed_shapes, sizing};
+pub use build::{build_mesh, build_problem, sizing};
 pub use error::RunError;
 pub use march::{StepResult, advance};
 pub use run::{Outcome, simulate};
 pub use series::Series;
-pub use snapshot::{BodyReport, Observer, Snapshot};
+pub use snapshot::{BodyReport, Observer, Remains, Snapshot};
 pub use state::State;
-pub use steady::{SteadyFlow, solve_steady};
+pub use steady::{SteadyFailure, SteadyFlow, solve_steady};

@@ -4,11 +4,11 @@ use alewife_mesh::Mesh;
 
 use super::march::{StepResult, advance};
 use super::measure::Measure;
-use super::snapshot::{Observer, Snapshot};
+use super::snapshot::{Observer, Remains, Snapshot};
 use super::state::State;
-use super::steady::solve_steady;
+use super::steady::{SteadyFlow, solve_steady};
 use super::{RunError, Series, Stage, Timing, build_mesh, build_problem};
-use crate::case::{Case, Initial, Scheme, Steady, TimeSettings, Unsteady};
+use crate::case::{Case, Convection, Initial, Scheme, Steady, TimeSettings, Unsteady};
 use crate::coupling::{FluidSystem, Problem};
 use crate::time::Bdf;
 
@@ -35,10 +35,17 @@ const START_PIECES: u32 = 7;
 /// Whatever stops the run; observers are told before it is returned.
 pub fn simulate(case: &Case, observers: &mut [Box<dyn Observer<2>>]) -> Result<Outcome, RunError> {
     let mut run = Run { case, observers, timing: Timing::default(), series: Series::default() };
-    let result = run.start();
+    let mut parts = None;
+    let result = run.start(&mut parts);
     if let Err(error) = &result {
+        let remains = parts.as_ref().map(|parts| Remains {
+            time: parts.state.time,
+            mesh: &parts.state.mesh,
+            velocity: &parts.state.now.velocity,
+            pressure: &parts.state.now.pressure,
+        });
         for observer in run.observers.iter_mut() {
-            observer.on_failure(error)?;
+            observer.on_failure(error, remains.as_ref())?;
         }
     }
     let (n_dofs, steps) = result?;
@@ -61,15 +68,24 @@ struct Parts {
 }
 
 impl Run<'_> {
-    fn start(&mut self) -> Result<(usize, usize), RunError> {
+    /// Runs the case; what it is made of is left in `parts` once it is there.
+    fn start(&mut self, parts: &mut Option<Parts>) -> Result<(usize, usize), RunError> {
         let case = self.case;
         let mesh = self.timing.measure(Stage::Mesh, || build_mesh(case))?;
         tracing::info!(cells = mesh.n_cells(), nodes = mesh.n_nodes(), "mesh made");
         let problem = build_problem(case, &mesh)?;
-        match &case.time {
-            TimeSettings::Steady(settings) => self.steady(settings, problem, mesh),
-            TimeSettings::Unsteady(settings) => self.unsteady(settings, problem, mesh),
-        }
+        // A frame whose velocity is itself sought enters the convection of every cell.
+        let is_linear = match &case.time {
+            TimeSettings::Steady(_) => false,
+            TimeSettings::Unsteady(settings) => settings.convection == Convection::Extrapolated,
+        };
+        let unknown_frame = problem.frame.is_some() && problem.has_convection && !is_linear;
+        let parts = parts.insert(self.parts(problem, mesh, unknown_frame)?);
+        let n_steps = match &case.time {
+            TimeSettings::Steady(settings) => self.steady(settings, parts)?,
+            TimeSettings::Unsteady(settings) => self.unsteady(settings, parts)?,
+        };
+        Ok((parts.system.n_unknowns, n_steps))
     }
 
     fn parts(
@@ -89,55 +105,36 @@ impl Run<'_> {
         Ok(Parts { problem, system, measure, state })
     }
 
-    fn steady(
-        &mut self,
-        settings: &Steady,
-        problem: Problem,
-        mesh: Mesh<2>,
-    ) -> Result<(usize, usize), RunError> {
-        let unknown_frame = problem.frame.is_some() && problem.has_convection;
-        let mut parts = self.parts(problem, mesh, unknown_frame)?;
-        let flow = solve_steady(
-            &mut parts.system,
-            &parts.problem,
-            &parts.state.mesh,
-            &parts.state.poses,
-            0.0,
-            settings,
-            &mut self.timing,
-        )?;
-        parts.state.now = flow.solution;
-        self.report(&parts, &flow.residual, flow.iterations, true)?;
-        Ok((parts.system.n_unknowns, 0))
+    /// Solves for the flow at time zero without a time derivative.
+    fn solve(&mut self, settings: &Steady, parts: &mut Parts) -> Result<SteadyFlow, RunError> {
+        let Parts { problem, system, state, .. } = parts;
+        let timing = &mut self.timing;
+        solve_steady(system, problem, &state.mesh, &state.poses, 0.0, settings, timing).map_err(
+            |failure| {
+                state.now = failure.last;
+                failure.error
+            },
+        )
     }
 
-    fn unsteady(
-        &mut self,
-        settings: &Unsteady,
-        problem: Problem,
-        mesh: Mesh<2>,
-    ) -> Result<(usize, usize), RunError> {
-        let newton = settings.convection == crate::case::Convection::Newton;
-        let unknown_frame = problem.frame.is_some() && problem.has_convection && newton;
-        let mut parts = self.parts(problem, mesh, unknown_frame)?;
+    fn steady(&mut self, settings: &Steady, parts: &mut Parts) -> Result<usize, RunError> {
+        let flow = self.solve(settings, parts)?;
+        parts.state.now = flow.solution;
+        self.report(parts, &flow.residual, flow.iterations, true)?;
+        Ok(0)
+    }
+
+    fn unsteady(&mut self, settings: &Unsteady, parts: &mut Parts) -> Result<usize, RunError> {
         let mut residual = vec![0.0; parts.system.layout.n_raw()];
         if settings.initial == Initial::Stokes {
             let convects = std::mem::replace(&mut parts.problem.has_convection, false);
-            let flow = solve_steady(
-                &mut parts.system,
-                &parts.problem,
-                &parts.state.mesh,
-                &parts.state.poses,
-                0.0,
-                &Steady { tolerance: 1e-10, max_iterations: 5 },
-                &mut self.timing,
-            )?;
+            let flow = self.solve(&Steady { tolerance: 1e-10, max_iterations: 5 }, parts)?;
             parts.problem.has_convection = convects;
             parts.state.now = flow.solution.clone();
             parts.state.previous = flow.solution;
             residual = flow.residual;
         }
-        self.report(&parts, &residual, 0, false)?;
+        self.report(parts, &residual, 0, false)?;
         let steps = step_sizes(settings);
         let n_steps = steps.len();
         for (index, (step, before)) in steps.into_iter().enumerate() {
@@ -153,9 +150,9 @@ impl Run<'_> {
                 settings.convection,
                 &mut self.timing,
             )?;
-            self.report(&parts, &residual, iterations, index + 1 == n_steps)?;
+            self.report(parts, &residual, iterations, index + 1 == n_steps)?;
         }
-        Ok((parts.system.n_unknowns, n_steps))
+        Ok(n_steps)
     }
 
     fn report(
@@ -222,7 +219,6 @@ fn step_sizes(settings: &Unsteady) -> Vec<(f64, Option<f64>)> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::case::Convection;
 
     #[test]
     fn steps_end_at_the_end_and_never_more_than_double() {

@@ -56,6 +56,20 @@ pub struct Snapshot<'a, const D: usize> {
     pub is_last: bool,
 }
 
+/// The last fields of a run that failed: of the last accepted step, or the last iterate of a
+/// steady solution that was not found.
+#[derive(Debug, Clone, Copy)]
+pub struct Remains<'a, const D: usize> {
+    /// Time (s).
+    pub time: f64,
+    /// The mesh.
+    pub mesh: &'a Mesh<D>,
+    /// Velocity at the P2 nodes (m/s).
+    pub velocity: &'a [Point<D>],
+    /// Pressure at the vertices (Pa).
+    pub pressure: &'a [f64],
+}
+
 /// Sees everything, changes nothing.
 pub trait Observer<const D: usize> {
     /// Called once for the initial state and once for each accepted step.
@@ -64,11 +78,16 @@ pub trait Observer<const D: usize> {
     /// When a file cannot be written; the run stops with it.
     fn on_step(&mut self, snapshot: &Snapshot<'_, D>) -> std::io::Result<()>;
 
-    /// Called once when a run ends before its time, with the reason.
+    /// Called once when a run ends before its time, with the reason and the last fields there
+    /// were, if any.
     ///
     /// # Errors
     /// When a file cannot be written.
-    fn on_failure(&mut self, _error: &RunError) -> std::io::Result<()> {
+    fn on_failure(
+        &mut self,
+        _error: &RunError,
+        _remains: Option<&Remains<'_, D>>,
+    ) -> std::io::Result<()> {
         Ok(())
     }
 }

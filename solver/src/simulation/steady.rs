@@ -26,6 +26,15 @@ pub struct SteadyFlow {
     pub iterations: usize,
 }
 
+/// A flow that was not found.
+#[derive(Debug)]
+pub struct SteadyFailure {
+    /// Why.
+    pub error: RunError,
+    /// The last iterate.
+    pub last: Solution,
+}
+
 /// One attempt of Newton's method.
 enum Attempt {
     Converged(Solution, Vec<f64>),
@@ -48,6 +57,8 @@ struct Newton<'a> {
     /// Size of the residual of a fluid at rest, which all others are relative to.
     scale: f64,
     iterations: usize,
+    /// The last iterate, to be looked at when no more can be found.
+    last: Solution,
 }
 
 /// Solves for a steady flow with the bodies at these poses.
@@ -62,7 +73,7 @@ pub fn solve_steady(
     time: f64,
     settings: &Steady,
     timing: &mut Timing,
-) -> Result<SteadyFlow, RunError> {
+) -> Result<SteadyFlow, SteadyFailure> {
     let constraints = system.constraints(problem, mesh, poses, time);
     let at_rest = embed(&system.layout, &constraints.expand(&vec![0.0; constraints.n_unknowns()]));
     let mut newton = Newton {
@@ -74,34 +85,46 @@ pub fn solve_steady(
         timing,
         scale: 0.0,
         iterations: 0,
+        last: at_rest.clone(),
     };
-    let (mut reached, mut residual) = match newton.attempt(at_rest, 0.0)? {
-        Attempt::Converged(solution, residual) => (solution, residual),
-        Attempt::Stalled { residual } => return Err(newton.stalled(residual, time)),
-    };
-    if problem.has_convection {
+    match newton.solve(at_rest, time) {
+        Err(error) => Err(SteadyFailure { error, last: newton.last }),
+        Ok((mut solution, residual)) => {
+            let iterations = newton.iterations;
+            system.center_pressure(problem, &mut solution);
+            Ok(SteadyFlow { solution, residual, iterations })
+        }
+    }
+}
+
+impl Newton<'_> {
+    /// The flow and its raw residual, by way of Stokes flow.
+    fn solve(&mut self, at_rest: Solution, time: f64) -> Result<(Solution, Vec<f64>), RunError> {
+        let (mut reached, mut residual) = match self.attempt(at_rest, 0.0)? {
+            Attempt::Converged(solution, residual) => (solution, residual),
+            Attempt::Stalled { residual } => return Err(self.stalled(residual, time)),
+        };
+        if !self.problem.has_convection {
+            return Ok((reached, residual));
+        }
         let (mut part, mut increment) = (0.0, 1.0f64);
         while part < 1.0 {
             let target = (part + increment).min(1.0);
-            match newton.attempt(reached.clone(), target)? {
+            match self.attempt(reached.clone(), target)? {
                 Attempt::Converged(solution, raw) => {
                     (reached, residual) = (solution, raw);
                     part = target;
                     increment *= 2.0;
                 }
                 Attempt::Stalled { residual } if increment <= SMALLEST_STEP => {
-                    return Err(newton.stalled(residual, time));
+                    return Err(self.stalled(residual, time));
                 }
                 Attempt::Stalled { .. } => increment /= 2.0,
             }
         }
+        Ok((reached, residual))
     }
-    let iterations = newton.iterations;
-    system.center_pressure(problem, &mut reached);
-    Ok(SteadyFlow { solution: reached, residual, iterations })
-}
 
-impl Newton<'_> {
     /// Iterates with a part of the density, 0 for Stokes flow.
     fn attempt(&mut self, start: Solution, part: f64) -> Result<Attempt, RunError> {
         let mut solution = start;
@@ -159,6 +182,7 @@ impl Newton<'_> {
                 self.timing,
             );
             self.iterations += 1;
+            self.last = solution;
             solution = match step {
                 Ok(next) => next,
                 Err(SolveError::NotFinite { .. }) if part > 0.0 => {

@@ -1,0 +1,52 @@
+//! A run that fails says what, and hands its last fields to those who look on.
+
+use std::sync::{Arc, Mutex};
+
+use alewife::simulation::{Observer, Remains, RunError, Snapshot, simulate};
+use tests::cases::case;
+
+/// Remembers the largest speed and the reason of a failure.
+struct Witness(Arc<Mutex<Option<(f64, String)>>>);
+
+impl Observer<2> for Witness {
+    fn on_step(&mut self, _snapshot: &Snapshot<'_, 2>) -> std::io::Result<()> {
+        Ok(())
+    }
+
+    fn on_failure(
+        &mut self,
+        error: &RunError,
+        remains: Option<&Remains<'_, 2>>,
+    ) -> std::io::Result<()> {
+        let fields = remains.expect("the mesh was made before the failure");
+        let speed = fields.velocity.iter().map(|velocity| velocity.norm()).fold(0.0, f64::max);
+        *self.0.lock().expect("nobody else holds it") = Some((speed, error.to_string()));
+        Ok(())
+    }
+}
+
+/// One iteration is too few at every part of the density, however small.
+#[test]
+fn a_stalled_newton_method_is_an_error_that_shows_the_last_iterate() {
+    let case = case(
+        r#"
+        title = "driven cavity"
+        geometry = "planar"
+        fluid = { model = "navier-stokes", density = 1.0, viscosity = 1e-4 }
+        domain.box = { min = [0.0, 0.0], max = [1.0, 1.0] }
+        mesh = { size = 0.2 }
+        time.steady = { max_iterations = 1 }
+        boundary.top.velocity.value = [1.0, 0.0]
+        boundary.left = "no-slip"
+        boundary.right = "no-slip"
+        boundary.bottom = "no-slip"
+        "#,
+    );
+    let seen = Arc::new(Mutex::new(None));
+    let mut observers: Vec<Box<dyn Observer<2>>> = vec![Box::new(Witness(Arc::clone(&seen)))];
+    let error = simulate(&case, &mut observers).expect_err("one iteration is too few");
+    assert!(matches!(error, RunError::NewtonStalled { .. }), "{error}");
+    let (speed, reason) = seen.lock().expect("the run is over").take().expect("it was told");
+    assert!((0.5..10.0).contains(&speed), "largest speed {speed}");
+    assert!(reason.contains("refine the mesh"), "{reason}");
+}
