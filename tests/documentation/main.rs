@@ -1,0 +1,240 @@
+//! The user's pages agree with the program: keys, quantities, examples, and the table of cases.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use alewife::case::{
+    Case, CaseFile, Reference, Severity, check, known_quantities, schema, significant,
+};
+
+/// Cases whose page is still to be written; the list may only become shorter.
+const WITHOUT_PAGE: [&str; 1] = ["lid-driven-cavity"];
+
+/// Beginnings of paths that exist on one machine only.
+const OF_ONE_MACHINE: [&str; 4] = ["/work", "/tmp", "/root", "/home"];
+
+/// A case that has a body, a probe and scales, and so all quantities there are.
+const ALL_QUANTITIES: &str = r#"
+title    = "all quantities"
+geometry = "planar"
+fluid    = { model = "stokes", viscosity = 1.0 }
+domain.box = { min = [-2.0, -2.0], max = [2.0, 2.0] }
+boundary = { left = "no-slip", right = "no-slip", bottom = "no-slip", top = "no-slip" }
+mesh     = { size = 0.5 }
+time.steady = {}
+scales   = { length = 1.0, velocity = 1.0 }
+body     = [{ name = "disc", shape.disc.radius = 0.5, center = [0.0, 0.0], motion = "held" }]
+probe    = [{ name = "point", point = [1.0, 1.0] }]
+"#;
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the package is in the root").to_owned()
+}
+
+fn text(file: &str) -> String {
+    fs::read_to_string(root().join(file)).unwrap_or_else(|error| panic!("{file}: {error}"))
+}
+
+/// What stands in backticks on a page, blocks of code left out.
+fn terms(page: &str) -> BTreeSet<String> {
+    let mut found = BTreeSet::new();
+    let mut is_block = false;
+    for line in page.lines() {
+        if line.trim_start().starts_with("```") {
+            is_block = !is_block;
+        } else if !is_block {
+            found.extend(line.split('`').skip(1).step_by(2).map(str::to_owned));
+        }
+    }
+    found
+}
+
+/// The blocks of code of a page in a language, each with its first line's number.
+fn blocks(page: &str, language: &str) -> Vec<(usize, String)> {
+    let mut found: Vec<(usize, String)> = Vec::new();
+    let (mut is_block, mut is_wanted) = (false, false);
+    for (number, line) in page.lines().enumerate() {
+        if let Some(kind) = line.trim_start().strip_prefix("```") {
+            is_block = !is_block;
+            is_wanted = is_block && kind.trim() == language;
+            if is_wanted {
+                found.push((number + 2, String::new()));
+            }
+        } else if is_wanted && let Some((_, block)) = found.last_mut() {
+            *block += line;
+            block.push('\n');
+        }
+    }
+    found
+}
+
+#[test]
+fn every_key_and_word_of_a_case_file_is_on_its_page() {
+    let told = terms(&text("docs/case-file.md"));
+    let schema = schema();
+    let (mut keys, mut words) = (BTreeSet::new(), BTreeSet::new());
+    let mut left = vec![&schema];
+    while let Some(value) = left.pop() {
+        if let Some(items) = value.as_array() {
+            left.extend(items);
+        }
+        let Some(object) = value.as_object() else { continue };
+        keys.extend(
+            object
+                .get("properties")
+                .and_then(|p| p.as_object())
+                .into_iter()
+                .flat_map(|properties| properties.keys().cloned()),
+        );
+        words.extend(object.get("const").and_then(|word| word.as_str()).map(str::to_owned));
+        let list = object.get("enum").and_then(|list| list.as_array());
+        words.extend(list.into_iter().flatten().filter_map(|w| w.as_str()).map(str::to_owned));
+        left.extend(object.values());
+    }
+    assert!(keys.len() > 50 && words.len() > 20, "{keys:?} {words:?}");
+    let is_told = |word: &&String| told.contains(*word) || told.contains(&format!("\"{word}\""));
+    let missing: Vec<_> = keys.union(&words).filter(|word| !is_told(word)).collect();
+    assert!(missing.is_empty(), "docs/case-file.md does not tell of {missing:?}");
+}
+
+#[test]
+fn every_quantity_is_on_the_page_of_case_files() {
+    let told = terms(&text("docs/case-file.md"));
+    let case = Case::parse("all.toml", ALL_QUANTITIES, &[]).unwrap_or_else(|e| panic!("{e}")).case;
+    let known = known_quantities(&case);
+    assert!(known.len() > 20, "{known:?}");
+    let suffixes = known.iter().filter_map(|name| Some(name.split_once('.')?.1));
+    let missing: Vec<&str> = suffixes.filter(|suffix| !told.contains(*suffix)).collect();
+    assert!(missing.is_empty(), "docs/case-file.md does not tell of {missing:?}");
+}
+
+/// Reads a case, and complains about whatever `check` calls an error.
+fn read_and_check(argument: &str, what: &str) -> CaseFile {
+    let file = Case::read(argument, &[]).unwrap_or_else(|error| panic!("{what}\n{error}"));
+    let errors: Vec<String> = check(&file)
+        .iter()
+        .filter(|problem| problem.severity == Severity::Error)
+        .map(ToString::to_string)
+        .collect();
+    assert!(errors.is_empty(), "{what}\n{}", errors.join("\n"));
+    file
+}
+
+#[test]
+fn every_complete_example_is_right() {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("documentation");
+    fs::create_dir_all(&folder).expect("the folder can be made");
+    let mut n_examples = 0;
+    for page in ["README.md", "docs/case-file.md"] {
+        for (line, block) in blocks(&text(page), "toml") {
+            if !block.lines().any(|line| line.starts_with("title")) {
+                continue;
+            }
+            let file = folder.join(format!("{}-{line}.toml", page.replace(['/', '.'], "-")));
+            fs::write(&file, block).expect("the file can be written");
+            let (name, what) = (file.display().to_string(), format!("{page}, line {line}"));
+            for variant in read_and_check(&name, &what).variants {
+                read_and_check(&format!("{name}/{variant}"), &what);
+            }
+            n_examples += 1;
+        }
+    }
+    assert!(n_examples >= 5, "{n_examples} examples");
+}
+
+/// Folders of `cases/` that hold a case.
+fn case_names() -> BTreeSet<String> {
+    fs::read_dir(root().join("cases"))
+        .expect("the folder exists")
+        .map(|entry| entry.expect("the entry is readable").path())
+        .filter(|path| path.join("case.toml").is_file())
+        .map(|path| path.file_name().expect("it has a name").to_string_lossy().into_owned())
+        .collect()
+}
+
+/// Rows of the table in `cases/README.md`: name of the case, then its cells.
+fn case_rows() -> BTreeMap<String, Vec<String>> {
+    let mut rows = BTreeMap::new();
+    for line in text("cases/README.md").lines().filter(|line| line.starts_with("| [")) {
+        let cells: Vec<String> =
+            line.trim_matches('|').split('|').map(|cell| cell.trim().to_owned()).collect();
+        let name = cells[0].trim_start_matches('[').split(']').next().unwrap_or("").to_owned();
+        assert_eq!(cells[0], format!("[{name}]({name}/)"), "the link of a row");
+        assert!(rows.insert(name.clone(), cells).is_none(), "{name} has two rows");
+    }
+    rows
+}
+
+#[test]
+fn the_table_of_cases_is_that_of_the_folders() {
+    let rows = case_rows();
+    let names: BTreeSet<String> = rows.keys().cloned().collect();
+    assert_eq!(names, case_names(), "rows of cases/README.md, folders of cases/");
+    for (name, cells) in rows {
+        let [_, physics, members, quantities, source, tolerance, cost] = cells.as_slice() else {
+            panic!("{name}: {} cells, not 7", cells.len())
+        };
+        assert!([physics, source, cost].iter().all(|cell| !cell.is_empty()), "{name}");
+        let path = root().join("cases").join(&name);
+        let case = read_and_check(&path.display().to_string(), &name).case;
+        let mut references: Vec<&Reference> = case.reference.iter().collect();
+        references.extend(case.variant.iter().flat_map(|variant| &variant.reference));
+
+        let n_members = case.variant.len() + usize::from(!case.reference.is_empty());
+        assert_eq!(*members, n_members.to_string(), "{name}: runs that are compared");
+        let known: BTreeSet<String> = references.iter().map(|r| r.quantity.clone()).collect();
+        assert_eq!(terms(quantities), known, "{name}: quantities");
+        let known: BTreeSet<String> = references
+            .iter()
+            .filter(|reference| reference.value != 0.0)
+            .filter_map(|reference| match (reference.relative, reference.absolute) {
+                (Some(relative), _) => Some(format!("{} %", significant(100.0 * relative))),
+                (None, absolute) => absolute.map(|absolute| format!("{absolute:e}")),
+            })
+            .collect();
+        let told: BTreeSet<String> = tolerance.split(", ").map(str::to_owned).collect();
+        assert_eq!(told, known, "{name}: tolerances of values that are not 0");
+    }
+}
+
+#[test]
+fn every_case_has_a_page() {
+    let has_page = |name: &String| root().join("cases").join(name).join("README.md").is_file();
+    let (with, without): (BTreeSet<String>, BTreeSet<String>) =
+        case_names().into_iter().partition(has_page);
+    let known = WITHOUT_PAGE.map(str::to_owned);
+    let missing: Vec<_> = without.iter().filter(|name| !known.contains(name)).collect();
+    assert!(missing.is_empty(), "write cases/NAME/README.md for {missing:?}");
+    let written: Vec<_> = known.iter().filter(|name| with.contains(*name)).collect();
+    assert!(written.is_empty(), "take {written:?} out of WITHOUT_PAGE");
+}
+
+#[test]
+fn no_page_names_a_path_of_one_machine() {
+    let mut pages = vec!["README.md".to_owned(), "postprocess/README.md".to_owned()];
+    for folder in std::iter::once("docs".to_owned())
+        .chain(std::iter::once("cases".to_owned()))
+        .chain(case_names().iter().map(|name| format!("cases/{name}")))
+    {
+        for entry in fs::read_dir(root().join(&folder)).expect("the folder exists") {
+            let name = entry.expect("the entry is readable").file_name();
+            let name = name.to_string_lossy();
+            if name.ends_with(".md") {
+                pages.push(format!("{folder}/{name}"));
+            }
+        }
+    }
+    let ends_a_word = |c: char| c.is_whitespace() || "`'\"()[]{}<>=,;".contains(c);
+    for page in pages {
+        for (number, line) in text(&page).lines().enumerate() {
+            let found = line.split(ends_a_word).find(|word| {
+                OF_ONE_MACHINE.iter().any(|start| {
+                    word.strip_prefix(start)
+                        .is_some_and(|rest| rest.is_empty() || rest.starts_with('/'))
+                })
+            });
+            assert!(found.is_none(), "{page}, line {}: {found:?}", number + 1);
+        }
+    }
+}
