@@ -124,6 +124,12 @@ impl Body {
 }
 
 impl Case {
+    /// Whether force and moment coefficients are defined: 2 F / (density velocity^2 area).
+    #[must_use]
+    pub fn has_coefficients(&self) -> bool {
+        self.scales.is_some() && self.fluid.density > 0.0
+    }
+
     /// The domain to be meshed, with its periodic pairs.
     #[must_use]
     pub fn mesh_domain(&self) -> Domain {

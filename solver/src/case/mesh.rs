@@ -29,7 +29,8 @@ pub struct MeshSettings {
     /// Whether cells follow curved boundaries (isoparametric P2) or stay straight.
     #[serde(default = "default_curved")]
     pub curved: bool,
-    /// Factor on every length above: 0.5 is the same mesh twice as fine (1).
+    /// Factor on the sizes above and on `growth`, divisor of `gap_layers`: 0.5 is the same mesh
+    /// twice as fine everywhere (1).
     #[serde(default = "default_scale")]
     pub scale: f64,
 }

@@ -60,7 +60,7 @@ impl CaseFile {
         paths
     }
 
-    /// Name and variant: `disc-settling/heavy`.
+    /// Name and variant: `sphere-in-tube/free-0.5`.
     #[must_use]
     pub fn full_name(&self) -> String {
         match &self.variant {

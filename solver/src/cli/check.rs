@@ -106,7 +106,16 @@ pub fn facts(file: &CaseFile) -> String {
         line("frame", format!("travels with {frame}"));
     }
     let n = case.reference.len();
-    line("reference", format!("{n} published value{}", if n == 1 { "" } else { "s" }));
+    let in_variants: usize = case.variant.iter().map(|variant| variant.reference.len()).sum();
+    line(
+        "reference",
+        match (n, in_variants) {
+            (0, 0) => "none: nothing tells whether the result is right".to_owned(),
+            (1, 0) => "1 published value".to_owned(),
+            (n, 0) => format!("{n} published values"),
+            (n, more) => format!("{} published values, {more} of them in variants", n + more),
+        },
+    );
     text
 }
 

@@ -20,7 +20,7 @@ const COMPARISON_FILE: &str = "comparison.json";
 #[command(after_help = "\
 Examples:
   alewife run squirmer-alone
-  alewife run disc-settling/heavy --threads 4 --out heavy
+  alewife run sphere-in-tube/free-0.5 --threads 4 --out free
   alewife run my.toml --set fluid.viscosity=0.5 --set 'body.0.center=[1.0, 2.0]'
 
 The run directory holds the case as it was run (case.toml), series.csv, run.mcap, fields/ and

@@ -15,7 +15,7 @@ use crate::validation::{
 #[command(after_help = "\
 Examples:
   alewife validate --quick
-  alewife validate squirmer-alone cylinder-wake/steady
+  alewife validate squirmer-alone dfg-2d-1
   alewife validate --json > validation.json
 
 The exit code is 20 if a value is outside its tolerance or could not be computed.")]

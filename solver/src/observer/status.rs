@@ -140,6 +140,11 @@ impl<const D: usize> Observer<D> for StatusFile {
         if is_due { self.write() } else { Ok(()) }
     }
 
+    fn on_end(&mut self, timing: &Timing) -> io::Result<()> {
+        by_stage(&mut self.status, timing);
+        self.write()
+    }
+
     fn on_failure(
         &mut self,
         error: &RunError,

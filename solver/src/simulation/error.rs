@@ -10,8 +10,14 @@ use crate::coupling::SolveError;
 pub enum RunError {
     /// Newton's method did not converge.
     #[error(
-        "step {step} (t = {time}): Newton's method stopped at residual {residual:.3e} after \
-         {iterations} iterations; lower time.unsteady.step, refine the mesh, or lower the Reynolds number"
+        "{}: Newton's method stopped at residual {residual:.3e} after {iterations} iterations; {}",
+        if *step == 0 { "steady flow".to_owned() } else { format!("step {step} (t = {time})") },
+        if *step == 0 {
+            "refine the mesh, raise time.steady.max_iterations, or lower the Reynolds number: \
+             there may be no steady flow"
+        } else {
+            "lower time.unsteady.step or refine the mesh"
+        }
     )]
     NewtonStalled {
         /// Step, 0 for a steady solution.

@@ -55,7 +55,8 @@ impl Measure {
             }
             probes.push(points);
         }
-        let coefficients = case.scales.map(|scales| {
+        let scales = case.scales.filter(|_| case.has_coefficients());
+        let coefficients = scales.map(|scales| {
             let area = scales.area.unwrap_or(match case.geometry {
                 Geometry::Planar => scales.length,
                 Geometry::Axisymmetric => std::f64::consts::PI * scales.length.powi(2) / 4.0,

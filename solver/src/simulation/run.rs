@@ -2,7 +2,7 @@
 
 use alewife_mesh::Mesh;
 
-use super::march::{StepResult, advance};
+use super::march::advance;
 use super::measure::Measure;
 use super::snapshot::{Observer, Remains, Snapshot};
 use super::state::State;
@@ -49,6 +49,9 @@ pub fn simulate(case: &Case, observers: &mut [Box<dyn Observer<2>>]) -> Result<O
         }
     }
     let (n_dofs, steps) = result?;
+    for observer in run.observers.iter_mut() {
+        observer.on_end(&run.timing)?;
+    }
     Ok(Outcome { series: run.series, timing: run.timing, n_dofs, steps })
 }
 
@@ -121,7 +124,7 @@ impl Run<'_> {
     fn steady(&mut self, settings: &Steady, parts: &mut Parts) -> Result<usize, RunError> {
         let flow = self.solve(settings, parts)?;
         parts.state.now = flow.solution;
-        self.report(parts, &flow.residual, flow.iterations, true)?;
+        self.report(parts, &flow.residual, (flow.iterations, 0.0), true)?;
         Ok(0)
     }
 
@@ -135,23 +138,31 @@ impl Run<'_> {
             parts.state.previous = flow.solution;
             residual = flow.residual;
         }
-        self.report(parts, &residual, 0, false)?;
+        self.report(parts, &residual, (0, 0.0), false)?;
         let steps = step_sizes(settings);
         let n_steps = steps.len();
-        for (index, (step, before)) in steps.into_iter().enumerate() {
-            let bdf = match (settings.scheme, before) {
-                (Scheme::Bdf2, Some(before)) => Bdf::second_order(step, before),
-                _ => Bdf::first_order(step),
-            };
-            let StepResult { residual, iterations } = advance(
-                &mut parts.system,
-                &parts.problem,
-                &mut parts.state,
-                &bdf,
-                settings.convection,
-                &mut self.timing,
-            )?;
-            self.report(parts, &residual, iterations, index + 1 == n_steps)?;
+        for (index, pieces) in steps.into_iter().enumerate() {
+            let started = parts.state.time;
+            let mut iterations = 0;
+            for (step, before) in pieces {
+                let bdf = match (settings.scheme, before) {
+                    (Scheme::Bdf2, Some(before)) => Bdf::second_order(step, before),
+                    _ => Bdf::first_order(step),
+                };
+                parts.state.step = index;
+                let result = advance(
+                    &mut parts.system,
+                    &parts.problem,
+                    &mut parts.state,
+                    &bdf,
+                    settings.convection,
+                    &mut self.timing,
+                )?;
+                residual = result.residual;
+                iterations += result.iterations;
+            }
+            let step = parts.state.time - started;
+            self.report(parts, &residual, (iterations, step), index + 1 == n_steps)?;
         }
         Ok(n_steps)
     }
@@ -160,7 +171,7 @@ impl Run<'_> {
         &mut self,
         parts: &Parts,
         residual: &[f64],
-        iterations: usize,
+        (iterations, time_step): (usize, f64),
         is_last: bool,
     ) -> Result<(), RunError> {
         let Parts { problem, system, measure, state } = parts;
@@ -172,7 +183,7 @@ impl Run<'_> {
             case: self.case,
             step: state.step,
             time: state.time,
-            time_step: state.time_step,
+            time_step,
             mesh: &state.mesh,
             velocity: &state.now.velocity,
             pressure: &state.now.pressure,
@@ -209,10 +220,11 @@ fn check_memory(mesh: &Mesh<2>) -> Result<(), RunError> {
     }
 }
 
-/// Sizes of all steps, each with the one before it.
-fn step_sizes(settings: &Unsteady) -> Vec<(f64, Option<f64>)> {
+/// The pieces of all steps: size, and size of the piece before.
+fn step_sizes(settings: &Unsteady) -> Vec<Vec<(f64, Option<f64>)>> {
     let n_steps = (settings.end / settings.step - 1e-9).ceil().max(1.0) as usize;
-    let mut sizes = Vec::with_capacity(n_steps + START_PIECES as usize);
+    let mut before = None;
+    let mut steps = Vec::with_capacity(n_steps);
     for index in 0..n_steps {
         // The last step ends at the end.
         let step = if index + 1 == n_steps {
@@ -220,17 +232,16 @@ fn step_sizes(settings: &Unsteady) -> Vec<(f64, Option<f64>)> {
         } else {
             settings.step
         };
-        if index == 0 && settings.scheme == Scheme::Bdf2 {
-            sizes.push(step / f64::from(1u32 << START_PIECES));
-            for piece in (1..=START_PIECES).rev() {
-                sizes.push(step / f64::from(1u32 << piece));
-            }
+        let pieces = if index == 0 && settings.scheme == Scheme::Bdf2 {
+            let part = |piece: u32| step / f64::from(1u32 << piece);
+            std::iter::once(START_PIECES).chain((1..=START_PIECES).rev()).map(part).collect()
         } else {
-            sizes.push(step);
-        }
+            vec![step]
+        };
+        let with_before = pieces.into_iter().map(|piece| (piece, before.replace(piece)));
+        steps.push(with_before.collect());
     }
-    let before = std::iter::once(None).chain(sizes.iter().map(|size| Some(*size)));
-    sizes.iter().copied().zip(before).collect()
+    steps
 }
 
 #[cfg(test)]
@@ -247,9 +258,11 @@ mod tests {
             initial: Initial::Rest,
         };
         let steps = step_sizes(&settings);
-        let total: f64 = steps.iter().map(|(step, _)| step).sum();
+        assert_eq!(steps.len(), 10);
+        let pieces = || steps.iter().flatten();
+        let total: f64 = pieces().map(|(step, _)| step).sum();
         assert!((total - 0.95).abs() < 1e-14);
-        for (step, before) in &steps {
+        for (step, before) in pieces() {
             assert!(before.is_none_or(|before| step / before <= 2.0 + 1e-12));
         }
     }

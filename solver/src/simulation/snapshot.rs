@@ -78,6 +78,14 @@ pub trait Observer<const D: usize> {
     /// When a file cannot be written; the run stops with it.
     fn on_step(&mut self, snapshot: &Snapshot<'_, D>) -> std::io::Result<()>;
 
+    /// Called once after the last step of a run that reached its end, with all its time.
+    ///
+    /// # Errors
+    /// When a file cannot be written.
+    fn on_end(&mut self, _timing: &Timing) -> std::io::Result<()> {
+        Ok(())
+    }
+
     /// Called once when a run ends before its time, with the reason and the last fields there
     /// were, if any.
     ///

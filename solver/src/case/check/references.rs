@@ -41,7 +41,7 @@ pub fn known_quantities(case: &Case) -> Vec<String> {
     };
     for body in &case.body {
         add(&body.name, &OF_A_BODY);
-        if case.scales.is_some() {
+        if case.has_coefficients() {
             add(&body.name, &COEFFICIENTS);
         }
     }
@@ -89,23 +89,15 @@ pub fn check(findings: &mut Findings<'_>) {
             );
         }
     }
-    let is_compared = !case.reference.is_empty()
-        || case.variant.iter().any(|variant| !variant.reference.is_empty());
-    if !is_compared {
-        findings.warning(
-            "",
-            "no reference: nothing tells whether the result is right".to_owned(),
-            "add a [[reference]] with quantity, value, tolerance and source where one is known",
-        );
-    }
 }
 
 fn check_quantity(findings: &mut Findings<'_>, key: &str, quantity: &str, known: &[String]) {
     if !known.iter().any(|name| name == quantity) {
         let mut help = suggestion(quantity, known);
         let is_coefficient = COEFFICIENTS.iter().any(|name| quantity.ends_with(name));
-        if is_coefficient && findings.case().scales.is_none() {
-            help = "coefficients need [scales] with length and velocity".to_owned();
+        if is_coefficient && !findings.case().has_coefficients() {
+            help = "coefficients need [scales] with length and velocity, and a fluid density"
+                .to_owned();
         }
         findings.error(key, format!("there is no quantity `{quantity}`"), &help);
     }
