@@ -124,8 +124,8 @@ pub enum MeshError {
     },
     /// The size field asks for more cells than can be meant.
     #[error(
-        "the sizing asks for more than {limit} {what}: raise sizing.surface or sizing.size, or \
-         widen the smallest gap ({smallest:.3e} is the smallest size asked for)"
+        "the cell sizes ask for more than {limit} {what} (the smallest size is {smallest:.3e}): raise \
+         mesh.surface, mesh.size or mesh.growth, lower mesh.gap_layers, or widen the smallest gap"
     )]
     TooManyCells {
         /// Of what.
@@ -138,7 +138,7 @@ pub enum MeshError {
     /// The triangulation does not contain the boundary.
     #[error(
         "the boundary could not be triangulated near ({x:.6e}, {y:.6e}): {reason}; lower \
-         sizing.surface there"
+         mesh.surface there"
     )]
     Boundary {
         /// Where, x (m).
@@ -151,7 +151,7 @@ pub enum MeshError {
     /// A cell at a curved boundary is folded and could not be repaired.
     #[error(
         "cell {cell} at ({x:.6e}, {y:.6e}) is folded by its curved side: smallest det J coefficient \
-         {det_jacobian:.2e}; lower sizing.surface or set sizing.curved = false"
+         {det_jacobian:.2e}; lower mesh.surface or set mesh.curved = false"
     )]
     FoldedCell {
         /// Index of the cell.

@@ -130,3 +130,33 @@ fn completions_are_printed_and_colours_are_not() {
     assert!(done(directory.path(), &["completions", "bash"]).contains("validate"));
     assert!(!done(directory.path(), &["show", "squirmer-alone"]).contains('\x1b'));
 }
+
+/// A run far too long to end by itself, stopped once it has written rows.
+#[cfg(unix)]
+#[test]
+fn a_signal_ends_a_run_after_its_step_with_all_files_complete() {
+    let directory = tempfile::tempdir().unwrap();
+    let mut run = Command::new(env!("CARGO_BIN_EXE_alewife"))
+        .args(["run", "sphere-free-fall", "--out", "fall", "--quiet", "--threads", "1"])
+        .args(["--set", "time.unsteady.end=1e6", "--set", "mesh.scale=2"])
+        .current_dir(directory.path())
+        .spawn()
+        .unwrap();
+    let out = directory.path().join("fall");
+    let has_begun = || {
+        std::fs::read_to_string(out.join("status.json"))
+            .is_ok_and(|text| !text.contains("\"dofs\": 0"))
+    };
+    while !has_begun() {
+        assert!(run.try_wait().unwrap().is_none(), "the run ended by itself");
+        std::thread::sleep(std::time::Duration::from_millis(20));
+    }
+    let killed = Command::new("kill").args(["-INT", &run.id().to_string()]).status().unwrap();
+    assert!(killed.success());
+    assert_eq!(run.wait().unwrap().code(), Some(75));
+    let status = std::fs::read_to_string(out.join("status.json")).unwrap();
+    assert!(status.contains("\"stopped\""), "{status}");
+    assert!(out.join("fields/stopped.vtu").is_file());
+    let series = std::fs::read_to_string(out.join("series.csv")).unwrap();
+    assert!(series.ends_with('\n') && series.lines().count() > 1);
+}

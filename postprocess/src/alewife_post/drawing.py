@@ -78,7 +78,9 @@ def draw_bodies(axes: Axes, case: dict[str, Any], poses: dict[str, tuple[Array, 
                 semi_axes = shape["semi-axes" if "semi-axes" in shape else "semi_axes"]
             case _:
                 turn = np.array([[np.cos(angle), np.sin(angle)], [-np.sin(angle), np.cos(angle)]])
-                outline = center + smooth_outline(np.array(shape["points"])) @ turn
+                # The pose is that of the centre of mass, the points have an origin of their own.
+                outline = smooth_outline(np.array(shape["points"]))
+                outline = center + (outline - centroid(outline)) @ turn
                 axes.add_patch(Polygon(outline, facecolor=style.BODY, edgecolor="none", zorder=0))
                 continue
         width, height = 2 * np.array(semi_axes)
@@ -86,6 +88,13 @@ def draw_bodies(axes: Axes, case: dict[str, Any], poses: dict[str, tuple[Array, 
         axes.add_patch(
             Ellipse(center, width, height, angle=degrees, facecolor=style.BODY, zorder=0)
         )
+
+
+def centroid(outline: Array) -> Array:
+    """Centre of the area `(2,)` within a closed polygon `(n_points, 2)`."""
+    after = np.roll(outline, -1, axis=0)
+    crossed = outline[:, 0] * after[:, 1] - after[:, 0] * outline[:, 1]
+    return ((outline + after) * crossed[:, None]).sum(axis=0) / (3 * crossed.sum())
 
 
 def smooth_outline(points: Array, n: int = 16) -> Array:

@@ -9,10 +9,11 @@
 use faer::Par;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::mat::MatMut;
+use faer::sparse::linalg::LuError;
 use faer::sparse::linalg::lu::{
     LuRef, LuSymbolicParams, NumericLu, SymbolicLu, factorize_symbolic_lu,
 };
-use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
+use faer::sparse::{FaerError, SparseColMatRef, SymbolicSparseColMatRef};
 use nalgebra::{DMatrix, DVector};
 use thiserror::Error;
 
@@ -103,7 +104,12 @@ impl InnerLu {
                 Default::default(),
             )
             .map(|_| ())
-            .map_err(|error| SingularMatrix(format!("a pivot vanished: {error:?}")))
+            .map_err(|error| match error {
+                LuError::Generic(FaerError::OutOfMemory) => {
+                    SingularMatrix("memory ran out in the factorisation".to_owned())
+                }
+                other => SingularMatrix(format!("a pivot vanished: {other:?}")),
+            })
     }
 
     fn apply(&mut self, rhs: &mut [f64]) {

@@ -49,7 +49,7 @@ pub struct Case {
     /// A paragraph for `alewife show`: physics, source, what to expect.
     #[serde(default)]
     pub description: String,
-    /// Planar, axisymmetric (x along the axis, y the distance from it) or spatial.
+    /// Planar, or axisymmetric (x along the axis, y the distance from it).
     pub geometry: Geometry,
     /// The consistent units of all numbers: `dimensionless`, `SI`, `cm g s`, ...
     #[serde(default = "dimensionless")]

@@ -4,7 +4,8 @@ use std::path::Path;
 
 use alewife_mesh::Mesh;
 
-use crate::case::Case;
+use super::signal::SignalWatch;
+use crate::case::{Case, TimeSettings};
 use crate::observer::{self, RunDirectory};
 use crate::simulation::{self, Outcome, RunError};
 
@@ -25,6 +26,10 @@ pub fn simulate_into(
     quiet: bool,
 ) -> Result<Outcome, RunError> {
     let mut observers = observer::observers(case, directory, quiet)?;
+    // Newton's method is not left halfway: a steady run ends by the signal itself.
+    if matches!(case.time, TimeSettings::Unsteady(_)) {
+        observers.push(Box::new(SignalWatch::start()?));
+    }
     simulation::simulate(case, &mut observers)
 }
 

@@ -7,6 +7,7 @@ mod library;
 mod mesh;
 mod panic;
 mod run;
+mod signal;
 mod style;
 mod threads;
 mod validate;

@@ -7,13 +7,17 @@ use super::exit::{Exit, Failure};
 /// A batch system may give fewer cores to a job than the machine shows.
 const VARIABLES: [&str; 3] = ["RAYON_NUM_THREADS", "SLURM_CPUS_PER_TASK", "SLURM_CPUS_ON_NODE"];
 
+/// More threads than any machine a run fits on has cores.
+const MOST: usize = 1024;
+
 /// Makes the threads of the program; their number is handed back.
 pub fn start(wanted: Option<usize>) -> Result<usize, Failure> {
     let threads = wanted
         .or_else(from_environment)
         .unwrap_or_else(|| std::thread::available_parallelism().map_or(1, std::num::NonZero::get));
-    if threads == 0 {
-        return Err(Failure::new(Exit::Usage, "--threads must be at least 1"));
+    if !(1..=MOST).contains(&threads) {
+        let message = format!("{threads} threads are asked for; write a number from 1 to {MOST}");
+        return Err(Failure::new(Exit::Usage, message));
     }
     rayon::ThreadPoolBuilder::new()
         .num_threads(threads)

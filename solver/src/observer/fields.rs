@@ -97,13 +97,16 @@ impl Observer<2> for FieldFiles {
         write_atomic(&self.directory.join("fields.pvd"), self.collection().as_bytes())
     }
 
-    fn on_failure(
-        &mut self,
-        _error: &RunError,
-        remains: Option<&Remains<'_, 2>>,
-    ) -> io::Result<()> {
+    fn on_failure(&mut self, error: &RunError, remains: Option<&Remains<'_, 2>>) -> io::Result<()> {
         let Some(remains) = remains else { return Ok(()) };
         let bytes = self.frame(remains.time, remains.mesh, remains.velocity, remains.pressure)?;
+        if matches!(error, RunError::Stopped { .. }) {
+            let name = "fields/stopped.vtu".to_owned();
+            fs::create_dir_all(self.directory.join("fields"))?;
+            write_atomic(&self.directory.join(&name), &bytes)?;
+            self.frames.push((remains.time, name));
+            return write_atomic(&self.directory.join("fields.pvd"), self.collection().as_bytes());
+        }
         let folder = self.directory.join("failure");
         fs::create_dir_all(&folder)?;
         write_atomic(&folder.join("flow.vtu"), &bytes)

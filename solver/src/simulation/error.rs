@@ -43,7 +43,7 @@ pub enum RunError {
         place: Point<2>,
     },
     /// The linear system is singular.
-    #[error("step {step} (t = {time}): the linear system is singular: {reason}")]
+    #[error("step {step} (t = {time}): the linear system cannot be solved: {reason}")]
     Singular {
         /// Step.
         step: usize,

@@ -139,13 +139,13 @@ impl Run<'_> {
             residual = flow.residual;
         }
         self.report(parts, &residual, (0, 0.0), false)?;
-        let steps = step_sizes(settings);
-        let n_steps = steps.len();
-        for (index, pieces) in steps.into_iter().enumerate() {
+        let n_steps = count_steps(settings);
+        let mut before = None;
+        for index in 0..n_steps {
             let started = parts.state.time;
             let mut iterations = 0;
-            for (step, before) in pieces {
-                let bdf = match (settings.scheme, before) {
+            for step in step_pieces(settings, index) {
+                let bdf = match (settings.scheme, before.replace(step)) {
                     (Scheme::Bdf2, Some(before)) => Bdf::second_order(step, before),
                     _ => Bdf::first_order(step),
                 };
@@ -161,8 +161,14 @@ impl Run<'_> {
                 residual = result.residual;
                 iterations += result.iterations;
             }
+            // Counted, not summed, so that rounding does not pile up.
+            let whole = (index + 1) as f64 * settings.step;
+            parts.state.time = if index + 1 == n_steps { settings.end } else { whole };
             let step = parts.state.time - started;
             self.report(parts, &residual, (iterations, step), index + 1 == n_steps)?;
+            if index + 1 < n_steps && self.observers.iter().any(|observer| observer.wants_stop()) {
+                return Err(RunError::Stopped { step: index + 1, time: parts.state.time });
+            }
         }
         Ok(n_steps)
     }
@@ -220,28 +226,22 @@ fn check_memory(mesh: &Mesh<2>) -> Result<(), RunError> {
     }
 }
 
-/// The pieces of all steps: size, and size of the piece before.
-fn step_sizes(settings: &Unsteady) -> Vec<Vec<(f64, Option<f64>)>> {
-    let n_steps = (settings.end / settings.step - 1e-9).ceil().max(1.0) as usize;
-    let mut before = None;
-    let mut steps = Vec::with_capacity(n_steps);
-    for index in 0..n_steps {
-        // The last step ends at the end.
-        let step = if index + 1 == n_steps {
-            settings.end - settings.step * (n_steps - 1) as f64
-        } else {
-            settings.step
-        };
-        let pieces = if index == 0 && settings.scheme == Scheme::Bdf2 {
-            let part = |piece: u32| step / f64::from(1u32 << piece);
-            std::iter::once(START_PIECES).chain((1..=START_PIECES).rev()).map(part).collect()
-        } else {
-            vec![step]
-        };
-        let with_before = pieces.into_iter().map(|piece| (piece, before.replace(piece)));
-        steps.push(with_before.collect());
+/// Number of steps to the end; rounding of their ratio makes no step more.
+fn count_steps(settings: &Unsteady) -> usize {
+    (settings.end / settings.step - 1e-9).ceil().max(1.0) as usize
+}
+
+/// Sizes of the pieces in which a step is made.
+fn step_pieces(settings: &Unsteady, index: usize) -> Vec<f64> {
+    // The last step ends at the end.
+    let rest = settings.end - settings.step * index as f64;
+    let step = if index + 1 == count_steps(settings) { rest } else { settings.step };
+    if index == 0 && settings.scheme == Scheme::Bdf2 {
+        let part = |piece: u32| step / f64::from(1u32 << piece);
+        std::iter::once(START_PIECES).chain((1..=START_PIECES).rev()).map(part).collect()
+    } else {
+        vec![step]
     }
-    steps
 }
 
 #[cfg(test)]
@@ -257,13 +257,11 @@ mod tests {
             convection: Convection::Extrapolated,
             initial: Initial::Rest,
         };
-        let steps = step_sizes(&settings);
-        assert_eq!(steps.len(), 10);
-        let pieces = || steps.iter().flatten();
-        let total: f64 = pieces().map(|(step, _)| step).sum();
-        assert!((total - 0.95).abs() < 1e-14);
-        for (step, before) in pieces() {
-            assert!(before.is_none_or(|before| step / before <= 2.0 + 1e-12));
+        assert_eq!(count_steps(&settings), 10);
+        let pieces: Vec<f64> = (0..10).flat_map(|index| step_pieces(&settings, index)).collect();
+        assert!((pieces.iter().sum::<f64>() - 0.95).abs() < 1e-14);
+        for pair in pieces.windows(2) {
+            assert!(pair[1] / pair[0] <= 2.0 + 1e-12);
         }
     }
 }

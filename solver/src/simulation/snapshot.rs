@@ -78,6 +78,11 @@ pub trait Observer<const D: usize> {
     /// When a file cannot be written; the run stops with it.
     fn on_step(&mut self, snapshot: &Snapshot<'_, D>) -> std::io::Result<()>;
 
+    /// Whether the run is to end after the present step, asked once a step.
+    fn wants_stop(&self) -> bool {
+        false
+    }
+
     /// Called once after the last step of a run that reached its end, with all its time.
     ///
     /// # Errors

@@ -102,7 +102,15 @@ impl Newton<'_> {
     fn solve(&mut self, at_rest: Solution, time: f64) -> Result<(Solution, Vec<f64>), RunError> {
         let (mut reached, mut residual) = match self.attempt(at_rest, 0.0)? {
             Attempt::Converged(solution, residual) => (solution, residual),
-            Attempt::Stalled { residual } => return Err(self.stalled(residual, time)),
+            Attempt::Stalled { residual } => {
+                // Without convection the equations are linear: one solve is all there is to it.
+                let reason = format!(
+                    "the Stokes flow leaves a residual of {residual:.1e}: perhaps nothing balances \
+                     the force on a free body or fixes its velocity, or numbers overflow in these \
+                     units"
+                );
+                return Err(RunError::Singular { step: 0, time, reason });
+            }
         };
         if !self.problem.has_convection {
             return Ok((reached, residual));
