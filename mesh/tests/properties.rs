@@ -130,7 +130,12 @@ fn assert_periodic(domain: &Domain, mesh: &Mesh<2>) {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(96) })]
+    #![proptest_config(ProptestConfig {
+        failure_persistence: None,
+        // The same placements in every run: a failure is one of the change, not of chance.
+        rng_seed: proptest::test_runner::RngSeed::Fixed(2026),
+        ..ProptestConfig::with_cases(96)
+    })]
 
     #[test]
     fn any_valid_planar_placement_gives_a_good_mesh(

@@ -47,7 +47,7 @@ pub(crate) fn place(domain: &Domain, bodies: &[PlacedShape]) -> Result<Vec<Outli
                 smallest(placed, |x| outline.nearest(x).gap),
             );
             let (gap, at) = if near.0 < far.0 { near } else { far };
-            if gap <= SMALLEST_GAP * extent {
+            if gap.is_nan() || gap <= SMALLEST_GAP * extent {
                 return Err(MeshError::Overlap {
                     first: other.name.clone(),
                     second: body.name.clone(),
@@ -137,7 +137,9 @@ fn smallest(outline: &Outline, f: impl Fn(Point<2>) -> f64) -> (f64, Point<2>) {
             }
         }
     }
-    best
+    // No search may end above what a sample has seen.
+    let seen = (0..n).filter(|&i| values[i] == lowest).map(|i| (lowest, at(i as f64 * step)));
+    seen.take(1).fold(best, |best, sample| if best.0 <= sample.0 { best } else { sample })
 }
 
 /// Minimum of a function that falls, then rises, on an interval.
@@ -196,6 +198,26 @@ mod tests {
         // One inside the other
         let bodies = [disc("a", 0.0, 0.0, 1.0), disc("b", 0.1, 0.0, 3.0)];
         assert!(matches!(check_placement(&UNIT, &bodies), Err(MeshError::Overlap { .. })));
+    }
+
+    #[test]
+    fn spheroids_that_cross_on_the_axis_overlap() {
+        let domain = Domain::HalfDisc { center: 0.2, radius: 4.0 };
+        let spheroid = |name: &str, x: f64, semi_axes| PlacedShape {
+            name: name.to_owned(),
+            shape: Shape::Spheroid { semi_axes },
+            center: Point::<2>::new(x, 0.0),
+            angle: 0.0,
+            size: None,
+        };
+        let flat = [0.3424411791923699, 1.1463715792599185];
+        let round = [0.8362552227128046, 0.7383780411761944];
+        let bodies = [
+            spheroid("flat", 0.09736181242456764, flat),
+            spheroid("round", 0.33260513598753466, round),
+        ];
+        let refused = check_placement(&domain, &bodies);
+        assert!(matches!(refused, Err(MeshError::Overlap { .. })), "{refused:?}");
     }
 
     #[test]
