@@ -186,5 +186,4 @@ fn accept(problem: &Problem, state: &mut State, bdf: &Bdf, solution: Solution, l
     state.previous = std::mem::replace(&mut state.now, solution);
     state.step += 1;
     state.time += bdf.step;
-    state.time_step = bdf.step;
 }

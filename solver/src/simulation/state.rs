@@ -13,8 +13,6 @@ pub struct State {
     pub step: usize,
     /// Time (s).
     pub time: f64,
-    /// Size of the last step (s), 0 before the first.
-    pub time_step: f64,
     /// The mesh now.
     pub mesh: Mesh<2>,
     /// Fields and twists now.
@@ -44,7 +42,6 @@ impl State {
         Self {
             step: 0,
             time: 0.0,
-            time_step: 0.0,
             now: at_rest.clone(),
             previous: at_rest,
             previous_places: places.collect(),
