@@ -1,171 +1,214 @@
-//! Sparse LU with its symbolic part reused while the pattern lasts, and iterative refinement.
+//! `DirectSolver`: sparse LU with iterative refinement, and old factors as a preconditioner.
 //!
-//! A few unknowns may be bordered: kept out of the sparse factorisation because their rows or
-//! columns are dense, which would fill it. The rigid velocities of a body touch all cells at its
-//! surface, and that of a travelling frame the convection of every cell. With A split into the
-//! inner block K, the border's columns C, rows R and corner D,
-//! (D - R K^-1 C) z = g - R K^-1 f and x = K^-1 (f - C z).
+//! Factors outlive the matrix they were made of. A matrix that has not changed is solved with them
+//! as they are; one that changed a little, by FGMRES with them as preconditioner, where that is
+//! cheaper than factorising anew. What is cheaper is told by counts of operations and by iterations
+//! of earlier solves, never by a clock: the same input has to give the same bits.
 
-use faer::Par;
-use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::mat::MatMut;
-use faer::sparse::linalg::LuError;
-use faer::sparse::linalg::lu::{
-    LuRef, LuSymbolicParams, NumericLu, SymbolicLu, factorize_symbolic_lu,
-};
-use faer::sparse::{FaerError, SparseColMatRef, SymbolicSparseColMatRef};
-use nalgebra::{DMatrix, DVector};
 use thiserror::Error;
 
 use super::Pattern;
+use super::krylov::{fgmres, norm};
+use crate::multifrontal::{Analysis, Factors, Ordering, PatternRef, Singular, Unknowns};
 
-/// The matrix has no inverse, or none that double precision can find.
+/// Why a linear system was not solved.
 #[derive(Debug, Clone, PartialEq, Error)]
-#[error("{0}")]
-pub struct SingularMatrix(pub String);
+pub enum LinearError {
+    /// No inverse, or none that double precision can find.
+    #[error("{} unknowns are not determined by the equations", .0.unknowns.len())]
+    Singular(Singular),
+    /// Refinement did not get there.
+    #[error("the solution leaves a relative residual of {residual:.1e}")]
+    Inaccurate {
+        /// Largest residual over the largest sum of the sizes of its terms.
+        residual: f64,
+    },
+    /// The matrix, the right-hand side or the solution is not finite.
+    #[error("the solution is not a number")]
+    NotFinite,
+}
+
+impl From<Singular> for LinearError {
+    fn from(singular: Singular) -> Self {
+        Self::Singular(singular)
+    }
+}
 
 /// Most refinement steps of one solve.
 const MAX_REFINEMENTS: usize = 3;
 /// Residual, relative to |A| |x| + |b|, at which refinement has nothing left to do.
-const ROUNDING: f64 = 1e-15;
+const ROUNDING: f64 = 1e-14;
 /// Residual above which a solution is worth nothing.
 const USELESS: f64 = 1e-6;
-/// The same bits on any number of threads: kernels run on one.
-const PARALLELISM: Par = Par::Seq;
+/// Residual of FGMRES relative to the terms of the equations: far below what a step of any method
+/// leaves of the error in time and space.
+const KRYLOV_TOLERANCE: f64 = 1e-13;
+/// Most iterations with old factors.
+const MAX_ITERATIONS: usize = 20;
+/// A residual that is so near its goal is always worth a trial.
+const NEAR: f64 = 1e3;
+/// Systems that are factorised without trying old factors, after a trial that failed.
+const FIRST_PAUSE: usize = 2;
+const LONGEST_PAUSE: usize = 256;
 
-/// A sparse LU factorisation (faer's, with its column ordering) with a dense border.
+/// A factorisation with everything needed to solve with it.
+#[derive(Debug)]
 pub struct DirectSolver {
-    inner: InnerLu,
-    /// Unknowns of the inner block, in order.
-    kept: Vec<usize>,
-    /// Where each entry of the inner block is stored in the full matrix.
-    sources: Vec<usize>,
-    inner_values: Vec<f64>,
-    border: Option<Border>,
+    analysis: Analysis,
+    factors: Factors,
+    reuse: Reuse,
+    /// Fingerprint of the matrix that was factorised.
+    fingerprint: Option<u64>,
 }
 
-impl std::fmt::Debug for DirectSolver {
-    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        formatter.debug_struct("DirectSolver").field("n", &self.kept.len()).finish_non_exhaustive()
-    }
+/// When old factors are used.
+#[derive(Debug)]
+struct Reuse {
+    /// Nanoseconds by operation counts: of a factorisation, of one iteration.
+    factorisation: f64,
+    iteration: f64,
+    /// Systems still to be factorised at once, and how many after the next failure.
+    wait: usize,
+    pause: usize,
 }
 
-/// The dense part of the factorisation.
-struct Border {
-    unknowns: Vec<usize>,
-    /// K^-1 C, one vector an unknown of the border.
-    columns: Vec<Vec<f64>>,
-    /// Rows R: (index in the inner block, storage position) of each entry.
-    rows: Vec<Vec<(usize, usize)>>,
-    /// Storage positions of C: (index in the inner block, storage position).
-    column_entries: Vec<Vec<(usize, usize)>>,
-    /// Storage positions of D, row by row.
-    corner: Vec<Vec<Option<usize>>>,
-    schur: Option<nalgebra::LU<f64, nalgebra::Dyn, nalgebra::Dyn>>,
-}
-
-/// The sparse factorisation itself.
-struct InnerLu {
-    pattern: Pattern,
-    symbolic: SymbolicLu<usize>,
-    numeric: NumericLu<usize, f64>,
-    workspace: MemBuffer,
-}
-
-fn symbolic_view(pattern: &Pattern) -> SymbolicSparseColMatRef<'_, usize> {
-    SymbolicSparseColMatRef::new_checked(
-        pattern.n(),
-        pattern.n(),
-        &pattern.columns,
-        None,
-        &pattern.rows,
-    )
-}
-
-impl InnerLu {
-    fn analyse(pattern: Pattern) -> Result<Self, SingularMatrix> {
-        let symbolic = factorize_symbolic_lu(symbolic_view(&pattern), LuSymbolicParams::default())
-            .map_err(|error| SingularMatrix(format!("the analysis failed: {error:?}")))?;
-        let factor = symbolic.factorize_numeric_lu_scratch::<f64>(PARALLELISM, Default::default());
-        let solve = symbolic.solve_in_place_scratch::<f64>(1, PARALLELISM);
-        let workspace = MemBuffer::try_new(factor.or(solve))
-            .map_err(|_| SingularMatrix("memory ran out in the analysis".to_owned()))?;
-        Ok(Self { pattern, symbolic, numeric: NumericLu::new(), workspace })
+impl Reuse {
+    fn new(analysis: &Analysis, n_entries: usize) -> Self {
+        let iteration = analysis.substitution_cost() + 2.0 * n_entries as f64;
+        let factorisation = analysis.factorisation_cost();
+        Self { factorisation, iteration, wait: 0, pause: FIRST_PAUSE }
     }
 
-    fn factorise(&mut self, values: &[f64]) -> Result<(), SingularMatrix> {
-        let matrix = SparseColMatRef::new(symbolic_view(&self.pattern), values);
-        self.symbolic
-            .factorize_numeric_lu(
-                &mut self.numeric,
-                matrix,
-                PARALLELISM,
-                MemStack::new(&mut self.workspace),
-                Default::default(),
-            )
-            .map(|_| ())
-            .map_err(|error| match error {
-                LuError::Generic(FaerError::OutOfMemory) => {
-                    SingularMatrix("memory ran out in the factorisation".to_owned())
-                }
-                other => SingularMatrix(format!("a pivot vanished: {other:?}")),
-            })
+    /// Iterations that take as long as a factorisation with its one solve.
+    fn affordable(&self) -> usize {
+        ((self.factorisation / self.iteration) as usize).min(MAX_ITERATIONS)
     }
 
-    fn apply(&mut self, rhs: &mut [f64]) {
-        let n = rhs.len();
-        LuRef::new_unchecked(&self.symbolic, &self.numeric).solve_in_place_with_conj(
-            faer::Conj::No,
-            MatMut::from_column_major_slice_mut(rhs, n, 1),
-            PARALLELISM,
-            MemStack::new(&mut self.workspace),
-        );
+    /// Whether to try the present factors on a residual that has to fall by `distance`.
+    fn is_worth_a_trial(&mut self, distance: f64) -> bool {
+        if distance > NEAR && self.wait > 0 {
+            self.wait -= 1;
+            return false;
+        }
+        self.affordable() > 1
+    }
+
+    fn succeeded(&mut self) {
+        self.pause = FIRST_PAUSE;
+    }
+
+    fn failed(&mut self) {
+        self.wait = self.pause;
+        self.pause = (2 * self.pause).min(LONGEST_PAUSE);
     }
 }
 
 impl DirectSolver {
-    /// Orders the columns and finds the fill of a pattern, with the unknowns of `border` kept out.
+    /// Orders the unknowns of a pattern and finds the fill of its factors.
+    #[must_use]
+    pub fn analyse(pattern: &Pattern, unknowns: &Unknowns) -> Self {
+        let analysis = Analysis::new(view(pattern), unknowns, Ordering::Best);
+        let factors = Factors::new(&analysis);
+        let reuse = Reuse::new(&analysis, pattern.rows.len());
+        Self { analysis, factors, reuse, fingerprint: None }
+    }
+
+    /// The analysis, for figures of fill and work.
+    #[must_use]
+    pub fn analysis(&self) -> &Analysis {
+        &self.analysis
+    }
+
+    /// Factorises the matrix with these values, unless the factors at hand are its own.
     ///
     /// # Errors
-    /// When memory runs out.
-    pub fn analyse(pattern: &Pattern, border: &[usize]) -> Result<Self, SingularMatrix> {
-        let mut inner_index: Vec<Option<usize>> = vec![None; pattern.n()];
-        let kept: Vec<usize> = (0..pattern.n()).filter(|index| !border.contains(index)).collect();
-        for (inner, &index) in kept.iter().enumerate() {
-            inner_index[index] = Some(inner);
+    /// When pivots are missing, or a value is not finite.
+    pub fn factorise(&mut self, pattern: &Pattern, values: &[f64]) -> Result<(), LinearError> {
+        self.factorise_as(pattern, values, fingerprint(values))
+    }
+
+    fn factorise_as(
+        &mut self,
+        pattern: &Pattern,
+        values: &[f64],
+        fingerprint: u64,
+    ) -> Result<(), LinearError> {
+        if self.fingerprint == Some(fingerprint) {
+            return Ok(());
         }
-        let mut inner = Pattern { columns: vec![0], rows: Vec::new() };
-        let mut sources = Vec::new();
-        for &column in &kept {
-            for entry in pattern.columns[column]..pattern.columns[column + 1] {
-                if let Some(row) = inner_index[pattern.rows[entry]] {
-                    inner.rows.push(row);
-                    sources.push(entry);
-                }
+        self.forget();
+        if !values.iter().all(|value| value.is_finite()) {
+            return Err(LinearError::NotFinite);
+        }
+        self.factors.factorise(&self.analysis, view(pattern), values)?;
+        tracing::debug!(irregular_fronts = self.factors.n_irregular(), "factorised");
+        self.fingerprint = Some(fingerprint);
+        Ok(())
+    }
+
+    /// Gives the factors up: what is solved next does not depend on what was solved before.
+    pub fn forget(&mut self) {
+        self.fingerprint = None;
+    }
+
+    /// Solves A x = b with the factors of an earlier matrix, in place.
+    ///
+    /// `size` tells how large the terms of each equation are, |A| |y| for a typical solution y: the
+    /// residual is brought far below it. Returns false, and leaves `rhs` as it was, when there are
+    /// no factors or factorising is cheaper.
+    ///
+    /// # Errors
+    /// When the right-hand side is not finite.
+    pub fn solve_with_old_factors(
+        &mut self,
+        pattern: &Pattern,
+        values: &[f64],
+        rhs: &mut [f64],
+        size: &[f64],
+    ) -> Result<bool, LinearError> {
+        if !rhs.iter().chain(size).all(|value| value.is_finite()) {
+            return Err(LinearError::NotFinite);
+        }
+        if self.fingerprint.is_none() || self.fingerprint == Some(fingerprint(values)) {
+            return Ok(false);
+        }
+        // Pressures and momentum have other units: scaled, rows weigh the same.
+        let scales = self.factors.row_scales(&self.analysis);
+        let scaled = |values: &[f64]| -> Vec<f64> {
+            values.iter().zip(&scales).map(|(value, scale)| value * scale).collect()
+        };
+        let b = scaled(rhs);
+        let goal = KRYLOV_TOLERANCE * norm(&scaled(size));
+        if norm(&b) <= goal || !self.reuse.is_worth_a_trial(norm(&b) / goal) {
+            return Ok(false);
+        }
+        let multiply = |x: &[f64], y: &mut [f64]| {
+            y.fill(0.0);
+            pattern.multiply_add(values, x, y);
+            for (value, scale) in y.iter_mut().zip(&scales) {
+                *value *= scale;
             }
-            inner.columns.push(inner.rows.len());
+        };
+        let (factors, analysis) = (&mut self.factors, &self.analysis);
+        let precondition = |z: &mut [f64]| {
+            for (value, scale) in z.iter_mut().zip(&scales) {
+                *value /= scale;
+            }
+            factors.solve(analysis, z);
+        };
+        let (x, outcome) = fgmres(multiply, precondition, &b, goal, self.reuse.affordable());
+        let is_solved = outcome.residual <= goal && x.iter().all(|value| value.is_finite());
+        tracing::debug!(iterations = outcome.iterations, is_solved, "tried old factors");
+        if is_solved {
+            self.reuse.succeeded();
+            rhs.copy_from_slice(&x);
+        } else {
+            self.reuse.failed();
         }
-        let inner_values = vec![0.0; sources.len()];
-        let border = (!border.is_empty()).then(|| Border::new(pattern, border, &inner_index));
-        Ok(Self { inner: InnerLu::analyse(inner)?, kept, sources, inner_values, border })
+        Ok(is_solved)
     }
 
-    /// Factorises the matrix with these values.
-    ///
-    /// # Errors
-    /// When a pivot vanishes.
-    pub fn factorise(&mut self, values: &[f64]) -> Result<(), SingularMatrix> {
-        for (inner, &source) in self.inner_values.iter_mut().zip(&self.sources) {
-            *inner = values[source];
-        }
-        self.inner.factorise(&self.inner_values)?;
-        match &mut self.border {
-            None => Ok(()),
-            Some(border) => border.factorise(&mut self.inner, values),
-        }
-    }
-
-    /// Solves A x = b by the factorisation and iterative refinement, in place.
+    /// Solves A x = b in place for the matrix last factorised: substitution, then refinement.
     ///
     /// Returns the residual: the largest entry of |b - A x| over the largest of |A| |x| + |b|.
     ///
@@ -176,16 +219,18 @@ impl DirectSolver {
         pattern: &Pattern,
         values: &[f64],
         rhs: &mut [f64],
-    ) -> Result<f64, SingularMatrix> {
+    ) -> Result<f64, LinearError> {
+        if !rhs.iter().all(|value| value.is_finite()) {
+            return Err(LinearError::NotFinite);
+        }
         let target = rhs.to_vec();
-        self.apply(values, rhs);
+        self.factors.solve(&self.analysis, rhs);
         let mut residual = f64::INFINITY;
-        for _ in 0..MAX_REFINEMENTS {
-            let (mut defect, scale) = defect(pattern, values, rhs, &target);
-            let size = defect.iter().fold(0.0f64, |most, value| most.max(value.abs()));
-            let next = if scale > 0.0 { size / scale } else { size };
+        for _ in 0..=MAX_REFINEMENTS {
+            let (mut defect, size) = defect(pattern, values, rhs, &target);
+            let next = relative(&defect, &size);
             if next.is_nan() || rhs.iter().any(|value| !value.is_finite()) {
-                return Err(SingularMatrix("the solution is not a number".to_owned()));
+                return Err(LinearError::NotFinite);
             }
             // Refinement that no longer helps has reached rounding.
             if next <= ROUNDING || next > 0.5 * residual {
@@ -193,166 +238,171 @@ impl DirectSolver {
                 break;
             }
             residual = next;
-            self.apply(values, &mut defect);
+            tracing::debug!(residual, "refined");
+            self.factors.solve(&self.analysis, &mut defect);
             for (value, correction) in rhs.iter_mut().zip(&defect) {
                 *value += correction;
             }
         }
         if residual > USELESS {
-            return Err(SingularMatrix(format!(
-                "the solution leaves a relative residual of {residual:.1e}"
-            )));
+            return Err(LinearError::Inaccurate { residual });
         }
         Ok(residual)
     }
 
-    fn apply(&mut self, values: &[f64], rhs: &mut [f64]) {
-        let mut inner: Vec<f64> = self.kept.iter().map(|&index| rhs[index]).collect();
-        self.inner.apply(&mut inner);
-        if let Some(border) = &self.border {
-            border.apply(values, rhs, &mut inner);
-        }
-        for (&index, value) in self.kept.iter().zip(&inner) {
-            rhs[index] = *value;
-        }
+    /// Solves A X = B in place for several right-hand sides, one after the other in `rhs`, with
+    /// the matrix last factorised and without refinement.
+    pub fn solve_many(&mut self, rhs: &mut [f64]) {
+        self.factors.solve(&self.analysis, rhs);
     }
 }
 
-impl Border {
-    fn new(pattern: &Pattern, unknowns: &[usize], inner_index: &[Option<usize>]) -> Self {
-        let mut rows = vec![Vec::new(); unknowns.len()];
-        let mut column_entries = vec![Vec::new(); unknowns.len()];
-        let mut corner = vec![vec![None; unknowns.len()]; unknowns.len()];
-        let place = |index: usize| unknowns.iter().position(|&unknown| unknown == index);
-        for column in 0..pattern.n() {
-            for entry in pattern.columns[column]..pattern.columns[column + 1] {
-                let row = pattern.rows[entry];
-                match (inner_index[row], inner_index[column]) {
-                    (Some(_), Some(_)) => {}
-                    (Some(inner), None) => {
-                        let border = place(column).expect("what is not kept is in the border");
-                        column_entries[border].push((inner, entry));
-                    }
-                    (None, Some(inner)) => {
-                        let border = place(row).expect("what is not kept is in the border");
-                        rows[border].push((inner, entry));
-                    }
-                    (None, None) => {
-                        let border = place(row).expect("what is not kept is in the border");
-                        corner[border][place(column).expect("as above")] = Some(entry);
-                    }
-                }
-            }
-        }
-        Self {
-            unknowns: unknowns.to_vec(),
-            columns: Vec::new(),
-            rows,
-            column_entries,
-            corner,
-            schur: None,
+fn view(pattern: &Pattern) -> PatternRef<'_> {
+    PatternRef { columns: &pattern.columns, rows: &pattern.rows }
+}
+
+/// A number that tells matrices apart: all bits of all values, mixed.
+fn fingerprint(values: &[f64]) -> u64 {
+    const MIX: u64 = 0x9E37_79B9_7F4A_7C15;
+    let mut lanes = [1u64, 2, 3, 4];
+    let chunks = values.chunks_exact(4);
+    let rest = chunks.remainder();
+    for chunk in chunks {
+        for (lane, value) in lanes.iter_mut().zip(chunk) {
+            *lane = (*lane ^ value.to_bits()).wrapping_mul(MIX).rotate_left(29);
         }
     }
+    let all = lanes.into_iter().chain(rest.iter().map(|value| value.to_bits()));
+    all.fold(0, |hash, part| (hash ^ part).wrapping_mul(MIX).rotate_left(29))
+}
 
-    fn row_dot(&self, row: usize, values: &[f64], inner: &[f64]) -> f64 {
-        self.rows[row].iter().map(|&(index, entry)| values[entry] * inner[index]).sum()
-    }
-
-    fn factorise(&mut self, inner: &mut InnerLu, values: &[f64]) -> Result<(), SingularMatrix> {
-        let n = self.unknowns.len();
-        self.columns.clear();
-        for entries in &self.column_entries {
-            let mut column = vec![0.0; inner.pattern.n()];
-            for &(index, entry) in entries {
-                column[index] = values[entry];
-            }
-            inner.apply(&mut column);
-            self.columns.push(column);
-        }
-        let schur = DMatrix::from_fn(n, n, |row, column| {
-            self.corner[row][column].map_or(0.0, |entry| values[entry])
-                - self.row_dot(row, values, &self.columns[column])
-        });
-        let factors = schur.lu();
-        if !factors.is_invertible() {
-            return Err(SingularMatrix(
-                "the velocity of a free body is not determined by the equations".to_owned(),
-            ));
-        }
-        self.schur = Some(factors);
-        Ok(())
-    }
-
-    /// Turns `inner` = K^-1 f into the inner solution and writes z into `rhs`.
-    fn apply(&self, values: &[f64], rhs: &mut [f64], inner: &mut [f64]) {
-        let defect = DVector::from_fn(self.unknowns.len(), |row, _| {
-            rhs[self.unknowns[row]] - self.row_dot(row, values, inner)
-        });
-        let solution = self.schur.as_ref().and_then(|schur| schur.solve(&defect));
-        let solution = solution.expect("the corner was found invertible when it was factorised");
-        for (border, &unknown) in self.unknowns.iter().enumerate() {
-            rhs[unknown] = solution[border];
-            for (value, column) in inner.iter_mut().zip(&self.columns[border]) {
-                *value -= column * solution[border];
-            }
-        }
+fn relative(defect: &[f64], size: &[f64]) -> f64 {
+    let largest = |values: &[f64]| values.iter().fold(0.0f64, |most, value| most.max(value.abs()));
+    let (defect_size, size) = (largest(defect), largest(size));
+    if defect.iter().any(|value| value.is_nan()) {
+        f64::NAN
+    } else if size > 0.0 {
+        defect_size / size
+    } else {
+        defect_size
     }
 }
 
-/// b - A x, and the largest entry of |A| |x| + |b|.
-fn defect(pattern: &Pattern, values: &[f64], x: &[f64], b: &[f64]) -> (Vec<f64>, f64) {
+/// b - A x, and |A| |x| + |b|.
+fn defect(pattern: &Pattern, values: &[f64], x: &[f64], b: &[f64]) -> (Vec<f64>, Vec<f64>) {
     let mut rest = b.to_vec();
-    let mut scale: Vec<f64> = b.iter().map(|value| value.abs()).collect();
+    let mut size: Vec<f64> = b.iter().map(|value| value.abs()).collect();
     for (column, &factor) in x.iter().enumerate() {
         for entry in pattern.columns[column]..pattern.columns[column + 1] {
             let product = values[entry] * factor;
             rest[pattern.rows[entry]] -= product;
-            scale[pattern.rows[entry]] += product.abs();
+            size[pattern.rows[entry]] += product.abs();
         }
     }
-    (rest, scale.into_iter().fold(0.0, f64::max))
+    (rest, size)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    /// Solves a small system with and without a border and returns both solutions.
-    fn solve(matrix: &DMatrix<f64>, rhs: &[f64], border: &[usize]) -> Vec<f64> {
+    /// A chain of velocities with a pressure at every third, `change` added to its convection.
+    fn chain(n: usize, change: f64) -> (Pattern, Vec<f64>, Unknowns) {
+        let is_pressure: Vec<bool> = (0..n).map(|index| index % 3 == 2).collect();
         let mut pattern = Pattern { columns: vec![0], rows: Vec::new() };
         let mut values = Vec::new();
-        for column in 0..matrix.ncols() {
-            for row in 0..matrix.nrows() {
-                if matrix[(row, column)] != 0.0 {
-                    pattern.rows.push(row);
-                    values.push(matrix[(row, column)]);
+        for column in 0..n {
+            for row in column.saturating_sub(3)..(column + 4).min(n) {
+                if is_pressure[row] && is_pressure[column] {
+                    continue;
                 }
+                pattern.rows.push(row);
+                let distance = row as f64 - column as f64;
+                values.push(match (is_pressure[row] || is_pressure[column], row == column) {
+                    (true, _) => 0.3 + 0.1 * distance,
+                    (false, true) => 4.0,
+                    (false, false) => -0.5 + change * distance * (row as f64 * 0.7).sin(),
+                });
             }
             pattern.columns.push(pattern.rows.len());
         }
-        let mut solver = DirectSolver::analyse(&pattern, border).unwrap();
-        solver.factorise(&values).unwrap();
-        let mut x = rhs.to_vec();
-        assert!(solver.solve(&pattern, &values, &mut x).unwrap() < 1e-14);
-        x
+        let unknowns = Unknowns { node: (0..n as u32).collect(), is_pressure, dense: Vec::new() };
+        (pattern, values, unknowns)
+    }
+
+    fn rhs(n: usize) -> Vec<f64> {
+        (0..n).map(|index| (index as f64).cos()).collect()
     }
 
     #[test]
-    fn a_saddle_point_system_is_solved_with_and_without_a_border() {
-        #[rustfmt::skip]
-        let matrix = DMatrix::from_row_slice(5, 5, &[
-            4.0, 1.0, 0.0, 1.0, 2.0,
-            1.0, 3.0, 1.0, 0.0, 1.0,
-            0.0, 1.0, 5.0, 2.0, 3.0,
-            1.0, 0.0, 2.0, 0.0, 1.0,
-            0.0, 1.0, 1.0, 0.0, 0.0,
-        ]);
-        let rhs = [1.0, 2.0, 3.0, 4.0, 5.0];
-        let exact = matrix.clone().lu().solve(&DVector::from_row_slice(&rhs)).unwrap();
-        for border in [&[][..], &[4], &[0, 4]] {
-            for (value, expected) in solve(&matrix, &rhs, border).iter().zip(exact.iter()) {
-                assert!((value - expected).abs() < 1e-12);
-            }
+    fn a_solution_has_a_residual_at_rounding() {
+        let (pattern, values, unknowns) = chain(300, 0.0);
+        let mut solver = DirectSolver::analyse(&pattern, &unknowns);
+        solver.factorise(&pattern, &values).unwrap();
+        assert!(solver.solve(&pattern, &values, &mut rhs(300)).unwrap() < 1e-15);
+    }
+
+    #[test]
+    fn old_factors_give_the_solution_of_the_new_matrix() {
+        let n = 300;
+        let (pattern, values, unknowns) = chain(n, 0.0);
+        let mut solver = DirectSolver::analyse(&pattern, &unknowns);
+        // So small a matrix is never worth it by itself.
+        solver.reuse.factorisation = 1e9;
+        solver.factorise(&pattern, &values).unwrap();
+        let (_, changed, _) = chain(n, 1e-5);
+        let mut x = rhs(n);
+        let size = vec![1.0; n];
+        assert!(solver.solve_with_old_factors(&pattern, &changed, &mut x, &size).unwrap());
+        assert_eq!(solver.fingerprint, Some(fingerprint(&values)), "no new factors");
+        let mut exact = rhs(n);
+        solver.factorise(&pattern, &changed).unwrap();
+        solver.solve(&pattern, &changed, &mut exact).unwrap();
+        for (value, exact) in x.iter().zip(exact) {
+            assert!((value - exact).abs() < 1e-11);
         }
+    }
+
+    #[test]
+    fn factors_that_are_too_old_are_given_up() {
+        let n = 300;
+        let (pattern, values, unknowns) = chain(n, 0.0);
+        let mut solver = DirectSolver::analyse(&pattern, &unknowns);
+        solver.reuse.factorisation = 6.0 * solver.reuse.iteration;
+        solver.factorise(&pattern, &values).unwrap();
+        let (_, changed, _) = chain(n, 2.0);
+        let (mut x, size) = (rhs(n), vec![1.0; n]);
+        for trial in 0..3 {
+            assert!(!solver.solve_with_old_factors(&pattern, &changed, &mut x, &size).unwrap());
+            assert_eq!(x, rhs(n));
+            // Then some systems are factorised at once.
+            assert_eq!(solver.reuse.wait, FIRST_PAUSE - trial);
+        }
+    }
+
+    #[test]
+    fn an_unchanged_matrix_is_not_factorised_again() {
+        let (pattern, values, unknowns) = chain(90, 0.0);
+        let mut solver = DirectSolver::analyse(&pattern, &unknowns);
+        solver.factorise(&pattern, &values).unwrap();
+        let factors = format!("{:?}", solver.factors);
+        // What is no longer looked at cannot be wrong.
+        let pattern_without_values = Pattern { columns: vec![0], rows: Vec::new() };
+        solver.factorise(&pattern_without_values, &values).unwrap();
+        assert_eq!(format!("{:?}", solver.factors), factors);
+        let (_, changed, _) = chain(90, 1e-12);
+        assert_ne!(fingerprint(&values), fingerprint(&changed));
+    }
+
+    #[test]
+    fn what_is_not_a_number_is_an_error() {
+        let (pattern, mut values, unknowns) = chain(30, 0.0);
+        let mut solver = DirectSolver::analyse(&pattern, &unknowns);
+        solver.factorise(&pattern, &values).unwrap();
+        let mut b = rhs(30);
+        b[7] = f64::NAN;
+        assert_eq!(solver.solve(&pattern, &values, &mut b), Err(LinearError::NotFinite));
+        values[5] = f64::INFINITY;
+        assert_eq!(solver.factorise(&pattern, &values), Err(LinearError::NotFinite));
     }
 }

@@ -1,9 +1,10 @@
-//! Sparse linear algebra; faer lives here only.
+//! Sparse linear algebra: constraints, patterns, and systems solved with factors new or old.
 
 mod constraints;
 mod direct;
+mod krylov;
 mod pattern;
 
 pub use constraints::{AffineConstraints, ConstraintBuilder};
-pub use direct::{DirectSolver, SingularMatrix};
+pub use direct::{DirectSolver, LinearError};
 pub use pattern::{CellMaps, Pattern};

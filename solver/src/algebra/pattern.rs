@@ -25,6 +25,18 @@ impl Pattern {
         self.rows[range.clone()].binary_search(&row).ok().map(|offset| range.start + offset)
     }
 
+    /// |A| |x|: how large the terms of each row are.
+    #[must_use]
+    pub fn multiply_sizes(&self, values: &[f64], x: &[f64]) -> Vec<f64> {
+        let mut sizes = vec![0.0; self.n()];
+        for (column, &factor) in x.iter().enumerate() {
+            for entry in self.columns[column]..self.columns[column + 1] {
+                sizes[self.rows[entry]] += (values[entry] * factor).abs();
+            }
+        }
+        sizes
+    }
+
     /// y += A x.
     pub fn multiply_add(&self, values: &[f64], x: &[f64], y: &mut [f64]) {
         for (column, &factor) in x.iter().enumerate() {

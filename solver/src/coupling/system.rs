@@ -10,18 +10,19 @@ use thiserror::Error;
 
 use super::constrain::{NodeSides, constrain};
 use super::problem::{Drive, Problem};
-use crate::algebra::{AffineConstraints, DirectSolver, Pattern, SingularMatrix};
+use crate::algebra::{AffineConstraints, DirectSolver, LinearError, Pattern};
 use crate::body::{Pose, Twist};
 use crate::flow::{Assembly, Convection, Fields, FlowTerms, assemble, residual};
+use crate::multifrontal::Unknowns;
 use crate::space::{CellValues, DofLayout};
 use crate::timing::{Stage, Timing};
 
 /// Why a system could not be solved.
 #[derive(Debug, Error)]
 pub enum SolveError {
-    /// No inverse.
-    #[error(transparent)]
-    Singular(#[from] SingularMatrix),
+    /// No inverse, or no accurate solution.
+    #[error("{0}")]
+    Singular(String),
     /// A value of the solution is not a number.
     #[error("the solution is not finite near ({}, {})", .place[0], .place[1])]
     NotFinite {
@@ -106,8 +107,8 @@ pub struct FluidSystem {
     pattern: Pattern,
     values: Vec<f64>,
     solver: Option<DirectSolver>,
-    /// Unknowns with dense rows or columns: the rigid velocities of free bodies.
-    border: Vec<usize>,
+    /// What each unknown is.
+    unknowns: Unknowns,
     /// int psi dx of each vertex, to spread a flux imbalance evenly.
     pressure_weights: Vec<f64>,
 }
@@ -140,9 +141,7 @@ impl FluidSystem {
             });
         }
         let values = vec![0.0; pattern.rows.len()];
-        let rigid = (0..layout.n_bodies)
-            .flat_map(|body| (0..DofLayout::<2>::RIGID).map(move |mode| layout.rigid(body, mode)));
-        let border = rigid.filter_map(|raw| constraints.unknown(raw)).collect();
+        let unknowns = unknowns(&layout, &constraints);
         Self {
             layout,
             sides,
@@ -151,7 +150,7 @@ impl FluidSystem {
             pattern,
             values,
             solver: None,
-            border,
+            unknowns,
             pressure_weights,
         }
     }
@@ -243,28 +242,89 @@ impl FluidSystem {
             assemble(&self.assembly, mesh, constraints, terms, &fields, &mut self.values);
             self.add_rigid_inertia(problem, constraints, levels);
         });
-        timing.measure(Stage::Factorisation, || {
-            if self.solver.is_none() {
-                self.solver = Some(DirectSolver::analyse(&self.pattern, &self.border)?);
-            }
-            let solver = self.solver.as_mut().expect("the analysis was just made");
-            solver.factorise(&self.values)
-        })?;
-        let raw = timing.measure(Stage::Solve, || {
-            let mut step: Vec<f64> = reduced.iter().map(|value| -value).collect();
-            let solver = self.solver.as_mut().expect("the matrix was just factorised");
-            solver.solve(&self.pattern, &self.values, &mut step)?;
-            let mut free = constraints.pick(&flatten(solution));
-            for (value, correction) in free.iter_mut().zip(&step) {
-                *value += correction;
-            }
-            Ok::<_, SingularMatrix>(constraints.expand(&free))
-        })?;
+        let mut free = constraints.pick(&flatten(solution));
+        let mut step: Vec<f64> = reduced.iter().map(|value| -value).collect();
+        self.solve_linear(&free, &mut step, timing)
+            .map_err(|error| self.explain(problem, mesh, constraints, &error))?;
+        for (value, correction) in free.iter_mut().zip(&step) {
+            *value += correction;
+        }
+        let raw = constraints.expand(&free);
         if let Some(raw_index) = raw.iter().position(|value| !value.is_finite()) {
             let node = (raw_index / 2).min(self.layout.n_nodes - 1);
             return Err(SolveError::NotFinite { place: mesh.nodes[node] });
         }
         Ok(embed(&self.layout, &raw))
+    }
+
+    /// Solves with the assembled matrix, in place, for a correction of the free unknowns `free`.
+    fn solve_linear(
+        &mut self,
+        free: &[f64],
+        rhs: &mut [f64],
+        timing: &mut Timing,
+    ) -> Result<(), LinearError> {
+        let (pattern, values) = (&self.pattern, &self.values);
+        let solver = timing.measure(Stage::Factorisation, || {
+            self.solver.get_or_insert_with(|| DirectSolver::analyse(pattern, &self.unknowns))
+        });
+        let is_solved = timing.measure(Stage::Solve, || {
+            let size = pattern.multiply_sizes(values, free);
+            solver.solve_with_old_factors(pattern, values, rhs, &size)
+        })?;
+        if !is_solved {
+            timing.measure(Stage::Factorisation, || solver.factorise(pattern, values))?;
+            timing.measure(Stage::Solve, || solver.solve(pattern, values, rhs))?;
+        }
+        Ok(())
+    }
+
+    /// What an error of the linear algebra means: which unknown, where, and what may be missing.
+    fn explain(
+        &self,
+        problem: &Problem,
+        mesh: &Mesh<2>,
+        constraints: &AffineConstraints,
+        error: &LinearError,
+    ) -> SolveError {
+        let LinearError::Singular(singular) = error else {
+            return SolveError::Singular(error.to_string());
+        };
+        let name = |unknown: usize| {
+            let raw =
+                (0..self.layout.n_raw()).find(|&raw| constraints.unknown(raw) == Some(unknown));
+            raw.map_or_else(|| format!("unknown {unknown}"), |raw| self.name(problem, mesh, raw))
+        };
+        let listed = |unknowns: &[usize]| {
+            let mut names: Vec<String> = unknowns.iter().take(3).map(|&one| name(one)).collect();
+            if unknowns.len() > names.len() {
+                names.push(format!("{} more", unknowns.len() - names.len()));
+            }
+            names.join(", ")
+        };
+        SolveError::Singular(format!(
+            "the equations do not determine {}; left without an unknown is the equation of {}",
+            listed(&singular.unknowns),
+            listed(&singular.equations)
+        ))
+    }
+
+    /// A raw unknown in words.
+    fn name(&self, problem: &Problem, mesh: &Mesh<2>, raw: usize) -> String {
+        let axes = if problem.axisymmetric { ["axial", "radial"] } else { ["x", "y"] };
+        let at =
+            |node: usize| format!("({:.4e}, {:.4e})", mesh.nodes[node][0], mesh.nodes[node][1]);
+        let first_pressure = self.layout.pressure(0);
+        if raw < first_pressure {
+            format!("the {} velocity at {}", axes[raw % 2], at(raw / 2))
+        } else if raw < self.layout.n_fluid() {
+            format!("the pressure at {}", at(raw - first_pressure))
+        } else {
+            let (body, mode) =
+                ((raw - self.layout.n_fluid()) / 3, (raw - self.layout.n_fluid()) % 3);
+            let what = [axes[0], axes[1], "angular"][mode];
+            format!("the {what} velocity of body {:?}", problem.bodies[body].name)
+        }
     }
 
     fn add_rigid_inertia(
@@ -302,6 +362,29 @@ impl FluidSystem {
     pub fn tables(&self) -> &crate::space::Tables<2> {
         self.assembly.tables()
     }
+}
+
+/// What the linear solver has to know of each free unknown.
+fn unknowns(layout: &DofLayout<2>, constraints: &AffineConstraints) -> Unknowns {
+    let n = constraints.n_unknowns();
+    let mut unknowns =
+        Unknowns { node: vec![0; n], is_pressure: vec![false; n], dense: Vec::new() };
+    for node in 0..layout.n_nodes {
+        for axis in 0..2 {
+            if let Some(unknown) = constraints.unknown(layout.velocity(node, axis)) {
+                unknowns.node[unknown] = node as u32;
+            }
+        }
+    }
+    for vertex in 0..layout.n_vertices {
+        if let Some(unknown) = constraints.unknown(layout.pressure(vertex)) {
+            unknowns.node[unknown] = vertex as u32;
+            unknowns.is_pressure[unknown] = true;
+        }
+    }
+    let rigid = layout.n_fluid()..layout.n_raw();
+    unknowns.dense = rigid.filter_map(|raw| constraints.unknown(raw)).collect();
+    unknowns
 }
 
 /// Memory a system takes with its factors (bytes), from the velocities and pressures of its mesh.

@@ -89,7 +89,7 @@ impl RunError {
     #[must_use]
     pub fn from_solve(error: SolveError, step: usize, time: f64) -> Self {
         match error {
-            SolveError::Singular(singular) => Self::Singular { step, time, reason: singular.0 },
+            SolveError::Singular(reason) => Self::Singular { step, time, reason },
             SolveError::NotFinite { place } => Self::NotFinite { step, time, place },
         }
     }

@@ -90,7 +90,11 @@ pub fn advance(
     };
     let frame_ahead = bdf.extrapolate(frame_of(&state.now), frame_of(&state.previous));
 
-    let start = constraints.expand(&constraints.pick(&flatten(&state.now)));
+    // Nearer to the new level than the old one: less is left for an iterative solve.
+    let levels_ahead = flatten(&state.now).into_iter().zip(flatten(&state.previous));
+    let raw_ahead: Vec<f64> =
+        levels_ahead.map(|(now, previous)| bdf.extrapolate(now, previous)).collect();
+    let start = constraints.expand(&constraints.pick(&raw_ahead));
     let mut solution = embed(&system.layout, &start);
     let newton = choice == ConvectionChoice::Newton && problem.has_convection;
     let (mut first, mut last) = (0.0, f64::INFINITY);

@@ -1,0 +1,245 @@
+//! Dense kernels of a front: LU of a tall panel with pivots from its upper rows, and updates.
+//!
+//! Matrices are column-major slices. Products and triangular solves are faer's; what is narrower
+//! than a panel is done here, because calls would cost more than the arithmetic.
+
+use faer::linalg::matmul::matmul;
+use faer::linalg::triangular_solve::solve_unit_lower_triangular_in_place;
+use faer::{Accum, MatMut, MatRef, Par};
+
+/// Columns eliminated one by one.
+const NARROW: usize = 8;
+/// A pivot is at least this part of the largest entry of its column: multipliers stay below 1e4.
+/// Solutions of the shipped cases have the same accuracy with 1e-8 and with 1e-3.
+pub(super) const THRESHOLD: f64 = 1e-4;
+
+pub(super) fn view(slice: &[f64], rows: usize, columns: usize, stride: usize) -> MatRef<'_, f64> {
+    MatRef::from_column_major_slice_with_stride(slice, rows, columns, stride)
+}
+
+pub(super) fn view_mut(
+    slice: &mut [f64],
+    rows: usize,
+    columns: usize,
+    stride: usize,
+) -> MatMut<'_, f64> {
+    MatMut::from_column_major_slice_with_stride_mut(slice, rows, columns, stride)
+}
+
+/// A column of the panel has no acceptable pivot.
+#[derive(Debug)]
+pub(super) struct NoPivot;
+
+/// A rows x columns matrix inside a slice, its columns `stride` apart.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Shape {
+    pub rows: usize,
+    pub columns: usize,
+    pub stride: usize,
+}
+
+/// LU of a panel with partial pivoting among its first `pivot_rows` rows; `swaps[j]` tells how far
+/// below row j the pivot was found.
+pub(super) fn lu(
+    arch: pulp::Arch,
+    a: &mut [f64],
+    shape: Shape,
+    pivot_rows: usize,
+    swaps: &mut [u32],
+) -> Result<(), NoPivot> {
+    let Shape { rows, columns, stride } = shape;
+    if columns <= NARROW {
+        return arch.dispatch(Narrow { a, shape, pivot_rows, swaps });
+    }
+    let half = (columns / 2).next_multiple_of(NARROW);
+    let others = columns - half;
+    let (left, right) = a.split_at_mut(half * stride);
+    let (left_swaps, right_swaps) = swaps.split_at_mut(half);
+    lu(arch, left, Shape { columns: half, ..shape }, pivot_rows, left_swaps)?;
+    swap_rows(right, others, stride, left_swaps);
+    {
+        // Columns of the upper and the lower part are interleaved in memory.
+        let (upper, lower) = view_mut(right, rows, others, stride).split_at_row_mut(half);
+        let mut upper = upper;
+        solve_unit_lower_triangular_in_place(
+            view(left, half, half, stride),
+            upper.as_mut(),
+            Par::Seq,
+        );
+        let multipliers = view(&left[half..], rows - half, half, stride);
+        matmul(lower, Accum::Add, multipliers, upper.as_ref(), -1.0, Par::Seq);
+    }
+    let below = Shape { rows: rows - half, columns: others, stride };
+    lu(arch, &mut right[half..], below, pivot_rows - half, right_swaps)?;
+    swap_rows(&mut left[half..], half, stride, right_swaps);
+    Ok(())
+}
+
+/// Applies the row exchanges of a panel to other columns.
+pub(super) fn swap_rows(a: &mut [f64], columns: usize, stride: usize, swaps: &[u32]) {
+    for column in a.chunks_mut(stride).take(columns) {
+        for (row, &swap) in swaps.iter().enumerate() {
+            column.swap(row, row + swap as usize);
+        }
+    }
+}
+
+/// The arguments of `lu_narrow`: only a type of our own is compiled for the processor's vectors.
+struct Narrow<'a> {
+    a: &'a mut [f64],
+    shape: Shape,
+    pivot_rows: usize,
+    swaps: &'a mut [u32],
+}
+
+impl pulp::WithSimd for Narrow<'_> {
+    type Output = Result<(), NoPivot>;
+
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(self, _simd: S) -> Self::Output {
+        lu_narrow(self.a, self.shape, self.pivot_rows, self.swaps)
+    }
+}
+
+#[inline(always)]
+fn lu_narrow(
+    a: &mut [f64],
+    shape: Shape,
+    pivot_rows: usize,
+    swaps: &mut [u32],
+) -> Result<(), NoPivot> {
+    let Shape { rows, columns, stride } = shape;
+    for j in 0..columns {
+        let end = a.len().min((j + 1) * stride);
+        let (done, later) = a.split_at_mut(end);
+        let column = &mut done[j * stride..j * stride + rows];
+        let (below, size) = largest(&column[j..pivot_rows]);
+        if size == 0.0
+            || !size.is_finite()
+            || largest_size(&column[pivot_rows..]) * THRESHOLD > size
+        {
+            return Err(NoPivot);
+        }
+        swaps[j] = below as u32;
+        let inverse = 1.0 / column[j + below];
+        column.swap(j, j + below);
+        for value in &mut column[j + 1..] {
+            *value *= inverse;
+        }
+        let multipliers = &column[j + 1..];
+        for other in later.chunks_mut(stride).take(columns - j - 1) {
+            other.swap(j, j + below);
+            let factor = -other[j];
+            for (value, multiplier) in other[j + 1..rows].iter_mut().zip(multipliers) {
+                *value = multiplier.mul_add(factor, *value);
+            }
+        }
+        if below > 0 {
+            for earlier in 0..j {
+                done.swap(earlier * stride + j, earlier * stride + j + below);
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Index and size of the largest entry.
+#[inline(always)]
+fn largest(values: &[f64]) -> (usize, f64) {
+    let size = largest_size(values);
+    let index = values.iter().position(|value| value.abs() == size);
+    (index.unwrap_or(0), size)
+}
+
+#[inline(always)]
+fn largest_size(values: &[f64]) -> f64 {
+    const LANES: usize = 8;
+    let mut most = [0.0f64; LANES];
+    let chunks = values.chunks_exact(LANES);
+    let mut size = chunks.remainder().iter().fold(0.0f64, |most, value| most.max(value.abs()));
+    for chunk in chunks {
+        for lane in 0..LANES {
+            let value = chunk[lane].abs();
+            most[lane] = if value > most[lane] { value } else { most[lane] };
+        }
+    }
+    for lane in most {
+        size = size.max(lane);
+    }
+    size
+}
+
+/// U12 = L11^-1 P U12 and C -= L21 U12 for some columns of both.
+pub(super) fn update(
+    l: &[f64],
+    m: usize,
+    p: usize,
+    swaps: &[u32],
+    u: &mut [f64],
+    c: &mut [f64],
+    k: usize,
+    accum: Accum,
+) {
+    let r = m - k;
+    let columns = u.len() / k;
+    swap_rows(u, columns, k, swaps);
+    let mut upper = view_mut(u, p, columns, k);
+    solve_unit_lower_triangular_in_place(view(l, p, p, m), upper.as_mut(), Par::Seq);
+    if r > 0 {
+        let multipliers = view(&l[k..], r, p, m);
+        matmul(view_mut(c, r, columns, r), accum, multipliers, upper.as_ref(), -1.0, Par::Seq);
+    }
+}
+
+/// What is left of a front whose columns could not all be eliminated.
+#[derive(Debug)]
+pub(super) struct Partial {
+    /// Number of pivots found.
+    pub pivots: usize,
+    /// Original index of each row and column of the fully summed block, pivots first.
+    pub rows: Vec<u32>,
+    pub columns: Vec<u32>,
+}
+
+/// LU with a free choice of pivot columns: as many of the k fully summed columns of the m x k panel
+/// as have an acceptable pivot; entries below `tiny[column]` are none.
+pub(super) fn lu_delaying(l: &mut [f64], m: usize, k: usize, tiny: &[f64]) -> Partial {
+    let mut rows: Vec<u32> = (0..k as u32).collect();
+    let mut columns: Vec<u32> = (0..k as u32).collect();
+    let mut pivots = 0;
+    while pivots < k {
+        let candidate = (pivots..k).find_map(|column| {
+            let values = &l[column * m..(column + 1) * m];
+            let (below, size) = largest(&values[pivots..k]);
+            let acceptable = size > tiny[columns[column] as usize]
+                && size.is_finite()
+                && size >= THRESHOLD * largest_size(&values[k..]);
+            acceptable.then_some((column, pivots + below))
+        });
+        let Some((column, row)) = candidate else { break };
+        columns.swap(pivots, column);
+        for index in 0..m {
+            l.swap(pivots * m + index, column * m + index);
+        }
+        rows.swap(pivots, row);
+        for other in l.chunks_mut(m) {
+            other.swap(pivots, row);
+        }
+        let (done, later) = l.split_at_mut((pivots + 1) * m);
+        let pivot_column = &mut done[pivots * m..];
+        let inverse = 1.0 / pivot_column[pivots];
+        for value in &mut pivot_column[pivots + 1..] {
+            *value *= inverse;
+        }
+        for other in later.chunks_mut(m) {
+            let factor = other[pivots];
+            for (value, multiplier) in
+                other[pivots + 1..].iter_mut().zip(&pivot_column[pivots + 1..])
+            {
+                *value -= multiplier * factor;
+            }
+        }
+        pivots += 1;
+    }
+    Partial { pivots, rows, columns }
+}

@@ -1,0 +1,67 @@
+//! Sparse LU of saddle-point matrices by the multifrontal method (@duff1983, @liu1992).
+//!
+//! The unknowns of a mesh node are ordered together: nested dissection or minimum degree on the
+//! graph of nodes, its elimination tree, and supernodes of it, merged where one larger front is
+//! cheaper than two. A front is a dense matrix over the k unknowns eliminated in it and the r
+//! unknowns this couples: assembled from the matrix and from what its children left, then
+//!
+//! ```text
+//! | F11 F12 |   P F11 = L11 U11, U12 = L11^-1 P F12, L21 = F21 U11^-1,
+//! | F21 F22 |   and F22 - L21 U12 goes to the parent.
+//! ```
+//!
+//! Within a front velocities come before pressures, whose diagonal is zero until their velocities
+//! are eliminated. A column whose pivot would be too small against the rest of it is delayed: it
+//! moves to the parent together with a row that is left. Unknowns with dense rows or columns (rigid
+//! velocities of bodies) are kept out of the graph and eliminated last.
+//!
+//! The tree is cut into subtrees that threads take one by one, and the fronts above them, whose
+//! columns threads share in blocks of a fixed width. Neither cut nor blocks depend on the number
+//! of threads, so the factors have the same bits on any number.
+
+mod analysis;
+mod dense;
+mod factors;
+mod front;
+mod graph;
+#[cfg(feature = "metis")]
+mod metis;
+mod ordering;
+mod solve;
+#[cfg(test)]
+mod tests;
+mod tree;
+
+pub use analysis::Analysis;
+pub use factors::{Factors, Singular};
+pub use ordering::Ordering;
+
+/// Compressed columns of a square matrix.
+#[derive(Debug, Clone, Copy)]
+pub struct PatternRef<'a> {
+    /// Start of each column in `rows`, and the end of the last: n + 1 numbers.
+    pub columns: &'a [usize],
+    /// Row of each stored entry.
+    pub rows: &'a [usize],
+}
+
+impl<'a> PatternRef<'a> {
+    fn n(&self) -> usize {
+        self.columns.len() - 1
+    }
+
+    fn column(&self, column: usize) -> &'a [usize] {
+        &self.rows[self.columns[column]..self.columns[column + 1]]
+    }
+}
+
+/// What each unknown of a matrix is.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Unknowns {
+    /// Mesh node of each unknown; those of one node are ordered together.
+    pub node: Vec<u32>,
+    /// Whether it is a pressure: its diagonal entry is zero.
+    pub is_pressure: Vec<bool>,
+    /// Unknowns with dense rows or columns, eliminated last; their nodes are not looked at.
+    pub dense: Vec<usize>,
+}
