@@ -1,25 +1,44 @@
 //! Loop over cells: gather, add the terms, fold into the free unknowns, scatter.
 //!
-//! Cells are worked on in parallel in blocks; their matrices are added in the order of the cells,
+//! Cells are worked on in parallel in blocks; what they give is added in the order of the cells,
 //! so that the sums have the same bits on any number of threads.
 
+use std::ops::Range;
+
 use alewife_mesh::{Facet, Mesh, nodes_per_cell};
+use pulp::{Arch, Simd, WithSimd};
 use rayon::prelude::*;
 
-use super::cell_terms::{cell_matrix, cell_residual};
+use super::cell_terms::{Input, LocalLayout, cell_matrix, cell_residual};
 use super::open_side::add_open_side;
+use super::points::PointTable;
 use super::terms::{Convection, Fields, FlowTerms};
 use crate::algebra::{AffineConstraints, CellMaps, Pattern};
-use crate::space::{CellValues, DofLayout, Rule, Tables, interval_rule};
+use crate::space::{DofLayout, Rule, Tables, interval_rule};
 
-/// Cells a thread takes at a time, and cells whose matrices are held at once.
-const CELLS_PER_TASK: usize = 32;
-const CELLS_PER_BLOCK: usize = 1024;
+/// Cells a thread takes at a time: their matrices stay in its cache.
+const CELLS_PER_TASK: usize = 64;
+
+/// Nodes of a cell, and nodes rounded up to whole registers.
+const N: usize = nodes_per_cell(2);
+const P: usize = N.next_multiple_of(4);
+/// Velocities and pressures of a cell.
+const N_FLUID: usize = LocalLayout::<2, N>::FLUID;
+
+/// Basis values on cells with straight sides.
+#[derive(Debug, Clone)]
+enum StraightTable {
+    Planar(PointTable<2, N, P, 8>),
+    /// The factor r asks for a rule of higher degree.
+    Axisymmetric(PointTable<2, N, P, 12>),
+}
 
 /// What assembling needs of a mesh: derived from it, replaced with it.
 #[derive(Debug, Clone)]
 pub struct Assembly {
     tables: Tables<2>,
+    straight: StraightTable,
+    curved: PointTable<2, N, P, 16>,
     maps: CellMaps,
     /// The open side of each cell that has one.
     open: Vec<Option<Facet>>,
@@ -42,11 +61,13 @@ impl Assembly {
         open_boundaries: &[usize],
         frame: Option<usize>,
     ) -> (Pattern, Self) {
-        let mut raw = Vec::new();
+        // In the order of `LocalLayout`.
+        let n_local = N_FLUID + if frame.is_some() { 2 } else { 0 };
+        let mut raw = Vec::with_capacity(n_local * mesh.n_cells());
         for cell in 0..mesh.n_cells() {
             let nodes = mesh.cell(cell);
-            for &node in nodes {
-                raw.extend((0..2).map(|axis| layout.velocity(node as usize, axis) as u32));
+            for axis in 0..2 {
+                raw.extend(nodes.iter().map(|&node| layout.velocity(node as usize, axis) as u32));
             }
             raw.extend(nodes[..3].iter().map(|&vertex| layout.pressure(vertex as usize) as u32));
             if let Some(body) = frame {
@@ -59,7 +80,6 @@ impl Assembly {
                 is_pressure[unknown] = true;
             }
         }
-        let n_local = nodes_per_cell(2) * 2 + 3 + if frame.is_some() { 2 } else { 0 };
         let (pattern, maps) = CellMaps::new(n_local, raw, constraints, |row, column| {
             !(is_pressure[row] && is_pressure[column])
         });
@@ -69,8 +89,16 @@ impl Assembly {
                 open[facet.cell as usize] = Some(*facet);
             }
         }
+        let tables = Tables::new(axisymmetric);
+        let straight = if axisymmetric {
+            StraightTable::Axisymmetric(PointTable::new(tables.rule(false)))
+        } else {
+            StraightTable::Planar(PointTable::new(tables.rule(false)))
+        };
         let assembly = Self {
-            tables: Tables::new(axisymmetric),
+            straight,
+            curved: PointTable::new(tables.rule(true)),
+            tables,
             maps,
             open,
             facet_rule: interval_rule(4),
@@ -87,8 +115,51 @@ impl Assembly {
     }
 
     fn n_local(&self) -> usize {
-        nodes_per_cell(2) * 2 + 3 + if self.with_frame { 2 } else { 0 }
+        N_FLUID + if self.with_frame { 2 } else { 0 }
     }
+}
+
+/// Lets `compute` fill `size` numbers for each cell, in parallel, and hands those of one cell
+/// after the other to `add`, in the order of the cells.
+///
+/// While one thread adds what a block of cells gave, the others work on the next block.
+fn for_each_cell(
+    n_cells: usize,
+    size: usize,
+    compute: impl Fn(Range<usize>, &mut [f64]) + Sync,
+    mut add: impl FnMut(usize, &[f64]) + Send,
+) {
+    let block_size = CELLS_PER_TASK * rayon::current_num_threads();
+    let block = |index: usize| {
+        let start = (index * block_size).min(n_cells);
+        start..(start + block_size).min(n_cells)
+    };
+    let compute_block = |index: usize, results: &mut [f64]| {
+        let cells = block(index);
+        results[..cells.len() * size].par_chunks_mut(CELLS_PER_TASK * size).enumerate().for_each(
+            |(task, results)| {
+                let start = cells.start + task * CELLS_PER_TASK;
+                compute(start..start + results.len() / size, results);
+            },
+        );
+    };
+    let mut next = vec![0.0; block_size.min(n_cells) * size];
+    let mut done = next.clone();
+    // Inside the pool, so that no block has to be handed over to it.
+    rayon::scope(|_| {
+        compute_block(0, &mut next);
+        for index in 0..n_cells.div_ceil(block_size) {
+            std::mem::swap(&mut next, &mut done);
+            rayon::join(
+                || {
+                    for (cell, result) in block(index).zip(done.chunks_exact(size)) {
+                        add(cell, result);
+                    }
+                },
+                || compute_block(index + 1, &mut next),
+            );
+        }
+    });
 }
 
 /// Overwrites `values` with P^T A P of the terms, linearised at the fields.
@@ -102,47 +173,17 @@ pub fn assemble(
 ) {
     debug_assert!(assembly.with_frame || terms.convection != Convection::NewtonInFrame);
     values.fill(0.0);
-    let n_local = assembly.n_local();
-    let cells: Vec<usize> = (0..mesh.n_cells()).collect();
-    for block in cells.chunks(CELLS_PER_BLOCK) {
-        let reduced: Vec<Vec<Vec<f64>>> = block
-            .par_chunks(CELLS_PER_TASK)
-            .map(|task| {
-                let mut workspace = CellValues::default();
-                let mut matrix = vec![0.0; n_local * n_local];
-                task.iter()
-                    .map(|&cell| {
-                        cell_matrix::<2, 6>(
-                            mesh,
-                            cell,
-                            &assembly.tables,
-                            terms,
-                            fields,
-                            &mut workspace,
-                            &mut matrix,
-                        );
-                        if let Some(facet) = &assembly.open[cell] {
-                            add_open_side(
-                                mesh,
-                                facet,
-                                &assembly.facet_rule,
-                                assembly.tables.is_axisymmetric(),
-                                terms.viscosity,
-                                Some((&mut matrix, n_local)),
-                                None,
-                            );
-                        }
-                        let mut reduced = Vec::new();
-                        assembly.maps.reduce(cell, constraints, &matrix, &mut reduced);
-                        reduced
-                    })
-                    .collect()
-            })
-            .collect();
-        for (&cell, matrix) in block.iter().zip(reduced.iter().flatten()) {
-            assembly.maps.scatter(cell, matrix, values);
-        }
-    }
+    let axisymmetric = assembly.tables.is_axisymmetric();
+    let input = Input { mesh, axisymmetric, terms, fields };
+    let size = assembly.maps.largest_matrix();
+    for_each_cell(
+        mesh.n_cells(),
+        size,
+        |cells, results| {
+            Arch::new().dispatch(Matrices { assembly, constraints, input, cells, size, results });
+        },
+        |cell, matrix| assembly.maps.scatter(cell, matrix, values),
+    );
 }
 
 /// The raw residual of the terms at the fields, without anything of the bodies' own.
@@ -153,46 +194,112 @@ pub fn residual(
     terms: &FlowTerms<'_, 2>,
     fields: &Fields<'_, 2>,
 ) -> Vec<f64> {
-    let n_fluid = nodes_per_cell(2) * 2 + 3;
-    let cells: Vec<usize> = (0..mesh.n_cells()).collect();
+    let axisymmetric = assembly.tables.is_axisymmetric();
+    let input = Input { mesh, axisymmetric, terms, fields };
     let mut total = vec![0.0; assembly.layout.n_raw()];
-    for block in cells.chunks(CELLS_PER_BLOCK) {
-        let locals: Vec<Vec<f64>> = block
-            .par_chunks(CELLS_PER_TASK)
-            .map(|task| {
-                let mut workspace = CellValues::default();
-                let mut locals = vec![0.0; n_fluid * task.len()];
-                for (&cell, local) in task.iter().zip(locals.chunks_mut(n_fluid)) {
-                    cell_residual::<2, 6>(
-                        mesh,
-                        cell,
-                        &assembly.tables,
-                        terms,
-                        fields,
-                        &mut workspace,
-                        local,
-                    );
-                    if let Some(facet) = &assembly.open[cell] {
-                        add_open_side(
-                            mesh,
-                            facet,
-                            &assembly.facet_rule,
-                            assembly.tables.is_axisymmetric(),
-                            terms.viscosity,
-                            None,
-                            Some((local, fields.velocity)),
-                        );
-                    }
-                }
-                locals
-            })
-            .collect();
-        let locals = locals.iter().flat_map(|task| task.chunks(n_fluid));
-        for (&cell, local) in block.iter().zip(locals) {
+    for_each_cell(
+        mesh.n_cells(),
+        N_FLUID,
+        |cells, results| Arch::new().dispatch(Residuals { assembly, input, cells, results }),
+        |cell, local| {
             for (&raw, value) in assembly.maps.raw_unknowns(cell).iter().zip(local) {
                 total[raw as usize] += value;
             }
+        },
+    );
+    total
+}
+
+/// The matrices of some cells, `size` numbers for each.
+struct Matrices<'a> {
+    assembly: &'a Assembly,
+    constraints: &'a AffineConstraints,
+    input: Input<'a, 2>,
+    cells: Range<usize>,
+    size: usize,
+    results: &'a mut [f64],
+}
+
+impl WithSimd for Matrices<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Self { assembly, constraints, input, cells, size, results } = self;
+        let n_local = assembly.n_local();
+        let mut raw = vec![0.0; n_local * n_local];
+        for (cell, result) in cells.zip(results.chunks_exact_mut(size)) {
+            let is_folded = assembly.maps.is_folded(cell);
+            let matrix = if is_folded { &mut raw[..] } else { &mut result[..n_local * n_local] };
+            let with_frame = assembly.with_frame;
+            if input.mesh.curved[cell] {
+                cell_matrix::<S, 2, N, P, 16>(input, cell, &assembly.curved, with_frame, matrix);
+            } else {
+                match &assembly.straight {
+                    StraightTable::Planar(table) => {
+                        cell_matrix::<S, 2, N, P, 8>(input, cell, table, with_frame, matrix);
+                    }
+                    StraightTable::Axisymmetric(table) => {
+                        cell_matrix::<S, 2, N, P, 12>(input, cell, table, with_frame, matrix);
+                    }
+                }
+            }
+            if let Some(facet) = &assembly.open[cell] {
+                add_open_side(
+                    input.mesh,
+                    facet,
+                    &assembly.facet_rule,
+                    input.axisymmetric,
+                    input.terms.viscosity,
+                    Some((matrix, n_local)),
+                    None,
+                );
+            }
+            if is_folded {
+                assembly.maps.fold(cell, constraints, &raw, result);
+            }
         }
     }
-    total
+}
+
+/// The residuals of some cells.
+struct Residuals<'a> {
+    assembly: &'a Assembly,
+    input: Input<'a, 2>,
+    cells: Range<usize>,
+    results: &'a mut [f64],
+}
+
+impl WithSimd for Residuals<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Self { assembly, input, cells, results } = self;
+        for (cell, local) in cells.zip(results.chunks_exact_mut(N_FLUID)) {
+            if input.mesh.curved[cell] {
+                cell_residual::<S, 2, N, P, 16>(input, cell, &assembly.curved, local);
+            } else {
+                match &assembly.straight {
+                    StraightTable::Planar(table) => {
+                        cell_residual::<S, 2, N, P, 8>(input, cell, table, local);
+                    }
+                    StraightTable::Axisymmetric(table) => {
+                        cell_residual::<S, 2, N, P, 12>(input, cell, table, local);
+                    }
+                }
+            }
+            if let Some(facet) = &assembly.open[cell] {
+                add_open_side(
+                    input.mesh,
+                    facet,
+                    &assembly.facet_rule,
+                    input.axisymmetric,
+                    input.terms.viscosity,
+                    None,
+                    Some((local, input.fields.velocity)),
+                );
+            }
+        }
+    }
 }
