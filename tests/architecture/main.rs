@@ -27,8 +27,9 @@ const ROOMS: [(&str, &[&str]); 14] = [
 ];
 
 /// Foreign crates that may be named in one room or file only.
-const FOREIGN: [(&str, &str); 5] = [
+const FOREIGN: [(&str, &str); 6] = [
     ("faer", "solver/src/algebra/"),
+    ("pulp", "solver/src/flow/"),
     ("spade", "mesh/src/generate/"),
     ("mcap", "solver/src/observer/"),
     ("clap", "solver/src/cli/"),

@@ -303,3 +303,252 @@ impl WithSimd for Residuals<'_> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use alewife_mesh::{Domain, Point, Sizing, generate};
+    use nalgebra::SMatrix;
+
+    use super::*;
+    use crate::algebra::ConstraintBuilder;
+    use crate::space::CellValues;
+
+    const CONVECTIONS: [Convection; 4] =
+        [Convection::None, Convection::Oseen, Convection::Newton, Convection::NewtonInFrame];
+
+    fn mesh_of_disc(curved: bool, axisymmetric: bool) -> Mesh<2> {
+        let domain = if axisymmetric {
+            Domain::HalfDisc { center: 0.0, radius: 1.0 }
+        } else {
+            Domain::Disc { center: Point::<2>::zeros(), radius: 1.0 }
+        };
+        let sizing = Sizing { curved, ..Sizing::graded(0.4, 0.3, 0.4) };
+        let mesh = generate(&domain, &[], &sizing).expect("a disc has a mesh");
+        assert_eq!(mesh.curved.contains(&true), curved);
+        assert!(mesh.curved.contains(&false));
+        mesh
+    }
+
+    /// A smooth field with all derivatives.
+    fn field(mesh: &Mesh<2>, shift: f64) -> Vec<Point<2>> {
+        let value = |place: &Point<2>| {
+            let [x, y] = [place[0] + shift, place[1] - 0.3 * shift];
+            Point::<2>::new((2.0 * x + y).sin() + 0.3 * y, (x - 3.0 * y).cos() + x * y)
+        };
+        mesh.nodes.iter().map(value).collect()
+    }
+
+    /// A system without constraints, with one more body for its velocities.
+    struct Setting {
+        mesh: Mesh<2>,
+        layout: DofLayout<2>,
+        constraints: AffineConstraints,
+        pattern: Pattern,
+        assembly: Assembly,
+        velocity: Vec<Point<2>>,
+        pressure: Vec<f64>,
+        history: Vec<Point<2>>,
+        frame: Point<2>,
+        rate: f64,
+    }
+
+    impl Setting {
+        fn new(mesh: Mesh<2>, axisymmetric: bool, with_frame: bool) -> Self {
+            let layout = DofLayout::new(&mesh, 1);
+            let constraints = ConstraintBuilder::new(layout.n_raw()).build();
+            let frame = with_frame.then_some(0);
+            // Every side is open, curved ones too.
+            let (pattern, assembly) =
+                Assembly::new(&mesh, layout, &constraints, axisymmetric, &[0, 1], frame);
+            let nodes = &mesh.nodes[..mesh.n_vertices];
+            Self {
+                velocity: field(&mesh, 0.0),
+                pressure: nodes.iter().map(|place| place[0] - place[1] * place[1]).collect(),
+                history: field(&mesh, 0.4),
+                frame: Point::<2>::new(0.3, -0.2),
+                rate: 1.7,
+                mesh,
+                layout,
+                constraints,
+                pattern,
+                assembly,
+            }
+        }
+
+        /// What convects: given, or the velocity itself as seen from the frame.
+        fn crossing(&self, convection: Convection) -> Vec<Point<2>> {
+            match convection {
+                Convection::None => Vec::new(),
+                Convection::Oseen => field(&self.mesh, -0.6),
+                Convection::Newton | Convection::NewtonInFrame => {
+                    self.velocity.iter().map(|velocity| velocity - self.frame).collect()
+                }
+            }
+        }
+
+        fn with_terms<T>(
+            &self,
+            convection: Convection,
+            work: impl FnOnce(&FlowTerms<'_, 2>, &Fields<'_, 2>) -> T,
+        ) -> T {
+            let crossing = self.crossing(convection);
+            let terms = FlowTerms {
+                viscosity: 0.7,
+                density: 1.3,
+                rate: self.rate,
+                history: &self.history,
+                crossing: &crossing,
+                convection,
+                body_force: None,
+            };
+            work(&terms, &Fields { velocity: &self.velocity, pressure: &self.pressure })
+        }
+
+        fn residual(&self, convection: Convection) -> Vec<f64> {
+            self.with_terms(convection, |terms, fields| {
+                residual(&self.assembly, &self.mesh, terms, fields)
+            })
+        }
+
+        fn matrix(&self, convection: Convection) -> Vec<f64> {
+            let mut values = vec![f64::NAN; self.pattern.rows.len()];
+            self.with_terms(convection, |terms, fields| {
+                let Self { assembly, mesh, constraints, .. } = self;
+                assemble(assembly, mesh, constraints, terms, fields, &mut values);
+            });
+            values
+        }
+
+        /// Moves all unknowns by `step` along a direction, which is returned.
+        fn moved(&mut self, step: f64, in_frame: bool) -> Vec<f64> {
+            let mut direction = vec![0.0; self.layout.n_raw()];
+            let velocity = field(&self.mesh, 0.9);
+            for (node, change) in velocity.iter().enumerate() {
+                self.velocity[node] += change * step;
+                for axis in 0..2 {
+                    direction[self.layout.velocity(node, axis)] = change[axis];
+                }
+            }
+            for (vertex, pressure) in self.pressure.iter_mut().enumerate() {
+                let change = (5.0 * vertex as f64).sin();
+                *pressure += step * change;
+                direction[self.layout.pressure(vertex)] = change;
+            }
+            if in_frame {
+                let change = Point::<2>::new(0.8, 0.5);
+                self.frame += change * step;
+                for axis in 0..2 {
+                    direction[self.layout.rigid(0, axis)] = change[axis];
+                }
+            }
+            direction
+        }
+    }
+
+    fn largest_difference(one: &[f64], other: &[f64]) -> f64 {
+        let size = one.iter().fold(0.0f64, |most, value| most.max(value.abs()));
+        let pairs = one.iter().zip(other);
+        pairs.fold(0.0f64, |most, (one, other)| most.max((one - other).abs())) / size
+    }
+
+    /// The residual is of second order in the unknowns, so central differences are exact.
+    #[test]
+    fn the_matrix_is_the_derivative_of_the_residual() {
+        for (curved, axisymmetric) in [(false, false), (true, false), (false, true), (true, true)] {
+            for convection in CONVECTIONS {
+                let in_frame = convection == Convection::NewtonInFrame;
+                let mesh = mesh_of_disc(curved, axisymmetric);
+                let mut setting = Setting::new(mesh, axisymmetric, in_frame);
+                let matrix = setting.matrix(convection);
+                let direction = setting.moved(0.5, in_frame);
+                let ahead = setting.residual(convection);
+                setting.moved(-1.0, in_frame);
+                let behind = setting.residual(convection);
+                let difference: Vec<f64> =
+                    ahead.iter().zip(&behind).map(|(ahead, behind)| ahead - behind).collect();
+                let mut product = vec![0.0; direction.len()];
+                setting.pattern.multiply_add(&matrix, &direction, &mut product);
+                let error = largest_difference(&difference, &product);
+                assert!(error < 1e-12, "{convection:?}, {curved}, {axisymmetric}: {error}");
+            }
+        }
+    }
+
+    #[test]
+    fn on_straight_cells_both_maps_agree() {
+        for axisymmetric in [false, true] {
+            let mut mesh = mesh_of_disc(false, axisymmetric);
+            // Away from the axis, where 1 / r is nearly a polynomial on a cell.
+            for node in &mut mesh.nodes {
+                node[1] += 20.0;
+            }
+            let tolerance = if axisymmetric { 1e-10 } else { 1e-13 };
+            let mut bent = mesh.clone();
+            bent.curved.fill(true);
+            let straight = Setting::new(mesh, axisymmetric, false);
+            let bent = Setting::new(bent, axisymmetric, false);
+            for convection in &CONVECTIONS[..3] {
+                let (one, other) = (straight.matrix(*convection), bent.matrix(*convection));
+                assert!(largest_difference(&one, &other) < tolerance);
+                let (one, other) = (straight.residual(*convection), bent.residual(*convection));
+                assert!(largest_difference(&one, &other) < tolerance);
+            }
+        }
+    }
+
+    /// The same integrals point by point, without arrays of lanes: power of the residual.
+    #[test]
+    fn the_residual_tested_with_the_velocity_is_its_power() {
+        for axisymmetric in [false, true] {
+            let mut setting = Setting::new(mesh_of_disc(true, axisymmetric), axisymmetric, false);
+            setting.assembly.open.fill(None);
+            let residual = setting.residual(Convection::Oseen);
+            let mut power = 0.0;
+            for (node, velocity) in setting.velocity.iter().enumerate() {
+                for axis in 0..2 {
+                    power += residual[setting.layout.velocity(node, axis)] * velocity[axis];
+                }
+            }
+            let expected = setting.with_terms(Convection::Oseen, |terms, fields| {
+                power_by_points(&setting, terms, fields, axisymmetric)
+            });
+            assert!((power - expected).abs() < 1e-12 * expected.abs(), "{power} {expected}");
+        }
+    }
+
+    /// int rho (a0 u + h + (c . grad) u) . u + 2 mu D : D - p div u.
+    fn power_by_points(
+        setting: &Setting,
+        terms: &FlowTerms<'_, 2>,
+        fields: &Fields<'_, 2>,
+        axisymmetric: bool,
+    ) -> f64 {
+        let mut power = 0.0;
+        let mut workspace = CellValues::default();
+        for cell in 0..setting.mesh.n_cells() {
+            let nodes = setting.mesh.cell(cell);
+            workspace.for_each_point(setting.assembly.tables(), &setting.mesh, cell, |at| {
+                let mut velocity = Point::<2>::zeros();
+                let (mut history, mut crossing) = (velocity, velocity);
+                let mut gradient = SMatrix::<f64, 2, 2>::zeros();
+                for (a, &node) in nodes.iter().enumerate() {
+                    let node = node as usize;
+                    velocity += fields.velocity[node] * at.phi[a];
+                    history += terms.history[node] * at.phi[a];
+                    crossing += terms.crossing[node] * at.phi[a];
+                    gradient += fields.velocity[node] * at.grad_phi[a].transpose();
+                }
+                let pressure: f64 =
+                    (0..3).map(|v| fields.pressure[nodes[v] as usize] * at.psi[v]).sum();
+                let stretch = if axisymmetric { velocity[1] / at.position[1] } else { 0.0 };
+                let strain = (gradient + gradient.transpose()) / 2.0;
+                let change = velocity * terms.rate + history + gradient * crossing;
+                power += at.dx
+                    * (terms.density * change.dot(&velocity)
+                        + 2.0 * terms.viscosity * (strain.norm_squared() + stretch * stretch)
+                        - pressure * (gradient.trace() + stretch));
+            });
+        }
+        power
+    }
+}
