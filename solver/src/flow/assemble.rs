@@ -28,9 +28,9 @@ const N_FLUID: usize = LocalLayout::<2, N>::FLUID;
 /// Basis values on cells with straight sides.
 #[derive(Debug, Clone)]
 enum StraightTable {
-    Planar(PointTable<2, N, P, 8>),
+    Planar(Box<PointTable<2, N, P, 8>>),
     /// The factor r asks for a rule of higher degree.
-    Axisymmetric(PointTable<2, N, P, 12>),
+    Axisymmetric(Box<PointTable<2, N, P, 12>>),
 }
 
 /// What assembling needs of a mesh: derived from it, replaced with it.
@@ -91,9 +91,9 @@ impl Assembly {
         }
         let tables = Tables::new(axisymmetric);
         let straight = if axisymmetric {
-            StraightTable::Axisymmetric(PointTable::new(tables.rule(false)))
+            StraightTable::Axisymmetric(Box::new(PointTable::new(tables.rule(false))))
         } else {
-            StraightTable::Planar(PointTable::new(tables.rule(false)))
+            StraightTable::Planar(Box::new(PointTable::new(tables.rule(false))))
         };
         let assembly = Self {
             straight,
