@@ -28,8 +28,9 @@ const ROOMS: [(&str, &[&str]); 15] = [
 ];
 
 /// Foreign crates that may be named in some rooms or files only.
-const FOREIGN: [(&str, &[&str]); 6] = [
+const FOREIGN: [(&str, &[&str]); 7] = [
     ("faer", &["solver/src/algebra/", "solver/src/multifrontal/"]),
+    ("pulp", &["solver/src/flow/", "solver/src/multifrontal/"]),
     ("metis_sys", &["solver/src/multifrontal/metis.rs"]),
     ("spade", &["mesh/src/generate/"]),
     ("mcap", &["solver/src/observer/"]),

@@ -1,12 +1,13 @@
 //! One entry, `generate`: from a domain with bodies and a sizing to a mesh.
 //!
 //! Boundary as curves, size field, boundary edges, interior points by a front, constrained Delaunay
-//! triangulation, improvement, quadratic nodes. Nothing is random: equal input, equal bits.
+//! triangulation, improvement, quadratic nodes, numbering. Nothing is random: equal input, equal bits.
 
 mod border;
 mod edges;
 mod front;
 mod improve;
+mod order;
 mod placement;
 mod planar;
 mod point_tree;
@@ -64,5 +65,6 @@ pub fn generate(
     let interior = front::lay_points(&boundary, &sizes)?;
     let mut triangles = planar::triangulate(&boundary, &interior, &sizes)?;
     improve::improve(&mut triangles, &border, sizing.curved);
-    quadratic::finish(triangles, &border, &boundary.periodic, sizing.curved)
+    let mesh = quadratic::finish(triangles, &border, &boundary.periodic, sizing.curved)?;
+    Ok(order::renumber(&mesh))
 }

@@ -49,27 +49,45 @@ impl Pattern {
 
 /// Marks an entry of a cell's matrix that is not stored.
 const NOT_STORED: u32 = u32::MAX;
+/// Stands for the unknown of a given value.
+const NO_UNKNOWN: u32 = u32::MAX;
 
 /// For each cell, its free unknowns, how its raw unknowns depend on them, and where the entries
 /// of its reduced matrix are stored.
+///
+/// Most cells have raw unknowns that are free or given. Their matrix is not reduced: what belongs
+/// to a given value has no place. The others, at bodies that move freely and at periodic sides,
+/// are folded to the unknowns behind.
 #[derive(Debug, Clone)]
 pub struct CellMaps {
     n_local_raw: usize,
     raw: Vec<u32>,
-    unknown_offsets: Vec<u32>,
     position_offsets: Vec<usize>,
+    /// Column by column.
     positions: Vec<u32>,
+    /// The folded cells, in order.
+    folded: Vec<FoldedCell>,
+    /// Index in `folded` of each cell, if it is one of them.
+    folded_index: Vec<u32>,
+    largest: usize,
+}
+
+/// A cell with raw unknowns that depend on others.
+#[derive(Debug, Clone)]
+struct FoldedCell {
+    n_local: usize,
     /// Index among the cell's unknowns of each entry of the rows of its raw unknowns.
     local: Vec<u16>,
-    local_offsets: Vec<u32>,
-    is_plain: Vec<bool>,
 }
+
+/// Marks a cell that is not folded.
+const NOT_FOLDED: u32 = u32::MAX;
 
 impl CellMaps {
     /// Pattern and maps for cells with `n_local_raw` raw unknowns each, listed in `raw`.
     ///
     /// `couples(i, j)` says whether two free unknowns of a cell have an entry (two pressures do
-    /// not).
+    /// not). Which unknowns a constraint refers to must not change later; its weights may.
     #[must_use]
     pub fn new(
         n_local_raw: usize,
@@ -78,52 +96,59 @@ impl CellMaps {
         couples: impl Fn(usize, usize) -> bool,
     ) -> (Pattern, Self) {
         let n_cells = raw.len() / n_local_raw;
+        // The unknown of each row and column of the cells' matrices, none of a given value.
         let mut unknowns: Vec<u32> = Vec::with_capacity(raw.len());
+        let mut unknown_offsets = vec![0];
         let mut maps = Self {
             n_local_raw,
             raw,
-            unknown_offsets: vec![0],
             position_offsets: vec![0],
             positions: Vec::new(),
-            local: Vec::new(),
-            local_offsets: vec![0],
-            is_plain: Vec::with_capacity(n_cells),
+            folded: Vec::new(),
+            folded_index: vec![NOT_FOLDED; n_cells],
+            largest: n_local_raw * n_local_raw,
         };
         for cell in 0..n_cells {
             let start = unknowns.len();
-            let mut is_plain = true;
-            for &raw in &maps.raw[cell * n_local_raw..(cell + 1) * n_local_raw] {
-                let row = constraints.row(raw as usize);
-                is_plain &= row.len() == 1 && row[0].1 == 1.0;
-                for &(unknown, _) in row {
-                    let known = unknowns[start..].iter().position(|&other| other == unknown);
-                    let index = known.unwrap_or(unknowns.len() - start);
-                    if known.is_none() {
-                        unknowns.push(unknown);
+            let raw = &maps.raw[cell * n_local_raw..(cell + 1) * n_local_raw];
+            let is_free = |raw: usize| constraints.unknown(raw).is_some();
+            let is_given = |raw: usize| constraints.row(raw).is_empty();
+            if raw.iter().all(|&raw| is_free(raw as usize) || is_given(raw as usize)) {
+                unknowns.extend(raw.iter().map(|&raw| {
+                    constraints.unknown(raw as usize).map_or(NO_UNKNOWN, |unknown| unknown as u32)
+                }));
+            } else {
+                let mut local = Vec::new();
+                for &raw in raw {
+                    for &(unknown, _) in constraints.row(raw as usize) {
+                        let known = unknowns[start..].iter().position(|&other| other == unknown);
+                        let index = known.unwrap_or(unknowns.len() - start);
+                        if known.is_none() {
+                            unknowns.push(unknown);
+                        }
+                        local.push(index as u16);
                     }
-                    maps.local.push(index as u16);
                 }
+                maps.folded_index[cell] = maps.folded.len() as u32;
+                maps.folded.push(FoldedCell { n_local: unknowns.len() - start, local });
             }
-            let n_local = unknowns.len() - start;
-            maps.is_plain.push(is_plain && n_local == n_local_raw);
-            maps.local_offsets.push(maps.local.len() as u32);
-            maps.unknown_offsets.push(unknowns.len() as u32);
-            maps.position_offsets.push(maps.position_offsets[cell] + n_local * n_local);
+            let n_entries = (unknowns.len() - start).pow(2);
+            maps.largest = maps.largest.max(n_entries);
+            unknown_offsets.push(unknowns.len());
+            maps.position_offsets.push(maps.position_offsets[cell] + n_entries);
         }
-        let pattern = build_pattern(constraints.n_unknowns(), &unknowns, &maps, &couples);
-        maps.positions = vec![NOT_STORED; maps.position_offsets[n_cells]];
-        for cell in 0..n_cells {
-            let range =
-                maps.unknown_offsets[cell] as usize..maps.unknown_offsets[cell + 1] as usize;
-            let local = &unknowns[range];
-            let positions =
-                &mut maps.positions[maps.position_offsets[cell]..maps.position_offsets[cell + 1]];
-            for (i, &row) in local.iter().enumerate() {
-                for (j, &column) in local.iter().enumerate() {
-                    if let Some(position) = pattern.position(row as usize, column as usize) {
-                        positions[i * local.len() + j] = position as u32;
-                    }
-                }
+        let cells = || unknown_offsets.windows(2).map(|range| &unknowns[range[0]..range[1]]);
+        let pattern = build_pattern(constraints.n_unknowns(), cells, &couples);
+        maps.positions.reserve_exact(maps.position_offsets[n_cells]);
+        for local in cells() {
+            for &column in local {
+                maps.positions.extend(local.iter().map(|&row| {
+                    let is_entry = row != NO_UNKNOWN && column != NO_UNKNOWN;
+                    is_entry
+                        .then(|| pattern.position(row as usize, column as usize))
+                        .flatten()
+                        .map_or(NOT_STORED, |position| position as u32)
+                }));
             }
         }
         (pattern, maps)
@@ -132,7 +157,7 @@ impl CellMaps {
     /// Number of cells.
     #[must_use]
     pub fn n_cells(&self) -> usize {
-        self.is_plain.len()
+        self.folded_index.len()
     }
 
     /// Raw unknowns of a cell.
@@ -141,59 +166,60 @@ impl CellMaps {
         &self.raw[cell * self.n_local_raw..(cell + 1) * self.n_local_raw]
     }
 
-    /// Number of free unknowns of a cell.
+    /// Entries of the largest matrix of a cell, raw or folded.
     #[must_use]
-    pub fn n_local(&self, cell: usize) -> usize {
-        (self.unknown_offsets[cell + 1] - self.unknown_offsets[cell]) as usize
+    pub fn largest_matrix(&self) -> usize {
+        self.largest
     }
 
-    /// P^T A P of one cell: `matrix` is its raw matrix, row by row; `reduced` is overwritten.
-    pub fn reduce(
+    /// Whether the matrix of a cell has to be folded before it is scattered.
+    #[must_use]
+    pub fn is_folded(&self, cell: usize) -> bool {
+        self.folded_index[cell] != NOT_FOLDED
+    }
+
+    /// P^T A P of a folded cell: `matrix` is its raw matrix, column by column; the beginning of
+    /// `folded` is overwritten.
+    ///
+    /// # Panics
+    /// When the cell is not a folded one.
+    pub fn fold(
         &self,
         cell: usize,
         constraints: &AffineConstraints,
         matrix: &[f64],
-        reduced: &mut Vec<f64>,
+        folded: &mut [f64],
     ) {
-        reduced.clear();
-        if self.is_plain[cell] {
-            reduced.extend_from_slice(matrix);
-            return;
-        }
-        let n_local = self.n_local(cell);
-        reduced.resize(n_local * n_local, 0.0);
-        let mut local = self.local[self.local_offsets[cell] as usize..].iter();
-        let rows: Vec<Vec<(usize, f64)>> = self
-            .raw_unknowns(cell)
-            .iter()
-            .map(|&raw| {
-                constraints
-                    .row(raw as usize)
-                    .iter()
-                    .map(|&(_, weight)| {
-                        let index = local.next().expect("one local index for each entry");
-                        (usize::from(*index), weight)
-                    })
-                    .collect()
-            })
-            .collect();
-        for (i, row_entries) in rows.iter().enumerate() {
-            for (j, column_entries) in rows.iter().enumerate() {
-                let value = matrix[i * self.n_local_raw + j];
-                for &(row, row_weight) in row_entries {
-                    for &(column, column_weight) in column_entries {
-                        reduced[row * n_local + column] += row_weight * value * column_weight;
+        let FoldedCell { n_local, local } = &self.folded[self.folded_index[cell] as usize];
+        let folded = &mut folded[..n_local * n_local];
+        folded.fill(0.0);
+        let raw = self.raw_unknowns(cell);
+        let mut column_local = local.as_slice();
+        for (&raw_column, column) in raw.iter().zip(matrix.chunks_exact(self.n_local_raw)) {
+            let column_entries = constraints.row(raw_column as usize);
+            let (column_indices, rest) = column_local.split_at(column_entries.len());
+            column_local = rest;
+            let mut row_local = local.as_slice();
+            for (&raw_row, value) in raw.iter().zip(column) {
+                let row_entries = constraints.row(raw_row as usize);
+                let (row_indices, rest) = row_local.split_at(row_entries.len());
+                row_local = rest;
+                for (&column, &(_, column_weight)) in column_indices.iter().zip(column_entries) {
+                    let value = value * column_weight;
+                    for (&row, &(_, row_weight)) in row_indices.iter().zip(row_entries) {
+                        folded[usize::from(column) * n_local + usize::from(row)] +=
+                            row_weight * value;
                     }
                 }
             }
         }
     }
 
-    /// Adds a cell's reduced matrix to the stored values.
-    pub fn scatter(&self, cell: usize, reduced: &[f64], values: &mut [f64]) {
+    /// Adds a cell's matrix, folded where it has to be, to the stored values.
+    pub fn scatter(&self, cell: usize, matrix: &[f64], values: &mut [f64]) {
         let positions =
             &self.positions[self.position_offsets[cell]..self.position_offsets[cell + 1]];
-        for (&position, value) in positions.iter().zip(reduced) {
+        for (&position, value) in positions.iter().zip(matrix) {
             if position != NOT_STORED {
                 values[position as usize] += value;
             }
@@ -202,19 +228,17 @@ impl CellMaps {
 }
 
 /// Columns of all pairs of unknowns that share a cell and couple.
-fn build_pattern(
+fn build_pattern<'a, C: Iterator<Item = &'a [u32]>>(
     n: usize,
-    unknowns: &[u32],
-    maps: &CellMaps,
+    cells: impl Fn() -> C,
     couples: &impl Fn(usize, usize) -> bool,
 ) -> Pattern {
-    let cells = || {
-        maps.unknown_offsets.windows(2).map(|range| &unknowns[range[0] as usize..range[1] as usize])
-    };
+    let cells =
+        || cells().map(|cell| cell.iter().copied().filter(|&unknown| unknown != NO_UNKNOWN));
     let mut counts = vec![0usize; n];
     for cell in cells() {
-        for &column in cell {
-            counts[column as usize] += cell.len();
+        for column in cell.clone() {
+            counts[column as usize] += cell.clone().count();
         }
     }
     let mut starts = vec![0usize; n + 1];
@@ -224,8 +248,8 @@ fn build_pattern(
     let mut fill = starts.clone();
     let mut all_rows = vec![0u32; starts[n]];
     for cell in cells() {
-        for &column in cell {
-            for &row in cell {
+        for column in cell.clone() {
+            for row in cell.clone() {
                 if couples(row as usize, column as usize) {
                     all_rows[fill[column as usize]] = row;
                     fill[column as usize] += 1;
@@ -261,13 +285,14 @@ mod tests {
         builder.constrain(2, vec![(0, 0.5)], 1.0);
         let constraints = builder.build();
         let (pattern, maps) = CellMaps::new(2, vec![0, 1, 1, 2], &constraints, |_, _| true);
-        let cell = [2.0, -1.0, -3.0, 4.0];
+        // Columns of [[2, -1], [-3, 4]].
+        let cell = [2.0, -3.0, -1.0, 4.0];
         let mut values = vec![0.0; pattern.rows.len()];
-        let mut reduced = Vec::new();
-        for index in 0..2 {
-            maps.reduce(index, &constraints, &cell, &mut reduced);
-            maps.scatter(index, &reduced, &mut values);
-        }
+        let mut folded = vec![0.0; maps.largest_matrix()];
+        assert!(!maps.is_folded(0) && maps.is_folded(1));
+        maps.scatter(0, &cell, &mut values);
+        maps.fold(1, &constraints, &cell, &mut folded);
+        maps.scatter(1, &folded, &mut values);
         // Full matrix [[2,-1,0],[-3,6,-1],[0,-3,4]], P = [[1,0],[0,1],[0.5,0]].
         let expected = [[3.0, -2.5], [-3.5, 6.0]];
         for (row, line) in expected.iter().enumerate() {
@@ -275,5 +300,21 @@ mod tests {
                 assert_eq!(values[pattern.position(row, column).unwrap()], *value);
             }
         }
+    }
+
+    /// Two cells in a row whose last unknown is given.
+    #[test]
+    fn what_belongs_to_a_given_value_is_not_stored() {
+        let mut builder = ConstraintBuilder::new(3);
+        builder.constrain(2, vec![], 5.0);
+        let constraints = builder.build();
+        let (pattern, maps) = CellMaps::new(2, vec![0, 1, 1, 2], &constraints, |_, _| true);
+        let cell = [2.0, -3.0, -1.0, 4.0];
+        let mut values = vec![0.0; pattern.rows.len()];
+        for index in 0..2 {
+            assert!(!maps.is_folded(index));
+            maps.scatter(index, &cell, &mut values);
+        }
+        assert_eq!(values, [2.0, -3.0, -1.0, 6.0]);
     }
 }

@@ -3,7 +3,7 @@
 //! A node on a body: u = U + omega x (x - G) + slip, with U and omega raw unknowns themselves.
 //! Where boundaries meet, bodies come first, then walls, then inflows, then symmetry planes.
 
-use alewife_mesh::{BoundaryKind, Mesh};
+use alewife_mesh::{BoundaryKind, Facet, Mesh};
 
 use super::problem::{Drive, Problem, Side};
 use crate::algebra::{AffineConstraints, ConstraintBuilder};
@@ -85,8 +85,16 @@ pub(super) fn constrain(
         }
     }
     if problem.is_enclosed() {
-        // Any vertex will do that is not itself a periodic copy.
-        let pinned = (0..layout.n_vertices)
+        // Any vertex will do that is not itself a periodic copy, but on a side of the domain the
+        // level is that far away: next to a body it may be large, and the cells far away, where
+        // it is then felt, are large too.
+        let is_side = |facet: &&Facet| {
+            mesh.boundaries[usize::from(facet.boundary)].kind == BoundaryKind::Side
+        };
+        let on_sides =
+            mesh.facets.iter().filter(is_side).map(|facet| mesh.facet_nodes(facet)[0] as usize);
+        let pinned = on_sides
+            .chain(0..layout.n_vertices)
             .map(|vertex| layout.pressure(vertex))
             .find(|&raw| !builder.is_constrained(raw));
         if let Some(raw) = pinned {

@@ -3,6 +3,7 @@
 mod assemble;
 mod cell_terms;
 mod open_side;
+mod points;
 mod terms;
 
 pub use assemble::{Assembly, assemble, residual};

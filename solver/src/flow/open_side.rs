@@ -6,9 +6,10 @@
 
 use std::f64::consts::TAU;
 
-use alewife_mesh::{Facet, Mesh, Point};
+use alewife_mesh::{Facet, Mesh, Point, nodes_per_cell};
 use nalgebra::SMatrix;
 
+use super::cell_terms::LocalLayout;
 use crate::space::{CellValues, Rule, triangle_side_point};
 
 /// Values at one quadrature point of a boundary facet.
@@ -47,7 +48,7 @@ pub fn for_each_facet_point(
     }
 }
 
-/// Adds the term to a cell's raw matrix (row length `size`) or, given velocities, its residual.
+/// Adds the term to a cell's raw matrix (column length `size`) or, given velocities, its residual.
 pub(super) fn add_open_side(
     mesh: &Mesh<2>,
     facet: &Facet,
@@ -58,6 +59,7 @@ pub(super) fn add_open_side(
     residual: Option<(&mut [f64], &[Point<2>])>,
 ) {
     const D: usize = 2;
+    let local = LocalLayout::<D, { nodes_per_cell(D) }>::velocity;
     let nodes = mesh.cell(facet.cell as usize);
     let mut matrix = matrix;
     let mut residual = residual;
@@ -68,7 +70,7 @@ pub(super) fn add_open_side(
                     for i in 0..D {
                         let weight = viscosity * at.phi[a] * at.grad_phi[b][i];
                         for j in 0..D {
-                            matrix[(a * D + i) * *size + b * D + j] -= weight * at.normal_ds[j];
+                            matrix[local(b, j) * *size + local(a, i)] -= weight * at.normal_ds[j];
                         }
                     }
                 }
@@ -82,7 +84,7 @@ pub(super) fn add_open_side(
             let traction = gradient.transpose() * at.normal_ds * viscosity;
             for a in 0..nodes.len() {
                 for i in 0..D {
-                    residual[a * D + i] -= traction[i] * at.phi[a];
+                    residual[local(a, i)] -= traction[i] * at.phi[a];
                 }
             }
         }

@@ -48,6 +48,12 @@ impl<const D: usize> Tables<D> {
         Self { affine, curved: BasisTable::new(8), axisymmetric }
     }
 
+    /// The quadrature rule of curved or of straight cells.
+    #[must_use]
+    pub fn rule(&self, curved: bool) -> &Rule<D> {
+        if curved { &self.curved.rule } else { &self.affine.rule }
+    }
+
     /// Whether the ring's length is part of dx.
     #[must_use]
     pub fn is_axisymmetric(&self) -> bool {
