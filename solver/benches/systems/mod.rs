@@ -4,6 +4,7 @@ use alewife::algebra::{AffineConstraints, Pattern};
 use alewife::case::Case;
 use alewife::coupling::{FluidSystem, Problem, Solution, embed, flatten};
 use alewife::flow::{Assembly, Convection, FlowTerms, assemble, residual};
+use alewife::multifrontal::Unknowns;
 use alewife::simulation::{build_mesh, build_problem, cpu_seconds};
 use alewife::time::Bdf;
 use alewife_mesh::{Mesh, Point};
@@ -30,6 +31,7 @@ pub struct TimeStep {
     crossing: Vec<Point<2>>,
     history: Vec<Point<2>>,
     rate: f64,
+    unknowns: Unknowns,
 }
 
 /// Pattern, values by compressed columns, and right-hand side of a linear system.
@@ -41,6 +43,8 @@ pub struct LinearSystem {
     pub values: Vec<f64>,
     /// Right-hand side.
     pub rhs: Vec<f64>,
+    /// What each unknown is.
+    pub unknowns: Unknowns,
 }
 
 fn mesh_at_scale(scale: f64) -> (Case, Mesh<2>) {
@@ -97,6 +101,7 @@ impl TimeStep {
             crossing,
             history,
             rate: bdf.next,
+            unknowns: system.unknowns().clone(),
         }
     }
 
@@ -136,10 +141,16 @@ impl TimeStep {
         let mut values = vec![0.0; self.pattern.rows.len()];
         self.assemble(&mut values);
         let rhs = self.constraints.restrict(&self.residual()).iter().map(|value| -value).collect();
-        LinearSystem { pattern: self.pattern.clone(), values, rhs }
+        LinearSystem {
+            pattern: self.pattern.clone(),
+            values,
+            rhs,
+            unknowns: self.unknowns.clone(),
+        }
     }
 }
 
+#[allow(dead_code, reason = "not every benchmark is timed by criterion")]
 /// CPU seconds of the whole process, which other programs on the machine do not change much.
 pub struct CpuTime;
 

@@ -161,6 +161,12 @@ impl FluidSystem {
         self.pattern.rows.len()
     }
 
+    /// What the linear solver is told of each free unknown.
+    #[must_use]
+    pub fn unknowns(&self) -> &Unknowns {
+        &self.unknowns
+    }
+
     /// Constraints at a time.
     #[must_use]
     pub fn constraints(

@@ -1,0 +1,218 @@
+//! Writes the matrices of the benchmarks, with our figures and faer's on them, for `compare.py`.
+//!
+//! `cargo bench -p alewife --bench write_systems -- FOLDER`, then
+//! `compare.py FOLDER/10k FOLDER/50k FOLDER/200k --figures FOLDER/figures.json`.
+
+mod systems;
+
+use std::fs;
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+
+use alewife::multifrontal::{Analysis, Factors, Ordering, PatternRef};
+use alewife::simulation::cpu_seconds;
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::sparse::linalg::lu::{LuRef, LuSymbolicParams, NumericLu, factorize_symbolic_lu};
+use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
+use faer::{Conj, MatMut, Par};
+
+use systems::{LinearSystem, TimeStep, name_of_size};
+
+const SIZES: [usize; 3] = [10_000, 50_000, 200_000];
+/// A phase is repeated for so many seconds at least, and the fastest counts.
+const SECONDS: f64 = 3.0;
+
+/// Figures of one solver on one system.
+struct Figures {
+    analyse: f64,
+    refactorise: f64,
+    solve: f64,
+    factor_entries: usize,
+    memory: f64,
+    x: Vec<f64>,
+}
+
+fn best(mut work: impl FnMut()) -> f64 {
+    let begin = cpu_seconds();
+    let mut best = f64::INFINITY;
+    while cpu_seconds() - begin < SECONDS {
+        let start = cpu_seconds();
+        work();
+        best = best.min(cpu_seconds() - start);
+    }
+    best
+}
+
+/// A line of the kernel's account of this process, in bytes.
+fn status(key: &str) -> f64 {
+    let text = fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let line = text.lines().find_map(|line| line.strip_prefix(key));
+    let kilobytes = line.and_then(|line| line.split_whitespace().nth(1)?.parse::<f64>().ok());
+    kilobytes.map_or(f64::NAN, |kilobytes| kilobytes * 1024.0)
+}
+
+/// The rise of the peak of resident memory over `work`.
+fn memory_of<T>(work: impl FnOnce() -> T) -> (T, f64) {
+    // Sets the peak back to the present size; without the right to do so it is an upper bound.
+    let _ = fs::write("/proc/self/clear_refs", "5");
+    let before = status("VmRSS");
+    let result = work();
+    (result, status("VmHWM") - before)
+}
+
+fn multifrontal(system: &LinearSystem) -> Figures {
+    let LinearSystem { pattern, values, rhs, unknowns } = system;
+    let view = PatternRef { columns: &pattern.columns, rows: &pattern.rows };
+    let ((analysis, mut factors, x), memory) = memory_of(|| {
+        let analysis = Analysis::new(view, unknowns, Ordering::Best);
+        let mut factors = Factors::new(&analysis);
+        factors.factorise(&analysis, view, values).expect("the matrix is regular");
+        let mut x = rhs.clone();
+        factors.solve(&analysis, &mut x);
+        (analysis, factors, x)
+    });
+    let mut y = rhs.clone();
+    Figures {
+        analyse: best(|| {
+            let _ = Analysis::new(view, unknowns, Ordering::Best);
+        }),
+        refactorise: best(|| {
+            factors.factorise(&analysis, view, values).expect("the matrix is regular");
+        }),
+        solve: best(|| factors.solve(&analysis, &mut y)),
+        factor_entries: analysis.n_factor_entries(),
+        memory,
+        x,
+    }
+}
+
+fn by_faer(system: &LinearSystem) -> Figures {
+    let LinearSystem { pattern, values, rhs, .. } = system;
+    let n = rhs.len();
+    let shape = SymbolicSparseColMatRef::new_checked(n, n, &pattern.columns, None, &pattern.rows);
+    let matrix = SparseColMatRef::new(shape, values);
+    let analyse = || {
+        factorize_symbolic_lu(shape, LuSymbolicParams::default()).expect("it fits into memory")
+    };
+    let mut numeric = NumericLu::new();
+    let ((symbolic, mut buffer, x), memory) = memory_of(|| {
+        let symbolic = analyse();
+        let scratch = symbolic.factorize_numeric_lu_scratch::<f64>(Par::Seq, Default::default());
+        let scratch = scratch.or(symbolic.solve_in_place_scratch::<f64>(1, Par::Seq));
+        let mut buffer = MemBuffer::new(scratch);
+        let stack = MemStack::new(&mut buffer);
+        symbolic
+            .factorize_numeric_lu(&mut numeric, matrix, Par::Seq, stack, Default::default())
+            .expect("the matrix is regular");
+        let mut x = rhs.clone();
+        LuRef::new_unchecked(&symbolic, &numeric).solve_in_place_with_conj(
+            Conj::No,
+            MatMut::from_column_major_slice_mut(&mut x, n, 1),
+            Par::Seq,
+            MemStack::new(&mut buffer),
+        );
+        (symbolic, buffer, x)
+    });
+    let mut y = rhs.clone();
+    Figures {
+        analyse: best(|| {
+            let _ = analyse();
+        }),
+        refactorise: best(|| {
+            let stack = MemStack::new(&mut buffer);
+            symbolic
+                .factorize_numeric_lu(&mut numeric, matrix, Par::Seq, stack, Default::default())
+                .expect("the matrix is regular");
+        }),
+        solve: best(|| {
+            LuRef::new_unchecked(&symbolic, &numeric).solve_in_place_with_conj(
+                Conj::No,
+                MatMut::from_column_major_slice_mut(&mut y, n, 1),
+                Par::Seq,
+                MemStack::new(&mut buffer),
+            );
+        }),
+        // Not told by the library: left out of the comparison.
+        factor_entries: 0,
+        memory,
+        x,
+    }
+}
+
+fn residual(system: &LinearSystem, x: &[f64]) -> f64 {
+    let mut image = vec![0.0; x.len()];
+    system.pattern.multiply_add(&system.values, x, &mut image);
+    let norm = |values: &mut dyn Iterator<Item = f64>| values.map(|v| v * v).sum::<f64>().sqrt();
+    let defect = norm(&mut image.iter().zip(&system.rhs).map(|(a, b)| a - b));
+    defect / norm(&mut system.rhs.iter().copied())
+}
+
+/// One array in NumPy's format, version 1.0.
+fn write_array(path: &Path, kind: &str, length: usize, bytes: &[u8]) -> std::io::Result<()> {
+    let mut header =
+        format!("{{'descr': '{kind}', 'fortran_order': False, 'shape': ({length},), }}");
+    // The header with its prefix of 10 bytes ends in a line feed at a multiple of 64.
+    let padded = (10 + header.len() + 1).next_multiple_of(64) - 10;
+    header.extend(std::iter::repeat_n(' ', padded - 1 - header.len()));
+    header.push('\n');
+    let mut file = fs::File::create(path)?;
+    file.write_all(b"\x93NUMPY\x01\x00")?;
+    file.write_all(&(padded as u16).to_le_bytes())?;
+    file.write_all(header.as_bytes())?;
+    file.write_all(bytes)
+}
+
+fn write_system(folder: &Path, system: &LinearSystem) -> std::io::Result<()> {
+    fs::create_dir_all(folder)?;
+    let whole = |values: &[usize]| -> Vec<u8> {
+        values.iter().flat_map(|&value| (value as u64).to_le_bytes()).collect()
+    };
+    let real = |values: &[f64]| -> Vec<u8> {
+        values.iter().flat_map(|value| value.to_le_bytes()).collect()
+    };
+    let pattern = &system.pattern;
+    for (name, values) in [("columns", &pattern.columns), ("rows", &pattern.rows)] {
+        write_array(&folder.join(format!("{name}.npy")), "<u8", values.len(), &whole(values))?;
+    }
+    for (name, values) in [("values", &system.values), ("rhs", &system.rhs)] {
+        write_array(&folder.join(format!("{name}.npy")), "<f8", values.len(), &real(values))?;
+    }
+    Ok(())
+}
+
+fn main() -> std::io::Result<()> {
+    // Cargo adds `--bench`.
+    let folder = std::env::args().skip(1).find(|argument| !argument.starts_with('-'));
+    let Some(folder) = folder.map(PathBuf::from) else {
+        println!("write_systems: name a folder after `--` to write the systems into");
+        return Ok(());
+    };
+    rayon::ThreadPoolBuilder::new().num_threads(1).build_global().expect("no pool is there yet");
+    let mut all = serde_json::json!({ "alewife": {}, "faer": {} });
+    for size in SIZES {
+        let system = TimeStep::new(size).linear_system();
+        let name = name_of_size(size);
+        write_system(&folder.join(&name), &system)?;
+        for (solver, figures) in [("alewife", multifrontal(&system)), ("faer", by_faer(&system))] {
+            println!(
+                "{name} {solver}: analyse {:.4} s, refactorise {:.4} s, solve {:.5} s, memory \
+                 {:.1} MB",
+                figures.analyse,
+                figures.refactorise,
+                figures.solve,
+                figures.memory * 1e-6
+            );
+            all[solver][&name] = serde_json::json!({
+                "n": system.rhs.len(),
+                "nnz": system.values.len(),
+                "analyse_s": figures.analyse,
+                "refactorise_s": figures.refactorise,
+                "solve_s": figures.solve,
+                "factor_entries": figures.factor_entries,
+                "memory_bytes": figures.memory,
+                "residual": residual(&system, &figures.x),
+            });
+        }
+    }
+    fs::write(folder.join("figures.json"), format!("{all:#}\n"))
+}
