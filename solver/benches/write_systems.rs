@@ -91,9 +91,8 @@ fn by_faer(system: &LinearSystem) -> Figures {
     let n = rhs.len();
     let shape = SymbolicSparseColMatRef::new_checked(n, n, &pattern.columns, None, &pattern.rows);
     let matrix = SparseColMatRef::new(shape, values);
-    let analyse = || {
-        factorize_symbolic_lu(shape, LuSymbolicParams::default()).expect("it fits into memory")
-    };
+    let analyse =
+        || factorize_symbolic_lu(shape, LuSymbolicParams::default()).expect("it fits into memory");
     let mut numeric = NumericLu::new();
     let ((symbolic, mut buffer, x), memory) = memory_of(|| {
         let symbolic = analyse();

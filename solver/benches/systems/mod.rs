@@ -141,12 +141,7 @@ impl TimeStep {
         let mut values = vec![0.0; self.pattern.rows.len()];
         self.assemble(&mut values);
         let rhs = self.constraints.restrict(&self.residual()).iter().map(|value| -value).collect();
-        LinearSystem {
-            pattern: self.pattern.clone(),
-            values,
-            rhs,
-            unknowns: self.unknowns.clone(),
-        }
+        LinearSystem { pattern: self.pattern.clone(), values, rhs, unknowns: self.unknowns.clone() }
     }
 }
 

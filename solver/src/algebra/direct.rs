@@ -34,6 +34,15 @@ impl From<Singular> for LinearError {
     }
 }
 
+/// How well a system was solved.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Accuracy {
+    /// Largest entry of |b - A x| over the largest of |A| |x| + |b|.
+    pub residual: f64,
+    /// Refinement steps made.
+    pub refinements: usize,
+}
+
 /// Most refinement steps of one solve.
 const MAX_REFINEMENTS: usize = 3;
 /// Residual, relative to |A| |x| + |b|, at which refinement has nothing left to do.
@@ -210,8 +219,6 @@ impl DirectSolver {
 
     /// Solves A x = b in place for the matrix last factorised: substitution, then refinement.
     ///
-    /// Returns the residual: the largest entry of |b - A x| over the largest of |A| |x| + |b|.
-    ///
     /// # Errors
     /// When the residual stays large or is not a number.
     pub fn solve(
@@ -219,35 +226,36 @@ impl DirectSolver {
         pattern: &Pattern,
         values: &[f64],
         rhs: &mut [f64],
-    ) -> Result<f64, LinearError> {
+    ) -> Result<Accuracy, LinearError> {
         if !rhs.iter().all(|value| value.is_finite()) {
             return Err(LinearError::NotFinite);
         }
         let target = rhs.to_vec();
         self.factors.solve(&self.analysis, rhs);
-        let mut residual = f64::INFINITY;
-        for _ in 0..=MAX_REFINEMENTS {
+        let mut accuracy = Accuracy { residual: f64::INFINITY, refinements: 0 };
+        loop {
             let (mut defect, size) = defect(pattern, values, rhs, &target);
             let next = relative(&defect, &size);
             if next.is_nan() || rhs.iter().any(|value| !value.is_finite()) {
                 return Err(LinearError::NotFinite);
             }
             // Refinement that no longer helps has reached rounding.
-            if next <= ROUNDING || next > 0.5 * residual {
-                residual = residual.min(next);
+            let is_best = next > 0.5 * accuracy.residual;
+            accuracy.residual = accuracy.residual.min(next);
+            if is_best || next <= ROUNDING || accuracy.refinements == MAX_REFINEMENTS {
                 break;
             }
-            residual = next;
-            tracing::debug!(residual, "refined");
+            accuracy.refinements += 1;
             self.factors.solve(&self.analysis, &mut defect);
             for (value, correction) in rhs.iter_mut().zip(&defect) {
                 *value += correction;
             }
         }
-        if residual > USELESS {
-            return Err(LinearError::Inaccurate { residual });
+        tracing::debug!(accuracy.residual, accuracy.refinements, "solved");
+        if accuracy.residual > USELESS {
+            return Err(LinearError::Inaccurate { residual: accuracy.residual });
         }
-        Ok(residual)
+        Ok(accuracy)
     }
 
     /// Solves A X = B in place for several right-hand sides, one after the other in `rhs`, with
@@ -339,7 +347,7 @@ mod tests {
         let (pattern, values, unknowns) = chain(300, 0.0);
         let mut solver = DirectSolver::analyse(&pattern, &unknowns);
         solver.factorise(&pattern, &values).unwrap();
-        assert!(solver.solve(&pattern, &values, &mut rhs(300)).unwrap() < 1e-15);
+        assert!(solver.solve(&pattern, &values, &mut rhs(300)).unwrap().residual < 1e-15);
     }
 
     #[test]

@@ -6,5 +6,5 @@ mod krylov;
 mod pattern;
 
 pub use constraints::{AffineConstraints, ConstraintBuilder};
-pub use direct::{DirectSolver, LinearError};
+pub use direct::{Accuracy, DirectSolver, LinearError};
 pub use pattern::{CellMaps, Pattern};

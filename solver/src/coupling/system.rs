@@ -10,7 +10,7 @@ use thiserror::Error;
 
 use super::constrain::{NodeSides, constrain};
 use super::problem::{Drive, Problem};
-use crate::algebra::{AffineConstraints, DirectSolver, LinearError, Pattern};
+use crate::algebra::{Accuracy, AffineConstraints, DirectSolver, LinearError, Pattern};
 use crate::body::{Pose, Twist};
 use crate::flow::{Assembly, Convection, Fields, FlowTerms, assemble, residual};
 use crate::multifrontal::Unknowns;
@@ -107,6 +107,7 @@ pub struct FluidSystem {
     pattern: Pattern,
     values: Vec<f64>,
     solver: Option<DirectSolver>,
+    accuracy: Accuracy,
     /// What each unknown is.
     unknowns: Unknowns,
     /// int psi dx of each vertex, to spread a flux imbalance evenly.
@@ -150,6 +151,7 @@ impl FluidSystem {
             pattern,
             values,
             solver: None,
+            accuracy: Accuracy::default(),
             unknowns,
             pressure_weights,
         }
@@ -165,6 +167,12 @@ impl FluidSystem {
     #[must_use]
     pub fn unknowns(&self) -> &Unknowns {
         &self.unknowns
+    }
+
+    /// How well the last system was solved for which the matrix was factorised.
+    #[must_use]
+    pub fn accuracy(&self) -> Accuracy {
+        self.accuracy
     }
 
     /// Constraints at a time.
@@ -280,7 +288,7 @@ impl FluidSystem {
         })?;
         if !is_solved {
             timing.measure(Stage::Factorisation, || solver.factorise(pattern, values))?;
-            timing.measure(Stage::Solve, || solver.solve(pattern, values, rhs))?;
+            self.accuracy = timing.measure(Stage::Solve, || solver.solve(pattern, values, rhs))?;
         }
         Ok(())
     }

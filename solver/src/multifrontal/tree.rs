@@ -29,11 +29,11 @@ impl Supernode {
         300.0 + 0.7 * m * m + flops(k, r) / flops_per_ns
     }
 
-    /// That time with the reading of the factors in substitutions, of which there are several for
-    /// each factorisation.
+    /// That time with a price on the entries of the factors: they are read in several
+    /// substitutions for each factorisation, and they are most of the memory of a run.
     fn cost(k: usize, r: usize) -> f64 {
         let entries = (k + r).pow(2) - r.pow(2);
-        Self::work(k, r) + 3.0 * entries as f64
+        Self::work(k, r) + 8.0 * entries as f64
     }
 
     /// Floating-point operations of the elimination.

@@ -1,0 +1,47 @@
+//! The matrices of all shipped cases are solved to rounding, with one refinement at most.
+
+use alewife::case::{Case, Steady, library};
+use alewife::coupling::FluidSystem;
+use alewife::simulation::{Timing, build_mesh, build_problem, solve_steady};
+use rayon::prelude::*;
+
+/// Relative residual that every system has to reach.
+const RESIDUAL: f64 = 1e-12;
+
+/// Residual and refinements of the Stokes flow that every run of a case begins with.
+fn accuracy(case: &Case) -> (f64, usize) {
+    let mesh = build_mesh(case).expect("the mesh can be made");
+    let mut problem = build_problem(case, &mesh).expect("the problem can be built");
+    problem.has_convection = false;
+    let poses: Vec<_> = problem.bodies.iter().map(|body| body.pose).collect();
+    let mut system = FluidSystem::new(&problem, &mesh, &poses, false);
+    let settings = Steady { tolerance: 1e-9, max_iterations: 3 };
+    let timing = &mut Timing::default();
+    solve_steady(&mut system, &problem, &mesh, &poses, 0.0, &settings, timing)
+        .unwrap_or_else(|failure| panic!("{:?}: {}", case.title, failure.error));
+    (system.accuracy().residual, system.accuracy().refinements)
+}
+
+/// A shipped case and all its variants, by the names the command line takes.
+fn members(name: &str) -> Vec<String> {
+    let file = Case::read(name, &[]).expect("shipped cases are valid");
+    let variants = file.variants.iter().map(|variant| format!("{name}/{variant}"));
+    std::iter::once(name.to_owned()).chain(variants).collect()
+}
+
+#[test]
+fn every_shipped_case_is_solved_to_rounding() {
+    let members: Vec<String> =
+        library::list().iter().flat_map(|shipped| members(shipped.name)).collect();
+    assert!(members.len() > 25, "cases and variants: {}", members.len());
+    let wrong: Vec<String> = members
+        .par_iter()
+        .filter_map(|name| {
+            let case = Case::read(name, &[]).expect("shipped cases are valid").case;
+            let (residual, refinements) = accuracy(&case);
+            let is_right = residual <= RESIDUAL && refinements <= 1;
+            (!is_right).then(|| format!("{name}: {residual:.1e} after {refinements} refinements"))
+        })
+        .collect();
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
