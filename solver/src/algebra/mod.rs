@@ -5,6 +5,7 @@ mod direct;
 mod krylov;
 mod pattern;
 
+pub use crate::multifrontal::Unknowns;
 pub use constraints::{AffineConstraints, ConstraintBuilder};
 pub use direct::{Accuracy, DirectSolver, LinearError};
 pub use pattern::{CellMaps, Pattern};

@@ -10,10 +10,9 @@ use thiserror::Error;
 
 use super::constrain::{NodeSides, constrain};
 use super::problem::{Drive, Problem};
-use crate::algebra::{Accuracy, AffineConstraints, DirectSolver, LinearError, Pattern};
+use crate::algebra::{Accuracy, AffineConstraints, DirectSolver, LinearError, Pattern, Unknowns};
 use crate::body::{Pose, Twist};
 use crate::flow::{Assembly, Convection, Fields, FlowTerms, assemble, residual};
-use crate::multifrontal::Unknowns;
 use crate::space::{CellValues, DofLayout};
 use crate::timing::{Stage, Timing};
 
