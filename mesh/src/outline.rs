@@ -84,6 +84,12 @@ impl Outline {
         Ok(Self::with_form(body.center, body.angle, Form::Ellipse(semi_axes)))
     }
 
+    /// The same outline with its origin in another place (m) and turned by another angle (rad).
+    #[must_use]
+    pub fn placed_at(&self, center: Point<2>, angle: f64) -> Self {
+        Self { center, cos: angle.cos(), sin: angle.sin(), ..self.clone() }
+    }
+
     /// Circle around a point.
     #[must_use]
     pub fn circle(center: Point<2>, radius: f64) -> Self {

@@ -6,7 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The rooms of the solver, lowest first, and the rooms each may use.
-const ROOMS: [(&str, &[&str]); 14] = [
+const ROOMS: [(&str, &[&str]); 15] = [
     ("case", &[]),
     ("timing", &[]),
     ("space", &[]),
@@ -14,11 +14,15 @@ const ROOMS: [(&str, &[&str]); 14] = [
     ("time", &["case"]),
     ("body", &[]),
     ("gait", &["body"]),
+    ("motion", &["algebra", "body", "space", "time"]),
     ("flow", &["algebra", "space"]),
     ("coupling", &["algebra", "body", "flow", "gait", "space", "time", "timing"]),
     (
         "simulation",
-        &["algebra", "body", "case", "coupling", "flow", "gait", "space", "time", "timing"],
+        &[
+            "algebra", "body", "case", "coupling", "flow", "gait", "motion", "space", "time",
+            "timing",
+        ],
     ),
     ("observer", &["body", "case", "simulation"]),
     ("validation", &["case", "simulation"]),

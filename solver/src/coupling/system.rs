@@ -13,7 +13,7 @@ use super::problem::{Drive, Problem};
 use crate::algebra::{AffineConstraints, DirectSolver, Pattern, SingularMatrix};
 use crate::body::{Pose, Twist};
 use crate::flow::{Assembly, Convection, Fields, FlowTerms, assemble, residual};
-use crate::space::{CellValues, DofLayout};
+use crate::space::{CellValues, DofLayout, Tables};
 use crate::timing::{Stage, Timing};
 
 /// Why a system could not be solved.
@@ -129,16 +129,7 @@ impl FluidSystem {
             &problem.do_nothing_sides(),
             frame,
         );
-        let mut pressure_weights = vec![0.0; layout.n_vertices];
-        let mut workspace = CellValues::default();
-        for cell in 0..mesh.n_cells() {
-            let nodes = mesh.cell(cell);
-            workspace.for_each_point(assembly.tables(), mesh, cell, |at| {
-                for (&vertex, psi) in nodes.iter().zip(at.psi) {
-                    pressure_weights[vertex as usize] += psi * at.dx;
-                }
-            });
-        }
+        let pressure_weights = pressure_weights(mesh, assembly.tables());
         let values = vec![0.0; pattern.rows.len()];
         let rigid = (0..layout.n_bodies)
             .flat_map(|body| (0..DofLayout::<2>::RIGID).map(move |mode| layout.rigid(body, mode)));
@@ -299,9 +290,24 @@ impl FluidSystem {
 
     /// Basis tables, for measurements.
     #[must_use]
-    pub fn tables(&self) -> &crate::space::Tables<2> {
+    pub fn tables(&self) -> &Tables<2> {
         self.assembly.tables()
     }
+}
+
+/// int psi dx of each vertex.
+pub(super) fn pressure_weights(mesh: &Mesh<2>, tables: &Tables<2>) -> Vec<f64> {
+    let mut weights = vec![0.0; mesh.n_vertices];
+    let mut workspace = CellValues::default();
+    for cell in 0..mesh.n_cells() {
+        let nodes = mesh.cell(cell);
+        workspace.for_each_point(tables, mesh, cell, |at| {
+            for (&vertex, psi) in nodes.iter().zip(at.psi) {
+                weights[vertex as usize] += psi * at.dx;
+            }
+        });
+    }
+    weights
 }
 
 /// Memory a system takes with its factors (bytes), from the velocities and pressures of its mesh.
