@@ -78,6 +78,12 @@ impl DivergenceFree {
                 *value -= flux * weight / volume;
             }
         }
+        // A pressure of one side of a periodic pair tests both
+        for &(copy, original) in &mesh.periodic {
+            if (copy as usize) < self.layout.n_vertices {
+                defect[original as usize] += std::mem::take(&mut defect[copy as usize]);
+            }
+        }
         defect
     }
 

@@ -42,7 +42,7 @@ impl MeshMotion {
     /// When `holds` does not fit the mesh, or the matrix cannot be factorised.
     pub fn new(mesh: &Mesh<2>, kind: MotionKind, holds: &[Hold]) -> Result<Self, MotionError> {
         let held = HeldVertices::new(mesh, holds)?;
-        let stiffness = Stiffness::new(mesh, kind);
+        let stiffness = Stiffness::new(mesh, kind, held.given.iter().map(|(vertex, _)| *vertex));
         let groups: Vec<Vec<usize>> = if stiffness.n_components == 2 || held.holds_both_alike() {
             vec![vec![0, 1]]
         } else {

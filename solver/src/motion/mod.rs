@@ -5,6 +5,7 @@ mod hold;
 mod remesh;
 mod rigid;
 mod stiffness;
+mod surface_distance;
 mod transfer;
 
 pub use elliptic::MeshMotion;

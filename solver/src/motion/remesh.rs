@@ -99,11 +99,7 @@ impl Fresh {
 /// # Panics
 /// Never for a mesh with the cells of the fresh one.
 #[must_use]
-pub fn needs_remesh(
-    mesh: &Mesh<2>,
-    fresh: &Fresh,
-    surroundings: &Surroundings,
-) -> Option<Reason> {
+pub fn needs_remesh(mesh: &Mesh<2>, fresh: &Fresh, surroundings: &Surroundings) -> Option<Reason> {
     let spoilt = worst_quality(mesh, fresh);
     if matches!(spoilt, Some(Reason::Quality { quality, .. }) if quality <= 0.0) {
         return spoilt;

@@ -70,7 +70,8 @@ mod tests {
             let exact = Point::<2>::new(-1.0, 2.0) + lever;
             assert!((place + moved.displacement(&place) - exact).norm() < 1e-14);
             let shape = Shape::Ellipse { semi_axes: [2.0, 1.0] };
-            let body = PlacedShape { name: "b".into(), shape, center: place, angle: 0.1, size: None };
+            let body =
+                PlacedShape { name: "b".into(), shape, center: place, angle: 0.1, size: None };
             let carried = moved.carry(&body);
             assert!((carried.center - exact).norm() < 1e-14);
             let turned = carried.angle - 0.1 - angle;

@@ -3,10 +3,12 @@
 use alewife_mesh::Mesh;
 use nalgebra::SVector;
 
+use super::surface_distance::surface_distances;
 use crate::algebra::{AffineConstraints, CellMaps, ConstraintBuilder, Pattern};
 use crate::space::simplex_gradients;
 
-/// The equation the displacement of the mesh solves.
+/// The equation the displacement of the mesh solves; by default the one that lets a body go
+/// farthest (measured in `tests/motion/reach.rs`).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum MotionKind {
     /// div (k grad d) = 0, component by component.
@@ -20,7 +22,14 @@ pub enum MotionKind {
     },
 }
 
-/// How much stiffer small cells are: the factor k of a cell of measure V.
+impl Default for MotionKind {
+    fn default() -> Self {
+        Self::Elastic { poisson: 0.0, stiffening: Stiffening::Distance { exponent: 0.5 } }
+    }
+}
+
+/// How much stiffer cells are that are small or near a body: the factor k of a cell of measure V
+/// with its centre at distance d from what carries the mesh.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Stiffening {
     /// k = 1.
@@ -38,14 +47,32 @@ pub enum Stiffening {
         /// Power of the relative measure.
         exponent: f64,
     },
+    /// k = (dmax / d)^exponent, which does not depend on how the mesh is graded.
+    Distance {
+        /// Power of the relative distance.
+        exponent: f64,
+    },
 }
 
 impl Stiffening {
-    fn factor(self, measure: f64, [smallest, largest]: [f64; 2]) -> f64 {
+    /// The factor of each cell, from their measures (m^D) and distances (m).
+    fn factors(self, measures: &[f64], distances: impl FnOnce() -> Vec<f64>) -> Vec<f64> {
+        let largest = measures.iter().copied().fold(0.0, f64::max);
+        let smallest = measures.iter().copied().fold(f64::INFINITY, f64::min);
+        let by_measure =
+            |factor: &dyn Fn(f64) -> f64| measures.iter().map(|v| factor(*v)).collect();
         match self {
-            Self::None => 1.0,
-            Self::MasudHughes => 1.0 + (1.0 - smallest / largest) / (measure / largest),
-            Self::Jacobian { exponent } => (largest / measure).powf(exponent),
+            Self::None => vec![1.0; measures.len()],
+            Self::MasudHughes => by_measure(&|v| 1.0 + (1.0 - smallest / largest) / (v / largest)),
+            Self::Jacobian { exponent } => by_measure(&|v| (largest / v).powf(exponent)),
+            Self::Distance { exponent } => {
+                let distances = distances();
+                let farthest = distances.iter().copied().fold(0.0, f64::max);
+                // Where nothing carries the mesh, all is equally far
+                let factor =
+                    |d: &f64| if d.is_finite() { (farthest / d).powf(exponent) } else { 1.0 };
+                distances.iter().map(factor).collect()
+            }
         }
     }
 }
@@ -65,32 +92,34 @@ pub(super) struct Stiffness {
 }
 
 impl Stiffness {
-    /// Assembles the matrix of a mesh.
-    pub fn new<const D: usize>(mesh: &Mesh<D>, kind: MotionKind) -> Self {
-        let n_components = match kind {
-            MotionKind::Harmonic(_) => 1,
-            MotionKind::Elastic { .. } => D,
+    /// Assembles the matrix of a mesh that is carried by some vertices.
+    pub fn new<const D: usize>(
+        mesh: &Mesh<D>,
+        kind: MotionKind,
+        carrying: impl Iterator<Item = u32>,
+    ) -> Self {
+        let (n_components, stiffening) = match kind {
+            MotionKind::Harmonic(stiffening) => (1, stiffening),
+            MotionKind::Elastic { stiffening, .. } => (D, stiffening),
         };
         let geometry: Vec<_> =
             (0..mesh.n_cells()).map(|cell| simplex_gradients(mesh, cell)).collect();
-        let range = geometry.iter().fold([f64::INFINITY, 0.0_f64], |[low, high], (measure, _)| {
-            [low.min(*measure), high.max(*measure)]
-        });
+        let measures: Vec<f64> = geometry.iter().map(|(measure, _)| *measure).collect();
+        let factors = stiffening.factors(&measures, || surface_distances(mesh, carrying));
         let n_local = (D + 1) * n_components;
         let mut raw = Vec::with_capacity(n_local * mesh.n_cells());
         let mut cells = vec![0.0; n_local * n_local * mesh.n_cells()];
         for (cell, (measure, gradients)) in geometry.iter().enumerate() {
             for &vertex in &mesh.cell(cell)[..=D] {
-                raw.extend((0..n_components).map(|axis| vertex * n_components as u32 + axis as u32));
+                raw.extend(
+                    (0..n_components).map(|axis| vertex * n_components as u32 + axis as u32),
+                );
             }
             let matrix = &mut cells[cell * n_local * n_local..(cell + 1) * n_local * n_local];
+            let weight = measure * factors[cell];
             match kind {
-                MotionKind::Harmonic(stiffening) => {
-                    let weight = measure * stiffening.factor(*measure, range);
-                    harmonic_cell(gradients, weight, matrix);
-                }
-                MotionKind::Elastic { poisson, stiffening } => {
-                    let weight = measure * stiffening.factor(*measure, range);
+                MotionKind::Harmonic(_) => harmonic_cell(gradients, weight, matrix),
+                MotionKind::Elastic { poisson, .. } => {
                     let lambda = 2.0 * poisson / (1.0 - 2.0 * poisson);
                     elastic_cell(gradients, weight, lambda, matrix);
                 }
@@ -114,8 +143,7 @@ impl Stiffness {
     }
 
     fn reduced(&self, constraints: &AffineConstraints, n_local: usize) -> (Pattern, Vec<f64>) {
-        let (pattern, maps) =
-            CellMaps::new(n_local, self.raw.clone(), constraints, |_, _| true);
+        let (pattern, maps) = CellMaps::new(n_local, self.raw.clone(), constraints, |_, _| true);
         let mut values = vec![0.0; pattern.rows.len()];
         let mut small = Vec::new();
         for (cell, matrix) in self.cells.chunks_exact(n_local * n_local).enumerate() {

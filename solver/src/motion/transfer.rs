@@ -100,9 +100,8 @@ impl<'a> Transfer<'a> {
             .iter()
             .map(|source| {
                 let [x, y] = source.at;
-                let [a, b, c] = [0, 1, 2].map(|corner| {
-                    field[self.old.cell(source.cell as usize)[corner] as usize]
-                });
+                let [a, b, c] = [0, 1, 2]
+                    .map(|corner| field[self.old.cell(source.cell as usize)[corner] as usize]);
                 (1.0 - x - y) * a + x * b + y * c
             })
             .collect()
@@ -130,9 +129,10 @@ impl<'a> Transfer<'a> {
     fn at(&self, source: &Source, field: impl Fn(usize) -> Point<2>) -> Point<2> {
         let weights = shape_functions(source.at);
         let nodes = self.old.cell(source.cell as usize);
-        nodes.iter().zip(weights).fold(Point::<2>::zeros(), |sum, (&node, weight)| {
-            sum + field(node as usize) * weight
-        })
+        nodes
+            .iter()
+            .zip(weights)
+            .fold(Point::<2>::zeros(), |sum, (&node, weight)| sum + field(node as usize) * weight)
     }
 }
 
