@@ -9,6 +9,9 @@ use crate::{Mesh, Point, map_quadratic};
 /// A point this far outside (in sizes of the mesh) still counts as on its boundary.
 const TOLERANCE: f64 = 1e-9;
 
+/// Levels of the tree of 2^32 cells.
+const MOST_LEVELS: usize = 33;
+
 /// Cells in one leaf.
 const LEAF: usize = 4;
 
@@ -265,10 +268,16 @@ impl<const D: usize> BoxTree<D> {
         self.nodes.first().map_or(0.0, |root| (root.max - root.min).max())
     }
 
-    fn gap(&self, node: u32, point: Point<D>) -> f64 {
+    /// Square of the distance from a point to a box.
+    fn gap(&self, node: u32, point: &Point<D>) -> f64 {
         let node = &self.nodes[node as usize];
-        let outside = (node.min - point).sup(&(point - node.max)).sup(&Point::<D>::zeros());
-        outside.norm()
+        (0..D).fold(0.0, |sum, axis| {
+            let below = node.min[axis] - point[axis];
+            let above = point[axis] - node.max[axis];
+            // Unlike f64::max, the comparison keeps what is not a number
+            let outside = if below > 0.0 { below } else { above };
+            if outside <= 0.0 { sum } else { sum + outside * outside }
+        })
     }
 
     /// Visits boxes within reach of a point, near ones first, until `visit` returns true; `visit`
@@ -279,16 +288,20 @@ impl<const D: usize> BoxTree<D> {
         mut reach: f64,
         mut visit: impl FnMut(usize, &mut f64) -> bool,
     ) {
-        let mut stack = Vec::with_capacity(64);
-        if !self.nodes.is_empty() {
-            stack.push((0, self.gap(0, point)));
+        // Halving leaves at most one box a level waiting, and two at the last
+        let mut stack = [(0, 0.0); MOST_LEVELS + 1];
+        let mut waiting = usize::from(!self.nodes.is_empty());
+        if waiting > 0 {
+            stack[0].1 = self.gap(0, &point);
         }
-        while let Some((index, gap)) = stack.pop() {
+        while waiting > 0 {
+            waiting -= 1;
+            let (index, gap) = stack[waiting];
             // Also refuses a gap that is not a number
-            if gap.is_nan() || gap > reach {
+            if gap.is_nan() || gap > reach * reach {
                 continue;
             }
-            let node = self.nodes[index as usize];
+            let node = &self.nodes[index as usize];
             if node.right == 0 {
                 for cell in &self.order[node.from as usize..node.to as usize] {
                     if visit(*cell as usize, &mut reach) {
@@ -297,11 +310,15 @@ impl<const D: usize> BoxTree<D> {
                 }
                 continue;
             }
-            let left = (index + 1, self.gap(index + 1, point));
-            let right = (node.right, self.gap(node.right, point));
+            let left = (index + 1, self.gap(index + 1, &point));
+            let right = (node.right, self.gap(node.right, &point));
             let (near, far) = if left.1 <= right.1 { (left, right) } else { (right, left) };
-            stack.push(far);
-            stack.push(near);
+            for child in [far, near] {
+                if child.1 <= reach * reach {
+                    stack[waiting] = child;
+                    waiting += 1;
+                }
+            }
         }
     }
 }

@@ -2,18 +2,17 @@
 //!
 //! `cargo run --release -p alewife --example motion_cost`
 
-use std::time::Instant;
-
 use alewife::body::Pose;
 use alewife::motion::{
     Fresh, Limits, MeshMotion, MotionKind, RigidMove, Stiffening, Transfer, holds, needs_remesh,
 };
+use alewife::timing::cpu_seconds;
 use alewife_mesh::{Domain, Locator, PlacedShape, Point, Shape, Sizing, Surroundings, generate};
 
 fn timed<T>(what: &str, run: impl FnOnce() -> T) -> T {
-    let start = Instant::now();
+    let start = cpu_seconds();
     let result = run();
-    println!("{what:>36} {:>8.4} s", start.elapsed().as_secs_f64());
+    println!("{what:>36} {:>8.4} s", cpu_seconds() - start);
     result
 }
 

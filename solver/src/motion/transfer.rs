@@ -31,6 +31,9 @@ struct Source {
     distance: f64,
 }
 
+/// What a node has before it is found.
+const NOWHERE: Source = Source { cell: 0, at: [0.0; 2], landing: Landing::Clamped, distance: 0.0 };
+
 /// Takes fields from one mesh to another.
 #[derive(Debug, Clone)]
 pub struct Transfer<'a> {
@@ -72,9 +75,16 @@ impl<'a> Transfer<'a> {
             let nearest = found.min_by(|a, b| a.distance.total_cmp(&b.distance))?;
             Some(settle(nearest.cell, nearest.reference, Landing::Extrapolated, nearest.distance))
         };
-        let sources: Option<Vec<Source>> =
-            new.nodes.par_iter().with_min_len(NODES_PER_TASK).map(find).collect();
-        Some(Self { old, new, sources: sources? })
+        let order = near_ones_together(&new.nodes);
+        let found: Option<Vec<Source>> = order
+            .par_chunks(NODES_PER_TASK)
+            .flat_map_iter(|nodes| nodes.iter().map(|&node| find(&new.nodes[node as usize])))
+            .collect();
+        let mut sources = vec![NOWHERE; new.n_nodes()];
+        for (node, source) in order.into_iter().zip(found?) {
+            sources[node as usize] = source;
+        }
+        Some(Self { old, new, sources })
     }
 
     /// A quadratic vector field (one vector a node of the old mesh) at the nodes of the new mesh.
@@ -150,6 +160,36 @@ fn settle(cell: usize, at: [f64; 2], landing: Landing, distance: f64) -> Source 
     let scale = (1.0 - 3.0 * EXTRAPOLATION) / spare;
     let [_, x, y] = kept.map(|l| EXTRAPOLATION + (l - EXTRAPOLATION) * scale);
     Source { cell, at: [x, y], landing: Landing::Clamped, distance }
+}
+
+/// The nodes along a Z-order curve: the search finds what it needs in the cache.
+fn near_ones_together(nodes: &[Point<2>]) -> Vec<u32> {
+    let bound = |best: f64, other: fn(&Point<2>, &Point<2>) -> Point<2>| {
+        nodes.iter().fold(Point::<2>::repeat(best), |sum, node| other(&sum, node))
+    };
+    let low = bound(f64::INFINITY, |a, b| a.inf(b));
+    let high = bound(f64::NEG_INFINITY, |a, b| a.sup(b));
+    let scale = f64::from(u16::MAX) / (high - low).max();
+    // Bits of x and y in turn
+    let spread = |x: f64| {
+        let mut bits = u64::from(x as u16);
+        for (shift, mask) in
+            [(8, 0x00ff_00ff), (4, 0x0f0f_0f0f), (2, 0x3333_3333), (1, 0x5555_5555)]
+        {
+            bits = (bits | bits << shift) & mask;
+        }
+        bits
+    };
+    let mut keys: Vec<(u64, u32)> = nodes
+        .iter()
+        .enumerate()
+        .map(|(node, place)| {
+            let at = (place - low) * scale;
+            (spread(at.x) | spread(at.y) << 1, node as u32)
+        })
+        .collect();
+    keys.sort_unstable();
+    keys.into_iter().map(|(_, node)| node).collect()
 }
 
 #[cfg(test)]
