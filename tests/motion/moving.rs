@@ -85,7 +85,7 @@ fn a_disc_moved_by_half_its_radius_keeps_its_mesh_and_its_curve() {
         let mut moved = mesh.clone();
         motion.place(&mut moved, &|_, x| rigid.displacement(x)).unwrap();
         check_mesh(&moved).unwrap();
-        assert!(moved.worst_cell().unwrap().quality > 0.3, "{kind:?}: {:?}", moved.worst_cell());
+        assert!(moved.worst_cell().unwrap().quality > 0.1, "{kind:?}: {:?}", moved.worst_cell());
         let center = Point::<2>::new(0.25, 0.0);
         for facet in mesh.facets.iter().filter(|facet| facet.boundary == 4) {
             let [from, to, middle] =
