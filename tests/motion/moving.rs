@@ -124,9 +124,8 @@ fn frame() -> Mesh<2> {
         let across = [(i, j - 1), (i + 1, j), (i, j + 1), (i - 1, j)];
         let places = corners.map(|(i, j)| place(i, j));
         let center = index(places.iter().sum::<Point<2>>() / 4.0, &mut vertices);
-        for side in 0..4 {
+        for (side, (k, l)) in across.into_iter().enumerate() {
             let [a, b] = [side, (side + 1) % 4].map(|k| index(places[k], &mut vertices));
-            let (k, l) = across[side];
             let cell = triangles.len() as u32;
             if is_body(k, l) {
                 facets.push(Facet { cell, side: 0, boundary: 1 });
