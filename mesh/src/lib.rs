@@ -17,6 +17,7 @@ mod quality;
 mod shape;
 mod sizing;
 mod spline;
+mod surroundings;
 mod vtu;
 
 pub use check::check_mesh;
@@ -29,8 +30,9 @@ pub use generate::{check_placement, generate};
 pub use locate::{Located, Locator};
 pub use mesh::{Boundary, BoundaryKind, Facet, Mesh, Point, nodes_per_cell};
 pub use outline::{Nearest, Outline};
-pub use quality::{Quality, WorstCell};
+pub use quality::{CellQuality, Quality, WorstCell};
 pub use shape::{Moments, PlacedShape, SecondMoments, Shape};
 pub use sizing::{SizeBox, SizeField, Sizing};
 pub use spline::Spline;
+pub use surroundings::Surroundings;
 pub use vtu::{Array, Precision, write_vtu, write_vtu_as};

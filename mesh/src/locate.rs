@@ -9,8 +9,17 @@ use crate::{Mesh, Point, map_quadratic};
 /// A point this far outside (in sizes of the mesh) still counts as on its boundary.
 const TOLERANCE: f64 = 1e-9;
 
+/// Levels of the tree of 2^32 cells.
+const MOST_LEVELS: usize = 33;
+
 /// Cells in one leaf.
 const LEAF: usize = 4;
+
+/// Marks a cell without curved sides.
+const STRAIGHT: u32 = u32::MAX;
+
+/// Newton's method has found a point when it misses by this part of the cell's size at most.
+const FOUND: f64 = 1e-10;
 
 /// Where a point is in a mesh.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -27,8 +36,12 @@ pub struct Located<const D: usize> {
 #[derive(Debug, Clone)]
 pub struct Locator<const D: usize> {
     tree: BoxTree<D>,
-    /// Places of the P2 nodes of each cell, and whether it is curved.
-    cells: Vec<(Vec<Point<D>>, bool)>,
+    /// Places of the corners of all cells, D + 1 for each.
+    corners: Vec<Point<D>>,
+    /// Where the nodes of each curved cell start in `quadratic`; [`STRAIGHT`] for the others.
+    curved: Vec<u32>,
+    /// Places of the P2 nodes of the curved cells.
+    quadratic: Vec<Point<D>>,
     tolerance: f64,
 }
 
@@ -37,12 +50,14 @@ impl Locator<2> {
     #[must_use]
     pub fn new(mesh: &Mesh<2>) -> Self {
         let mut boxes = Vec::with_capacity(mesh.n_cells());
-        let mut cells = Vec::with_capacity(mesh.n_cells());
+        let mut corners = Vec::with_capacity(3 * mesh.n_cells());
+        let mut curved = vec![STRAIGHT; mesh.n_cells()];
+        let mut quadratic = Vec::new();
         for cell in 0..mesh.n_cells() {
             let nodes = mesh.cell_nodes(cell);
             let mut bounds =
                 (nodes[0].inf(&nodes[1]).inf(&nodes[2]), nodes[0].sup(&nodes[1]).sup(&nodes[2]));
-            let mut kept = nodes[..3].to_vec();
+            corners.extend_from_slice(&nodes[..3]);
             if mesh.curved[cell] {
                 // A quadratic curve lies within the hull of its control points
                 for side in 0..3 {
@@ -50,14 +65,14 @@ impl Locator<2> {
                         nodes[3 + side] * 2.0 - (nodes[side] + nodes[(side + 1) % 3]) * 0.5;
                     bounds = (bounds.0.inf(&control), bounds.1.sup(&control));
                 }
-                kept = nodes.to_vec();
+                curved[cell] = quadratic.len() as u32;
+                quadratic.extend_from_slice(&nodes);
             }
             boxes.push(bounds);
-            cells.push((kept, mesh.curved[cell]));
         }
         let tree = BoxTree::new(&boxes);
         let tolerance = TOLERANCE * tree.extent();
-        Self { tree, cells, tolerance }
+        Self { tree, corners, curved, quadratic, tolerance }
     }
 
     /// The cell that holds a point, and the reference coordinates there; `None` outside.
@@ -93,41 +108,50 @@ impl Locator<2> {
 
     /// Where a point is with respect to one cell.
     fn place_in(&self, cell: usize, point: Point<2>) -> Located<2> {
-        let (nodes, is_curved) = &self.cells[cell];
-        let [a, b, c] = [nodes[0], nodes[1], nodes[2]];
+        let [a, b, c] = std::array::from_fn(|i| self.corners[3 * cell + i]);
         let (u, v, w) = (b - a, c - a, point - a);
         let det = cross(u, v);
-        let mut reference = [cross(w, v) / det, cross(u, w) / det];
-        let mut six = [Point::<2>::zeros(); 6];
-        if *is_curved {
-            six.copy_from_slice(nodes);
-            reference = invert_quadratic(&six, point, reference);
-        }
+        let straight = [cross(w, v) / det, cross(u, w) / det];
+        let six: Option<[Point<2>; 6]> = (self.curved[cell] != STRAIGHT)
+            .then(|| std::array::from_fn(|i| self.quadratic[self.curved[cell] as usize + i]));
+        let found = match &six {
+            Some(six) => invert_quadratic(six, point, straight, FOUND * (u.norm() + v.norm())),
+            None => Some(straight),
+        };
         // The simplex itself with a little rounding, so that no point falls between two cells
         const ROUNDING: f64 = 1e-12;
+        let reference = found.unwrap_or(straight);
         let [x, y] = reference;
-        if x >= -ROUNDING && y >= -ROUNDING && x + y <= 1.0 + ROUNDING {
+        if found.is_some() && x >= -ROUNDING && y >= -ROUNDING && x + y <= 1.0 + ROUNDING {
             return Located { cell, reference, distance: 0.0 };
         }
-        let inside = nearest_in_simplex(reference, [u.dot(&u), u.dot(&v), v.dot(&v)]);
-        let place = if *is_curved {
-            map_quadratic(&six, inside).0
-        } else {
-            a + u * inside[0] + v * inside[1]
+        let metric = [u.dot(&u), u.dot(&v), v.dot(&v)];
+        let (inside, place) = match &six {
+            Some(six) => nearest_in_quadratic(six, point, reference, metric),
+            None => {
+                let inside = nearest_in_simplex(reference, metric);
+                (inside, a + u * inside[0] + v * inside[1])
+            }
         };
+        let reference = if found.is_some() { reference } else { inside };
         Located { cell, reference, distance: (point - place).norm() }
     }
 }
 
 /// Reference coordinates of a point in a curved cell, by Newton's method from those of the
-/// straight one; it stays where it is when the map degenerates outside the cell.
-fn invert_quadratic(nodes: &[Point<2>; 6], point: Point<2>, start: [f64; 2]) -> [f64; 2] {
+/// straight one; `None` when the map degenerates on the way, as it may far outside the cell.
+fn invert_quadratic(
+    nodes: &[Point<2>; 6],
+    point: Point<2>,
+    start: [f64; 2],
+    tolerance: f64,
+) -> Option<[f64; 2]> {
     let mut at = start.map(|x| x.clamp(-0.5, 1.5));
     for _ in 0..30 {
         let (place, [first, second]) = map_quadratic(nodes, at);
         let (miss, det) = (point - place, cross(first, second));
         if det <= 0.0 {
-            return start;
+            return None;
         }
         let step = [cross(miss, second) / det, cross(first, miss) / det];
         let length = step[0].hypot(step[1]);
@@ -137,7 +161,37 @@ fn invert_quadratic(nodes: &[Point<2>; 6], point: Point<2>, start: [f64; 2]) -> 
             break;
         }
     }
-    at
+    let miss = (point - map_quadratic(nodes, at).0).norm();
+    (miss <= tolerance).then_some(at)
+}
+
+/// Nearest point of a curved cell to a point outside: reference coordinates and place.
+///
+/// Steps along the sides in the metric of the Jacobian there, from the nearest point of the
+/// straight cell; a few suffice, as a side turns little.
+fn nearest_in_quadratic(
+    nodes: &[Point<2>; 6],
+    point: Point<2>,
+    start: [f64; 2],
+    metric: [f64; 3],
+) -> ([f64; 2], Point<2>) {
+    let mut best = nearest_in_simplex(start, metric);
+    let mut place = map_quadratic(nodes, best).0;
+    for _ in 0..4 {
+        let (at, [u, v]) = map_quadratic(nodes, best);
+        let (det, miss) = (cross(u, v), point - at);
+        if det <= 0.0 {
+            break;
+        }
+        let wanted = [best[0] + cross(miss, v) / det, best[1] + cross(u, miss) / det];
+        let next = nearest_in_simplex(wanted, [u.dot(&u), u.dot(&v), v.dot(&v)]);
+        let there = map_quadratic(nodes, next).0;
+        if (point - there).norm() >= (point - place).norm() {
+            break;
+        }
+        (best, place) = (next, there);
+    }
+    (best, place)
 }
 
 /// Nearest point of the reference triangle in the metric [uu, uv, vv] of the physical one.
@@ -214,10 +268,16 @@ impl<const D: usize> BoxTree<D> {
         self.nodes.first().map_or(0.0, |root| (root.max - root.min).max())
     }
 
-    fn gap(&self, node: u32, point: Point<D>) -> f64 {
+    /// Square of the distance from a point to a box.
+    fn gap(&self, node: u32, point: &Point<D>) -> f64 {
         let node = &self.nodes[node as usize];
-        let outside = (node.min - point).sup(&(point - node.max)).sup(&Point::<D>::zeros());
-        outside.norm()
+        (0..D).fold(0.0, |sum, axis| {
+            let below = node.min[axis] - point[axis];
+            let above = point[axis] - node.max[axis];
+            // Unlike f64::max, the comparison keeps what is not a number
+            let outside = if below > 0.0 { below } else { above };
+            if outside <= 0.0 { sum } else { sum + outside * outside }
+        })
     }
 
     /// Visits boxes within reach of a point, near ones first, until `visit` returns true; `visit`
@@ -228,16 +288,20 @@ impl<const D: usize> BoxTree<D> {
         mut reach: f64,
         mut visit: impl FnMut(usize, &mut f64) -> bool,
     ) {
-        let mut stack = Vec::with_capacity(64);
-        if !self.nodes.is_empty() {
-            stack.push((0, self.gap(0, point)));
+        // Halving leaves at most one box a level waiting, and two at the last
+        let mut stack = [(0, 0.0); MOST_LEVELS + 1];
+        let mut waiting = usize::from(!self.nodes.is_empty());
+        if waiting > 0 {
+            stack[0].1 = self.gap(0, &point);
         }
-        while let Some((index, gap)) = stack.pop() {
+        while waiting > 0 {
+            waiting -= 1;
+            let (index, gap) = stack[waiting];
             // Also refuses a gap that is not a number
-            if gap.is_nan() || gap > reach {
+            if gap.is_nan() || gap > reach * reach {
                 continue;
             }
-            let node = self.nodes[index as usize];
+            let node = &self.nodes[index as usize];
             if node.right == 0 {
                 for cell in &self.order[node.from as usize..node.to as usize] {
                     if visit(*cell as usize, &mut reach) {
@@ -246,11 +310,15 @@ impl<const D: usize> BoxTree<D> {
                 }
                 continue;
             }
-            let left = (index + 1, self.gap(index + 1, point));
-            let right = (node.right, self.gap(node.right, point));
+            let left = (index + 1, self.gap(index + 1, &point));
+            let right = (node.right, self.gap(node.right, &point));
             let (near, far) = if left.1 <= right.1 { (left, right) } else { (right, left) };
-            stack.push(far);
-            stack.push(near);
+            for child in [far, near] {
+                if child.1 <= reach * reach {
+                    stack[waiting] = child;
+                    waiting += 1;
+                }
+            }
         }
     }
 }

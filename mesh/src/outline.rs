@@ -84,6 +84,12 @@ impl Outline {
         Ok(Self::with_form(body.center, body.angle, Form::Ellipse(semi_axes)))
     }
 
+    /// The same outline with its origin in another place (m) and turned by another angle (rad).
+    #[must_use]
+    pub fn placed_at(&self, center: Point<2>, angle: f64) -> Self {
+        Self { center, cos: angle.cos(), sin: angle.sin(), ..self.clone() }
+    }
+
     /// Circle around a point.
     #[must_use]
     pub fn circle(center: Point<2>, radius: f64) -> Self {
@@ -219,28 +225,32 @@ fn foot_on_ellipse(a: f64, b: f64, x: f64, y: f64) -> Point<2> {
             Point::<2>::new(a, 0.0)
         };
     }
-    let excess = |t: f64| {
-        let (p, q) = (a * x / (t + a * a), b * y / (t + b * b));
-        let slope = -2.0 * (p * p / (t + a * a) + q * q / (t + b * b));
+    // With s = t + b^2, which keeps its digits where the point is next to the long axis
+    let c = a * a - b * b;
+    let excess = |s: f64| {
+        let (p, q) = (a * x / (s + c), b * y / s);
+        let slope = -2.0 * (p * p / (s + c) + q * q / s);
         (p * p + q * q - 1.0, slope)
     };
-    let (mut low, mut high) = (b * y - b * b, (a * x).hypot(b * y) - b * b);
-    let mut t = low;
+    // Each term alone is at most one, both together at least
+    let (mut low, mut high) = ((b * y).max(a * x - c), (a * x).hypot(b * y));
+    let mut s = low;
     for _ in 0..200 {
-        let (value, slope) = excess(t);
+        let (value, slope) = excess(s);
         if value > 0.0 {
-            low = low.max(t);
+            low = low.max(s);
         } else {
-            high = high.min(t);
+            high = high.min(s);
         }
-        let newton = t - value / slope;
+        let newton = s - value / slope;
         let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
-        if (next - t).abs() <= 1e-16 * (b * b + t.abs()) {
+        let has_settled = (next - s).abs() <= 1e-16 * s;
+        s = next;
+        if has_settled {
             break;
         }
-        t = next;
     }
-    let foot = Point::<2>::new(a * a * x / (t + a * a), b * b * y / (t + b * b));
+    let foot = Point::<2>::new(a * a * x / (s + c), b * b * y / s);
     // Rounding leaves the foot a little off the curve: push it back along its ray
     foot / (foot.x / a).hypot(foot.y / b)
 }
@@ -432,6 +442,24 @@ mod tests {
                 }
             }
             assert!(outline.nearest(outline.center).gap < 0.0);
+        }
+    }
+
+    /// Also next to the axes, where one coordinate is nothing but rounding.
+    #[test]
+    fn points_of_an_ellipse_have_no_gap_and_those_on_its_axes_the_right_one() {
+        for (a, b) in [(2.0, 1.0), (0.3, 0.789), (10.0, 0.1)] {
+            let outline = Outline::new(&ellipse(a, b)).unwrap();
+            for i in 0..192 {
+                let on = outline.evaluate(i / 48, (i % 48) as f64 / 48.0)[0];
+                let gap = outline.nearest(on).gap;
+                assert!(gap.abs() < 1e-14 * a.max(b), "{a} {b} {i}: {gap:e}");
+            }
+        }
+        for y in [0.0, 1e-300, 1e-20, 1e-17, 1e-12] {
+            let foot = foot_on_ellipse(2.0, 1.0, 0.75, y);
+            // On the axis inside the centre of curvature the feet are those of a^2 x / (a^2 - b^2)
+            assert!((foot - Point::<2>::new(1.0, 0.75_f64.sqrt())).norm() < 1e-11, "{y}: {foot}");
         }
     }
 

@@ -57,6 +57,63 @@ pub struct WorstCell {
     pub center: Point<2>,
 }
 
+/// Quality of one cell, and where it is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CellQuality {
+    /// Index of the cell.
+    pub cell: usize,
+    /// See [`Mesh::cell_quality`].
+    pub quality: f64,
+    /// Centre of the cell (m).
+    pub center: Point<2>,
+}
+
+impl CellQuality {
+    /// Whether the cell is neither inverted nor folded.
+    #[must_use]
+    pub fn is_valid(&self) -> bool {
+        self.quality > 0.0
+    }
+}
+
+impl Mesh<2> {
+    /// Quality of a cell: 1 when equilateral, 0 or less when inverted or folded, never NaN.
+    ///
+    /// The mean ratio 4 √3 area / (sum of squared edges) of the straight triangle; for a curved
+    /// cell times the smallest Bezier coefficient of det J over twice the straight area, where
+    /// that is below one.
+    ///
+    /// # Source
+    /// @liu1994 for the mean ratio, @johnen2013 for curved cells.
+    #[must_use]
+    pub fn cell_quality(&self, cell: usize) -> f64 {
+        let nodes = self.cell_nodes(cell);
+        let [a, b, c] = [nodes[0], nodes[1], nodes[2]];
+        let twice_area = cross(b - a, c - a);
+        let squares = (b - a).norm_squared() + (c - b).norm_squared() + (a - c).norm_squared();
+        let ratio = 2.0 * 3.0_f64.sqrt() * twice_area / squares;
+        let quality = if self.curved[cell] && twice_area > 0.0 {
+            // Unlike f64::min, the comparison keeps what is not a number
+            let lowest = jacobian_coefficients(&nodes)
+                .into_iter()
+                .fold(twice_area, |low, c| if c >= low { low } else { c });
+            ratio * lowest / twice_area
+        } else {
+            ratio
+        };
+        if quality.is_nan() { f64::NEG_INFINITY } else { quality }
+    }
+
+    /// The cell with the lowest quality; `None` for a mesh without cells.
+    #[must_use]
+    pub fn worst_cell(&self) -> Option<CellQuality> {
+        let all = (0..self.n_cells()).map(|cell| (cell, self.cell_quality(cell)));
+        let (cell, quality) = all.min_by(|a, b| a.1.total_cmp(&b.1))?;
+        let [a, b, c, ..] = self.cell_nodes(cell);
+        Some(CellQuality { cell, quality, center: (a + b + c) / 3.0 })
+    }
+}
+
 impl Quality {
     /// Measures a mesh.
     #[must_use]

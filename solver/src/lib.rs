@@ -8,6 +8,7 @@ pub mod cli;
 pub mod coupling;
 pub mod flow;
 pub mod gait;
+pub mod motion;
 pub mod multifrontal;
 pub mod observer;
 pub mod simulation;

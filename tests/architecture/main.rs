@@ -15,11 +15,15 @@ const ROOMS: [(&str, &[&str]); 15] = [
     ("time", &["case"]),
     ("body", &[]),
     ("gait", &["body"]),
+    ("motion", &["algebra", "body", "space", "time"]),
     ("flow", &["algebra", "space"]),
     ("coupling", &["algebra", "body", "flow", "gait", "space", "time", "timing"]),
     (
         "simulation",
-        &["algebra", "body", "case", "coupling", "flow", "gait", "space", "time", "timing"],
+        &[
+            "algebra", "body", "case", "coupling", "flow", "gait", "motion", "space", "time",
+            "timing",
+        ],
     ),
     ("observer", &["body", "case", "simulation"]),
     ("validation", &["case", "simulation"]),

@@ -4,6 +4,7 @@
 //! cannot miss a narrow place between them.
 
 use super::border::{Border, Curve};
+use crate::surroundings::nearest_body;
 use crate::{BoundaryKind, Domain, MeshError, PlacedShape, Point, Sizing};
 
 /// Largest number of samples on the boundary.
@@ -168,16 +169,9 @@ impl<'a> Surfaces<'a> {
 
     /// Distance to the nearest body, the images of all and the body itself left out.
     fn gap_to_bodies(&self, point: Point<2>, but: Option<usize>) -> f64 {
-        let mut gap = f64::INFINITY;
-        for (body, outline) in self.border.outlines[..self.n_bodies].iter().enumerate() {
-            for (i, shift) in self.images.iter().enumerate() {
-                let is_other = i > 0 || but != Some(body);
-                if is_other && outline.least_gap(point - shift) < gap {
-                    gap = gap.min(outline.nearest(point - shift).gap);
-                }
-            }
-        }
-        gap
+        let bodies = &self.border.outlines[..self.n_bodies];
+        nearest_body(bodies, &self.images, point, but, f64::INFINITY)
+            .map_or(f64::INFINITY, |(_, gap)| gap)
     }
 
     /// Diameter of the largest empty circle that touches the body here, seen from its own parts.

@@ -1,12 +1,14 @@
 //! Fluid and bodies in one system: nobody else knows both.
 
 mod constrain;
+mod divergence_free;
 mod loads;
 mod problem;
 mod surface_load;
 mod system;
 
 pub use constrain::NodeSides;
+pub use divergence_free::DivergenceFree;
 pub use loads::{BodyLoads, body_loads};
 pub use problem::{Drive, Problem, RigidBody, Side, TimeValue, VelocityProfile};
 pub use surface_load::surface_load;

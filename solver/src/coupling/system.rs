@@ -13,7 +13,7 @@ use super::problem::{Drive, Problem};
 use crate::algebra::{Accuracy, AffineConstraints, DirectSolver, LinearError, Pattern, Unknowns};
 use crate::body::{Pose, Twist};
 use crate::flow::{Assembly, Convection, Fields, FlowTerms, assemble, residual};
-use crate::space::{CellValues, DofLayout};
+use crate::space::{CellValues, DofLayout, Tables};
 use crate::timing::{Stage, Timing};
 
 /// Why a system could not be solved.
@@ -130,16 +130,7 @@ impl FluidSystem {
             &problem.do_nothing_sides(),
             frame,
         );
-        let mut pressure_weights = vec![0.0; layout.n_vertices];
-        let mut workspace = CellValues::default();
-        for cell in 0..mesh.n_cells() {
-            let nodes = mesh.cell(cell);
-            workspace.for_each_point(assembly.tables(), mesh, cell, |at| {
-                for (&vertex, psi) in nodes.iter().zip(at.psi) {
-                    pressure_weights[vertex as usize] += psi * at.dx;
-                }
-            });
-        }
+        let pressure_weights = pressure_weights(mesh, assembly.tables());
         let values = vec![0.0; pattern.rows.len()];
         let unknowns = unknowns(&layout, &constraints);
         Self {
@@ -372,13 +363,13 @@ impl FluidSystem {
 
     /// Basis tables, for measurements.
     #[must_use]
-    pub fn tables(&self) -> &crate::space::Tables<2> {
+    pub fn tables(&self) -> &Tables<2> {
         self.assembly.tables()
     }
 }
 
 /// What the linear solver has to know of each free unknown.
-fn unknowns(layout: &DofLayout<2>, constraints: &AffineConstraints) -> Unknowns {
+pub(super) fn unknowns(layout: &DofLayout<2>, constraints: &AffineConstraints) -> Unknowns {
     let n = constraints.n_unknowns();
     let mut unknowns =
         Unknowns { node: vec![0; n], is_pressure: vec![false; n], dense: Vec::new() };
@@ -398,6 +389,21 @@ fn unknowns(layout: &DofLayout<2>, constraints: &AffineConstraints) -> Unknowns 
     let rigid = layout.n_fluid()..layout.n_raw();
     unknowns.dense = rigid.filter_map(|raw| constraints.unknown(raw)).collect();
     unknowns
+}
+
+/// int psi dx of each vertex.
+pub(super) fn pressure_weights(mesh: &Mesh<2>, tables: &Tables<2>) -> Vec<f64> {
+    let mut weights = vec![0.0; mesh.n_vertices];
+    let mut workspace = CellValues::default();
+    for cell in 0..mesh.n_cells() {
+        let nodes = mesh.cell(cell);
+        workspace.for_each_point(tables, mesh, cell, |at| {
+            for (&vertex, psi) in nodes.iter().zip(at.psi) {
+                weights[vertex as usize] += psi * at.dx;
+            }
+        });
+    }
+    weights
 }
 
 /// Memory a system takes with its factors (bytes), from the velocities and pressures of its mesh.

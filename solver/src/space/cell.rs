@@ -164,6 +164,22 @@ impl<const D: usize> CellValues<D> {
     }
 }
 
+/// Measure (m^D) of a cell's straight simplex, negative when it is inverted, and the gradients
+/// (1/m) of its D + 1 linear basis functions.
+#[must_use]
+pub fn simplex_gradients<const D: usize>(
+    mesh: &Mesh<D>,
+    cell: usize,
+) -> (f64, Vec<SVector<f64, D>>) {
+    let corners: Vec<_> =
+        mesh.cell(cell)[..=D].iter().map(|&node| mesh.nodes[node as usize]).collect();
+    let reference = p1_gradients();
+    let (determinant, inverse_transposed) = invert(&jacobian(&corners, &reference));
+    let factorial: usize = (1..=D).product();
+    let gradients = reference.iter().map(|gradient| inverse_transposed * gradient).collect();
+    (determinant / factorial as f64, gradients)
+}
+
 /// sum_i weight_i point_i.
 fn weighted_sum<const D: usize>(points: &[Point<D>], weights: &[f64]) -> Point<D> {
     points.iter().zip(weights).fold(Point::zeros(), |sum, (point, weight)| sum + point * *weight)

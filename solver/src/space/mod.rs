@@ -6,6 +6,6 @@ mod layout;
 mod quadrature;
 
 pub use basis::{p1_gradients, p1_values, p2_gradients, p2_values, triangle_side_point};
-pub use cell::{CellValues, PointValues, Tables};
+pub use cell::{CellValues, PointValues, Tables, simplex_gradients};
 pub use layout::DofLayout;
 pub use quadrature::{Rule, interval_rule, simplex_rule};

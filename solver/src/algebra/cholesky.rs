@@ -1,0 +1,139 @@
+//! Sparse Cholesky factorisation of symmetric positive definite matrices, made once, used often.
+
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::linalg::cholesky::llt::factor::LltRegularization;
+use faer::mat::MatMut;
+use faer::sparse::linalg::cholesky::{
+    CholeskySymbolicParams, LltRef, SymbolicCholesky, SymmetricOrdering,
+    factorize_symbolic_cholesky,
+};
+use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
+use faer::{Conj, Par, Side};
+
+use super::{Pattern, SingularMatrix};
+
+/// The same bits on any number of threads: kernels run on one.
+const PARALLELISM: Par = Par::Seq;
+
+/// A = L L^T with the unknowns ordered by approximate minimum degree.
+pub struct Cholesky {
+    symbolic: SymbolicCholesky<usize>,
+    factor: Vec<f64>,
+}
+
+impl std::fmt::Debug for Cholesky {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        formatter.debug_struct("Cholesky").field("n", &self.n()).finish_non_exhaustive()
+    }
+}
+
+impl Cholesky {
+    /// Factorises a symmetric matrix, of which the lower triangle is read.
+    ///
+    /// # Errors
+    /// When the matrix is not positive definite, or memory runs out.
+    pub fn factorise(pattern: &Pattern, values: &[f64]) -> Result<Self, SingularMatrix> {
+        let n = pattern.n();
+        let view =
+            SymbolicSparseColMatRef::new_checked(n, n, &pattern.columns, None, &pattern.rows);
+        let symbolic = factorize_symbolic_cholesky(
+            view,
+            Side::Lower,
+            SymmetricOrdering::Amd,
+            CholeskySymbolicParams::default(),
+        )
+        .map_err(|error| SingularMatrix(format!("the analysis failed: {error:?}")))?;
+        let mut factor = vec![0.0; symbolic.len_val()];
+        let need = symbolic.factorize_numeric_llt_scratch::<f64>(PARALLELISM, Default::default());
+        let mut workspace = MemBuffer::try_new(need)
+            .map_err(|_| SingularMatrix("memory ran out in the factorisation".to_owned()))?;
+        symbolic
+            .factorize_numeric_llt::<f64>(
+                &mut factor,
+                SparseColMatRef::new(view, values),
+                Side::Lower,
+                LltRegularization::default(),
+                PARALLELISM,
+                MemStack::new(&mut workspace),
+                Default::default(),
+            )
+            .map_err(|error| {
+                SingularMatrix(format!("the matrix is not positive definite: {error:?}"))
+            })?;
+        Ok(Self { symbolic, factor })
+    }
+
+    /// Number of unknowns.
+    #[must_use]
+    pub fn n(&self) -> usize {
+        self.symbolic.nrows()
+    }
+
+    /// Entries of the factor.
+    #[must_use]
+    pub fn n_entries(&self) -> usize {
+        self.factor.len()
+    }
+
+    /// Overwrites right-hand sides, one after the other in `sides`, with their solutions.
+    ///
+    /// # Errors
+    /// When memory runs out.
+    pub fn solve(&self, sides: &mut [f64]) -> Result<(), SingularMatrix> {
+        let n = self.n();
+        if n == 0 {
+            return Ok(());
+        }
+        let count = sides.len() / n;
+        let need = self.symbolic.solve_in_place_scratch::<f64>(count, PARALLELISM);
+        let mut workspace = MemBuffer::try_new(need)
+            .map_err(|_| SingularMatrix("memory ran out in a solve".to_owned()))?;
+        LltRef::new(&self.symbolic, &self.factor).solve_in_place_with_conj(
+            Conj::No,
+            MatMut::from_column_major_slice_mut(&mut sides[..n * count], n, count),
+            PARALLELISM,
+            MemStack::new(&mut workspace),
+        );
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The matrix of -u'' on n points with `shift` on its diagonal.
+    fn chain(n: usize, shift: f64) -> (Pattern, Vec<f64>) {
+        let mut pattern = Pattern { columns: vec![0], rows: Vec::new() };
+        let mut values = Vec::new();
+        for column in 0..n {
+            for row in column.saturating_sub(1)..(column + 2).min(n) {
+                pattern.rows.push(row);
+                values.push(if row == column { 2.0 + shift } else { -1.0 });
+            }
+            pattern.columns.push(pattern.rows.len());
+        }
+        (pattern, values)
+    }
+
+    #[test]
+    fn several_right_hand_sides_are_solved_at_once() {
+        let (pattern, values) = chain(40, 0.0);
+        let cholesky = Cholesky::factorise(&pattern, &values).unwrap();
+        let exact: Vec<f64> = (0..80).map(|i| f64::from(i).sin()).collect();
+        let mut sides = vec![0.0; 80];
+        for (x, b) in exact.chunks(40).zip(sides.chunks_mut(40)) {
+            pattern.multiply_add(&values, x, b);
+        }
+        cholesky.solve(&mut sides).unwrap();
+        for (found, wanted) in sides.iter().zip(&exact) {
+            assert!((found - wanted).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn a_matrix_that_is_not_positive_definite_is_refused() {
+        let (pattern, values) = chain(20, -1.0);
+        assert!(Cholesky::factorise(&pattern, &values).is_err());
+    }
+}

@@ -1,0 +1,166 @@
+//! The nearest discretely divergence-free velocity to a given one, with its boundary values.
+//!
+//! What is interpolated from mesh to mesh is no longer divergence-free; without this projection
+//! the pressure of the next step would have to undo that at once, as a spike in the forces.
+
+use alewife_mesh::{BoundaryKind, Mesh, Point};
+
+use super::constrain::NodeSides;
+use super::problem::{Problem, Side};
+use super::system::{pressure_weights, unknowns};
+use crate::algebra::{AffineConstraints, ConstraintBuilder, DirectSolver, LinearError, Pattern};
+use crate::flow::{Assembly, Convection, Fields, FlowTerms, assemble, residual};
+use crate::space::DofLayout;
+
+/// Minimises ||v - u|| in L2 over the v with div v = 0 (tested with all pressures) that agree with
+/// u where the problem gives velocities: on bodies, walls and inflows, and in the normal component
+/// on symmetry planes.
+///
+/// With v = u + d: [M B^T; B 0] [d; q] = [0; -B u] on the free unknowns. On open sides q = 0.
+#[derive(Debug)]
+pub struct DivergenceFree {
+    layout: DofLayout<2>,
+    constraints: AffineConstraints,
+    assembly: Assembly,
+    pattern: Pattern,
+    values: Vec<f64>,
+    solver: DirectSolver,
+    /// int psi dx of each vertex when the flow is enclosed, to spread a net flux.
+    enclosed_weights: Option<Vec<f64>>,
+}
+
+/// Neither stress nor convection, and as much mass as asked for.
+fn terms<'a>(density: f64) -> FlowTerms<'a, 2> {
+    FlowTerms {
+        viscosity: 0.0,
+        density,
+        rate: 1.0,
+        history: &[],
+        crossing: &[],
+        convection: Convection::None,
+        body_force: None,
+    }
+}
+
+impl DivergenceFree {
+    /// Assembles and factorises the projection of a problem on a mesh.
+    ///
+    /// # Errors
+    /// When the factorisation fails.
+    pub fn new(problem: &Problem, mesh: &Mesh<2>) -> Result<Self, LinearError> {
+        let layout = DofLayout::new(mesh, 0);
+        let constraints = hold_given_velocities(problem, mesh, &layout);
+        let (pattern, assembly) =
+            Assembly::new(mesh, layout, &constraints, problem.axisymmetric, &[], None);
+        let mut values = vec![0.0; pattern.rows.len()];
+        let (velocity, pressure) = rest(&layout);
+        let fields = Fields { velocity: &velocity, pressure: &pressure };
+        assemble(&assembly, mesh, &constraints, &terms(1.0), &fields, &mut values);
+        let mut solver = DirectSolver::analyse(&pattern, &unknowns(&layout, &constraints));
+        solver.factorise(&pattern, &values)?;
+        let enclosed_weights =
+            problem.is_enclosed().then(|| pressure_weights(mesh, assembly.tables()));
+        Ok(Self { layout, constraints, assembly, pattern, values, solver, enclosed_weights })
+    }
+
+    /// -int psi div u dx for each vertex (m3/s; m2/s planar), the net flux of an enclosed flow
+    /// spread over the domain as the solver does: what [`Self::project`] makes zero.
+    #[must_use]
+    pub fn defect(&self, mesh: &Mesh<2>, velocity: &[Point<2>]) -> Vec<f64> {
+        let pressure = vec![0.0; self.layout.n_vertices];
+        let fields = Fields { velocity, pressure: &pressure };
+        let raw = residual(&self.assembly, mesh, &terms(0.0), &fields);
+        let mut defect = raw[self.layout.pressure(0)..self.layout.n_fluid()].to_vec();
+        if let Some(weights) = &self.enclosed_weights {
+            let flux: f64 = defect.iter().sum();
+            let volume: f64 = weights.iter().sum();
+            for (value, weight) in defect.iter_mut().zip(weights) {
+                *value -= flux * weight / volume;
+            }
+        }
+        // A pressure of one side of a periodic pair tests both
+        for &(copy, original) in &mesh.periodic {
+            if (copy as usize) < self.layout.n_vertices {
+                defect[original as usize] += std::mem::take(&mut defect[copy as usize]);
+            }
+        }
+        defect
+    }
+
+    /// The projection of a velocity (m/s at the nodes) on the mesh it was made for.
+    ///
+    /// # Errors
+    /// When the system cannot be solved, as for velocities that are not finite.
+    pub fn project(
+        &mut self,
+        mesh: &Mesh<2>,
+        velocity: &[Point<2>],
+    ) -> Result<Vec<Point<2>>, LinearError> {
+        let mut raw = vec![0.0; self.layout.n_raw()];
+        for (vertex, value) in self.defect(mesh, velocity).into_iter().enumerate() {
+            raw[self.layout.pressure(vertex)] = -value;
+        }
+        let mut free = self.constraints.restrict(&raw);
+        if free.iter().all(|value| *value == 0.0) {
+            return Ok(velocity.to_vec());
+        }
+        self.solver.solve(&self.pattern, &self.values, &mut free)?;
+        let correction = self.constraints.expand(&free);
+        let corrected = velocity.iter().enumerate().map(|(node, velocity)| {
+            let [x, y] = [0, 1].map(|axis| correction[self.layout.velocity(node, axis)]);
+            velocity + Point::<2>::new(x, y)
+        });
+        Ok(corrected.collect())
+    }
+}
+
+fn rest(layout: &DofLayout<2>) -> (Vec<Point<2>>, Vec<f64>) {
+    (vec![Point::<2>::zeros(); layout.n_nodes], vec![0.0; layout.n_vertices])
+}
+
+/// No correction where velocities are given; equal ones at periodic pairs; one pressure pinned
+/// when no side is open.
+fn hold_given_velocities(
+    problem: &Problem,
+    mesh: &Mesh<2>,
+    layout: &DofLayout<2>,
+) -> AffineConstraints {
+    let mut builder = ConstraintBuilder::new(layout.n_raw());
+    let sides = NodeSides::new(mesh);
+    for (node, boundaries) in sides.iter() {
+        for boundary in boundaries {
+            let is_body = matches!(mesh.boundaries[boundary].kind, BoundaryKind::Body(_));
+            let held: &[usize] = match &problem.sides[boundary] {
+                _ if is_body => &[0, 1],
+                Some(Side::Velocity { .. }) => &[0, 1],
+                Some(Side::Symmetry { normal_axis: 0 }) => &[0],
+                Some(Side::Symmetry { .. }) => &[1],
+                Some(Side::DoNothing | Side::TractionFree | Side::Periodic) | None => &[],
+            };
+            for &axis in held {
+                builder.constrain(layout.velocity(node, axis), vec![], 0.0);
+            }
+        }
+    }
+    for &(copy, original) in &mesh.periodic {
+        let (copy, original) = (copy as usize, original as usize);
+        for axis in 0..2 {
+            let raw = layout.velocity(copy, axis);
+            if !builder.is_constrained(raw) {
+                builder.constrain(raw, vec![(layout.velocity(original, axis), 1.0)], 0.0);
+            }
+        }
+        if copy < layout.n_vertices {
+            builder.constrain(layout.pressure(copy), vec![(layout.pressure(original), 1.0)], 0.0);
+        }
+    }
+    if problem.is_enclosed() {
+        let pinned = (0..layout.n_vertices)
+            .map(|vertex| layout.pressure(vertex))
+            .find(|&raw| !builder.is_constrained(raw));
+        if let Some(raw) = pinned {
+            builder.constrain(raw, vec![], 0.0);
+        }
+    }
+    builder.build()
+}

@@ -1,0 +1,166 @@
+//! When the mesh has to be made anew: spoilt cells, or too few layers between two surfaces.
+
+use std::fmt;
+
+use alewife_mesh::{Mesh, Point, Surroundings};
+
+/// A surface must have lost this part of its layers before a new mesh is worth its price: gaps that
+/// were meshed with few layers on purpose do not ask for a mesh at every step.
+const LOST: f64 = 0.75;
+
+/// When a mesh is given up.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Limits {
+    /// Lowest quality of a cell over its quality in the new mesh.
+    pub quality: f64,
+    /// Fewest layers of cells across a gap: gap over edge length at its surfaces.
+    pub layers: f64,
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        Self { quality: 0.4, layers: 2.0 }
+    }
+}
+
+/// What a mesh was like when it was new.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Fresh {
+    /// Quality of each cell.
+    quality: Vec<f64>,
+    /// Layers across the gap at each facet, infinite where nothing is near.
+    layers: Vec<f64>,
+    limits: Limits,
+}
+
+/// Why a new mesh is needed.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Reason {
+    /// A cell is inverted or folded, or about to be.
+    Quality {
+        /// Index of the cell.
+        cell: usize,
+        /// Its centre (m).
+        place: Point<2>,
+        /// Its quality, see [`Mesh::cell_quality`]; 0 or less when inverted or folded.
+        quality: f64,
+        /// Its quality in the new mesh.
+        when_new: f64,
+    },
+    /// Too few layers of cells between two surfaces.
+    Gap {
+        /// Names of the boundaries: the one whose cells are too large, and the one facing it.
+        between: [String; 2],
+        /// Where, on the first one (m).
+        place: Point<2>,
+        /// Gap (m), negative where surfaces overlap.
+        gap: f64,
+        /// Layers of cells across the gap.
+        layers: f64,
+    },
+}
+
+impl fmt::Display for Reason {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Quality { cell, place, quality, when_new } => write!(
+                f,
+                "cell {cell} at ({:.6e}, {:.6e}) has quality {quality:.3}, {when_new:.3} when new",
+                place.x, place.y
+            ),
+            Self::Gap { between: [near, far], place, gap, layers } => write!(
+                f,
+                "{layers:.2} layers of cells between \"{near}\" and \"{far}\" at ({:.6e}, {:.6e}), \
+                 gap {gap:.3e}",
+                place.x, place.y
+            ),
+        }
+    }
+}
+
+impl Fresh {
+    /// Measures a new mesh among the surfaces it was made for.
+    #[must_use]
+    pub fn new(mesh: &Mesh<2>, surroundings: &Surroundings, limits: Limits) -> Self {
+        let quality = (0..mesh.n_cells()).map(|cell| mesh.cell_quality(cell)).collect();
+        let layers = (0..mesh.facets.len())
+            .map(|facet| {
+                let crowding = crowding(mesh, surroundings, facet, limits.layers / LOST);
+                crowding.map_or(f64::INFINITY, |found| found.layers)
+            })
+            .collect();
+        Self { quality, layers, limits }
+    }
+}
+
+/// Whether a mesh that has moved since it was `fresh` must be made anew, and the worst reason:
+/// cells that are inverted or folded come first, then gaps, then poor cells.
+///
+/// # Panics
+/// Never for a mesh with the cells of the fresh one.
+#[must_use]
+pub fn needs_remesh(mesh: &Mesh<2>, fresh: &Fresh, surroundings: &Surroundings) -> Option<Reason> {
+    let spoilt = worst_quality(mesh, fresh);
+    if matches!(spoilt, Some(Reason::Quality { quality, .. }) if quality <= 0.0) {
+        return spoilt;
+    }
+    narrowest_gap(mesh, fresh, surroundings).or(spoilt)
+}
+
+fn worst_quality(mesh: &Mesh<2>, fresh: &Fresh) -> Option<Reason> {
+    let all = fresh.quality.iter().enumerate().map(|(cell, &when_new)| {
+        let quality = mesh.cell_quality(cell);
+        (cell, quality, when_new)
+    });
+    let (cell, quality, when_new) =
+        all.min_by(|one, other| (one.1 / one.2).total_cmp(&(other.1 / other.2)))?;
+    let [a, b, c, ..] = mesh.cell_nodes(cell);
+    (quality < fresh.limits.quality * when_new).then(|| Reason::Quality {
+        cell,
+        place: (a + b + c) / 3.0,
+        quality,
+        when_new,
+    })
+}
+
+fn narrowest_gap(mesh: &Mesh<2>, fresh: &Fresh, surroundings: &Surroundings) -> Option<Reason> {
+    let narrow = fresh.layers.iter().enumerate().filter_map(|(facet, when_new)| {
+        let limit = fresh.limits.layers.min(LOST * when_new);
+        crowding(mesh, surroundings, facet, limit).map(|found| (facet, found))
+    });
+    let (facet, found) = narrow.min_by(|a, b| a.1.layers.total_cmp(&b.1.layers))?;
+    let near = usize::from(mesh.facets[facet].boundary);
+    Some(Reason::Gap {
+        between: [near, found.facing].map(|boundary| mesh.boundaries[boundary].name.clone()),
+        place: found.place,
+        gap: found.gap,
+        layers: found.layers,
+    })
+}
+
+/// The narrowest place at a facet.
+struct Crowding {
+    facing: usize,
+    place: Point<2>,
+    gap: f64,
+    layers: f64,
+}
+
+/// The narrowest of the places of a facet with fewer than `limit` layers across the gap.
+fn crowding(
+    mesh: &Mesh<2>,
+    surroundings: &Surroundings,
+    facet: usize,
+    limit: f64,
+) -> Option<Crowding> {
+    let facet = &mesh.facets[facet];
+    let places = mesh.facet_nodes(facet).map(|node| mesh.nodes[node as usize]);
+    let length = (places[1] - places[0]).norm();
+    let boundary = usize::from(facet.boundary);
+    let kind = mesh.boundaries[boundary].kind;
+    let found = places.into_iter().filter_map(|place| {
+        let (facing, gap) = surroundings.facing(boundary, kind, place, limit * length)?;
+        Some(Crowding { facing, place, gap, layers: gap / length })
+    });
+    found.min_by(|a, b| a.layers.total_cmp(&b.layers))
+}

@@ -1,0 +1,198 @@
+//! The matrix of mesh motion on linear elements, with small cells made stiff.
+
+use alewife_mesh::Mesh;
+use nalgebra::SVector;
+
+use super::surface_distance::surface_distances;
+use crate::algebra::{AffineConstraints, CellMaps, ConstraintBuilder, Pattern};
+use crate::space::simplex_gradients;
+
+/// The equation the displacement of the mesh solves; by default the one that lets a body go
+/// farthest (measured in `tests/motion/reach.rs`).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum MotionKind {
+    /// div (k grad d) = 0, component by component.
+    Harmonic(Stiffening),
+    /// Linear elasticity, div (k (lambda (div d) I + 2 mu D(d))) = 0, with mu = 1.
+    Elastic {
+        /// Poisson's ratio (plane strain), below 0.5.
+        poisson: f64,
+        /// The factor k of each cell.
+        stiffening: Stiffening,
+    },
+}
+
+impl Default for MotionKind {
+    fn default() -> Self {
+        Self::Elastic { poisson: 0.0, stiffening: Stiffening::Distance { exponent: 0.5 } }
+    }
+}
+
+/// How much stiffer cells are that are small or near a body: the factor k of a cell of measure V
+/// with its centre at distance d from what carries the mesh.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Stiffening {
+    /// k = 1.
+    None,
+    /// k = 1 + (1 - Vmin / Vmax) / (V / Vmax).
+    ///
+    /// # Source
+    /// @masud1997.
+    MasudHughes,
+    /// k = (Vmax / V)^exponent.
+    ///
+    /// # Source
+    /// @stein2003, Jacobian-based stiffening.
+    Jacobian {
+        /// Power of the relative measure.
+        exponent: f64,
+    },
+    /// k = (dmax / d)^exponent, which does not depend on how the mesh is graded.
+    Distance {
+        /// Power of the relative distance.
+        exponent: f64,
+    },
+}
+
+impl Stiffening {
+    /// The factor of each cell, from their measures (m^D) and distances (m).
+    fn factors(self, measures: &[f64], distances: impl FnOnce() -> Vec<f64>) -> Vec<f64> {
+        let largest = measures.iter().copied().fold(0.0, f64::max);
+        let smallest = measures.iter().copied().fold(f64::INFINITY, f64::min);
+        let by_measure =
+            |factor: &dyn Fn(f64) -> f64| measures.iter().map(|v| factor(*v)).collect();
+        match self {
+            Self::None => vec![1.0; measures.len()],
+            Self::MasudHughes => by_measure(&|v| 1.0 + (1.0 - smallest / largest) / (v / largest)),
+            Self::Jacobian { exponent } => by_measure(&|v| (largest / v).powf(exponent)),
+            Self::Distance { exponent } => {
+                let distances = distances();
+                let farthest = distances.iter().copied().fold(0.0, f64::max);
+                // Where nothing carries the mesh, all is equally far
+                let factor =
+                    |d: &f64| if d.is_finite() { (farthest / d).powf(exponent) } else { 1.0 };
+                distances.iter().map(factor).collect()
+            }
+        }
+    }
+}
+
+/// The raw matrix on the vertices, boundary vertices included.
+#[derive(Debug)]
+pub(super) struct Stiffness {
+    /// Unknowns a vertex: 1 when the components do not know each other.
+    pub n_components: usize,
+    /// Raw unknowns of each cell.
+    raw: Vec<u32>,
+    /// Matrix of each cell, row by row.
+    cells: Vec<f64>,
+    /// Pattern and values of the sum of all cells.
+    pattern: Pattern,
+    values: Vec<f64>,
+}
+
+impl Stiffness {
+    /// Assembles the matrix of a mesh that is carried by some vertices.
+    pub fn new<const D: usize>(
+        mesh: &Mesh<D>,
+        kind: MotionKind,
+        carrying: impl Iterator<Item = u32>,
+    ) -> Self {
+        let (n_components, stiffening) = match kind {
+            MotionKind::Harmonic(stiffening) => (1, stiffening),
+            MotionKind::Elastic { stiffening, .. } => (D, stiffening),
+        };
+        let geometry: Vec<_> =
+            (0..mesh.n_cells()).map(|cell| simplex_gradients(mesh, cell)).collect();
+        let measures: Vec<f64> = geometry.iter().map(|(measure, _)| *measure).collect();
+        let factors = stiffening.factors(&measures, || surface_distances(mesh, carrying));
+        let n_local = (D + 1) * n_components;
+        let mut raw = Vec::with_capacity(n_local * mesh.n_cells());
+        let mut cells = vec![0.0; n_local * n_local * mesh.n_cells()];
+        for (cell, (measure, gradients)) in geometry.iter().enumerate() {
+            for &vertex in &mesh.cell(cell)[..=D] {
+                raw.extend(
+                    (0..n_components).map(|axis| vertex * n_components as u32 + axis as u32),
+                );
+            }
+            let matrix = &mut cells[cell * n_local * n_local..(cell + 1) * n_local * n_local];
+            let weight = measure * factors[cell];
+            match kind {
+                MotionKind::Harmonic(_) => harmonic_cell(gradients, weight, matrix),
+                MotionKind::Elastic { poisson, .. } => {
+                    let lambda = 2.0 * poisson / (1.0 - 2.0 * poisson);
+                    elastic_cell(gradients, weight, lambda, matrix);
+                }
+            }
+        }
+        let free = ConstraintBuilder::new(mesh.n_vertices * n_components).build();
+        let mut stiffness = Self {
+            n_components,
+            raw,
+            cells,
+            pattern: Pattern { columns: vec![0], rows: Vec::new() },
+            values: Vec::new(),
+        };
+        (stiffness.pattern, stiffness.values) = stiffness.reduced(&free, n_local);
+        stiffness
+    }
+
+    /// P^T K P.
+    pub fn reduce<const D: usize>(&self, constraints: &AffineConstraints) -> (Pattern, Vec<f64>) {
+        self.reduced(constraints, (D + 1) * self.n_components)
+    }
+
+    fn reduced(&self, constraints: &AffineConstraints, n_local: usize) -> (Pattern, Vec<f64>) {
+        let (pattern, maps) = CellMaps::new(n_local, self.raw.clone(), constraints, |_, _| true);
+        let mut values = vec![0.0; pattern.rows.len()];
+        let mut small = Vec::new();
+        for (cell, matrix) in self.cells.chunks_exact(n_local * n_local).enumerate() {
+            maps.reduce(cell, constraints, matrix, &mut small);
+            maps.scatter(cell, &small, &mut values);
+        }
+        (pattern, values)
+    }
+
+    /// -P^T K g for raw values g, most of which are zero.
+    pub fn load(&self, constraints: &AffineConstraints, given: &[f64]) -> Vec<f64> {
+        let mut load = vec![0.0; given.len()];
+        for (column, &value) in given.iter().enumerate().filter(|(_, value)| **value != 0.0) {
+            for entry in self.pattern.columns[column]..self.pattern.columns[column + 1] {
+                load[self.pattern.rows[entry]] -= self.values[entry] * value;
+            }
+        }
+        constraints.restrict(&load)
+    }
+}
+
+fn harmonic_cell<const D: usize>(gradients: &[SVector<f64, D>], weight: f64, matrix: &mut [f64]) {
+    let n = gradients.len();
+    for a in 0..n {
+        for b in 0..n {
+            matrix[a * n + b] = weight * gradients[a].dot(&gradients[b]);
+        }
+    }
+}
+
+fn elastic_cell<const D: usize>(
+    gradients: &[SVector<f64, D>],
+    weight: f64,
+    lambda: f64,
+    matrix: &mut [f64],
+) {
+    let n = gradients.len() * D;
+    for (a, row) in gradients.iter().enumerate() {
+        for (b, column) in gradients.iter().enumerate() {
+            let shear = row.dot(column);
+            for i in 0..D {
+                for j in 0..D {
+                    let mut entry = lambda * row[i] * column[j] + row[j] * column[i];
+                    if i == j {
+                        entry += shear;
+                    }
+                    matrix[(a * D + i) * n + b * D + j] = weight * entry;
+                }
+            }
+        }
+    }
+}

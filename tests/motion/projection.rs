@@ -1,0 +1,126 @@
+//! The divergence-free projection: what it makes zero, keeps, and how far it goes.
+
+use alewife::coupling::{DivergenceFree, Problem, Side};
+use alewife::motion::Transfer;
+use alewife_mesh::{Mesh, Point, Sizing, generate};
+use tests::{Study, fluid_only, sides};
+
+use super::transfer::{distance, moved_and_new};
+use super::{disc, square, tube};
+
+/// Not free of divergence, with no net flux through the square.
+fn any(x: &Point<2>) -> Point<2> {
+    Point::<2>::new((1.3 * x.y).sin() + x.x * x.x, (0.7 * x.x).cos() * x.y * x.y)
+}
+
+/// The curl of a stream function.
+fn curl(x: &Point<2>) -> Point<2> {
+    let (sx, cx, sy, cy) =
+        ((1.1 * x.x).sin(), (1.1 * x.x).cos(), (0.9 * x.y).sin(), (0.9 * x.y).cos());
+    Point::<2>::new(0.9 * sx * cy, -1.1 * cx * sy)
+}
+
+fn largest(values: &[f64]) -> f64 {
+    values.iter().fold(0.0, |most, value| most.max(value.abs()))
+}
+
+fn walled(mesh: &Mesh<2>, axisymmetric: bool) -> Problem {
+    fluid_only(mesh, sides(mesh, |_, _| Point::<2>::zeros()), 1.0, 1.0, axisymmetric)
+}
+
+/// Sets problems with walls, an open side, periodic sides, and an axis.
+fn problems() -> Vec<(&'static str, Mesh<2>, Problem)> {
+    let sizing = Sizing::graded(0.15, 0.2, 0.4);
+    let body = [disc("disc", 0.2, 0.1)];
+    let closed = generate(&square(false, false), &body, &sizing).unwrap();
+    let looped = generate(&square(true, false), &body, &sizing).unwrap();
+    let (domain, sphere) = tube(0.2);
+    let round = generate(&domain, &[sphere], &sizing).unwrap();
+    let enclosed = walled(&closed, false);
+    let mut open = walled(&closed, false);
+    open.sides[1] = Some(Side::DoNothing);
+    let mut periodic = walled(&looped, false);
+    periodic.sides[0] = Some(Side::Periodic);
+    periodic.sides[1] = Some(Side::Periodic);
+    let axial = walled(&round, true);
+    vec![
+        ("walls", closed.clone(), enclosed),
+        ("open", closed, open),
+        ("periodic", looped, periodic),
+        ("axis", round, axial),
+    ]
+}
+
+#[test]
+fn the_projection_is_divergence_free_keeps_boundary_values_and_is_one() {
+    for (name, mesh, problem) in problems() {
+        let periodic_any = |x: &Point<2>| {
+            let phase = std::f64::consts::TAU * x.x / 4.0;
+            // The radial velocity vanishes on the axis
+            Point::<2>::new(phase.cos(), any(x).y)
+        };
+        let field: Vec<Point<2>> = match name {
+            "periodic" | "axis" => mesh.nodes.iter().map(periodic_any).collect(),
+            _ => mesh.nodes.iter().map(any).collect(),
+        };
+        let mut projection = DivergenceFree::new(&problem, &mesh).unwrap();
+        let before = largest(&projection.defect(&mesh, &field));
+        let once = projection.project(&mesh, &field).unwrap();
+        let after = largest(&projection.defect(&mesh, &once));
+        println!("{name}: {before:.1e} to {after:.1e}");
+        assert!(before > 1e-3 && after < 1e-13, "{name}: {before:.1e} to {after:.1e}");
+        for facet in &mesh.facets {
+            for node in mesh.facet_nodes(facet).map(|node| node as usize) {
+                let boundary = usize::from(facet.boundary);
+                match &problem.sides[boundary] {
+                    None | Some(Side::Velocity { .. }) => assert_eq!(once[node], field[node]),
+                    Some(Side::Symmetry { normal_axis }) => {
+                        assert_eq!(once[node][*normal_axis], field[node][*normal_axis]);
+                    }
+                    _ => {}
+                }
+            }
+        }
+        for &(copy, original) in &mesh.periodic {
+            let [d, e] = [copy, original].map(|node| once[node as usize] - field[node as usize]);
+            assert!((d - e).norm() < 1e-15);
+        }
+        let twice = projection.project(&mesh, &once).unwrap();
+        let moved = once.iter().zip(&twice).map(|(one, two)| (one - two).norm());
+        assert!(moved.fold(0.0, f64::max) < 1e-12, "{name}");
+    }
+}
+
+/// The correction is no larger than a few errors of the transfer and falls as fast.
+#[test]
+fn the_projection_goes_no_farther_than_the_error_of_the_transfer() {
+    let mut ratios = Vec::new();
+    let study = Study::run(&[0.2, 0.1, 0.05], |h| {
+        let (old, new) = moved_and_new(h);
+        let field: Vec<Point<2>> = old.nodes.iter().map(curl).collect();
+        let transferred = Transfer::new(&old, &new, &[]).unwrap().quadratic(&field);
+        let error = distance(&new, &transferred, curl);
+        let mut projection = DivergenceFree::new(&walled(&new, false), &new).unwrap();
+        let projected = projection.project(&new, &transferred).unwrap();
+        let correction: Vec<Point<2>> =
+            projected.iter().zip(&transferred).map(|(one, two)| one - two).collect();
+        let way = distance(&new, &correction, |_| Point::<2>::zeros());
+        ratios.push(way / error);
+        // Closer to the exact field, which is divergence-free, or hardly farther
+        assert!(distance(&new, &projected, curl) < 2.0 * error);
+        way
+    });
+    println!("correction over error of the transfer: {ratios:?}");
+    assert!(ratios.iter().all(|ratio| *ratio < 2.0), "{ratios:?}");
+    study.assert_order("correction", 3.0, 0.3);
+}
+
+#[test]
+fn a_velocity_that_is_not_finite_is_refused() {
+    let (_, mesh, problem) = problems().swap_remove(0);
+    let mut field = vec![Point::<2>::zeros(); mesh.n_nodes()];
+    let mut projection = DivergenceFree::new(&problem, &mesh).unwrap();
+    assert_eq!(projection.project(&mesh, &field).unwrap(), field);
+    field[mesh.n_nodes() / 2].x = f64::NAN;
+    assert!(projection.project(&mesh, &field).is_err());
+}
