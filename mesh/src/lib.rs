@@ -22,7 +22,8 @@ mod vtu;
 
 pub use check::check_mesh;
 pub use closest::{
-    Closest, Wall, closest, closest_features, closest_to_wall, on_meridian, overlap, wall_features,
+    Closest, Wall, closest, closest_features, closest_to_wall, on_meridian, overlap, thickness,
+    wall_features,
 };
 pub use curved::{
     det_jacobian, jacobian_coefficients, map_quadratic, shape_functions, shape_gradients,
