@@ -6,13 +6,14 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The rooms of the solver, lowest first, and the rooms each may use.
-const ROOMS: [(&str, &[&str]); 14] = [
+const ROOMS: [(&str, &[&str]); 15] = [
     ("case", &[]),
     ("timing", &[]),
     ("space", &[]),
     ("algebra", &[]),
     ("time", &["case"]),
     ("body", &[]),
+    ("contact", &["body"]),
     ("gait", &["body"]),
     ("flow", &["algebra", "space"]),
     ("coupling", &["algebra", "body", "flow", "gait", "space", "time", "timing"]),
