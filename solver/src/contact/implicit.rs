@@ -8,7 +8,7 @@
 //!
 //! Newton's method with the exact derivative of the gaps solves it. A filter on the line search,
 //! as in incremental potential contact (@li2020), takes no step that closes a gap or goes through
-//! a body; it starts where the bodies are known to be apart. The step is not bound to the
+//! a body, [`super::retract`] keeps long steps along curved surfaces; it starts where the bodies are known to be apart. The step is not bound to the
 //! stiffness, and the forces of the last iteration meet the equation to rounding even where a gap
 //! known to sixteen digits does not determine them.
 
@@ -154,7 +154,7 @@ impl ContactStep<'_> {
         Ok(self.trial(velocity, places, features))
     }
 
-    fn places(&self, velocity: &DVector<f64>) -> Vec<Place> {
+    pub(super) fn places(&self, velocity: &DVector<f64>) -> Vec<Place> {
         let mut places = self.predicted.to_vec();
         for (index, &body) in self.bodies.iter().enumerate() {
             for mode in 0..3 {
@@ -181,7 +181,12 @@ impl ContactStep<'_> {
     }
 
     /// Gives the entries of a vector over both sides of a feature to the rows they belong to.
-    fn scatter(&self, feature: &Feature, mut add: impl FnMut(usize, f64), entries: &Vector6<f64>) {
+    pub(super) fn scatter(
+        &self,
+        feature: &Feature,
+        mut add: impl FnMut(usize, f64),
+        entries: &Vector6<f64>,
+    ) {
         for (entry, row) in self.rows(feature).into_iter().enumerate() {
             if let Some(row) = row {
                 add(row, entries[entry]);
@@ -262,6 +267,7 @@ impl ContactStep<'_> {
         let way = self.size(step);
         for _ in 0..MAX_HALVINGS {
             let velocity = &now.velocity + step * part;
+            let velocity = self.retract(&now.features, &now.places, step, part, velocity);
             let places = self.places(&velocity);
             let features = self.surfaces.features(&places, self.law.range());
             if features.iter().all(|feature| feature.at.gap > 0.0) {

@@ -8,6 +8,7 @@ mod feature;
 mod implicit;
 mod law;
 mod loads;
+mod retract;
 mod surfaces;
 
 pub use error::ContactError;
