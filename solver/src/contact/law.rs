@@ -122,7 +122,7 @@ mod tests {
     #[test]
     fn force_and_slope_are_derivatives_of_the_energy() {
         for law in laws() {
-            for gap in [1e-4, 1e-3, 0.004, 0.01, 0.02, 0.029, 0.0299] {
+            for gap in [1e-4f64, 1e-3, 0.004, 0.01, 0.02, 0.029, 0.0299] {
                 let h = 1e-4 * gap.min(RANGE - gap);
                 let difference = |f: &dyn Fn(f64) -> f64| (f(gap + h) - f(gap - h)) / (2.0 * h);
                 let force = -difference(&|d| law.energy(d));

@@ -4,7 +4,7 @@
 //! surfaces that are curved: bodies that slide by s leave the window by s^2 / 2 R, and the line
 //! search would cut the step down to the width of the window. Moving them back along the normals
 //! by the loads of the contacts keeps long steps; in constrained optimisation this is the second-
-//! order correction (@nocedal2006, section 18.3).
+//! order correction (@nocedal2006).
 
 use nalgebra::{DMatrix, DVector};
 
