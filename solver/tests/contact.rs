@@ -10,6 +10,8 @@ use alewife::contact::{
 use alewife::time::Bdf;
 use alewife_mesh::{Domain, PlacedShape, Point, Shape};
 use nalgebra::{DMatrix, Vector6};
+use proptest::prelude::*;
+use proptest::test_runner::RngSeed;
 
 const RANGE: f64 = 0.05;
 
@@ -566,4 +568,91 @@ fn only_bodies_that_may_meet_are_involved() {
     assert_eq!(surfaces.involved(&from, &to, 1.0, RANGE), vec![0, 1, 3]);
     let rolled = [from[0], from[1], from[2], [2.0, 0.54, FRAC_PI_4]];
     assert_eq!(surfaces.involved(&rolled, &rolled, 1.0, RANGE), vec![3]);
+}
+
+/// Bodies of random shape, dropped one above the other, with a mobility that couples them.
+fn random_heap() -> impl Strategy<Value = (Vec<PlacedShape>, Vec<Place>, DMatrix<f64>)> {
+    let shape = prop_oneof![
+        (0.2f64..0.8, 0.2f64..0.8).prop_map(|(a, b)| Shape::Ellipse { semi_axes: [a, b] }),
+        (0.2f64..0.6).prop_map(|radius| Shape::Disc { radius }),
+        (2u8..5, 0.0f64..0.35, 16usize..30).prop_map(|(lobes, depth, n)| {
+            let points = (0..n)
+                .map(|i| TAU * i as f64 / n as f64)
+                .map(|t| (t, 0.5 * (1.0 + depth * (f64::from(lobes) * t).cos())))
+                .map(|(t, r)| [r * t.cos(), r * t.sin()])
+                .collect();
+            Shape::Spline { points }
+        }),
+    ];
+    let one = (shape, -0.4f64..0.4, 0.0..TAU);
+    let coupling = proptest::collection::vec(-1.0f64..1.0, 144);
+    (proptest::collection::vec(one, 4), coupling).prop_map(|(all, coupling)| {
+        let bodies = all.iter().enumerate();
+        let bodies = bodies.map(|(i, (shape, ..))| body(&format!("{i}"), shape.clone())).collect();
+        let places = all.iter().enumerate();
+        let places = places.map(|(i, (_, x, angle))| [*x, 0.9 + 1.7 * i as f64, *angle]).collect();
+        // Close to symmetric and positive, as with some convection in the fluid
+        let root = DMatrix::from_vec(12, 12, coupling);
+        let skew = &root - root.transpose();
+        let mobility = DMatrix::identity(12, 12) + &root * root.transpose() * 0.03 + skew * 0.02;
+        (bodies, places, mobility)
+    })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig {
+        failure_persistence: None,
+        rng_seed: RngSeed::Fixed(1987),
+        max_shrink_iters: 0,
+        ..ProptestConfig::with_cases(24)
+    })]
+
+    #[test]
+    fn random_heaps_settle_without_an_overlap(
+        (bodies, start, mobility) in random_heap(), is_barrier in any::<bool>(),
+    ) {
+        let surfaces = Surfaces::new(&tank(), &[0, 1, 2, 3], &bodies).unwrap();
+        let law = if is_barrier { barrier(20.0) } else { quadratic(1e-6) };
+        let load = nalgebra::DVector::from_fn(12, |row, _| if row % 3 == 1 { -1.0 } else { 0.0 });
+        let free = &mobility * load;
+        let free: Vec<[f64; 3]> =
+            (0..4).map(|i| [free[3 * i], free[3 * i + 1], free[3 * i + 2]]).collect();
+        let (mut places, mut velocities) = (start, vec![[0.0; 3]; 4]);
+        for step in 0..400 {
+            let predicted: Vec<Place> = places
+                .iter()
+                .zip(&velocities)
+                .map(|(q, u)| [0, 1, 2].map(|mode| q[mode] + 0.03 * u[mode]))
+                .collect();
+            let end = ContactStep {
+                surfaces: &surfaces,
+                law: &law,
+                bodies: &[0, 1, 2, 3],
+                free_velocities: &free,
+                mobility: &mobility,
+                predicted: &predicted,
+                predicted_velocities: &velocities,
+                coefficient: 0.03,
+                apart: &places,
+            }
+            .solve();
+            prop_assert!(end.is_ok(), "step {step}: {}", end.unwrap_err());
+            let end = end.unwrap();
+            prop_assert!(end.loads.least_gap.unwrap().gap > 0.0, "step {step}");
+            // The velocities are those of the loads
+            let mut pushed = nalgebra::DVector::zeros(12);
+            for (i, wrench) in end.loads.wrenches.iter().enumerate() {
+                let load = [wrench.force.x, wrench.force.y, wrench.torque.z];
+                (0..3).for_each(|mode| pushed[3 * i + mode] = load[mode]);
+            }
+            let pushed = &mobility * pushed;
+            for i in 0..4 {
+                for mode in 0..3 {
+                    let wanted = free[i][mode] + pushed[3 * i + mode];
+                    prop_assert!((end.velocities[i][mode] - wanted).abs() < 1e-9);
+                }
+            }
+            (places, velocities) = (end.places, end.velocities);
+        }
+    }
 }

@@ -29,6 +29,14 @@ pub struct Closest {
 }
 
 impl Closest {
+    /// How far the place is from one where the minimum and a maximum annihilate each other (1/m):
+    /// k1 + k2 + gap k1 k2 with the curvatures, zero there and positive at every minimum.
+    #[must_use]
+    pub fn regularity(&self) -> f64 {
+        let [first, second] = self.curvatures;
+        first + second + self.gap * first * second
+    }
+
     /// The same with the two sides exchanged.
     #[must_use]
     pub fn swapped(&self) -> Self {
@@ -43,14 +51,11 @@ impl Closest {
     }
 }
 
-/// Cosine of the angle between normals below which two features are never one.
-const SAME_DIRECTION: f64 = 0.9;
-
 /// All places where two outlines are nearer to each other than `range` (m).
 ///
-/// Minima whose points are within `range` of each other on both outlines, with about the same
-/// normal, are one feature: the nearest of them. Outlines that overlap always give at least one
-/// feature with a gap of zero or less; its normal leads the first body out of the second.
+/// In the order of their places on the first outline, each once. Outlines that overlap always give
+/// at least one feature with a gap of zero or less; its normal leads the first body out of the
+/// second.
 #[must_use]
 pub fn closest_features(first: &Outline, second: &Outline, range: f64) -> Vec<Closest> {
     if first.least_gap(second.center()) - second.reach() >= range {
@@ -65,17 +70,16 @@ pub fn closest_features(first: &Outline, second: &Outline, range: f64) -> Vec<Cl
         None => pairs::features(first, second, range.max(shallow(first, second))),
     };
     found.retain(|at| at.gap < range);
-    merge(found, range)
+    found
 }
 
-/// All places where an outline is nearer to a wall than `range` (m), or behind it; merged as by
-/// [`closest_features`].
+/// All places where an outline is nearer to a wall than `range` (m), or behind it.
 #[must_use]
 pub fn wall_features(outline: &Outline, wall: &Wall, range: f64) -> Vec<Closest> {
     if wall.gap(outline.center()) - outline.reach() >= range {
         return Vec::new();
     }
-    merge(wall::features(outline, wall, range), range)
+    wall::features(outline, wall, range)
 }
 
 /// The nearest points of two outlines; where they overlap, the deepest.
@@ -240,24 +244,4 @@ fn by_points(first: &Outline, second: &Outline) -> Closest {
     };
     let pairs = [from(first, second), from(second, first).map(|at| at.swapped())];
     least(&pairs.into_iter().flatten().collect::<Vec<_>>()).expect("there are points")
-}
-
-/// Leaves the nearest of features that are one: near each other on both sides, same direction.
-fn merge(mut found: Vec<Closest>, range: f64) -> Vec<Closest> {
-    found.sort_by(|one, other| {
-        one.gap.total_cmp(&other.gap).then(one.parameters[0].total_cmp(&other.parameters[0]))
-    });
-    let mut kept: Vec<Closest> = Vec::new();
-    for at in found {
-        let is_known = kept.iter().any(|known| {
-            (at.first - known.first).norm() < range
-                && (at.second - known.second).norm() < range
-                && at.normal.dot(&known.normal) > SAME_DIRECTION
-        });
-        if !is_known {
-            kept.push(at);
-        }
-    }
-    kept.sort_by(|one, other| one.parameters[0].total_cmp(&other.parameters[0]));
-    kept
 }

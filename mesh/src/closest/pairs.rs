@@ -175,9 +175,8 @@ fn is_feature(first: &Outline, second: &Outline, at: &Closest, limit: f64) -> bo
     let tangents_are_opposite =
         first.at(at.parameters[0])[1].dot(&second.at(at.parameters[1])[1]) < 0.0;
     let flatness = 1e-9 / first.reach().min(second.reach());
-    let is_minimum = k1 + k2 + at.gap * k1 * k2 >= -flatness
-        && 1.0 + at.gap * k1 > 0.0
-        && 1.0 + at.gap * k2 > 0.0;
+    let is_minimum =
+        at.regularity() >= -flatness && 1.0 + at.gap * k1 > 0.0 && 1.0 + at.gap * k2 > 0.0;
     if !tangents_are_opposite || !is_minimum || at.gap.abs() >= limit {
         return false;
     }

@@ -150,8 +150,7 @@ pub fn features(outline: &Outline, wall: &Wall, range: f64) -> Vec<Closest> {
 }
 
 fn is_feature(at: &Closest, range: f64, outline: &Outline) -> bool {
-    let [k1, k2] = at.curvatures;
-    at.gap < range && k1 + k2 + at.gap * k1 * k2 >= -1e-9 / outline.reach()
+    at.gap < range && at.regularity() >= -1e-9 / outline.reach()
 }
 
 /// Whether no place of a stretch is within range with its normal opposite to the wall's.

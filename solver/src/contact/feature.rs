@@ -25,8 +25,33 @@ pub struct Feature {
     pub at: Closest,
     /// From the centres of mass of body and partner to their points (m).
     pub levers: [Point<2>; 2],
+    /// Share of the law's force, from 0 to 1 ([`weigh`]).
+    pub weight: f64,
     /// Whether only the motion along the axis counts.
     pub is_axisymmetric: bool,
+}
+
+/// Regularity of a feature times the reach of the smaller body above which it counts in full.
+const REGULAR: f64 = 0.1;
+
+/// Gives the features of one pair of surfaces their weights.
+///
+/// A feature ends where it meets a maximum of the distance, as a hollow fills up that a body rolls
+/// through. Its force must have faded before, or there may be no balance of forces at all. The
+/// weight goes to zero there with the square of the regularity; what is nearest of a pair, and what
+/// is as regular as that, has the weight one whatever its own.
+pub(super) fn weigh(features: &mut [Feature], size: f64, range: f64) {
+    let raw = |feature: &Feature| {
+        let s = (feature.at.regularity() * size / REGULAR).clamp(0.0, 1.0);
+        s * s * (3.0 - 2.0 * s)
+    };
+    let nearest = features.iter().map(|feature| feature.at.gap).fold(f64::INFINITY, f64::min);
+    // A feature at the range has no force, and no say
+    let say = |feature: &Feature| (range - feature.at.gap) / (range - nearest);
+    let most = features.iter().map(|feature| raw(feature) * say(feature)).fold(0.0, f64::max);
+    for feature in features {
+        feature.weight = if most > 0.0 { (raw(feature) / most).min(1.0) } else { 1.0 };
+    }
 }
 
 /// Third component of the cross product.

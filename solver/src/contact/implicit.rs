@@ -25,6 +25,10 @@ const MAX_HALVINGS: usize = 60;
 const ROUNDING: f64 = 4e-15;
 /// Change of places over the smallest gap below which Newton's method has converged.
 const TOLERANCE: f64 = 1e-11;
+/// Way over the smallest gap by which places differ for measured derivatives.
+const DIFFERENCE: f64 = 1e-5;
+/// Residual over the one before that is not good enough for a first choice of direction.
+const POOR: f64 = 0.5;
 /// Gap over the range at which the quadratic law has lost.
 const CLOSED: f64 = 1e-9;
 
@@ -47,7 +51,8 @@ pub struct ContactStep<'a> {
     pub predicted: &'a [Place],
     /// Velocities of the n bodies the prediction was made with.
     pub predicted_velocities: &'a [[f64; 3]],
-    /// Change of a new place by the new velocity (s): 1 / [`crate::time::Bdf::next`].
+    /// Change of a new place by the new velocity (s): one over the factor of the new level in the
+    /// backward difference.
     pub coefficient: f64,
     /// Places of all bodies at which they are apart, such as those before the step.
     pub apart: &'a [Place],
@@ -94,10 +99,16 @@ impl ContactStep<'_> {
             if change <= self.tolerance(&now) {
                 return Ok(self.finish(&now, &exact, iterations));
             }
-            let next = match self.search(&now, &exact) {
-                Some(next) => Some(next),
-                None => self.search(&now, &self.direction(&now, false)),
-            };
+            let mut next = self.search(&now, &exact);
+            // Weights of features that come and go are known to the measured derivative only
+            if next.as_ref().is_none_or(|next| next.norm > POOR * now.norm) {
+                let others = [self.measured_direction(&now), self.direction(&now, false)];
+                next = others
+                    .iter()
+                    .filter_map(|direction| self.search(&now, direction))
+                    .chain(next)
+                    .reduce(|best, other| if other.norm < best.norm { other } else { best });
+            }
             let Some(next) = next else { break };
             now = next;
             self.check_strength(&now)?;
@@ -166,11 +177,7 @@ impl ContactStep<'_> {
     }
 
     fn trial(&self, velocity: DVector<f64>, places: Vec<Place>, features: Vec<Feature>) -> Trial {
-        let mut load = DVector::zeros(velocity.len());
-        for feature in &features {
-            let force = self.law.force(feature.at.gap);
-            self.scatter(feature, |row, entry| load[row] += force * entry, &feature.gradient());
-        }
+        let load = self.load(&features);
         let pushed = self.mobility * load;
         let free = |row: usize| self.free_velocities[row / 3][row % 3];
         let residual =
@@ -178,6 +185,16 @@ impl ContactStep<'_> {
         let weighted = residual.iter().enumerate().map(|(row, r)| (r * self.weight(row)).powi(2));
         let norm = weighted.sum::<f64>().sqrt();
         Trial { velocity, places, features, residual, norm }
+    }
+
+    /// Sum of the loads of features, by row.
+    fn load(&self, features: &[Feature]) -> DVector<f64> {
+        let mut load = DVector::zeros(3 * self.bodies.len());
+        for feature in features {
+            let force = feature.weight * self.law.force(feature.at.gap);
+            self.scatter(feature, |row, entry| load[row] += force * entry, &feature.gradient());
+        }
+        load
     }
 
     /// Gives the entries of a vector over both sides of a feature to the rows they belong to.
@@ -241,6 +258,7 @@ impl ContactStep<'_> {
             if exact {
                 block += feature.hessian() * self.law.force(gap);
             }
+            block *= feature.weight;
             let rows = self.rows(feature);
             for (i, row) in rows.into_iter().enumerate() {
                 for (j, column) in rows.into_iter().enumerate() {
@@ -250,6 +268,31 @@ impl ContactStep<'_> {
                 }
             }
         }
+        self.newton(now, stiffness)
+    }
+
+    /// Newton's step with differences of the loads for their derivative.
+    fn measured_direction(&self, now: &Trial) -> DVector<f64> {
+        let n = now.velocity.len();
+        let gap = narrowest(&now.features).map_or(self.law.range(), |feature| feature.at.gap);
+        let mut stiffness = DMatrix::<f64>::zeros(n, n);
+        for row in 0..n {
+            let (body, mode) = (self.bodies[row / 3], row % 3);
+            let way = DIFFERENCE * gap.min(self.surfaces.reach(body));
+            let turn = way / self.weight(row);
+            let loads = [1.0, -1.0].map(|sign| {
+                let mut places = now.places.clone();
+                places[body][mode] += sign * turn;
+                self.load(&self.surfaces.features(&places, self.law.range()))
+            });
+            stiffness.set_column(row, &((&loads[0] - &loads[1]) / (2.0 * turn)));
+        }
+        self.newton(now, stiffness)
+    }
+
+    /// Newton's step for a derivative of the loads by the places.
+    fn newton(&self, now: &Trial, stiffness: DMatrix<f64>) -> DVector<f64> {
+        let n = now.velocity.len();
         let matrix = DMatrix::identity(n, n) - self.mobility * stiffness * self.coefficient;
         let solved = matrix.lu().solve(&now.residual);
         // A singular matrix gives no direction, which the caller sees as a step that is not finite
@@ -306,7 +349,7 @@ impl ContactStep<'_> {
             let gap = feature.at.gap;
             let mut feature = *feature;
             feature.at.gap += change;
-            let force = self.law.force(gap) + self.law.slope(gap) * change;
+            let force = feature.weight * (self.law.force(gap) + self.law.slope(gap) * change);
             Contact { feature, force: force.max(0.0) }
         });
         let places = self.places(&velocity);

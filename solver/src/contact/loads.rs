@@ -31,7 +31,7 @@ impl ContactLoads {
         let features = surfaces.features(places, law.range());
         let contacts = features
             .into_iter()
-            .map(|feature| Contact { feature, force: law.force(feature.at.gap) });
+            .map(|feature| Contact { feature, force: feature.weight * law.force(feature.at.gap) });
         Self::gather(surfaces.n_bodies(), contacts.collect(), surfaces.least_gap(places))
     }
 

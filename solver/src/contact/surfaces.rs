@@ -6,6 +6,7 @@ use alewife_mesh::{
 };
 use nalgebra::Rotation2;
 
+use super::feature::weigh;
 use super::{ContactError, Feature, Partner, Place};
 
 /// A body's outline in its own frame.
@@ -115,24 +116,24 @@ impl Surfaces {
     #[must_use]
     pub fn features(&self, places: &[Place], range: f64) -> Vec<Feature> {
         let outlines = self.outlines(places);
-        let mut features = Vec::new();
+        let mut features: Vec<Feature> = Vec::new();
         let mut add = |body: usize, partner: Partner, away: Point<2>, found: Vec<Closest>| {
             let found = if self.is_axisymmetric { on_meridian(found) } else { found };
-            for at in found {
+            let mut size = self.bodies[body].outline.reach();
+            if let Partner::Body(other) = partner {
+                size = size.min(self.bodies[other].outline.reach());
+            }
+            let first = features.len();
+            features.extend(found.into_iter().map(|at| {
                 let lever = at.first - center(&places[body]);
                 let other = match partner {
                     Partner::Body(other) => at.second - away - center(&places[other]),
                     Partner::Wall(_) => Point::<2>::zeros(),
                 };
-                let is_axisymmetric = self.is_axisymmetric;
-                features.push(Feature {
-                    body,
-                    partner,
-                    at,
-                    levers: [lever, other],
-                    is_axisymmetric,
-                });
-            }
+                let (levers, is_axisymmetric) = ([lever, other], self.is_axisymmetric);
+                Feature { body, partner, at, levers, weight: 1.0, is_axisymmetric }
+            }));
+            weigh(&mut features[first..], size, range);
         };
         for (body, outline) in outlines.iter().enumerate() {
             for other in body..outlines.len() {
