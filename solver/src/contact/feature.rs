@@ -32,7 +32,7 @@ pub struct Feature {
 }
 
 /// Regularity of a feature times the reach of the smaller body above which it counts in full.
-const REGULAR: f64 = 0.1;
+const REGULAR: f64 = 0.5;
 
 /// Gives the features of one pair of surfaces their weights.
 ///

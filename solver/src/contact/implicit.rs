@@ -8,9 +8,10 @@
 //!
 //! Newton's method with the exact derivative of the gaps solves it. A filter on the line search,
 //! as in incremental potential contact (@li2020), takes no step that closes a gap or goes through
-//! a body, [`super::retract`] keeps long steps along curved surfaces; it starts where the bodies are known to be apart. The step is not bound to the
-//! stiffness, and the forces of the last iteration meet the equation to rounding even where a gap
-//! known to sixteen digits does not determine them.
+//! a body, and starts where the bodies are known to be apart; `retract.rs` keeps long steps along
+//! curved surfaces. The time step is not bound to the stiffness, and the forces of the last
+//! iteration meet the equation to rounding even where a gap known to sixteen digits does not
+//! determine them.
 
 use nalgebra::{DMatrix, DVector, Vector6};
 
