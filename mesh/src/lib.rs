@@ -5,6 +5,7 @@
 //! (quadratic) geometry: vertices first, then one node per edge.
 
 mod check;
+mod closest;
 mod curved;
 mod domain;
 mod error;
@@ -21,6 +22,10 @@ mod surroundings;
 mod vtu;
 
 pub use check::check_mesh;
+pub use closest::{
+    Closest, Wall, closest, closest_features, closest_to_wall, on_meridian, overlap, thickness,
+    wall_features,
+};
 pub use curved::{
     det_jacobian, jacobian_coefficients, map_quadratic, shape_functions, shape_gradients,
 };

@@ -4,7 +4,8 @@
 //! +y, -x, -y) to the next one, with a parameter in [0, 1]. For an ellipse the parameter is the
 //! eccentric angle over π/2.
 
-use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::{FRAC_PI_2, TAU};
+use std::sync::Arc;
 
 use crate::{MeshError, PlacedShape, Point, Shape, Spline};
 
@@ -14,7 +15,8 @@ pub struct Outline {
     center: Point<2>,
     cos: f64,
     sin: f64,
-    form: Form,
+    /// Shared by all places of the same body.
+    form: Arc<Form>,
     /// No point of the outline is farther from the centre (m).
     reach: f64,
 }
@@ -44,6 +46,9 @@ pub struct Nearest {
     /// Signed distance (m), negative inside the body.
     pub gap: f64,
 }
+
+/// Pieces a quarter of an ellipse is cut into where searches start.
+const ARCS_PER_QUARTER: usize = 4;
 
 /// Samples of a spline between two of its points, to start searches from.
 const SAMPLES_PER_SPAN: usize = 12;
@@ -84,12 +89,6 @@ impl Outline {
         Ok(Self::with_form(body.center, body.angle, Form::Ellipse(semi_axes)))
     }
 
-    /// The same outline with its origin in another place (m) and turned by another angle (rad).
-    #[must_use]
-    pub fn placed_at(&self, center: Point<2>, angle: f64) -> Self {
-        Self { center, cos: angle.cos(), sin: angle.sin(), ..self.clone() }
-    }
-
     /// Circle around a point.
     #[must_use]
     pub fn circle(center: Point<2>, radius: f64) -> Self {
@@ -104,7 +103,71 @@ impl Outline {
                 spacing + farthest.fold(0.0, f64::max)
             }
         };
-        Self { center, cos: angle.cos(), sin: angle.sin(), form, reach }
+        Self { center, cos: angle.cos(), sin: angle.sin(), form: Arc::new(form), reach }
+    }
+
+    /// The same outline with its origin at `center` (m) and turned by `angle` (rad) from its own
+    /// frame; nothing is computed anew.
+    #[must_use]
+    pub fn placed_at(&self, center: Point<2>, angle: f64) -> Self {
+        let form = Arc::clone(&self.form);
+        Self { center, cos: angle.cos(), sin: angle.sin(), form, reach: self.reach }
+    }
+
+    /// Place of the origin of the body's own frame (m).
+    #[must_use]
+    pub fn center(&self) -> Point<2> {
+        self.center
+    }
+
+    /// Radius of a circle about [`Self::center`] which holds the outline (m).
+    #[must_use]
+    pub fn reach(&self) -> f64 {
+        self.reach
+    }
+
+    /// Length of the parameter of [`Self::at`]: 2 pi for an ellipse, the chord length of its
+    /// points for a spline (m).
+    #[must_use]
+    pub fn period(&self) -> f64 {
+        match &*self.form {
+            Form::Ellipse(_) => TAU,
+            Form::Spline { spline, .. } => spline.period(),
+        }
+    }
+
+    /// Point (m), first and second derivative at a parameter modulo [`Self::period`],
+    /// counter-clockwise: the eccentric angle of an ellipse (rad), the chord length of a spline.
+    #[must_use]
+    pub fn at(&self, parameter: f64) -> [Point<2>; 3] {
+        let [point, first, second] = match &*self.form {
+            Form::Ellipse([a, b]) => {
+                let (s, c) = parameter.sin_cos();
+                let point = Point::<2>::new(a * c, b * s);
+                [point, Point::<2>::new(-a * s, b * c), -point]
+            }
+            Form::Spline { spline, .. } => spline.evaluate(parameter),
+        };
+        [self.center + self.turn(point), self.turn(first), self.turn(second)]
+    }
+
+    /// Parameter of [`Self::at`] of the point of a circle in a direction of the world.
+    pub(crate) fn parameter_towards(&self, direction: Point<2>) -> f64 {
+        let (x, y) = (direction.x, direction.y);
+        let angle = (self.cos * y - self.sin * x).atan2(self.cos * x + self.sin * y);
+        if angle < 0.0 { angle + TAU } else { angle }
+    }
+
+    /// Parameters of [`Self::at`], from zero to the period, between which the outline has three
+    /// continuous derivatives and |second derivative| is largest at an end.
+    pub(crate) fn breaks(&self) -> Vec<f64> {
+        match &*self.form {
+            Form::Ellipse(_) => {
+                let n = 4 * ARCS_PER_QUARTER;
+                (0..=n).map(|i| TAU * i as f64 / n as f64).collect()
+            }
+            Form::Spline { spline, .. } => spline.knots().to_vec(),
+        }
     }
 
     /// A lower bound of the gap to a point (m), at no cost.
@@ -116,7 +179,7 @@ impl Outline {
     /// Point (m), first and second derivative at a parameter in [0, 1] of one of the quarters.
     #[must_use]
     pub fn evaluate(&self, quarter: usize, parameter: f64) -> [Point<2>; 3] {
-        let [point, first, second] = match &self.form {
+        let [point, first, second] = match &*self.form {
             Form::Ellipse([a, b]) => {
                 let (c, s) = quarter_circle(quarter, parameter);
                 let rate = FRAC_PI_2;
@@ -138,7 +201,7 @@ impl Outline {
     /// Radius when the outline is a circle.
     #[must_use]
     pub fn circle_radius(&self) -> Option<f64> {
-        match &self.form {
+        match &*self.form {
             Form::Ellipse([a, b]) if a == b => Some(*a),
             _ => None,
         }
@@ -147,7 +210,7 @@ impl Outline {
     /// Whether the body is convex by construction (no two parts of it face each other).
     #[must_use]
     pub fn is_ellipse(&self) -> bool {
-        matches!(self.form, Form::Ellipse(_))
+        matches!(*self.form, Form::Ellipse(_))
     }
 
     /// Nearest place on the outline.
@@ -158,7 +221,7 @@ impl Outline {
             self.cos * offset.x + self.sin * offset.y,
             -self.sin * offset.x + self.cos * offset.y,
         );
-        let (at, normal, curvature) = match &self.form {
+        let (at, normal, curvature) = match &*self.form {
             Form::Ellipse(semi_axes) => nearest_on_ellipse(*semi_axes, local),
             Form::Spline { spline, samples, spacing, .. } => {
                 nearest_on_spline(spline, samples, *spacing, local)

@@ -5,6 +5,7 @@ pub mod algebra;
 pub mod body;
 pub mod case;
 pub mod cli;
+pub mod contact;
 pub mod coupling;
 pub mod flow;
 pub mod gait;

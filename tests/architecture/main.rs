@@ -14,6 +14,7 @@ const ROOMS: [(&str, &[&str]); 15] = [
     ("algebra", &["multifrontal"]),
     ("time", &["case"]),
     ("body", &[]),
+    ("contact", &["body"]),
     ("gait", &["body"]),
     ("motion", &["algebra", "body", "space", "time"]),
     ("flow", &["algebra", "space"]),

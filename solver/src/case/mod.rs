@@ -2,6 +2,7 @@
 
 mod body;
 mod check;
+mod contact;
 mod deserialize;
 mod domain;
 mod fluid;
@@ -26,6 +27,7 @@ use serde::{Deserialize, Serialize};
 
 pub use body::{Body, Gait, ImposedMotion, Lock, Motion, ShapeSpec, SquirmerGait};
 pub use check::{check, known_quantities};
+pub use contact::Contact;
 pub use domain::{BoundaryCondition, DomainSpec, Geometry, TimeFunction};
 pub use fluid::{Fluid, Model};
 pub use geometry::opposite;
@@ -67,6 +69,10 @@ pub struct Case {
     /// The bodies in the fluid.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub body: Vec<Body>,
+    /// Forces that keep bodies apart. Not read from files yet: there is nothing they would do
+    /// before bodies travel through the mesh.
+    #[serde(skip)]
+    pub contact: Option<Contact>,
     /// Cell sizes.
     pub mesh: MeshSettings,
     /// Steady solution or march in time.

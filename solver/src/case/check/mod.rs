@@ -5,6 +5,7 @@
 
 mod bodies;
 mod boundary;
+mod contact;
 mod fluid;
 mod mesh;
 mod placement;
@@ -35,6 +36,7 @@ pub fn check(file: &CaseFile) -> Vec<Problem> {
     fluid::check(&mut findings);
     boundary::check(&mut findings);
     bodies::check(&mut findings);
+    contact::check(&mut findings);
     mesh::check(&mut findings);
     time::check(&mut findings);
     references::check(&mut findings);
