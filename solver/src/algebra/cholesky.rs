@@ -10,7 +10,14 @@ use faer::sparse::linalg::cholesky::{
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Conj, Par, Side};
 
-use super::{Pattern, SingularMatrix};
+use thiserror::Error;
+
+use super::Pattern;
+
+/// Why a matrix has no Cholesky factors.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[error("{0}")]
+pub struct NotPositiveDefinite(String);
 
 /// The same bits on any number of threads: kernels run on one.
 const PARALLELISM: Par = Par::Seq;
@@ -32,7 +39,7 @@ impl Cholesky {
     ///
     /// # Errors
     /// When the matrix is not positive definite, or memory runs out.
-    pub fn factorise(pattern: &Pattern, values: &[f64]) -> Result<Self, SingularMatrix> {
+    pub fn factorise(pattern: &Pattern, values: &[f64]) -> Result<Self, NotPositiveDefinite> {
         let n = pattern.n();
         let view =
             SymbolicSparseColMatRef::new_checked(n, n, &pattern.columns, None, &pattern.rows);
@@ -42,11 +49,11 @@ impl Cholesky {
             SymmetricOrdering::Amd,
             CholeskySymbolicParams::default(),
         )
-        .map_err(|error| SingularMatrix(format!("the analysis failed: {error:?}")))?;
+        .map_err(|error| NotPositiveDefinite(format!("the analysis failed: {error:?}")))?;
         let mut factor = vec![0.0; symbolic.len_val()];
         let need = symbolic.factorize_numeric_llt_scratch::<f64>(PARALLELISM, Default::default());
         let mut workspace = MemBuffer::try_new(need)
-            .map_err(|_| SingularMatrix("memory ran out in the factorisation".to_owned()))?;
+            .map_err(|_| NotPositiveDefinite("memory ran out in the factorisation".to_owned()))?;
         symbolic
             .factorize_numeric_llt::<f64>(
                 &mut factor,
@@ -58,7 +65,7 @@ impl Cholesky {
                 Default::default(),
             )
             .map_err(|error| {
-                SingularMatrix(format!("the matrix is not positive definite: {error:?}"))
+                NotPositiveDefinite(format!("the matrix is not positive definite: {error:?}"))
             })?;
         Ok(Self { symbolic, factor })
     }
@@ -79,7 +86,7 @@ impl Cholesky {
     ///
     /// # Errors
     /// When memory runs out.
-    pub fn solve(&self, sides: &mut [f64]) -> Result<(), SingularMatrix> {
+    pub fn solve(&self, sides: &mut [f64]) -> Result<(), NotPositiveDefinite> {
         let n = self.n();
         if n == 0 {
             return Ok(());
@@ -87,7 +94,7 @@ impl Cholesky {
         let count = sides.len() / n;
         let need = self.symbolic.solve_in_place_scratch::<f64>(count, PARALLELISM);
         let mut workspace = MemBuffer::try_new(need)
-            .map_err(|_| SingularMatrix("memory ran out in a solve".to_owned()))?;
+            .map_err(|_| NotPositiveDefinite("memory ran out in a solve".to_owned()))?;
         LltRef::new(&self.symbolic, &self.factor).solve_in_place_with_conj(
             Conj::No,
             MatMut::from_column_major_slice_mut(&mut sides[..n * count], n, count),

@@ -7,7 +7,7 @@ mod krylov;
 mod pattern;
 
 pub use crate::multifrontal::Unknowns;
-pub use cholesky::Cholesky;
+pub use cholesky::{Cholesky, NotPositiveDefinite};
 pub use constraints::{AffineConstraints, ConstraintBuilder};
 pub use direct::{Accuracy, DirectSolver, LinearError};
 pub use pattern::{CellMaps, Pattern};

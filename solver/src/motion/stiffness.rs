@@ -145,10 +145,15 @@ impl Stiffness {
     fn reduced(&self, constraints: &AffineConstraints, n_local: usize) -> (Pattern, Vec<f64>) {
         let (pattern, maps) = CellMaps::new(n_local, self.raw.clone(), constraints, |_, _| true);
         let mut values = vec![0.0; pattern.rows.len()];
-        let mut small = Vec::new();
+        let mut folded = vec![0.0; maps.largest_matrix()];
+        // The matrices are symmetric: rows are columns.
         for (cell, matrix) in self.cells.chunks_exact(n_local * n_local).enumerate() {
-            maps.reduce(cell, constraints, matrix, &mut small);
-            maps.scatter(cell, &small, &mut values);
+            if maps.is_folded(cell) {
+                maps.fold(cell, constraints, matrix, &mut folded);
+                maps.scatter(cell, &folded, &mut values);
+            } else {
+                maps.scatter(cell, matrix, &mut values);
+            }
         }
         (pattern, values)
     }

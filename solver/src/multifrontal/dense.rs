@@ -169,24 +169,24 @@ fn largest_size(values: &[f64]) -> f64 {
     size
 }
 
-/// U12 = L11^-1 P U12 and C -= L21 U12 for some columns of both.
+/// U12 = L11^-1 P U12 and C -= L21 U12 for some columns of both; C is not read where `accum` is to
+/// replace it. `swaps` are the row exchanges of all k pivots of the panel `l`, which has m rows.
 pub(super) fn update(
     l: &[f64],
     m: usize,
-    p: usize,
     swaps: &[u32],
     u: &mut [f64],
     c: &mut [f64],
-    k: usize,
     accum: Accum,
 ) {
+    let k = swaps.len();
     let r = m - k;
     let columns = u.len() / k;
     swap_rows(u, columns, k, swaps);
-    let mut upper = view_mut(u, p, columns, k);
-    solve_unit_lower_triangular_in_place(view(l, p, p, m), upper.as_mut(), Par::Seq);
+    let mut upper = view_mut(u, k, columns, k);
+    solve_unit_lower_triangular_in_place(view(l, k, k, m), upper.as_mut(), Par::Seq);
     if r > 0 {
-        let multipliers = view(&l[k..], r, p, m);
+        let multipliers = view(&l[k..], r, k, m);
         matmul(view_mut(c, r, columns, r), accum, multipliers, upper.as_ref(), -1.0, Par::Seq);
     }
 }

@@ -156,9 +156,9 @@ fn eliminate(
     if input.shared {
         u.par_chunks_mut(k * SHARED_COLUMNS)
             .zip(c.par_chunks_mut(r * SHARED_COLUMNS))
-            .for_each(|(u, c)| dense::update(l, m, k, swaps, u, c, k, accum));
+            .for_each(|(u, c)| dense::update(l, m, swaps, u, c, accum));
     } else {
-        dense::update(l, m, k, swaps, u, c, k, accum);
+        dense::update(l, m, swaps, u, c, accum);
     }
     Ok(())
 }

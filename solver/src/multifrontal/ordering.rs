@@ -17,15 +17,21 @@ pub enum Ordering {
 }
 
 /// Graphs with fewer vertices are ordered by minimum degree in any case.
+#[cfg(feature = "metis")]
 const SMALL: usize = 64;
 
 /// The vertices in the order in which they are eliminated.
-pub(super) fn order(graph: &Graph, ordering: Ordering) -> Vec<u32> {
+pub(super) fn order(
+    graph: &Graph,
+    #[cfg_attr(not(feature = "metis"), expect(unused_variables, reason = "there is one"))]
+    ordering: Ordering,
+) -> Vec<u32> {
     #[cfg(feature = "metis")]
-    if ordering == Ordering::Best && graph.n() > SMALL {
-        if let Some(order) = super::metis::nested_dissection(graph) {
-            return order;
-        }
+    if ordering == Ordering::Best
+        && graph.n() > SMALL
+        && let Some(order) = super::metis::nested_dissection(graph)
+    {
+        return order;
     }
     minimum_degree(graph)
 }
