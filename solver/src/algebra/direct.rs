@@ -51,7 +51,7 @@ const ROUNDING: f64 = 1e-14;
 const USELESS: f64 = 1e-6;
 /// Residual of FGMRES relative to the terms of the equations: far below what a step of any method
 /// leaves of the error in time and space.
-const KRYLOV_TOLERANCE: f64 = 1e-13;
+const KRYLOV_TOLERANCE: f64 = 1e-12;
 /// Most iterations with old factors.
 const MAX_ITERATIONS: usize = 20;
 /// A residual that is so near its goal is always worth a trial.

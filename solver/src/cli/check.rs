@@ -209,9 +209,9 @@ fn n_systems(case: &Case) -> f64 {
 fn costs(case: &Case, mesh: &Mesh<2>) -> String {
     let n_dofs = (2 * mesh.n_nodes() + mesh.n_vertices) as f64;
     let memory = memory_estimate(2 * mesh.n_nodes() + mesh.n_vertices);
-    // Measured on planar runs with 6 10^4 and 2.7 10^5 unknowns, on one core.
-    let factorisation = 0.087 * (n_dofs / 1e4).powf(1.6);
-    let assembly = 1.8e-6 * n_dofs;
+    // Measured on planar runs with 1.1 10^4 to 2 10^5 unknowns, on one core, every system factorised.
+    let factorisation = 0.0095 * (n_dofs / 1e4).powf(1.4);
+    let assembly = 6e-7 * n_dofs;
     let systems = n_systems(case);
     let output = output_size(case, mesh);
     let mut text = String::new();

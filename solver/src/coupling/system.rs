@@ -408,10 +408,10 @@ pub(super) fn pressure_weights(mesh: &Mesh<2>, tables: &Tables<2>) -> Vec<f64> {
 
 /// Memory a system takes with its factors (bytes), from the velocities and pressures of its mesh.
 ///
-/// Fitted to planar runs with 6 10^4 and 2.7 10^5 unknowns (0.94 and 5.3 GB).
+/// Fitted to planar runs with 1.1 10^4, 4.6 10^4 and 2 10^5 free unknowns (42, 152 and 712 MB).
 #[must_use]
 pub fn memory_estimate(n_dofs: usize) -> f64 {
-    110e6 * (n_dofs as f64 / 1e4).powf(1.18)
+    5e6 + 33e6 * (n_dofs as f64 / 1e4).powf(1.03)
 }
 
 /// How a convection acts when the frame's velocity may be an unknown.

@@ -121,10 +121,11 @@ pub fn advance(
             },
             body_force: problem.body_force,
         };
-        let raw = timing
-            .measure(Stage::Assembly, || system.fluid_residual(&state.mesh, &terms, &solution));
         // A linear system is solved once; its second residual is only for the loads.
-        if !newton && iterations == 1 {
+        let is_for_loads = !newton && iterations == 1;
+        let stage = if is_for_loads { Stage::Loads } else { Stage::Assembly };
+        let raw = timing.measure(stage, || system.fluid_residual(&state.mesh, &terms, &solution));
+        if is_for_loads {
             break raw;
         }
         let reduced =
