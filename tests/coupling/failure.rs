@@ -50,3 +50,30 @@ fn a_stalled_newton_method_is_an_error_that_shows_the_last_iterate() {
     assert!((0.5..10.0).contains(&speed), "largest speed {speed}");
     assert!(reason.contains("refine the mesh"), "{reason}");
 }
+
+/// Stokes flow with open sides all around may drift with the body at any speed.
+#[test]
+fn a_system_without_a_solution_names_what_is_not_determined() {
+    let case = case(
+        r#"
+        title = "nothing holds the fluid"
+        geometry = "planar"
+        fluid = { model = "stokes", density = 1.0, viscosity = 0.01, gravity = [0.0, -1.0] }
+        domain.box = { min = [0.0, 0.0], max = [1.0, 1.0] }
+        boundary = { bottom = "do-nothing", top = "do-nothing", right = "do-nothing", left = "do-nothing" }
+        mesh = { size = 0.2, surface = 0.05 }
+        time.steady = {}
+        [[body]]
+        name = "disc"
+        shape.disc = { radius = 0.1 }
+        center = [0.5, 0.5]
+        motion = "free"
+        density = 2.0
+        "#,
+    );
+    let error = simulate(&case, &mut []).expect_err("the body may drift");
+    assert!(matches!(error, RunError::Singular { .. }), "{error}");
+    let message = error.to_string();
+    assert!(message.contains("velocity of body \"disc\""), "{message}");
+    assert!(message.contains("a wall, a given velocity"), "{message}");
+}

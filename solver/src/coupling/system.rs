@@ -306,8 +306,13 @@ impl FluidSystem {
             }
             names.join(", ")
         };
+        let advice = if singular.unknowns.iter().any(|one| self.unknowns.dense.contains(one)) {
+            "; nothing holds body and fluid: a wall, a given velocity or locked directions would"
+        } else {
+            ""
+        };
         SolveError::Singular(format!(
-            "the equations do not determine {}; left without an unknown is the equation of {}",
+            "the equations do not determine {}; left without an unknown is the equation of {}{advice}",
             listed(&singular.unknowns),
             listed(&singular.equations)
         ))
