@@ -87,7 +87,7 @@ fn saddle_point(width: usize, height: usize, seed: u64, hard: f64, n_dense: usiz
             node.extend([index as u32; 2]);
             is_pressure.extend([false; 2]);
         }
-        if (index % width + index / width) % 3 == 0 {
+        if (index % width + index / width).is_multiple_of(3) {
             node.push(index as u32);
             is_pressure.push(true);
         }
