@@ -2,8 +2,8 @@
 //!
 //! Factors outlive the matrix they were made of. A matrix that has not changed is solved with them
 //! as they are; one that changed a little, by FGMRES with them as preconditioner, where that is
-//! cheaper than factorising anew. What is cheaper is told by counts of operations and by iterations
-//! of earlier solves, never by a clock: the same input has to give the same bits.
+//! cheaper than factorising anew. What is cheaper is told by counts of operations and by the rate of
+//! convergence, never by a clock: the same input has to give the same bits.
 
 use thiserror::Error;
 
@@ -122,26 +122,12 @@ impl DirectSolver {
         Self { analysis, factors, reuse, fingerprint: None }
     }
 
-    /// The analysis, for figures of fill and work.
-    #[must_use]
-    pub fn analysis(&self) -> &Analysis {
-        &self.analysis
-    }
-
     /// Factorises the matrix with these values, unless the factors at hand are its own.
     ///
     /// # Errors
     /// When pivots are missing, or a value is not finite.
     pub fn factorise(&mut self, pattern: &Pattern, values: &[f64]) -> Result<(), LinearError> {
-        self.factorise_as(pattern, values, fingerprint(values))
-    }
-
-    fn factorise_as(
-        &mut self,
-        pattern: &Pattern,
-        values: &[f64],
-        fingerprint: u64,
-    ) -> Result<(), LinearError> {
+        let fingerprint = fingerprint(values);
         if self.fingerprint == Some(fingerprint) {
             return Ok(());
         }
@@ -162,8 +148,8 @@ impl DirectSolver {
 
     /// Solves A x = b with the factors of an earlier matrix, in place.
     ///
-    /// `size` tells how large the terms of each equation are, |A| |y| for a typical solution y: the
-    /// residual is brought far below it. Returns false, and leaves `rhs` as it was, when there are
+    /// The residual is brought far below |A| |y|, the terms of the equations for a `typical`
+    /// solution y. Returns false, and leaves `rhs` as it was, when there are
     /// no factors or factorising is cheaper.
     ///
     /// # Errors
@@ -173,9 +159,9 @@ impl DirectSolver {
         pattern: &Pattern,
         values: &[f64],
         rhs: &mut [f64],
-        size: &[f64],
+        typical: &[f64],
     ) -> Result<bool, LinearError> {
-        if !rhs.iter().chain(size).all(|value| value.is_finite()) {
+        if !rhs.iter().chain(typical).all(|value| value.is_finite()) {
             return Err(LinearError::NotFinite);
         }
         if self.fingerprint.is_none() || self.fingerprint == Some(fingerprint(values)) {
@@ -187,7 +173,7 @@ impl DirectSolver {
             values.iter().zip(&scales).map(|(value, scale)| value * scale).collect()
         };
         let b = scaled(rhs);
-        let goal = KRYLOV_TOLERANCE * norm(&scaled(size));
+        let goal = KRYLOV_TOLERANCE * norm(&scaled(&pattern.multiply_sizes(values, typical)));
         if norm(&b) <= goal || !self.reuse.is_worth_a_trial(norm(&b) / goal) {
             return Ok(false);
         }
@@ -360,8 +346,8 @@ mod tests {
         solver.factorise(&pattern, &values).unwrap();
         let (_, changed, _) = chain(n, 1e-3);
         let mut x = rhs(n);
-        let size = vec![1.0; n];
-        assert!(solver.solve_with_old_factors(&pattern, &changed, &mut x, &size).unwrap());
+        let typical = vec![1.0; n];
+        assert!(solver.solve_with_old_factors(&pattern, &changed, &mut x, &typical).unwrap());
         assert_eq!(solver.fingerprint, Some(fingerprint(&values)), "no new factors");
         let mut exact = rhs(n);
         solver.factorise(&pattern, &changed).unwrap();
@@ -379,9 +365,9 @@ mod tests {
         solver.reuse.factorisation = 6.0 * solver.reuse.iteration;
         solver.factorise(&pattern, &values).unwrap();
         let (_, changed, _) = chain(n, 2.0);
-        let (mut x, size) = (rhs(n), vec![1.0; n]);
+        let (mut x, typical) = (rhs(n), vec![1.0; n]);
         for trial in 0..3 {
-            assert!(!solver.solve_with_old_factors(&pattern, &changed, &mut x, &size).unwrap());
+            assert!(!solver.solve_with_old_factors(&pattern, &changed, &mut x, &typical).unwrap());
             assert_eq!(x, rhs(n));
             // Then some systems are factorised at once.
             assert_eq!(solver.reuse.wait, FIRST_PAUSE - trial);

@@ -25,7 +25,7 @@ pub struct Feature {
     pub at: Closest,
     /// From the centres of mass of body and partner to their points (m).
     pub levers: [Point<2>; 2],
-    /// Share of the law's force, from 0 to 1 ([`weigh`]).
+    /// Share of the law's force, from 0 to 1.
     pub weight: f64,
     /// Whether only the motion along the axis counts.
     pub is_axisymmetric: bool,

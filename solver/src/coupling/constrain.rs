@@ -72,6 +72,18 @@ pub(super) fn constrain(
     for (node, boundaries) in sides.iter() {
         constrain_node(problem, mesh, layout, &mut builder, poses, time, node, &boundaries);
     }
+    close_pressures_and_periods(problem, mesh, layout, &mut builder);
+    builder.build()
+}
+
+/// Equal values on periodic pairs, as far as they are free, and in an enclosed flow a level of the
+/// pressure.
+pub(super) fn close_pressures_and_periods(
+    problem: &Problem,
+    mesh: &Mesh<2>,
+    layout: &DofLayout<2>,
+    builder: &mut ConstraintBuilder,
+) {
     for &(copy, original) in &mesh.periodic {
         let (copy, original) = (copy as usize, original as usize);
         for axis in 0..2 {
@@ -101,7 +113,6 @@ pub(super) fn constrain(
             builder.constrain(raw, vec![], 0.0);
         }
     }
-    builder.build()
 }
 
 #[expect(clippy::too_many_arguments, reason = "one node's share of the function above")]

@@ -5,9 +5,9 @@
 
 use alewife_mesh::{BoundaryKind, Mesh, Point};
 
-use super::constrain::NodeSides;
+use super::constrain::{NodeSides, close_pressures_and_periods};
 use super::problem::{Problem, Side};
-use super::system::{pressure_weights, unknowns};
+use super::system::{pressure_weights, spread_flux, unknowns};
 use crate::algebra::{AffineConstraints, ConstraintBuilder, DirectSolver, LinearError, Pattern};
 use crate::flow::{Assembly, Convection, Fields, FlowTerms, assemble, residual};
 use crate::space::DofLayout;
@@ -72,11 +72,7 @@ impl DivergenceFree {
         let raw = residual(&self.assembly, mesh, &terms(0.0), &fields);
         let mut defect = raw[self.layout.pressure(0)..self.layout.n_fluid()].to_vec();
         if let Some(weights) = &self.enclosed_weights {
-            let flux: f64 = defect.iter().sum();
-            let volume: f64 = weights.iter().sum();
-            for (value, weight) in defect.iter_mut().zip(weights) {
-                *value -= flux * weight / volume;
-            }
+            spread_flux(&mut defect, weights);
         }
         // A pressure of one side of a periodic pair tests both
         for &(copy, original) in &mesh.periodic {
@@ -142,25 +138,6 @@ fn hold_given_velocities(
             }
         }
     }
-    for &(copy, original) in &mesh.periodic {
-        let (copy, original) = (copy as usize, original as usize);
-        for axis in 0..2 {
-            let raw = layout.velocity(copy, axis);
-            if !builder.is_constrained(raw) {
-                builder.constrain(raw, vec![(layout.velocity(original, axis), 1.0)], 0.0);
-            }
-        }
-        if copy < layout.n_vertices {
-            builder.constrain(layout.pressure(copy), vec![(layout.pressure(original), 1.0)], 0.0);
-        }
-    }
-    if problem.is_enclosed() {
-        let pinned = (0..layout.n_vertices)
-            .map(|vertex| layout.pressure(vertex))
-            .find(|&raw| !builder.is_constrained(raw));
-        if let Some(raw) = pinned {
-            builder.constrain(raw, vec![], 0.0);
-        }
-    }
+    close_pressures_and_periods(problem, mesh, layout, &mut builder);
     builder.build()
 }

@@ -12,7 +12,7 @@ use super::constrain::{NodeSides, constrain};
 use super::problem::{Drive, Problem};
 use crate::algebra::{Accuracy, AffineConstraints, DirectSolver, LinearError, Pattern, Unknowns};
 use crate::body::{Pose, Twist};
-use crate::flow::{Assembly, Convection, Fields, FlowTerms, assemble, residual};
+use crate::flow::{Assembly, Convection, Fields, FlowTerms, assemble, pressure_unknowns, residual};
 use crate::space::{CellValues, DofLayout, Tables};
 use crate::timing::{Stage, Timing};
 
@@ -199,15 +199,8 @@ impl FluidSystem {
         mut raw: Vec<f64>,
     ) -> Vec<f64> {
         if problem.is_enclosed() {
-            // Boundary values interpolated on curved sides may carry a tiny net flux, which an
-            // enclosed incompressible fluid cannot take: spread it evenly instead of leaving it
-            // to the one vertex whose pressure is fixed.
             let pressures = self.layout.pressure(0)..self.layout.n_fluid();
-            let flux: f64 = raw[pressures.clone()].iter().sum();
-            let volume: f64 = self.pressure_weights.iter().sum();
-            for (value, weight) in raw[pressures].iter_mut().zip(&self.pressure_weights) {
-                *value -= flux * weight / volume;
-            }
+            spread_flux(&mut raw[pressures], &self.pressure_weights);
         }
         for (body, rigid) in problem.bodies.iter().enumerate() {
             let twist = &solution.twists[body];
@@ -272,10 +265,8 @@ impl FluidSystem {
         let solver = timing.measure(Stage::Factorisation, || {
             self.solver.get_or_insert_with(|| DirectSolver::analyse(pattern, &self.unknowns))
         });
-        let is_solved = timing.measure(Stage::Solve, || {
-            let size = pattern.multiply_sizes(values, free);
-            solver.solve_with_old_factors(pattern, values, rhs, &size)
-        })?;
+        let is_solved = timing
+            .measure(Stage::Solve, || solver.solve_with_old_factors(pattern, values, rhs, free))?;
         if !is_solved {
             timing.measure(Stage::Factorisation, || solver.factorise(pattern, values))?;
             self.accuracy = timing.measure(Stage::Solve, || solver.solve(pattern, values, rhs))?;
@@ -375,25 +366,32 @@ impl FluidSystem {
 
 /// What the linear solver has to know of each free unknown.
 pub(super) fn unknowns(layout: &DofLayout<2>, constraints: &AffineConstraints) -> Unknowns {
-    let n = constraints.n_unknowns();
+    let is_pressure = pressure_unknowns(layout, constraints);
     let mut unknowns =
-        Unknowns { node: vec![0; n], is_pressure: vec![false; n], dense: Vec::new() };
+        Unknowns { node: vec![0; is_pressure.len()], is_pressure, dense: Vec::new() };
     for node in 0..layout.n_nodes {
-        for axis in 0..2 {
-            if let Some(unknown) = constraints.unknown(layout.velocity(node, axis)) {
-                unknowns.node[unknown] = node as u32;
-            }
-        }
-    }
-    for vertex in 0..layout.n_vertices {
-        if let Some(unknown) = constraints.unknown(layout.pressure(vertex)) {
-            unknowns.node[unknown] = vertex as u32;
-            unknowns.is_pressure[unknown] = true;
+        let velocities = (0..2).map(|axis| layout.velocity(node, axis));
+        let pressure = (node < layout.n_vertices).then(|| layout.pressure(node));
+        for unknown in velocities.chain(pressure).filter_map(|raw| constraints.unknown(raw)) {
+            unknowns.node[unknown] = node as u32;
         }
     }
     let rigid = layout.n_fluid()..layout.n_raw();
     unknowns.dense = rigid.filter_map(|raw| constraints.unknown(raw)).collect();
     unknowns
+}
+
+/// Takes their sum out of the residuals of the pressures, by the weights.
+///
+/// Boundary values interpolated on curved sides may carry a tiny net flux, which an enclosed
+/// incompressible fluid cannot take: spread evenly it is not left to the one vertex whose pressure is
+/// fixed.
+pub(super) fn spread_flux(residuals: &mut [f64], weights: &[f64]) {
+    let flux: f64 = residuals.iter().sum();
+    let volume: f64 = weights.iter().sum();
+    for (value, weight) in residuals.iter_mut().zip(weights) {
+        *value -= flux * weight / volume;
+    }
 }
 
 /// int psi dx of each vertex.

@@ -74,12 +74,7 @@ impl Assembly {
                 raw.extend((0..2).map(|axis| layout.rigid(body, axis) as u32));
             }
         }
-        let mut is_pressure = vec![false; constraints.n_unknowns()];
-        for vertex in 0..layout.n_vertices {
-            if let Some(unknown) = constraints.unknown(layout.pressure(vertex)) {
-                is_pressure[unknown] = true;
-            }
-        }
+        let is_pressure = pressure_unknowns(&layout, constraints);
         let (pattern, maps) = CellMaps::new(n_local, raw, constraints, |row, column| {
             !(is_pressure[row] && is_pressure[column])
         });
@@ -117,6 +112,18 @@ impl Assembly {
     fn n_local(&self) -> usize {
         N_FLUID + if self.with_frame { 2 } else { 0 }
     }
+}
+
+/// Whether each free unknown is a pressure.
+#[must_use]
+pub fn pressure_unknowns(layout: &DofLayout<2>, constraints: &AffineConstraints) -> Vec<bool> {
+    let mut is_pressure = vec![false; constraints.n_unknowns()];
+    for vertex in 0..layout.n_vertices {
+        if let Some(unknown) = constraints.unknown(layout.pressure(vertex)) {
+            is_pressure[unknown] = true;
+        }
+    }
+    is_pressure
 }
 
 /// Lets `compute` fill `size` numbers for each cell, in parallel, and hands those of one cell

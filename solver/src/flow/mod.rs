@@ -6,6 +6,6 @@ mod open_side;
 mod points;
 mod terms;
 
-pub use assemble::{Assembly, assemble, residual};
+pub use assemble::{Assembly, assemble, pressure_unknowns, residual};
 pub use open_side::{FacetPoint, for_each_facet_point};
 pub use terms::{BodyForce, Convection, Fields, FlowTerms};

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::graph::{Graph, bucket};
 use super::ordering::{Ordering, order};
-use super::tree::{NONE, Supernode, supernodes};
+use super::tree::{NONE, Supernode, flops, supernodes};
 use super::{PatternRef, Unknowns};
 
 /// A subtree is cut off when it takes less than this part of all arithmetic.
@@ -85,7 +85,6 @@ pub struct Analysis {
     /// Subtrees without common ancestors among each other, then the fronts above them.
     pub(super) subtrees: Vec<Part>,
     pub(super) top: Part,
-    pub(super) flops: f64,
 }
 
 impl Analysis {
@@ -166,7 +165,6 @@ impl Analysis {
             sources: Vec::new(),
             targets: Vec::new(),
             n_values,
-            flops: nodes.iter().map(Supernode::flops).sum(),
             subtrees: Vec::new(),
             top: Part { fronts: 0..0, stack: 0 },
             fronts,
@@ -193,7 +191,7 @@ impl Analysis {
     /// Floating-point operations of one factorisation.
     #[must_use]
     pub fn flops(&self) -> f64 {
-        self.flops
+        self.fronts.iter().map(|front| flops(front.k, front.r)).sum()
     }
 
     /// A rough time of one factorisation, in nanoseconds of one core: a function of the fronts.
@@ -262,39 +260,25 @@ impl Analysis {
             front_of[front.start..front.start + front.k].fill(index as u32);
         }
         // Two buckets a front: entries among velocities, entries of pressures.
-        let bucket = |row: u32, column: u32| {
-            let mixed = self.is_pressure_at[row as usize] || self.is_pressure_at[column as usize];
-            2 * front_of[row.min(column) as usize] as usize + usize::from(mixed)
-        };
-        let mut fill = vec![0usize; 2 * self.fronts.len() + 1];
-        for column in 0..n {
-            for &row in pattern.column(column) {
-                fill[bucket(place_of[row], place_of[column]) + 1] += 1;
-            }
-        }
-        for index in 0..2 * self.fronts.len() {
-            fill[index + 1] += fill[index];
-        }
-        let starts = fill.clone();
-        let mut places = vec![(0u32, 0u32); pattern.rows.len()];
-        let mut sources = vec![0; pattern.rows.len()];
+        let mut buckets = Vec::with_capacity(pattern.rows.len());
+        let mut columns = Vec::with_capacity(pattern.rows.len());
         for column in 0..n {
             let own = place_of[column];
-            for entry in pattern.columns[column]..pattern.columns[column + 1] {
-                let row = place_of[pattern.rows[entry]];
-                let at = &mut fill[bucket(row, own)];
-                sources[*at] = entry as u32;
-                places[*at] = (row, own);
-                *at += 1;
+            for &row in pattern.column(column) {
+                let row = place_of[row];
+                let mixed = self.is_pressure_at[row as usize] || self.is_pressure_at[own as usize];
+                buckets.push(2 * front_of[row.min(own) as usize] + u32::from(mixed));
+                columns.push(own);
             }
         }
+        let (starts, sources) = bucket(&buckets, 2 * self.fronts.len());
         self.sources = sources;
         for (index, front) in self.fronts.iter_mut().enumerate() {
             front.entries = starts[2 * index]..starts[2 * index + 2];
             front.mixed = starts[2 * index + 1];
         }
         let mut local = vec![0u32; n];
-        self.targets = Vec::with_capacity(places.len());
+        self.targets = Vec::with_capacity(columns.len());
         for front in &self.fronts {
             for (index, place) in local[front.start..front.start + front.k].iter_mut().enumerate() {
                 *place = index as u32;
@@ -302,7 +286,9 @@ impl Analysis {
             for (index, &place) in self.rest_of(front).iter().enumerate() {
                 local[place as usize] = (front.k + index) as u32;
             }
-            for &(row, column) in &places[front.entries.clone()] {
+            for &entry in &self.sources[front.entries.clone()] {
+                let row = place_of[pattern.rows[entry as usize]];
+                let column = columns[entry as usize];
                 let (row, column) = (local[row as usize] as usize, local[column as usize] as usize);
                 self.targets.push(if column < front.k {
                     row + column * front.m()
@@ -413,7 +399,7 @@ fn by_subtree(nodes: Vec<Supernode>) -> (Vec<Supernode>, Vec<usize>) {
     let mut total = vec![0.0; n];
     let mut size = vec![1usize; n];
     for (index, node) in nodes.iter().enumerate() {
-        total[index] += node.flops();
+        total[index] += flops(node.k, node.r);
         if node.parent != NONE {
             let (below, above) = (total[index], node.parent as usize);
             total[above] += below;

@@ -199,19 +199,18 @@ fn work_through(
         let pivot_rows = &mut rows[front.start - first_place..][..front.k];
         let size = front.r * front.r;
         let is_last = index + 1 == part.fronts.end;
-        let leaves = is_last && outgoing.is_some();
-        let (low, high) = match (&mut outgoing, is_last) {
-            (Some(_), true) => (&mut [][..], stack.as_mut_slice()),
-            _ if front.grows_down => stack.split_at_mut(front.contribution),
-            _ => stack.split_at_mut(front.contribution + size),
-        };
-        let (c, others): (&mut [f64], &[f64]) = match (&mut outgoing, is_last) {
-            (Some(outgoing), true) => (outgoing.as_mut_slice(), high),
-            _ if front.grows_down => (&mut high[..size], low),
-            _ => (&mut low[front.contribution..], high),
-        };
-        // Where in the stack the other end begins.
-        let offset = if front.grows_down || leaves { 0 } else { front.contribution + size };
+        // Its own contribution, those of its children, and where in the stack the latter begin.
+        let (c, others, offset): (&mut [f64], &[f64], usize) =
+            if let Some(outgoing) = outgoing.as_deref_mut().filter(|_| is_last) {
+                (outgoing, stack, 0)
+            } else if front.grows_down {
+                let (low, high) = stack.split_at_mut(front.contribution);
+                (&mut high[..size], low, 0)
+            } else {
+                let end = front.contribution + size;
+                let (low, high) = stack.split_at_mut(end);
+                (&mut low[front.contribution..], high, end)
+            };
         let own = &outcome.contributions;
         let children = analysis.children_of(front).iter().map(|&child| {
             let child_index = child as usize;

@@ -28,60 +28,43 @@ impl Graph {
         }
         let (unknown_starts, unknowns) = bucket(vertex, n);
         let columns = |of: usize| &unknowns[unknown_starts[of]..unknown_starts[of + 1]];
-        // Once each pair a column names, then its mirror image.
+        // Each pair a column names, once.
         let mut seen = vec![u32::MAX; n];
-        let mut pairs_starts = vec![0u32; n + 1];
-        let mut pairs: Vec<u32> = Vec::new();
-        for from in 0..n {
-            seen[from] = from as u32;
-            for &column in columns(from) {
+        let (mut owners, mut named) = (Vec::new(), Vec::new());
+        let mut named_starts = vec![0];
+        for from in 0..n as u32 {
+            seen[from as usize] = from;
+            for &column in columns(from as usize) {
                 for &row in pattern.column(column as usize) {
                     let to = vertex[row];
-                    if seen[to as usize] != from as u32 {
-                        seen[to as usize] = from as u32;
-                        pairs.push(to);
+                    if seen[to as usize] != from {
+                        seen[to as usize] = from;
+                        owners.push(from);
+                        named.push(to);
                     }
                 }
             }
-            pairs_starts[from + 1] = pairs.len() as u32;
+            named_starts.push(named.len());
         }
-        let forward = Self { starts: pairs_starts, neighbours: pairs, weights };
-        let (mirror_starts, mirror) = forward.transposed();
-        let mut symmetric = Self { starts: vec![0], neighbours: Vec::new(), weights: Vec::new() };
+        // And its mirror image, where that is another one.
+        let (mirror_starts, mirror) = bucket(&named, n);
+        let mut graph = Self { starts: vec![0], neighbours: Vec::new(), weights };
         seen.fill(u32::MAX);
         for from in 0..n {
-            let back = &mirror[mirror_starts[from]..mirror_starts[from + 1]];
-            for &to in forward.neighbours(from).iter().chain(back) {
+            let back = mirror[mirror_starts[from]..mirror_starts[from + 1]].iter();
+            let back = back.map(|&pair| owners[pair as usize]);
+            let start = graph.neighbours.len();
+            for to in named[named_starts[from]..named_starts[from + 1]].iter().copied().chain(back)
+            {
                 if seen[to as usize] != from as u32 {
                     seen[to as usize] = from as u32;
-                    symmetric.neighbours.push(to);
+                    graph.neighbours.push(to);
                 }
             }
-            let start = symmetric.starts[from] as usize;
-            symmetric.neighbours[start..].sort_unstable();
-            symmetric.starts.push(symmetric.neighbours.len() as u32);
+            graph.neighbours[start..].sort_unstable();
+            graph.starts.push(graph.neighbours.len() as u32);
         }
-        symmetric.weights = forward.weights;
-        symmetric
-    }
-
-    fn transposed(&self) -> (Vec<usize>, Vec<u32>) {
-        let mut starts = vec![0usize; self.n() + 1];
-        for &to in &self.neighbours {
-            starts[to as usize + 1] += 1;
-        }
-        for vertex in 0..self.n() {
-            starts[vertex + 1] += starts[vertex];
-        }
-        let mut fill = starts.clone();
-        let mut back = vec![0u32; self.neighbours.len()];
-        for from in 0..self.n() {
-            for &to in self.neighbours(from) {
-                back[fill[to as usize]] = from as u32;
-                fill[to as usize] += 1;
-            }
-        }
-        (starts, back)
+        graph
     }
 
     /// The graph without the vertices from `n` on.

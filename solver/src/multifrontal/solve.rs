@@ -158,15 +158,29 @@ fn add_one(y: &mut [f64], column: &[f64], factor: f64) {
     }
 }
 
+/// The values at some places, as many as there are places.
+#[inline(always)]
+fn gather(values: &mut [f64], from: &[f64], places: &[u32]) {
+    for (value, &place) in values.iter_mut().zip(places) {
+        *value = from[place as usize];
+    }
+}
+
+/// Writes values to their places.
+#[inline(always)]
+fn put(values: &[f64], places: &[u32], target: &mut [f64]) {
+    for (value, &place) in values.iter().zip(places) {
+        target[place as usize] = *value;
+    }
+}
+
 /// b of the pivot rows becomes L^-1 b, and the other rows lose what the pivots explain.
 #[inline(always)]
 fn forward(view: &View<'_>, b: &mut [f64], local: &mut [f64]) {
     let p = view.pivot_rows.len();
     let m = p + view.rest_rows.len();
     let local = &mut local[..m];
-    for (value, &row) in local.iter_mut().zip(view.pivot_rows) {
-        *value = b[row as usize];
-    }
+    gather(local, b, view.pivot_rows);
     local[p..].fill(0.0);
     let mut j = 0;
     while j + 4 <= p {
@@ -186,9 +200,7 @@ fn forward(view: &View<'_>, b: &mut [f64], local: &mut [f64]) {
         let factor = -local[j];
         add_one(&mut local[j + 1..], &view.l[j * m + j + 1..(j + 1) * m], factor);
     }
-    for (&row, value) in view.pivot_rows.iter().zip(local.iter()) {
-        b[row as usize] = *value;
-    }
+    put(local, view.pivot_rows, b);
     for (&row, value) in view.rest_rows.iter().zip(&local[p..]) {
         b[row as usize] += value;
     }
@@ -200,9 +212,7 @@ fn backward(view: &View<'_>, b: &[f64], x: &mut [f64], local: &mut [f64]) {
     let p = view.pivot_rows.len();
     let m = p + view.rest_rows.len();
     let local = &mut local[..p];
-    for (value, &row) in local.iter_mut().zip(view.pivot_rows) {
-        *value = b[row as usize];
-    }
+    gather(local, b, view.pivot_rows);
     let mut columns = view.u.chunks_exact(p.max(1) * 4);
     let mut rest = view.rest_columns.chunks_exact(4);
     for (four, places) in (&mut columns).zip(&mut rest) {
@@ -236,9 +246,7 @@ fn backward(view: &View<'_>, b: &[f64], x: &mut [f64], local: &mut [f64]) {
         local[j] = value;
         add_one(&mut local[..j], &view.l[j * m..j * m + j], -value);
     }
-    for (&place, value) in view.pivot_columns.iter().zip(local.iter()) {
-        x[place as usize] = *value;
-    }
+    put(local, view.pivot_columns, x);
 }
 
 /// `forward` for several right-hand sides.
@@ -250,9 +258,7 @@ fn forward_block(view_of: &View<'_>, b: &mut [f64], local: &mut [f64], n_sides: 
     }
     let local = &mut local[..m * n_sides];
     for (side, local) in b.chunks(n).zip(local.chunks_mut(m)) {
-        for (value, &row) in local.iter_mut().zip(view_of.pivot_rows) {
-            *value = side[row as usize];
-        }
+        gather(local, side, view_of.pivot_rows);
     }
     let (mut upper, lower) = view_mut(local, m, n_sides, m).split_at_row_mut(p);
     let unit_lower = view(view_of.l, p, p, m);
@@ -262,9 +268,7 @@ fn forward_block(view_of: &View<'_>, b: &mut [f64], local: &mut [f64], n_sides: 
         matmul(lower, Accum::Replace, multipliers, upper.as_ref(), -1.0, Par::Seq);
     }
     for (side, local) in b.chunks_mut(n).zip(local.chunks(m)) {
-        for (&row, value) in view_of.pivot_rows.iter().zip(local) {
-            side[row as usize] = *value;
-        }
+        put(local, view_of.pivot_rows, side);
         for (&row, value) in view_of.rest_rows.iter().zip(&local[p..]) {
             side[row as usize] += value;
         }
@@ -287,16 +291,12 @@ fn backward_block(
     }
     let local = &mut local[..p * n_sides];
     for (side, local) in b.chunks(n).zip(local.chunks_mut(p)) {
-        for (value, &row) in local.iter_mut().zip(view_of.pivot_rows) {
-            *value = side[row as usize];
-        }
+        gather(local, side, view_of.pivot_rows);
     }
     if q > 0 {
         let others = &mut others[..q * n_sides];
         for (side, others) in x.chunks(n).zip(others.chunks_mut(q)) {
-            for (value, &place) in others.iter_mut().zip(view_of.rest_columns) {
-                *value = side[place as usize];
-            }
+            gather(others, side, view_of.rest_columns);
         }
         let known = view(others, q, n_sides, q);
         let target = view_mut(local, p, n_sides, p);
@@ -305,8 +305,6 @@ fn backward_block(
     let upper = view(view_of.l, p, p, m);
     solve_upper_triangular_in_place(upper, view_mut(local, p, n_sides, p), Par::Seq);
     for (side, local) in x.chunks_mut(n).zip(local.chunks(p)) {
-        for (&place, value) in view_of.pivot_columns.iter().zip(local) {
-            side[place as usize] = *value;
-        }
+        put(local, view_of.pivot_columns, side);
     }
 }

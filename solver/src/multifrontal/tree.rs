@@ -35,11 +35,6 @@ impl Supernode {
         let entries = (k + r).pow(2) - r.pow(2);
         Self::work(k, r) + 8.0 * entries as f64
     }
-
-    /// Floating-point operations of the elimination.
-    pub fn flops(&self) -> f64 {
-        flops(self.k, self.r)
-    }
 }
 
 /// Operations that eliminate k unknowns of a front with r others.
@@ -93,7 +88,6 @@ fn fundamental(graph: &Graph, order: &[u32], place: &[u32], parent: &[u32]) -> V
     let n = order.len();
     let mut children: Vec<Vec<u32>> = vec![Vec::new(); n];
     let mut found: Vec<Supernode> = Vec::new();
-    let mut supernode_of = vec![NONE; n];
     let mut seen = vec![NONE; n];
     for j in 0..n {
         seen[j] = j as u32;
@@ -129,7 +123,6 @@ fn fundamental(graph: &Graph, order: &[u32], place: &[u32], parent: &[u32]) -> V
                 found[child as usize].parent = index;
             }
         }
-        supernode_of[j] = index;
         if parent[j] != NONE {
             children[parent[j] as usize].push(index);
         }
