@@ -341,21 +341,6 @@ fn names_mean_one_thing() {
 }
 
 #[test]
-fn bodies_do_not_move_through_the_mesh_yet() {
-    let unsteady = edited("[time.steady]", "[time.unsteady]\nstep = 0.1\nend = 1.0")
-        .replace("motion = \"held\"", "motion = \"free\"");
-    assert_refused(
-        &check(&unsteady, &[]),
-        &["moving meshes are not there yet", "wrong.toml:23:10", "frame = \"disc\""],
-    );
-    let followed = unsteady.replace("[fluid]", "frame = \"disc\"\n[fluid]");
-    assert_accepted(&check(&followed, &[]));
-    let ellipse = followed
-        .replace("{ disc = { radius = 0.05 } }", "{ ellipse = { semi_axes = [0.05, 0.02] } }");
-    assert_refused(&check(&ellipse, &[]), &["turns and is not a disc", "locked = [\"rotation\"]"]);
-}
-
-#[test]
 fn the_frame_is_that_of_a_body() {
     refused("[fluid]", "frame = \"disk\"\n[fluid]", &["no body has that name", "`disc`?"]);
 }

@@ -98,6 +98,30 @@ pub struct SquirmerGait {
     pub heading: f64,
 }
 
+/// `spring`: force -stiffness (place - anchor) - damping velocity, and the same for the turn.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Spring {
+    /// Stiffness along x and y (N/m; N/m2 planar).
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub stiffness: Vec<f64>,
+    /// Damping along x and y (N s/m; N s/m2 planar).
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub damping: Vec<f64>,
+    /// Where the centre of mass rests (m); where it starts, if absent.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub anchor: Vec<f64>,
+    /// Torque per turn (N m/rad; N/rad planar).
+    #[serde(default)]
+    pub torsion: f64,
+    /// Torque per angular velocity (N m s/rad; N s/rad planar).
+    #[serde(default)]
+    pub torsion_damping: f64,
+    /// Angle at rest (rad); that at the start, if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rest_angle: Option<f64>,
+}
+
 /// `[[body]]`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -128,6 +152,12 @@ pub struct Body {
     /// External torque, counter-clockwise (N m).
     #[serde(default)]
     pub torque: f64,
+    /// Factor in time for the external force and torque.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub load_factor: Option<TimeFunction>,
+    /// Spring and damper that tie it to a place.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub spring: Option<Spring>,
     /// Cell size on its surface (m); that of `[mesh]` if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub size: Option<f64>,

@@ -2,7 +2,9 @@
 
 use alewife_mesh::{Domain, PlacedShape, Point, Shape};
 
-use super::{Body, BoundaryCondition, Case, DomainSpec, ShapeSpec};
+use super::{
+    Body, BoundaryCondition, Case, DomainSpec, Geometry, Lock, Motion, ShapeSpec, TimeSettings,
+};
 
 impl DomainSpec {
     /// Names of the sides.
@@ -123,7 +125,49 @@ impl Body {
     }
 }
 
+impl Body {
+    /// Whether the body may change its place.
+    #[must_use]
+    pub fn translates(&self) -> bool {
+        match &self.motion {
+            Motion::Held => false,
+            Motion::Free => ![Lock::X, Lock::Y].iter().all(|lock| self.locked.contains(lock)),
+            Motion::Imposed(imposed) => imposed.velocity.iter().any(|part| *part != 0.0),
+        }
+    }
+
+    /// Whether the body may turn.
+    #[must_use]
+    pub fn turns(&self) -> bool {
+        match &self.motion {
+            Motion::Held => false,
+            Motion::Free => !self.locked.contains(&Lock::Rotation),
+            Motion::Imposed(imposed) => imposed.angular_velocity != 0.0,
+        }
+    }
+
+    /// Whether the body looks the same however it is turned in the plane.
+    #[must_use]
+    pub fn is_round(&self) -> bool {
+        matches!(self.shape, ShapeSpec::Disc { .. } | ShapeSpec::Sphere { .. })
+    }
+}
+
 impl Case {
+    /// Whether a march in time deforms the mesh: a body moves as seen from the frame, or turns
+    /// and looks different then.
+    #[must_use]
+    pub fn mesh_moves(&self) -> bool {
+        let is_frame = |body: &Body| self.frame.as_deref() == Some(body.name.as_str());
+        let frame_moves = self.body.iter().any(|body| is_frame(body) && body.translates());
+        let moves = |body: &Body| {
+            let travels = !is_frame(body) && (body.translates() || frame_moves);
+            let turns = self.geometry == Geometry::Planar && body.turns() && !body.is_round();
+            travels || turns
+        };
+        matches!(self.time, TimeSettings::Unsteady(_)) && self.body.iter().any(moves)
+    }
+
     /// Whether force and moment coefficients are defined: 2 F / (density velocity^2 area).
     #[must_use]
     pub fn has_coefficients(&self) -> bool {

@@ -29,10 +29,55 @@ pub struct MeshSettings {
     /// Whether cells follow curved boundaries (isoparametric P2) or stay straight.
     #[serde(default = "default_curved")]
     pub curved: bool,
+    /// How the mesh follows bodies that move, and when it is made anew.
+    #[serde(default, skip_serializing_if = "MovingMesh::is_default")]
+    pub moving: MovingMesh,
     /// Factor on the sizes above and on `growth`, divisor of `gap_layers`: 0.5 is the same mesh
     /// twice as fine everywhere (1).
     #[serde(default = "default_scale")]
     pub scale: f64,
+}
+
+/// `[mesh.moving]`.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct MovingMesh {
+    /// The equation the displacements of the cells solve.
+    #[serde(default)]
+    pub equation: MeshEquation,
+    /// Quality of a cell, over its quality when new, below which the mesh is made anew (1).
+    #[serde(default = "default_quality")]
+    pub quality: f64,
+    /// Layers of cells across a gap below which the mesh is made anew.
+    #[serde(default = "default_layers")]
+    pub layers: f64,
+}
+
+impl MovingMesh {
+    fn is_default(&self) -> bool {
+        *self == Self::default()
+    }
+}
+
+impl Default for MovingMesh {
+    fn default() -> Self {
+        Self {
+            equation: MeshEquation::default(),
+            quality: default_quality(),
+            layers: default_layers(),
+        }
+    }
+}
+
+/// Equation of mesh motion.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub enum MeshEquation {
+    /// Linear elasticity, stiff near the bodies: lets them go farthest.
+    #[default]
+    Elastic,
+    /// Harmonic, stiff where cells are small (Masud and Hughes).
+    Harmonic,
 }
 
 /// `[[mesh.box]]`.
@@ -45,6 +90,14 @@ pub struct RefinementBox {
     pub max: [f64; 2],
     /// Largest edge length inside (m).
     pub size: f64,
+}
+
+fn default_quality() -> f64 {
+    0.4
+}
+
+fn default_layers() -> f64 {
+    2.0
 }
 
 fn default_growth() -> f64 {

@@ -25,13 +25,13 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-pub use body::{Body, Gait, ImposedMotion, Lock, Motion, ShapeSpec, SquirmerGait};
+pub use body::{Body, Gait, ImposedMotion, Lock, Motion, ShapeSpec, Spring, SquirmerGait};
 pub use check::{check, known_quantities};
 pub use contact::Contact;
 pub use domain::{BoundaryCondition, DomainSpec, Geometry, TimeFunction};
 pub use fluid::{Fluid, Model};
 pub use geometry::opposite;
-pub use mesh::{MeshSettings, RefinementBox};
+pub use mesh::{MeshEquation, MeshSettings, MovingMesh, RefinementBox};
 pub use nearest::nearest;
 pub use numbers::{DerivedNumber, derived_numbers, geometry_name, number_table, significant};
 pub use output::{Cadence, Output, Precision, Probe};
@@ -40,7 +40,7 @@ pub use read::CaseFile;
 pub use reference::{Numbers, Reference, Scales, Statistic, Statistics, Variant};
 pub use schema::schema;
 pub use source::Place;
-pub use time::{Convection, Initial, Scheme, Steady, TimeSettings, Unsteady};
+pub use time::{Adaptive, Convection, Initial, Scheme, Steady, TimeSettings, Unsteady};
 
 /// A problem to solve: what one case file declares, after `extends`, variants and `--set`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -69,9 +69,8 @@ pub struct Case {
     /// The bodies in the fluid.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub body: Vec<Body>,
-    /// Forces that keep bodies apart. Not read from files yet: there is nothing they would do
-    /// before bodies travel through the mesh.
-    #[serde(skip)]
+    /// Forces that keep bodies apart from each other and from walls.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub contact: Option<Contact>,
     /// Cell sizes.
     pub mesh: MeshSettings,

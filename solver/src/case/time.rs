@@ -29,7 +29,7 @@ pub struct Steady {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Unsteady {
-    /// Step (s).
+    /// Step (s); the first one where steps are adaptive.
     pub step: f64,
     /// End (s).
     pub end: f64,
@@ -42,6 +42,30 @@ pub struct Unsteady {
     /// Where the run starts.
     #[serde(default)]
     pub initial: Initial,
+    /// Steps chosen by the error they make; fixed steps if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub adaptive: Option<Adaptive>,
+}
+
+/// `[time.unsteady.adaptive]`: steps as long as the error of a step, the mesh and the gaps allow.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Adaptive {
+    /// Largest error of one step, relative to the size of the velocities (1).
+    #[serde(default = "default_step_tolerance")]
+    pub tolerance: f64,
+    /// Largest step (s); a tenth of the run if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub largest: Option<f64>,
+    /// Smallest step (s), below which the run fails; a millionth of `step` if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub smallest: Option<f64>,
+    /// Cells the fluid may cross in a step (1).
+    #[serde(default = "default_cfl")]
+    pub cfl: f64,
+    /// Part of a gap that may close or open in a step (1).
+    #[serde(default = "default_gap_part")]
+    pub gap: f64,
 }
 
 /// Time scheme.
@@ -75,6 +99,18 @@ pub enum Initial {
     Rest,
     /// The Stokes flow of the boundary values at time zero.
     Stokes,
+}
+
+fn default_step_tolerance() -> f64 {
+    1e-3
+}
+
+fn default_cfl() -> f64 {
+    4.0
+}
+
+fn default_gap_part() -> f64 {
+    0.3
 }
 
 fn default_tolerance() -> f64 {

@@ -13,8 +13,18 @@ use super::source::{Origin, Source};
 /// Tables that hold exactly one of several alternatives.
 ///
 /// Where two texts name different alternatives, the later one replaces the earlier one whole.
-pub const CHOICES: [&str; 8] =
-    ["domain", "time", "shape", "motion", "gait", "factor", "fields", "series"];
+pub const CHOICES: [&str; 10] = [
+    "domain",
+    "time",
+    "shape",
+    "motion",
+    "gait",
+    "contact",
+    "factor",
+    "load_factor",
+    "fields",
+    "series",
+];
 
 /// A value and where it is written.
 #[derive(Debug, Clone, PartialEq)]

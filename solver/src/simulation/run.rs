@@ -256,6 +256,7 @@ mod tests {
             scheme: Scheme::Bdf2,
             convection: Convection::Extrapolated,
             initial: Initial::Rest,
+            adaptive: None,
         };
         assert_eq!(count_steps(&settings), 10);
         let pieces: Vec<f64> = (0..10).flat_map(|index| step_pieces(&settings, index)).collect();

@@ -63,10 +63,4 @@ motion = 'held'
         refused(barrier(-0.03, 10.0), "contact.barrier.range", "-0.03");
         refused(barrier(0.03, 0.0), "contact.barrier.stiffness", "0");
     }
-
-    #[test]
-    fn a_case_cannot_ask_for_contact_before_bodies_travel() {
-        let text = format!("{CASE}\n[contact.barrier]\nrange = 0.03\nstiffness = 10.0\n");
-        assert!(Case::parse("t.toml", &text, &[]).is_err());
-    }
 }

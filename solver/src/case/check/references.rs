@@ -26,11 +26,17 @@ const OF_A_BODY: [&str; 15] = [
 /// What is measured on every body besides, when there are `[scales]`.
 const COEFFICIENTS: [&str; 3] = ["drag_coefficient", "lift_coefficient", "moment_coefficient"];
 
+/// What is measured on every body besides, when there is `[contact]`.
+const OF_CONTACT: [&str; 3] = ["contact_force.x", "contact_force.y", "contact_torque"];
+
 /// What is measured at every probe.
 const OF_A_PROBE: [&str; 3] = ["velocity.x", "velocity.y", "pressure"];
 
 /// What is measured on the flow.
 const OF_THE_FLOW: [&str; 3] = ["dissipation", "kinetic_energy", "mass_defect"];
+
+/// What is measured besides, when the mesh moves.
+const OF_A_MOVING_MESH: [&str; 3] = ["least_gap", "cells", "remeshes"];
 
 /// Names of all quantities of a run: the columns of `series.csv` after `time`.
 #[must_use]
@@ -44,11 +50,17 @@ pub fn known_quantities(case: &Case) -> Vec<String> {
         if case.has_coefficients() {
             add(&body.name, &COEFFICIENTS);
         }
+        if case.contact.is_some() {
+            add(&body.name, &OF_CONTACT);
+        }
     }
     for probe in &case.probe {
         add(&probe.name, &OF_A_PROBE);
     }
     add("flow", &OF_THE_FLOW);
+    if case.mesh_moves() {
+        add("flow", &OF_A_MOVING_MESH);
+    }
     names
 }
 

@@ -1,7 +1,7 @@
-//! Problems of `[time]`, and motions that would need a moving mesh.
+//! Problems of `[time]`.
 
 use super::Findings;
-use crate::case::{Body, Geometry, Lock, Model, Motion, ShapeSpec, TimeSettings};
+use crate::case::{Model, TimeSettings};
 
 /// Distance of end / step from a whole number above which the last step is not a whole one.
 const WHOLE_STEPS: f64 = 1e-6;
@@ -53,69 +53,7 @@ pub fn check(findings: &mut Findings<'_>) {
                     &format!("write step = {}", unsteady.end / steps.ceil()),
                 );
             }
-            for (index, body) in case.body.iter().enumerate() {
-                check_mesh_stays(findings, index, body);
-            }
         }
-    }
-}
-
-/// Whether a body may change its place.
-fn translates(body: &Body) -> bool {
-    match &body.motion {
-        Motion::Held => false,
-        Motion::Free => ![Lock::X, Lock::Y].iter().all(|lock| body.locked.contains(lock)),
-        Motion::Imposed(imposed) => imposed.velocity.iter().any(|part| *part != 0.0),
-    }
-}
-
-/// Whether a body may turn, and would look different then.
-fn turns_visibly(body: &Body, geometry: Geometry) -> bool {
-    let turns = match &body.motion {
-        Motion::Held => false,
-        Motion::Free => !body.locked.contains(&Lock::Rotation),
-        Motion::Imposed(imposed) => imposed.angular_velocity != 0.0,
-    };
-    turns && geometry == Geometry::Planar && !matches!(body.shape, ShapeSpec::Disc { .. })
-}
-
-/// The mesh is made once: until it can follow the bodies, the frame of reference has to.
-fn check_mesh_stays(findings: &mut Findings<'_>, index: usize, body: &Body) {
-    let case = findings.case();
-    let (key, name) = (format!("body.{index}.motion"), &body.name);
-    let is_frame = case.frame.as_deref() == Some(name.as_str());
-    if translates(body) && !is_frame {
-        findings.error(
-            &key,
-            format!(
-                "body \"{name}\" moves through the mesh: moving meshes are not there yet for \
-                 unsteady runs"
-            ),
-            &format!("let the frame of reference travel with it: frame = \"{name}\" at the top"),
-        );
-    }
-    if turns_visibly(body, case.geometry) {
-        findings.error(
-            &key,
-            format!(
-                "body \"{name}\" turns and is not a disc: moving meshes are not there yet for \
-                 unsteady runs"
-            ),
-            "lock it with locked = [\"rotation\"], make it a disc, or solve for one instant with \
-             [time.steady]",
-        );
-    }
-    let frame_moves =
-        case.body.iter().any(|other| Some(&other.name) == case.frame.as_ref() && translates(other));
-    if frame_moves && !is_frame && !translates(body) {
-        findings.error(
-            &key,
-            format!(
-                "body \"{name}\" stays behind while the frame of reference travels: moving meshes \
-                 are not there yet for unsteady runs"
-            ),
-            "only one body can be in an unsteady run whose frame travels",
-        );
     }
 }
 
@@ -123,7 +61,7 @@ fn check_mesh_stays(findings: &mut Findings<'_>, index: usize, body: &Body) {
 fn steady_frame(findings: &mut Findings<'_>) {
     let case = findings.case();
     for (index, body) in case.body.iter().enumerate() {
-        if translates(body) && case.frame.as_deref() != Some(body.name.as_str()) {
+        if body.translates() && case.frame.as_deref() != Some(body.name.as_str()) {
             findings.warning(
                 &format!("body.{index}.motion"),
                 format!("a flow with inertia around the travelling body \"{}\" is steady only as seen from it", body.name),
