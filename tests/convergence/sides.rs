@@ -2,7 +2,7 @@
 
 use alewife::case::{Convection, Steady};
 use alewife::coupling::{FluidSystem, Side};
-use alewife::simulation::{State, Timing, advance, solve_steady};
+use alewife::simulation::{March, MeshPath, State, Timing, solve_steady};
 use alewife::time::Bdf;
 use alewife_mesh::{Domain, Point, Sizing, generate};
 use tests::cases::{case, last, run};
@@ -32,10 +32,10 @@ fn decaying_vortices_in_a_doubly_periodic_box_converge_at_third_order() {
         state.previous.velocity = at(-step);
         let bdf = Bdf::second_order(step, step);
         let mut timing = Timing::default();
+        let choice = Convection::Extrapolated;
+        let march = March { problem: &problem, choice, path: MeshPath::Still, contact: None };
         for _ in 0..10 {
-            let choice = Convection::Extrapolated;
-            advance(&mut system, &problem, &mut state, &bdf, choice, &mut timing)
-                .expect("the step is solved");
+            march.advance(&mut system, &mut state, &bdf, &mut timing).expect("the step is solved");
         }
         errors(&mesh, &state.now, &exact, state.time, false).velocity
     });

@@ -2,7 +2,7 @@
 
 use alewife::case::Convection;
 use alewife::coupling::FluidSystem;
-use alewife::simulation::{State, Timing, advance};
+use alewife::simulation::{March, MeshPath, State, Timing};
 use alewife::time::Bdf;
 use alewife_mesh::{Domain, Mesh, Point, Sizing, generate};
 use tests::exact::{Exact, TaylorGreen};
@@ -32,9 +32,9 @@ fn run(mesh: &Mesh<2>, n_steps: usize, second_order: bool, choice: Convection) -
     state.previous.velocity = at(-step);
     let bdf = if second_order { Bdf::second_order(step, step) } else { Bdf::first_order(step) };
     let mut timing = Timing::default();
+    let march = March { problem: &problem, choice, path: MeshPath::Still, contact: None };
     for _ in 0..n_steps {
-        advance(&mut system, &problem, &mut state, &bdf, choice, &mut timing)
-            .expect("the step is solved");
+        march.advance(&mut system, &mut state, &bdf, &mut timing).expect("the step is solved");
     }
     state.now.velocity
 }

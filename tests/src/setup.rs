@@ -46,7 +46,10 @@ pub fn fluid_only(
             drives: [0, 1, 2].map(|_| Drive::Given(Box::new(|_| 0.0))),
             mass: 0.0,
             inertia: 0.0,
-            external: Wrench::default(),
+            weight: Wrench::default(),
+            load: Wrench::default(),
+            load_factor: None,
+            spring: None,
             gait: None,
         })
     });

@@ -76,11 +76,13 @@ impl From<CaseError> for Failure {
 /// The code a stopped run ends with.
 pub fn exit_of(error: &RunError) -> Exit {
     match error {
-        RunError::NewtonStalled { .. } | RunError::NotFinite { .. } | RunError::Singular { .. } => {
-            Exit::Diverged
-        }
+        RunError::NewtonStalled { .. }
+        | RunError::Stuck { .. }
+        | RunError::Contact { .. }
+        | RunError::NotFinite { .. }
+        | RunError::Singular { .. } => Exit::Diverged,
         RunError::Unsupported(_) | RunError::TooLarge { .. } => Exit::BadCase,
-        RunError::Mesh(_) => Exit::Mesh,
+        RunError::Mesh(_) | RunError::Remesh { .. } => Exit::Mesh,
         RunError::Output(_) => Exit::InputOutput,
         RunError::Stopped { .. } => Exit::Stopped,
     }

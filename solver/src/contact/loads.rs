@@ -25,6 +25,12 @@ pub struct ContactLoads {
 }
 
 impl ContactLoads {
+    /// No contact at all.
+    #[must_use]
+    pub fn none(n_bodies: usize) -> Self {
+        Self { wrenches: vec![Wrench::default(); n_bodies], ..Self::default() }
+    }
+
     /// Loads of a law with bodies at `places`.
     #[must_use]
     pub fn new(surfaces: &Surfaces, law: &Law, places: &[Place]) -> Self {

@@ -5,7 +5,7 @@
 
 use alewife_mesh::{BoundaryKind, Facet, Mesh};
 
-use super::problem::{Drive, Problem, Side};
+use super::problem::{Drive, Problem};
 use crate::algebra::{AffineConstraints, ConstraintBuilder};
 use crate::body::Pose;
 use crate::space::DofLayout;
@@ -143,22 +143,13 @@ fn constrain_node(
         }
         return;
     }
-    let given = |walls: bool| {
-        boundaries.iter().find_map(|&boundary| match &problem.sides[boundary] {
-            Some(Side::Velocity { profile, is_wall }) if *is_wall == walls => Some(profile),
-            _ => None,
-        })
-    };
-    if let Some(profile) = given(true).or_else(|| given(false)) {
-        let velocity = profile(&place, time);
+    if let Some(velocity) = problem.given_velocity(boundaries, &place, time) {
         for axis in 0..2 {
             builder.constrain(layout.velocity(node, axis), vec![], velocity[axis]);
         }
         return;
     }
-    for &boundary in boundaries {
-        if let Some(Side::Symmetry { normal_axis }) = problem.sides[boundary] {
-            builder.constrain(layout.velocity(node, normal_axis), vec![], 0.0);
-        }
+    for normal_axis in problem.symmetry_axes(boundaries) {
+        builder.constrain(layout.velocity(node, normal_axis), vec![], 0.0);
     }
 }

@@ -10,7 +10,7 @@ mod system;
 pub use constrain::NodeSides;
 pub use divergence_free::DivergenceFree;
 pub use loads::{BodyLoads, body_loads};
-pub use problem::{Drive, Problem, RigidBody, Side, TimeValue, VelocityProfile};
+pub use problem::{Drive, Problem, RigidBody, Side, Spring, TimeValue, VelocityProfile};
 pub use surface_load::surface_load;
 pub use system::{FluidSystem, Levels, Solution, SolveError, embed, flatten, memory_estimate};
 

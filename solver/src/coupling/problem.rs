@@ -49,7 +49,7 @@ pub struct RigidBody {
     pub name: String,
     /// Its boundary in the mesh.
     pub boundary: usize,
-    /// Pose at time zero.
+    /// Pose at time zero, the angle within (-pi, pi].
     pub pose: Pose,
     /// U_x, U_y, omega.
     pub drives: [Drive; 3],
@@ -57,13 +57,42 @@ pub struct RigidBody {
     pub mass: f64,
     /// Moment of inertia about z through the centre of mass (kg m2; kg m planar).
     pub inertia: f64,
-    /// External load, weight less buoyancy included.
-    pub external: Wrench,
+    /// Weight less buoyancy.
+    pub weight: Wrench,
+    /// External load besides, at the time its factor is one.
+    pub load: Wrench,
+    /// Factor of the external load in time.
+    pub load_factor: Option<TimeValue>,
+    /// Spring and damper.
+    pub spring: Option<Spring>,
     /// Surface motion.
     pub gait: Option<Box<dyn Gait>>,
 }
 
+/// A linear spring and damper between a body and a place; entries for x, y and the turn.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Spring {
+    /// Force per way (N/m), torque per angle (N m/rad).
+    pub stiffness: [f64; 3],
+    /// Force per velocity (N s/m), torque per angular velocity (N m s/rad).
+    pub damping: [f64; 3],
+    /// Where it is at rest (m, m, rad).
+    pub rest: [f64; 3],
+}
+
 impl RigidBody {
+    /// Force along x and y (N) and torque (N m) from outside, fluid, springs and contact left out.
+    #[must_use]
+    pub fn external(&self, time: f64) -> [f64; 3] {
+        let factor = self.load_factor.as_ref().map_or(1.0, |factor| factor(time));
+        let (weight, load) = (&self.weight, &self.load);
+        [
+            weight.force.x + factor * load.force.x,
+            weight.force.y + factor * load.force.y,
+            weight.torque.z + factor * load.torque.z,
+        ]
+    }
+
     /// Velocity of the surface relative to the rigid motion, in the world (m/s), at a world
     /// point of the plane.
     #[must_use]
@@ -107,6 +136,32 @@ impl Problem {
             .iter()
             .flatten()
             .any(|side| matches!(side, Side::DoNothing | Side::TractionFree))
+    }
+
+    /// The velocity given at a place (m, s) on these boundaries, bodies left out; a wall's value
+    /// counts where boundaries meet.
+    #[must_use]
+    pub fn given_velocity(
+        &self,
+        boundaries: &[usize],
+        place: &Point<2>,
+        time: f64,
+    ) -> Option<Point<2>> {
+        let given = |walls: bool| {
+            boundaries.iter().find_map(|&boundary| match &self.sides[boundary] {
+                Some(Side::Velocity { profile, is_wall }) if *is_wall == walls => Some(profile),
+                _ => None,
+            })
+        };
+        given(true).or_else(|| given(false)).map(|profile| profile(place, time))
+    }
+
+    /// Coordinates along which there is no velocity on these boundaries by symmetry.
+    pub fn symmetry_axes(&self, boundaries: &[usize]) -> impl Iterator<Item = usize> {
+        boundaries.iter().filter_map(|&boundary| match self.sides[boundary] {
+            Some(Side::Symmetry { normal_axis }) => Some(normal_axis),
+            _ => None,
+        })
     }
 
     /// Boundaries with the do-nothing condition.

@@ -6,6 +6,7 @@
 //! instability at any density ratio.
 
 use alewife_mesh::{Mesh, Point};
+use nalgebra::DMatrix;
 use thiserror::Error;
 
 use super::constrain::{NodeSides, constrain};
@@ -85,13 +86,27 @@ pub fn embed(layout: &DofLayout<2>, raw: &[f64]) -> Solution {
     solution
 }
 
-/// Time derivative of the bodies' velocities: rate * new value + older part.
+/// What Newton's and Euler's equations of the bodies are at one time: with V one of U_x, U_y, omega,
+/// inertia * (rate * V + history) + resistance * V = fluid + external.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Levels {
-    /// Factor of the new value (1/s), 0 when steady.
+    /// Factor of the new value in its time derivative (1/s), 0 when steady.
     pub rate: f64,
-    /// Older part of U_x, U_y, omega for each body (m/s2, rad/s2).
+    /// Older part of the time derivative for each body (m/s2, rad/s2); none when steady.
     pub history: Vec<[f64; 3]>,
+    /// Load per velocity of each body (N s/m, N m s/rad); none without springs.
+    pub resistance: Vec<[f64; 3]>,
+    /// Load from outside on each body (N, N m).
+    pub external: Vec<[f64; 3]>,
+}
+
+impl Levels {
+    /// Bodies without acceleration, under the loads of a time.
+    #[must_use]
+    pub fn steady(problem: &Problem, time: f64) -> Self {
+        let external = problem.bodies.iter().map(|body| body.external(time)).collect();
+        Self { external, ..Self::default() }
+    }
 }
 
 /// Pattern, factorisation and workspace for the systems on one mesh.
@@ -205,13 +220,13 @@ impl FluidSystem {
         for (body, rigid) in problem.bodies.iter().enumerate() {
             let twist = &solution.twists[body];
             let rates = [twist.linear.x, twist.linear.y, twist.angular.z];
-            let external =
-                [rigid.external.force.x, rigid.external.force.y, rigid.external.torque.z];
             let inertia = [rigid.mass, rigid.mass, rigid.inertia];
             for mode in 0..3 {
-                let older = levels.history.get(body).map_or(0.0, |history| history[mode]);
-                raw[self.layout.rigid(body, mode)] +=
-                    inertia[mode] * (levels.rate * rates[mode] + older) - external[mode];
+                let of = |values: &[[f64; 3]]| values.get(body).map_or(0.0, |value| value[mode]);
+                raw[self.layout.rigid(body, mode)] += inertia[mode]
+                    * (levels.rate * rates[mode] + of(&levels.history))
+                    + of(&levels.resistance) * rates[mode]
+                    - of(&levels.external);
             }
         }
         constraints.restrict(&raw)
@@ -338,10 +353,97 @@ impl FluidSystem {
                 let unknown = constraints.unknown(self.layout.rigid(body, mode));
                 let (Drive::Free, Some(unknown)) = (&rigid.drives[mode], unknown) else { continue };
                 if let Some(position) = self.pattern.position(unknown, unknown) {
-                    self.values[position] += inertia * levels.rate;
+                    let resistance = levels.resistance.get(body).map_or(0.0, |all| all[mode]);
+                    self.values[position] += inertia * levels.rate + resistance;
                 }
             }
         }
+    }
+
+    /// Takes note that the mesh has moved.
+    pub fn move_to(&mut self, problem: &Problem, mesh: &Mesh<2>) {
+        if problem.is_enclosed() {
+            self.pressure_weights = pressure_weights(mesh, self.assembly.tables());
+        }
+    }
+
+    /// Velocities (m/s, rad/s) of some bodies by unit force along x, along y and unit torque on each
+    /// of them, with the matrix last assembled: 3 n x 3 n, zero for motions that are given.
+    ///
+    /// # Errors
+    /// When the matrix is singular.
+    pub fn mobility(
+        &mut self,
+        constraints: &AffineConstraints,
+        bodies: &[usize],
+        timing: &mut Timing,
+    ) -> Result<DMatrix<f64>, SolveError> {
+        let n = self.n_unknowns;
+        let modes = bodies.iter().flat_map(|&body| [0, 1, 2].map(|mode| (body, mode)));
+        let rows: Vec<Option<usize>> =
+            modes.map(|(body, mode)| constraints.unknown(self.layout.rigid(body, mode))).collect();
+        let free: Vec<usize> = rows.iter().flatten().copied().collect();
+        let mut columns = vec![0.0; n * free.len()];
+        for (nth, unknown) in free.iter().enumerate() {
+            columns[nth * n + unknown] = 1.0;
+        }
+        let solver = self.factorised(timing)?;
+        timing.measure(Stage::Solve, || solver.solve_many(&mut columns));
+        let mut mobility = DMatrix::zeros(rows.len(), rows.len());
+        let columns =
+            rows.iter().enumerate().filter(|(_, row)| row.is_some()).zip(columns.chunks(n));
+        for ((column, _), values) in columns {
+            for (row, unknown) in rows.iter().enumerate() {
+                mobility[(row, column)] = unknown.map_or(0.0, |unknown| values[unknown]);
+            }
+        }
+        Ok(mobility)
+    }
+
+    /// Adds to a solution what further loads (N, N, N m) on some bodies change, with the matrix last
+    /// assembled.
+    ///
+    /// # Errors
+    /// When the matrix is singular.
+    pub fn respond(
+        &mut self,
+        constraints: &AffineConstraints,
+        loads: &[(usize, [f64; 3])],
+        solution: &mut Solution,
+        timing: &mut Timing,
+    ) -> Result<(), SolveError> {
+        let mut change = vec![0.0; self.n_unknowns];
+        for &(body, load) in loads {
+            for (mode, load) in load.into_iter().enumerate() {
+                if let Some(unknown) = constraints.unknown(self.layout.rigid(body, mode)) {
+                    change[unknown] = load;
+                }
+            }
+        }
+        self.factorised(timing)?;
+        let (pattern, values) = (&self.pattern, &self.values);
+        if let Some(solver) = &mut self.solver {
+            timing
+                .measure(Stage::Solve, || solver.solve(pattern, values, &mut change))
+                .map_err(|error| SolveError::Singular(error.to_string()))?;
+        }
+        let mut free = constraints.pick(&flatten(solution));
+        free.iter_mut().zip(&change).for_each(|(value, change)| *value += change);
+        *solution = embed(&self.layout, &constraints.expand(&free));
+        Ok(())
+    }
+
+    /// The solver with factors of the matrix last assembled.
+    fn factorised(&mut self, timing: &mut Timing) -> Result<&mut DirectSolver, SolveError> {
+        let (pattern, values) = (&self.pattern, &self.values);
+        timing.measure(Stage::Factorisation, || {
+            let solver =
+                self.solver.get_or_insert_with(|| DirectSolver::analyse(pattern, &self.unknowns));
+            solver
+                .factorise(pattern, values)
+                .map(|()| solver)
+                .map_err(|error| SolveError::Singular(error.to_string()))
+        })
     }
 
     /// Shifts the pressure of an enclosed flow to zero mean.

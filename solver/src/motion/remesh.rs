@@ -91,6 +91,12 @@ impl Fresh {
             .collect();
         Self { quality, layers, limits }
     }
+
+    /// Lowest quality of a cell.
+    #[must_use]
+    pub fn lowest(&self) -> f64 {
+        self.quality.iter().copied().fold(f64::INFINITY, f64::min)
+    }
 }
 
 /// Whether a mesh that has moved since it was `fresh` must be made anew, and the worst reason:

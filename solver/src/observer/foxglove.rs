@@ -108,6 +108,7 @@ impl Kind {
                 ("twist", object(&[("linear", vector()), ("angular", vector())])),
                 ("load", wrench()),
                 ("surface_load", wrench()),
+                ("contact", wrench()),
                 ("power", number()),
             ]),
         };
@@ -213,6 +214,7 @@ pub fn body(report: &BodyReport, step: usize, time: f64) -> Value {
         "twist": {"linear": vector(linear), "angular": vector(angular)},
         "load": wrench(&report.load),
         "surface_load": wrench(&report.surface_load),
+        "contact": wrench(&report.contact),
         "power": report.power,
     })
 }

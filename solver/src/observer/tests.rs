@@ -103,6 +103,7 @@ impl Run {
             twist: Twist { linear: Vector3::new(0.3, 0.0, 0.0), angular: Vector3::z() * 0.1 },
             load: Wrench::default(),
             surface_load: Wrench::default(),
+            contact: Wrench::default(),
             power: 0.25,
         }];
         let snapshot = Snapshot {

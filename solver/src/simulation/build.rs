@@ -2,16 +2,19 @@
 
 use std::f64::consts::PI;
 
-use alewife_mesh::{BoundaryKind, Mesh, Point, SecondMoments, SizeBox, Sizing, generate};
+use alewife_mesh::{
+    BoundaryKind, Mesh, PlacedShape, Point, SecondMoments, SizeBox, Sizing, generate,
+};
 use nalgebra::Vector3;
 
 use super::RunError;
 use crate::body::{Pose, Wrench};
 use crate::case::{
-    Body, BoundaryCondition, Case, DomainSpec, Gait as GaitSpec, Geometry, Lock, Model, Motion,
-    ShapeSpec, TimeFunction,
+    Body, BoundaryCondition, Case, Contact, DomainSpec, Gait as GaitSpec, Geometry, Lock, Model,
+    Motion, ShapeSpec, TimeFunction,
 };
-use crate::coupling::{Drive, Problem, RigidBody, Side, TimeValue, VelocityProfile};
+use crate::contact::{Law, LawKind};
+use crate::coupling::{Drive, Problem, RigidBody, Side, Spring, TimeValue, VelocityProfile};
 use crate::gait::{Gait, Squirmer};
 use crate::time::factor_at;
 
@@ -20,9 +23,22 @@ use crate::time::factor_at;
 /// # Errors
 /// When a body does not fit, or the mesh cannot be made.
 pub fn build_mesh(case: &Case) -> Result<Mesh<2>, RunError> {
-    let bodies: Vec<_> = case.body.iter().map(|body| body.placed(case.mesh.scale)).collect();
-    generate(&case.mesh_domain(), &bodies, &sizing(case))
+    generate(&case.mesh_domain(), &placed_bodies(case), &sizing(case))
         .map_err(|error| RunError::Mesh(error.to_string()))
+}
+
+/// The bodies of a case as they are meshed at time zero.
+pub(super) fn placed_bodies(case: &Case) -> Vec<PlacedShape> {
+    case.body.iter().map(|body| body.placed(case.mesh.scale)).collect()
+}
+
+/// The law of contact a case asks for.
+pub(super) fn contact_law(contact: &Contact) -> Result<Law, RunError> {
+    let (kind, range) = match *contact {
+        Contact::Quadratic { range, epsilon } => (LawKind::Quadratic { epsilon }, range),
+        Contact::Barrier { range, stiffness } => (LawKind::Barrier { stiffness }, range),
+    };
+    Law::new(kind, range).map_err(|error| RunError::Unsupported(error.to_string()))
 }
 
 /// Angle by which an outline turns along one edge at most (rad), however large its size.
@@ -179,8 +195,8 @@ fn rigid_body(
     // Weight less buoyancy: the pressure is the one without its hydrostatic part.
     let net_mass = (density - case.fluid.density) * moments.measure;
     let along = |values: &[f64], axis: usize| values.get(axis).copied().unwrap_or(0.0);
-    let force =
-        [0, 1].map(|axis| along(&body.force, axis) + net_mass * along(&case.fluid.gravity, axis));
+    let force = [0, 1].map(|axis| along(&body.force, axis));
+    let weight = [0, 1].map(|axis| net_mass * along(&case.fluid.gravity, axis));
     let locked = |mode: usize| {
         let lock = [Lock::X, Lock::Y, Lock::Rotation][mode];
         body.locked.contains(&lock) || (axisymmetric && mode > 0)
@@ -214,17 +230,33 @@ fn rigid_body(
             }))
         }
     };
+    let center = Point::<2>::new(body.center[0] + offset[0], body.center[1] + offset[1]);
+    let pose = Pose::planar(center.x, center.y, body.angle);
     Ok(RigidBody {
         name: body.name.clone(),
         boundary,
-        pose: Pose::planar(body.center[0] + offset[0], body.center[1] + offset[1], body.angle),
+        pose,
         drives,
         mass: if has_inertia { density * moments.measure } else { 0.0 },
         inertia: if has_inertia { density * second_moment } else { 0.0 },
-        external: Wrench {
+        weight: Wrench { force: Vector3::new(weight[0], weight[1], 0.0), torque: Vector3::zeros() },
+        load: Wrench {
             force: Vector3::new(force[0], force[1], 0.0),
             torque: Vector3::new(0.0, 0.0, body.torque),
         },
+        load_factor: body
+            .load_factor
+            .clone()
+            .map(|factor| -> TimeValue { Box::new(move |time| factor_at(Some(&factor), time)) }),
+        spring: body.spring.as_ref().map(|spring| Spring {
+            stiffness: [along(&spring.stiffness, 0), along(&spring.stiffness, 1), spring.torsion],
+            damping: [along(&spring.damping, 0), along(&spring.damping, 1), spring.torsion_damping],
+            rest: [
+                spring.anchor.first().copied().unwrap_or(center.x),
+                spring.anchor.get(1).copied().unwrap_or(center.y),
+                spring.rest_angle.unwrap_or_else(|| pose.angle()),
+            ],
+        }),
         gait,
     })
 }

@@ -3,7 +3,41 @@
 use alewife_mesh::Point;
 use thiserror::Error;
 
+use crate::contact::ContactError;
 use crate::coupling::SolveError;
+
+/// Why a step was not made. A new mesh or a shorter step may help where it is not `Run`.
+#[derive(Debug, Error)]
+pub enum StepError {
+    /// Neither would help.
+    #[error(transparent)]
+    Run(#[from] RunError),
+    /// A cell is inverted, or nearly so, where the bodies go.
+    #[error("the mesh folds at ({:.6e}, {:.6e}): a cell has quality {quality:.2e}", .place[0], .place[1])]
+    Mesh {
+        /// Centre of the cell (m).
+        place: Point<2>,
+        /// Its quality.
+        quality: f64,
+    },
+    /// No contact forces were found.
+    #[error(transparent)]
+    Contact(#[from] ContactError),
+    /// The step is too long for the accuracy asked for.
+    #[error("the error of the step is {error:.2e}, and {tolerance:.2e} is accepted")]
+    Inexact {
+        /// Estimate of the error, relative to the velocities.
+        error: f64,
+        /// What is accepted.
+        tolerance: f64,
+    },
+    /// Places of bodies and flow do not come to agree.
+    #[error("bodies are not where the flow was solved for after {passes} passes")]
+    Unsettled {
+        /// Passes made.
+        passes: usize,
+    },
+}
 
 /// Every way a run can stop before its end.
 #[derive(Debug, Error)]
@@ -68,6 +102,41 @@ pub enum RunError {
     /// A request the solver cannot meet (a case that `check` should have refused).
     #[error("{0}")]
     Unsupported(String),
+    /// No shorter step helps.
+    #[error(
+        "step {step} (t = {time}): {reason}, with steps down to {smallest:.3e}; \
+         the last state is in failure/: look at it there"
+    )]
+    Stuck {
+        /// Step.
+        step: usize,
+        /// Time (s).
+        time: f64,
+        /// The smallest step tried (s).
+        smallest: f64,
+        /// What went wrong in it.
+        reason: String,
+    },
+    /// The mesh could not be made anew.
+    #[error("step {step} (t = {time}): the mesh cannot be made anew: {reason}")]
+    Remesh {
+        /// Step.
+        step: usize,
+        /// Time (s).
+        time: f64,
+        /// Which body, and why.
+        reason: String,
+    },
+    /// Contact cannot be solved for.
+    #[error("step {step} (t = {time}): {reason}")]
+    Contact {
+        /// Step.
+        step: usize,
+        /// Time (s).
+        time: f64,
+        /// Which bodies, and why.
+        reason: ContactError,
+    },
     /// The mesh could not be made.
     #[error("mesh: {0}")]
     Mesh(String),

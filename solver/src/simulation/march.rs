@@ -1,17 +1,26 @@
 //! One time step: BDF for fluid and bodies together, convection extrapolated or by Newton.
 //!
-//! The mesh may travel with a body as a whole (`frame`): then w is the frame's velocity, and the
-//! unknown stays the velocity seen from the laboratory, so that no inertial force appears.
+//! Where bodies will be is predicted to second order, the mesh follows them there, and fluid, bodies
+//! and contact are solved for on it. The velocities that come out tell where the bodies get to; where
+//! that is elsewhere by more than a trifle, the step is solved again there.
+//!
+//! The mesh velocity w is the backward difference of the places of the nodes, the same as for the
+//! flow: a uniform flow stays uniform, and w is the velocity of a body on its surface. The mesh may
+//! also travel with a body as a whole (`frame`); the unknown stays the velocity seen from the
+//! laboratory, so that no inertial force appears.
 
 use alewife_mesh::Point;
 use nalgebra::Vector3;
 
-use super::state::State;
-use super::{RunError, Stage, Timing};
-use crate::body::{Pose, Twist};
+use super::follow::Follower;
+use super::state::{State, pose_at};
+use super::{RunError, Stage, StepError, Timing};
+use crate::algebra::AffineConstraints;
+use crate::body::Twist;
 use crate::case::Convection as ConvectionChoice;
+use crate::contact::{ContactLoads, ContactStep, Law, Place};
 use crate::coupling::{
-    FluidSystem, Levels, Problem, Solution, SolveError, embed, flatten, newton_convection,
+    Drive, FluidSystem, Levels, Problem, Solution, SolveError, embed, flatten, newton_convection,
 };
 use crate::flow::{Convection, FlowTerms};
 use crate::time::Bdf;
@@ -22,6 +31,36 @@ const MAX_ITERATIONS: usize = 20;
 const TOLERANCE: f64 = 1e-10;
 /// Residuals relative to the first that count as rounding once they stop falling.
 const ROUNDING: f64 = 1e-7;
+/// Most times a step is solved until the bodies are where the flow was solved for.
+const MAX_PASSES: usize = 12;
+/// Part of the smallest gap that is left at least when bodies are put nearer to each other.
+const KEPT_GAP: f64 = 0.5;
+/// Contact is looked for where bodies may get to with this times their way.
+const CONTACT_MARGIN: f64 = 2.0;
+
+/// How the nodes of the mesh move, seen from the frame.
+#[derive(Clone, Copy)]
+pub enum MeshPath<'a> {
+    /// Not at all.
+    Still,
+    /// To given places (m) of nodes at a time (s).
+    Given(&'a (dyn Fn(usize, f64) -> Point<2> + Sync)),
+    /// After the bodies.
+    Bodies(&'a Follower),
+}
+
+/// What stays the same from step to step while the mesh lasts.
+#[derive(Clone, Copy)]
+pub struct March<'a> {
+    /// What is solved.
+    pub problem: &'a Problem,
+    /// How convection is taken.
+    pub choice: ConvectionChoice,
+    /// How the mesh moves.
+    pub path: MeshPath<'a>,
+    /// The law of contact, if any.
+    pub contact: Option<&'a Law>,
+}
 
 /// What a step leaves for measurements.
 #[derive(Debug, Clone)]
@@ -30,165 +69,531 @@ pub struct StepResult {
     pub residual: Vec<f64>,
     /// Linear systems solved.
     pub iterations: usize,
+    /// Estimate of the error of the step, relative to the size of the velocities; zero for a step of
+    /// first order.
+    pub error: f64,
 }
 
 fn rigid(twist: &Twist) -> [f64; 3] {
     [twist.linear.x, twist.linear.y, twist.angular.z]
 }
 
-/// Advances `state` by the step of `bdf`. On error the state is where it was.
-///
-/// # Errors
-/// When the system is singular, the solution not finite, or Newton's method stalls.
-pub fn advance(
-    system: &mut FluidSystem,
-    problem: &Problem,
-    state: &mut State,
-    bdf: &Bdf,
-    choice: ConvectionChoice,
-    timing: &mut Timing,
-) -> Result<StepResult, RunError> {
-    let time = state.time + bdf.step;
-    let step = state.step + 1;
-    let fail = |error: SolveError| RunError::from_solve(error, step, time);
-
-    // Bodies first: how they will be turned, for the slip that turns with them.
-    let n_bodies = problem.bodies.len();
-    let poses: Vec<Pose> = (0..n_bodies)
-        .map(|body| {
-            let spin = bdf.extrapolate(
-                state.now.twists[body].angular.z,
-                state.previous.twists[body].angular.z,
-            );
-            let angle = bdf.integrate(spin, state.angles[body], state.previous_places[body][2]);
-            let center = &state.poses[body].center;
-            Pose::planar(center.x, center.y, angle)
-        })
-        .collect();
-    let constraints = system.constraints(problem, &state.mesh, &poses, time);
-
-    let pairs = state.now.velocity.iter().zip(&state.previous.velocity);
-    let history: Vec<Point<2>> =
-        pairs.clone().map(|(now, previous)| bdf.history(*now, *previous)).collect();
-    let ahead: Vec<Point<2>> =
-        pairs.map(|(now, previous)| bdf.extrapolate(*now, *previous)).collect();
-    let body_pairs = state.now.twists.iter().zip(&state.previous.twists);
-    let levels = Levels {
-        rate: bdf.next,
-        history: body_pairs
-            .map(|(now, previous)| {
-                let (now, previous) = (rigid(now), rigid(previous));
-                [0, 1, 2].map(|mode| bdf.history(now[mode], previous[mode]))
-            })
-            .collect(),
-    };
-    let frame_of = |solution: &Solution| {
-        problem.frame.map_or(Point::<2>::zeros(), |body| {
-            let linear = &solution.twists[body].linear;
-            Point::<2>::new(linear.x, linear.y)
-        })
-    };
-    let frame_ahead = bdf.extrapolate(frame_of(&state.now), frame_of(&state.previous));
-
-    // Nearer to the new level than the old one: less is left for an iterative solve.
-    let levels_ahead = flatten(&state.now).into_iter().zip(flatten(&state.previous));
-    let raw_ahead: Vec<f64> =
-        levels_ahead.map(|(now, previous)| bdf.extrapolate(now, previous)).collect();
-    let start = constraints.expand(&constraints.pick(&raw_ahead));
-    let mut solution = embed(&system.layout, &start);
-    let newton = choice == ConvectionChoice::Newton && problem.has_convection;
-    let (mut first, mut last) = (0.0, f64::INFINITY);
-    let mut iterations = 0;
-    let residual = loop {
-        let crossing: Vec<Point<2>> = match (problem.has_convection, newton) {
-            (false, _) => Vec::new(),
-            (true, false) => ahead.iter().map(|velocity| velocity - frame_ahead).collect(),
-            (true, true) => {
-                let frame = frame_of(&solution);
-                solution.velocity.iter().map(|velocity| velocity - frame).collect()
-            }
-        };
-        let terms = FlowTerms {
-            viscosity: problem.viscosity,
-            density: problem.density,
-            rate: bdf.next,
-            history: &history,
-            crossing: &crossing,
-            convection: match (problem.has_convection, newton) {
-                (false, _) => Convection::None,
-                (true, false) => Convection::Oseen,
-                (true, true) => newton_convection(problem),
-            },
-            body_force: problem.body_force,
-        };
-        // A linear system is solved once; its second residual is only for the loads.
-        let is_for_loads = !newton && iterations == 1;
-        let stage = if is_for_loads { Stage::Loads } else { Stage::Assembly };
-        let raw = timing.measure(stage, || system.fluid_residual(&state.mesh, &terms, &solution));
-        if is_for_loads {
-            break raw;
-        }
-        let reduced =
-            system.reduced_residual(problem, &constraints, &levels, &solution, raw.clone());
-        let size = reduced.iter().fold(0.0f64, |most, value| most.max(value.abs()));
-        if iterations == 0 {
-            first = size;
-        }
-        let relative = if first > 0.0 { size / first } else { 0.0 };
-        let at_rounding = relative < ROUNDING && relative > 0.3 * last;
-        if iterations > 0 && (relative <= TOLERANCE || at_rounding) {
-            break raw;
-        }
-        if iterations == MAX_ITERATIONS {
-            return Err(RunError::NewtonStalled { step, time, residual: relative, iterations });
-        }
-        last = relative;
-        solution = system
-            .newton_step(
-                problem,
-                &state.mesh,
-                &constraints,
-                &terms,
-                &levels,
-                &solution,
-                &reduced,
-                timing,
-            )
-            .map_err(fail)?;
-        iterations += 1;
-    };
-    system.center_pressure(problem, &mut solution);
-    accept(problem, state, bdf, solution, &levels);
-    Ok(StepResult { residual, iterations })
+/// The older levels of a step, with what follows from them.
+struct Past {
+    time: f64,
+    /// Older part of du/dt at the nodes (m/s2).
+    history: Vec<Point<2>>,
+    /// Velocities at the nodes extrapolated to the new time (m/s).
+    ahead: Vec<Point<2>>,
+    /// All unknowns extrapolated to the new time.
+    raw_ahead: Vec<f64>,
+    levels: Levels,
+    frame_ahead: Point<2>,
 }
 
-/// The one place where a state moves on in time.
-fn accept(problem: &Problem, state: &mut State, bdf: &Bdf, solution: Solution, levels: &Levels) {
-    for body in 0..problem.bodies.len() {
-        let now = state.place(body);
-        let before = state.previous_places[body];
-        let velocity = rigid(&solution.twists[body]);
-        let next = [0, 1, 2].map(|mode| bdf.integrate(velocity[mode], now[mode], before[mode]));
-        let rate = [0, 1, 2].map(|mode| levels.rate * velocity[mode] + levels.history[body][mode]);
-        state.accelerations[body] = Twist {
-            linear: Vector3::new(rate[0], rate[1], 0.0),
-            angular: Vector3::new(0.0, 0.0, rate[2]),
-        };
-        if problem.frame == Some(body) {
-            // The mesh travels with this body as a whole.
-            let shift = Point::<2>::new(next[0] - now[0], next[1] - now[1]);
-            for node in &mut state.mesh.nodes {
-                *node += shift;
+/// A flow on the mesh of one pass.
+struct Flow {
+    solution: Solution,
+    residual: Vec<f64>,
+    iterations: usize,
+}
+
+impl March<'_> {
+    /// Advances `state` by the step of `bdf`. On error the state is where it was.
+    ///
+    /// # Errors
+    /// When the system is singular, the solution not finite, Newton's method stalls, the mesh folds,
+    /// or contact or places of bodies are not found.
+    pub fn advance(
+        &self,
+        system: &mut FluidSystem,
+        state: &mut State,
+        bdf: &Bdf,
+        timing: &mut Timing,
+    ) -> Result<StepResult, StepError> {
+        let result = self.attempt(system, state, bdf, timing);
+        if result.is_err() {
+            let State { nodes, origin, mesh, .. } = &mut *state;
+            lay(&mut mesh.nodes, nodes, origin);
+            system.move_to(self.problem, mesh);
+        }
+        result
+    }
+
+    fn attempt(
+        &self,
+        system: &mut FluidSystem,
+        state: &mut State,
+        bdf: &Bdf,
+        timing: &mut Timing,
+    ) -> Result<StepResult, StepError> {
+        let past = self.past(state, bdf);
+        let time = past.time;
+        let mut from = state.places.clone();
+        let mut to =
+            self.reached(state, bdf, |body, mode| match &self.problem.bodies[body].drives[mode] {
+                Drive::Given(value) => value(time),
+                Drive::Free => bdf.extrapolate(
+                    rigid(&state.now.twists[body])[mode],
+                    rigid(&state.previous.twists[body])[mode],
+                ),
+            });
+        let mut iterations = 0;
+        let mut start: Option<Solution> = None;
+        for _ in 0..MAX_PASSES {
+            let places = self.guarded(state, &from, to);
+            let nodes = self.put(state, &places, time, timing)?;
+            if !matches!(self.path, MeshPath::Still) {
+                system.move_to(self.problem, &state.mesh);
+            }
+            let poses: Vec<_> = state.wrapped(&places).iter().map(pose_at).collect();
+            let constraints = system.constraints(self.problem, &state.mesh, &poses, time);
+            let mesh_velocity: Vec<Point<2>> = match (self.path, self.problem.has_inertia) {
+                (MeshPath::Still, _) | (_, false) => Vec::new(),
+                _ => (0..nodes.len())
+                    .map(|i| bdf.rate(nodes[i], state.nodes[i], state.nodes_before[i]))
+                    .collect(),
+            };
+            let raw = start.as_ref().map_or_else(|| past.raw_ahead.clone(), flatten);
+            let begin = embed(&system.layout, &constraints.expand(&constraints.pick(&raw)));
+            let mut flow =
+                self.solve(system, state, bdf, &past, &constraints, &mesh_velocity, begin, timing)?;
+            iterations += flow.iterations;
+            let mut loads = ContactLoads::none(places.len());
+            if let (MeshPath::Bodies(follower), Some(law)) = (self.path, self.contact) {
+                let contact = Contact { march: self, follower, law, bdf };
+                if let Some(found) = contact.solve(
+                    system,
+                    state,
+                    &places,
+                    &constraints,
+                    &mut flow.solution,
+                    timing,
+                )? {
+                    loads = found;
+                    flow.residual = timing.measure(Stage::Loads, || {
+                        self.residual(system, state, bdf, &past, &mesh_velocity, &flow.solution)
+                    });
+                }
+            }
+            let reached =
+                self.reached(state, bdf, |body, mode| rigid(&flow.solution.twists[body])[mode]);
+            let is_settled = match self.path {
+                MeshPath::Bodies(follower) => !follower.is_misplaced(&places, &reached),
+                _ => true,
+            };
+            if is_settled {
+                system.center_pressure(self.problem, &mut flow.solution);
+                let error = self.error(state, bdf, &flow.solution);
+                self.accept(system, state, bdf, &past, (flow.solution, reached, loads), timing)?;
+                return Ok(StepResult { residual: flow.residual, iterations, error });
+            }
+            start = Some(flow.solution);
+            (from, to) = (places, reached);
+        }
+        Err(StepError::Unsettled { passes: MAX_PASSES })
+    }
+
+    fn past(&self, state: &State, bdf: &Bdf) -> Past {
+        let problem = self.problem;
+        let time = state.time + bdf.step;
+        let pairs = state.now.velocity.iter().zip(&state.previous.velocity);
+        let body_pairs = state.now.twists.iter().zip(&state.previous.twists);
+        let frame_of = |solution: &Solution| frame_velocity(problem, solution);
+        // Nearer to the new level than the old one: less is left for an iterative solve.
+        let raw_pairs = flatten(&state.now).into_iter().zip(flatten(&state.previous));
+        let history = body_pairs.map(|(now, previous)| {
+            let (now, previous) = (rigid(now), rigid(previous));
+            [0, 1, 2].map(|mode| bdf.history(now[mode], previous[mode]))
+        });
+        let mut levels =
+            Levels { rate: bdf.next, history: history.collect(), ..Levels::steady(problem, time) };
+        // The new place of a body is that without velocity plus its velocity over `next`.
+        let unmoved = self.reached(state, bdf, |_, _| 0.0);
+        for (body, rigid) in problem.bodies.iter().enumerate() {
+            let Some(spring) = &rigid.spring else { continue };
+            levels.resistance.resize(problem.bodies.len(), [0.0; 3]);
+            for mode in 0..3 {
+                let stiffness = spring.stiffness[mode];
+                levels.resistance[body][mode] = spring.damping[mode] + stiffness / bdf.next;
+                levels.external[body][mode] -=
+                    stiffness * (unmoved[body][mode] - spring.rest[mode]);
             }
         }
-        // Without a frame of its own the body stays where its mesh is, and only turns.
-        let [x, y] =
-            if problem.frame == Some(body) { [next[0], next[1]] } else { [now[0], now[1]] };
-        state.poses[body] = Pose::planar(x, y, next[2]);
-        state.angles[body] = next[2];
-        state.previous_places[body] = now;
+        Past {
+            time,
+            history: pairs.clone().map(|(now, before)| bdf.history(*now, *before)).collect(),
+            ahead: pairs.map(|(now, before)| bdf.extrapolate(*now, *before)).collect(),
+            raw_ahead: raw_pairs.map(|(now, before)| bdf.extrapolate(now, before)).collect(),
+            levels,
+            frame_ahead: bdf.extrapolate(frame_of(&state.now), frame_of(&state.previous)),
+        }
     }
-    state.previous = std::mem::replace(&mut state.now, solution);
-    state.step += 1;
-    state.time += bdf.step;
+
+    /// Where bodies get to with velocities at the new time.
+    fn reached(
+        &self,
+        state: &State,
+        bdf: &Bdf,
+        velocity: impl Fn(usize, usize) -> f64,
+    ) -> Vec<Place> {
+        let moves = |body: usize, mode: usize| {
+            // Bodies stay where a mesh is that does not follow them.
+            mode == 2
+                || matches!(self.path, MeshPath::Bodies(_))
+                || self.problem.frame == Some(body)
+        };
+        let place = |body: usize| {
+            [0, 1, 2].map(|mode| {
+                let (now, before) = (state.places[body][mode], state.previous_places[body][mode]);
+                if moves(body, mode) {
+                    bdf.integrate(velocity(body, mode), now, before)
+                } else {
+                    now
+                }
+            })
+        };
+        (0..self.problem.bodies.len()).map(place).collect()
+    }
+
+    /// Places in the mesh, seen from the frame.
+    fn in_frame(&self, state: &State, places: &[Place]) -> Vec<Place> {
+        let origin = state.origin_at(self.problem, places);
+        let wrapped = state.wrapped(places).into_iter();
+        wrapped.map(|[x, y, angle]| [x - origin.x, y - origin.y, angle]).collect()
+    }
+
+    /// As far on the way between places as leaves some of the smallest gap: predictions know
+    /// nothing of what is in the way.
+    fn guarded(&self, state: &State, from: &[Place], to: Vec<Place>) -> Vec<Place> {
+        let MeshPath::Bodies(follower) = self.path else { return to };
+        let gap = |places: &[Place]| {
+            let least = follower.surfaces().least_gap(&self.in_frame(state, places));
+            least.map_or(f64::INFINITY, |least| least.gap)
+        };
+        let kept = KEPT_GAP * gap(from);
+        let mut part = 1.0;
+        let mut trial = to.clone();
+        while gap(&trial) < kept && part > 1e-6 {
+            part *= 0.5;
+            let pairs = from.iter().zip(&to);
+            trial = pairs
+                .map(|(from, to)| [0, 1, 2].map(|mode| from[mode] + part * (to[mode] - from[mode])))
+                .collect();
+        }
+        trial
+    }
+
+    /// Puts the mesh where bodies at `places` want it; returns the places of its nodes seen from the
+    /// frame.
+    fn put(
+        &self,
+        state: &mut State,
+        places: &[Place],
+        time: f64,
+        timing: &mut Timing,
+    ) -> Result<Vec<Point<2>>, StepError> {
+        let origin = state.origin_at(self.problem, places);
+        timing.measure(Stage::MeshMotion, || {
+            let nodes = match self.path {
+                MeshPath::Still => state.nodes.clone(),
+                MeshPath::Given(place) => {
+                    (0..state.nodes.len()).map(|node| place(node, time)).collect()
+                }
+                MeshPath::Bodies(follower) => {
+                    let places = self.in_frame(state, places);
+                    follower.nodes(&places).map_err(|error| RunError::Mesh(error.to_string()))?
+                }
+            };
+            lay(&mut state.mesh.nodes, &nodes, &origin);
+            if let MeshPath::Bodies(follower) = self.path
+                && let Some((place, quality)) = follower.spoilt(&state.mesh)
+            {
+                return Err(StepError::Mesh { place, quality });
+            }
+            Ok(nodes)
+        })
+    }
+
+    /// What convects the flow, and how it enters the matrix.
+    fn crossing(
+        &self,
+        past: &Past,
+        mesh_velocity: &[Point<2>],
+        solution: &Solution,
+    ) -> (Vec<Point<2>>, Convection) {
+        let problem = self.problem;
+        let newton = self.choice == ConvectionChoice::Newton;
+        let mut crossing = match (problem.has_convection, newton) {
+            (false, _) if mesh_velocity.is_empty() => return (Vec::new(), Convection::None),
+            (false, _) => vec![Point::<2>::zeros(); mesh_velocity.len()],
+            (true, false) => past.ahead.iter().map(|u| u - past.frame_ahead).collect(),
+            (true, true) => {
+                let frame = frame_velocity(problem, solution);
+                solution.velocity.iter().map(|u| u - frame).collect()
+            }
+        };
+        crossing.iter_mut().zip(mesh_velocity).for_each(|(u, w)| *u -= w);
+        let convection = if newton && problem.has_convection {
+            newton_convection(problem)
+        } else {
+            Convection::Oseen
+        };
+        (crossing, convection)
+    }
+
+    fn residual(
+        &self,
+        system: &FluidSystem,
+        state: &State,
+        bdf: &Bdf,
+        past: &Past,
+        mesh_velocity: &[Point<2>],
+        solution: &Solution,
+    ) -> Vec<f64> {
+        let (crossing, convection) = self.crossing(past, mesh_velocity, solution);
+        let terms = self.terms(bdf, past, &crossing, convection);
+        system.fluid_residual(&state.mesh, &terms, solution)
+    }
+
+    fn terms<'a>(
+        &'a self,
+        bdf: &Bdf,
+        past: &'a Past,
+        crossing: &'a [Point<2>],
+        convection: Convection,
+    ) -> FlowTerms<'a, 2> {
+        FlowTerms {
+            viscosity: self.problem.viscosity,
+            density: self.problem.density,
+            rate: bdf.next,
+            history: &past.history,
+            crossing,
+            convection,
+            body_force: self.problem.body_force,
+        }
+    }
+
+    /// The flow on the mesh as it lies, without contact.
+    #[expect(clippy::too_many_arguments, reason = "one pass of the step above")]
+    fn solve(
+        &self,
+        system: &mut FluidSystem,
+        state: &State,
+        bdf: &Bdf,
+        past: &Past,
+        constraints: &AffineConstraints,
+        mesh_velocity: &[Point<2>],
+        begin: Solution,
+        timing: &mut Timing,
+    ) -> Result<Flow, RunError> {
+        let (problem, time, step) = (self.problem, past.time, state.step + 1);
+        let fail = |error: SolveError| RunError::from_solve(error, step, time);
+        let newton = self.choice == ConvectionChoice::Newton && problem.has_convection;
+        let mut solution = begin;
+        let (mut first, mut last) = (0.0, f64::INFINITY);
+        let mut iterations = 0;
+        loop {
+            let (crossing, convection) = self.crossing(past, mesh_velocity, &solution);
+            let terms = self.terms(bdf, past, &crossing, convection);
+            // A linear system is solved once; its second residual is only for the loads.
+            let is_for_loads = !newton && iterations == 1;
+            let stage = if is_for_loads { Stage::Loads } else { Stage::Assembly };
+            let raw =
+                timing.measure(stage, || system.fluid_residual(&state.mesh, &terms, &solution));
+            if is_for_loads {
+                return Ok(Flow { solution, residual: raw, iterations });
+            }
+            let levels = &past.levels;
+            let reduced =
+                system.reduced_residual(problem, constraints, levels, &solution, raw.clone());
+            let size = reduced.iter().fold(0.0f64, |most, value| most.max(value.abs()));
+            if iterations == 0 {
+                first = size;
+            }
+            let relative = if first > 0.0 { size / first } else { 0.0 };
+            let at_rounding = relative < ROUNDING && relative > 0.3 * last;
+            if iterations > 0 && (relative <= TOLERANCE || at_rounding) {
+                return Ok(Flow { solution, residual: raw, iterations });
+            }
+            if iterations == MAX_ITERATIONS {
+                return Err(RunError::NewtonStalled { step, time, residual: relative, iterations });
+            }
+            last = relative;
+            solution = system
+                .newton_step(
+                    problem,
+                    &state.mesh,
+                    constraints,
+                    &terms,
+                    levels,
+                    &solution,
+                    &reduced,
+                    timing,
+                )
+                .map_err(fail)?;
+            iterations += 1;
+        }
+    }
+
+    /// Estimate of the error of a step, relative to the size of the velocities.
+    fn error(&self, state: &State, bdf: &Bdf, new: &Solution) -> f64 {
+        if !bdf.is_second_order() {
+            return 0.0;
+        }
+        let speeds = new.velocity.iter().map(|velocity| velocity.norm());
+        let scale = speeds.fold(0.0, f64::max);
+        if scale == 0.0 {
+            return 0.0;
+        }
+        let mut squares = 0.0;
+        if self.problem.has_inertia {
+            for (node, new) in new.velocity.iter().enumerate() {
+                let (now, before) = (state.now.velocity[node], state.previous.velocity[node]);
+                squares += (new - bdf.predict(now, before, state.rates[node])).norm_squared();
+            }
+            squares /= new.velocity.len() as f64;
+        }
+        let mut largest = squares.sqrt();
+        for (body, new) in new.twists.iter().enumerate() {
+            let (now, before) =
+                (rigid(&state.now.twists[body]), rigid(&state.previous.twists[body]));
+            let rate = rigid(&state.accelerations[body]);
+            let reach = match self.path {
+                MeshPath::Bodies(follower) => follower.surfaces().reach(body),
+                _ => 0.0,
+            };
+            for (mode, new) in rigid(new).into_iter().enumerate() {
+                let length = if mode == 2 { reach } else { 1.0 };
+                let predicted = bdf.predict(now[mode], before[mode], rate[mode]);
+                largest = largest.max(length * (new - predicted).abs());
+            }
+        }
+        bdf.error_share() * largest / scale
+    }
+
+    /// The one place where a state moves on in time.
+    fn accept(
+        &self,
+        system: &mut FluidSystem,
+        state: &mut State,
+        bdf: &Bdf,
+        past: &Past,
+        (solution, places, contact): (Solution, Vec<Place>, ContactLoads),
+        timing: &mut Timing,
+    ) -> Result<(), StepError> {
+        let nodes = self.put(state, &places, past.time, timing)?;
+        if !matches!(self.path, MeshPath::Still) {
+            system.move_to(self.problem, &state.mesh);
+        }
+        state.contact = contact;
+        if let MeshPath::Bodies(follower) = self.path {
+            state.contact.least_gap = follower.surfaces().least_gap(&self.in_frame(state, &places));
+        }
+        for (body, twist) in solution.twists.iter().enumerate() {
+            let velocity = rigid(twist);
+            let rate =
+                [0, 1, 2].map(|mode| bdf.next * velocity[mode] + past.levels.history[body][mode]);
+            state.accelerations[body] = Twist {
+                linear: Vector3::new(rate[0], rate[1], 0.0),
+                angular: Vector3::new(0.0, 0.0, rate[2]),
+            };
+        }
+        let rates = solution.velocity.iter().zip(&past.history);
+        state.rates = rates.map(|(new, history)| new * bdf.next + history).collect();
+        state.origin = state.origin_at(self.problem, &places);
+        state.nodes_before = std::mem::replace(&mut state.nodes, nodes);
+        state.previous_places = std::mem::replace(&mut state.places, places);
+        state.previous = std::mem::replace(&mut state.now, solution);
+        state.step += 1;
+        (state.time, state.last_step) = (past.time, bdf.step);
+        Ok(())
+    }
+}
+
+/// Contact forces of one pass.
+struct Contact<'a, 'b> {
+    march: &'a March<'b>,
+    follower: &'a Follower,
+    law: &'a Law,
+    bdf: &'a Bdf,
+}
+
+impl Contact<'_, '_> {
+    /// Adds contact to a solution found without it for bodies at `places`; nothing where no body can
+    /// get within the range.
+    fn solve(
+        &self,
+        system: &mut FluidSystem,
+        state: &State,
+        places: &[Place],
+        constraints: &AffineConstraints,
+        solution: &mut Solution,
+        timing: &mut Timing,
+    ) -> Result<Option<ContactLoads>, StepError> {
+        let surfaces = self.follower.surfaces();
+        let range = self.law.range();
+        let free = |body: usize| rigid(&solution.twists[body]);
+        let without = self.march.reached(state, self.bdf, |body, mode| free(body)[mode]);
+        // Seen from where the frame is in this pass: its way is no part of the unknowns.
+        let origin = state.origin_at(self.march.problem, places);
+        let seen = |places: &[Place]| -> Vec<Place> {
+            let wrapped = state.wrapped(places).into_iter();
+            wrapped.map(|[x, y, angle]| [x - origin.x, y - origin.y, angle]).collect()
+        };
+        let (apart, predicted) = (seen(&state.places), seen(places));
+        let bodies = surfaces.involved(&apart, &seen(&without), CONTACT_MARGIN, range);
+        if bodies.is_empty() {
+            return Ok(None);
+        }
+        let fail = |error| RunError::from_solve(error, state.step + 1, state.time + self.bdf.step);
+        let mobility = system.mobility(constraints, &bodies, timing).map_err(fail)?;
+        let free_velocities: Vec<[f64; 3]> = bodies.iter().map(|&body| free(body)).collect();
+        let predicted_velocities: Vec<[f64; 3]> = bodies
+            .iter()
+            .map(|&body| {
+                [0, 1, 2].map(|mode| {
+                    let (now, before) = (state.places[body], state.previous_places[body]);
+                    self.bdf.rate(places[body][mode], now[mode], before[mode])
+                })
+            })
+            .collect();
+        let step = ContactStep {
+            surfaces,
+            law: self.law,
+            bodies: &bodies,
+            free_velocities: &free_velocities,
+            mobility: &mobility,
+            predicted: &predicted,
+            predicted_velocities: &predicted_velocities,
+            coefficient: 1.0 / self.bdf.next,
+            apart: &apart,
+        };
+        let found = step.solve()?;
+        let loads: Vec<(usize, [f64; 3])> = bodies
+            .iter()
+            .map(|&body| {
+                let wrench = &found.loads.wrenches[body];
+                (body, [wrench.force.x, wrench.force.y, wrench.torque.z])
+            })
+            .collect();
+        if loads.iter().any(|(_, load)| load.iter().any(|part| *part != 0.0)) {
+            system.respond(constraints, &loads, solution, timing).map_err(fail)?;
+        }
+        Ok(Some(found.loads))
+    }
+}
+
+/// Puts the nodes of a mesh at places seen from a frame.
+fn lay(nodes: &mut [Point<2>], seen: &[Point<2>], origin: &Point<2>) {
+    for (node, seen) in nodes.iter_mut().zip(seen) {
+        *node = seen + origin;
+    }
+}
+
+fn frame_velocity(problem: &Problem, solution: &Solution) -> Point<2> {
+    problem.frame.map_or(Point::<2>::zeros(), |body| {
+        let linear = &solution.twists[body].linear;
+        Point::<2>::new(linear.x, linear.y)
+    })
 }

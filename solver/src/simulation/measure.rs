@@ -20,9 +20,38 @@ struct ProbePoint {
 /// Measures a run; made once a mesh.
 pub(super) struct Measure {
     names: Vec<String>,
-    probes: Vec<Vec<ProbePoint>>,
+    /// The points of each probe; `None` where a body is in its place.
+    probes: Vec<Vec<Option<ProbePoint>>>,
     /// Force coefficient per force, moment coefficient per torque; none without `[scales]`.
     coefficients: Option<[f64; 2]>,
+    has_contact: bool,
+}
+
+/// What is told of a mesh that moves.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Moving {
+    /// Meshes made since the first.
+    pub remeshes: usize,
+}
+
+/// The points of all probes in a mesh.
+fn find_probes(case: &Case, mesh: &Mesh<2>) -> Vec<Vec<Option<ProbePoint>>> {
+    if case.probe.is_empty() {
+        return Vec::new();
+    }
+    let locator = Locator::new(mesh);
+    // A point on an exact curve may lie outside the quadratic geometry by a trifle.
+    let reach = 0.01 * case.mesh.surface.unwrap_or(case.mesh.size);
+    let find = |point: &[f64], sign: f64| {
+        let found = locator.nearest(Point::<2>::new(point[0], point[1]));
+        let found = found.filter(|found| found.distance <= reach);
+        found.map(|found| ProbePoint { cell: found.cell, xi: found.reference.into(), sign })
+    };
+    let of_probe = |probe: &Probe| {
+        let minus = (!probe.minus.is_empty()).then(|| find(&probe.minus, -1.0));
+        std::iter::once(find(&probe.point, 1.0)).chain(minus).collect()
+    };
+    case.probe.iter().map(of_probe).collect()
 }
 
 /// Integrals over the flow.
@@ -36,24 +65,12 @@ struct Integrals {
 impl Measure {
     /// Finds the probes in the mesh and names the quantities.
     pub(super) fn new(case: &Case, mesh: &Mesh<2>) -> Result<Self, String> {
-        let locator = Locator::new(mesh);
-        let find = |probe: &Probe, point: &[f64], sign: f64| {
-            let place = Point::<2>::new(point[0], point[1]);
-            // A point on an exact curve may lie outside the quadratic geometry by a trifle.
-            let reach = 0.01 * case.mesh.surface.unwrap_or(case.mesh.size);
-            let found = locator.nearest(place).filter(|found| found.distance <= reach);
-            let found = found.ok_or_else(|| {
-                format!("probe `{}`: point {point:?} is not in the fluid", probe.name)
-            })?;
-            Ok::<_, String>(ProbePoint { cell: found.cell, xi: found.reference.into(), sign })
-        };
-        let mut probes = Vec::new();
-        for probe in &case.probe {
-            let mut points = vec![find(probe, &probe.point, 1.0)?];
-            if !probe.minus.is_empty() {
-                points.push(find(probe, &probe.minus, -1.0)?);
+        let probes = find_probes(case, mesh);
+        for (probe, points) in case.probe.iter().zip(&probes) {
+            if let Some(missing) = points.iter().position(Option::is_none) {
+                let point = if missing == 0 { &probe.point } else { &probe.minus };
+                return Err(format!("probe `{}`: point {point:?} is not in the fluid", probe.name));
             }
-            probes.push(points);
         }
         let scales = case.scales.filter(|_| case.has_coefficients());
         let coefficients = scales.map(|scales| {
@@ -64,7 +81,13 @@ impl Measure {
             let force = 2.0 / (case.fluid.density * scales.velocity.powi(2) * area);
             [force, force / scales.length]
         });
-        Ok(Self { names: known_quantities(case), probes, coefficients })
+        let has_contact = case.contact.is_some();
+        Ok(Self { names: known_quantities(case), probes, coefficients, has_contact })
+    }
+
+    /// Finds the probes in a mesh that has moved, seen from the frame.
+    pub(super) fn follow(&mut self, case: &Case, mesh: &Mesh<2>) {
+        self.probes = find_probes(case, mesh);
     }
 
     pub(super) fn names(&self) -> &[String] {
@@ -78,48 +101,59 @@ impl Measure {
         problem: &Problem,
         state: &State,
         residual: &[f64],
+        moving: Option<Moving>,
     ) -> (Vec<BodyReport>, Vec<f64>) {
         let Solution { velocity, pressure, twists } = &state.now;
+        let (poses, in_mesh) = (state.poses(), state.poses_in_mesh());
         let loads = body_loads(
             problem,
             &state.mesh,
             &system.layout,
             &system.sides,
-            &state.poses,
+            &in_mesh,
             residual,
             velocity,
         );
         let mut reports = Vec::new();
         let mut values = Vec::with_capacity(self.names.len());
         for (body, rigid) in problem.bodies.iter().enumerate() {
-            let pose = state.poses[body];
+            let center = &in_mesh[body].center;
             let surface = surface_load(
                 &state.mesh,
                 rigid.boundary,
                 &state.now.fields(),
                 problem.viscosity,
                 problem.axisymmetric,
-                Point::<2>::new(pose.center.x, pose.center.y),
+                Point::<2>::new(center.x, center.y),
             );
             let report = BodyReport {
                 name: rigid.name.clone(),
-                pose,
+                pose: poses[body],
                 twist: twists[body],
                 load: loads[body].load,
                 surface_load: surface,
+                contact: state.contact.wrenches[body],
                 power: loads[body].power,
             };
             let acceleration = &state.accelerations[body];
-            values.extend(body_values(&report, state.angles[body], acceleration));
+            values.extend(body_values(&report, state.places[body][2], acceleration));
             if let Some([force, moment]) = self.coefficients {
                 let Wrench { force: load, torque } = report.load;
                 values.extend([load.x * force, load.y * force, torque.z * moment]);
+            }
+            if self.has_contact {
+                let Wrench { force, torque } = report.contact;
+                values.extend([force.x, force.y, torque.z]);
             }
             reports.push(report);
         }
         for points in &self.probes {
             let mut sum = [0.0; 3];
             for point in points {
+                let Some(point) = point else {
+                    sum = [f64::NAN; 3];
+                    break;
+                };
                 let nodes = state.mesh.cell(point.cell);
                 for (&node, phi) in nodes.iter().zip(p2_values(&point.xi)) {
                     sum[0] += point.sign * phi * velocity[node as usize][0];
@@ -133,6 +167,10 @@ impl Measure {
         }
         let integrals = integrate(system, problem, state);
         values.extend([integrals.dissipation, integrals.kinetic_energy, integrals.mass_defect]);
+        if let Some(Moving { remeshes }) = moving {
+            let gap = state.contact.least_gap.map_or(f64::INFINITY, |least| least.gap);
+            values.extend([gap, state.mesh.n_cells() as f64, remeshes as f64]);
+        }
         (reports, values)
     }
 }

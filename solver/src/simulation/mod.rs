@@ -2,8 +2,10 @@
 
 mod build;
 mod error;
+mod follow;
 mod march;
 mod measure;
+mod remake;
 mod run;
 mod series;
 mod snapshot;
@@ -12,8 +14,9 @@ mod steady;
 
 pub use crate::timing::{Stage, Timing, cpu_seconds};
 pub use build::{build_mesh, build_problem, sizing};
-pub use error::RunError;
-pub use march::{StepResult, advance};
+pub use error::{RunError, StepError};
+pub use follow::Follower;
+pub use march::{March, MeshPath, StepResult};
 pub use run::{Outcome, simulate};
 pub use series::Series;
 pub use snapshot::{BodyReport, Observer, Remains, Snapshot};

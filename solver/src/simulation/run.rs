@@ -2,13 +2,17 @@
 
 use alewife_mesh::Mesh;
 
-use super::march::advance;
-use super::measure::Measure;
+use super::build::{contact_law, placed_bodies};
+use super::follow::Follower;
+use super::march::{March, MeshPath};
+use super::measure::{Measure, Moving};
+use super::remake::remake;
 use super::snapshot::{Observer, Remains, Snapshot};
 use super::state::State;
 use super::steady::{SteadyFlow, solve_steady};
-use super::{RunError, Series, Stage, Timing, build_mesh, build_problem};
-use crate::case::{Case, Convection, Initial, Scheme, Steady, TimeSettings, Unsteady};
+use super::{RunError, Series, Stage, StepError, StepResult, Timing, build_mesh, build_problem};
+use crate::case::{Adaptive, Case, Convection, Initial, Scheme, Steady, TimeSettings, Unsteady};
+use crate::contact::{ContactError, Law};
 use crate::coupling::{FluidSystem, Problem, memory_estimate};
 use crate::time::Bdf;
 
@@ -28,6 +32,12 @@ pub struct Outcome {
 /// The first step is made in pieces of 1/128, 1/128, 1/64, ... 1/2 of it: the only first-order
 /// piece is so short that it does not lower the order of the whole.
 const START_PIECES: u32 = 7;
+
+/// The smallest step over the given one, of fixed steps that are halved where they must be.
+const SMALLEST_PART: f64 = 1.0 / 1024.0;
+
+/// Error over the tolerance above which a step is not taken.
+const REJECTED: f64 = 2.0;
 
 /// Runs a case from beginning to end.
 ///
@@ -68,6 +78,63 @@ struct Parts {
     system: FluidSystem,
     measure: Measure,
     state: State,
+    /// Moves the mesh, where bodies move in it.
+    follower: Option<Follower>,
+    law: Option<Law>,
+    /// Whether the frame's velocity is an unknown of the convection.
+    unknown_frame: bool,
+    /// Meshes made since the first.
+    remeshes: usize,
+    /// Whether no step has been made on this mesh.
+    is_fresh: bool,
+}
+
+impl Parts {
+    /// Cells the fluid crosses in a second at most (1/s).
+    fn crossings(&self) -> f64 {
+        let state = &self.state;
+        let frame = state.origin_at(&self.problem, &state.places)
+            - state.origin_at(&self.problem, &state.previous_places);
+        let mut most = f64::MIN_POSITIVE;
+        for cell in 0..state.mesh.n_cells() {
+            let nodes = state.mesh.cell(cell);
+            let [a, b, c] = [0, 1, 2].map(|corner| state.nodes[nodes[corner] as usize]);
+            let edge = (b - a).norm().min((c - b).norm()).min((a - c).norm());
+            for &node in nodes {
+                let node = node as usize;
+                let way = state.nodes[node] - state.nodes_before[node] + frame;
+                let passing = state.now.velocity[node] - way / state.last_step;
+                most = most.max(passing.norm() / edge);
+            }
+        }
+        most
+    }
+}
+
+/// What the pieces of a step come to.
+#[derive(Default)]
+struct Made {
+    residual: Vec<f64>,
+    iterations: usize,
+}
+
+impl Made {
+    fn add(&mut self, step: StepResult) {
+        self.residual = step.residual;
+        self.iterations += step.iterations;
+    }
+}
+
+/// Change of the step after a step with this error over the tolerance; the error goes with the
+/// third power of the step.
+fn growth(error: f64) -> f64 {
+    if error > 0.0 { (0.85 * error.powf(-1.0 / 3.0)).clamp(0.3, 1.5) } else { 1.5 }
+}
+
+/// No smaller step helps.
+fn stuck(parts: &Parts, smallest: f64, error: &StepError) -> RunError {
+    let (step, time) = (parts.state.step + 1, parts.state.time);
+    RunError::Stuck { step, time, smallest, reason: error.to_string() }
 }
 
 impl Run<'_> {
@@ -105,15 +172,39 @@ impl Run<'_> {
         tracing::info!(unknowns = system.n_unknowns, entries = system.n_entries(), "system built");
         let measure = Measure::new(self.case, &mesh).map_err(RunError::Unsupported)?;
         self.series.names = measure.names().to_vec();
-        let state = State::at_rest(&problem, mesh);
-        Ok(Parts { problem, system, measure, state })
+        let mut state = State::at_rest(&problem, mesh);
+        let follower = if self.case.mesh_moves() {
+            let (domain, shapes) = (self.case.mesh_domain(), placed_bodies(self.case));
+            let places = state.places.clone();
+            let made = self.timing.measure(Stage::MeshMotion, || {
+                Follower::new(self.case, &problem, &state.mesh, domain, shapes, places)
+            });
+            Some(made.map_err(RunError::Mesh)?)
+        } else {
+            None
+        };
+        if let Some(follower) = &follower {
+            state.contact.least_gap = follower.surfaces().least_gap(&state.places);
+        }
+        let law = self.case.contact.as_ref().map(contact_law).transpose()?;
+        Ok(Parts {
+            problem,
+            system,
+            measure,
+            state,
+            follower,
+            law,
+            unknown_frame,
+            remeshes: 0,
+            is_fresh: true,
+        })
     }
 
     /// Solves for the flow at time zero without a time derivative.
     fn solve(&mut self, settings: &Steady, parts: &mut Parts) -> Result<SteadyFlow, RunError> {
         let Parts { problem, system, state, .. } = parts;
         let timing = &mut self.timing;
-        solve_steady(system, problem, &state.mesh, &state.poses, 0.0, settings, timing).map_err(
+        solve_steady(system, problem, &state.mesh, &state.poses(), 0.0, settings, timing).map_err(
             |failure| {
                 state.now = failure.last;
                 failure.error
@@ -130,7 +221,8 @@ impl Run<'_> {
 
     fn unsteady(&mut self, settings: &Unsteady, parts: &mut Parts) -> Result<usize, RunError> {
         let mut residual = vec![0.0; parts.system.layout.n_raw()];
-        if settings.initial == Initial::Stokes {
+        // Without inertia the flow has no memory, and is that of the bodies' places at any time.
+        if settings.initial == Initial::Stokes || !parts.problem.has_inertia {
             let convects = std::mem::replace(&mut parts.problem.has_convection, false);
             let flow = self.solve(&Steady { tolerance: 1e-10, max_iterations: 5 }, parts)?;
             parts.problem.has_convection = convects;
@@ -139,50 +231,211 @@ impl Run<'_> {
             residual = flow.residual;
         }
         self.report(parts, &residual, (0, 0.0), false)?;
+        match &settings.adaptive {
+            None => self.fixed_steps(settings, parts),
+            Some(adaptive) => self.adaptive_steps(settings, adaptive, parts),
+        }
+    }
+
+    fn fixed_steps(&mut self, settings: &Unsteady, parts: &mut Parts) -> Result<usize, RunError> {
         let n_steps = count_steps(settings);
-        let mut before = None;
+        let smallest = settings.step * SMALLEST_PART;
         for index in 0..n_steps {
             let started = parts.state.time;
-            let mut iterations = 0;
-            for step in step_pieces(settings, index) {
-                let bdf = match (settings.scheme, before.replace(step)) {
-                    (Scheme::Bdf2, Some(before)) => Bdf::second_order(step, before),
-                    _ => Bdf::first_order(step),
-                };
-                parts.state.step = index;
-                let result = advance(
-                    &mut parts.system,
-                    &parts.problem,
-                    &mut parts.state,
-                    &bdf,
-                    settings.convection,
-                    &mut self.timing,
-                )?;
-                residual = result.residual;
-                iterations += result.iterations;
+            let mut made = Made::default();
+            for piece in step_pieces(settings, index) {
+                // The next one first.
+                let mut to_do = vec![piece];
+                while let Some(size) = to_do.pop() {
+                    parts.state.step = index;
+                    match self.step(settings, size, f64::INFINITY, parts)? {
+                        Ok(step) => made.add(step),
+                        Err(error) if size <= smallest => return Err(stuck(parts, size, &error)),
+                        Err(_) => to_do.extend([0.5 * size; 2]),
+                    }
+                }
             }
             // Counted, not summed, so that rounding does not pile up.
             let whole = (index + 1) as f64 * settings.step;
             parts.state.time = if index + 1 == n_steps { settings.end } else { whole };
             let step = parts.state.time - started;
-            self.report(parts, &residual, (iterations, step), index + 1 == n_steps)?;
-            if index + 1 < n_steps && self.observers.iter().any(|observer| observer.wants_stop()) {
-                return Err(RunError::Stopped { step: index + 1, time: parts.state.time });
-            }
+            let is_last = index + 1 == n_steps;
+            self.report(parts, &made.residual, (made.iterations, step), is_last)?;
+            self.look_for_signals(parts, is_last)?;
         }
         Ok(n_steps)
     }
 
+    fn adaptive_steps(
+        &mut self,
+        settings: &Unsteady,
+        adaptive: &Adaptive,
+        parts: &mut Parts,
+    ) -> Result<usize, RunError> {
+        let largest = adaptive.largest.unwrap_or(settings.end / 10.0);
+        let smallest = adaptive.smallest.unwrap_or(settings.step * 1e-6);
+        let mut start = step_pieces(settings, 0);
+        start.reverse();
+        let mut proposed = settings.step;
+        let mut index = 0;
+        loop {
+            parts.state.step = index;
+            let left = settings.end - parts.state.time;
+            // Pieces of the first step grow fast enough by themselves.
+            let is_start = !start.is_empty();
+            let mut size = start.pop().unwrap_or(proposed).min(largest);
+            if left < 2.0 * size {
+                size = if left <= size * (1.0 + 1e-9) { left } else { 0.5 * left };
+            }
+            let gap = parts.state.contact.least_gap.map(|least| least.gap);
+            let step = loop {
+                match self.step(settings, size, adaptive.tolerance, parts)? {
+                    Ok(step) => break step,
+                    Err(error) if size <= smallest => return Err(stuck(parts, size, &error)),
+                    Err(StepError::Inexact { error, .. }) => {
+                        size *= growth(error / adaptive.tolerance).min(0.7);
+                    }
+                    Err(_) => size *= 0.5,
+                }
+                size = size.max(smallest);
+                start.clear();
+            };
+            index += 1;
+            let factor = if is_start { 2.0 } else { growth(step.error / adaptive.tolerance) };
+            proposed = (size * factor).min(adaptive.cfl / parts.crossings());
+            if let (Some(before), Some(now)) = (gap, parts.state.contact.least_gap) {
+                let rate = (now.gap - before).abs() / size;
+                proposed = proposed.min(adaptive.gap * now.gap / rate);
+            }
+            proposed = proposed.clamp(smallest, largest);
+            let is_last = settings.end - parts.state.time <= 1e-9 * settings.end;
+            if is_last {
+                parts.state.time = settings.end;
+            }
+            parts.state.step = index;
+            self.report(parts, &step.residual, (step.iterations, size), is_last)?;
+            if is_last {
+                return Ok(index);
+            }
+            self.look_for_signals(parts, is_last)?;
+        }
+    }
+
+    /// Tries a step of this size, if need be on a new mesh. The state is where it was when no step
+    /// was made.
+    fn step(
+        &mut self,
+        settings: &Unsteady,
+        size: f64,
+        tolerance: f64,
+        parts: &mut Parts,
+    ) -> Result<Result<StepResult, StepError>, RunError> {
+        // Not after the step before: what was measured belongs to its mesh.
+        if !parts.is_fresh {
+            self.remesh_where_needed(parts)?;
+        }
+        loop {
+            let Parts { problem, system, state, follower, law, .. } = &mut *parts;
+            let bdf = match settings.scheme {
+                Scheme::Bdf2 if state.last_step > 0.0 => Bdf::second_order(size, state.last_step),
+                _ => Bdf::first_order(size),
+            };
+            let march = March {
+                problem,
+                choice: settings.convection,
+                path: follower.as_ref().map_or(MeshPath::Still, MeshPath::Bodies),
+                contact: law.as_ref(),
+            };
+            let saved = tolerance.is_finite().then(|| state.clone());
+            let (step, time) = (state.step + 1, state.time + size);
+            match march.advance(system, state, &bdf, &mut self.timing) {
+                Ok(made) if made.error > REJECTED * tolerance => {
+                    if let Some(saved) = saved {
+                        *state = saved;
+                        system.move_to(problem, &state.mesh);
+                    }
+                    return Ok(Err(StepError::Inexact { error: made.error, tolerance }));
+                }
+                Ok(made) => {
+                    parts.is_fresh = false;
+                    return Ok(Ok(made));
+                }
+                Err(StepError::Run(error)) => return Err(error),
+                Err(StepError::Contact(reason @ ContactError::TooWeak { .. })) => {
+                    return Err(RunError::Contact { step, time, reason });
+                }
+                Err(error @ StepError::Mesh { .. }) if !parts.is_fresh => {
+                    self.remesh(parts, &error.to_string())?;
+                }
+                Err(error) => {
+                    tracing::info!(step, time, size, %error, "step not made");
+                    return Ok(Err(error));
+                }
+            }
+        }
+    }
+
+    fn remesh_where_needed(&mut self, parts: &mut Parts) -> Result<(), RunError> {
+        let Parts { state, follower: Some(follower), .. } = &mut *parts else { return Ok(()) };
+        let origin = state.origin;
+        let places = state.wrapped(&state.places).into_iter();
+        let places: Vec<_> = places.map(|[x, y, a]| [x - origin.x, y - origin.y, a]).collect();
+        // Seen from the frame.
+        std::mem::swap(&mut state.mesh.nodes, &mut state.nodes);
+        let reason =
+            self.timing.measure(Stage::MeshMotion, || follower.wants_remesh(&state.mesh, &places));
+        std::mem::swap(&mut state.mesh.nodes, &mut state.nodes);
+        match reason {
+            None => Ok(()),
+            Some(reason) => self.remesh(parts, &reason.to_string()),
+        }
+    }
+
+    fn remesh(&mut self, parts: &mut Parts, reason: &str) -> Result<(), RunError> {
+        let Parts { problem, system, state, follower: Some(follower), unknown_frame, .. } =
+            &mut *parts
+        else {
+            return Ok(());
+        };
+        let (step, time) = (state.step, state.time);
+        *follower = self
+            .timing
+            .measure(Stage::Mesh, || remake(self.case, problem, state, follower))
+            .map_err(|reason| RunError::Remesh { step, time, reason })?;
+        tracing::info!(step, time, cells = state.mesh.n_cells(), reason, "mesh made anew");
+        let poses = state.poses_in_mesh();
+        *system = self.timing.measure(Stage::Assembly, || {
+            FluidSystem::new(problem, &state.mesh, &poses, *unknown_frame)
+        });
+        parts.remeshes += 1;
+        parts.is_fresh = true;
+        Ok(())
+    }
+
+    fn look_for_signals(&self, parts: &Parts, is_last: bool) -> Result<(), RunError> {
+        if !is_last && self.observers.iter().any(|observer| observer.wants_stop()) {
+            return Err(RunError::Stopped { step: parts.state.step, time: parts.state.time });
+        }
+        Ok(())
+    }
+
     fn report(
         &mut self,
-        parts: &Parts,
+        parts: &mut Parts,
         residual: &[f64],
         (iterations, time_step): (usize, f64),
         is_last: bool,
     ) -> Result<(), RunError> {
-        let Parts { problem, system, measure, state } = parts;
-        let (bodies, values) =
-            self.timing.measure(Stage::Loads, || measure.measure(system, problem, state, residual));
+        if parts.follower.is_some() && !self.case.probe.is_empty() {
+            let mut seen = parts.state.mesh.clone();
+            seen.nodes.clone_from(&parts.state.nodes);
+            self.timing.measure(Stage::Loads, || parts.measure.follow(self.case, &seen));
+        }
+        let Parts { problem, system, measure, state, remeshes, .. } = &*parts;
+        let moving = parts.follower.as_ref().map(|_| Moving { remeshes: *remeshes });
+        let (bodies, values) = self
+            .timing
+            .measure(Stage::Loads, || measure.measure(system, problem, state, residual, moving));
         self.series.times.push(state.time);
         let timing = self.timing;
         let snapshot = Snapshot {

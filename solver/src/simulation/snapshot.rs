@@ -19,6 +19,8 @@ pub struct BodyReport {
     pub load: Wrench,
     /// The same by integrating the stress over the surface: a cross-check of lower order.
     pub surface_load: Wrench,
+    /// Load of contact with other bodies and walls.
+    pub contact: Wrench,
     /// Rate of work of the body's surface on the fluid (W).
     pub power: f64,
 }

@@ -1,8 +1,9 @@
 //! `State`: what evolves: mesh, fields, bodies, at the present level and the one before.
 
-use alewife_mesh::Mesh;
+use alewife_mesh::{Mesh, Point};
 
 use crate::body::{Pose, Twist};
+use crate::contact::{ContactLoads, Place};
 use crate::coupling::{Problem, Solution};
 use crate::space::DofLayout;
 
@@ -13,20 +14,32 @@ pub struct State {
     pub step: usize,
     /// Time (s).
     pub time: f64,
-    /// The mesh now.
+    /// The last step (s), zero before the first.
+    pub last_step: f64,
+    /// The mesh now, in the laboratory.
     pub mesh: Mesh<2>,
+    /// Where the frame of reference is now (m).
+    pub origin: Point<2>,
+    /// Places of the nodes now, seen from the frame (m).
+    pub nodes: Vec<Point<2>>,
+    /// Places of the same nodes one step before, seen from the frame (m).
+    pub nodes_before: Vec<Point<2>>,
     /// Fields and twists now.
     pub now: Solution,
     /// Fields and twists one step before.
     pub previous: Solution,
-    /// Poses now.
-    pub poses: Vec<Pose>,
-    /// Angles now (rad), counted through turns.
-    pub angles: Vec<f64>,
-    /// Centres and angles one step before (m, rad).
-    pub previous_places: Vec<[f64; 3]>,
+    /// Places of the bodies now, in the laboratory; angles are counted through turns.
+    pub places: Vec<Place>,
+    /// Places of the bodies one step before.
+    pub previous_places: Vec<Place>,
+    /// What is added to the place of a body for where it is in the mesh (m): whole periods.
+    pub wraps: Vec<Point<2>>,
+    /// Rates of change of the velocities at the nodes (m/s2).
+    pub rates: Vec<Point<2>>,
     /// Rates of change of the twists (m/s2, rad/s2).
     pub accelerations: Vec<Twist>,
+    /// Loads of contact.
+    pub contact: ContactLoads,
 }
 
 impl State {
@@ -35,27 +48,69 @@ impl State {
     pub fn at_rest(problem: &Problem, mesh: Mesh<2>) -> Self {
         let layout = DofLayout::new(&mesh, problem.bodies.len());
         let at_rest = Solution::at_rest(&layout);
-        let poses: Vec<_> = problem.bodies.iter().map(|body| body.pose).collect();
-        let angles: Vec<f64> = poses.iter().map(Pose::angle).collect();
-        let places =
-            poses.iter().zip(&angles).map(|(pose, angle)| [pose.center.x, pose.center.y, *angle]);
+        let places: Vec<Place> = problem.bodies.iter().map(|body| place_of(&body.pose)).collect();
         Self {
             step: 0,
             time: 0.0,
+            last_step: 0.0,
+            origin: Point::<2>::zeros(),
+            nodes: mesh.nodes.clone(),
+            nodes_before: mesh.nodes.clone(),
             now: at_rest.clone(),
             previous: at_rest,
-            previous_places: places.collect(),
-            accelerations: vec![Twist::default(); poses.len()],
-            poses,
-            angles,
+            previous_places: places.clone(),
+            wraps: vec![Point::<2>::zeros(); places.len()],
+            rates: vec![Point::<2>::zeros(); mesh.n_nodes()],
+            accelerations: vec![Twist::default(); places.len()],
+            contact: ContactLoads::none(places.len()),
+            places,
             mesh,
         }
     }
 
-    /// Centre and angle of a body now (m, rad).
+    /// Time of the level before (s).
     #[must_use]
-    pub fn place(&self, body: usize) -> [f64; 3] {
-        let center = &self.poses[body].center;
-        [center.x, center.y, self.angles[body]]
+    pub fn time_before(&self) -> f64 {
+        self.time - self.last_step
     }
+
+    /// Poses of the bodies now, in the laboratory.
+    #[must_use]
+    pub fn poses(&self) -> Vec<Pose> {
+        self.places.iter().map(pose_at).collect()
+    }
+
+    /// Poses of the bodies where they are in the mesh.
+    #[must_use]
+    pub fn poses_in_mesh(&self) -> Vec<Pose> {
+        self.wrapped(&self.places).iter().map(pose_at).collect()
+    }
+
+    /// Places of bodies where they would be in the mesh.
+    #[must_use]
+    pub fn wrapped(&self, places: &[Place]) -> Vec<Place> {
+        let pairs = places.iter().zip(&self.wraps);
+        pairs.map(|(place, wrap)| [place[0] + wrap.x, place[1] + wrap.y, place[2]]).collect()
+    }
+
+    /// Where the frame is with bodies at these places (m).
+    #[must_use]
+    pub fn origin_at(&self, problem: &Problem, places: &[Place]) -> Point<2> {
+        problem.frame.map_or(Point::<2>::zeros(), |body| {
+            let start = &problem.bodies[body].pose.center;
+            Point::<2>::new(places[body][0] - start.x, places[body][1] - start.y)
+        })
+    }
+}
+
+/// Centre and angle of a pose (m, rad).
+#[must_use]
+pub fn place_of(pose: &Pose) -> Place {
+    [pose.center.x, pose.center.y, pose.angle()]
+}
+
+/// The pose with a centre and angle (m, rad).
+#[must_use]
+pub fn pose_at(place: &Place) -> Pose {
+    Pose::planar(place[0], place[1], place[2])
 }

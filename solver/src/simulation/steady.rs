@@ -52,6 +52,7 @@ struct Newton<'a> {
     problem: &'a Problem,
     mesh: &'a Mesh<2>,
     constraints: &'a AffineConstraints,
+    levels: Levels,
     settings: &'a Steady,
     timing: &'a mut Timing,
     /// Size of the residual of a fluid at rest, which all others are relative to.
@@ -81,6 +82,7 @@ pub fn solve_steady(
         problem,
         mesh,
         constraints: &constraints,
+        levels: Levels::steady(problem, time),
         settings,
         timing,
         scale: 0.0,
@@ -159,7 +161,7 @@ impl Newton<'_> {
             let reduced = self.system.reduced_residual(
                 self.problem,
                 self.constraints,
-                &Levels::default(),
+                &self.levels,
                 &solution,
                 raw.clone(),
             );
@@ -184,7 +186,7 @@ impl Newton<'_> {
                 self.mesh,
                 self.constraints,
                 &terms,
-                &Levels::default(),
+                &self.levels,
                 &solution,
                 &reduced,
                 self.timing,

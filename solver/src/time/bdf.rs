@@ -54,12 +54,49 @@ impl Bdf {
         now * (1.0 + self.ratio) + previous * (-self.ratio)
     }
 
-    /// The new value of a quantity whose rate at the new time is known.
+    /// The new value of a quantity whose rate at the new time is known; what rests stays where it
+    /// is to the last bit.
     pub fn integrate<T>(&self, rate: T, now: T, previous: T) -> T
     where
-        T: std::ops::Mul<f64, Output = T> + std::ops::Add<Output = T>,
+        T: std::ops::Mul<f64, Output = T>
+            + std::ops::Add<Output = T>
+            + std::ops::Sub<Output = T>
+            + Copy,
     {
-        (rate + self.history(now, previous) * -1.0) * (1.0 / self.next)
+        now + (rate + (now - previous) * self.previous) * (1.0 / self.next)
+    }
+
+    /// The rate at the new time of a quantity with these values; exactly zero for one that rests.
+    pub fn rate<T>(&self, next: T, now: T, previous: T) -> T
+    where
+        T: std::ops::Mul<f64, Output = T> + std::ops::Sub<Output = T> + Copy,
+    {
+        (next - now) * self.next - (now - previous) * self.previous
+    }
+
+    /// Whether the step is of second order.
+    #[must_use]
+    pub fn is_second_order(&self) -> bool {
+        self.ratio > 0.0
+    }
+
+    /// The error of the new value, over its difference from what [`Self::predict`] gives
+    /// (@gresho1998, 3.16.4, with variable steps).
+    #[must_use]
+    pub fn error_share(&self) -> f64 {
+        (1.0 + self.ratio) / (2.0 + 3.0 * self.ratio)
+    }
+
+    /// A value at the new time to second order, from two before and the rate now.
+    pub fn predict<T>(&self, now: T, previous: T, rate: T) -> T
+    where
+        T: std::ops::Mul<f64, Output = T>
+            + std::ops::Add<Output = T>
+            + std::ops::Sub<Output = T>
+            + Copy,
+    {
+        let w = self.ratio;
+        now + rate * ((1.0 + w) * self.step) - (now - previous) * (w * w)
     }
 }
 
@@ -77,6 +114,27 @@ mod tests {
             assert!((rate - (3.0 - 3.0 * 1.1)).abs() < 1e-12);
             assert!((bdf.integrate(rate, now, previous) - parabola(1.1)).abs() < 1e-12);
         }
+    }
+
+    #[test]
+    fn the_error_of_a_step_is_that_of_a_cubic() {
+        // After exact values of t^3 a step errs by a known amount, and so does the prediction.
+        let cubic = |t: f64| t * t * t;
+        for before in [0.05, 0.1, 0.2] {
+            let bdf = Bdf::second_order(0.1, before);
+            let (now, previous) = (cubic(1.0), cubic(1.0 - before));
+            let new = bdf.integrate(3.0 * 1.1 * 1.1, now, previous);
+            let predicted = bdf.predict(now, previous, 3.0);
+            let estimate = bdf.error_share() * (new - predicted);
+            assert!((estimate.abs() - (new - cubic(1.1)).abs()).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn what_rests_stays_to_the_last_bit() {
+        let bdf = Bdf::second_order(0.1, 0.07);
+        assert_eq!(bdf.integrate(0.0, 0.3, 0.3), 0.3);
+        assert_eq!(bdf.rate(0.3, 0.3, 0.3), 0.0);
     }
 
     #[test]
