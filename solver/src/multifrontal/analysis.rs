@@ -68,6 +68,8 @@ pub struct Analysis {
     pub(super) unknown_at: Vec<u32>,
     /// Whether the unknown at each place is a pressure.
     pub(super) is_pressure_at: Vec<bool>,
+    /// Unknowns with dense rows, ascending.
+    pub(super) dense: Vec<u32>,
     /// 0, 1, 2, ...: pivot columns of a front are a slice of it.
     pub(super) places: Vec<u32>,
     /// Diagonal entry of the unknown at each place, `NONE` where it is not stored.
@@ -104,6 +106,9 @@ impl Analysis {
         let mut sequence = order(&graph.truncated(n_sparse), ordering);
         sequence.extend(n_sparse as u32..n_vertices as u32);
         let (nodes, n_parts) = by_subtree(supernodes(&graph, &sequence));
+
+        let mut dense: Vec<u32> = unknowns.dense.iter().map(|&unknown| unknown as u32).collect();
+        dense.sort_unstable();
 
         let (starts, members) = bucket(&vertex, n_vertices);
         let members = |position: u32| {
@@ -152,6 +157,7 @@ impl Analysis {
         let mut analysis = Self {
             n,
             n_entries: pattern.rows.len(),
+            dense,
             is_pressure_at: unknown_at
                 .iter()
                 .map(|&unknown| unknowns.is_pressure[unknown as usize])

@@ -270,6 +270,10 @@ fn scales(analysis: &Analysis, pattern: PatternRef<'_>, values: &[f64], tiny: &m
         let own = diagonal(place);
         tiny[place] = own;
         if own > 0.0 {
+            // Those of bodies are of another size altogether, and only a few.
+            if analysis.dense.binary_search(&unknown).is_ok() {
+                continue;
+            }
             velocity = (velocity.0 + own, velocity.1 + 1);
         } else {
             let column = unknown as usize;

@@ -20,7 +20,8 @@ use crate::body::Twist;
 use crate::case::Convection as ConvectionChoice;
 use crate::contact::{ContactLoads, ContactStep, Law, Place};
 use crate::coupling::{
-    Drive, FluidSystem, Levels, Problem, Solution, SolveError, embed, flatten, newton_convection,
+    BodyLoads, Drive, FluidSystem, Levels, Problem, Solution, SolveError, body_loads, embed,
+    flatten, newton_convection,
 };
 use crate::flow::{Convection, FlowTerms};
 use crate::time::Bdf;
@@ -31,6 +32,8 @@ const MAX_ITERATIONS: usize = 20;
 const TOLERANCE: f64 = 1e-10;
 /// Residuals relative to the first that count as rounding once they stop falling.
 const ROUNDING: f64 = 1e-7;
+/// Change of the velocities over their size that is rounding.
+const STILL: f64 = 1e-13;
 /// Most times a step is solved until the bodies are where the flow was solved for.
 const MAX_PASSES: usize = 12;
 /// Part of the smallest gap that is left at least when bodies are put nearer to each other.
@@ -65,8 +68,8 @@ pub struct March<'a> {
 /// What a step leaves for measurements.
 #[derive(Debug, Clone)]
 pub struct StepResult {
-    /// Raw residual of the fluid's equations at the new solution.
-    pub residual: Vec<f64>,
+    /// Loads of the fluid on the bodies, where the flow was solved for.
+    pub loads: Vec<BodyLoads>,
     /// Linear systems solved.
     pub iterations: usize,
     /// Estimate of the error of the step, relative to the size of the velocities; zero for a step of
@@ -159,10 +162,10 @@ impl March<'_> {
             let mut flow =
                 self.solve(system, state, bdf, &past, &constraints, &mesh_velocity, begin, timing)?;
             iterations += flow.iterations;
-            let mut loads = ContactLoads::none(places.len());
+            let mut contact = ContactLoads::none(places.len());
             if let (MeshPath::Bodies(follower), Some(law)) = (self.path, self.contact) {
-                let contact = Contact { march: self, follower, law, bdf };
-                if let Some(found) = contact.solve(
+                let between = Contact { march: self, follower, law, bdf };
+                if let Some(found) = between.solve(
                     system,
                     state,
                     &places,
@@ -170,7 +173,7 @@ impl March<'_> {
                     &mut flow.solution,
                     timing,
                 )? {
-                    loads = found;
+                    contact = found;
                     flow.residual = timing.measure(Stage::Loads, || {
                         self.residual(system, state, bdf, &past, &mesh_velocity, &flow.solution)
                     });
@@ -185,8 +188,17 @@ impl March<'_> {
             if is_settled {
                 system.center_pressure(self.problem, &mut flow.solution);
                 let error = self.error(state, bdf, &flow.solution);
-                self.accept(system, state, bdf, &past, (flow.solution, reached, loads), timing)?;
-                return Ok(StepResult { residual: flow.residual, iterations, error });
+                let fluid_loads = body_loads(
+                    self.problem,
+                    &state.mesh,
+                    &system.layout,
+                    &system.sides,
+                    &poses,
+                    &flow.residual,
+                    &flow.solution.velocity,
+                );
+                self.accept(system, state, bdf, &past, (flow.solution, reached, contact), timing)?;
+                return Ok(StepResult { loads: fluid_loads, iterations, error });
             }
             start = Some(flow.solution);
             (from, to) = (places, reached);
@@ -391,7 +403,7 @@ impl March<'_> {
         let fail = |error: SolveError| RunError::from_solve(error, step, time);
         let newton = self.choice == ConvectionChoice::Newton && problem.has_convection;
         let mut solution = begin;
-        let (mut first, mut last) = (0.0, f64::INFINITY);
+        let (mut first, mut last, mut is_still) = (0.0, f64::INFINITY, false);
         let mut iterations = 0;
         loop {
             let (crossing, convection) = self.crossing(past, mesh_velocity, &solution);
@@ -412,7 +424,7 @@ impl March<'_> {
                 first = size;
             }
             let relative = if first > 0.0 { size / first } else { 0.0 };
-            let at_rounding = relative < ROUNDING && relative > 0.3 * last;
+            let at_rounding = relative < ROUNDING && relative > 0.3 * last || is_still;
             if iterations > 0 && (relative <= TOLERANCE || at_rounding) {
                 return Ok(Flow { solution, residual: raw, iterations });
             }
@@ -420,7 +432,7 @@ impl March<'_> {
                 return Err(RunError::NewtonStalled { step, time, residual: relative, iterations });
             }
             last = relative;
-            solution = system
+            let next = system
                 .newton_step(
                     problem,
                     &state.mesh,
@@ -432,6 +444,9 @@ impl March<'_> {
                     timing,
                 )
                 .map_err(fail)?;
+            // Where the first residual is rounding already, no other is small beside it.
+            is_still = change(&solution, &next) <= STILL;
+            solution = next;
             iterations += 1;
         }
     }
@@ -589,6 +604,15 @@ fn lay(nodes: &mut [Point<2>], seen: &[Point<2>], origin: &Point<2>) {
     for (node, seen) in nodes.iter_mut().zip(seen) {
         *node = seen + origin;
     }
+}
+
+/// Largest change of a velocity over the largest velocity.
+fn change(from: &Solution, to: &Solution) -> f64 {
+    let most = |sizes: &mut dyn Iterator<Item = f64>| sizes.fold(0.0, f64::max);
+    let pairs = from.velocity.iter().zip(&to.velocity);
+    let change = most(&mut pairs.map(|(from, to)| (to - from).amax()));
+    let size = most(&mut to.velocity.iter().map(|velocity| velocity.amax()));
+    if change > 0.0 { change / size } else { 0.0 }
 }
 
 fn frame_velocity(problem: &Problem, solution: &Solution) -> Point<2> {

@@ -7,7 +7,7 @@ use super::snapshot::BodyReport;
 use super::state::State;
 use crate::body::{Twist, Wrench};
 use crate::case::{Case, Geometry, Probe, known_quantities};
-use crate::coupling::{FluidSystem, Problem, Solution, body_loads, surface_load};
+use crate::coupling::{BodyLoads, FluidSystem, Problem, Solution, surface_load};
 use crate::space::{CellValues, p1_values, p2_values};
 
 /// One value of a probe's point: where it is in the mesh, and with which sign it counts.
@@ -100,20 +100,11 @@ impl Measure {
         system: &FluidSystem,
         problem: &Problem,
         state: &State,
-        residual: &[f64],
+        loads: &[BodyLoads],
         moving: Option<Moving>,
     ) -> (Vec<BodyReport>, Vec<f64>) {
         let Solution { velocity, pressure, twists } = &state.now;
         let (poses, in_mesh) = (state.poses(), state.poses_in_mesh());
-        let loads = body_loads(
-            problem,
-            &state.mesh,
-            &system.layout,
-            &system.sides,
-            &in_mesh,
-            residual,
-            velocity,
-        );
         let mut reports = Vec::new();
         let mut values = Vec::with_capacity(self.names.len());
         for (body, rigid) in problem.bodies.iter().enumerate() {

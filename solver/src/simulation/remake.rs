@@ -169,7 +169,7 @@ fn cut(domain: &Domain, shapes: &[PlacedShape]) -> Result<Domain, String> {
             [0.0, length].iter().any(|at| at - from >= margin && to - at >= margin)
         });
         if !is_free {
-            shift(&mut moved, axis, 0.5 * (from + to));
+            shift(&mut moved, axis, (0.5 * (from + to)).rem_euclid(length));
         }
     }
     Ok(moved)

@@ -13,7 +13,7 @@ use super::steady::{SteadyFlow, solve_steady};
 use super::{RunError, Series, Stage, StepError, StepResult, Timing, build_mesh, build_problem};
 use crate::case::{Adaptive, Case, Convection, Initial, Scheme, Steady, TimeSettings, Unsteady};
 use crate::contact::{ContactError, Law};
-use crate::coupling::{FluidSystem, Problem, memory_estimate};
+use crate::coupling::{BodyLoads, FluidSystem, Problem, body_loads, memory_estimate};
 use crate::time::Bdf;
 
 /// What a finished run leaves in memory.
@@ -90,6 +90,19 @@ struct Parts {
 }
 
 impl Parts {
+    /// Loads of the fluid by the raw residual at the present solution.
+    fn loads(&self, residual: &[f64]) -> Vec<BodyLoads> {
+        body_loads(
+            &self.problem,
+            &self.state.mesh,
+            &self.system.layout,
+            &self.system.sides,
+            &self.state.poses_in_mesh(),
+            residual,
+            &self.state.now.velocity,
+        )
+    }
+
     /// Cells the fluid crosses in a second at most (1/s).
     fn crossings(&self) -> f64 {
         let state = &self.state;
@@ -114,13 +127,13 @@ impl Parts {
 /// What the pieces of a step come to.
 #[derive(Default)]
 struct Made {
-    residual: Vec<f64>,
+    loads: Vec<BodyLoads>,
     iterations: usize,
 }
 
 impl Made {
     fn add(&mut self, step: StepResult) {
-        self.residual = step.residual;
+        self.loads = step.loads;
         self.iterations += step.iterations;
     }
 }
@@ -215,12 +228,13 @@ impl Run<'_> {
     fn steady(&mut self, settings: &Steady, parts: &mut Parts) -> Result<usize, RunError> {
         let flow = self.solve(settings, parts)?;
         parts.state.now = flow.solution;
-        self.report(parts, &flow.residual, (flow.iterations, 0.0), true)?;
+        let loads = parts.loads(&flow.residual);
+        self.report(parts, &loads, (flow.iterations, 0.0), true)?;
         Ok(0)
     }
 
     fn unsteady(&mut self, settings: &Unsteady, parts: &mut Parts) -> Result<usize, RunError> {
-        let mut residual = vec![0.0; parts.system.layout.n_raw()];
+        let mut loads = vec![BodyLoads::default(); parts.problem.bodies.len()];
         // Without inertia the flow has no memory, and is that of the bodies' places at any time.
         if settings.initial == Initial::Stokes || !parts.problem.has_inertia {
             let convects = std::mem::replace(&mut parts.problem.has_convection, false);
@@ -228,9 +242,9 @@ impl Run<'_> {
             parts.problem.has_convection = convects;
             parts.state.now = flow.solution.clone();
             parts.state.previous = flow.solution;
-            residual = flow.residual;
+            loads = parts.loads(&flow.residual);
         }
-        self.report(parts, &residual, (0, 0.0), false)?;
+        self.report(parts, &loads, (0, 0.0), false)?;
         match &settings.adaptive {
             None => self.fixed_steps(settings, parts),
             Some(adaptive) => self.adaptive_steps(settings, adaptive, parts),
@@ -260,7 +274,7 @@ impl Run<'_> {
             parts.state.time = if index + 1 == n_steps { settings.end } else { whole };
             let step = parts.state.time - started;
             let is_last = index + 1 == n_steps;
-            self.report(parts, &made.residual, (made.iterations, step), is_last)?;
+            self.report(parts, &made.loads, (made.iterations, step), is_last)?;
             self.look_for_signals(parts, is_last)?;
         }
         Ok(n_steps)
@@ -313,7 +327,7 @@ impl Run<'_> {
                 parts.state.time = settings.end;
             }
             parts.state.step = index;
-            self.report(parts, &step.residual, (step.iterations, size), is_last)?;
+            self.report(parts, &step.loads, (step.iterations, size), is_last)?;
             if is_last {
                 return Ok(index);
             }
@@ -422,7 +436,7 @@ impl Run<'_> {
     fn report(
         &mut self,
         parts: &mut Parts,
-        residual: &[f64],
+        loads: &[BodyLoads],
         (iterations, time_step): (usize, f64),
         is_last: bool,
     ) -> Result<(), RunError> {
@@ -435,7 +449,7 @@ impl Run<'_> {
         let moving = parts.follower.as_ref().map(|_| Moving { remeshes: *remeshes });
         let (bodies, values) = self
             .timing
-            .measure(Stage::Loads, || measure.measure(system, problem, state, residual, moving));
+            .measure(Stage::Loads, || measure.measure(system, problem, state, loads, moving));
         self.series.times.push(state.time);
         let timing = self.timing;
         let snapshot = Snapshot {

@@ -1,0 +1,120 @@
+//! What a new mesh in the middle of a run leaves as it was.
+
+use std::sync::{Arc, Mutex};
+
+use alewife::simulation::{Observer, Outcome, Snapshot, simulate};
+use alewife::space::{CellValues, Tables};
+use tests::cases::{case, last, run};
+
+use super::tank;
+
+fn column(outcome: &Outcome, name: &str) -> Vec<f64> {
+    outcome.series.column(name).expect("the quantity exists")
+}
+
+/// A disc sinks far enough for several meshes.
+#[test]
+fn forces_go_on_smoothly_across_a_new_mesh() {
+    let mesh = "size = 0.2, surface = 0.05, moving.quality = 0.8";
+    let text = tank("navier-stokes", "step = 0.02, end = 2.4", mesh)
+        + r#"
+        [[body]]
+        name = "disc"
+        shape = { disc = { radius = 0.25 } }
+        center = [0.1, 1.0]
+        density = 1.25
+        motion = "free"
+        "#;
+    let outcome = run(&case(&text));
+    let remeshes = column(&outcome, "flow.remeshes");
+    let force = column(&outcome, "disc.force.y");
+    let mut jumps: Vec<f64> = Vec::new();
+    for step in 2..force.len() - 2 {
+        if remeshes[step] == remeshes[step - 1] {
+            continue;
+        }
+        // The first force on the new mesh against the line through those before.
+        let ahead = 2.0 * force[step - 1] - force[step - 2];
+        jumps.push((force[step] - ahead).abs() / force[step].abs());
+    }
+    println!("jumps {jumps:?}");
+    assert!(jumps.len() >= 2, "{} meshes", jumps.len());
+    assert!(jumps.iter().all(|jump| *jump < 0.01), "{jumps:?}");
+}
+
+/// Sums the momentum of the fluid, step by step.
+struct Momentum(Arc<Mutex<Vec<[f64; 2]>>>);
+
+impl Observer<2> for Momentum {
+    fn on_step(&mut self, snapshot: &Snapshot<'_, 2>) -> std::io::Result<()> {
+        let tables = Tables::new(false);
+        let mut workspace = CellValues::default();
+        let mut sum = [0.0; 2];
+        for cell in 0..snapshot.mesh.n_cells() {
+            let nodes = snapshot.mesh.cell(cell);
+            workspace.for_each_point(&tables, snapshot.mesh, cell, |at| {
+                for (&node, phi) in nodes.iter().zip(at.phi) {
+                    let velocity = snapshot.velocity[node as usize];
+                    sum[0] += phi * velocity.x * at.dx;
+                    sum[1] += phi * velocity.y * at.dx;
+                }
+            });
+        }
+        self.0.lock().expect("nobody else holds it").push(sum);
+        Ok(())
+    }
+}
+
+/// Two discs in a doubly periodic box are pulled apart by opposite forces: what they and the fluid
+/// have together is zero, up to the error of the scheme in time, and new meshes change little.
+#[test]
+fn momentum_of_fluid_and_bodies_is_conserved() {
+    let at = |step: f64| {
+        let text = format!(
+            r#"
+            title = "two discs, opposite forces"
+            geometry = "planar"
+            fluid = {{ model = "navier-stokes", density = 1.0, viscosity = 0.05 }}
+            domain.box = {{ min = [-1.0, -1.0], max = [1.0, 1.0] }}
+            mesh = {{ size = 0.15, surface = 0.05 }}
+            time.unsteady = {{ step = {step}, end = 1.0 }}
+            boundary = {{ left.periodic = "right", right.periodic = "left", bottom.periodic = "top", top.periodic = "bottom" }}
+            [[body]]
+            name = "one"
+            shape = {{ disc = {{ radius = 0.2 }} }}
+            center = [-0.4, 0.1]
+            density = 2.0
+            motion = "free"
+            force = [-0.4, 0.5]
+            [[body]]
+            name = "two"
+            shape = {{ disc = {{ radius = 0.2 }} }}
+            center = [0.3, -0.1]
+            density = 2.0
+            motion = "free"
+            force = [0.4, -0.5]
+            "#
+        );
+        let seen = Arc::new(Mutex::new(Vec::new()));
+        let mut observers: Vec<Box<dyn Observer<2>>> = vec![Box::new(Momentum(Arc::clone(&seen)))];
+        let outcome = simulate(&case(&text), &mut observers).expect("the case runs");
+        let mass = 2.0 * std::f64::consts::PI * 0.04;
+        let fluid = *seen.lock().expect("the run is over").last().expect("it has steps");
+        let of_body = |name: &str| {
+            ["x", "y"].map(|axis| mass * last(&outcome, &format!("{name}.velocity.{axis}")))
+        };
+        let (one, two) = (of_body("one"), of_body("two"));
+        let sum = [0, 1].map(|axis| fluid[axis] + one[axis] + two[axis]);
+        let size = one[0].hypot(one[1]);
+        println!(
+            "step {step}: {:e} of {size}, {} meshes",
+            sum[0].hypot(sum[1]),
+            last(&outcome, "flow.remeshes")
+        );
+        assert!(last(&outcome, "flow.remeshes") >= 1.0);
+        sum[0].hypot(sum[1]) / size
+    };
+    let (coarse, fine) = (at(0.04), at(0.02));
+    assert!(coarse < 5e-3, "{coarse:e}");
+    assert!(fine < 0.5 * coarse || fine < 5e-4, "{coarse:e} {fine:e}");
+}
