@@ -340,6 +340,154 @@ fn names_mean_one_thing() {
     refused("name = \"disc\"", "name = \"a disc\"", &["cannot be a name"]);
 }
 
+/// The right case marching in time with its disc free, and these lines of the body.
+fn marching(lines: &str) -> String {
+    without_variant(RIGHT)
+        .replace("[time.steady]", "[time.unsteady]\nstep = 0.1\nend = 1.0")
+        .replace("motion = \"held\"", &format!("motion = \"free\"\n{lines}"))
+}
+
+#[test]
+fn bodies_move_through_the_mesh() {
+    let free = check(&marching(""), &[]);
+    assert_accepted(&free);
+    assert_eq!(free.stderr, "");
+    assert_accepted(&check(&marching("").replace("navier-stokes", "stokes"), &[]));
+    let ellipse = marching("")
+        .replace("{ disc = { radius = 0.05 } }", "{ ellipse = { semi_axes = [0.05, 0.02] } }");
+    assert_accepted(&check(&ellipse, &[]));
+    let contact = "[contact.barrier]\nrange = 0.02\nstiffness = 1.0\n\n[mesh]";
+    let with_contact = marching("").replace("[mesh]", contact);
+    let said = check(&with_contact, &[]);
+    assert_accepted(&said);
+    assert_eq!(said.stderr, "");
+    // A gap within the range at the start is a contact, not a mistake.
+    assert_accepted(&check(&with_contact, &["--set", "body.0.center=[0.2, 0.06]"]));
+    assert_refused(
+        &check(&with_contact, &["--set", "time.unsteady.convection=newton"]),
+        &["contact is solved together with extrapolated convection only", "--> --set:1:"],
+    );
+    assert_refused(
+        &check(&with_contact, &["--set", "time.steady={}"]),
+        &["a steady solution knows no contact", "wrong.toml:26:2", "march in time"],
+    );
+}
+
+#[test]
+fn springs_hold_free_bodies_in_unsteady_runs() {
+    let spring = marching("spring = { stiffness = [0.0, 2.0], damping = [0.0, 0.1] }");
+    let said = check(&spring, &[]);
+    assert_accepted(&said);
+    assert_eq!(said.stderr, "");
+    assert_refused(
+        &check(&spring, &["--set", "body.0.motion=held"]),
+        &["not free to follow it", "wrong.toml:24:10", "motion = \"free\""],
+    );
+    assert_refused(
+        &check(&spring, &["--set", "time.steady={}"]),
+        &["acts in unsteady runs only", "wrong.toml:24:10"],
+    );
+    assert_refused(
+        &check(&marching("spring = { stiffness = [-1.0, 2.0] }"), &[]),
+        &["`body.0.spring.stiffness.0` is -1, but must not be negative", "wrong.toml:24:25"],
+    );
+}
+
+#[test]
+fn springs_and_factors_of_loads_on_the_axis_are_along_it() {
+    let text = r#"title = "A sphere on a spring"
+geometry = "axisymmetric"
+fluid = { model = "stokes", viscosity = 1.0 }
+domain.half-disc = { radius = 4.0 }
+boundary.wall = "no-slip"
+mesh = { size = 0.5 }
+time.unsteady = { step = 0.1, end = 1.0 }
+
+[[body]]
+name = "sphere"
+shape.sphere = { radius = 1.0 }
+center = [0.0, 0.0]
+motion = "free"
+spring = { stiffness = [1.0, 0.0], damping = [0.1, 0.0], anchor = [0.1, 0.0] }
+force = [1.0, 0.0]
+load_factor.sine = { frequency = 1.0 }
+"#;
+    assert_accepted(&check(text, &[]));
+    for (setting, wanted) in [
+        ("body.0.spring.stiffness.1=1", "the stiffness across the axis of \"sphere\" breaks"),
+        ("body.0.spring.damping.1=1", "the damping across the axis"),
+        ("body.0.spring.anchor.1=1", "the anchor off the axis"),
+        ("body.0.spring.torsion=1", "the torsion of \"sphere\" breaks the symmetry"),
+        ("body.0.load_factor.sine.frequency=0", "must be positive"),
+        ("body.0.load_factor.table=[[1, 0], [0, 1]]", "must rise"),
+    ] {
+        assert_refused(&check(text, &["--set", setting]), &[wanted]);
+    }
+}
+
+#[test]
+fn a_factor_of_no_load_is_warned_about() {
+    let factor = "load_factor = { ramp = { duration = 1.0 } }";
+    let said = check(&marching(factor), &[]);
+    assert_accepted(&said);
+    assert!(said.stderr.contains("no force or torque of \"disc\""), "{}", said.stderr);
+    assert!(said.stderr.contains("wrong.toml:24:15"), "{}", said.stderr);
+    let loaded = check(&marching(&format!("torque = 1.0\n{factor}")), &[]);
+    assert_accepted(&loaded);
+    assert_eq!(loaded.stderr, "");
+    let held = check(&marching(factor), &["--set", "body.0.motion=held"]);
+    assert_accepted(&held);
+    assert!(held.stderr.contains("`load_factor` has no effect"), "{}", held.stderr);
+}
+
+#[test]
+fn adaptive_steps_have_bounds_around_the_first_one() {
+    let text = marching("").replace(
+        "end = 1.0",
+        "end = 0.95\n\n[time.unsteady.adaptive]\ntolerance = 1e-3\nlargest = 0.2\nsmallest = 1e-4",
+    );
+    let said = check(&text, &[]);
+    assert_accepted(&said);
+    // Nobody expects adaptive steps to divide the end.
+    assert_eq!(said.stderr, "");
+    for (setting, wanted) in [
+        ("tolerance=0", "must be positive"),
+        ("tolerance=1", "is no accuracy"),
+        ("largest=-1", "must be positive"),
+        ("largest=0.05", "the largest step, 0.05, is shorter than the first one, 0.1"),
+        ("smallest=0", "must be positive"),
+        ("smallest=0.15", "the smallest step, 0.15, is longer than the first one, 0.1"),
+        ("cfl=0", "must be positive"),
+        ("gap=0", "must be positive"),
+        ("gap=1", "may close"),
+    ] {
+        let setting = format!("time.unsteady.adaptive.{setting}");
+        assert_refused(&check(&text, &["--set", &setting]), &[wanted, "--> --set:1:"]);
+    }
+}
+
+#[test]
+fn a_moving_mesh_has_limits_a_new_one_meets() {
+    let text = marching("");
+    for (setting, wanted) in [
+        ("quality=0", "must be positive"),
+        ("quality=1", "keeps 1 of its quality"),
+        ("layers=0.5", "a gap needs a layer of cells"),
+        ("layers=5", "has only 4 itself"),
+        ("equation=elastc", "`elastic`?"),
+    ] {
+        let setting = format!("mesh.moving.{setting}");
+        assert_refused(&check(&text, &["--set", &setting]), &[wanted, "--> --set:1:"]);
+    }
+    // The default is right on every mesh, and so is what the scale of the mesh makes of it.
+    for setting in ["mesh.gap_layers=1", "mesh.scale=4", "mesh.moving.layers=4"] {
+        assert_accepted(&check(&text, &["--set", setting]));
+    }
+    let still = check(RIGHT, &["--set", "mesh.moving.quality=0.3"]);
+    assert_accepted(&still);
+    assert!(still.stderr.contains("`mesh.moving` has no effect"), "{}", still.stderr);
+}
+
 #[test]
 fn the_frame_is_that_of_a_body() {
     refused("[fluid]", "frame = \"disk\"\n[fluid]", &["no body has that name", "`disc`?"]);
@@ -398,6 +546,58 @@ fn a_reference_has_one_tolerance_and_a_statistic_has_what_it_needs() {
     refused("relative = 0.05", "relative = 0.05\nabsolute = 1.0", &["both", "wrong.toml:47:12"]);
     refused("relative = 0.05", "relative = 0.05\nstatistic = \"at\"", &["add at = ..."]);
     refused("relative = 0.05", "relative = 0.05\nstatistic = \"strouhal\"", &["no period"]);
+}
+
+#[test]
+fn statistics_of_moving_bodies_have_what_they_need() {
+    let text =
+        marching("").replace("quantity = \"disc.drag_coefficient\"", "quantity = \"disc.y\"");
+    let with = |lines: &str| text.replace("relative = 0.05", &format!("relative = 0.05\n{lines}"));
+    for lines in [
+        "statistic = \"crossing\"\nlevel = 0.3",
+        "statistic = \"when\"\nof = \"disc.x\"\nlevel = 0.3",
+        "statistic = \"range\"",
+        "statistic = \"max\"\nminus = \"disc.x\"",
+        "statistic = \"final\"",
+    ] {
+        assert_accepted(&check(&with(lines), &[]));
+    }
+    for (lines, wanted) in [
+        ("statistic = \"crossing\"", "the statistic `crossing` needs a value"),
+        ("statistic = \"when\"\nof = \"disc.x\"", "the statistic `when` needs a value"),
+        ("statistic = \"when\"\nlevel = 0.3", "`when` needs a quantity to wait for"),
+        ("statistic = \"when\"\nof = \"disc.z\"\nlevel = 1", "there is no quantity `disc.z`"),
+        ("level = 1.0", "`level` goes with the statistics `crossing` and `when` only"),
+        ("of = \"disc.x\"", "`of` goes with the statistic `when` only"),
+        ("statistic = \"crossing\"\nlevel = 1\nat = 0.5", "`at` goes with the statistic `at` only"),
+        ("statistic = \"at\"\nat = 2.0", "the time 2 is not within the run"),
+        ("minus = \"disk.y\"", "there is no quantity `disk.y`"),
+        ("minus = \"disc.y\"", "`disc.y` less itself is 0"),
+        ("statistic = \"morison-drag\"", "is one of forces, not of `disc.y`"),
+    ] {
+        assert_refused(&check(&with(lines), &[]), &[wanted]);
+    }
+    refused(
+        "relative = 0.05",
+        "relative = 0.05\nstatistic = \"crossing\"\nlevel = 1.0",
+        &["a steady solution has no course in time", "wrong.toml:47:13"],
+    );
+}
+
+#[test]
+fn morisons_equation_has_a_force_a_diameter_and_a_density() {
+    let text = marching("")
+        .replace("quantity = \"disc.drag_coefficient\"", "quantity = \"disc.force.x\"")
+        .replace("relative = 0.05", "relative = 0.05\nstatistic = \"morison-inertia\"");
+    assert_accepted(&check(&text, &[]));
+    let refused = |from: &str, to: &str, wanted: &str| {
+        assert!(text.contains(from), "{from}");
+        assert_refused(&check(&text.replace(from, to), &[]), &[wanted]);
+    };
+    let scales = "[scales]\nlength = 0.1\nvelocity = 0.2\n\n[numbers]\nreynolds = 20.0\n";
+    refused(scales, "", "needs a diameter and a density");
+    refused("relative = 0.05", "relative = 0.05\nminus = \"disc.force.y\"", "that of one body");
+    refused("disc.force.x", "drop.velocity.x", "not of `drop.velocity.x`");
 }
 
 #[test]

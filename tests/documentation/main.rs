@@ -11,17 +11,18 @@ use alewife::case::{
 /// Beginnings of paths that exist on one machine only.
 const OF_ONE_MACHINE: [&str; 4] = ["/work", "/tmp", "/root", "/home"];
 
-/// A case that has a body, a probe and scales, and so all quantities there are.
+/// A case with a body that moves, contact, a probe and scales, and so all quantities there are.
 const ALL_QUANTITIES: &str = r#"
 title    = "all quantities"
 geometry = "planar"
-fluid    = { model = "stokes", viscosity = 1.0 }
+fluid    = { model = "stokes", viscosity = 1.0, density = 1.0 }
 domain.box = { min = [-2.0, -2.0], max = [2.0, 2.0] }
 boundary = { left = "no-slip", right = "no-slip", bottom = "no-slip", top = "no-slip" }
 mesh     = { size = 0.5 }
-time.steady = {}
+time.unsteady = { step = 0.1, end = 1.0 }
+contact.barrier = { range = 0.1, stiffness = 1.0 }
 scales   = { length = 1.0, velocity = 1.0 }
-body     = [{ name = "disc", shape.disc.radius = 0.5, center = [0.0, 0.0], motion = "held" }]
+body     = [{ name = "disc", shape.disc.radius = 0.5, center = [0.0, 0.0], motion = "free" }]
 probe    = [{ name = "point", point = [1.0, 1.0] }]
 "#;
 

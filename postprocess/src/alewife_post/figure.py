@@ -212,7 +212,8 @@ def draw_published(axes: Axes, case: dict[str, Any], name: str) -> None:
     drawn = False
     for reference in case.get("reference", []):
         statistic = reference.get("statistic", "final")
-        if reference["quantity"] != name or statistic not in same_unit:
+        is_of_it = reference["quantity"] == name and "minus" not in reference
+        if not is_of_it or statistic not in same_unit:
             continue
         scale = reference.get("per", 1.0)
         value = scale * reference["value"]

@@ -6,6 +6,9 @@ use super::{
     Body, BoundaryCondition, Case, DomainSpec, Geometry, Lock, Motion, ShapeSpec, TimeSettings,
 };
 
+/// Directions in which the width of a spline is measured.
+const DIRECTIONS: u32 = 90;
+
 impl DomainSpec {
     /// Names of the sides.
     #[must_use]
@@ -108,6 +111,24 @@ impl ShapeSpec {
             Self::Spline { points } => points.iter().map(|[x, y]| x.hypot(*y)).fold(0.0, f64::max),
         }
     }
+
+    /// Half of the least width (m): a radius, the shorter semi-axis; of a spline to a few per cent.
+    #[must_use]
+    pub fn half_width(&self) -> f64 {
+        match self {
+            Self::Disc { radius } | Self::Sphere { radius } => *radius,
+            Self::Ellipse { semi_axes: [a, b] } | Self::Spheroid { semi_axes: [a, b] } => a.min(*b),
+            Self::Spline { points } => (0..DIRECTIONS)
+                .map(|i| std::f64::consts::PI * f64::from(i) / f64::from(DIRECTIONS))
+                .map(|angle| {
+                    let along = |[x, y]: &[f64; 2]| x * angle.cos() + y * angle.sin();
+                    let most = points.iter().map(along).fold(f64::NEG_INFINITY, f64::max);
+                    let least = points.iter().map(along).fold(f64::INFINITY, f64::min);
+                    0.5 * (most - least)
+                })
+                .fold(f64::INFINITY, f64::min),
+        }
+    }
 }
 
 impl Body {
@@ -131,7 +152,12 @@ impl Body {
     pub fn translates(&self) -> bool {
         match &self.motion {
             Motion::Held => false,
-            Motion::Free => ![Lock::X, Lock::Y].iter().all(|lock| self.locked.contains(lock)),
+            Motion::Free => {
+                let is_on_axis =
+                    matches!(self.shape, ShapeSpec::Sphere { .. } | ShapeSpec::Spheroid { .. });
+                let is_free = |lock: Lock| !self.locked.contains(&lock);
+                is_free(Lock::X) || (!is_on_axis && is_free(Lock::Y))
+            }
             Motion::Imposed(imposed) => imposed.velocity.iter().any(|part| *part != 0.0),
         }
     }
@@ -192,5 +218,46 @@ impl Case {
             DomainSpec::HalfDisc { center, radius } => Domain::HalfDisc { center, radius },
             DomainSpec::Cylinder { x, radius } => Domain::Cylinder { x, radius, periodic_x },
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_half_width_is_that_across_the_thin_side() {
+        let half_width = |shape: ShapeSpec| shape.half_width();
+        assert_eq!(half_width(ShapeSpec::Sphere { radius: 0.4 }), 0.4);
+        assert_eq!(half_width(ShapeSpec::Ellipse { semi_axes: [0.1, 0.3] }), 0.1);
+        // A slender diamond, turned by 30 degrees and away from the origin
+        let (sin, cos) = (0.5, 0.75_f64.sqrt());
+        let points = [[1.0, 0.0], [0.0, 0.1], [-1.0, 0.0], [0.0, -0.1]]
+            .map(|[x, y]: [f64; 2]| [3.0 + x * cos - y * sin, x * sin + y * cos]);
+        let width = half_width(ShapeSpec::Spline { points: points.to_vec() });
+        assert!((width - 0.1).abs() < 0.005, "{width}");
+    }
+
+    #[test]
+    fn a_body_on_the_axis_locked_along_it_stays() {
+        let text = "
+title = 't'
+geometry = 'axisymmetric'
+fluid = { model = 'stokes', viscosity = 1.0 }
+domain = { half-disc = { radius = 4.0 } }
+mesh = { size = 0.2 }
+time = { unsteady = { step = 0.1, end = 1.0 } }
+body = [{ name = 'b', shape = { sphere = { radius = 1.0 } }, center = [0, 0], motion = 'free' }]
+";
+        let moves = |settings: &[&str]| {
+            let settings: Vec<String> = settings.iter().map(|&s| s.to_owned()).collect();
+            let case = Case::parse("t.toml", text, &settings).unwrap().case;
+            assert_eq!(case.mesh_moves(), case.body[0].translates() && case.frame.is_none());
+            case.mesh_moves()
+        };
+        assert!(moves(&[]));
+        assert!(moves(&["body.0.locked=['y']"]));
+        assert!(!moves(&["body.0.locked=['x']"]));
+        assert!(!moves(&["frame=b"]));
     }
 }

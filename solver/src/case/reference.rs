@@ -54,6 +54,39 @@ pub enum Statistic {
     Strouhal,
     /// The value half a period after the largest value of `statistics.phase_of`.
     HalfPeriodAfterMax,
+    /// The time in the window at which it first reaches `level`, from either side.
+    Crossing,
+    /// The value at the time in the window at which the quantity `of` first reaches `level`.
+    When,
+    /// Largest less smallest value in the window, both refined by a parabola.
+    Range,
+    /// Drag coefficient c_D of Morison's equation, fitted to a force over the window:
+    /// F = -1/2 rho D c_D |v| v - rho (pi D^2/4) c_I dv/dt, with D = scales.length.
+    MorisonDrag,
+    /// Inertia coefficient c_I of the same fit.
+    MorisonInertia,
+}
+
+impl Statistic {
+    /// Name in the case file.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Final => "final",
+            Self::At => "at",
+            Self::Max => "max",
+            Self::Min => "min",
+            Self::Mean => "mean",
+            Self::Rms => "rms",
+            Self::Strouhal => "strouhal",
+            Self::HalfPeriodAfterMax => "half-period-after-max",
+            Self::Crossing => "crossing",
+            Self::When => "when",
+            Self::Range => "range",
+            Self::MorisonDrag => "morison-drag",
+            Self::MorisonInertia => "morison-inertia",
+        }
+    }
 }
 
 /// `[statistics]`.
@@ -74,12 +107,21 @@ pub struct Statistics {
 pub struct Reference {
     /// What is compared: a column of `series.csv`, such as `cylinder.drag_coefficient`.
     pub quantity: String,
+    /// A quantity subtracted from it first: `upper.y` minus `lower.y`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub minus: Option<String>,
     /// How its time series becomes a number.
     #[serde(default)]
     pub statistic: Statistic,
     /// Time of statistic `at` (s).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub at: Option<f64>,
+    /// Value that statistic `crossing` waits for, in the quantity's unit; that of `of` for `when`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub level: Option<f64>,
+    /// The quantity statistic `when` waits for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub of: Option<String>,
     /// The published value.
     pub value: f64,
     /// What the computed quantity is divided by before it is compared (say, 6 pi mu a U).
@@ -114,6 +156,42 @@ pub struct Variant {
     /// Its published values, besides those of the case.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub reference: Vec<Reference>,
+}
+
+impl Reference {
+    /// What is compared, as a formula: `upper.y - lower.y`.
+    #[must_use]
+    pub fn formula(&self) -> String {
+        match &self.minus {
+            None => self.quantity.clone(),
+            Some(minus) => format!("{} - {minus}", self.quantity),
+        }
+    }
+
+    /// What is compared, with its statistic unless that is the final value.
+    #[must_use]
+    pub fn label(&self) -> String {
+        let number = |value: Option<f64>| value.map_or(String::new(), |value| format!(" {value}"));
+        let statistic = match self.statistic {
+            Statistic::Final => return self.formula(),
+            Statistic::At => format!("at{}", number(self.at)),
+            Statistic::Crossing => format!("crossing{}", number(self.level)),
+            Statistic::When => {
+                let of = self.of.as_deref().unwrap_or_default();
+                format!("when {of} ={}", number(self.level))
+            }
+            other => other.name().to_owned(),
+        };
+        format!("{} ({statistic})", self.formula())
+    }
+
+    /// Body and axis of the force that is compared: `cylinder` and `x` for `cylinder.force.x`.
+    #[must_use]
+    pub fn force_of(&self) -> Option<(&str, &str)> {
+        let (owner, axis) = self.quantity.rsplit_once('.')?;
+        let body = owner.strip_suffix(".force").or(owner.strip_suffix(".surface_force"))?;
+        ["x", "y"].contains(&axis).then_some((body, axis))
+    }
 }
 
 fn one() -> f64 {

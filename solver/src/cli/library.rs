@@ -4,10 +4,7 @@ use std::fmt::Write as _;
 
 use super::exit::{Exit, Failure};
 use super::style::{Ink, on_stdout, say};
-use crate::case::{
-    Case, CaseFile, Reference, Statistic, check, library, number_table, significant,
-};
-use crate::validation::statistic_name;
+use crate::case::{Case, CaseFile, Reference, check, library, number_table, significant};
 
 /// Lists the shipped cases.
 pub fn list(is_long: bool) -> Result<Exit, Failure> {
@@ -95,19 +92,16 @@ fn summary(file: &CaseFile) -> String {
 
 /// A reference in one line.
 fn reference_line(reference: &Reference) -> String {
-    let statistic = match reference.statistic {
-        Statistic::Final => String::new(),
-        other => format!(" ({})", statistic_name(other)),
-    };
     let tolerance = match (reference.relative, reference.absolute) {
         (Some(relative), _) => format!("within {} %", significant(100.0 * relative)),
         (None, Some(absolute)) => format!("within {}", significant(absolute)),
         (None, None) => "no tolerance".to_owned(),
     };
-    let per = if reference.per == 1.0 {
-        String::new()
-    } else {
-        format!(" / {}", significant(reference.per))
+    let label = reference.label();
+    let what = match (reference.per == 1.0, &reference.minus) {
+        (true, _) => label,
+        (false, None) => format!("{label} / {}", significant(reference.per)),
+        (false, Some(_)) => format!("({label}) / {}", significant(reference.per)),
     };
-    format!("{}{statistic}{per} = {}, {tolerance}", reference.quantity, reference.value)
+    format!("{what} = {}, {tolerance}", reference.value)
 }

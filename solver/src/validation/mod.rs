@@ -1,5 +1,6 @@
 //! Did the case reproduce what was published?
 
+mod morison;
 mod report;
 mod statistic;
 
@@ -7,4 +8,4 @@ pub use report::{
     Comparison, Verdict, compare, comparison_page, comparison_table, comparisons_to_json,
     not_computed,
 };
-pub use statistic::{StatisticError, measured_value, statistic_name};
+pub use statistic::{StatisticError, measured_value};

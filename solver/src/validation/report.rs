@@ -2,8 +2,8 @@
 
 use serde_json::{Value, json};
 
-use super::statistic::{measured_value, statistic_name};
-use crate::case::{Case, Reference, Statistic, significant};
+use super::statistic::measured_value;
+use crate::case::{Case, Reference, significant};
 use crate::simulation::Outcome;
 
 /// What a comparison came to.
@@ -84,14 +84,9 @@ fn judge(
         Ok(value) if (value - reference.value).abs() <= allowed(reference) => Verdict::Within,
         Ok(_) => Verdict::Outside,
     };
-    let quantity = match reference.statistic {
-        Statistic::Final => reference.quantity.clone(),
-        Statistic::At => format!("{} (at {})", reference.quantity, reference.at.unwrap_or(0.0)),
-        other => format!("{} ({})", reference.quantity, statistic_name(other)),
-    };
     Comparison {
         case: name.to_owned(),
-        quantity,
+        quantity: reference.label(),
         computed,
         reference: reference.clone(),
         verdict,
@@ -126,7 +121,11 @@ impl Comparison {
         json!({
             "case": self.case,
             "quantity": self.reference.quantity,
-            "statistic": statistic_name(self.reference.statistic),
+            "minus": self.reference.minus,
+            "statistic": self.reference.statistic.name(),
+            "at": self.reference.at,
+            "level": self.reference.level,
+            "of": self.reference.of,
             "computed": self.computed.as_ref().ok(),
             "published": self.reference.value,
             "difference": self.difference(),
@@ -253,12 +252,16 @@ pub fn comparison_table(comparisons: &[Comparison]) -> Vec<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::case::Statistic;
 
     fn reference(relative: Option<f64>, absolute: Option<f64>) -> Reference {
         Reference {
             quantity: "body.force.x".to_owned(),
+            minus: None,
             statistic: Statistic::Max,
             at: None,
+            level: None,
+            of: None,
             value: -2.0,
             per: 1.0,
             relative,
@@ -278,6 +281,34 @@ mod tests {
         assert_eq!(verdict(-2.03, None, Some(0.05)), Verdict::Within);
         assert_eq!(verdict(2.0, None, Some(0.05)), Verdict::Outside);
         assert_eq!(verdict(f64::NAN, Some(0.5), None), Verdict::Outside);
+    }
+
+    #[test]
+    fn a_comparison_says_what_was_subtracted_and_waited_for() {
+        let plain = reference(Some(0.01), None);
+        let named = |reference: Reference| judge("c", &reference, Ok(-2.0), 1, 0.0).quantity;
+        assert_eq!(named(plain.clone()), "body.force.x (max)");
+        let apart = Reference { minus: Some("other.force.x".to_owned()), ..plain };
+        assert_eq!(named(apart.clone()), "body.force.x - other.force.x (max)");
+        let last = Reference { statistic: Statistic::Final, ..apart.clone() };
+        assert_eq!(named(last), "body.force.x - other.force.x");
+        let crossing =
+            Reference { statistic: Statistic::Crossing, level: Some(0.5), ..apart.clone() };
+        assert_eq!(named(crossing), "body.force.x - other.force.x (crossing 0.5)");
+        let of = Some("body.y".to_owned());
+        let when = Reference {
+            statistic: Statistic::When,
+            level: Some(-0.5),
+            of,
+            minus: None,
+            ..apart.clone()
+        };
+        assert_eq!(named(when), "body.force.x (when body.y = -0.5)");
+        let json = judge("c", &apart, Ok(-2.0), 1, 0.0).to_json();
+        assert_eq!(
+            (&json["quantity"], &json["minus"]),
+            (&"body.force.x".into(), &"other.force.x".into())
+        );
     }
 
     #[test]

@@ -5,6 +5,7 @@
 
 use thiserror::Error;
 
+use super::morison::{self, Swing};
 use crate::case::{Case, Reference, Statistic};
 use crate::simulation::Series;
 
@@ -49,24 +50,31 @@ pub enum StatisticError {
         /// Crossings found.
         crossings: usize,
     },
+    /// The series stays on one side of a level.
+    #[error(
+        "`{quantity}` does not reach {level} in the window: it goes from {lowest} to {highest} there"
+    )]
+    NotReached {
+        /// Name of the series.
+        quantity: String,
+        /// The level.
+        level: f64,
+        /// Smallest value in the window.
+        lowest: f64,
+        /// Largest value in the window.
+        highest: f64,
+    },
+    /// Drag and inertia cannot be told apart.
+    #[error("body `{body}` does not swing along {axis} in the window, as Morison's equation needs")]
+    NoSwing {
+        /// Name of the body.
+        body: String,
+        /// Axis of the force.
+        axis: String,
+    },
     /// Something the statistic needs is not in the case.
     #[error("the statistic needs {0}")]
     Missing(&'static str),
-}
-
-/// Name of a statistic in case files.
-#[must_use]
-pub fn statistic_name(statistic: Statistic) -> &'static str {
-    match statistic {
-        Statistic::Final => "final",
-        Statistic::At => "at",
-        Statistic::Max => "max",
-        Statistic::Min => "min",
-        Statistic::Mean => "mean",
-        Statistic::Rms => "rms",
-        Statistic::Strouhal => "strouhal",
-        Statistic::HalfPeriodAfterMax => "half-period-after-max",
-    }
 }
 
 /// The number a reference is held against: its statistic of the run, divided by `per`.
@@ -78,7 +86,7 @@ pub fn measured_value(
     case: &Case,
     reference: &Reference,
 ) -> Result<f64, StatisticError> {
-    let whole = curve(series, &reference.quantity)?;
+    let whole = compared(series, reference)?;
     let window = whole.window(case.statistics.window)?;
     let value = match reference.statistic {
         Statistic::Final => whole.last(),
@@ -92,7 +100,7 @@ pub fn measured_value(
         Statistic::Rms => window.squared().mean().sqrt(),
         Statistic::Strouhal => {
             let scales = case.scales.ok_or(StatisticError::Missing("[scales]"))?;
-            scales.length / (scales.velocity * window.period(&reference.quantity)?)
+            scales.length / (scales.velocity * window.period(&reference.formula())?)
         }
         Statistic::HalfPeriodAfterMax => {
             let name = case.statistics.phase_of.as_deref();
@@ -103,8 +111,55 @@ pub fn measured_value(
             let (time, _) = phase.until(last)?.largest(1.0);
             whole.value_at(time + half_period)?
         }
+        Statistic::Crossing => {
+            let level = reference.level.ok_or(StatisticError::Missing("a value, `level`"))?;
+            whole.time_of(level, case.statistics.window, &reference.formula())?
+        }
+        Statistic::When => {
+            let level = reference.level.ok_or(StatisticError::Missing("a value, `level`"))?;
+            let of = reference.of.as_deref();
+            let of = of.ok_or(StatisticError::Missing("a quantity, `of`"))?;
+            let time = curve(series, of)?.time_of(level, case.statistics.window, of)?;
+            whole.value_at(time)?
+        }
+        Statistic::Range => window.largest(1.0).1 - window.largest(-1.0).1,
+        Statistic::MorisonDrag => morison_fit(series, case, reference)?[0],
+        Statistic::MorisonInertia => morison_fit(series, case, reference)?[1],
     };
     Ok(value / reference.per)
+}
+
+/// The quantity of a reference, less the one that is subtracted.
+fn compared(series: &Series, reference: &Reference) -> Result<Curve, StatisticError> {
+    let mut whole = curve(series, &reference.quantity)?;
+    if let Some(minus) = &reference.minus {
+        for (value, less) in whole.values.iter_mut().zip(curve(series, minus)?.values) {
+            *value -= less;
+        }
+    }
+    Ok(whole)
+}
+
+/// Drag and inertia coefficient of Morison's equation over the window.
+fn morison_fit(
+    series: &Series,
+    case: &Case,
+    reference: &Reference,
+) -> Result<[f64; 2], StatisticError> {
+    let scales = case.scales.ok_or(StatisticError::Missing("[scales]"))?;
+    let (body, axis) = reference.force_of().ok_or(StatisticError::Missing("a force on a body"))?;
+    let column = |name: &str| curve(series, name)?.window(case.statistics.window);
+    let force = column(&reference.quantity)?;
+    let velocity = column(&format!("{body}.velocity.{axis}"))?;
+    let acceleration = column(&format!("{body}.acceleration.{axis}"))?;
+    let swing = Swing {
+        times: &force.times,
+        force: &force.values,
+        velocity: &velocity.values,
+        acceleration: &acceleration.values,
+    };
+    morison::fit(swing, case.fluid.density, scales.length)
+        .ok_or_else(|| StatisticError::NoSwing { body: body.to_owned(), axis: axis.to_owned() })
 }
 
 /// A column of a series with its times.
@@ -183,6 +238,47 @@ impl Curve {
             ((self.values[middle - 1] - here) / before, (self.values[middle + 1] - here) / after);
         let bend = (up - down) / (after - before);
         Parabola { time: self.times[middle], value: here, slope: up - bend * after, bend }
+    }
+
+    /// The time in a window at which the series first reaches a level, from either side.
+    fn time_of(
+        &self,
+        level: f64,
+        window: Option<[f64; 2]>,
+        name: &str,
+    ) -> Result<f64, StatisticError> {
+        let inside = self.window(window)?;
+        let [start, end] = window.unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);
+        // The whole series is searched: it may reach the level in the part of a step that is
+        // inside the window.
+        let reached = (0..self.times.len()).find_map(|i| {
+            let time = self.time_in_step(i, level)?;
+            (start..=end).contains(&time).then_some(time)
+        });
+        reached.ok_or_else(|| {
+            let lowest = inside.values.iter().copied().fold(f64::INFINITY, f64::min);
+            let highest = inside.values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+            StatisticError::NotReached { quantity: name.to_owned(), level, lowest, highest }
+        })
+    }
+
+    /// When the series is at a level, from one row on and before the next.
+    fn time_in_step(&self, i: usize, level: f64) -> Option<f64> {
+        let (start, here) = (self.times[i], self.values[i]);
+        if here == level {
+            return Some(start);
+        }
+        let (end, next) = (*self.times.get(i + 1)?, *self.values.get(i + 1)?);
+        if !(here.min(next) < level && level < here.max(next)) {
+            return None;
+        }
+        let part = (level - here) / (next - here);
+        let n = self.times.len();
+        if n < 3 {
+            return Some(start + part * (end - start));
+        }
+        let nearer = if part < 0.5 { i } else { i + 1 };
+        Some(self.parabola(nearer.clamp(1, n - 2)).crossing(level, start, end))
     }
 
     /// Time and value of the largest value times `sign`, refined by a parabola.
@@ -291,6 +387,21 @@ impl Parabola {
         let s = time - self.time;
         self.value + s * (self.slope + s * self.bend)
     }
+
+    /// Where it passes a level between two times at which it is on different sides of it.
+    fn crossing(&self, level: f64, mut low: f64, mut high: f64) -> f64 {
+        let is_above_at_the_end = self.value(high) > level;
+        // Bisection to the last bit: a parabola passes a level once in such a stretch.
+        for _ in 0..64 {
+            let middle = 0.5 * (low + high);
+            if (self.value(middle) > level) == is_above_at_the_end {
+                high = middle;
+            } else {
+                low = middle;
+            }
+        }
+        0.5 * (low + high)
+    }
 }
 
 #[cfg(test)]
@@ -330,18 +441,48 @@ mod tests {
     ) -> Result<f64, StatisticError> {
         let mut case = Case::parse("t.toml", CASE, &[]).unwrap().case;
         case.statistics.window = window;
-        let reference = Reference {
+        measured_value(series, &case, &reference(quantity, statistic))
+    }
+
+    fn reference(quantity: &str, statistic: Statistic) -> Reference {
+        Reference {
             quantity: quantity.to_owned(),
+            minus: None,
             statistic,
             at: Some(0.33),
+            level: None,
+            of: None,
             value: 1.0,
             per: 1.0,
             relative: Some(0.1),
             absolute: None,
             source: "test".to_owned(),
             note: None,
-        };
-        measured_value(series, &case, &reference)
+        }
+    }
+
+    /// As `series`, with steps that grow threefold from the first to the last.
+    fn uneven(end: f64, n: usize, columns: &[(&str, &dyn Fn(f64) -> f64)]) -> Series {
+        let mut run = series(1.0 / n as f64, n, columns);
+        for (time, row) in run.times.iter_mut().zip(&mut run.rows) {
+            *time = end * 0.5 * *time * (1.0 + *time);
+            *row = columns.iter().map(|(_, value)| value(*time)).collect();
+        }
+        run
+    }
+
+    /// When `quantity`, less `minus`, is at a level.
+    fn crossing(
+        run: &Series,
+        [quantity, minus]: [&str; 2],
+        level: f64,
+        window: Option<[f64; 2]>,
+    ) -> Result<f64, StatisticError> {
+        let mut case = Case::parse("t.toml", CASE, &[]).unwrap().case;
+        case.statistics.window = window;
+        let minus = (!minus.is_empty()).then(|| minus.to_owned());
+        let plain = reference(quantity, Statistic::Crossing);
+        measured_value(run, &case, &Reference { level: Some(level), minus, ..plain })
     }
 
     #[test]
@@ -398,6 +539,123 @@ mod tests {
         let run = series(0.01, 400, &[("b.lift", &lift), ("p", &pressure)]);
         let found = value(&run, "p", Statistic::HalfPeriodAfterMax, None).unwrap();
         assert!((found - 4.0).abs() < 1e-4, "{found}");
+    }
+
+    #[test]
+    fn a_level_is_met_at_its_time_from_either_side() {
+        let fall = |t: f64| 2.0 - t * t;
+        let run =
+            uneven(3.0, 17, &[("q", &fall), ("up", &|t| t * t - 2.0), ("half", &|t| 0.5 * t * t)]);
+        for [quantity, minus] in [["q", ""], ["up", ""], ["up", "half"]] {
+            let (level, wanted) = match minus {
+                "" if quantity == "q" => (-0.5, 2.5_f64.sqrt()),
+                "" => (0.5, 2.5_f64.sqrt()),
+                // 1/2 t^2 - 2
+                _ => (-1.0, 2.0_f64.sqrt()),
+            };
+            let time = crossing(&run, [quantity, minus], level, None).unwrap();
+            assert!((time - wanted).abs() < 1e-12, "{quantity} {minus}: {time}");
+        }
+        // In a step at the beginning or the end of the run, and at a row of it.
+        for wanted in [0.01, 2.95, run.times[6]] {
+            let time = crossing(&run, ["q", ""], fall(wanted), None).unwrap();
+            assert!((time - wanted).abs() < 1e-12, "{time} {wanted}");
+        }
+        assert_eq!(crossing(&run, ["q", ""], 2.0, None), Ok(0.0));
+    }
+
+    #[test]
+    fn only_what_happens_in_the_window_counts() {
+        let wave = |t: f64| (TAU * t).sin();
+        let run = uneven(3.0, 400, &[("q", &wave)]);
+        let at = |level, window| crossing(&run, ["q", ""], level, Some(window));
+        assert!((at(0.5, [0.3, 3.0]).unwrap() - 5.0 / 12.0).abs() < 1e-5);
+        assert!((at(0.5, [0.5, 3.0]).unwrap() - 13.0 / 12.0).abs() < 1e-5);
+        // The window may begin within the step that reaches the level.
+        let line = series(0.4, 5, &[("q", &|t| t)]);
+        let begun = crossing(&line, ["q", ""], 1.0, Some([0.9, 2.0])).unwrap();
+        assert!((begun - 1.0).abs() < 1e-12, "{begun}");
+        let error = at(1.5, [0.5, 1.5]).unwrap_err();
+        let StatisticError::NotReached { level, lowest, highest, .. } = &error else {
+            panic!("{error}")
+        };
+        assert_eq!(*level, 1.5);
+        assert!(*lowest < -0.99 && *highest > 0.99, "{error}");
+        assert!(at(0.5, [0.5, 0.9]).is_err());
+    }
+
+    #[test]
+    fn a_quantity_is_taken_when_another_reaches_a_level() {
+        let run = uneven(2.0, 23, &[("y", &|t| 3.0 - t * t), ("x", &|t| 4.0 * t)]);
+        let case = Case::parse("t.toml", CASE, &[]).unwrap().case;
+        let plain = Reference { level: Some(1.0), ..reference("x", Statistic::When) };
+        assert!(measured_value(&run, &case, &plain).is_err());
+        let when = Reference { of: Some("y".to_owned()), ..plain };
+        let x = measured_value(&run, &case, &when).unwrap();
+        assert!((x - 4.0 * 2.0_f64.sqrt()).abs() < 1e-11, "{x}");
+        // Less another quantity: 4 t - (3 - t^2), where t^2 = 2.
+        let apart = Reference { minus: Some("y".to_owned()), ..when.clone() };
+        let x = measured_value(&run, &case, &apart).unwrap();
+        assert!((x - 4.0 * 2.0_f64.sqrt() + 1.0).abs() < 1e-11, "{x}");
+        let never = Reference { level: Some(5.0), ..when };
+        let error = measured_value(&run, &case, &never).unwrap_err();
+        assert!(error.to_string().contains("`y` does not reach 5"), "{error}");
+    }
+
+    #[test]
+    fn the_range_is_from_trough_to_peak_in_the_window() {
+        let run = uneven(2.0, 300, &[("q", &|t| 1.0 + 0.3 * (TAU * t + 0.2).sin())]);
+        let range = value(&run, "q", Statistic::Range, None).unwrap();
+        assert!((range - 0.6).abs() < 1e-6, "{range}");
+        let line = series(0.1, 10, &[("q", &|t| -t)]);
+        let range = value(&line, "q", Statistic::Range, Some([0.2, 0.5])).unwrap();
+        assert!((range - 0.3).abs() < 1e-13, "{range}");
+    }
+
+    #[test]
+    fn a_difference_is_taken_before_its_statistic() {
+        let run = series(
+            0.01,
+            100,
+            &[("a", &|t| 5.0 * t), ("b", &|t| 5.0 * t - 1.0 + (t - 0.4) * (t - 0.4))],
+        );
+        let case = Case::parse("t.toml", CASE, &[]).unwrap().case;
+        let minus = Some("b".to_owned());
+        let largest = Reference { minus, ..reference("a", Statistic::Max) };
+        assert!((measured_value(&run, &case, &largest).unwrap() - 1.0).abs() < 1e-12);
+        let unknown = Reference { minus: Some("c".to_owned()), ..largest };
+        let error = measured_value(&run, &case, &unknown).unwrap_err();
+        assert_eq!(error, StatisticError::UnknownQuantity("c".to_owned()));
+    }
+
+    #[test]
+    fn morisons_coefficients_are_those_of_the_bodys_own_motion() {
+        // D = 0.1 and rho = 2: F = -0.1 c_D |v| v - pi/200 c_I dv/dt
+        let (v, a) = (|t: f64| (TAU * t).sin(), |t: f64| TAU * (TAU * t).cos());
+        let force =
+            |t: f64| -0.1 * 1.7 * v(t).abs() * v(t) - std::f64::consts::PI / 200.0 * 1.2 * a(t);
+        let run = uneven(
+            3.0,
+            500,
+            &[
+                ("b.force.y", &force),
+                ("b.velocity.y", &v),
+                ("b.acceleration.y", &a),
+                ("b.force.x", &force),
+                ("b.velocity.x", &|_| 0.0),
+                ("b.acceleration.x", &|_| 0.0),
+            ],
+        );
+        let mut case = Case::parse("t.toml", CASE, &[]).unwrap().case;
+        case.fluid.density = 2.0;
+        case.statistics.window = Some([1.0, 3.0]);
+        let of = |quantity, statistic| measured_value(&run, &case, &reference(quantity, statistic));
+        let drag = of("b.force.y", Statistic::MorisonDrag).unwrap();
+        let inertia = of("b.force.y", Statistic::MorisonInertia).unwrap();
+        assert!((drag - 1.7).abs() < 1e-11 && (inertia - 1.2).abs() < 1e-11, "{drag} {inertia}");
+        let error = of("b.force.x", Statistic::MorisonDrag).unwrap_err();
+        assert!(matches!(error, StatisticError::NoSwing { .. }), "{error}");
+        assert!(of("b.velocity.y", Statistic::MorisonDrag).is_err());
     }
 
     #[test]

@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 
 use super::Findings;
 use super::boundary::check_factor;
+use super::spring;
 use crate::case::{Body, Gait, Geometry, Motion, ShapeSpec};
 
 /// Largest difference between a heading and the axis that is taken for rounding (rad).
@@ -31,6 +32,7 @@ pub fn check(findings: &mut Findings<'_>) {
             findings.vector(&format!("{key}.force"), &body.force);
         }
         check_motion(findings, &key, body);
+        spring::check(findings, &key, body);
         check_gait(findings, &key, body);
         if case.geometry == Geometry::Axisymmetric && has_place {
             check_on_axis(findings, &key, body);
@@ -142,13 +144,25 @@ fn check_motion(findings: &mut Findings<'_>, key: &str, body: &Body) {
             check_factor(findings, &format!("{motion}.factor"), factor);
         }
     }
+    if let Some(factor) = &body.load_factor {
+        check_factor(findings, &format!("{key}.load_factor"), factor);
+    }
+    let is_pulled = body.force.iter().any(|part| *part != 0.0);
     if body.motion == Motion::Free {
+        if body.load_factor.is_some() && !is_pulled && body.torque == 0.0 {
+            findings.warning(
+                &format!("{key}.load_factor"),
+                format!("`load_factor` has no force or torque of \"{}\" to multiply", body.name),
+                "add force = [x, y] or torque = ..., or leave it out",
+            );
+        }
         return;
     }
     let idle = [
         ("locked", !body.locked.is_empty()),
-        ("force", body.force.iter().any(|part| *part != 0.0)),
+        ("force", is_pulled),
         ("torque", body.torque != 0.0),
+        ("load_factor", body.load_factor.is_some()),
     ];
     for (name, is_given) in idle {
         if is_given {
@@ -198,11 +212,20 @@ fn check_on_axis(findings: &mut Findings<'_>, key: &str, body: &Body) {
     zero("center.1", body.center[1], "the distance from the axis");
     zero("angle", body.angle, "the angle");
     zero("torque", body.torque, "the torque");
-    zero("force.1", body.force.get(1).copied().unwrap_or(0.0), "the force across the axis");
+    let across = |values: &[f64]| values.get(1).copied().unwrap_or(0.0);
+    zero("force.1", across(&body.force), "the force across the axis");
     if let Motion::Imposed(imposed) = &body.motion {
-        let across = imposed.velocity.get(1).copied().unwrap_or(0.0);
-        zero("motion.imposed.velocity.1", across, "the velocity across the axis");
+        let velocity = across(&imposed.velocity);
+        zero("motion.imposed.velocity.1", velocity, "the velocity across the axis");
         zero("motion.imposed.angular_velocity", imposed.angular_velocity, "the rotation");
+    }
+    if let Some(spring) = &body.spring {
+        zero("spring.stiffness.1", across(&spring.stiffness), "the stiffness across the axis");
+        zero("spring.damping.1", across(&spring.damping), "the damping across the axis");
+        zero("spring.anchor.1", across(&spring.anchor), "the anchor off the axis");
+        zero("spring.torsion", spring.torsion, "the torsion");
+        zero("spring.torsion_damping", spring.torsion_damping, "the damping of the rotation");
+        zero("spring.rest_angle", spring.rest_angle.unwrap_or(0.0), "the angle at rest");
     }
     if let Some(Gait::Squirmer(squirmer)) = &body.gait {
         let heading = squirmer.heading;

@@ -1,25 +1,80 @@
-//! Problems of `[contact]`: numbers that make no law.
+//! Problems of `[contact]`: numbers that make no law, and cases it has no part in.
 
 use super::Findings;
-use crate::case::Contact;
+use crate::case::{Contact, Convection, Geometry, Lock, Motion, TimeSettings};
+
+/// Range over half the least width of a body above which contact is no short-range force.
+const SHORT_RANGE: f64 = 0.5;
 
 pub fn check(findings: &mut Findings<'_>) {
-    match findings.case().contact {
-        None => {}
+    let case = findings.case();
+    let (key, range) = match case.contact {
+        None => return,
         Some(Contact::Quadratic { range, epsilon }) => {
-            findings.positive("contact.quadratic.range", range);
             findings.positive("contact.quadratic.epsilon", epsilon);
+            ("contact.quadratic.range", range)
         }
         Some(Contact::Barrier { range, stiffness }) => {
-            findings.positive("contact.barrier.range", range);
             findings.positive("contact.barrier.stiffness", stiffness);
+            ("contact.barrier.range", range)
         }
+    };
+    findings.positive(key, range);
+    check_range(findings, key, range);
+    match &case.time {
+        TimeSettings::Steady(_) => findings.error(
+            "contact",
+            "a steady solution knows no contact".to_owned(),
+            "march in time with [time.unsteady], or leave [contact] out",
+        ),
+        TimeSettings::Unsteady(unsteady) => {
+            if unsteady.convection == Convection::Newton {
+                findings.error(
+                    "time.unsteady.convection",
+                    "contact is solved together with extrapolated convection only".to_owned(),
+                    "write convection = \"extrapolated\", or leave [contact] out",
+                );
+            }
+            check_yielding(findings);
+        }
+    }
+}
+
+/// A range is small beside the bodies, or they feel each other from afar.
+fn check_range(findings: &mut Findings<'_>, key: &str, range: f64) {
+    let widths = findings.case().body.iter().map(|body| (body.shape.half_width(), &body.name));
+    let Some((width, name)) = widths.min_by(|one, other| one.0.total_cmp(&other.0)) else { return };
+    if width > 0.0 && range > SHORT_RANGE * width {
+        findings.warning(
+            key,
+            format!("the range {range} of contact is large beside \"{name}\", {width:.3} thin"),
+            "about the edge length on the bodies is usual",
+        );
+    }
+}
+
+/// Contact needs a body that gives way.
+fn check_yielding(findings: &mut Findings<'_>) {
+    let case = findings.case();
+    let motions: &[Lock] = match case.geometry {
+        Geometry::Planar => &[Lock::X, Lock::Y, Lock::Rotation],
+        Geometry::Axisymmetric => &[Lock::X],
+    };
+    let yields = case.body.iter().any(|body| {
+        body.motion == Motion::Free && motions.iter().any(|lock| !body.locked.contains(lock))
+    });
+    if !yields {
+        findings.warning(
+            "contact",
+            "contact has no effect: no body is free to give way".to_owned(),
+            "leave [contact] out, or write motion = \"free\"",
+        );
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use crate::case::{Case, Contact, Severity, check};
+    use crate::case::{Case, Contact, Problem, Severity, check};
 
     const CASE: &str = "
 title = 'A disc in a box'
@@ -27,7 +82,9 @@ geometry = 'planar'
 fluid = { model = 'stokes', viscosity = 1.0 }
 domain = { box = { min = [-1.0, -1.0], max = [1.0, 1.0] } }
 mesh = { size = 0.2 }
-time = { steady = {} }
+[time.unsteady]
+step = 0.1
+end = 1.0
 [boundary]
 left = 'no-slip'
 right = 'no-slip'
@@ -37,15 +94,61 @@ top = 'no-slip'
 name = 'disc'
 shape = { disc = { radius = 0.3 } }
 center = [0.0, 0.0]
-motion = 'held'
+motion = 'free'
+[contact.quadratic]
+range = 0.03
+epsilon = 1e-6
 ";
+
+    /// Problems of the case with these settings, and with another contact if one is given.
+    fn problems(settings: &[&str], contact: Option<Contact>) -> Vec<Problem> {
+        let settings: Vec<String> = settings.iter().map(|&setting| setting.to_owned()).collect();
+        let mut file = Case::parse("t.toml", CASE, &settings).unwrap();
+        file.case.contact = contact.or(file.case.contact);
+        check(&file)
+    }
 
     /// Keys and messages of the errors of a case with this contact.
     fn errors(contact: Contact) -> Vec<(String, String)> {
-        let mut file = Case::parse("t.toml", CASE, &[]).unwrap();
-        file.case.contact = Some(contact);
-        let errors = check(&file).into_iter().filter(|p| p.severity == Severity::Error);
+        let errors =
+            problems(&[], Some(contact)).into_iter().filter(|p| p.severity == Severity::Error);
         errors.map(|problem| (problem.key, problem.message)).collect()
+    }
+
+    #[test]
+    fn contact_is_refused_where_it_is_not_solved() {
+        assert_eq!(problems(&[], None), []);
+        for (setting, key, message) in [
+            ("time.steady={}", "contact", "a steady solution knows no contact"),
+            ("time.unsteady.convection=newton", "time.unsteady.convection", "extrapolated"),
+        ] {
+            let found = problems(&[setting], None);
+            assert_eq!(found.len(), 1, "{found:?}");
+            assert_eq!((found[0].key.as_str(), found[0].severity), (key, Severity::Error));
+            assert!(found[0].message.contains(message), "{found:?}");
+        }
+    }
+
+    #[test]
+    fn contact_without_effect_or_of_long_range_is_warned_about() {
+        for (settings, key, message) in [
+            (["body.0.motion=held"].as_slice(), "contact", "no body is free"),
+            (&["body.0.locked=['x', 'y', 'rotation']"], "contact", "no body is free"),
+            (&["contact.quadratic.range=0.16"], "contact.quadratic.range", "0.300 thin"),
+            (
+                &[
+                    "body.0.shape={ellipse={semi_axes=[0.5, 0.05]}}",
+                    "contact={barrier={range=0.03, stiffness=1.0}}",
+                ],
+                "contact.barrier.range",
+                "0.050 thin",
+            ),
+        ] {
+            let found = problems(settings, None);
+            assert_eq!(found.len(), 1, "{found:?}");
+            assert_eq!((found[0].key.as_str(), found[0].severity), (key, Severity::Warning));
+            assert!(found[0].message.contains(message), "{found:?}");
+        }
     }
 
     #[test]

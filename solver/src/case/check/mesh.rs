@@ -1,11 +1,14 @@
 //! Problems of `[mesh]`, `[output]` and cells too coarse for a body.
 
 use super::Findings;
-use crate::case::Cadence;
 use crate::case::deserialize::suggestion;
+use crate::case::{Cadence, MovingMesh};
 
 /// Edges on an outline below which a body is hardly round.
 const FEWEST_EDGES: f64 = 8.0;
+
+/// Layers of cells across a gap that a moving mesh may ask for, however few a new one has.
+const MODEST_LAYERS: f64 = 2.0;
 
 pub fn check(findings: &mut Findings<'_>) {
     let case = findings.case();
@@ -44,6 +47,7 @@ pub fn check(findings: &mut Findings<'_>) {
             );
         }
     }
+    check_moving(findings);
     for (index, body) in case.body.iter().enumerate() {
         let (key, declared) = match (body.size, mesh.surface) {
             (Some(size), _) => (format!("body.{index}.size"), size),
@@ -75,5 +79,44 @@ pub fn check(findings: &mut Findings<'_>) {
             Cadence::Time(interval) => findings.positive(&format!("{key}.time"), interval),
             _ => {}
         }
+    }
+}
+
+/// When a mesh that moves is made anew.
+fn check_moving(findings: &mut Findings<'_>) {
+    let case = findings.case();
+    let (moving, gap_layers) = (case.mesh.moving, case.mesh.gap_layers);
+    findings.positive("mesh.moving.quality", moving.quality);
+    if moving.quality >= 1.0 {
+        findings.error(
+            "mesh.moving.quality",
+            format!("no cell that moves keeps {} of its quality", moving.quality),
+            "write a number between 0 and 1; 0.4 is usual",
+        );
+    }
+    // Both as written: the scale of the mesh makes gaps coarser than they were meant to be, which
+    // is no reason to refuse them. A mesh with few layers is made anew once it has lost some.
+    if moving.layers < 1.0 {
+        findings.error(
+            "mesh.moving.layers",
+            format!("`mesh.moving.layers` is {}, but a gap needs a layer of cells", moving.layers),
+            "write 1 or more; 2 is usual",
+        );
+    } else if moving.layers > gap_layers.max(MODEST_LAYERS) {
+        findings.error(
+            "mesh.moving.layers",
+            format!(
+                "a new mesh is made below {} layers across a gap, but has only {gap_layers} itself",
+                moving.layers
+            ),
+            &format!("write at most mesh.gap_layers = {gap_layers}, or raise that"),
+        );
+    }
+    if moving != MovingMesh::default() && !case.mesh_moves() {
+        findings.warning(
+            "mesh.moving",
+            "`mesh.moving` has no effect: nothing moves through the mesh".to_owned(),
+            "leave it out",
+        );
     }
 }

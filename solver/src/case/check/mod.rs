@@ -10,6 +10,7 @@ mod fluid;
 mod mesh;
 mod placement;
 mod references;
+mod spring;
 mod time;
 
 use super::problem::{Problem, Severity};

@@ -2,7 +2,7 @@
 
 use super::Findings;
 use crate::case::deserialize::suggestion;
-use crate::case::{Case, Reference, Statistic, TimeSettings};
+use crate::case::{Case, Geometry, Reference, Statistic, TimeSettings};
 
 /// What is measured on every body.
 const OF_A_BODY: [&str; 15] = [
@@ -87,6 +87,18 @@ pub fn check(findings: &mut Findings<'_>) {
     for (index, reference) in case.reference.iter().enumerate() {
         let key = format!("reference.{index}");
         check_quantity(findings, &format!("{key}.quantity"), &reference.quantity, &known);
+        for (name, other) in [("minus", &reference.minus), ("of", &reference.of)] {
+            if let Some(other) = other {
+                check_quantity(findings, &format!("{key}.{name}"), other, &known);
+            }
+        }
+        if reference.minus.as_ref() == Some(&reference.quantity) {
+            findings.error(
+                &format!("{key}.minus"),
+                format!("`{}` less itself is 0", reference.quantity),
+                "name another quantity, or leave `minus` out",
+            );
+        }
         check_tolerance(findings, &key, reference);
         check_statistic(findings, &key, reference, end);
         if reference.per == 0.0 {
@@ -147,48 +159,110 @@ fn check_statistic(
     reference: &Reference,
     end: Option<f64>,
 ) {
+    use Statistic::{
+        At, Crossing, HalfPeriodAfterMax, MorisonDrag, MorisonInertia, Strouhal, When,
+    };
     let case = findings.case();
     let statistic = format!("{key}.statistic");
-    match (reference.statistic, reference.at) {
-        (Statistic::At, None) => findings.error(
-            &statistic,
-            "the statistic `at` needs a time".to_owned(),
-            "add at = ... to the reference",
+    let is_any = |list: &[Statistic]| list.contains(&reference.statistic);
+    for (name, is_given, what, owners, names) in [
+        ("at", reference.at.is_some(), "a time", [At].as_slice(), "statistic `at`"),
+        (
+            "level",
+            reference.level.is_some(),
+            "a value",
+            &[Crossing, When],
+            "statistics `crossing` and `when`",
         ),
-        (Statistic::At, Some(at)) if at < 0.0 || end.is_some_and(|end| at > end) => findings.error(
+        ("of", reference.of.is_some(), "a quantity to wait for", &[When], "statistic `when`"),
+    ] {
+        if is_any(owners) && !is_given {
+            findings.error(
+                &statistic,
+                format!("the statistic `{}` needs {what}", reference.statistic.name()),
+                &format!("add {name} = ... to the reference"),
+            );
+        } else if is_given && !is_any(owners) {
+            findings.error(
+                &format!("{key}.{name}"),
+                format!("`{name}` goes with the {names} only"),
+                &format!("write statistic = \"{}\", or leave `{name}` out", owners[0].name()),
+            );
+        }
+    }
+    if reference.statistic == At
+        && let Some(at) = reference.at
+        && (at < 0.0 || end.is_some_and(|end| at > end))
+    {
+        findings.error(
             &format!("{key}.at"),
             format!("the time {at} is not within the run"),
             "write a time between 0 and time.unsteady.end",
-        ),
-        (Statistic::At, Some(_)) => {}
-        (_, Some(_)) => findings.error(
-            &format!("{key}.at"),
-            "`at` goes with the statistic `at` only".to_owned(),
-            "write statistic = \"at\", or leave `at` out",
-        ),
-        (_, None) => {}
+        );
     }
-    let needs_period =
-        matches!(reference.statistic, Statistic::Strouhal | Statistic::HalfPeriodAfterMax);
-    if needs_period && end.is_none() {
+    let lacking = if is_any(&[Strouhal, HalfPeriodAfterMax]) {
+        Some("period")
+    } else if is_any(&[Crossing, When, MorisonDrag, MorisonInertia]) {
+        Some("course in time")
+    } else {
+        None
+    };
+    if let (Some(lacking), None) = (lacking, end) {
         findings.error(
             &statistic,
-            "a steady solution has no period".to_owned(),
+            format!("a steady solution has no {lacking}"),
             "march in time with [time.unsteady], or take the statistic \"final\"",
         );
     }
-    if reference.statistic == Statistic::Strouhal && case.scales.is_none() {
+    if reference.statistic == Strouhal && case.scales.is_none() {
         findings.error(
             &statistic,
             "a Strouhal number needs a length and a velocity".to_owned(),
             "add [scales] with length and velocity",
         );
     }
-    if reference.statistic == Statistic::HalfPeriodAfterMax && case.statistics.phase_of.is_none() {
+    if reference.statistic == HalfPeriodAfterMax && case.statistics.phase_of.is_none() {
         findings.error(
             &statistic,
             "nothing says which quantity's maximum starts the period".to_owned(),
             "add phase_of = \"...\" to [statistics]",
+        );
+    }
+    if is_any(&[MorisonDrag, MorisonInertia]) {
+        check_morison(findings, key, reference);
+    }
+}
+
+/// Whether Morison's equation has its force, diameter and density.
+fn check_morison(findings: &mut Findings<'_>, key: &str, reference: &Reference) {
+    let case = findings.case();
+    let statistic = format!("{key}.statistic");
+    if reference.force_of().is_none() {
+        findings.error(
+            &format!("{key}.quantity"),
+            format!("Morison's equation is one of forces, not of `{}`", reference.quantity),
+            "write quantity = \"NAME.force.x\" or \"NAME.force.y\"",
+        );
+    }
+    if reference.minus.is_some() {
+        findings.error(
+            &format!("{key}.minus"),
+            "Morison's equation is that of one body".to_owned(),
+            "leave `minus` out",
+        );
+    }
+    if case.geometry != Geometry::Planar {
+        findings.error(
+            &statistic,
+            "Morison's equation is fitted in planar cases only".to_owned(),
+            "compare the force itself",
+        );
+    }
+    if !case.has_coefficients() {
+        findings.error(
+            &statistic,
+            "Morison's equation needs a diameter and a density of the fluid".to_owned(),
+            "add [scales] with length = diameter, and density to [fluid]",
         );
     }
 }

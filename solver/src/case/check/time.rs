@@ -1,7 +1,7 @@
 //! Problems of `[time]`.
 
 use super::Findings;
-use crate::case::{Model, TimeSettings};
+use crate::case::{Adaptive, Model, TimeSettings, Unsteady};
 
 /// Distance of end / step from a whole number above which the last step is not a whole one.
 const WHOLE_STEPS: f64 = 1e-6;
@@ -46,13 +46,62 @@ pub fn check(findings: &mut Findings<'_>) {
                     format!("the step {} is longer than the run, {}", unsteady.step, unsteady.end),
                     "lower the step, or raise time.unsteady.end",
                 );
-            } else if steps.is_finite() && (steps - steps.round()).abs() > WHOLE_STEPS * steps {
+            } else if unsteady.adaptive.is_none()
+                && steps.is_finite()
+                && (steps - steps.round()).abs() > WHOLE_STEPS * steps
+            {
                 findings.warning(
                     "time.unsteady.step",
                     format!("the step does not divide the end: {steps:.4} steps"),
                     &format!("write step = {}", unsteady.end / steps.ceil()),
                 );
             }
+            if let Some(adaptive) = &unsteady.adaptive {
+                adaptive_steps(findings, unsteady, adaptive);
+            }
+        }
+    }
+}
+
+/// Numbers that choose the steps.
+fn adaptive_steps(findings: &mut Findings<'_>, unsteady: &Unsteady, adaptive: &Adaptive) {
+    let key = |name: &str| format!("time.unsteady.adaptive.{name}");
+    findings.positive(&key("tolerance"), adaptive.tolerance);
+    if adaptive.tolerance >= 1.0 {
+        findings.error(
+            &key("tolerance"),
+            format!("an error {} times the velocities is no accuracy", adaptive.tolerance),
+            "write a number below 1, such as 1e-3",
+        );
+    }
+    findings.positive(&key("cfl"), adaptive.cfl);
+    findings.positive(&key("gap"), adaptive.gap);
+    if adaptive.gap >= 1.0 {
+        findings.error(
+            &key("gap"),
+            format!("a gap that may change by {} of itself in a step may close", adaptive.gap),
+            "write a number between 0 and 1, such as 0.3",
+        );
+    }
+    let step = unsteady.step;
+    if let Some(largest) = adaptive.largest {
+        findings.positive(&key("largest"), largest);
+        if largest > 0.0 && largest < step {
+            findings.error(
+                &key("largest"),
+                format!("the largest step, {largest}, is shorter than the first one, {step}"),
+                "raise it, or lower time.unsteady.step",
+            );
+        }
+    }
+    if let Some(smallest) = adaptive.smallest {
+        findings.positive(&key("smallest"), smallest);
+        if smallest > step {
+            findings.error(
+                &key("smallest"),
+                format!("the smallest step, {smallest}, is longer than the first one, {step}"),
+                "lower it, or raise time.unsteady.step",
+            );
         }
     }
 }
