@@ -22,8 +22,8 @@ const ROOMS: [(&str, &[&str]); 17] = [
     (
         "simulation",
         &[
-            "algebra", "body", "case", "coupling", "flow", "gait", "motion", "space", "time",
-            "timing",
+            "algebra", "body", "case", "contact", "coupling", "flow", "gait", "motion", "space",
+            "time", "timing",
         ],
     ),
     ("observer", &["body", "case", "simulation"]),

@@ -118,5 +118,7 @@ fn the_flow_on_a_moving_mesh_is_the_exact_one() {
         let end = run(&mesh(size), 40, 0.1, Convection::Newton, exact, EXACT.viscosity);
         errors(&end.mesh, &end.now, &EXACT, end.time, false).velocity
     });
-    study.assert_order("vortices on a moving mesh", 3.0, 0.4);
+    // Nearer to 4 on cells as large as these; 3 is what is proven.
+    println!("vortices on a moving mesh: order {:.3}, {:?}", study.order(), study.errors);
+    assert!(study.order() > 2.8, "{study:?}");
 }

@@ -135,7 +135,7 @@ pub enum RunError {
         /// Time (s).
         time: f64,
         /// Which bodies, and why.
-        reason: ContactError,
+        reason: Box<ContactError>,
     },
     /// The mesh could not be made.
     #[error("mesh: {0}")]

@@ -376,7 +376,7 @@ impl Run<'_> {
                 }
                 Err(StepError::Run(error)) => return Err(error),
                 Err(StepError::Contact(reason @ ContactError::TooWeak { .. })) => {
-                    return Err(RunError::Contact { step, time, reason });
+                    return Err(RunError::Contact { step, time, reason: Box::new(reason) });
                 }
                 Err(error @ StepError::Mesh { .. }) if !parts.is_fresh => {
                     self.remesh(parts, &error.to_string())?;
