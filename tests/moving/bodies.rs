@@ -104,6 +104,8 @@ fn a_body_goes_round_a_periodic_channel_and_is_where_it_would_be_in_its_frame() 
             shape = {{ disc = {{ radius = 0.3 }} }}
             center = [0.0, 0.0]
             motion = "free"
+            # The walls travel with the frame across it too.
+            locked = ["y"]
             force = [60.0, 0.0]
             [[body]]
             name = "post"
