@@ -90,15 +90,25 @@ impl Statistic {
 }
 
 /// `[statistics]`.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Statistics {
     /// Start and end of the window (s); the whole run if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub window: Option<[f64; 2]>,
+    /// Whether `mean` and `rms` of a periodic series are over whole periods, else over all of the
+    /// window.
+    #[serde(default = "yes")]
+    pub whole_periods: bool,
     /// The quantity whose largest value starts a period.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub phase_of: Option<String>,
+}
+
+impl Default for Statistics {
+    fn default() -> Self {
+        Self { window: None, whole_periods: true, phase_of: None }
+    }
 }
 
 /// `[[reference]]`: a published value, where it comes from and how near we should be.
@@ -192,6 +202,10 @@ impl Reference {
         let body = owner.strip_suffix(".force").or(owner.strip_suffix(".surface_force"))?;
         ["x", "y"].contains(&axis).then_some((body, axis))
     }
+}
+
+fn yes() -> bool {
+    true
 }
 
 fn one() -> f64 {

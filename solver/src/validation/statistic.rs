@@ -88,6 +88,9 @@ pub fn measured_value(
 ) -> Result<f64, StatisticError> {
     let whole = compared(series, reference)?;
     let window = whole.window(case.statistics.window)?;
+    let mean = |curve: &Curve| {
+        if case.statistics.whole_periods { curve.mean() } else { curve.average_of_all() }
+    };
     let value = match reference.statistic {
         Statistic::Final => whole.last(),
         Statistic::At => {
@@ -96,8 +99,8 @@ pub fn measured_value(
         }
         Statistic::Max => window.largest(1.0).1,
         Statistic::Min => window.largest(-1.0).1,
-        Statistic::Mean => window.mean(),
-        Statistic::Rms => window.squared().mean().sqrt(),
+        Statistic::Mean => mean(&window),
+        Statistic::Rms => mean(&window.squared()).sqrt(),
         Statistic::Strouhal => {
             let scales = case.scales.ok_or(StatisticError::Missing("[scales]"))?;
             scales.length / (scales.velocity * window.period(&reference.formula())?)
@@ -310,6 +313,10 @@ impl Curve {
                 return self.average(*first, *last);
             }
         }
+        self.average_of_all()
+    }
+
+    fn average_of_all(&self) -> f64 {
         self.average(self.times[0], self.times[self.times.len() - 1])
     }
 
