@@ -175,6 +175,120 @@ proptest! {
     }
 }
 
+/// Bodies that are their own image or in pairs about a line, in a domain with sizes that are too.
+fn symmetric() -> impl Strategy<Value = (Domain, Vec<PlacedShape>, Sizing, usize, f64)> {
+    let on_line = prop::collection::vec((planar_shape_with_axes(), -2.6..2.6), 0..3);
+    let pairs = prop::collection::vec((planar_shape(), -2.5..2.5, 0.4..2.5, 0.0..TAU), 0..3);
+    let domain = (any::<bool>(), any::<bool>(), any::<bool>());
+    (on_line, pairs, domain, sizing(), 0..2usize).prop_map(
+        |(on_line, pairs, (is_disc, periodic_x, periodic_y), sizing, axis)| {
+            // A line that is no round number
+            let at = 0.1 / 3.0;
+            let place = |along: f64, off: f64| {
+                if axis == 1 { [along, at + off] } else { [at + off, along] }
+            };
+            let mut bodies = Vec::new();
+            for (shape, along) in on_line {
+                let [x, y] = place(along, 0.0);
+                let angle = if axis == 1 { 0.0 } else { 0.5 * PI };
+                bodies.push(placed(&format!("on{}", bodies.len()), shape, x, y, angle));
+            }
+            for (shape, along, off, angle) in pairs {
+                let [x, y] = place(along, off);
+                // The image of a shape that is symmetric about its own x axis is turned only
+                let image = if axis == 1 { -angle } else { PI - angle };
+                bodies.push(placed(&format!("near{}", bodies.len()), shape.clone(), x, y, angle));
+                let [x, y] = place(along, -off);
+                bodies.push(placed(&format!("far{}", bodies.len()), shape, x, y, image));
+            }
+            let domain = if is_disc {
+                Domain::Disc { center: Point::<2>::from(place(0.1, 0.0)), radius: 3.5 }
+            } else {
+                let half = Point::<2>::new(3.0, 3.0);
+                let center = Point::<2>::from(place(0.0, 0.0));
+                Domain::Box { min: center - half, max: center + half, periodic_x, periodic_y }
+            };
+            let boxed = Point::<2>::new(0.5, 0.7);
+            let center = Point::<2>::from(place(0.3, 0.0));
+            let wake = SizeBox { min: center - boxed, max: center + boxed, size: 0.2 };
+            (domain, bodies, Sizing { boxes: vec![wake], ..sizing }, axis, at)
+        },
+    )
+}
+
+/// Shapes that are symmetric about the x axis of their frame and extreme on it.
+fn planar_shape_with_axes() -> impl Strategy<Value = Shape> {
+    prop_oneof![
+        (0.2..0.8).prop_map(|radius| Shape::Disc { radius }),
+        (0.3..1.0, 0.1..0.8).prop_map(|(a, b)| Shape::Ellipse { semi_axes: [a, b] }),
+        (0.3..0.8, 1..3, 0.0..0.3).prop_map(|(r, half, depth)| lobed(r, 2 * half, depth)),
+    ]
+}
+
+/// Whether the image of every node and cell in a line is there, to the last bit.
+fn is_mirror_symmetric(mesh: &Mesh<2>, axis: usize, at: f64) -> bool {
+    let reflect = |mut x: Point<2>| {
+        x[axis] = 2.0 * at - x[axis];
+        x
+    };
+    // + 0.0 makes one zero of the two
+    let bits = |x: Point<2>| [x.x, x.y].map(|x| (x + 0.0).to_bits());
+    let nodes: std::collections::HashSet<[u64; 2]> = mesh.nodes.iter().map(|x| bits(*x)).collect();
+    let cell_bits = |nodes: [Point<2>; 6]| {
+        let mut all = nodes.map(bits);
+        all.sort_unstable();
+        all
+    };
+    let cells: std::collections::HashSet<_> =
+        (0..mesh.n_cells()).map(|cell| cell_bits(mesh.cell_nodes(cell))).collect();
+    let beyond = |x: &Point<2>| x[axis] >= at;
+    let kept: Vec<_> = (0..mesh.n_cells())
+        .map(|cell| mesh.cell_nodes(cell))
+        .filter(|nodes| nodes.iter().all(beyond))
+        .collect();
+    mesh.nodes.iter().filter(|x| beyond(x)).all(|x| nodes.contains(&bits(reflect(*x))))
+        && 2 * kept.len() == mesh.n_cells()
+        && kept.into_iter().all(|nodes| cells.contains(&cell_bits(nodes.map(reflect))))
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig {
+        failure_persistence: None,
+        rng_seed: proptest::test_runner::RngSeed::Fixed(2027),
+        ..ProptestConfig::with_cases(96)
+    })]
+
+    #[test]
+    fn the_mesh_of_a_symmetric_problem_is_symmetric_to_the_last_bit(
+        (domain, bodies, sizing, axis, at) in symmetric(),
+    ) {
+        assert_mesh(&domain, &bodies, &sizing);
+        if let Ok(mesh) = generate(&domain, &bodies, &sizing) {
+            let middle = match &domain {
+                Domain::Box { min, max, .. } => (min + max) * 0.5,
+                Domain::Disc { center, .. } => *center,
+                _ => unreachable!("the domain is planar"),
+            };
+            prop_assert!((middle[axis] - at).abs() < 1e-15);
+            // A problem that is symmetric about both axes is meshed about y = const
+            let symmetric = is_mirror_symmetric(&mesh, axis, middle[axis])
+                || is_mirror_symmetric(&mesh, 1, middle[1]);
+            prop_assert!(symmetric);
+        }
+    }
+}
+
+#[test]
+fn a_problem_that_is_hardly_asymmetric_is_meshed_as_a_whole() {
+    let domain = Domain::Disc { center: Point::<2>::zeros(), radius: 3.0 };
+    for (shift, is_symmetric) in [(0.0, true), (1e-9, false)] {
+        let body = placed("b", Shape::Ellipse { semi_axes: [1.0, 0.5] }, shift, shift, 0.0);
+        let mesh = generate(&domain, &[body], &Sizing::graded(0.1, 0.2, 0.4)).unwrap();
+        assert_eq!(is_mirror_symmetric(&mesh, 1, 0.0), is_symmetric);
+        assert!(!is_mirror_symmetric(&mesh, 1, 1e-9));
+    }
+}
+
 /// Area of the meshes for halved surface sizes: error against the number of edges on the body.
 fn area_order(body: PlacedShape, exact: f64, curved: bool) -> f64 {
     let study = |surface: f64| {

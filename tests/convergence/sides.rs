@@ -39,7 +39,8 @@ fn decaying_vortices_in_a_doubly_periodic_box_converge_at_third_order() {
         }
         errors(&mesh, &state.now, &exact, state.time, false).velocity
     });
-    study.assert_order("vortices in a periodic box", 3.0, 0.2);
+    // Proven are three; on mirror-symmetric meshes it is a little more.
+    assert!(study.order() > 2.85, "vortices in a periodic box: {study:?}");
 }
 
 #[test]

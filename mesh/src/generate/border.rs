@@ -194,11 +194,18 @@ impl Border {
     }
 }
 
-fn segment(a: Point<2>, b: Point<2>, boundary: u16, copy_of: Option<(usize, Point<2>)>) -> Piece {
+/// Straight piece from a to b.
+pub fn segment(
+    a: Point<2>,
+    b: Point<2>,
+    boundary: u16,
+    copy_of: Option<(usize, Point<2>)>,
+) -> Piece {
     Piece { curve: Curve::Segment(a, b), boundary, copy_of }
 }
 
-fn quarter_of(outline: usize, quarter: usize, reversed: bool, boundary: u16) -> Piece {
+/// A quarter of an outline.
+pub fn quarter_of(outline: usize, quarter: usize, reversed: bool, boundary: u16) -> Piece {
     Piece { curve: Curve::Quarter { outline, quarter, reversed }, boundary, copy_of: None }
 }
 

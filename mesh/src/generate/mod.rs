@@ -7,6 +7,7 @@ mod border;
 mod edges;
 mod front;
 mod improve;
+mod mirror;
 mod order;
 mod placement;
 mod planar;
@@ -17,7 +18,7 @@ mod surface_sizes;
 mod trial;
 mod triangulation;
 
-use crate::{Domain, Mesh, MeshError, PlacedShape, SizeField, Sizing};
+use crate::{Domain, Mesh, MeshError, PlacedShape, Quality, SizeField, Sizing};
 
 pub(crate) use border::Border;
 pub use placement::check_placement;
@@ -26,8 +27,21 @@ pub(crate) use size_tree::SizeTree;
 pub(crate) use surface_sizes::surface_sizes;
 
 use edges::BoundaryEdges;
+use mirror::Mirror;
+
+/// A mesh made by reflection is taken unless an angle is below this (degrees), as where the line of
+/// symmetry passes a narrow place.
+const SMALLEST_ANGLE: f64 = 27.0;
+
+/// Nor is it taken where det J of a curved cell falls below this part of its mean.
+const FOLDED: f64 = 0.15;
 
 /// Mesh of the fluid in a domain around bodies.
+///
+/// Where domain, bodies and sizing are mirror-symmetric about a line y = const or x = const, so is
+/// the mesh, to the last bit: half of it is made and reflected. Bodies on the line must be cut by
+/// it at extreme points of their own frame; where it passes a place too narrow for good cells, the
+/// mesh is made as a whole.
 ///
 /// Boundaries are the sides in the order of [`Domain::sides`], then the bodies in theirs. In an
 /// axisymmetric domain the mesh is the meridian half plane y >= 0.
@@ -61,10 +75,25 @@ pub fn generate(
     let outlines = place(domain, bodies)?;
     let border = Border::new(domain, bodies, outlines);
     let sizes = SizeField::from_border(domain, bodies, sizing, &border)?;
-    let boundary = BoundaryEdges::new(&border, &sizes)?;
-    let interior = front::lay_points(&boundary, &sizes)?;
-    let mut triangles = planar::triangulate(&boundary, &interior, &sizes)?;
-    improve::improve(&mut triangles, &border, sizing.curved);
-    let mesh = quadratic::finish(triangles, &border, &boundary.periodic, sizing.curved)?;
-    Ok(order::renumber(&mesh))
+    let outlines = &border.outlines[..bodies.len()];
+    let mirror = Mirror::find(domain, outlines, sizing).filter(|m| m.keeps_sizes_of(bodies));
+    if let Some(mirror) = mirror
+        && let Ok(half) = fill(&mirror.half(domain, &border), &sizes, sizing.curved)
+    {
+        let mesh = mirror.whole(half);
+        let quality = Quality::of(&mesh);
+        if quality.min_angle > SMALLEST_ANGLE && quality.min_curved_jacobian > FOLDED {
+            return Ok(order::renumber(&mesh));
+        }
+    }
+    fill(&border, &sizes, sizing.curved).map(|mesh| order::renumber(&mesh))
+}
+
+/// Mesh of what lies on the left of a border.
+fn fill(border: &Border, sizes: &SizeField, is_curved: bool) -> Result<Mesh<2>, MeshError> {
+    let boundary = BoundaryEdges::new(border, sizes)?;
+    let interior = front::lay_points(&boundary, sizes)?;
+    let mut triangles = planar::triangulate(&boundary, &interior, sizes)?;
+    improve::improve(&mut triangles, border, is_curved);
+    quadratic::finish(triangles, border, &boundary.periodic, is_curved)
 }
