@@ -5,7 +5,7 @@ use std::time::Instant;
 /// A stage of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Stage {
-    /// Generating the mesh.
+    /// Generating a mesh, and taking the flow over to it.
     Mesh,
     /// Moving the mesh.
     MeshMotion,

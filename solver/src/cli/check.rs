@@ -187,6 +187,9 @@ fn body_line(case: &Case, body: &crate::case::Body) -> String {
 fn time(case: &Case) -> String {
     match &case.time {
         TimeSettings::Steady(_) => "steady".to_owned(),
+        TimeSettings::Unsteady(time) if time.adaptive.is_some() => {
+            format!("adaptive steps from {} to {}", significant(time.step), significant(time.end))
+        }
         TimeSettings::Unsteady(time) => format!(
             "{} steps of {} to {}",
             (time.end / time.step).ceil(),
@@ -218,14 +221,15 @@ fn costs(case: &Case, mesh: &Mesh<2>) -> String {
     let _ = writeln!(text, "  {:<16} {n_dofs}", "unknowns");
     let _ =
         writeln!(text, "  {:<16} {}, most of it for the factorisation", "memory", bytes(memory));
-    let seconds = systems * (factorisation + assembly);
-    let _ = writeln!(
-        text,
-        "  {:<16} {} for {systems} linear system{}",
-        "CPU time",
-        duration(seconds),
-        if systems == 1.0 { "" } else { "s" }
-    );
+    let seconds = factorisation + assembly;
+    let is_adaptive = matches!(&case.time, TimeSettings::Unsteady(time) if time.adaptive.is_some());
+    let cost = if is_adaptive {
+        format!("{} for each linear system; how many, the steps will tell", duration(seconds))
+    } else {
+        let plural = if systems == 1.0 { "" } else { "s" };
+        format!("{} for {systems} linear system{plural}", duration(systems * seconds))
+    };
+    let _ = writeln!(text, "  {:<16} {cost}", "CPU time");
     let _ = write!(text, "  {:<16} {}", "output", bytes(output));
     if output > LARGE_OUTPUT {
         let warning = Problem {

@@ -81,6 +81,12 @@ pub struct Spring {
 }
 
 impl RigidBody {
+    /// Centre and angle at time zero (m, rad).
+    #[must_use]
+    pub fn start(&self) -> [f64; 3] {
+        [self.pose.center.x, self.pose.center.y, self.pose.angle()]
+    }
+
     /// Force along x and y (N) and torque (N m) from outside, fluid, springs and contact left out.
     #[must_use]
     pub fn external(&self, time: f64) -> [f64; 3] {

@@ -101,11 +101,34 @@ pub struct Levels {
 }
 
 impl Levels {
-    /// Bodies without acceleration, under the loads of a time.
+    /// Bodies without acceleration where they are at the start, under the loads of a time.
     #[must_use]
     pub fn steady(problem: &Problem, time: f64) -> Self {
-        let external = problem.bodies.iter().map(|body| body.external(time)).collect();
-        Self { external, ..Self::default() }
+        let places: Vec<[f64; 3]> = problem.bodies.iter().map(|body| body.start()).collect();
+        Self::default().with_loads(problem, time, &places, 0.0)
+    }
+
+    /// With loads and springs of a time, where a body gets to `unmoved` plus `coefficient` (s) times
+    /// its velocity.
+    #[must_use]
+    pub fn with_loads(
+        mut self,
+        problem: &Problem,
+        time: f64,
+        unmoved: &[[f64; 3]],
+        coefficient: f64,
+    ) -> Self {
+        self.external = problem.bodies.iter().map(|body| body.external(time)).collect();
+        for (body, rigid) in problem.bodies.iter().enumerate() {
+            let Some(spring) = &rigid.spring else { continue };
+            self.resistance.resize(problem.bodies.len(), [0.0; 3]);
+            for mode in 0..3 {
+                let stiffness = spring.stiffness[mode];
+                self.resistance[body][mode] = spring.damping[mode] + stiffness * coefficient;
+                self.external[body][mode] -= stiffness * (unmoved[body][mode] - spring.rest[mode]);
+            }
+        }
+        self
     }
 }
 

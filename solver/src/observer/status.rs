@@ -89,7 +89,7 @@ impl StatusFile {
                 // Of an end that is a multiple of the step, rounding shall not make one step more.
                 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
                 let steps = (march.end / march.step - 1e-9).ceil().max(0.0) as usize;
-                (Some(steps), Some(march.end))
+                (march.adaptive.is_none().then_some(steps), Some(march.end))
             }
         };
         let status = Status {

@@ -5,7 +5,8 @@
 //! that is elsewhere by more than a trifle, the step is solved again there.
 //!
 //! The mesh velocity w is the backward difference of the places of the nodes, the same as for the
-//! flow: a uniform flow stays uniform, and w is the velocity of a body on its surface. The mesh may
+//! flow: a uniform flow stays uniform, and on the surface of a body w has the body's velocity (that of
+//! its centre where it is round: its mesh does not turn). The mesh may
 //! also travel with a body as a whole (`frame`); the unknown stays the velocity seen from the
 //! laboratory, so that no inertial force appears.
 
@@ -38,6 +39,8 @@ const STILL: f64 = 1e-13;
 const MAX_PASSES: usize = 12;
 /// Part of the smallest gap that is left at least when bodies are put nearer to each other.
 const KEPT_GAP: f64 = 0.5;
+/// Speed over the largest so far below which the error of a step is no longer relative to it.
+const NEARLY_AT_REST: f64 = 1e-3;
 /// Contact is looked for where bodies may get to with this times their way.
 const CONTACT_MARGIN: f64 = 2.0;
 
@@ -218,20 +221,10 @@ impl March<'_> {
             let (now, previous) = (rigid(now), rigid(previous));
             [0, 1, 2].map(|mode| bdf.history(now[mode], previous[mode]))
         });
-        let mut levels =
-            Levels { rate: bdf.next, history: history.collect(), ..Levels::steady(problem, time) };
         // The new place of a body is that without velocity plus its velocity over `next`.
         let unmoved = self.reached(state, bdf, |_, _| 0.0);
-        for (body, rigid) in problem.bodies.iter().enumerate() {
-            let Some(spring) = &rigid.spring else { continue };
-            levels.resistance.resize(problem.bodies.len(), [0.0; 3]);
-            for mode in 0..3 {
-                let stiffness = spring.stiffness[mode];
-                levels.resistance[body][mode] = spring.damping[mode] + stiffness / bdf.next;
-                levels.external[body][mode] -=
-                    stiffness * (unmoved[body][mode] - spring.rest[mode]);
-            }
-        }
+        let levels = Levels { rate: bdf.next, history: history.collect(), ..Levels::default() }
+            .with_loads(problem, time, &unmoved, 1.0 / bdf.next);
         Past {
             time,
             history: pairs.clone().map(|(now, before)| bdf.history(*now, *before)).collect(),
@@ -456,8 +449,8 @@ impl March<'_> {
         if !bdf.is_second_order() {
             return 0.0;
         }
-        let speeds = new.velocity.iter().map(|velocity| velocity.norm());
-        let scale = speeds.fold(0.0, f64::max);
+        // What has come to rest is not to be followed down to rounding.
+        let scale = fastest(new).max(NEARLY_AT_REST * state.top_speed);
         if scale == 0.0 {
             return 0.0;
         }
@@ -502,6 +495,7 @@ impl March<'_> {
             system.move_to(self.problem, &state.mesh);
         }
         state.contact = contact;
+        state.top_speed = state.top_speed.max(fastest(&solution));
         if let MeshPath::Bodies(follower) = self.path {
             state.contact.least_gap = follower.surfaces().least_gap(&self.in_frame(state, &places));
         }
@@ -604,6 +598,10 @@ fn lay(nodes: &mut [Point<2>], seen: &[Point<2>], origin: &Point<2>) {
     for (node, seen) in nodes.iter_mut().zip(seen) {
         *node = seen + origin;
     }
+}
+
+fn fastest(solution: &Solution) -> f64 {
+    solution.velocity.iter().map(|velocity| velocity.norm()).fold(0.0, f64::max)
 }
 
 /// Largest change of a velocity over the largest velocity.

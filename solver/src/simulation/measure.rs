@@ -20,7 +20,7 @@ struct ProbePoint {
 /// Measures a run; made once a mesh.
 pub(super) struct Measure {
     names: Vec<String>,
-    /// The points of each probe; `None` where a body is in its place.
+    /// The points of each probe; `None` where there is no fluid, as where a body is in its place.
     probes: Vec<Vec<Option<ProbePoint>>>,
     /// Force coefficient per force, moment coefficient per torque; none without `[scales]`.
     coefficients: Option<[f64; 2]>,

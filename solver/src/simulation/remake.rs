@@ -62,7 +62,7 @@ pub(super) fn remake(
         }
     }
     let poses = |places: &[Place]| -> Vec<Pose> { places.iter().map(pose_at).collect() };
-    let level = |mesh: &Mesh<2>, old: &Solution, places: &[Place], time: f64| {
+    let level = |mesh: &Mesh<2>, old: &Solution, places: &[Place], origin: Point<2>, time: f64| {
         let mut solution = Solution {
             velocity: transfer.quadratic(&old.velocity),
             pressure: transfer.linear(&old.pressure),
@@ -80,11 +80,12 @@ pub(super) fn remake(
             .map(|velocity| Solution { velocity, ..solution })
             .map_err(|error| format!("the flow on the new mesh: {error}"))
     };
-    let now = level(&new, &state.now, &places, state.time)?;
+    let now = level(&new, &state.now, &places, origin, state.time)?;
     let previous = level(
         &before,
         &state.previous,
         &seen(&state.previous_places, &wraps),
+        state.origin_at(problem, &state.previous_places),
         state.time_before(),
     )?;
     let rates = transfer.quadratic(&state.rates);

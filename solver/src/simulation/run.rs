@@ -261,6 +261,12 @@ impl Run<'_> {
                 // The next one first.
                 let mut to_do = vec![piece];
                 while let Some(size) = to_do.pop() {
+                    // After a short one, not more than twice as long: BDF2 would not be stable.
+                    let before = parts.state.last_step;
+                    if before > 0.0 && size > 2.1 * before {
+                        to_do.extend([0.5 * size; 2]);
+                        continue;
+                    }
                     parts.state.step = index;
                     match self.step(settings, size, f64::INFINITY, parts)? {
                         Ok(step) => made.add(step),
@@ -374,7 +380,9 @@ impl Run<'_> {
                     parts.is_fresh = false;
                     return Ok(Ok(made));
                 }
-                Err(StepError::Run(error)) => return Err(error),
+                Err(StepError::Run(error)) if !matches!(error, RunError::NewtonStalled { .. }) => {
+                    return Err(error);
+                }
                 Err(StepError::Contact(reason @ ContactError::TooWeak { .. })) => {
                     return Err(RunError::Contact { step, time, reason: Box::new(reason) });
                 }

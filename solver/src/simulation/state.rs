@@ -38,6 +38,8 @@ pub struct State {
     pub rates: Vec<Point<2>>,
     /// Rates of change of the twists (m/s2, rad/s2).
     pub accelerations: Vec<Twist>,
+    /// The largest velocity so far (m/s).
+    pub top_speed: f64,
     /// Loads of contact.
     pub contact: ContactLoads,
 }
@@ -62,6 +64,7 @@ impl State {
             wraps: vec![Point::<2>::zeros(); places.len()],
             rates: vec![Point::<2>::zeros(); mesh.n_nodes()],
             accelerations: vec![Twist::default(); places.len()],
+            top_speed: 0.0,
             contact: ContactLoads::none(places.len()),
             places,
             mesh,

@@ -36,6 +36,13 @@ pub fn check(findings: &mut Findings<'_>) {
                 );
             }
             check_yielding(findings);
+            if !case.mesh_moves() {
+                findings.warning(
+                    "contact",
+                    "contact has no effect: nothing moves as seen from the frame".to_owned(),
+                    "leave [contact] out, or leave `frame` out",
+                );
+            }
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Problems of `[time]`.
 
 use super::Findings;
-use crate::case::{Adaptive, Model, TimeSettings, Unsteady};
+use crate::case::{Adaptive, Model, Scheme, TimeSettings, Unsteady};
 
 /// Distance of end / step from a whole number above which the last step is not a whole one.
 const WHOLE_STEPS: f64 = 1e-6;
@@ -66,6 +66,13 @@ pub fn check(findings: &mut Findings<'_>) {
 /// Numbers that choose the steps.
 fn adaptive_steps(findings: &mut Findings<'_>, unsteady: &Unsteady, adaptive: &Adaptive) {
     let key = |name: &str| format!("time.unsteady.adaptive.{name}");
+    if unsteady.scheme == Scheme::Bdf1 {
+        findings.error(
+            "time.unsteady.scheme",
+            "the error of a step is known for the scheme `bdf2` only".to_owned(),
+            "write scheme = \"bdf2\", or leave [time.unsteady.adaptive] out",
+        );
+    }
     findings.positive(&key("tolerance"), adaptive.tolerance);
     if adaptive.tolerance >= 1.0 {
         findings.error(
