@@ -244,10 +244,10 @@ impl DirectSolver {
         Ok(accuracy)
     }
 
-    /// Solves A X = B in place for several right-hand sides, one after the other in `rhs`, with
-    /// the matrix last factorised and without refinement.
-    pub fn solve_many(&mut self, rhs: &mut [f64]) {
-        self.factors.solve(&self.analysis, rhs);
+    /// How some of the unknowns with dense rows answer unit right-hand sides of their own equations,
+    /// column by column, with the matrix last factorised and without refinement.
+    pub fn inverse_of_dense(&mut self, unknowns: &[usize]) -> Vec<f64> {
+        self.factors.inverse_of_dense(&self.analysis, unknowns)
     }
 }
 

@@ -52,15 +52,27 @@ impl DivergenceFree {
         let constraints = hold_given_velocities(problem, mesh, &layout);
         let (pattern, assembly) =
             Assembly::new(mesh, layout, &constraints, problem.axisymmetric, &[], None);
-        let mut values = vec![0.0; pattern.rows.len()];
-        let (velocity, pressure) = rest(&layout);
+        let solver = DirectSolver::analyse(&pattern, &unknowns(&layout, &constraints));
+        let values = vec![0.0; pattern.rows.len()];
+        let mut projection =
+            Self { layout, constraints, assembly, pattern, values, solver, enclosed_weights: None };
+        projection.move_to(problem, mesh)?;
+        Ok(projection)
+    }
+
+    /// Goes to another configuration of the same mesh.
+    ///
+    /// # Errors
+    /// When the factorisation fails.
+    pub fn move_to(&mut self, problem: &Problem, mesh: &Mesh<2>) -> Result<(), LinearError> {
+        let (velocity, pressure) = rest(&self.layout);
         let fields = Fields { velocity: &velocity, pressure: &pressure };
-        assemble(&assembly, mesh, &constraints, &terms(1.0), &fields, &mut values);
-        let mut solver = DirectSolver::analyse(&pattern, &unknowns(&layout, &constraints));
-        solver.factorise(&pattern, &values)?;
-        let enclosed_weights =
-            problem.is_enclosed().then(|| pressure_weights(mesh, assembly.tables()));
-        Ok(Self { layout, constraints, assembly, pattern, values, solver, enclosed_weights })
+        let (constraints, values) = (&self.constraints, &mut self.values);
+        assemble(&self.assembly, mesh, constraints, &terms(1.0), &fields, values);
+        self.solver.factorise(&self.pattern, &self.values)?;
+        self.enclosed_weights =
+            problem.is_enclosed().then(|| pressure_weights(mesh, self.assembly.tables()));
+        Ok(())
     }
 
     /// -int psi div u dx for each vertex (m3/s; m2/s planar), the net flux of an enclosed flow

@@ -401,23 +401,17 @@ impl FluidSystem {
         bodies: &[usize],
         timing: &mut Timing,
     ) -> Result<DMatrix<f64>, SolveError> {
-        let n = self.n_unknowns;
         let modes = bodies.iter().flat_map(|&body| [0, 1, 2].map(|mode| (body, mode)));
         let rows: Vec<Option<usize>> =
             modes.map(|(body, mode)| constraints.unknown(self.layout.rigid(body, mode))).collect();
-        let free: Vec<usize> = rows.iter().flatten().copied().collect();
-        let mut columns = vec![0.0; n * free.len()];
-        for (nth, unknown) in free.iter().enumerate() {
-            columns[nth * n + unknown] = 1.0;
-        }
+        let (at, unknowns): (Vec<usize>, Vec<usize>) =
+            rows.iter().enumerate().filter_map(|(row, unknown)| Some((row, (*unknown)?))).unzip();
         let solver = self.factorised(timing)?;
-        timing.measure(Stage::Solve, || solver.solve_many(&mut columns));
+        let inverse = timing.measure(Stage::Solve, || solver.inverse_of_dense(&unknowns));
         let mut mobility = DMatrix::zeros(rows.len(), rows.len());
-        let columns =
-            rows.iter().enumerate().filter(|(_, row)| row.is_some()).zip(columns.chunks(n));
-        for ((column, _), values) in columns {
-            for (row, unknown) in rows.iter().enumerate() {
-                mobility[(row, column)] = unknown.map_or(0.0, |unknown| values[unknown]);
+        for (&column, values) in at.iter().zip(inverse.chunks(at.len().max(1))) {
+            for (&row, value) in at.iter().zip(values) {
+                mobility[(row, column)] = *value;
             }
         }
         Ok(mobility)

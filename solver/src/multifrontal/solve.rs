@@ -109,6 +109,53 @@ impl Factors {
         self.scratch = scratch;
     }
 
+    /// The block of the inverse in the rows and columns of some of the unknowns with dense rows,
+    /// column by column: how they answer unit right-hand sides of their own equations.
+    ///
+    /// They are eliminated last, so only the last fronts take part.
+    ///
+    /// # Panics
+    /// When one of them is not among the unknowns with dense rows.
+    pub fn inverse_of_dense(&mut self, analysis: &Analysis, unknowns: &[usize]) -> Vec<f64> {
+        let (n, n_dense) = (analysis.n(), unknowns.len());
+        let place = |unknown: &usize| {
+            assert!(analysis.dense.contains(&(*unknown as u32)), "an unknown with a dense row");
+            let mut places = analysis.unknown_at.iter();
+            places.rposition(|at| *at as usize == *unknown).unwrap_or(0)
+        };
+        let places: Vec<usize> = unknowns.iter().map(place).collect();
+        let Some(&earliest) = places.iter().min() else { return Vec::new() };
+        let first = analysis.fronts.partition_point(|front| front.start <= earliest) - 1;
+        let largest = analysis.fronts[first..].iter().map(Front::m).max().unwrap_or(0);
+        let largest = self.irregular.values().map(|own| own.rows.len()).fold(largest, usize::max);
+        let mut scratch = std::mem::take(&mut self.scratch);
+        let mut inverse = Vec::with_capacity(n_dense * n_dense);
+        for block in places.chunks(BLOCK) {
+            let n_sides = block.len();
+            let Scratch { b, solution, local, others } = &mut scratch;
+            b.resize(n * n_sides, 0.0);
+            b.fill(0.0);
+            solution.resize(n * n_sides, 0.0);
+            local.resize(largest * n_sides, 0.0);
+            others.resize(largest * n_sides, 0.0);
+            for (side, &place) in block.iter().enumerate() {
+                b[side * n + place] = 1.0;
+            }
+            for index in first..analysis.fronts.len() {
+                forward_block(&self.view(analysis, index), b, local, n_sides);
+            }
+            for index in (first..analysis.fronts.len()).rev() {
+                let view = self.view(analysis, index);
+                backward_block(&view, b, solution, local, others, n_sides);
+            }
+            for side in solution.chunks(n).take(n_sides) {
+                inverse.extend(places.iter().map(|&place| side[place]));
+            }
+        }
+        self.scratch = scratch;
+        inverse
+    }
+
     fn scale(&self, is_pressure: bool) -> f64 {
         if is_pressure { self.pressure_scale } else { 1.0 }
     }

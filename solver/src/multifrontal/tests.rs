@@ -163,6 +163,35 @@ proptest! {
         let ordering = if minimum_degree { Ordering::MinimumDegree } else { Ordering::Best };
         prop_assert!(system.n == 0 || agrees_with_dense_lu(&system, ordering, n_sides) != Some(false));
     }
+
+    /// The last fronts alone tell how unknowns with dense rows answer, delayed pivots or not.
+    #[test]
+    fn the_inverse_in_dense_rows_is_that_of_whole_solves(
+        width in 1usize..9,
+        height in 1usize..9,
+        seed in any::<u64>(),
+        hard in 0.0f64..1.2,
+        n_dense in 1usize..40,
+        minimum_degree in any::<bool>(),
+    ) {
+        let system = saddle_point(width, height, seed, hard, n_dense);
+        let ordering = if minimum_degree { Ordering::MinimumDegree } else { Ordering::Best };
+        let analysis = Analysis::new(system.pattern(), &system.unknowns, ordering);
+        let mut factors = Factors::new(&analysis);
+        if factors.factorise(&analysis, system.pattern(), &system.values).is_ok() {
+            let unknowns: Vec<usize> = system.unknowns.dense.iter().rev().copied().collect();
+            let inverse = factors.inverse_of_dense(&analysis, &unknowns);
+            for (nth, &column) in unknowns.iter().enumerate() {
+                let mut whole = vec![0.0; system.n];
+                whole[column] = 1.0;
+                factors.solve(&analysis, &mut whole);
+                let size = whole.iter().fold(0.0f64, |most, value| most.max(value.abs()));
+                for (row, found) in unknowns.iter().zip(&inverse[nth * unknowns.len()..]) {
+                    prop_assert!((whole[*row] - found).abs() <= 1e-9 * size);
+                }
+            }
+        }
+    }
 }
 
 #[test]

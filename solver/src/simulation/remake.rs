@@ -62,24 +62,28 @@ pub(super) fn remake(
         }
     }
     let poses = |places: &[Place]| -> Vec<Pose> { places.iter().map(pose_at).collect() };
-    let level = |mesh: &Mesh<2>, old: &Solution, places: &[Place], origin: Point<2>, time: f64| {
-        let mut solution = Solution {
-            velocity: transfer.quadratic(&old.velocity),
-            pressure: transfer.linear(&old.pressure),
-            twists: old.twists.clone(),
+    let mut projection = DivergenceFree::new(problem, &new)
+        .map_err(|error| format!("the flow on the new mesh: {error}"))?;
+    let mut level =
+        |mesh: &Mesh<2>, old: &Solution, places: &[Place], origin: Point<2>, time: f64| {
+            let mut solution = Solution {
+                velocity: transfer.quadratic(&old.velocity),
+                pressure: transfer.linear(&old.pressure),
+                twists: old.twists.clone(),
+            };
+            let poses = poses(places);
+            for &(node, body) in &on_bodies {
+                let slip = problem.bodies[body].slip(&poses[body], &mesh.nodes[node], time);
+                solution.velocity[node] =
+                    on_body(&old.twists[body], &poses[body], &mesh.nodes[node]) + slip;
+            }
+            hold_sides(problem, mesh, &sides, &origin, time, &mut solution.velocity);
+            projection
+                .move_to(problem, mesh)
+                .and_then(|()| projection.project(mesh, &solution.velocity))
+                .map(|velocity| Solution { velocity, ..solution })
+                .map_err(|error| format!("the flow on the new mesh: {error}"))
         };
-        let poses = poses(places);
-        for &(node, body) in &on_bodies {
-            let slip = problem.bodies[body].slip(&poses[body], &mesh.nodes[node], time);
-            solution.velocity[node] =
-                on_body(&old.twists[body], &poses[body], &mesh.nodes[node]) + slip;
-        }
-        hold_sides(problem, mesh, &sides, &origin, time, &mut solution.velocity);
-        DivergenceFree::new(problem, mesh)
-            .and_then(|mut projection| projection.project(mesh, &solution.velocity))
-            .map(|velocity| Solution { velocity, ..solution })
-            .map_err(|error| format!("the flow on the new mesh: {error}"))
-    };
     let now = level(&new, &state.now, &places, origin, state.time)?;
     let previous = level(
         &before,
