@@ -36,13 +36,6 @@ pub fn check(findings: &mut Findings<'_>) {
                 );
             }
             check_yielding(findings);
-            if !case.mesh_moves() {
-                findings.warning(
-                    "contact",
-                    "contact has no effect: nothing moves as seen from the frame".to_owned(),
-                    "leave [contact] out, or leave `frame` out",
-                );
-            }
         }
     }
 }
@@ -75,6 +68,12 @@ fn check_yielding(findings: &mut Findings<'_>) {
             "contact",
             "contact has no effect: no body is free to give way".to_owned(),
             "leave [contact] out, or write motion = \"free\"",
+        );
+    } else if !case.mesh_moves() {
+        findings.warning(
+            "contact",
+            "contact has no effect: nothing moves as seen from the frame".to_owned(),
+            "leave [contact] out, or leave `frame` out",
         );
     }
 }
