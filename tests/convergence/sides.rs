@@ -1,7 +1,7 @@
 //! Sides of the domain against flows they must let through unchanged.
 
 use alewife::case::{Convection, Steady};
-use alewife::coupling::{FluidSystem, Side};
+use alewife::coupling::{FluidSystem, Levels, Side};
 use alewife::simulation::{March, MeshPath, State, Timing, solve_steady};
 use alewife::time::Bdf;
 use alewife_mesh::{Domain, Point, Sizing, generate};
@@ -57,8 +57,10 @@ fn a_uniform_stream_passes_between_symmetry_planes_unchanged() {
     let mut system = FluidSystem::new(&problem, &mesh, &[], false);
     let settings = Steady { tolerance: 1e-11, max_iterations: 10 };
     let mut timing = Timing::default();
-    let flow = solve_steady(&mut system, &problem, &mesh, &[], 0.0, &settings, &mut timing)
-        .expect("the flow converges");
+    let levels = Levels::steady(&problem, 0.0);
+    let flow =
+        solve_steady(&mut system, &problem, &mesh, &[], (0.0, &levels), &settings, &mut timing)
+            .expect("the flow converges");
     for velocity in &flow.solution.velocity {
         assert!((velocity - stream).norm() < 1e-12);
     }

@@ -1,7 +1,7 @@
 //! Orders in space, on straight and curved domains, planar and axisymmetric.
 
 use alewife::case::Steady;
-use alewife::coupling::{FluidSystem, Problem, Side, Solution};
+use alewife::coupling::{FluidSystem, Levels, Problem, Side, Solution};
 use alewife::simulation::{Timing, solve_steady};
 use alewife_mesh::{Domain, Mesh, PlacedShape, Point, Shape, Sizing, generate};
 use tests::exact::{Exact, Kovasznay, StokesSphere, SwirlingCells};
@@ -21,7 +21,8 @@ fn solve(problem: &Problem, mesh: &Mesh<2>) -> Solution {
     let poses: Vec<_> = problem.bodies.iter().map(|body| body.pose).collect();
     let mut system = FluidSystem::new(problem, mesh, &poses, false);
     let mut timing = Timing::default();
-    solve_steady(&mut system, problem, mesh, &poses, 0.0, &SETTINGS, &mut timing)
+    let levels = Levels::steady(problem, 0.0);
+    solve_steady(&mut system, problem, mesh, &poses, (0.0, &levels), &SETTINGS, &mut timing)
         .expect("the flow converges")
         .solution
 }

@@ -1,7 +1,7 @@
 //! The matrices of all shipped cases are solved to rounding, with one refinement at most.
 
 use alewife::case::{Case, Steady, library};
-use alewife::coupling::FluidSystem;
+use alewife::coupling::{FluidSystem, Levels};
 use alewife::simulation::{Timing, build_mesh, build_problem, solve_steady};
 use rayon::prelude::*;
 
@@ -17,7 +17,8 @@ fn accuracy(case: &Case) -> (f64, usize) {
     let mut system = FluidSystem::new(&problem, &mesh, &poses, false);
     let settings = Steady { tolerance: 1e-9, max_iterations: 3 };
     let timing = &mut Timing::default();
-    solve_steady(&mut system, &problem, &mesh, &poses, 0.0, &settings, timing)
+    let levels = Levels::steady(&problem, 0.0);
+    solve_steady(&mut system, &problem, &mesh, &poses, (0.0, &levels), &settings, timing)
         .unwrap_or_else(|failure| panic!("{:?}: {}", case.title, failure.error));
     (system.accuracy().residual, system.accuracy().refinements)
 }

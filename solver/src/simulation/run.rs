@@ -13,7 +13,7 @@ use super::steady::{SteadyFlow, solve_steady};
 use super::{RunError, Series, Stage, StepError, StepResult, Timing, build_mesh, build_problem};
 use crate::case::{Adaptive, Case, Convection, Initial, Scheme, Steady, TimeSettings, Unsteady};
 use crate::contact::{ContactError, Law};
-use crate::coupling::{BodyLoads, FluidSystem, Problem, body_loads, memory_estimate};
+use crate::coupling::{BodyLoads, FluidSystem, Levels, Problem, body_loads, memory_estimate};
 use crate::time::Bdf;
 
 /// What a finished run leaves in memory.
@@ -214,19 +214,23 @@ impl Run<'_> {
     }
 
     /// Solves for the flow at time zero without a time derivative.
-    fn solve(&mut self, settings: &Steady, parts: &mut Parts) -> Result<SteadyFlow, RunError> {
+    fn solve(
+        &mut self,
+        settings: &Steady,
+        levels: &Levels,
+        parts: &mut Parts,
+    ) -> Result<SteadyFlow, RunError> {
         let Parts { problem, system, state, .. } = parts;
         let timing = &mut self.timing;
-        solve_steady(system, problem, &state.mesh, &state.poses(), 0.0, settings, timing).map_err(
-            |failure| {
+        solve_steady(system, problem, &state.mesh, &state.poses(), (0.0, levels), settings, timing)
+            .map_err(|failure| {
                 state.now = failure.last;
                 failure.error
-            },
-        )
+            })
     }
 
     fn steady(&mut self, settings: &Steady, parts: &mut Parts) -> Result<usize, RunError> {
-        let flow = self.solve(settings, parts)?;
+        let flow = self.solve(settings, &Levels::steady(&parts.problem, 0.0), parts)?;
         parts.state.now = flow.solution;
         let loads = parts.loads(&flow.residual);
         self.report(parts, &loads, (flow.iterations, 0.0), true)?;
@@ -238,7 +242,14 @@ impl Run<'_> {
         // Without inertia the flow has no memory, and is that of the bodies' places at any time.
         if settings.initial == Initial::Stokes || !parts.problem.has_inertia {
             let convects = std::mem::replace(&mut parts.problem.has_convection, false);
-            let flow = self.solve(&Steady { tolerance: 1e-10, max_iterations: 5 }, parts)?;
+            // Where bodies have inertia their loads have not moved them yet.
+            let levels = if parts.problem.has_inertia {
+                Levels::default()
+            } else {
+                Levels::steady(&parts.problem, 0.0)
+            };
+            let settings = Steady { tolerance: 1e-10, max_iterations: 5 };
+            let flow = self.solve(&settings, &levels, parts)?;
             parts.problem.has_convection = convects;
             parts.state.now = flow.solution.clone();
             parts.state.previous = flow.solution;

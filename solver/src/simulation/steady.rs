@@ -52,7 +52,7 @@ struct Newton<'a> {
     problem: &'a Problem,
     mesh: &'a Mesh<2>,
     constraints: &'a AffineConstraints,
-    levels: Levels,
+    levels: &'a Levels,
     settings: &'a Steady,
     timing: &'a mut Timing,
     /// Size of the residual of a fluid at rest, which all others are relative to.
@@ -62,7 +62,7 @@ struct Newton<'a> {
     last: Solution,
 }
 
-/// Solves for a steady flow with the bodies at these poses.
+/// Solves for a steady flow at a time (s) with the bodies at these poses, under the loads of `levels`.
 ///
 /// # Errors
 /// When the system is singular or Newton's method stalls at the smallest step of continuation.
@@ -71,7 +71,7 @@ pub fn solve_steady(
     problem: &Problem,
     mesh: &Mesh<2>,
     poses: &[Pose],
-    time: f64,
+    (time, levels): (f64, &Levels),
     settings: &Steady,
     timing: &mut Timing,
 ) -> Result<SteadyFlow, SteadyFailure> {
@@ -82,7 +82,7 @@ pub fn solve_steady(
         problem,
         mesh,
         constraints: &constraints,
-        levels: Levels::steady(problem, time),
+        levels,
         settings,
         timing,
         scale: 0.0,
@@ -161,7 +161,7 @@ impl Newton<'_> {
             let reduced = self.system.reduced_residual(
                 self.problem,
                 self.constraints,
-                &self.levels,
+                self.levels,
                 &solution,
                 raw.clone(),
             );
@@ -186,7 +186,7 @@ impl Newton<'_> {
                 self.mesh,
                 self.constraints,
                 &terms,
-                &self.levels,
+                self.levels,
                 &solution,
                 &reduced,
                 self.timing,
