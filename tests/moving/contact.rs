@@ -1,7 +1,9 @@
 //! Bodies that meet walls and each other in whole runs.
 
-use super::tank;
+use alewife::simulation::{RunError, simulate};
 use tests::cases::{case, last, run};
+
+use super::tank;
 
 const DISCS: &str = r#"
 contact.barrier = { range = 0.05, stiffness = 200.0 }
@@ -54,4 +56,44 @@ fn a_run_with_contact_has_the_same_bits_on_any_number_of_threads() {
     };
     let alone = on(1);
     assert!(alone == on(2) && alone == on(5));
+}
+
+/// A law that cannot carry a body says so, with the names and what would help.
+#[test]
+fn a_law_too_weak_for_a_body_is_named() {
+    let text = tank("navier-stokes", "step = 0.02, end = 4.0", "size = 0.3, surface = 0.1")
+        + r#"
+        contact.quadratic = { range = 0.05, epsilon = 1e-2 }
+        [[body]]
+        name = "anvil"
+        shape = { disc = { radius = 0.25 } }
+        center = [0.0, -1.1]
+        density = 20.0
+        motion = "free"
+        "#;
+    let error = simulate(&case(&text), &mut []).expect_err("it sinks through");
+    let told = error.to_string();
+    assert!(matches!(error, RunError::Contact { .. }), "{told}");
+    for word in ["`anvil`", "`bottom`", "lower epsilon", "step "] {
+        assert!(told.contains(word), "{word}: {told}");
+    }
+}
+
+/// A body that is driven into a wall stops the run with both names and the gap that is left.
+#[test]
+fn a_body_driven_into_a_wall_stops_the_run() {
+    let text = tank("stokes", "step = 0.1, end = 4.0", "size = 0.3, surface = 0.1")
+        + r#"
+        [[body]]
+        name = "piston"
+        shape = { disc = { radius = 0.25 } }
+        center = [0.0, -1.0]
+        motion.imposed = { velocity = [0.0, -0.5] }
+        "#;
+    let error = simulate(&case(&text), &mut []).expect_err("there is a wall");
+    let told = error.to_string();
+    println!("{told}");
+    for word in ["`piston`", "`bottom`", "step 5 ", "failure/"] {
+        assert!(told.contains(word), "{word}: {told}");
+    }
 }

@@ -146,8 +146,15 @@ fn growth(error: f64) -> f64 {
 
 /// No smaller step helps.
 fn stuck(parts: &Parts, smallest: f64, error: &StepError) -> RunError {
-    let (step, time) = (parts.state.step + 1, parts.state.time);
-    RunError::Stuck { step, time, smallest, reason: error.to_string() }
+    let state = &parts.state;
+    let (step, time) = (state.step + 1, state.time);
+    let nearest = parts.follower.as_ref().zip(state.contact.least_gap).map(|(follower, least)| {
+        let surfaces = follower.surfaces();
+        let names = [surfaces.body_name(least.body), surfaces.partner_name(least.partner)];
+        format!("; nearest are `{}` and `{}`, {:.3e} apart", names[0], names[1], least.gap)
+    });
+    let reason = format!("{error}{}", nearest.unwrap_or_default());
+    RunError::Stuck { step, time, smallest, reason }
 }
 
 impl Run<'_> {
