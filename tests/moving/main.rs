@@ -4,6 +4,7 @@ mod ale;
 mod bodies;
 mod contact;
 mod remesh;
+mod resume;
 
 /// A box without flow; bodies are to follow.
 fn tank(model: &str, time: &str, mesh: &str) -> String {

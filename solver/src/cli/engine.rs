@@ -7,7 +7,7 @@ use alewife_mesh::Mesh;
 use super::signal::SignalWatch;
 use crate::case::{Case, TimeSettings};
 use crate::observer::{self, RunDirectory};
-use crate::simulation::{self, Outcome, RunError};
+use crate::simulation::{self, Outcome, RunError, SavedState};
 
 /// The mesh of a case.
 pub fn build_mesh(case: &Case) -> Result<Mesh<2>, RunError> {
@@ -19,9 +19,11 @@ pub fn simulate(case: &Case) -> Result<Outcome, RunError> {
     simulation::simulate(case, &mut [])
 }
 
-/// Runs a case with its files in `directory`; with `quiet`, without progress on the terminal.
+/// Runs a case, from a saved state if there is one, with its files in `directory`; with `quiet`,
+/// without progress on the terminal.
 pub fn simulate_into(
     case: &Case,
+    saved: Option<&SavedState>,
     directory: &RunDirectory,
     quiet: bool,
 ) -> Result<Outcome, RunError> {
@@ -30,7 +32,7 @@ pub fn simulate_into(
     if matches!(case.time, TimeSettings::Unsteady(_)) {
         observers.push(Box::new(SignalWatch::start()?));
     }
-    simulation::simulate(case, &mut observers)
+    simulation::simulate_from(case, saved, &mut observers)
 }
 
 /// Starts the log: to standard error, and to `log.jsonl` of a run.

@@ -7,9 +7,9 @@ use clap::Args;
 use super::exit::{Exit, Failure};
 use super::style::{Ink, on_stdout, say};
 use super::{Settings, engine, read_case, threads};
-use crate::case::{Case, significant};
+use crate::case::{Case, TimeSettings, significant};
 use crate::observer::{RunDirectory, write_atomic};
-use crate::simulation::Outcome;
+use crate::simulation::{Outcome, SavedState};
 use crate::validation::{Comparison, Verdict, compare, comparison_table, comparisons_to_json};
 
 /// File of a run that holds its comparison with published values.
@@ -36,6 +36,9 @@ pub struct Options {
     /// Threads; by default those the batch system or the machine grants
     #[arg(long, short, value_name = "N")]
     threads: Option<usize>,
+    /// Go on from the state a run left that stopped or failed: its state.json or failure/state.json
+    #[arg(long, value_name = "FILE")]
+    resume: Option<PathBuf>,
     /// Replace a finished run
     #[arg(long)]
     overwrite: bool,
@@ -50,6 +53,7 @@ pub struct Options {
 /// Runs a case.
 pub fn run(options: &Options) -> Result<Exit, Failure> {
     let file = read_case(&options.case, &options.settings.set)?;
+    let saved = options.resume.as_deref().map(|path| read_state(path, &file.case)).transpose()?;
     let n_threads = threads::start(options.threads)?;
     let name = file.full_name();
     let out = options.out.clone().unwrap_or_else(|| Path::new("runs").join(name.replace('/', "-")));
@@ -57,7 +61,7 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
     let verbosity = i8::try_from(options.verbose).unwrap_or(i8::MAX) - i8::from(options.quiet);
     engine::start_log(Some(&out), verbosity)?;
 
-    let outcome = engine::simulate_into(&file.case, &directory, options.quiet)?;
+    let outcome = engine::simulate_into(&file.case, saved.as_ref(), &directory, options.quiet)?;
     let comparisons = compare(&name, &file.case, &outcome);
     if !comparisons.is_empty() {
         let text = format!("{:#}\n", comparisons_to_json(&comparisons));
@@ -77,6 +81,31 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
         ));
     }
     Ok(Exit::Done)
+}
+
+/// Reads the state a run left.
+fn read_state(path: &Path, case: &Case) -> Result<SavedState, Failure> {
+    let refuse = |exit, reason: String| {
+        let path = path.display();
+        Failure::new(
+            exit,
+            format!(
+                "--resume {path}: {reason}; a run that stopped leaves state.json, \
+                                    one that failed failure/state.json"
+            ),
+        )
+    };
+    let TimeSettings::Unsteady(march) = &case.time else {
+        return Err(refuse(Exit::Usage, "a steady solution does not go on".to_owned()));
+    };
+    let text = std::fs::read(path).map_err(|error| refuse(Exit::NoInput, error.to_string()))?;
+    let saved: SavedState = serde_json::from_slice(&text)
+        .map_err(|error| refuse(Exit::BadCase, format!("this is no state of a run: {error}")))?;
+    if saved.time >= march.end {
+        let reason = format!("it is at time {}, and the case ends at {}", saved.time, march.end);
+        return Err(refuse(Exit::BadCase, reason));
+    }
+    Ok(saved)
 }
 
 /// Prints how the bodies ended, for a case without published values.

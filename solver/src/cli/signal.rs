@@ -3,11 +3,17 @@
 use std::io;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
 
 use signal_hook::consts::{SIGINT, SIGTERM, SIGUSR1};
 use signal_hook::flag;
 
 use crate::simulation::{Observer, Snapshot};
+
+/// How often it is looked whether a first signal has come.
+const LOOK_EVERY: Duration = Duration::from_millis(100);
+/// Signals within this time are one.
+const TOGETHER: Duration = Duration::from_millis(500);
 
 /// Asks for the end of a run once a signal has come.
 #[derive(Debug)]
@@ -16,18 +22,27 @@ pub struct SignalWatch {
 }
 
 impl SignalWatch {
-    /// Watches from now on. A second Ctrl-C or SIGTERM ends the program at once.
+    /// Watches from now on. A second Ctrl-C or SIGTERM ends the program at once, unless it comes
+    /// together with the first: some programs signal a process and then its whole group.
     ///
     /// # Errors
     /// When the system refuses.
     pub fn start() -> io::Result<Self> {
-        let has_come = Arc::new(AtomicBool::new(false));
+        let (has_come, is_past) =
+            (Arc::new(AtomicBool::new(false)), Arc::new(AtomicBool::new(false)));
         for signal in [SIGINT, SIGTERM] {
-            // In this order: the first signal finds the flag down and only raises it.
-            flag::register_conditional_shutdown(signal, 128 + signal, Arc::clone(&has_come))?;
+            flag::register_conditional_shutdown(signal, 128 + signal, Arc::clone(&is_past))?;
             flag::register(signal, Arc::clone(&has_come))?;
         }
         flag::register(SIGUSR1, Arc::clone(&has_come))?;
+        let first = Arc::clone(&has_come);
+        std::thread::spawn(move || {
+            while !first.load(Ordering::Relaxed) {
+                std::thread::sleep(LOOK_EVERY);
+            }
+            std::thread::sleep(TOGETHER);
+            is_past.store(true, Ordering::Relaxed);
+        });
         Ok(Self { has_come })
     }
 }

@@ -16,6 +16,9 @@ use super::write_atomic;
 use crate::case::{Case, Precision};
 use crate::simulation::{Observer, Remains, RunError, Snapshot};
 
+/// The last state of a run that ended before its time, for `--resume`.
+const STATE_FILE: &str = "state.json";
+
 /// Ends of the edges of a triangle, in the order of its mid-edge nodes 3, 4, 5.
 const EDGES: [[usize; 2]; 3] = [[0, 1], [1, 2], [2, 0]];
 
@@ -100,7 +103,11 @@ impl Observer<2> for FieldFiles {
     fn on_failure(&mut self, error: &RunError, remains: Option<&Remains<'_, 2>>) -> io::Result<()> {
         let Some(remains) = remains else { return Ok(()) };
         let bytes = self.frame(remains.time, remains.mesh, remains.velocity, remains.pressure)?;
+        let state = remains.saved.map(serde_json::to_vec).transpose()?;
         if matches!(error, RunError::Stopped { .. }) {
+            if let Some(state) = state {
+                write_atomic(&self.directory.join(STATE_FILE), &state)?;
+            }
             let name = "fields/stopped.vtu".to_owned();
             fs::create_dir_all(self.directory.join("fields"))?;
             write_atomic(&self.directory.join(&name), &bytes)?;
@@ -109,6 +116,9 @@ impl Observer<2> for FieldFiles {
         }
         let folder = self.directory.join("failure");
         fs::create_dir_all(&folder)?;
+        if let Some(state) = state {
+            write_atomic(&folder.join(STATE_FILE), &state)?;
+        }
         write_atomic(&folder.join("flow.vtu"), &bytes)
     }
 }

@@ -105,7 +105,7 @@ pub enum RunError {
     /// No shorter step helps.
     #[error(
         "step {step} (t = {time}): {reason}, with steps down to {smallest:.3e}; \
-         the last state is in failure/: look at it there"
+         the last state is in failure/: look at its flow there, and go on from it with --resume"
     )]
     Stuck {
         /// Step.

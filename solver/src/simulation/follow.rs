@@ -158,6 +158,18 @@ impl Follower {
         moves.iter().zip(&self.shapes).map(|(to, shape)| to.carry(shape)).collect()
     }
 
+    /// Places of the nodes when the mesh was made (m).
+    #[must_use]
+    pub fn reference(&self) -> &[Point<2>] {
+        self.motion.reference()
+    }
+
+    /// Places of the bodies in the mesh when it was made.
+    #[must_use]
+    pub fn made_at(&self) -> &[Place] {
+        &self.made_at
+    }
+
     /// The region of the mesh.
     #[must_use]
     pub fn domain(&self) -> &Domain {

@@ -192,6 +192,22 @@ fn periodic_range(domain: &Domain, axis: usize) -> Option<(f64, f64)> {
     }
 }
 
+/// Where a domain starts along its periodic directions (m), zero along others.
+pub(super) fn start_of(domain: &Domain) -> [f64; 2] {
+    [0, 1].map(|axis| periodic_range(domain, axis).map_or(0.0, |(start, _)| start))
+}
+
+/// A domain that starts elsewhere along its periodic directions.
+pub(super) fn started_at(domain: &Domain, start: [f64; 2]) -> Domain {
+    let mut moved = domain.clone();
+    for (axis, start) in start.into_iter().enumerate() {
+        if let Some((now, _)) = periodic_range(domain, axis) {
+            shift(&mut moved, axis, start - now);
+        }
+    }
+    moved
+}
+
 fn shift(domain: &mut Domain, axis: usize, way: f64) {
     match domain {
         Domain::Box { min, max, .. } => {

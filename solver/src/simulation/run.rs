@@ -7,6 +7,7 @@ use super::follow::Follower;
 use super::march::{March, MeshPath};
 use super::measure::{Measure, Moving};
 use super::remake::remake;
+use super::saved::SavedState;
 use super::snapshot::{Observer, Remains, Snapshot};
 use super::state::State;
 use super::steady::{SteadyFlow, solve_steady};
@@ -44,11 +45,26 @@ const REJECTED: f64 = 2.0;
 /// # Errors
 /// Whatever stops the run; observers are told before it is returned.
 pub fn simulate(case: &Case, observers: &mut [Box<dyn Observer<2>>]) -> Result<Outcome, RunError> {
+    simulate_from(case, None, observers)
+}
+
+/// Runs a case to its end, from a saved state if there is one.
+///
+/// # Errors
+/// Whatever stops the run; observers are told before it is returned.
+pub fn simulate_from(
+    case: &Case,
+    saved: Option<&SavedState>,
+    observers: &mut [Box<dyn Observer<2>>],
+) -> Result<Outcome, RunError> {
     let mut run = Run { case, observers, timing: Timing::default(), series: Series::default() };
     let mut parts = None;
-    let result = run.start(&mut parts);
+    let result = run.start(saved, &mut parts);
     if let Err(error) = &result {
+        let is_march = matches!(case.time, TimeSettings::Unsteady(_));
+        let saved = parts.as_ref().filter(|_| is_march).map(Parts::saved);
         let remains = parts.as_ref().map(|parts| Remains {
+            saved: saved.as_ref(),
             time: parts.state.time,
             mesh: &parts.state.mesh,
             velocity: &parts.state.now.velocity,
@@ -90,6 +106,26 @@ struct Parts {
 }
 
 impl Parts {
+    fn saved(&self) -> SavedState {
+        SavedState::of(&self.problem, &self.state, self.follower.as_ref(), self.remeshes)
+    }
+
+    /// Takes a saved state in place of the one at time zero.
+    fn go_on_from(&mut self, case: &Case, saved: &SavedState) -> Result<(), String> {
+        let boundaries = &self.state.mesh.boundaries;
+        let (state, follower) = saved.restore(case, &self.problem, boundaries)?;
+        let poses = state.poses_in_mesh();
+        self.system = FluidSystem::new(&self.problem, &state.mesh, &poses, self.unknown_frame);
+        if follower.is_none() {
+            let mut seen = state.mesh.clone();
+            seen.nodes.clone_from(&state.nodes);
+            self.measure.follow(case, &seen);
+        }
+        (self.state, self.follower) = (state, follower);
+        (self.remeshes, self.is_fresh) = (saved.remeshes(), false);
+        Ok(())
+    }
+
     /// Loads of the fluid by the raw residual at the present solution.
     fn loads(&self, residual: &[f64]) -> Vec<BodyLoads> {
         body_loads(
@@ -159,7 +195,11 @@ fn stuck(parts: &Parts, smallest: f64, error: &StepError) -> RunError {
 
 impl Run<'_> {
     /// Runs the case; what it is made of is left in `parts` once it is there.
-    fn start(&mut self, parts: &mut Option<Parts>) -> Result<(usize, usize), RunError> {
+    fn start(
+        &mut self,
+        saved: Option<&SavedState>,
+        parts: &mut Option<Parts>,
+    ) -> Result<(usize, usize), RunError> {
         let case = self.case;
         let mesh = self.timing.measure(Stage::Mesh, || build_mesh(case))?;
         tracing::info!(cells = mesh.n_cells(), nodes = mesh.n_nodes(), "mesh made");
@@ -172,9 +212,14 @@ impl Run<'_> {
         };
         let unknown_frame = problem.frame.is_some() && problem.has_convection && !is_linear;
         let parts = parts.insert(self.parts(problem, mesh, unknown_frame)?);
+        if let Some(saved) = saved {
+            parts.go_on_from(self.case, saved).map_err(|reason| {
+                RunError::Unsupported(format!("the state cannot be gone on from: {reason}"))
+            })?;
+        }
         let n_steps = match &case.time {
             TimeSettings::Steady(settings) => self.steady(settings, parts)?,
-            TimeSettings::Unsteady(settings) => self.unsteady(settings, parts)?,
+            TimeSettings::Unsteady(settings) => self.unsteady(settings, saved.is_some(), parts)?,
         };
         Ok((parts.system.n_unknowns, n_steps))
     }
@@ -244,7 +289,18 @@ impl Run<'_> {
         Ok(0)
     }
 
-    fn unsteady(&mut self, settings: &Unsteady, parts: &mut Parts) -> Result<usize, RunError> {
+    fn unsteady(
+        &mut self,
+        settings: &Unsteady,
+        goes_on: bool,
+        parts: &mut Parts,
+    ) -> Result<usize, RunError> {
+        if goes_on {
+            return match &settings.adaptive {
+                None => self.fixed_steps(settings, parts),
+                Some(adaptive) => self.adaptive_steps(settings, adaptive, parts),
+            };
+        }
         let mut loads = vec![BodyLoads::default(); parts.problem.bodies.len()];
         // Without inertia the flow has no memory, and is that of the bodies' places at any time.
         if settings.initial == Initial::Stokes || !parts.problem.has_inertia {
@@ -272,10 +328,17 @@ impl Run<'_> {
     fn fixed_steps(&mut self, settings: &Unsteady, parts: &mut Parts) -> Result<usize, RunError> {
         let n_steps = count_steps(settings);
         let smallest = settings.step * SMALLEST_PART;
-        for index in 0..n_steps {
+        // A run that goes on may be anywhere within a step.
+        let first = (parts.state.time / settings.step + 1e-9).floor() as usize;
+        for index in first..n_steps {
             let started = parts.state.time;
             let mut made = Made::default();
-            for piece in step_pieces(settings, index) {
+            let pieces = if parts.state.last_step > 0.0 {
+                vec![((index + 1) as f64 * settings.step).min(settings.end) - started]
+            } else {
+                step_pieces(settings, index)
+            };
+            for piece in pieces {
                 // The next one first.
                 let mut to_do = vec![piece];
                 while let Some(size) = to_do.pop() {
@@ -291,6 +354,8 @@ impl Run<'_> {
                         Err(error) if size <= smallest => return Err(stuck(parts, size, &error)),
                         Err(_) => to_do.extend([0.5 * size; 2]),
                     }
+                    // A step in many pieces may take long.
+                    self.look_for_signals(parts, false)?;
                 }
             }
             // Counted, not summed, so that rounding does not pile up.
@@ -314,8 +379,11 @@ impl Run<'_> {
         let smallest = adaptive.smallest.unwrap_or(settings.step * 1e-6);
         let mut start = step_pieces(settings, 0);
         start.reverse();
-        let mut proposed = settings.step;
-        let mut index = 0;
+        let (mut proposed, mut index) = (settings.step, 0);
+        if parts.state.last_step > 0.0 {
+            start.clear();
+            (proposed, index) = (settings.step.min(parts.state.last_step), parts.state.step);
+        }
         loop {
             parts.state.step = index;
             let left = settings.end - parts.state.time;
@@ -326,17 +394,20 @@ impl Run<'_> {
                 size = if left <= size * (1.0 + 1e-9) { left } else { 0.5 * left };
             }
             let gap = parts.state.contact.least_gap.map(|least| least.gap);
+            // Pieces of the first step are smaller than any that is asked for.
+            let floor = if is_start { smallest.min(SMALLEST_PART * size) } else { smallest };
             let step = loop {
                 match self.step(settings, size, adaptive.tolerance, parts)? {
                     Ok(step) => break step,
-                    Err(error) if size <= smallest => return Err(stuck(parts, size, &error)),
+                    Err(error) if size <= floor => return Err(stuck(parts, size, &error)),
                     Err(StepError::Inexact { error, .. }) => {
                         size *= growth(error / adaptive.tolerance).min(0.7);
                     }
                     Err(_) => size *= 0.5,
                 }
-                size = size.max(smallest);
+                size = size.max(floor);
                 start.clear();
+                self.look_for_signals(parts, false)?;
             };
             index += 1;
             let factor = if is_start { 2.0 } else { growth(step.error / adaptive.tolerance) };

@@ -2,7 +2,7 @@
 
 use alewife_mesh::{Mesh, Point};
 
-use super::{RunError, Timing};
+use super::{RunError, SavedState, Timing};
 use crate::body::{Pose, Twist, Wrench};
 use crate::case::Case;
 
@@ -70,6 +70,8 @@ pub struct Remains<'a, const D: usize> {
     pub velocity: &'a [Point<D>],
     /// Pressure at the vertices (Pa).
     pub pressure: &'a [f64],
+    /// All that evolves, for a run that goes on; none of a steady solution.
+    pub saved: Option<&'a SavedState>,
 }
 
 /// Sees everything, changes nothing.

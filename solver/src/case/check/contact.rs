@@ -36,6 +36,7 @@ pub fn check(findings: &mut Findings<'_>) {
                 );
             }
             check_yielding(findings);
+            check_strength(findings, &case.contact);
         }
     }
 }
@@ -75,6 +76,42 @@ fn check_yielding(findings: &mut Findings<'_>) {
             "contact has no effect: nothing moves as seen from the frame".to_owned(),
             "leave [contact] out, or leave `frame` out",
         );
+    }
+}
+
+/// A law that cannot hold a body against gravity, or only in a film that no mesh resolves.
+fn check_strength(findings: &mut Findings<'_>, contact: &Option<Contact>) {
+    let case = findings.case();
+    // At a hundredth of the range.
+    let (key, greatest) = match *contact {
+        Some(Contact::Quadratic { range, epsilon }) => {
+            ("contact.quadratic.epsilon", range * range / epsilon)
+        }
+        Some(Contact::Barrier { range, stiffness }) => {
+            let (gap, short) = (0.01f64, 0.99f64);
+            let force = short * short / gap - 2.0 * short * gap.ln();
+            ("contact.barrier.stiffness", stiffness * range * force)
+        }
+        None => return,
+    };
+    let gravity = case.fluid.gravity.iter().map(|part| part * part).sum::<f64>().sqrt();
+    for body in &case.body {
+        let Some(moments) = body.shape.outline().moments() else { continue };
+        let excess = body.density.unwrap_or(case.fluid.density) - case.fluid.density;
+        let weight = excess.abs() * moments.measure * gravity;
+        if body.motion == Motion::Free && greatest < weight {
+            findings.warning(
+                key,
+                format!(
+                    "contact can hold {greatest:.3e} at a hundredth of its range, and \"{}\" \
+                     weighs {weight:.3e} less its buoyancy",
+                    body.name
+                ),
+                "make the law stronger: it carries a body at half its range when that is its force \
+                 there",
+            );
+            return;
+        }
     }
 }
 

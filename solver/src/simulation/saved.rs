@@ -1,0 +1,236 @@
+//! `SavedState`: a state as it is written to a file, for a run that goes on from it.
+
+use alewife_mesh::{Boundary, Facet, Mesh, Point};
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+use super::build::placed_bodies;
+use super::follow::Follower;
+use super::remake::{start_of, started_at};
+use super::state::{State, place_of, pose_at};
+use crate::body::Twist;
+use crate::case::Case;
+use crate::contact::{ContactLoads, Place};
+use crate::coupling::{Problem, Solution};
+use crate::motion::RigidMove;
+
+/// Version of the file; others are refused.
+const VERSION: u32 = 1;
+
+type Pair = [f64; 2];
+
+/// Everything that evolves, as plain numbers in the case's units.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct SavedState {
+    version: u32,
+    /// Names of the bodies, which must be those of the case that goes on.
+    bodies: Vec<String>,
+    /// Steps made.
+    pub step: usize,
+    /// Time (s).
+    pub time: f64,
+    last_step: f64,
+    n_vertices: usize,
+    cells: Vec<u32>,
+    curved: Vec<bool>,
+    facets: Vec<(u32, u8, u16)>,
+    periodic: Vec<(u32, u32)>,
+    origin: Pair,
+    nodes: Vec<Pair>,
+    nodes_before: Vec<Pair>,
+    levels: [Level; 2],
+    rates: Vec<Pair>,
+    accelerations: Vec<Place>,
+    places: Vec<Place>,
+    previous_places: Vec<Place>,
+    wraps: Vec<Pair>,
+    top_speed: f64,
+    remeshes: usize,
+    following: Option<Following>,
+}
+
+/// Fields and rigid velocities of one level.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+struct Level {
+    velocity: Vec<Pair>,
+    pressure: Vec<f64>,
+    twists: Vec<Place>,
+}
+
+/// The mesh as it was made, and where the bodies were then.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+struct Following {
+    nodes: Vec<Pair>,
+    made_at: Vec<Place>,
+    /// Start of the domain along its periodic directions.
+    domain_start: Pair,
+}
+
+fn pairs(points: &[Point<2>]) -> Vec<Pair> {
+    points.iter().map(|point| [point.x, point.y]).collect()
+}
+
+fn points(pairs: &[Pair]) -> Vec<Point<2>> {
+    pairs.iter().map(|pair| Point::<2>::new(pair[0], pair[1])).collect()
+}
+
+fn rigid(twists: &[Twist]) -> Vec<Place> {
+    twists.iter().map(|twist| [twist.linear.x, twist.linear.y, twist.angular.z]).collect()
+}
+
+fn twists(rigid: &[Place]) -> Vec<Twist> {
+    let twist = |[x, y, spin]: &Place| Twist {
+        linear: Vector3::new(*x, *y, 0.0),
+        angular: Vector3::new(0.0, 0.0, *spin),
+    };
+    rigid.iter().map(twist).collect()
+}
+
+impl SavedState {
+    /// What is written of a state.
+    #[must_use]
+    pub(super) fn of(
+        problem: &Problem,
+        state: &State,
+        follower: Option<&Follower>,
+        remeshes: usize,
+    ) -> Self {
+        let level = |solution: &Solution| Level {
+            velocity: pairs(&solution.velocity),
+            pressure: solution.pressure.clone(),
+            twists: rigid(&solution.twists),
+        };
+        let mesh = &state.mesh;
+        let facet = |facet: &Facet| (facet.cell, facet.side, facet.boundary);
+        Self {
+            version: VERSION,
+            bodies: problem.bodies.iter().map(|body| body.name.clone()).collect(),
+            step: state.step,
+            time: state.time,
+            last_step: state.last_step,
+            n_vertices: mesh.n_vertices,
+            cells: mesh.cells.clone(),
+            curved: mesh.curved.clone(),
+            facets: mesh.facets.iter().map(facet).collect(),
+            periodic: mesh.periodic.clone(),
+            origin: [state.origin.x, state.origin.y],
+            nodes: pairs(&state.nodes),
+            nodes_before: pairs(&state.nodes_before),
+            levels: [level(&state.now), level(&state.previous)],
+            rates: pairs(&state.rates),
+            accelerations: rigid(&state.accelerations),
+            places: state.places.clone(),
+            previous_places: state.previous_places.clone(),
+            wraps: pairs(&state.wraps),
+            top_speed: state.top_speed,
+            remeshes,
+            following: follower.map(|follower| Following {
+                nodes: pairs(follower.reference()),
+                made_at: follower.made_at().to_vec(),
+                domain_start: start_of(follower.domain()),
+            }),
+        }
+    }
+
+    /// Meshes made since the first.
+    pub(super) fn remeshes(&self) -> usize {
+        self.remeshes
+    }
+
+    /// The state and what moves its mesh, for a case with the same bodies.
+    ///
+    /// # Errors
+    /// When the state is not one of such a case, in words.
+    pub(super) fn restore(
+        &self,
+        case: &Case,
+        problem: &Problem,
+        boundaries: &[Boundary],
+    ) -> Result<(State, Option<Follower>), String> {
+        if self.version != VERSION {
+            return Err(format!("its version is {}, and {VERSION} is wanted", self.version));
+        }
+        let names: Vec<&str> = problem.bodies.iter().map(|body| body.name.as_str()).collect();
+        if self.bodies != names {
+            return Err(format!("its bodies are {:?}, those of the case {names:?}", self.bodies));
+        }
+        let (n_nodes, n_bodies) = (self.nodes.len(), names.len());
+        let n_boundaries = boundaries.len();
+        let fits = self.n_vertices <= n_nodes
+            && self.cells.len() == 6 * self.curved.len()
+            && self.cells.iter().all(|node| (*node as usize) < n_nodes)
+            && self.facets.iter().all(|facet| {
+                (facet.0 as usize) < self.curved.len() && usize::from(facet.2) < n_boundaries
+            })
+            && self.nodes_before.len() == n_nodes
+            && self.rates.len() == n_nodes
+            && self.levels.iter().all(|level| {
+                level.velocity.len() == n_nodes
+                    && level.pressure.len() == self.n_vertices
+                    && level.twists.len() == n_bodies
+            })
+            && [&self.accelerations, &self.places, &self.previous_places]
+                .iter()
+                .all(|values| values.len() == n_bodies)
+            && self.wraps.len() == n_bodies
+            && self.following.as_ref().is_none_or(|following| {
+                following.nodes.len() == n_nodes && following.made_at.len() == n_bodies
+            });
+        if !fits {
+            return Err("its parts do not fit together".to_owned());
+        }
+        let origin = Point::<2>::new(self.origin[0], self.origin[1]);
+        let nodes = points(&self.nodes);
+        let facet = |&(cell, side, boundary): &(u32, u8, u16)| Facet { cell, side, boundary };
+        let mesh = Mesh {
+            nodes: nodes.iter().map(|node| node + origin).collect(),
+            n_vertices: self.n_vertices,
+            cells: self.cells.clone(),
+            curved: self.curved.clone(),
+            facets: self.facets.iter().map(facet).collect(),
+            boundaries: boundaries.to_vec(),
+            periodic: self.periodic.clone(),
+        };
+        let level = |level: &Level| Solution {
+            velocity: points(&level.velocity),
+            pressure: level.pressure.clone(),
+            twists: twists(&level.twists),
+        };
+        let follower = match (&self.following, case.mesh_moves()) {
+            (Some(following), true) => {
+                let mut made = mesh.clone();
+                made.nodes = points(&following.nodes);
+                let domain = started_at(&case.mesh_domain(), following.domain_start);
+                let pairs = problem.bodies.iter().zip(&following.made_at);
+                let shapes =
+                    placed_bodies(case).into_iter().zip(pairs).map(|(shape, (body, at))| {
+                        let start = pose_at(&place_of(&body.pose));
+                        RigidMove::between(&start, &pose_at(at)).carry(&shape)
+                    });
+                let (shapes, made_at) = (shapes.collect(), following.made_at.clone());
+                Some(Follower::new(case, problem, &made, domain, shapes, made_at)?)
+            }
+            (None, false) => None,
+            _ => return Err("its mesh moves and that of the case does not, or vice versa".into()),
+        };
+        let state = State {
+            step: self.step,
+            time: self.time,
+            last_step: self.last_step,
+            mesh,
+            origin,
+            nodes,
+            nodes_before: points(&self.nodes_before),
+            now: level(&self.levels[0]),
+            previous: level(&self.levels[1]),
+            places: self.places.clone(),
+            previous_places: self.previous_places.clone(),
+            wraps: points(&self.wraps),
+            rates: points(&self.rates),
+            accelerations: twists(&self.accelerations),
+            top_speed: self.top_speed,
+            contact: ContactLoads::none(n_bodies),
+        };
+        Ok((state, follower))
+    }
+}

@@ -1,0 +1,114 @@
+//! Runs that go on from the state another one left.
+
+use std::sync::{Arc, Mutex};
+
+use alewife::case::Case;
+use alewife::simulation::{
+    Observer, Outcome, Remains, RunError, SavedState, Snapshot, simulate, simulate_from,
+};
+use tests::cases::{case, last, run};
+
+/// Stops a run after some steps and keeps the state it leaves.
+struct Stopper {
+    after: usize,
+    steps: usize,
+    left: Arc<Mutex<Option<SavedState>>>,
+}
+
+impl Observer<2> for Stopper {
+    fn on_step(&mut self, snapshot: &Snapshot<'_, 2>) -> std::io::Result<()> {
+        self.steps = snapshot.step;
+        Ok(())
+    }
+
+    fn wants_stop(&self) -> bool {
+        self.steps >= self.after
+    }
+
+    fn on_failure(
+        &mut self,
+        _error: &RunError,
+        remains: Option<&Remains<'_, 2>>,
+    ) -> std::io::Result<()> {
+        *self.left.lock().expect("nobody else holds it") =
+            remains.and_then(|remains| remains.saved.cloned());
+        Ok(())
+    }
+}
+
+/// The state after some steps, through the text it is written as.
+fn stopped(case: &Case, after: usize) -> SavedState {
+    let left = Arc::new(Mutex::new(None));
+    let stopper = Stopper { after, steps: 0, left: Arc::clone(&left) };
+    let error = simulate(case, &mut [Box::new(stopper)]).expect_err("it is stopped");
+    assert!(matches!(error, RunError::Stopped { .. }), "{error}");
+    let saved = left.lock().expect("the run is over").take().expect("there is a state");
+    let text = serde_json::to_string(&saved).expect("it is written");
+    let read: SavedState = serde_json::from_str(&text).expect("it is read");
+    assert!(read == saved, "not a bit is lost");
+    read
+}
+
+fn two_bodies(adaptive: &str) -> Case {
+    case(&format!(
+        r#"
+        title = "an ellipse and a disc in a periodic channel"
+        geometry = "planar"
+        fluid = {{ model = "navier-stokes", density = 1.0, viscosity = 0.1, gravity = [6.0, -6.0] }}
+        domain.box = {{ min = [-1.0, -1.0], max = [1.0, 1.0] }}
+        mesh = {{ size = 0.25, surface = 0.1, gap_layers = 2.5 }}
+        time.unsteady = {{ step = 0.02, end = 2.0{adaptive} }}
+        contact.barrier = {{ range = 0.05, stiffness = 50.0 }}
+        boundary = {{ left.periodic = "right", right.periodic = "left", bottom = "no-slip", top = "no-slip" }}
+        [[body]]
+        name = "ellipse"
+        shape = {{ ellipse = {{ semi_axes = [0.3, 0.15] }} }}
+        center = [-0.4, 0.2]
+        angle = 0.5
+        density = 2.0
+        motion = "free"
+        [[body]]
+        name = "disc"
+        shape = {{ disc = {{ radius = 0.2 }} }}
+        center = [0.5, -0.3]
+        density = 1.5
+        motion = "free"
+        "#
+    ))
+}
+
+fn poses(outcome: &Outcome) -> Vec<f64> {
+    let names = ["ellipse.x", "ellipse.y", "ellipse.angle", "disc.x", "disc.y", "disc.force.y"];
+    names.map(|name| last(outcome, name)).to_vec()
+}
+
+/// Factors of a matrix are not part of a state: rounding differs, and nothing else.
+#[test]
+fn a_run_that_goes_on_ends_where_it_would_have_ended() {
+    for adaptive in ["", ", adaptive = { tolerance = 5e-3, largest = 0.04 }"] {
+        let case = two_bodies(adaptive);
+        let whole = run(&case);
+        assert!(last(&whole, "flow.remeshes") >= 1.0);
+        for after in [3, 60] {
+            let saved = stopped(&case, after);
+            let rest = simulate_from(&case, Some(&saved), &mut []).expect("it goes on");
+            let ends = (poses(&whole), poses(&rest));
+            if adaptive.is_empty() {
+                for (one, other) in ends.0.iter().zip(&ends.1) {
+                    assert!((one - other).abs() < 1e-6 * one.abs().max(1.0), "{after}: {ends:?}");
+                }
+            }
+            let (first, end) = (rest.series.times[0], rest.series.times.last().copied());
+            assert!(first > saved.time && end == Some(2.0), "{first} {end:?}");
+        }
+    }
+}
+
+#[test]
+fn a_state_of_other_bodies_is_refused() {
+    let saved = stopped(&two_bodies(""), 2);
+    let mut other = two_bodies("");
+    other.body[1].name = "ball".to_owned();
+    let error = simulate_from(&other, Some(&saved), &mut []).expect_err("other bodies");
+    assert!(error.to_string().contains("its bodies are [\"ellipse\", \"disc\"]"), "{error}");
+}
