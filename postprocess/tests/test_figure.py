@@ -117,6 +117,20 @@ def test_a_smooth_outline_passes_its_points_and_stays_near_a_circle() -> None:
     assert abs(np.linalg.norm(outline, axis=1) - 1).max() < 2e-3
 
 
+def test_bodies_that_went_round_are_drawn_where_the_mesh_has_them(planar_run: Run) -> None:
+    field = planar_run.field()
+    low = field.nodes.min(axis=0)
+    case = {
+        "domain": {"box": {"min": [0.0, 0.0], "max": [4.0, 2.0]}},
+        "boundary": {"left": {"periodic": "right"}, "bottom": "no-slip"},
+    }
+    for turns in (-3, 0, 7):
+        inside = low + [1.0, 0.5]
+        poses = figure.in_mesh(case, field, {"disc": (inside + [4.0 * turns, 0.0], 0.3)})
+        assert np.allclose(poses["disc"][0], inside)
+        assert poses["disc"][1] == 0.3
+
+
 def test_a_computed_run_is_drawn(computed_run: Run, tmp_path: Path) -> None:
     out = tmp_path / "picture.png"
     assert cli.picture([str(computed_run.path), "--out", str(out)]) == 0

@@ -55,6 +55,7 @@ def picture(
     style.use()
     field = run.field(time)
     poses, twists = body_states(run, field.time)
+    poses = in_mesh(run.case, field, poses)
     velocity = field.velocity - (0.0 if frame is None else twists[frame])
     field = Field(**{**vars(field), "velocity": velocity})
     if run.is_axisymmetric and mirror:
@@ -128,6 +129,33 @@ def body_states(run: Run, time: float) -> tuple[dict[str, tuple[Array, float]], 
         poses[name] = (history.center[nearest, :2], float(history.angle[nearest]))
         velocities[name] = history.velocity[nearest, :2]
     return poses, velocities
+
+
+def in_mesh(
+    case: dict[str, Any], field: Field, poses: dict[str, tuple[Array, float]]
+) -> dict[str, tuple[Array, float]]:
+    """Poses by whole periods away, where the mesh of a periodic domain has the bodies."""
+    ((kind, domain),) = case["domain"].items()
+    match kind:
+        case "box":
+            lengths = np.subtract(domain["max"], domain["min"])
+        case "channel":
+            lengths = np.array([domain["length"], domain["height"]])
+        case "cylinder":
+            lengths = np.array([domain["x"][1] - domain["x"][0], np.inf])
+        case _:
+            return poses
+    low = field.nodes.min(axis=0)
+
+    def periods(center: Array) -> Array:
+        shift = np.zeros(2)
+        for axis, side in enumerate(("left", "bottom")):
+            condition = case.get("boundary", {}).get(side)
+            if isinstance(condition, dict) and "periodic" in condition:
+                shift[axis] = -np.floor((center[axis] - low[axis]) / lengths[axis]) * lengths[axis]
+        return shift
+
+    return {name: (center + periods(center), angle) for name, (center, angle) in poses.items()}
 
 
 def default_view(run: Run, field: Field, poses: dict[str, tuple[Array, float]]) -> View:
