@@ -73,8 +73,15 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
             tell_last_values(&file.case, &outcome);
         }
         let seconds: f64 = outcome.timing.cpu.iter().sum();
+        let remeshes = outcome.series.column("flow.remeshes").and_then(|all| all.last().copied());
+        let moving = remeshes.map_or_else(String::new, |remeshes| {
+            format!(
+                ", {:.3} s a step, {remeshes} new meshes",
+                seconds / outcome.steps.max(1) as f64
+            )
+        });
         say(&format!(
-            "{} unknowns, {} steps, {seconds:.2} s of CPU time; written to {}",
+            "{} unknowns, {} steps, {seconds:.2} s of CPU time{moving}; written to {}",
             outcome.n_dofs,
             outcome.steps,
             out.display()
