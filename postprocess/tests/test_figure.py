@@ -125,8 +125,8 @@ def test_bodies_that_went_round_are_drawn_where_the_mesh_has_them(planar_run: Ru
         "boundary": {"left": {"periodic": "right"}, "bottom": "no-slip"},
     }
     for turns in (-3, 0, 7):
-        inside = low + [1.0, 0.5]
-        poses = figure.in_mesh(case, field, {"disc": (inside + [4.0 * turns, 0.0], 0.3)})
+        inside = np.add(low, (1.0, 0.5))
+        poses = figure.in_mesh(case, field, {"disc": (np.add(inside, (4.0 * turns, 0.0)), 0.3)})
         assert np.allclose(poses["disc"][0], inside)
         assert poses["disc"][1] == 0.3
 
