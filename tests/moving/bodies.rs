@@ -50,34 +50,35 @@ fn the_pose_of_a_free_body_is_of_second_order_in_time() {
     }
 }
 
+/// A disc in a periodic channel, seen from the disc and from the laboratory.
+fn with_and_without_frame(rest: &str) -> [Outcome; 2] {
+    ["frame = \"disc\"", ""].map(|frame| {
+        let head = "title = \"a disc in a periodic channel\"\ngeometry = \"planar\"";
+        run(&case(&format!("{head}\n{frame}\n{rest}")))
+    })
+}
+
 /// Along a periodic channel it makes no difference whether the mesh travels with the disc as a whole
 /// or is deformed by it.
 #[test]
 fn a_travelling_frame_and_a_deforming_mesh_give_the_same_motion() {
-    let at = |frame: &str| {
-        let text = format!(
-            r#"
-            title = "a disc in a periodic channel"
-            geometry = "planar"
-            {frame}
-            fluid = {{ model = "navier-stokes", density = 1.0, viscosity = 0.1 }}
-            domain.box = {{ min = [-2.0, -1.0], max = [2.0, 1.0] }}
-            mesh = {{ size = 0.25, surface = 0.08 }}
-            time.unsteady = {{ step = 0.02, end = 1.0 }}
-            boundary = {{ left.periodic = "right", right.periodic = "left", bottom = "no-slip", top = "no-slip" }}
-            [[body]]
-            name = "disc"
-            shape = {{ disc = {{ radius = 0.3 }} }}
-            center = [0.0, 0.1]
-            density = 2.0
-            motion = "free"
-            locked = ["y"]
-            force = [4.0, 0.0]
-            "#
-        );
-        run(&case(&text))
-    };
-    let (with, without) = (at("frame = \"disc\""), at(""));
+    let [with, without] = with_and_without_frame(
+        r#"
+        fluid = { model = "navier-stokes", density = 1.0, viscosity = 0.1 }
+        domain.box = { min = [-2.0, -1.0], max = [2.0, 1.0] }
+        mesh = { size = 0.25, surface = 0.08 }
+        time.unsteady = { step = 0.02, end = 1.0 }
+        boundary = { left.periodic = "right", right.periodic = "left", bottom = "no-slip", top = "no-slip" }
+        [[body]]
+        name = "disc"
+        shape = { disc = { radius = 0.3 } }
+        center = [0.0, 0.1]
+        density = 2.0
+        motion = "free"
+        locked = ["y"]
+        force = [4.0, 0.0]
+        "#,
+    );
     let (one, other) = (pose(&with, "disc"), pose(&without, "disc"));
     assert!(one[0] > 0.5, "{one:?}");
     assert!(distance(&one, &other) < 1e-3 * one[0], "{one:?} {other:?}");
@@ -88,35 +89,28 @@ fn a_travelling_frame_and_a_deforming_mesh_give_the_same_motion() {
 /// Far past the end of a periodic channel, with new meshes on the way.
 #[test]
 fn a_body_goes_round_a_periodic_channel_and_is_where_it_would_be_in_its_frame() {
-    let at = |frame: &str| {
-        let text = format!(
-            r#"
-            title = "a disc in a periodic channel"
-            geometry = "planar"
-            {frame}
-            fluid = {{ model = "stokes", viscosity = 1.0 }}
-            domain.box = {{ min = [-1.0, -0.7], max = [1.0, 0.7] }}
-            mesh = {{ size = 0.25, surface = 0.08 }}
-            time.unsteady = {{ step = 0.01, end = 0.5 }}
-            boundary = {{ left.periodic = "right", right.periodic = "left", bottom = "no-slip", top = "no-slip" }}
-            [[body]]
-            name = "disc"
-            shape = {{ disc = {{ radius = 0.3 }} }}
-            center = [0.0, 0.0]
-            motion = "free"
-            # The walls travel with the frame across it too.
-            locked = ["y"]
-            force = [60.0, 0.0]
-            [[body]]
-            name = "post"
-            shape = {{ disc = {{ radius = 0.1 }} }}
-            center = [0.6, -0.55]
-            motion = "held"
-            "#
-        );
-        run(&case(&text))
-    };
-    let (with, without) = (at("frame = \"disc\""), at(""));
+    let [with, without] = with_and_without_frame(
+        r#"
+        fluid = { model = "stokes", viscosity = 1.0 }
+        domain.box = { min = [-1.0, -0.7], max = [1.0, 0.7] }
+        mesh = { size = 0.25, surface = 0.08 }
+        time.unsteady = { step = 0.01, end = 0.5 }
+        boundary = { left.periodic = "right", right.periodic = "left", bottom = "no-slip", top = "no-slip" }
+        [[body]]
+        name = "disc"
+        shape = { disc = { radius = 0.3 } }
+        center = [0.0, 0.0]
+        motion = "free"
+        # The walls travel with the frame across it too.
+        locked = ["y"]
+        force = [60.0, 0.0]
+        [[body]]
+        name = "post"
+        shape = { disc = { radius = 0.1 } }
+        center = [0.6, -0.55]
+        motion = "held"
+        "#,
+    );
     let (one, other) = (pose(&with, "disc"), pose(&without, "disc"));
     assert!(one[0] > 2.5, "{one:?}");
     assert!((one[0] - other[0]).abs() < 5e-3 * one[0], "{one:?} {other:?}");

@@ -91,12 +91,8 @@ impl RigidBody {
     #[must_use]
     pub fn external(&self, time: f64) -> [f64; 3] {
         let factor = self.load_factor.as_ref().map_or(1.0, |factor| factor(time));
-        let (weight, load) = (&self.weight, &self.load);
-        [
-            weight.force.x + factor * load.force.x,
-            weight.force.y + factor * load.force.y,
-            weight.torque.z + factor * load.torque.z,
-        ]
+        let (weight, load) = (self.weight.in_plane(), self.load.in_plane());
+        [0, 1, 2].map(|mode| weight[mode] + factor * load[mode])
     }
 
     /// Velocity of the surface relative to the rigid motion, in the world (m/s), at a world

@@ -64,8 +64,7 @@ impl Solution {
 #[must_use]
 pub fn flatten(solution: &Solution) -> Vec<f64> {
     let velocities = solution.velocity.iter().flat_map(|velocity| [velocity[0], velocity[1]]);
-    let rigid =
-        solution.twists.iter().flat_map(|twist| [twist.linear.x, twist.linear.y, twist.angular.z]);
+    let rigid = solution.twists.iter().flat_map(Twist::in_plane);
     velocities.chain(solution.pressure.iter().copied()).chain(rigid).collect()
 }
 
@@ -79,9 +78,7 @@ pub fn embed(layout: &DofLayout<2>, raw: &[f64]) -> Solution {
     let pressures = layout.pressure(0)..layout.n_fluid();
     solution.pressure.copy_from_slice(&raw[pressures]);
     for (body, twist) in solution.twists.iter_mut().enumerate() {
-        twist.linear.x = raw[layout.rigid(body, 0)];
-        twist.linear.y = raw[layout.rigid(body, 1)];
-        twist.angular.z = raw[layout.rigid(body, 2)];
+        *twist = Twist::planar([0, 1, 2].map(|mode| raw[layout.rigid(body, mode)]));
     }
     solution
 }
@@ -241,8 +238,7 @@ impl FluidSystem {
             spread_flux(&mut raw[pressures], &self.pressure_weights);
         }
         for (body, rigid) in problem.bodies.iter().enumerate() {
-            let twist = &solution.twists[body];
-            let rates = [twist.linear.x, twist.linear.y, twist.angular.z];
+            let rates = solution.twists[body].in_plane();
             let inertia = [rigid.mass, rigid.mass, rigid.inertia];
             for mode in 0..3 {
                 let of = |values: &[[f64; 3]]| values.get(body).map_or(0.0, |value| value[mode]);

@@ -239,11 +239,8 @@ fn rigid_body(
         drives,
         mass: if has_inertia { density * moments.measure } else { 0.0 },
         inertia: if has_inertia { density * second_moment } else { 0.0 },
-        weight: Wrench { force: Vector3::new(weight[0], weight[1], 0.0), torque: Vector3::zeros() },
-        load: Wrench {
-            force: Vector3::new(force[0], force[1], 0.0),
-            torque: Vector3::new(0.0, 0.0, body.torque),
-        },
+        weight: Wrench::planar([weight[0], weight[1], 0.0]),
+        load: Wrench::planar([force[0], force[1], body.torque]),
         load_factor: body
             .load_factor
             .clone()

@@ -6,12 +6,11 @@
 //!
 //! The mesh velocity w is the backward difference of the places of the nodes, the same as for the
 //! flow: a uniform flow stays uniform, and on the surface of a body w has the body's velocity (that of
-//! its centre where it is round: its mesh does not turn). The mesh may
-//! also travel with a body as a whole (`frame`); the unknown stays the velocity seen from the
-//! laboratory, so that no inertial force appears.
+//! its centre where it is round: its mesh does not turn). The mesh may also travel with a body as a
+//! whole (`frame`); the unknown stays the velocity seen from the laboratory, so that no inertial force
+//! appears.
 
 use alewife_mesh::Point;
-use nalgebra::Vector3;
 
 use super::follow::Follower;
 use super::state::{State, pose_at};
@@ -80,10 +79,6 @@ pub struct StepResult {
     pub error: f64,
 }
 
-fn rigid(twist: &Twist) -> [f64; 3] {
-    [twist.linear.x, twist.linear.y, twist.angular.z]
-}
-
 /// The older levels of a step, with what follows from them.
 struct Past {
     time: f64,
@@ -121,7 +116,6 @@ impl March<'_> {
         if result.is_err() {
             let State { nodes, origin, mesh, .. } = &mut *state;
             lay(&mut mesh.nodes, nodes, origin);
-            system.move_to(self.problem, mesh);
         }
         result
     }
@@ -140,8 +134,8 @@ impl March<'_> {
             self.reached(state, bdf, |body, mode| match &self.problem.bodies[body].drives[mode] {
                 Drive::Given(value) => value(time),
                 Drive::Free => bdf.extrapolate(
-                    rigid(&state.now.twists[body])[mode],
-                    rigid(&state.previous.twists[body])[mode],
+                    state.now.twists[body].in_plane()[mode],
+                    state.previous.twists[body].in_plane()[mode],
                 ),
             });
         let mut iterations = 0;
@@ -183,7 +177,7 @@ impl March<'_> {
                 }
             }
             let reached =
-                self.reached(state, bdf, |body, mode| rigid(&flow.solution.twists[body])[mode]);
+                self.reached(state, bdf, |body, mode| flow.solution.twists[body].in_plane()[mode]);
             let is_settled = match self.path {
                 MeshPath::Bodies(follower) => !follower.is_misplaced(&places, &reached),
                 _ => true,
@@ -200,7 +194,7 @@ impl March<'_> {
                     &flow.residual,
                     &flow.solution.velocity,
                 );
-                self.accept(system, state, bdf, &past, (flow.solution, reached, contact), timing)?;
+                self.accept(state, bdf, &past, (flow.solution, reached, contact), timing)?;
                 return Ok(StepResult { loads: fluid_loads, iterations, error });
             }
             start = Some(flow.solution);
@@ -218,7 +212,7 @@ impl March<'_> {
         // Nearer to the new level than the old one: less is left for an iterative solve.
         let raw_pairs = flatten(&state.now).into_iter().zip(flatten(&state.previous));
         let history = body_pairs.map(|(now, previous)| {
-            let (now, previous) = (rigid(now), rigid(previous));
+            let (now, previous) = (now.in_plane(), previous.in_plane());
             [0, 1, 2].map(|mode| bdf.history(now[mode], previous[mode]))
         });
         // The new place of a body is that without velocity plus its velocity over `next`.
@@ -261,11 +255,9 @@ impl March<'_> {
         (0..self.problem.bodies.len()).map(place).collect()
     }
 
-    /// Places in the mesh, seen from the frame.
+    /// Places in the mesh, seen from the frame that goes with them.
     fn in_frame(&self, state: &State, places: &[Place]) -> Vec<Place> {
-        let origin = state.origin_at(self.problem, places);
-        let wrapped = state.wrapped(places).into_iter();
-        wrapped.map(|[x, y, angle]| [x - origin.x, y - origin.y, angle]).collect()
+        state.in_frame(&state.origin_at(self.problem, places), places)
     }
 
     /// As far on the way between places as leaves some of the smallest gap: predictions know
@@ -465,13 +457,13 @@ impl March<'_> {
         let mut largest = squares.sqrt();
         for (body, new) in new.twists.iter().enumerate() {
             let (now, before) =
-                (rigid(&state.now.twists[body]), rigid(&state.previous.twists[body]));
-            let rate = rigid(&state.accelerations[body]);
+                (state.now.twists[body].in_plane(), state.previous.twists[body].in_plane());
+            let rate = state.accelerations[body].in_plane();
             let reach = match self.path {
                 MeshPath::Bodies(follower) => follower.surfaces().reach(body),
                 _ => 0.0,
             };
-            for (mode, new) in rigid(new).into_iter().enumerate() {
+            for (mode, new) in new.in_plane().into_iter().enumerate() {
                 let length = if mode == 2 { reach } else { 1.0 };
                 let predicted = bdf.predict(now[mode], before[mode], rate[mode]);
                 largest = largest.max(length * (new - predicted).abs());
@@ -483,7 +475,6 @@ impl March<'_> {
     /// The one place where a state moves on in time.
     fn accept(
         &self,
-        system: &mut FluidSystem,
         state: &mut State,
         bdf: &Bdf,
         past: &Past,
@@ -491,22 +482,16 @@ impl March<'_> {
         timing: &mut Timing,
     ) -> Result<(), StepError> {
         let nodes = self.put(state, &places, past.time, timing)?;
-        if !matches!(self.path, MeshPath::Still) {
-            system.move_to(self.problem, &state.mesh);
-        }
         state.contact = contact;
         state.top_speed = state.top_speed.max(fastest(&solution));
         if let MeshPath::Bodies(follower) = self.path {
             state.contact.least_gap = follower.surfaces().least_gap(&self.in_frame(state, &places));
         }
         for (body, twist) in solution.twists.iter().enumerate() {
-            let velocity = rigid(twist);
+            let velocity = twist.in_plane();
             let rate =
                 [0, 1, 2].map(|mode| bdf.next * velocity[mode] + past.levels.history[body][mode]);
-            state.accelerations[body] = Twist {
-                linear: Vector3::new(rate[0], rate[1], 0.0),
-                angular: Vector3::new(0.0, 0.0, rate[2]),
-            };
+            state.accelerations[body] = Twist::planar(rate);
         }
         let rates = solution.velocity.iter().zip(&past.history);
         state.rates = rates.map(|(new, history)| new * bdf.next + history).collect();
@@ -542,14 +527,11 @@ impl Contact<'_, '_> {
     ) -> Result<Option<ContactLoads>, StepError> {
         let surfaces = self.follower.surfaces();
         let range = self.law.range();
-        let free = |body: usize| rigid(&solution.twists[body]);
+        let free = |body: usize| solution.twists[body].in_plane();
         let without = self.march.reached(state, self.bdf, |body, mode| free(body)[mode]);
         // Seen from where the frame is in this pass: its way is no part of the unknowns.
         let origin = state.origin_at(self.march.problem, places);
-        let seen = |places: &[Place]| -> Vec<Place> {
-            let wrapped = state.wrapped(places).into_iter();
-            wrapped.map(|[x, y, angle]| [x - origin.x, y - origin.y, angle]).collect()
-        };
+        let seen = |places: &[Place]| state.in_frame(&origin, places);
         let (apart, predicted) = (seen(&state.places), seen(places));
         let bodies = surfaces.involved(&apart, &seen(&without), CONTACT_MARGIN, range);
         if bodies.is_empty() {
@@ -579,13 +561,8 @@ impl Contact<'_, '_> {
             apart: &apart,
         };
         let found = step.solve()?;
-        let loads: Vec<(usize, [f64; 3])> = bodies
-            .iter()
-            .map(|&body| {
-                let wrench = &found.loads.wrenches[body];
-                (body, [wrench.force.x, wrench.force.y, wrench.torque.z])
-            })
-            .collect();
+        let loads: Vec<(usize, [f64; 3])> =
+            bodies.iter().map(|&body| (body, found.loads.wrenches[body].in_plane())).collect();
         if loads.iter().any(|(_, load)| load.iter().any(|part| *part != 0.0)) {
             system.respond(constraints, &loads, solution, timing).map_err(fail)?;
         }

@@ -1,11 +1,12 @@
 //! A new mesh in the middle of a run, with both levels of the flow taken over to it.
 
 use alewife_mesh::{BoundaryKind, Domain, Mesh, PlacedShape, Point, generate};
+use nalgebra::Vector3;
 
 use super::build::sizing;
 use super::follow::Follower;
-use super::state::{State, pose_at};
-use crate::body::{Pose, Twist};
+use super::state::{State, pose_at, seen_from};
+use crate::body::Pose;
 use crate::case::Case;
 use crate::contact::Place;
 use crate::coupling::{DivergenceFree, NodeSides, Problem, Solution};
@@ -26,13 +27,7 @@ pub(super) fn remake(
     follower: &Follower,
 ) -> Result<Follower, String> {
     let origin = state.origin;
-    let seen = |places: &[Place], wraps: &[Point<2>]| -> Vec<Place> {
-        let pairs = places.iter().zip(wraps);
-        pairs
-            .map(|([x, y, angle], wrap)| [x + wrap.x - origin.x, y + wrap.y - origin.y, *angle])
-            .collect()
-    };
-    let old_places = seen(&state.places, &state.wraps);
+    let old_places = state.in_frame(&origin, &state.places);
     let mut shapes = follower.shapes_at(&old_places);
     let domain = cut(follower.domain(), &shapes)?;
     let shifts: Vec<Point<2>> = shapes.iter().map(|shape| into(&domain, &shape.center)).collect();
@@ -41,18 +36,18 @@ pub(super) fn remake(
     }
     let wraps: Vec<Point<2>> =
         state.wraps.iter().zip(&shifts).map(|(wrap, shift)| wrap + shift).collect();
-    let places = seen(&state.places, &wraps);
+    let places = seen_from(&origin, &state.places, &wraps);
+    let previous_places = seen_from(&origin, &state.previous_places, &wraps);
     let new = generate(&domain, &shapes, &sizing(case)).map_err(|error| error.to_string())?;
     let made = Follower::new(case, problem, &new, domain.clone(), shapes, places.clone())?;
 
-    let mut old = state.mesh.clone();
-    old.nodes.clone_from(&state.nodes);
+    let old = state.mesh_in_frame();
     let transfer = Transfer::new(&old, &new, &domain.images())
         .ok_or("the flow could not be found in the old mesh")?;
     let mut before = new.clone();
     before.nodes = transfer.positions(&state.nodes_before);
     // What bodies carry was where they were, exactly.
-    let moves = made.moves_between(&places, &seen(&state.previous_places, &wraps));
+    let moves = made.moves_between(&places, &previous_places);
     let sides = NodeSides::new(&new);
     let mut on_bodies = Vec::new();
     for (body, rigid) in problem.bodies.iter().enumerate() {
@@ -73,9 +68,10 @@ pub(super) fn remake(
             };
             let poses = poses(places);
             for &(node, body) in &on_bodies {
-                let slip = problem.bodies[body].slip(&poses[body], &mesh.nodes[node], time);
-                solution.velocity[node] =
-                    on_body(&old.twists[body], &poses[body], &mesh.nodes[node]) + slip;
+                let (pose, place) = (&poses[body], mesh.nodes[node]);
+                let lever = Vector3::new(place.x, place.y, 0.0) - pose.center;
+                let rigid = old.twists[body].velocity_at(&lever).xy();
+                solution.velocity[node] = rigid + problem.bodies[body].slip(pose, &place, time);
             }
             hold_sides(problem, mesh, &sides, &origin, time, &mut solution.velocity);
             projection
@@ -88,7 +84,7 @@ pub(super) fn remake(
     let previous = level(
         &before,
         &state.previous,
-        &seen(&state.previous_places, &wraps),
+        &previous_places,
         state.origin_at(problem, &state.previous_places),
         state.time_before(),
     )?;
@@ -101,13 +97,6 @@ pub(super) fn remake(
         *node += origin;
     }
     Ok(made)
-}
-
-/// Velocity of a body at a point that moves with it (m/s).
-fn on_body(twist: &Twist, pose: &Pose, place: &Point<2>) -> Point<2> {
-    let (x, y) = (place.x - pose.center.x, place.y - pose.center.y);
-    let spin = twist.angular.z;
-    Point::<2>::new(twist.linear.x - spin * y, twist.linear.y + spin * x)
 }
 
 /// Gives nodes on sides the velocities that hold there.

@@ -117,9 +117,7 @@ impl Parts {
         let poses = state.poses_in_mesh();
         self.system = FluidSystem::new(&self.problem, &state.mesh, &poses, self.unknown_frame);
         if follower.is_none() {
-            let mut seen = state.mesh.clone();
-            seen.nodes.clone_from(&state.nodes);
-            self.measure.follow(case, &seen);
+            self.measure.follow(case, &state.mesh_in_frame());
         }
         (self.state, self.follower) = (state, follower);
         (self.remeshes, self.is_fresh) = (saved.remeshes(), false);
@@ -295,12 +293,17 @@ impl Run<'_> {
         goes_on: bool,
         parts: &mut Parts,
     ) -> Result<usize, RunError> {
-        if goes_on {
-            return match &settings.adaptive {
-                None => self.fixed_steps(settings, parts),
-                Some(adaptive) => self.adaptive_steps(settings, adaptive, parts),
-            };
+        if !goes_on {
+            self.begin(settings, parts)?;
         }
+        match &settings.adaptive {
+            None => self.fixed_steps(settings, parts),
+            Some(adaptive) => self.adaptive_steps(settings, adaptive, parts),
+        }
+    }
+
+    /// The flow a march starts from.
+    fn begin(&mut self, settings: &Unsteady, parts: &mut Parts) -> Result<(), RunError> {
         let mut loads = vec![BodyLoads::default(); parts.problem.bodies.len()];
         // Without inertia the flow has no memory, and is that of the bodies' places at any time.
         if settings.initial == Initial::Stokes || !parts.problem.has_inertia {
@@ -318,11 +321,7 @@ impl Run<'_> {
             parts.state.previous = flow.solution;
             loads = parts.loads(&flow.residual);
         }
-        self.report(parts, &loads, (0, 0.0), false)?;
-        match &settings.adaptive {
-            None => self.fixed_steps(settings, parts),
-            Some(adaptive) => self.adaptive_steps(settings, adaptive, parts),
-        }
+        self.report(parts, &loads, (0, 0.0), false)
     }
 
     fn fixed_steps(&mut self, settings: &Unsteady, parts: &mut Parts) -> Result<usize, RunError> {
@@ -461,7 +460,6 @@ impl Run<'_> {
                 Ok(made) if made.error > REJECTED * tolerance => {
                     if let Some(saved) = saved {
                         *state = saved;
-                        system.move_to(problem, &state.mesh);
                     }
                     return Ok(Err(StepError::Inexact { error: made.error, tolerance }));
                 }
@@ -488,9 +486,7 @@ impl Run<'_> {
 
     fn remesh_where_needed(&mut self, parts: &mut Parts) -> Result<(), RunError> {
         let Parts { state, follower: Some(follower), .. } = &mut *parts else { return Ok(()) };
-        let origin = state.origin;
-        let places = state.wrapped(&state.places).into_iter();
-        let places: Vec<_> = places.map(|[x, y, a]| [x - origin.x, y - origin.y, a]).collect();
+        let places = state.in_frame(&state.origin, &state.places);
         // Seen from the frame.
         std::mem::swap(&mut state.mesh.nodes, &mut state.nodes);
         let reason =
@@ -538,8 +534,7 @@ impl Run<'_> {
         is_last: bool,
     ) -> Result<(), RunError> {
         if parts.follower.is_some() && !self.case.probe.is_empty() {
-            let mut seen = parts.state.mesh.clone();
-            seen.nodes.clone_from(&parts.state.nodes);
+            let seen = parts.state.mesh_in_frame();
             self.timing.measure(Stage::Loads, || parts.measure.follow(self.case, &seen));
         }
         let Parts { problem, system, measure, state, remeshes, .. } = &*parts;

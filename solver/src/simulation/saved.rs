@@ -1,7 +1,6 @@
 //! `SavedState`: a state as it is written to a file, for a run that goes on from it.
 
 use alewife_mesh::{Boundary, Facet, Mesh, Point};
-use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use super::build::placed_bodies;
@@ -75,15 +74,11 @@ fn points(pairs: &[Pair]) -> Vec<Point<2>> {
 }
 
 fn rigid(twists: &[Twist]) -> Vec<Place> {
-    twists.iter().map(|twist| [twist.linear.x, twist.linear.y, twist.angular.z]).collect()
+    twists.iter().map(Twist::in_plane).collect()
 }
 
 fn twists(rigid: &[Place]) -> Vec<Twist> {
-    let twist = |[x, y, spin]: &Place| Twist {
-        linear: Vector3::new(*x, *y, 0.0),
-        angular: Vector3::new(0.0, 0.0, *spin),
-    };
-    rigid.iter().map(twist).collect()
+    rigid.iter().copied().map(Twist::planar).collect()
 }
 
 impl SavedState {

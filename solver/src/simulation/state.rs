@@ -92,8 +92,19 @@ impl State {
     /// Places of bodies where they would be in the mesh.
     #[must_use]
     pub fn wrapped(&self, places: &[Place]) -> Vec<Place> {
-        let pairs = places.iter().zip(&self.wraps);
-        pairs.map(|(place, wrap)| [place[0] + wrap.x, place[1] + wrap.y, place[2]]).collect()
+        seen_from(&Point::<2>::zeros(), places, &self.wraps)
+    }
+
+    /// Places of bodies where they would be in the mesh, seen from a frame at `origin` (m).
+    #[must_use]
+    pub fn in_frame(&self, origin: &Point<2>, places: &[Place]) -> Vec<Place> {
+        seen_from(origin, places, &self.wraps)
+    }
+
+    /// The mesh now, seen from the frame.
+    #[must_use]
+    pub fn mesh_in_frame(&self) -> Mesh<2> {
+        Mesh { nodes: self.nodes.clone(), ..self.mesh.clone() }
     }
 
     /// Where the frame is with bodies at these places (m).
@@ -104,6 +115,14 @@ impl State {
             Point::<2>::new(places[body][0] - start.x, places[body][1] - start.y)
         })
     }
+}
+
+/// Places of bodies, `wraps` added to them, seen from a frame at `origin` (m).
+pub(super) fn seen_from(origin: &Point<2>, places: &[Place], wraps: &[Point<2>]) -> Vec<Place> {
+    let pairs = places.iter().zip(wraps);
+    pairs
+        .map(|([x, y, angle], wrap)| [x + wrap.x - origin.x, y + wrap.y - origin.y, *angle])
+        .collect()
 }
 
 /// Centre and angle of a pose (m, rad).
