@@ -44,6 +44,8 @@ pub fn fluid_only(
             boundary: index,
             pose: Pose::planar(0.0, 0.0, 0.0),
             drives: [0, 1, 2].map(|_| Drive::Given(Box::new(|_| 0.0))),
+            volume: 0.0,
+            second_moment: 0.0,
             mass: 0.0,
             inertia: 0.0,
             weight: Wrench::default(),
@@ -51,6 +53,7 @@ pub fn fluid_only(
             load_factor: None,
             spring: None,
             gait: None,
+            link: None,
         })
     });
     Problem {
@@ -61,7 +64,9 @@ pub fn fluid_only(
         has_convection: density > 0.0,
         sides,
         bodies: bodies.collect(),
+        groups: Vec::new(),
         frame: None,
         body_force: None,
+        kinks: None,
     }
 }

@@ -58,7 +58,9 @@ impl ConstraintBuilder {
             n_unknowns: n_unknowns as usize,
         };
         for raw in 0..self.lines.len() {
+            let first = constraints.entries.len();
             let value = self.expand(raw, 1.0, &unknown_of, &mut constraints.entries, 0);
+            merge(&mut constraints.entries, first);
             constraints.values.push(value);
             constraints.offsets.push(constraints.entries.len() as u32);
         }
@@ -93,6 +95,22 @@ impl ConstraintBuilder {
             }
         }
     }
+}
+
+/// Adds up the weights of an unknown that is met more than once from an entry on.
+fn merge(entries: &mut Vec<(u32, f64)>, first: usize) {
+    let mut end = first;
+    for next in first..entries.len() {
+        let (unknown, weight) = entries[next];
+        match entries[first..end].iter_mut().find(|(known, _)| *known == unknown) {
+            Some((_, sum)) => *sum += weight,
+            None => {
+                entries[end] = (unknown, weight);
+                end += 1;
+            }
+        }
+    }
+    entries.truncate(end);
 }
 
 /// x = P y + g: raw unknowns x from free unknowns y.
@@ -174,6 +192,15 @@ impl AffineConstraints {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn an_unknown_met_twice_is_one_entry() {
+        let mut builder = ConstraintBuilder::new(3);
+        builder.constrain(0, vec![(1, 2.0), (2, 1.0)], 0.0);
+        builder.constrain(1, vec![(2, 3.0)], 0.0);
+        let constraints = builder.build();
+        assert_eq!(constraints.row(0), &[(0, 7.0)]);
+    }
 
     #[test]
     fn chains_are_resolved_and_values_carried_along() {

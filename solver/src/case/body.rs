@@ -161,4 +161,17 @@ pub struct Body {
     /// Cell size on its surface (m); that of `[mesh]` if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub size: Option<f64>,
+    /// The `[[swimmer]]` it was made for.
+    #[serde(skip)]
+    pub swimmer: Option<usize>,
+}
+
+impl Gait {
+    /// The time after which it begins again (s), if it does.
+    #[must_use]
+    pub fn period(&self) -> Option<f64> {
+        match self {
+            Self::Squirmer(_) => None,
+        }
+    }
 }

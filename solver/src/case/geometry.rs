@@ -3,7 +3,8 @@
 use alewife_mesh::{Domain, PlacedShape, Point, Shape};
 
 use super::{
-    Body, BoundaryCondition, Case, DomainSpec, Geometry, Lock, Motion, ShapeSpec, TimeSettings,
+    Body, BoundaryCondition, Case, DomainSpec, Geometry, Lock, Model, Motion, ShapeSpec,
+    TimeSettings,
 };
 
 /// Directions in which the width of a spline is measured.
@@ -191,7 +192,26 @@ impl Case {
             let turns = self.geometry == Geometry::Planar && body.turns() && !body.is_round();
             travels || turns
         };
-        matches!(self.time, TimeSettings::Unsteady(_)) && self.body.iter().any(moves)
+        let any = !self.joint.is_empty() || self.body.iter().any(moves);
+        matches!(self.time, TimeSettings::Unsteady(_)) && any
+    }
+
+    /// Whether all work on the fluid is that of the bodies, so that it can be held against
+    /// dissipation and kinetic energy.
+    #[must_use]
+    pub fn balances_energy(&self) -> bool {
+        let is_idle = |condition: &BoundaryCondition| {
+            matches!(
+                condition,
+                BoundaryCondition::NoSlip
+                    | BoundaryCondition::Symmetry
+                    | BoundaryCondition::Axis
+                    | BoundaryCondition::Periodic(_)
+            )
+        };
+        let is_told =
+            matches!(self.time, TimeSettings::Unsteady(_)) || self.fluid.model == Model::Stokes;
+        is_told && !self.body.is_empty() && self.boundary.values().all(is_idle)
     }
 
     /// Whether force and moment coefficients are defined: 2 F / (density velocity^2 area).

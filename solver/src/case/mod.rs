@@ -5,8 +5,10 @@ mod check;
 mod contact;
 mod deserialize;
 mod domain;
+mod expand;
 mod fluid;
 mod geometry;
+mod joint;
 pub mod library;
 mod mesh;
 mod nearest;
@@ -17,20 +19,24 @@ mod read;
 mod reference;
 mod schema;
 mod source;
+mod stroke;
+mod swimmer;
 mod time;
 mod tree;
 
 use std::collections::BTreeMap;
 
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Serialize, Serializer};
 
 pub use body::{Body, Gait, ImposedMotion, Lock, Motion, ShapeSpec, Spring, SquirmerGait};
 pub use check::{check, known_quantities};
 pub use contact::Contact;
 pub use domain::{BoundaryCondition, DomainSpec, Geometry, TimeFunction};
+pub use expand::{Group, hang};
 pub use fluid::{Fluid, Model};
 pub use geometry::opposite;
+pub use joint::{Hinge, Joint, JointKind};
 pub use mesh::{MeshEquation, MeshSettings, MovingMesh, RefinementBox};
 pub use nearest::nearest;
 pub use numbers::{DerivedNumber, derived_numbers, geometry_name, number_table, significant};
@@ -40,6 +46,8 @@ pub use read::CaseFile;
 pub use reference::{Numbers, Reference, Scales, Statistic, Statistics, Variant};
 pub use schema::schema;
 pub use source::Place;
+pub use stroke::{Stroke, smooth_ramp};
+pub use swimmer::{Copies, Pivot, Swimmer, SwimmerKind};
 pub use time::{Adaptive, Convection, Initial, Scheme, Steady, TimeSettings, Unsteady};
 
 /// A problem to solve: what one case file declares, after `extends`, variants and `--set`.
@@ -66,9 +74,22 @@ pub struct Case {
     /// What holds on each side of the domain, by the side's name.
     #[serde(default)]
     pub boundary: BTreeMap<String, BoundaryCondition>,
-    /// The bodies in the fluid.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    /// The bodies in the fluid; those made for swimmers follow those of the file.
+    #[serde(default, skip_serializing_if = "none_is_written", serialize_with = "written_bodies")]
     pub body: Vec<Body>,
+    /// How bodies hang on each other; those made for swimmers follow those of the file.
+    #[serde(
+        default,
+        skip_serializing_if = "no_joint_is_written",
+        serialize_with = "written_joints"
+    )]
+    pub joint: Vec<Joint>,
+    /// Swimmers made of bodies and joints by their kind.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub swimmer: Vec<Swimmer>,
+    /// Bodies that are told of as one.
+    #[serde(skip)]
+    pub group: Vec<Group>,
     /// Forces that keep bodies apart from each other and from walls.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub contact: Option<Contact>,
@@ -104,4 +125,21 @@ pub struct Case {
 
 fn dimensionless() -> String {
     "dimensionless".to_owned()
+}
+
+fn none_is_written(bodies: &[Body]) -> bool {
+    bodies.iter().all(|body| body.swimmer.is_some())
+}
+
+fn no_joint_is_written(joints: &[Joint]) -> bool {
+    joints.iter().all(|joint| joint.is_made)
+}
+
+/// What is made for swimmers is made anew when the case is read again.
+fn written_bodies<S: Serializer>(bodies: &[Body], serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_seq(bodies.iter().filter(|body| body.swimmer.is_none()))
+}
+
+fn written_joints<S: Serializer>(joints: &[Joint], serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_seq(joints.iter().filter(|joint| !joint.is_made))
 }

@@ -13,6 +13,7 @@ use std::sync::Arc;
 use serde::Deserialize;
 
 use super::deserialize::{Mismatch, TypeError, suggestion};
+use super::expand::expand;
 use super::geometry::opposite;
 use super::nearest::nearest;
 use super::problem::{CaseError, Problem, Severity};
@@ -213,14 +214,23 @@ fn assemble(
     }
     let mut case = typed(&root)?;
     complete_periodic(&mut case);
-    Ok(CaseFile {
+    let refusal = expand(&mut case).err();
+    let file = CaseFile {
         case,
         name: text.name.clone(),
         variant: variant.map(ToOwned::to_owned),
         variants,
         file: text.source.name.clone(),
         root,
-    })
+    };
+    match refusal {
+        None => Ok(file),
+        Some((key, message, help)) => {
+            let place = file.place(&key);
+            let severity = Severity::Error;
+            Err(CaseError::Wrong(vec![Problem { severity, key, message, help, place }]))
+        }
+    }
 }
 
 fn wrong(error: TreeError) -> CaseError {

@@ -77,6 +77,9 @@ pub enum Scheme {
     /// Second-order backward differences.
     #[default]
     Bdf2,
+    /// Explicit Runge-Kutta method of third order; `stokes` without contact, springs and stiff
+    /// hinges.
+    Rk3,
 }
 
 /// Treatment of the convection within a step.

@@ -13,7 +13,11 @@ use super::source::{Origin, Source};
 /// Tables that hold exactly one of several alternatives.
 ///
 /// Where two texts name different alternatives, the later one replaces the earlier one whole.
-pub const CHOICES: [&str; 10] = [
+pub const CHOICES: [&str; 14] = [
+    "kind",
+    "length",
+    "torque",
+    "copies",
     "domain",
     "time",
     "shape",

@@ -118,8 +118,16 @@ fn read_state(path: &Path, case: &Case) -> Result<SavedState, Failure> {
 /// Prints how the bodies ended, for a case without published values.
 fn tell_last_values(case: &Case, outcome: &Outcome) {
     let Some(last) = outcome.series.rows.last() else { return };
-    let body_of =
-        |name: &str| case.body.iter().any(|body| name.starts_with(&format!("{}.", body.name)));
+    // Of many bodies that are told of as one only what they do together.
+    let is_alone = |body: usize| {
+        !case.group.iter().any(|group| group.bodies.len() > 1 && group.bodies.contains(&body))
+    };
+    let bodies = case.body.iter().enumerate().filter(|(index, _)| is_alone(*index));
+    let told: Vec<&str> = bodies
+        .map(|(_, body)| body.name.as_str())
+        .chain(case.group.iter().map(|group| group.name.as_str()))
+        .collect();
+    let body_of = |name: &str| told.iter().any(|told| name.starts_with(&format!("{told}.")));
     for (name, value) in outcome.series.names.iter().zip(last) {
         if body_of(name) && !name.contains("surface_") {
             say(&format!("{name:32}  {}", significant(*value)));

@@ -30,6 +30,8 @@ pub struct Surfaces {
     /// Periods along x and y (m).
     periods: [Option<f64>; 2],
     is_axisymmetric: bool,
+    /// Pairs of bodies on one pivot, the smaller number first: they are always close.
+    joined: Vec<(usize, usize)>,
 }
 
 /// The smallest of all gaps.
@@ -76,7 +78,15 @@ impl Surfaces {
             walls: walls.collect::<Result<_, _>>()?,
             periods: [longest(0), longest(1)],
             is_axisymmetric: domain.is_axisymmetric(),
+            joined: Vec::new(),
         })
+    }
+
+    /// Leaves the gaps of pairs of bodies that share a pivot out of account.
+    #[must_use]
+    pub fn with_joined(mut self, pairs: impl Iterator<Item = (usize, usize)>) -> Self {
+        self.joined = pairs.map(|(one, other)| (one.min(other), one.max(other))).collect();
+        self
     }
 
     /// Number of bodies.
@@ -137,6 +147,9 @@ impl Surfaces {
         };
         for (body, outline) in outlines.iter().enumerate() {
             for other in body..outlines.len() {
+                if self.joined.contains(&(body, other)) {
+                    continue;
+                }
                 for away in self.images(places, body, other) {
                     let image =
                         shifted(&outlines[other], &self.bodies[other], &places[other], away);
@@ -168,6 +181,9 @@ impl Surfaces {
         };
         for (body, outline) in outlines.iter().enumerate() {
             for other in body..outlines.len() {
+                if self.joined.contains(&(body, other)) {
+                    continue;
+                }
                 for away in self.images(places, body, other) {
                     let image =
                         shifted(&outlines[other], &self.bodies[other], &places[other], away);

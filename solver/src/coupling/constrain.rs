@@ -5,6 +5,7 @@
 
 use alewife_mesh::{BoundaryKind, Facet, Mesh};
 
+use super::link::RigidRow;
 use super::problem::{Drive, Problem};
 use crate::algebra::{AffineConstraints, ConstraintBuilder};
 use crate::body::Pose;
@@ -62,10 +63,25 @@ pub(super) fn constrain(
     time: f64,
 ) -> AffineConstraints {
     let mut builder = ConstraintBuilder::new(layout.n_raw());
+    let rows = problem.has_links().then(|| {
+        let places: Vec<[f64; 3]> =
+            poses.iter().map(|pose| [pose.center.x, pose.center.y, pose.angle()]).collect();
+        problem.rigid_rows(&places, time)
+    });
     for (body, rigid) in problem.bodies.iter().enumerate() {
         for (mode, drive) in rigid.drives.iter().enumerate() {
-            if let Drive::Given(value) = drive {
-                builder.constrain(layout.rigid(body, mode), vec![], value(time));
+            match (drive, &rows) {
+                (Drive::Given(value), _) => {
+                    builder.constrain(layout.rigid(body, mode), vec![], value(time));
+                }
+                (Drive::Linked, Some(rows)) => {
+                    let RigidRow { entries, value } = &rows[body][mode];
+                    let entries = entries
+                        .iter()
+                        .map(|((body, mode), weight)| (layout.rigid(*body, *mode), *weight));
+                    builder.constrain(layout.rigid(body, mode), entries.collect(), *value);
+                }
+                (Drive::Linked, None) | (Drive::Free, _) => {}
             }
         }
     }

@@ -2,16 +2,22 @@
 
 mod constrain;
 mod divergence_free;
+mod link;
 mod loads;
 mod problem;
 mod surface_load;
+mod swimming;
 mod system;
 
 pub use constrain::NodeSides;
 pub use divergence_free::DivergenceFree;
+pub use link::{Link, MovingAngle, MovingPoint, Pivot, Turn};
 pub use loads::{BodyLoads, body_loads};
-pub use problem::{Drive, Problem, RigidBody, Side, Spring, TimeValue, VelocityProfile};
+pub use problem::{Drive, Kinks, Problem, RigidBody, Side, Spring, TimeValue, VelocityProfile};
 pub use surface_load::surface_load;
-pub use system::{FluidSystem, Levels, Solution, SolveError, embed, flatten, memory_estimate};
+pub use swimming::{Effort, Group, MeanMotion, effort, group_load, mean_motion};
+pub use system::{
+    FluidSystem, Levels, PivotLoad, Solution, SolveError, embed, flatten, memory_estimate,
+};
 
 pub(crate) use system::newton_convection;

@@ -3,6 +3,8 @@
 use alewife_mesh::Point;
 use nalgebra::Vector3;
 
+use super::link::Link;
+use super::swimming::Group;
 use crate::body::{Pose, Wrench};
 use crate::flow::BodyForce;
 use crate::gait::Gait;
@@ -12,6 +14,9 @@ pub type VelocityProfile = Box<dyn Fn(&Point<2>, f64) -> Point<2> + Send + Sync>
 
 /// A number as a function of time.
 pub type TimeValue = Box<dyn Fn(f64) -> f64 + Send + Sync>;
+
+/// Times (s) between two times, ascending.
+pub type Kinks = Box<dyn Fn(f64, f64) -> Vec<f64> + Send + Sync>;
 
 /// What holds on a boundary that is not a body.
 pub enum Side {
@@ -41,6 +46,8 @@ pub enum Drive {
     Free,
     /// Given in time (m/s or rad/s); the reaction is an output.
     Given(TimeValue),
+    /// That of the bodies it hangs on.
+    Linked,
 }
 
 /// A body in the fluid.
@@ -57,6 +64,10 @@ pub struct RigidBody {
     pub mass: f64,
     /// Moment of inertia about z through the centre of mass (kg m2; kg m planar).
     pub inertia: f64,
+    /// Volume (m3; area planar, m2).
+    pub volume: f64,
+    /// Moment of inertia of a body of this shape with unit density.
+    pub second_moment: f64,
     /// Weight less buoyancy.
     pub weight: Wrench,
     /// External load besides, at the time its factor is one.
@@ -67,6 +78,8 @@ pub struct RigidBody {
     pub spring: Option<Spring>,
     /// Surface motion.
     pub gait: Option<Box<dyn Gait>>,
+    /// The body it hangs on; its place and velocity, but for a free pivot's turn, follow from it.
+    pub link: Option<Link>,
 }
 
 /// A linear spring and damper between a body and a place; entries for x, y and the turn.
@@ -123,10 +136,14 @@ pub struct Problem {
     pub sides: Vec<Option<Side>>,
     /// The bodies, in the order of their boundaries.
     pub bodies: Vec<RigidBody>,
+    /// Bodies that swim, as they are told of.
+    pub groups: Vec<Group>,
     /// The body the frame travels with.
     pub frame: Option<usize>,
     /// Force per unit volume, for manufactured solutions.
     pub body_force: Option<BodyForce<'static, 2>>,
+    /// Times at which the rates of gaits jump, if they ever do.
+    pub kinks: Option<Kinks>,
 }
 
 impl Problem {

@@ -7,6 +7,50 @@ use crate::body::Wrench;
 use crate::flow::{Fields, for_each_facet_point};
 use crate::space::{interval_rule, p1_values, triangle_side_point};
 
+/// A boundary whose stress is integrated.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Surface<'a> {
+    pub mesh: &'a Mesh<2>,
+    pub boundary: usize,
+    pub viscosity: f64,
+    pub axisymmetric: bool,
+}
+
+impl Surface<'_> {
+    /// Visits the quadrature points of the boundary: place (m), - sigma n ds with n out of the fluid,
+    /// the force on the body (N), and velocity of the fluid (m/s).
+    pub fn for_each_force(
+        &self,
+        fields: &Fields<'_, 2>,
+        mut visit: impl FnMut(&Point<2>, &Point<2>, &Point<2>),
+    ) {
+        let rule = interval_rule(4);
+        let mesh = self.mesh;
+        for facet in mesh.facets.iter().filter(|facet| usize::from(facet.boundary) == self.boundary)
+        {
+            let nodes = mesh.cell(facet.cell as usize);
+            for_each_facet_point(mesh, facet, &rule, self.axisymmetric, |at| {
+                let mut velocity = Point::<2>::zeros();
+                let mut gradient = SMatrix::<f64, 2, 2>::zeros();
+                for (a, &node) in nodes.iter().enumerate() {
+                    let nodal = fields.velocity[node as usize];
+                    velocity += nodal * at.phi[a];
+                    gradient += nodal * at.grad_phi[a].transpose();
+                }
+                let psi = p1_values(&triangle_side_point(usize::from(facet.side), at.s));
+                let pressure: f64 = nodes
+                    .iter()
+                    .zip(&psi)
+                    .map(|(&node, psi)| fields.pressure[node as usize] * psi)
+                    .sum();
+                let traction = (gradient + gradient.transpose()) * at.normal_ds * self.viscosity
+                    - at.normal_ds * pressure;
+                visit(&at.position, &-traction, &velocity);
+            });
+        }
+    }
+}
+
 /// Force and torque about `center` of the fluid on a boundary:
 /// F = - int sigma n ds with n out of the fluid.
 #[must_use]
@@ -18,32 +62,17 @@ pub fn surface_load(
     axisymmetric: bool,
     center: Point<2>,
 ) -> Wrench {
-    let rule = interval_rule(4);
     let mut load = Wrench::default();
-    for facet in mesh.facets.iter().filter(|facet| usize::from(facet.boundary) == boundary) {
-        let nodes = mesh.cell(facet.cell as usize);
-        for_each_facet_point(mesh, facet, &rule, axisymmetric, |at| {
-            let gradient: SMatrix<f64, 2, 2> =
-                nodes.iter().zip(&at.grad_phi).fold(SMatrix::zeros(), |sum, (&node, grad)| {
-                    sum + fields.velocity[node as usize] * grad.transpose()
-                });
-            let psi = p1_values(&triangle_side_point(usize::from(facet.side), at.s));
-            let pressure: f64 = nodes
-                .iter()
-                .zip(&psi)
-                .map(|(&node, psi)| fields.pressure[node as usize] * psi)
-                .sum();
-            let traction = (gradient + gradient.transpose()) * at.normal_ds * viscosity
-                - at.normal_ds * pressure;
-            let lever = at.position - center;
-            // Turned about the axis, radial forces cancel and in-plane torques vanish.
-            if axisymmetric {
-                load.force.x -= traction[0];
-            } else {
-                load.force -= Vector3::new(traction[0], traction[1], 0.0);
-                load.torque.z -= lever[0] * traction[1] - lever[1] * traction[0];
-            }
-        });
-    }
+    let surface = Surface { mesh, boundary, viscosity, axisymmetric };
+    surface.for_each_force(fields, |place, force, _| {
+        let lever = place - center;
+        // Turned about the axis, radial forces cancel and in-plane torques vanish.
+        if axisymmetric {
+            load.force.x += force[0];
+        } else {
+            load.force += Vector3::new(force[0], force[1], 0.0);
+            load.torque.z += lever[0] * force[1] - lever[1] * force[0];
+        }
+    });
     load
 }

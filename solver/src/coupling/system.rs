@@ -10,7 +10,8 @@ use nalgebra::DMatrix;
 use thiserror::Error;
 
 use super::constrain::{NodeSides, constrain};
-use super::problem::{Drive, Problem};
+use super::link::{Link, Turn};
+use super::problem::Problem;
 use crate::algebra::{Accuracy, AffineConstraints, DirectSolver, LinearError, Pattern, Unknowns};
 use crate::body::{Pose, Twist};
 use crate::flow::{Assembly, Convection, Fields, FlowTerms, assemble, pressure_unknowns, residual};
@@ -95,6 +96,22 @@ pub struct Levels {
     pub resistance: Vec<[f64; 3]>,
     /// Load from outside on each body (N, N m).
     pub external: Vec<[f64; 3]>,
+    /// Loads in free pivots.
+    pub pivots: Vec<PivotLoad>,
+}
+
+/// Torque torque - resistance (omega_child - omega_parent) on a child in its pivot, the opposite on
+/// its parent.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PivotLoad {
+    /// The body that hangs.
+    pub child: usize,
+    /// The body it hangs on.
+    pub parent: usize,
+    /// Torque per angular velocity (N m s).
+    pub resistance: f64,
+    /// Torque without the turning of this step (N m).
+    pub torque: f64,
 }
 
 impl Levels {
@@ -116,6 +133,17 @@ impl Levels {
         coefficient: f64,
     ) -> Self {
         self.external = problem.bodies.iter().map(|body| body.external(time)).collect();
+        for (child, rigid) in problem.bodies.iter().enumerate() {
+            let Some(Link { parent, turn: Turn::Free(pivot), .. }) = &rigid.link else { continue };
+            let bend = unmoved[child][2] - unmoved[*parent][2] - pivot.rest;
+            let motor = pivot.motor.as_ref().map_or(0.0, |motor| motor(time));
+            self.pivots.push(PivotLoad {
+                child,
+                parent: *parent,
+                resistance: pivot.damping + pivot.stiffness * coefficient,
+                torque: motor - pivot.stiffness * bend,
+            });
+        }
         for (body, rigid) in problem.bodies.iter().enumerate() {
             let Some(spring) = &rigid.spring else { continue };
             self.resistance.resize(problem.bodies.len(), [0.0; 3]);
@@ -248,6 +276,12 @@ impl FluidSystem {
                     - of(&levels.external);
             }
         }
+        for pivot in &levels.pivots {
+            let rate = |body: usize| solution.twists[body].angular.z;
+            let torque = pivot.torque - pivot.resistance * (rate(pivot.child) - rate(pivot.parent));
+            raw[self.layout.rigid(pivot.child, 2)] -= torque;
+            raw[self.layout.rigid(pivot.parent, 2)] += torque;
+        }
         constraints.restrict(&raw)
     }
 
@@ -369,11 +403,30 @@ impl FluidSystem {
     ) {
         for (body, rigid) in problem.bodies.iter().enumerate() {
             for (mode, inertia) in [rigid.mass, rigid.mass, rigid.inertia].into_iter().enumerate() {
-                let unknown = constraints.unknown(self.layout.rigid(body, mode));
-                let (Drive::Free, Some(unknown)) = (&rigid.drives[mode], unknown) else { continue };
-                if let Some(position) = self.pattern.position(unknown, unknown) {
-                    let resistance = levels.resistance.get(body).map_or(0.0, |all| all[mode]);
-                    self.values[position] += inertia * levels.rate + resistance;
+                let resistance = levels.resistance.get(body).map_or(0.0, |all| all[mode]);
+                let row = constraints.row(self.layout.rigid(body, mode));
+                self.add_square(row, inertia * levels.rate + resistance);
+            }
+        }
+        for pivot in &levels.pivots {
+            let [child, parent] =
+                [pivot.child, pivot.parent].map(|body| constraints.row(self.layout.rigid(body, 2)));
+            let opposite = parent.iter().map(|(unknown, weight)| (*unknown, -weight));
+            let turn: Vec<(u32, f64)> = child.iter().copied().chain(opposite).collect();
+            self.add_square(&turn, pivot.resistance);
+        }
+    }
+
+    /// Adds factor * v v^T with the row vector v of some unknowns.
+    fn add_square(&mut self, row: &[(u32, f64)], factor: f64) {
+        if factor == 0.0 {
+            return;
+        }
+        for &(first, one) in row {
+            for &(second, other) in row {
+                let position = self.pattern.position(first as usize, second as usize);
+                if let Some(position) = position {
+                    self.values[position] += one * other * factor;
                 }
             }
         }
@@ -398,19 +451,25 @@ impl FluidSystem {
         timing: &mut Timing,
     ) -> Result<DMatrix<f64>, SolveError> {
         let modes = bodies.iter().flat_map(|&body| [0, 1, 2].map(|mode| (body, mode)));
-        let rows: Vec<Option<usize>> =
-            modes.map(|(body, mode)| constraints.unknown(self.layout.rigid(body, mode))).collect();
-        let (at, unknowns): (Vec<usize>, Vec<usize>) =
-            rows.iter().enumerate().filter_map(|(row, unknown)| Some((row, (*unknown)?))).unzip();
+        let rows: Vec<&[(u32, f64)]> =
+            modes.map(|(body, mode)| constraints.row(self.layout.rigid(body, mode))).collect();
+        let mut masters: Vec<usize> =
+            rows.iter().flat_map(|row| row.iter().map(|(unknown, _)| *unknown as usize)).collect();
+        masters.sort_unstable();
+        masters.dedup();
         let solver = self.factorised(timing)?;
-        let inverse = timing.measure(Stage::Solve, || solver.inverse_of_dense(&unknowns));
-        let mut mobility = DMatrix::zeros(rows.len(), rows.len());
-        for (&column, values) in at.iter().zip(inverse.chunks(at.len().max(1))) {
-            for (&row, value) in at.iter().zip(values) {
-                mobility[(row, column)] = *value;
+        let inverse = timing.measure(Stage::Solve, || solver.inverse_of_dense(&masters));
+        // Velocities by loads on the masters, one column each
+        let inverse = DMatrix::from_column_slice(masters.len(), masters.len(), &inverse);
+        let mut weights: DMatrix<f64> = DMatrix::zeros(rows.len(), masters.len());
+        for (at, row) in rows.iter().enumerate() {
+            for (unknown, weight) in *row {
+                if let Ok(column) = masters.binary_search(&(*unknown as usize)) {
+                    weights[(at, column)] += weight;
+                }
             }
         }
-        Ok(mobility)
+        Ok(&weights * inverse * weights.transpose())
     }
 
     /// Adds to a solution what further loads (N, N, N m) on some bodies change, with the matrix last
@@ -428,8 +487,8 @@ impl FluidSystem {
         let mut change = vec![0.0; self.n_unknowns];
         for &(body, load) in loads {
             for (mode, load) in load.into_iter().enumerate() {
-                if let Some(unknown) = constraints.unknown(self.layout.rigid(body, mode)) {
-                    change[unknown] = load;
+                for (unknown, weight) in constraints.row(self.layout.rigid(body, mode)) {
+                    change[*unknown as usize] += weight * load;
                 }
             }
         }

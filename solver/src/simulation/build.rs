@@ -10,11 +10,14 @@ use nalgebra::Vector3;
 use super::RunError;
 use crate::body::{Pose, Wrench};
 use crate::case::{
-    Body, BoundaryCondition, Case, Contact, DomainSpec, Gait as GaitSpec, Geometry, Lock, Model,
-    Motion, ShapeSpec, TimeFunction,
+    Body, BoundaryCondition, Case, Contact, DomainSpec, Gait as GaitSpec, Geometry, Hinge, Joint,
+    JointKind, Lock, Model, Motion, ShapeSpec, Stroke, TimeFunction,
 };
 use crate::contact::{Law, LawKind};
-use crate::coupling::{Drive, Problem, RigidBody, Side, Spring, TimeValue, VelocityProfile};
+use crate::coupling::{
+    Drive, Group, Kinks, Link, MovingPoint, Pivot, Problem, RigidBody, Side, Spring, TimeValue,
+    Turn, VelocityProfile,
+};
 use crate::gait::{Gait, Squirmer};
 use crate::time::factor_at;
 
@@ -92,8 +95,11 @@ pub fn build_problem(case: &Case, mesh: &Mesh<2>) -> Result<Problem, RunError> {
             })?)
         }
     };
+    for joint in &case.joint {
+        link(case, joint, &mut bodies)?;
+    }
     let has_inertia = case.fluid.model != Model::Stokes;
-    Ok(Problem {
+    let mut problem = Problem {
         axisymmetric,
         density: if has_inertia { case.fluid.density } else { 0.0 },
         viscosity: case.fluid.viscosity,
@@ -101,9 +107,99 @@ pub fn build_problem(case: &Case, mesh: &Mesh<2>) -> Result<Problem, RunError> {
         has_convection: case.fluid.model == Model::NavierStokes,
         sides,
         bodies,
+        groups: case.group.iter().map(group).collect(),
         frame,
         body_force: None,
-    })
+        kinks: kinks(case),
+    };
+    let mut places: Vec<[f64; 3]> = problem.bodies.iter().map(RigidBody::start).collect();
+    problem.hang(&mut places, 0.0);
+    for (body, [x, y, angle]) in problem.bodies.iter_mut().zip(places) {
+        if body.link.is_some() {
+            body.pose = Pose::planar(x, y, angle);
+        }
+    }
+    Ok(problem)
+}
+
+fn group(group: &crate::case::Group) -> Group {
+    let crate::case::Group { name, bodies, period, resistance } = group.clone();
+    Group { name, bodies, period, resistance }
+}
+
+/// Hangs a child on its parent.
+fn link(case: &Case, joint: &Joint, bodies: &mut [RigidBody]) -> Result<(), RunError> {
+    let find = |name: &str| {
+        case.body.iter().position(|body| body.name == name).ok_or_else(|| {
+            RunError::Unsupported(format!("a joint names \"{name}\", which is no body"))
+        })
+    };
+    let (parent, child) = (find(&joint.parent)?, find(&joint.child)?);
+    let from_center = |body: usize, point: [f64; 2]| {
+        let centroid = case.body[body].shape.outline().moments().map(|moments| moments.centroid);
+        Point::<2>::from(point) - centroid.unwrap_or_default()
+    };
+    let base = from_center(parent, joint.on_parent);
+    let bend = case.body[child].angle - case.body[parent].angle;
+    let (on_parent, turn): (MovingPoint, Turn) = match joint.kind.clone() {
+        JointKind::Arm { length, direction } => {
+            // Along an axis to the last bit
+            let snap = |part: f64| if part.abs() < 1e-15 { 0.0 } else { part };
+            let along = Point::<2>::new(snap(direction.cos()), snap(direction.sin()));
+            let at = move |time: f64| {
+                let [length, rate] = length.at(time);
+                [base + along * length, along * rate]
+            };
+            (Box::new(at), Turn::Given(Box::new(move |_| [bend, 0.0])))
+        }
+        JointKind::Bent { angle } => {
+            let turn = Turn::Given(Box::new(move |time| angle.at(time)));
+            (Box::new(move |_| [base, Point::<2>::zeros()]), turn)
+        }
+        JointKind::Hinge(hinge) => {
+            let motor = hinge
+                .torque
+                .map(|torque| -> TimeValue { Box::new(move |time| torque.at(time)[0]) });
+            let Hinge { stiffness, damping, rest, .. } = hinge;
+            let turn = Turn::Free(Pivot { stiffness, damping, rest, motor });
+            (Box::new(move |_| [base, Point::<2>::zeros()]), turn)
+        }
+    };
+    let is_free = matches!(turn, Turn::Free(_)) && case.geometry == Geometry::Planar;
+    let is_pivot = !matches!(joint.kind, JointKind::Arm { .. });
+    let on_child = from_center(child, joint.on_child);
+    let body = &mut bodies[child];
+    body.drives[0] = Drive::Linked;
+    if case.geometry == Geometry::Planar {
+        body.drives[1] = Drive::Linked;
+        body.drives[2] = if is_free { Drive::Free } else { Drive::Linked };
+    }
+    body.link = Some(Link { parent, on_parent, on_child, turn, is_pivot });
+    Ok(())
+}
+
+/// Times at which rates of strokes jump.
+fn kinks(case: &Case) -> Option<Kinks> {
+    let strokes: Vec<Stroke> = case
+        .joint
+        .iter()
+        .filter_map(|joint| match &joint.kind {
+            JointKind::Arm { length, .. } => Some(length.clone()),
+            JointKind::Bent { angle } => Some(angle.clone()),
+            // Torques may jump: nothing moves by them at once
+            JointKind::Hinge(_) => None,
+        })
+        .collect();
+    if strokes.is_empty() {
+        return None;
+    }
+    Some(Box::new(move |from, to| {
+        let mut times: Vec<f64> =
+            strokes.iter().flat_map(|stroke| stroke.kinks(from, to)).collect();
+        times.sort_by(f64::total_cmp);
+        times.dedup_by(|later, earlier| *later - *earlier <= 1e-12 * later.abs());
+        times
+    }))
 }
 
 /// Extent of the domain along y, where profiles are zero, and its lower end.
@@ -237,6 +333,8 @@ fn rigid_body(
         boundary,
         pose,
         drives,
+        volume: moments.measure,
+        second_moment,
         mass: if has_inertia { density * moments.measure } else { 0.0 },
         inertia: if has_inertia { density * second_moment } else { 0.0 },
         weight: Wrench::planar([weight[0], weight[1], 0.0]),
@@ -255,5 +353,6 @@ fn rigid_body(
             ],
         }),
         gait,
+        link: None,
     })
 }

@@ -12,6 +12,7 @@
 
 use alewife_mesh::Point;
 
+use super::explicit::INSIDE;
 use super::follow::Follower;
 use super::state::{State, pose_at};
 use super::{RunError, Stage, StepError, Timing};
@@ -80,7 +81,7 @@ pub struct StepResult {
 }
 
 /// The older levels of a step, with what follows from them.
-struct Past {
+pub(super) struct Past {
     time: f64,
     /// Older part of du/dt at the nodes (m/s2).
     history: Vec<Point<2>>,
@@ -93,10 +94,18 @@ struct Past {
 }
 
 /// A flow on the mesh of one pass.
-struct Flow {
-    solution: Solution,
-    residual: Vec<f64>,
-    iterations: usize,
+pub(super) struct Flow {
+    pub solution: Solution,
+    pub residual: Vec<f64>,
+    pub iterations: usize,
+}
+
+impl Past {
+    /// That of a flow without inertia.
+    pub(super) fn without_memory(time: f64, levels: Levels) -> Self {
+        let (history, ahead, raw_ahead) = Default::default();
+        Self { time, history, ahead, raw_ahead, levels, frame_ahead: Point::<2>::zeros() }
+    }
 }
 
 impl March<'_> {
@@ -114,10 +123,15 @@ impl March<'_> {
     ) -> Result<StepResult, StepError> {
         let result = self.attempt(system, state, bdf, timing);
         if result.is_err() {
-            let State { nodes, origin, mesh, .. } = &mut *state;
-            lay(&mut mesh.nodes, nodes, origin);
+            self.put_back(state);
         }
         result
+    }
+
+    /// Puts the mesh back to where the state has it.
+    pub(super) fn put_back(&self, state: &mut State) {
+        let State { nodes, origin, mesh, .. } = &mut *state;
+        lay(&mut mesh.nodes, nodes, origin);
     }
 
     fn attempt(
@@ -129,11 +143,12 @@ impl March<'_> {
     ) -> Result<StepResult, StepError> {
         let past = self.past(state, bdf);
         let time = past.time;
+        let asked = if self.problem.kinks.is_some() { time - INSIDE * bdf.step } else { time };
         let mut from = state.places.clone();
         let mut to =
             self.reached(state, bdf, |body, mode| match &self.problem.bodies[body].drives[mode] {
                 Drive::Given(value) => value(time),
-                Drive::Free => bdf.extrapolate(
+                Drive::Free | Drive::Linked => bdf.extrapolate(
                     state.now.twists[body].in_plane()[mode],
                     state.previous.twists[body].in_plane()[mode],
                 ),
@@ -147,7 +162,7 @@ impl March<'_> {
                 system.move_to(self.problem, &state.mesh);
             }
             let poses: Vec<_> = state.wrapped(&places).iter().map(pose_at).collect();
-            let constraints = system.constraints(self.problem, &state.mesh, &poses, time);
+            let constraints = system.constraints(self.problem, &state.mesh, &poses, asked);
             let mesh_velocity: Vec<Point<2>> = match (self.path, self.problem.has_inertia) {
                 (MeshPath::Still, _) | (_, false) => Vec::new(),
                 _ => (0..nodes.len())
@@ -194,7 +209,16 @@ impl March<'_> {
                     &flow.residual,
                     &flow.solution.velocity,
                 );
+                let efforts = state.efforts(self.problem, &places, &flow.solution, &fluid_loads);
                 self.accept(state, bdf, &past, (flow.solution, reached, contact), timing)?;
+                for (swim, end) in state.swims.iter_mut().zip(&efforts) {
+                    // A first-order step comes after a jump: what was before it does not count.
+                    let before = swim.effort();
+                    let halves = [(before, 0.5), (*end, 0.5)];
+                    let all = [(*end, 1.0)];
+                    let shares: &[_] = if bdf.is_second_order() { &halves } else { &all };
+                    swim.go_on(bdf.step, shares, end);
+                }
                 return Ok(StepResult { loads: fluid_loads, iterations, error });
             }
             start = Some(flow.solution);
@@ -236,27 +260,29 @@ impl March<'_> {
         bdf: &Bdf,
         velocity: impl Fn(usize, usize) -> f64,
     ) -> Vec<Place> {
-        let moves = |body: usize, mode: usize| {
-            // Bodies stay where a mesh is that does not follow them.
-            mode == 2
-                || matches!(self.path, MeshPath::Bodies(_))
-                || self.problem.frame == Some(body)
-        };
         let place = |body: usize| {
             [0, 1, 2].map(|mode| {
                 let (now, before) = (state.places[body][mode], state.previous_places[body][mode]);
-                if moves(body, mode) {
+                if self.moves(body, mode) {
                     bdf.integrate(velocity(body, mode), now, before)
                 } else {
                     now
                 }
             })
         };
-        (0..self.problem.bodies.len()).map(place).collect()
+        let mut places: Vec<Place> = (0..self.problem.bodies.len()).map(place).collect();
+        self.problem.hang(&mut places, state.time + bdf.step);
+        places
+    }
+
+    /// Whether a body goes where one of its velocities takes it: it stays where a mesh is that does
+    /// not follow.
+    pub(super) fn moves(&self, body: usize, mode: usize) -> bool {
+        mode == 2 || matches!(self.path, MeshPath::Bodies(_)) || self.problem.frame == Some(body)
     }
 
     /// Places in the mesh, seen from the frame that goes with them.
-    fn in_frame(&self, state: &State, places: &[Place]) -> Vec<Place> {
+    pub(super) fn in_frame(&self, state: &State, places: &[Place]) -> Vec<Place> {
         state.in_frame(&state.origin_at(self.problem, places), places)
     }
 
@@ -283,7 +309,7 @@ impl March<'_> {
 
     /// Puts the mesh where bodies at `places` want it; returns the places of its nodes seen from the
     /// frame.
-    fn put(
+    pub(super) fn put(
         &self,
         state: &mut State,
         places: &[Place],
@@ -373,7 +399,7 @@ impl March<'_> {
 
     /// The flow on the mesh as it lies, without contact.
     #[expect(clippy::too_many_arguments, reason = "one pass of the step above")]
-    fn solve(
+    pub(super) fn solve(
         &self,
         system: &mut FluidSystem,
         state: &State,
@@ -483,7 +509,6 @@ impl March<'_> {
     ) -> Result<(), StepError> {
         let nodes = self.put(state, &places, past.time, timing)?;
         state.contact = contact;
-        state.top_speed = state.top_speed.max(fastest(&solution));
         if let MeshPath::Bodies(follower) = self.path {
             state.contact.least_gap = follower.surfaces().least_gap(&self.in_frame(state, &places));
         }
@@ -495,13 +520,27 @@ impl March<'_> {
         }
         let rates = solution.velocity.iter().zip(&past.history);
         state.rates = rates.map(|(new, history)| new * bdf.next + history).collect();
+        self.move_on(state, past.time, bdf.step, solution, places, nodes);
+        Ok(())
+    }
+
+    /// Takes the new level of a step for the present one.
+    pub(super) fn move_on(
+        &self,
+        state: &mut State,
+        time: f64,
+        step: f64,
+        solution: Solution,
+        places: Vec<Place>,
+        nodes: Vec<Point<2>>,
+    ) {
+        state.top_speed = state.top_speed.max(fastest(&solution));
         state.origin = state.origin_at(self.problem, &places);
         state.nodes_before = std::mem::replace(&mut state.nodes, nodes);
         state.previous_places = std::mem::replace(&mut state.places, places);
         state.previous = std::mem::replace(&mut state.now, solution);
         state.step += 1;
-        (state.time, state.last_step) = (past.time, bdf.step);
-        Ok(())
+        (state.time, state.last_step) = (time, step);
     }
 }
 

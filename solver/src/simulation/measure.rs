@@ -4,10 +4,12 @@ use alewife_mesh::{Locator, Mesh, Point};
 use nalgebra::SMatrix;
 
 use super::snapshot::BodyReport;
-use super::state::State;
-use crate::body::{Twist, Wrench};
+use super::state::{State, Swim};
+use crate::body::{Pose, Twist, Wrench};
 use crate::case::{Case, Geometry, Probe, known_quantities};
-use crate::coupling::{BodyLoads, FluidSystem, Problem, Solution, surface_load};
+use crate::coupling::{
+    BodyLoads, Effort, FluidSystem, Group, Problem, Solution, group_load, mean_motion, surface_load,
+};
 use crate::space::{CellValues, p1_values, p2_values};
 
 /// One value of a probe's point: where it is in the mesh, and with which sign it counts.
@@ -25,6 +27,37 @@ pub(super) struct Measure {
     /// Force coefficient per force, moment coefficient per torque; none without `[scales]`.
     coefficients: Option<[f64; 2]>,
     has_contact: bool,
+    energy: Option<Energy>,
+}
+
+/// Where the work of the bodies goes, since the first measurement.
+#[derive(Debug, Clone, Copy, Default)]
+struct Energy {
+    /// Time (s), power of the bodies, dissipation (W) and kinetic energy (J) of the last measurement.
+    last: Option<[f64; 4]>,
+    /// Work without dissipation and change of kinetic energy so far (J).
+    defect: f64,
+    /// Work, or dissipation where that is larger, so far (J).
+    turnover: f64,
+}
+
+impl Energy {
+    /// The defect over the turnover. Without inertia the rates of the present.
+    fn defect(&mut self, has_inertia: bool, now: [f64; 4]) -> f64 {
+        let [time, power, dissipation, kinetic] = now;
+        let before = self.last.replace(now);
+        if !has_inertia {
+            return (power - dissipation) / power.abs().max(dissipation);
+        }
+        if let Some([then, old_power, old_dissipation, old_kinetic]) = before {
+            let half = 0.5 * (time - then);
+            let change = kinetic - old_kinetic;
+            self.defect += half * (power - dissipation + old_power - old_dissipation) - change;
+            self.turnover +=
+                half * (power.abs().max(dissipation) + old_power.abs().max(old_dissipation));
+        }
+        if self.turnover > 0.0 { self.defect / self.turnover } else { 0.0 }
+    }
 }
 
 /// What is told of a mesh that moves.
@@ -82,7 +115,8 @@ impl Measure {
             [force, force / scales.length]
         });
         let has_contact = case.contact.is_some();
-        Ok(Self { names: known_quantities(case), probes, coefficients, has_contact })
+        let energy = case.balances_energy().then(Energy::default);
+        Ok(Self { names: known_quantities(case), probes, coefficients, has_contact, energy })
     }
 
     /// Finds the probes in a mesh that has moved, seen from the frame.
@@ -96,7 +130,7 @@ impl Measure {
 
     /// Reports of all bodies and the values of all quantities.
     pub(super) fn measure(
-        &self,
+        &mut self,
         system: &FluidSystem,
         problem: &Problem,
         state: &State,
@@ -138,6 +172,9 @@ impl Measure {
             }
             reports.push(report);
         }
+        for (group, swim) in problem.groups.iter().zip(&state.swims) {
+            values.extend(group_values(problem, state, group, swim, (&poses, loads)));
+        }
         for points in &self.probes {
             let mut sum = [0.0; 3];
             for point in points {
@@ -158,12 +195,52 @@ impl Measure {
         }
         let integrals = integrate(system, problem, state);
         values.extend([integrals.dissipation, integrals.kinetic_energy, integrals.mass_defect]);
+        if let Some(energy) = &mut self.energy {
+            let power: f64 = loads.iter().map(|load| load.power).sum();
+            let now = [state.time, power, integrals.dissipation, integrals.kinetic_energy];
+            values.push(energy.defect(problem.has_inertia, now));
+        }
         if let Some(Moving { remeshes }) = moving {
             let gap = state.contact.least_gap.map_or(f64::INFINITY, |least| least.gap);
             values.extend([gap, state.mesh.n_cells() as f64, remeshes as f64]);
         }
         (reports, values)
     }
+}
+
+/// Values of a group in the order of [`known_quantities`].
+fn group_values(
+    problem: &Problem,
+    state: &State,
+    group: &Group,
+    swim: &Swim,
+    (poses, loads): (&[Pose], &[BodyLoads]),
+) -> Vec<f64> {
+    let mean = mean_motion(problem, group, poses, &state.now.twists);
+    let Effort { power, shape_power, spent_power, thrust, drag, .. } = swim.effort();
+    let linear = mean.twist.linear;
+    let mut values = Vec::new();
+    if group.bodies.len() > 1 {
+        let load = group_load(group, &mean.center, poses, loads);
+        let angle = state.places[group.bodies[0]][2];
+        values.extend([mean.center.x, mean.center.y, angle, linear.x, linear.y]);
+        values.extend([mean.twist.angular.z, load.force.x, load.force.y, load.torque.z, power]);
+    }
+    values.extend([shape_power, spent_power, thrust, drag]);
+    match group.period {
+        Some(period) => {
+            let means = swim.cycles.means(period, group.resistance);
+            values.extend(means.displacement);
+            values.extend([means.speed, means.power, means.cost_of_transport]);
+            values.extend([means.efficiency, means.drift]);
+            values.extend(group.resistance.map(|_| means.lighthill_efficiency));
+        }
+        None => {
+            let towing = |force: f64| force * linear.norm_squared() / power;
+            values.extend(group.resistance.map(towing));
+        }
+    }
+    values
 }
 
 /// Values in the order of [`known_quantities`].

@@ -1,7 +1,9 @@
 //! The sentence itself: bodies move, one system gives fluid and bodies together, observers look on.
 
 mod build;
+mod cycles;
 mod error;
+mod explicit;
 mod follow;
 mod march;
 mod measure;

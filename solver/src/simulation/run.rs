@@ -14,7 +14,9 @@ use super::steady::{SteadyFlow, solve_steady};
 use super::{RunError, Series, Stage, StepError, StepResult, Timing, build_mesh, build_problem};
 use crate::case::{Adaptive, Case, Convection, Initial, Scheme, Steady, TimeSettings, Unsteady};
 use crate::contact::{ContactError, Law};
-use crate::coupling::{BodyLoads, FluidSystem, Levels, Problem, body_loads, memory_estimate};
+use crate::coupling::{
+    BodyLoads, FluidSystem, Levels, Problem, body_loads, mean_motion, memory_estimate,
+};
 use crate::time::Bdf;
 
 /// What a finished run leaves in memory.
@@ -36,6 +38,9 @@ const START_PIECES: u32 = 7;
 
 /// The smallest step over the given one, of fixed steps that are halved where they must be.
 const SMALLEST_PART: f64 = 1.0 / 1024.0;
+
+/// Part of a step by which a kink may be off and still be at its end.
+const KINK: f64 = 1e-7;
 
 /// Error over the tolerance above which a step is not taken.
 const REJECTED: f64 = 2.0;
@@ -122,6 +127,32 @@ impl Parts {
         (self.state, self.follower) = (state, follower);
         (self.remeshes, self.is_fresh) = (saved.remeshes(), false);
         Ok(())
+    }
+
+    /// Takes note of where swimmers are.
+    fn take_record(&mut self, loads: &[BodyLoads]) {
+        let Self { problem, state, .. } = self;
+        if problem.groups.is_empty() {
+            return;
+        }
+        if state.last_step == 0.0 {
+            let efforts = state.efforts(problem, &state.places, &state.now, loads);
+            state.swims.iter_mut().zip(&efforts).for_each(|(swim, effort)| swim.start(effort));
+        }
+        let poses = state.poses();
+        for (group, swim) in problem.groups.iter().zip(&mut state.swims) {
+            let Some(period) = group.period else { continue };
+            let center = mean_motion(problem, group, &poses, &state.now.twists).center;
+            let angle = state.places[group.bodies[0]][2];
+            swim.cycles.push(swim.record(state.time, [center.x, center.y, angle]), period);
+        }
+    }
+
+    /// Whether rates of gaits jump within `near` (s) of now.
+    fn is_at_kink(&self, near: f64) -> bool {
+        let time = self.state.time;
+        let kinks = self.problem.kinks.as_ref();
+        kinks.is_some_and(|kinks| !kinks(time - near, time + near).is_empty())
     }
 
     /// Loads of the fluid by the raw residual at the present solution.
@@ -332,18 +363,19 @@ impl Run<'_> {
         for index in first..n_steps {
             let started = parts.state.time;
             let mut made = Made::default();
-            let pieces = if parts.state.last_step > 0.0 {
-                vec![((index + 1) as f64 * settings.step).min(settings.end) - started]
-            } else {
-                step_pieces(settings, index)
-            };
-            for piece in pieces {
+            let target = ((index + 1) as f64 * settings.step).min(settings.end);
+            for (piece, is_restart) in pieces(settings, parts, target) {
+                if is_restart {
+                    // Rates jump: what was before tells nothing of what comes.
+                    parts.state.last_step = 0.0;
+                }
                 // The next one first.
                 let mut to_do = vec![piece];
                 while let Some(size) = to_do.pop() {
                     // After a short one, not more than twice as long: BDF2 would not be stable.
                     let before = parts.state.last_step;
-                    if before > 0.0 && size > 2.1 * before {
+                    let grows = before > 0.0 && size > 2.1 * before;
+                    if grows && settings.scheme == Scheme::Bdf2 {
                         to_do.extend([0.5 * size; 2]);
                         continue;
                     }
@@ -376,7 +408,7 @@ impl Run<'_> {
     ) -> Result<usize, RunError> {
         let largest = adaptive.largest.unwrap_or(settings.end / 10.0);
         let smallest = adaptive.smallest.unwrap_or(settings.step * 1e-6);
-        let mut start = step_pieces(settings, 0);
+        let mut start = start_pieces(settings.scheme, true, settings.step.min(settings.end));
         start.reverse();
         let (mut proposed, mut index) = (settings.step, 0);
         if parts.state.last_step > 0.0 {
@@ -387,8 +419,18 @@ impl Run<'_> {
             parts.state.step = index;
             let left = settings.end - parts.state.time;
             // Pieces of the first step grow fast enough by themselves.
-            let is_start = !start.is_empty();
+            let near = KINK * proposed.min(left);
+            if index > 0 && parts.is_at_kink(near) {
+                start = start_pieces(settings.scheme, true, settings.step.min(proposed));
+                start.reverse();
+                parts.state.last_step = 0.0;
+            }
+            let is_start = !start.is_empty() && settings.scheme == Scheme::Bdf2;
             let mut size = start.pop().unwrap_or(proposed).min(largest);
+            let now = parts.state.time;
+            let kink = parts.problem.kinks.as_ref();
+            let kink = kink.and_then(|kinks| kinks(now + near, settings.end).first().copied());
+            let left = kink.map_or(left, |kink| kink - now);
             if left < 2.0 * size {
                 size = if left <= size * (1.0 + 1e-9) { left } else { 0.5 * left };
             }
@@ -448,6 +490,8 @@ impl Run<'_> {
                 Scheme::Bdf2 if state.last_step > 0.0 => Bdf::second_order(size, state.last_step),
                 _ => Bdf::first_order(size),
             };
+            let is_kink =
+                settings.scheme == Scheme::Rk3 && state.last_step == 0.0 && state.time > 0.0;
             let march = March {
                 problem,
                 choice: settings.convection,
@@ -456,7 +500,13 @@ impl Run<'_> {
             };
             let saved = tolerance.is_finite().then(|| state.clone());
             let (step, time) = (state.step + 1, state.time + size);
-            match march.advance(system, state, &bdf, &mut self.timing) {
+            let timing = &mut self.timing;
+            let made = if settings.scheme == Scheme::Rk3 {
+                march.advance_explicit(system, state, size, is_kink, timing)
+            } else {
+                march.advance(system, state, &bdf, timing)
+            };
+            match made {
                 Ok(made) if made.error > REJECTED * tolerance => {
                     if let Some(saved) = saved {
                         *state = saved;
@@ -533,12 +583,13 @@ impl Run<'_> {
         (iterations, time_step): (usize, f64),
         is_last: bool,
     ) -> Result<(), RunError> {
+        parts.take_record(loads);
         if parts.follower.is_some() && !self.case.probe.is_empty() {
             let seen = parts.state.mesh_in_frame();
             self.timing.measure(Stage::Loads, || parts.measure.follow(self.case, &seen));
         }
-        let Parts { problem, system, measure, state, remeshes, .. } = &*parts;
-        let moving = parts.follower.as_ref().map(|_| Moving { remeshes: *remeshes });
+        let Parts { problem, system, measure, state, remeshes, follower, .. } = &mut *parts;
+        let moving = follower.as_ref().map(|_| Moving { remeshes: *remeshes });
         let (bodies, values) = self
             .timing
             .measure(Stage::Loads, || measure.measure(system, problem, state, loads, moving));
@@ -590,12 +641,29 @@ fn count_steps(settings: &Unsteady) -> usize {
     (settings.end / settings.step - 1e-9).ceil().max(1.0) as usize
 }
 
+/// Sizes of the pieces of a step to a time, cut where rates of gaits jump, each with whether the march
+/// starts anew with it.
+fn pieces(settings: &Unsteady, parts: &Parts, target: f64) -> Vec<(f64, bool)> {
+    let state = &parts.state;
+    let near = KINK * settings.step;
+    let kinks = parts.problem.kinks.as_ref();
+    let mut at = state.time;
+    let mut ends = kinks.map_or_else(Vec::new, |kinks| kinks(state.time + near, target - near));
+    ends.push(target);
+    let mut is_start = state.last_step == 0.0 || parts.is_at_kink(near);
+    let mut pieces = Vec::new();
+    for end in ends {
+        let sizes = start_pieces(settings.scheme, is_start, end - at);
+        pieces
+            .extend(sizes.into_iter().enumerate().map(|(nth, size)| (size, is_start && nth == 0)));
+        (at, is_start) = (end, true);
+    }
+    pieces
+}
+
 /// Sizes of the pieces in which a step is made.
-fn step_pieces(settings: &Unsteady, index: usize) -> Vec<f64> {
-    // The last step ends at the end.
-    let rest = settings.end - settings.step * index as f64;
-    let step = if index + 1 == count_steps(settings) { rest } else { settings.step };
-    if index == 0 && settings.scheme == Scheme::Bdf2 {
+fn start_pieces(scheme: Scheme, is_start: bool, step: f64) -> Vec<f64> {
+    if is_start && scheme == Scheme::Bdf2 {
         let part = |piece: u32| step / f64::from(1u32 << piece);
         std::iter::once(START_PIECES).chain((1..=START_PIECES).rev()).map(part).collect()
     } else {
@@ -618,8 +686,8 @@ mod tests {
             adaptive: None,
         };
         assert_eq!(count_steps(&settings), 10);
-        let pieces: Vec<f64> = (0..10).flat_map(|index| step_pieces(&settings, index)).collect();
-        assert!((pieces.iter().sum::<f64>() - 0.95).abs() < 1e-14);
+        let pieces = start_pieces(settings.scheme, true, 0.1);
+        assert!((pieces.iter().sum::<f64>() - 0.1).abs() < 1e-14);
         for pair in pieces.windows(2) {
             assert!(pair[1] / pair[0] <= 2.0 + 1e-12);
         }

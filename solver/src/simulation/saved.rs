@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::build::placed_bodies;
 use super::follow::Follower;
 use super::remake::{start_of, started_at};
-use super::state::{State, place_of, pose_at};
+use super::state::{State, Swim, place_of, pose_at};
 use crate::body::Twist;
 use crate::case::Case;
 use crate::contact::{ContactLoads, Place};
@@ -14,7 +14,7 @@ use crate::coupling::{Problem, Solution};
 use crate::motion::RigidMove;
 
 /// Version of the file; others are refused.
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 
 type Pair = [f64; 2];
 
@@ -44,6 +44,7 @@ pub struct SavedState {
     previous_places: Vec<Place>,
     wraps: Vec<Pair>,
     top_speed: f64,
+    swims: Vec<Swim>,
     remeshes: usize,
     following: Option<Following>,
 }
@@ -118,6 +119,7 @@ impl SavedState {
             previous_places: state.previous_places.clone(),
             wraps: pairs(&state.wraps),
             top_speed: state.top_speed,
+            swims: state.swims.clone(),
             remeshes,
             following: follower.map(|follower| Following {
                 nodes: pairs(follower.reference()),
@@ -168,6 +170,7 @@ impl SavedState {
                 .iter()
                 .all(|values| values.len() == n_bodies)
             && self.wraps.len() == n_bodies
+            && self.swims.len() == problem.groups.len()
             && self.following.as_ref().is_none_or(|following| {
                 following.nodes.len() == n_nodes && following.made_at.len() == n_bodies
             });
@@ -224,6 +227,7 @@ impl SavedState {
             rates: points(&self.rates),
             accelerations: twists(&self.accelerations),
             top_speed: self.top_speed,
+            swims: self.swims.clone(),
             contact: ContactLoads::none(n_bodies),
         };
         Ok((state, follower))

@@ -1,10 +1,12 @@
 //! `State`: what evolves: mesh, fields, bodies, at the present level and the one before.
 
 use alewife_mesh::{Mesh, Point};
+use serde::{Deserialize, Serialize};
 
+use super::cycles::{Cycles, Record};
 use crate::body::{Pose, Twist};
 use crate::contact::{ContactLoads, Place};
-use crate::coupling::{Problem, Solution};
+use crate::coupling::{BodyLoads, Effort, Problem, Solution, effort};
 use crate::space::DofLayout;
 
 /// Everything that evolves.
@@ -42,6 +44,51 @@ pub struct State {
     pub top_speed: f64,
     /// Loads of contact.
     pub contact: ContactLoads,
+    /// What each group of bodies does and did.
+    pub swims: Vec<Swim>,
+}
+
+/// What a group of bodies does and did.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct Swim {
+    /// Numbers of its present effort.
+    effort: [f64; 6],
+    /// Their time integrals since the start.
+    work: [f64; 6],
+    /// Time integral of the power where it is positive (J).
+    positive_work: f64,
+    /// The last two cycles.
+    pub cycles: Cycles,
+}
+
+impl Swim {
+    /// What it does now.
+    #[must_use]
+    pub fn effort(&self) -> Effort {
+        Effort::of(self.effort)
+    }
+
+    /// Takes note of an effort without a step.
+    pub fn start(&mut self, effort: &Effort) {
+        self.effort = effort.numbers();
+    }
+
+    /// Takes note of a step (s) with the efforts at some times in it, each with its share, and the
+    /// effort at its end.
+    pub fn go_on(&mut self, step: f64, shares: &[(Effort, f64)], end: &Effort) {
+        for (effort, share) in shares {
+            let numbers = effort.numbers();
+            self.work.iter_mut().zip(numbers).for_each(|(sum, value)| *sum += step * share * value);
+            self.positive_work += step * share * effort.power.max(0.0);
+        }
+        self.effort = end.numbers();
+    }
+
+    /// The record of a time and place.
+    #[must_use]
+    pub fn record(&self, time: f64, place: [f64; 3]) -> Record {
+        Record { time, place, work: self.work, positive_work: self.positive_work }
+    }
 }
 
 impl State {
@@ -66,6 +113,7 @@ impl State {
             accelerations: vec![Twist::default(); places.len()],
             top_speed: 0.0,
             contact: ContactLoads::none(places.len()),
+            swims: vec![Swim::default(); problem.groups.len()],
             places,
             mesh,
         }
@@ -105,6 +153,20 @@ impl State {
     #[must_use]
     pub fn mesh_in_frame(&self) -> Mesh<2> {
         Mesh { nodes: self.nodes.clone(), ..self.mesh.clone() }
+    }
+
+    /// What the groups do in a flow on the mesh as it lies, with bodies at these places.
+    #[must_use]
+    pub fn efforts(
+        &self,
+        problem: &Problem,
+        places: &[Place],
+        solution: &Solution,
+        loads: &[BodyLoads],
+    ) -> Vec<Effort> {
+        let poses: Vec<Pose> = places.iter().map(pose_at).collect();
+        let of = |group| effort(problem, &self.mesh, group, (&poses, &self.wraps), solution, loads);
+        problem.groups.iter().map(of).collect()
     }
 
     /// Where the frame is with bodies at these places (m).

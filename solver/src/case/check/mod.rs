@@ -11,6 +11,7 @@ mod mesh;
 mod placement;
 mod references;
 mod spring;
+mod swimmers;
 mod time;
 
 use super::problem::{Problem, Severity};
@@ -37,6 +38,7 @@ pub fn check(file: &CaseFile) -> Vec<Problem> {
     fluid::check(&mut findings);
     boundary::check(&mut findings);
     bodies::check(&mut findings);
+    swimmers::check(&mut findings);
     contact::check(&mut findings);
     mesh::check(&mut findings);
     time::check(&mut findings);
@@ -121,9 +123,27 @@ impl<'a> Findings<'a> {
     }
 
     fn add(&mut self, severity: Severity, key: &str, message: String, help: &str) {
+        let key = &self.written(key);
         let place = self.file.place(key);
         let (key, help) = (key.to_owned(), help.to_owned());
         self.problems.push(Problem { severity, key, message, help, place });
+    }
+
+    /// The key of what stands in the file: for one of a body made for a swimmer that of the swimmer.
+    fn written(&self, key: &str) -> String {
+        let number = |list: &str| {
+            let rest = key.strip_prefix(list)?;
+            rest.split('.').next()?.parse::<usize>().ok()
+        };
+        let of_body = number("body.").and_then(|body| self.case().body.get(body)?.swimmer);
+        let of_joint = number("joint.").and_then(|joint| {
+            let joint = self.case().joint.get(joint).filter(|joint| joint.is_made)?;
+            let child = self.case().body.iter().find(|body| body.name == joint.child)?;
+            child.swimmer
+        });
+        of_body
+            .or(of_joint)
+            .map_or_else(|| key.to_owned(), |swimmer| format!("swimmer.{swimmer}.kind"))
     }
 
     fn error(&mut self, key: &str, message: String, help: &str) {

@@ -16,7 +16,7 @@ pub fn check(findings: &mut Findings<'_>) {
     let problems = placement_problems(&domain, &bodies);
     let is_placed = problems.is_empty();
     for (index, error) in problems {
-        let key = format!("body.{index}.center");
+        let key = findings.written(&format!("body.{index}.center"));
         let (message, help) = match &error {
             MeshError::Outside { body, gap, x, y } => (
                 format!(

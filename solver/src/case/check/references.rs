@@ -29,6 +29,35 @@ const COEFFICIENTS: [&str; 3] = ["drag_coefficient", "lift_coefficient", "moment
 /// What is measured on every body besides, when there is `[contact]`.
 const OF_CONTACT: [&str; 3] = ["contact_force.x", "contact_force.y", "contact_torque"];
 
+/// What is measured on bodies that are told of as one.
+const OF_A_GROUP: [&str; 10] = [
+    "x",
+    "y",
+    "angle",
+    "velocity.x",
+    "velocity.y",
+    "angular_velocity",
+    "force.x",
+    "force.y",
+    "torque",
+    "power",
+];
+
+/// What is measured on everything that swims.
+const OF_A_SWIMMER: [&str; 4] = ["shape_power", "spent_power", "thrust", "drag"];
+
+/// What is measured besides on what swims in cycles, over the last one.
+const OF_A_CYCLE: [&str; 8] = [
+    "cycle.x",
+    "cycle.y",
+    "cycle.angle",
+    "cycle.speed",
+    "cycle.power",
+    "cycle.cost_of_transport",
+    "cycle.efficiency",
+    "cycle.drift",
+];
+
 /// What is measured at every probe.
 const OF_A_PROBE: [&str; 3] = ["velocity.x", "velocity.y", "pressure"];
 
@@ -54,10 +83,27 @@ pub fn known_quantities(case: &Case) -> Vec<String> {
             add(&body.name, &OF_CONTACT);
         }
     }
+    for group in &case.group {
+        if group.bodies.len() > 1 {
+            add(&group.name, &OF_A_GROUP);
+        }
+        add(&group.name, &OF_A_SWIMMER);
+        if group.period.is_some() {
+            add(&group.name, &OF_A_CYCLE);
+        }
+        match (group.resistance, group.period) {
+            (Some(_), Some(_)) => add(&group.name, &["cycle.lighthill_efficiency"]),
+            (Some(_), None) => add(&group.name, &["lighthill_efficiency"]),
+            (None, _) => {}
+        }
+    }
     for probe in &case.probe {
         add(&probe.name, &OF_A_PROBE);
     }
     add("flow", &OF_THE_FLOW);
+    if case.balances_energy() {
+        add("flow", &["energy_defect"]);
+    }
     if case.mesh_moves() {
         add("flow", &OF_A_MOVING_MESH);
     }

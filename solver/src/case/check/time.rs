@@ -69,7 +69,7 @@ fn adaptive_steps(findings: &mut Findings<'_>, unsteady: &Unsteady, adaptive: &A
     if unsteady.scheme == Scheme::Bdf1 {
         findings.error(
             "time.unsteady.scheme",
-            "the error of a step is known for the scheme `bdf2` only".to_owned(),
+            "the error of a step is known for the schemes `bdf2` and `rk3` only".to_owned(),
             "write scheme = \"bdf2\", or leave [time.unsteady.adaptive] out",
         );
     }

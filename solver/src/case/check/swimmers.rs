@@ -1,0 +1,295 @@
+//! Problems of `[[joint]]` and `[[swimmer]]`: strokes, trees, and numbers that make no body.
+
+use std::f64::consts::TAU;
+
+use super::Findings;
+use crate::case::{
+    Copies, Geometry, Hinge, JointKind, Model, Motion, Pivot, Scheme, Stroke, SwimmerKind,
+    TimeSettings, hang,
+};
+
+/// Distance between a child and where its joint puts it, over the size of the joint, that is taken
+/// for rounding.
+const ROUNDING: f64 = 1e-6;
+
+pub fn check(findings: &mut Findings<'_>) {
+    joints(findings);
+    swimmers(findings);
+    explicit_scheme(findings);
+}
+
+fn joints(findings: &mut Findings<'_>) {
+    let case = findings.case();
+    let index_of = |name: &str| case.body.iter().position(|body| body.name == name);
+    let mut parents: Vec<Option<usize>> = vec![None; case.body.len()];
+    for (index, joint) in case.joint.iter().enumerate() {
+        let key = format!("joint.{index}");
+        if !joint.is_made {
+            stroke_of_joint(findings, &key, &joint.kind);
+        }
+        let mut ends = [None; 2];
+        for (end, (what, name)) in
+            ends.iter_mut().zip([("parent", &joint.parent), ("child", &joint.child)])
+        {
+            *end = index_of(name);
+            if end.is_none() {
+                let names: Vec<&str> = case.body.iter().map(|body| body.name.as_str()).collect();
+                findings.error(
+                    &format!("{key}.{what}"),
+                    format!("`{what}` is \"{name}\", but no body has that name"),
+                    &crate::case::deserialize::suggestion(name, &names),
+                );
+            }
+        }
+        let [Some(parent), Some(child)] = ends else { continue };
+        if parents[child].is_some() || parent == child {
+            findings.error(
+                &format!("{key}.child"),
+                format!("\"{}\" hangs on two bodies, or on itself", joint.child),
+                "bodies make trees: a body hangs on one other body at most",
+            );
+            continue;
+        }
+        parents[child] = Some(parent);
+        if joint.is_made {
+            continue;
+        }
+        if case.body[child].motion != Motion::Free {
+            findings.error(
+                &format!("{key}.child"),
+                format!(
+                    "\"{}\" hangs on \"{}\", and cannot be held or moved besides",
+                    joint.child, joint.parent
+                ),
+                "write motion = \"free\" for it; the body all others hang on may be held or moved",
+            );
+        }
+        let place = |body: usize| {
+            let body = &case.body[body];
+            let at = |axis: usize| body.center.get(axis).copied().unwrap_or(0.0);
+            [at(0), at(1), body.angle]
+        };
+        let wanted = hang(place(parent), joint.on_parent, joint.on_child, &joint.kind);
+        let found = place(child);
+        let size = (wanted[0] - place(parent)[0]).hypot(wanted[1] - place(parent)[1]);
+        let is_arm = matches!(joint.kind, JointKind::Arm { .. });
+        let off = (wanted[0] - found[0]).hypot(wanted[1] - found[1]);
+        if off > ROUNDING * size {
+            findings.error(
+                &format!("{key}.child"),
+                format!(
+                    "the joint puts \"{}\" at [{}, {}] at time 0, not at [{}, {}]",
+                    joint.child, wanted[0], wanted[1], found[0], found[1]
+                ),
+                &format!("write center = [{}, {}] for it", wanted[0], wanted[1]),
+            );
+        }
+        let turned = (wanted[2] - found[2] + TAU / 2.0).rem_euclid(TAU) - TAU / 2.0;
+        if !is_arm && turned.abs() > ROUNDING && !matches!(joint.kind, JointKind::Hinge(_)) {
+            findings.error(
+                &format!("{key}.child"),
+                format!(
+                    "the joint turns \"{}\" to {} at time 0, not to {}",
+                    joint.child, wanted[2], found[2]
+                ),
+                &format!("write angle = {} for it", wanted[2]),
+            );
+        }
+    }
+    if (0..parents.len()).any(|start| {
+        let mut body = start;
+        (0..parents.len()).all(|_| {
+            parents[body].is_some_and(|parent| {
+                body = parent;
+                true
+            })
+        })
+    }) {
+        findings.error(
+            "joint",
+            "the joints make a circle".to_owned(),
+            "bodies make trees: one of them must hang on nothing",
+        );
+    }
+    if case.geometry == Geometry::Axisymmetric {
+        for (index, joint) in case.joint.iter().enumerate() {
+            let is_along = match &joint.kind {
+                JointKind::Arm { direction, .. } => direction.sin().abs() < 1e-9,
+                JointKind::Bent { .. } | JointKind::Hinge(_) => false,
+            };
+            if !is_along || joint.on_parent[1] != 0.0 || joint.on_child[1] != 0.0 {
+                findings.error(
+                    &format!("joint.{index}.kind"),
+                    format!("the joint of \"{}\" leaves the axis", joint.child),
+                    "axisymmetric bodies hang on arms along the axis: direction = 0.0 or 3.141592653589793",
+                );
+            }
+        }
+    }
+}
+
+fn stroke_of_joint(findings: &mut Findings<'_>, key: &str, kind: &JointKind) {
+    match kind {
+        JointKind::Arm { length, .. } => {
+            stroke(findings, &format!("{key}.kind.arm.length"), length);
+            arm(findings, &format!("{key}.kind.arm.length"), length);
+        }
+        JointKind::Bent { angle } => stroke(findings, &format!("{key}.kind.bent.angle"), angle),
+        JointKind::Hinge(one) => hinge(findings, &format!("{key}.kind.hinge"), one),
+    }
+}
+
+fn hinge(findings: &mut Findings<'_>, key: &str, hinge: &Hinge) {
+    findings.not_negative(&format!("{key}.stiffness"), hinge.stiffness);
+    findings.not_negative(&format!("{key}.damping"), hinge.damping);
+    if let Some(torque) = &hinge.torque {
+        stroke(findings, &format!("{key}.torque"), torque);
+    }
+}
+
+/// An arm has a positive length at all times.
+fn arm(findings: &mut Findings<'_>, key: &str, length: &Stroke) {
+    let [least, _] = length.range();
+    if least <= 0.0 {
+        findings.error(
+            key,
+            format!("the arm is as short as {least}"),
+            "its length must be positive at all times",
+        );
+    }
+}
+
+/// Numbers of a stroke.
+pub(super) fn stroke(findings: &mut Findings<'_>, key: &str, stroke: &Stroke) {
+    match stroke {
+        Stroke::Constant(_) => {}
+        Stroke::Sine { period, ramp, .. } => {
+            findings.positive(&format!("{key}.sine.period"), *period);
+            findings.not_negative(&format!("{key}.sine.ramp"), *ramp);
+        }
+        Stroke::Legs { knots, period, .. } => {
+            findings.positive(&format!("{key}.legs.period"), *period);
+            let is_rising = knots.windows(2).all(|pair| pair[1][0] > pair[0][0]);
+            let is_inside = knots.first().is_some_and(|knot| knot[0] == 0.0)
+                && knots.last().is_some_and(|knot| knot[0] < *period);
+            if !is_rising || !is_inside {
+                findings.error(
+                    &format!("{key}.legs.knots"),
+                    "the times of the knots must rise from 0 to below the period".to_owned(),
+                    "write knots = [[0.0, v0], [t1, v1], ...]; at the period the value is v0 again",
+                );
+            }
+        }
+        Stroke::Table(knots) => {
+            let is_rising = knots.windows(2).all(|pair| pair[1][0] > pair[0][0]);
+            if knots.is_empty() || !is_rising {
+                findings.error(
+                    &format!("{key}.table"),
+                    "the times of a table must rise from knot to knot".to_owned(),
+                    "write table = [[t0, v0], [t1, v1], ...] with t0 < t1 < ...",
+                );
+            }
+        }
+    }
+}
+
+fn swimmers(findings: &mut Findings<'_>) {
+    let case = findings.case();
+    let is_planar = case.geometry == Geometry::Planar;
+    for (index, swimmer) in case.swimmer.iter().enumerate() {
+        let key = format!("swimmer.{index}");
+        if let Some(period) = swimmer.period {
+            findings.positive(&format!("{key}.period"), period);
+        }
+        if let Some(resistance) = swimmer.resistance {
+            findings.positive(&format!("{key}.resistance"), resistance);
+        }
+        let mut planar_only = |name: &str| {
+            if !is_planar {
+                findings.error(
+                    &format!("{key}.kind"),
+                    format!("a {name} cannot stand in an axisymmetric case"),
+                    "axisymmetric swimmers: body, linked-spheres, bodies",
+                );
+            }
+        };
+        match &swimmer.kind {
+            SwimmerKind::Star { arms, .. } => {
+                planar_only("star");
+                for (nth, length) in arms.iter().enumerate() {
+                    let key = format!("{key}.kind.star.arms.{nth}");
+                    stroke(findings, &key, length);
+                    arm(findings, &key, length);
+                }
+            }
+            SwimmerKind::Chain { gap, joints, .. } => {
+                planar_only("chain");
+                findings.positive(&format!("{key}.kind.chain.gap"), *gap);
+                for (nth, joint) in joints.iter().enumerate() {
+                    let key = format!("{key}.kind.chain.joints.{nth}");
+                    match joint {
+                        Pivot::Bent { angle } => {
+                            stroke(findings, &format!("{key}.bent.angle"), angle)
+                        }
+                        Pivot::Hinge(one) => hinge(findings, &format!("{key}.hinge"), one),
+                    }
+                }
+            }
+            SwimmerKind::LinkedSpheres { arms, radii, .. } => {
+                if radii.len() < 2 {
+                    findings.error(
+                        &format!("{key}.kind.linked-spheres.radii"),
+                        format!("{} sphere has nothing to be linked to", radii.len()),
+                        "give two radii or more",
+                    );
+                }
+                for (nth, length) in arms.iter().enumerate() {
+                    let key = format!("{key}.kind.linked-spheres.arms.{nth}");
+                    stroke(findings, &key, length);
+                    arm(findings, &key, length);
+                }
+            }
+            SwimmerKind::Body { .. } | SwimmerKind::Bodies(_) => {}
+        }
+        if let Some(Copies::Random { gap, .. }) = &swimmer.copies {
+            findings.not_negative(&format!("{key}.copies.random.gap"), *gap);
+        }
+    }
+    let mut names: Vec<&str> = case.body.iter().map(|body| body.name.as_str()).collect();
+    for group in case.group.iter().filter(|group| group.bodies.len() > 1) {
+        if names.contains(&group.name.as_str()) {
+            findings.error(
+                "swimmer",
+                format!("the name \"{}\" is taken by a body or swimmer", group.name),
+                "give every body and every swimmer a name of its own",
+            );
+        }
+        names.push(&group.name);
+    }
+}
+
+/// The explicit method has no inertia, no contact and nothing stiff.
+fn explicit_scheme(findings: &mut Findings<'_>) {
+    let case = findings.case();
+    let TimeSettings::Unsteady(unsteady) = &case.time else { return };
+    if unsteady.scheme != Scheme::Rk3 {
+        return;
+    }
+    let is_stiff = case
+        .joint
+        .iter()
+        .any(|joint| matches!(&joint.kind, JointKind::Hinge(hinge) if hinge.stiffness > 0.0));
+    let hinders = [
+        (case.fluid.model != Model::Stokes, "the model has inertia"),
+        (case.contact.is_some(), "there is [contact]"),
+        (case.body.iter().any(|body| body.spring.is_some()), "there are springs"),
+        (is_stiff, "there are hinges with stiffness"),
+    ];
+    for (_, why) in hinders.iter().filter(|(hinders, _)| *hinders) {
+        findings.error(
+            "time.unsteady.scheme",
+            format!("the scheme `rk3` cannot be used: {why}"),
+            "leave it out for `bdf2`, or write model = \"stokes\" without contact, springs and stiffness",
+        );
+    }
+}

@@ -1,0 +1,173 @@
+//! `Stroke`: a length, an angle or a torque that is given in time, with its exact rate.
+
+use std::f64::consts::{PI, TAU};
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// A number given in time: how long an arm is, how far a joint is bent.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Stroke {
+    /// The same at all times.
+    Constant(f64),
+    /// mean + amplitude sin(2 pi t / period + phase).
+    Sine {
+        /// Mean value.
+        #[serde(default)]
+        mean: f64,
+        /// Amplitude.
+        amplitude: f64,
+        /// Period (s).
+        period: f64,
+        /// Phase (rad).
+        #[serde(default)]
+        phase: f64,
+        /// Time over which the amplitude grows from 0, twice continuously differentiable (s); 0 for
+        /// the full amplitude from the start.
+        #[serde(default)]
+        ramp: f64,
+    },
+    /// From knot to knot, over and over.
+    Legs {
+        /// (time, value) knots over one period, the first at time 0; the value at its end is the
+        /// first one again.
+        knots: Vec<[f64; 2]>,
+        /// Period (s).
+        period: f64,
+        /// Whether the value rests at each knot: half a cosine from one to the next in place of a
+        /// straight line.
+        #[serde(default)]
+        smooth: bool,
+    },
+    /// Straight lines between (time, value) knots, constant outside them.
+    Table(Vec<[f64; 2]>),
+}
+
+impl Stroke {
+    /// Value and rate at a time (s); at a kink the rate after it.
+    #[must_use]
+    pub fn at(&self, time: f64) -> [f64; 2] {
+        match self {
+            Self::Constant(value) => [*value, 0.0],
+            Self::Sine { mean, amplitude, period, phase, ramp } => {
+                let rate = TAU / period;
+                let (sin, cos) = (rate * time + phase).sin_cos();
+                let [part, growth] = smooth_ramp(time, *ramp);
+                [mean + amplitude * part * sin, amplitude * (part * rate * cos + growth * sin)]
+            }
+            Self::Legs { knots, period, smooth } => {
+                let within = time.rem_euclid(*period);
+                let after = knots.partition_point(|knot| knot[0] <= within);
+                let first = knots.first().copied().unwrap_or_default();
+                let [t0, from] = after.checked_sub(1).map_or(first, |before| knots[before]);
+                let [t1, to] = knots.get(after).copied().unwrap_or([*period, first[1]]);
+                let (length, part) = (t1 - t0, (within - t0) / (t1 - t0));
+                if *smooth {
+                    let (sin, cos) = (PI * part).sin_cos();
+                    let way = to - from;
+                    [from + way * (1.0 - cos) / 2.0, way * PI * sin / (2.0 * length)]
+                } else {
+                    [from + (to - from) * part, (to - from) / length]
+                }
+            }
+            Self::Table(knots) => {
+                let after = knots.partition_point(|knot| knot[0] <= time);
+                match (after.checked_sub(1).map(|before| knots[before]), knots.get(after)) {
+                    (Some([t0, from]), Some(&[t1, to])) => {
+                        let rate = (to - from) / (t1 - t0);
+                        [from + rate * (time - t0), rate]
+                    }
+                    (Some([_, value]), None) | (None, Some(&[_, value])) => [value, 0.0],
+                    (None, None) => [0.0, 0.0],
+                }
+            }
+        }
+    }
+
+    /// Times in (from, to) at which the rate jumps (s), ascending.
+    #[must_use]
+    pub fn kinks(&self, from: f64, to: f64) -> Vec<f64> {
+        match self {
+            Self::Legs { knots, period, smooth: false } => {
+                let cycles = (from / period).floor() as i64..=(to / period).floor() as i64;
+                let all = cycles.flat_map(|cycle| {
+                    knots.iter().map(move |knot| cycle as f64 * period + knot[0])
+                });
+                all.filter(|time| *time > from && *time < to).collect()
+            }
+            Self::Table(knots) => {
+                let times = knots.iter().map(|knot| knot[0]);
+                times.filter(|time| *time > from && *time < to).collect()
+            }
+            Self::Constant(_) | Self::Sine { .. } | Self::Legs { .. } => Vec::new(),
+        }
+    }
+
+    /// The time after which it begins again (s), if it does.
+    #[must_use]
+    pub fn period(&self) -> Option<f64> {
+        match self {
+            Self::Sine { period, .. } | Self::Legs { period, .. } => Some(*period),
+            Self::Constant(_) | Self::Table(_) => None,
+        }
+    }
+
+    /// Smallest and largest value.
+    #[must_use]
+    pub fn range(&self) -> [f64; 2] {
+        match self {
+            Self::Constant(value) => [*value; 2],
+            Self::Sine { mean, amplitude, .. } => [mean - amplitude.abs(), mean + amplitude.abs()],
+            Self::Legs { knots, .. } | Self::Table(knots) => {
+                let values = || knots.iter().map(|knot| knot[1]);
+                [values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max)]
+            }
+        }
+    }
+}
+
+/// A factor that grows from 0 to 1 over a duration, its first two derivatives zero at both ends, and
+/// its rate.
+#[must_use]
+pub fn smooth_ramp(time: f64, duration: f64) -> [f64; 2] {
+    if duration <= 0.0 || time >= duration {
+        return [1.0, 0.0];
+    }
+    let s = (time / duration).max(0.0);
+    let value = s * s * s * (10.0 + s * (6.0 * s - 15.0));
+    [value, 30.0 * s * s * (1.0 - s) * (1.0 - s) / duration]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rates_are_those_of_the_values() {
+        let legs = |smooth| Stroke::Legs {
+            knots: vec![[0.0, 10.0], [1.0, 6.0], [2.5, 6.0], [3.0, 10.0]],
+            period: 4.0,
+            smooth,
+        };
+        let sine = Stroke::Sine { mean: 1.0, amplitude: 2.0, period: 3.0, phase: 0.4, ramp: 2.0 };
+        let table = Stroke::Table(vec![[0.5, 1.0], [2.0, 4.0], [3.0, 3.5]]);
+        for stroke in [legs(false), legs(true), sine, table, Stroke::Constant(3.0)] {
+            for time in [0.2, 0.7, 1.3, 2.7, 3.3, 5.1, 9.9] {
+                let [_, rate] = stroke.at(time);
+                let slope = (stroke.at(time + 1e-6)[0] - stroke.at(time - 1e-6)[0]) / 2e-6;
+                assert!((rate - slope).abs() < 1e-7, "{stroke:?} {time}: {rate} {slope}");
+            }
+        }
+        assert_eq!(legs(false).at(4.5)[0], 8.0);
+        assert_eq!(legs(false).at(1.0), [6.0, 0.0]);
+    }
+
+    #[test]
+    fn kinks_come_back_with_the_period() {
+        let legs = Stroke::Legs { knots: vec![[0.0, 1.0], [1.0, 0.0]], period: 2.0, smooth: false };
+        assert_eq!(legs.kinks(0.5, 4.5), vec![1.0, 2.0, 3.0, 4.0]);
+        assert_eq!(legs.kinks(1.0, 2.0), Vec::<f64>::new());
+        assert_eq!(Stroke::Table(vec![[1.0, 0.0], [2.0, 1.0]]).kinks(0.0, 2.0), vec![1.0]);
+    }
+}

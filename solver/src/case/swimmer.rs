@@ -1,0 +1,150 @@
+//! `[[swimmer]]`: bodies and joints made by kind, one or many at a time, and what they do together.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::body::{Gait, Motion, ShapeSpec};
+use super::joint::{Hinge, JointKind};
+use super::stroke::Stroke;
+
+/// `[[swimmer]]`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Swimmer {
+    /// Name; its bodies are called NAME-1, NAME-2, ..., copies NAME-1, NAME-2 and their bodies
+    /// NAME-1-1, NAME-1-2, ....
+    pub name: String,
+    /// What it is made of.
+    pub kind: SwimmerKind,
+    /// Position (m) of the body all others hang on.
+    #[serde(default)]
+    pub center: [f64; 2],
+    /// Rotation of that body, counter-clockwise (rad).
+    #[serde(default)]
+    pub angle: f64,
+    /// Density (kg/m3); that of the fluid if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub density: Option<f64>,
+    /// How the body all others hang on moves.
+    #[serde(default = "free")]
+    pub motion: Motion,
+    /// Cell size on its surfaces (m); that of `[mesh]` if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub size: Option<f64>,
+    /// Copies of it in other places; one where it is if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub copies: Option<Copies>,
+    /// Time of one cycle (s); that of its strokes or gait if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub period: Option<f64>,
+    /// Force per velocity that drags it when towed (N s/m; N s/m2 planar), for Lighthill's
+    /// efficiency.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub resistance: Option<f64>,
+}
+
+/// `kind`: one of these.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub enum SwimmerKind {
+    /// One body with a gait, or without one.
+    Body {
+        /// Outline.
+        shape: ShapeSpec,
+        /// Surface motion.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        gait: Option<Gait>,
+    },
+    /// Spheres (axisymmetric) or discs (planar) in a line along x, on arms whose lengths are given;
+    /// all hang on the middle one.
+    LinkedSpheres {
+        /// Radii (m), from left to right.
+        radii: Vec<f64>,
+        /// Distances of the centres of neighbours (m), from left to right.
+        arms: Vec<Stroke>,
+        /// Gait of each, such as one that changes its radius; none if absent.
+        #[serde(default, skip_serializing_if = "Vec::is_empty")]
+        gaits: Vec<Gait>,
+    },
+    /// Discs on arms from a disc in the middle (planar).
+    Star {
+        /// Radius in the middle (m).
+        radius: f64,
+        /// Radii at the ends of the arms (m).
+        radii: Vec<f64>,
+        /// Distances of their centres from the middle (m).
+        arms: Vec<Stroke>,
+        /// Directions of the arms, from x, counter-clockwise (rad); evenly around if absent.
+        #[serde(default, skip_serializing_if = "Vec::is_empty")]
+        directions: Vec<f64>,
+    },
+    /// Slender links one after the other, with pivots between them (planar); the first one is in
+    /// front, towards +x, and all hang on the middle one.
+    Chain {
+        /// Semi-axes of the elliptic links (m): along the chain, across.
+        links: Vec<[f64; 2]>,
+        /// Distance of the tips of neighbours, the pivot between them (m).
+        gap: f64,
+        /// Pivots: `bent = { angle }` or `hinge = { ... }`, from the front; the angle is that of the
+        /// link farther from the middle less that of the nearer one.
+        joints: Vec<Pivot>,
+    },
+    /// Bodies of `[[body]]` that are told of as one.
+    Bodies(Vec<String>),
+}
+
+/// A pivot between the links of a chain.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Pivot {
+    /// Bent by a given angle (rad).
+    Bent {
+        /// Angle (rad).
+        angle: Stroke,
+    },
+    /// Free, with stiffness, damping and torque.
+    Hinge(Hinge),
+}
+
+impl From<Pivot> for JointKind {
+    fn from(pivot: Pivot) -> Self {
+        match pivot {
+            Pivot::Bent { angle } => Self::Bent { angle },
+            Pivot::Hinge(hinge) => Self::Hinge(hinge),
+        }
+    }
+}
+
+/// Where copies of a swimmer go.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Copies {
+    /// In rows and columns, the first at `center`.
+    Lattice {
+        /// Numbers along x and y.
+        counts: [usize; 2],
+        /// Distances along x and y (m).
+        spacing: [f64; 2],
+    },
+    /// At random, at least a gap apart from each other, from the bodies before and from walls, by the
+    /// circles that hold them.
+    Random {
+        /// How many.
+        count: usize,
+        /// The same seed gives the same places on every machine.
+        seed: u64,
+        /// Smallest gap (m).
+        gap: f64,
+        /// Lower left and upper right corner of where the centres go (m); the whole domain if
+        /// absent.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        within: Option<[[f64; 2]; 2]>,
+        /// Whether each is turned at random; else all as `angle`.
+        #[serde(default)]
+        turned: bool,
+    },
+}
+
+fn free() -> Motion {
+    Motion::Free
+}
