@@ -23,7 +23,7 @@ const GROWTH: f64 = 0.4;
 const JUMP_ERROR: f64 = 0.03;
 
 /// Error of the spline that is aimed at, over the half width.
-const ERROR: f64 = 3e-5;
+const ERROR: f64 = 2e-5;
 
 /// Half width of a slender body along its midline.
 #[derive(Debug, Clone, PartialEq)]
