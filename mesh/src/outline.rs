@@ -25,7 +25,7 @@ pub struct Outline {
 enum Form {
     Ellipse([f64; 2]),
     Spline {
-        spline: Spline,
+        spline: Arc<Spline>,
         cuts: [f64; 5],
         /// Parameters and places from which searches start.
         samples: Vec<(f64, Point<2>)>,
@@ -79,7 +79,11 @@ impl Outline {
                     let wanted = "three or more, finite, no two neighbours equal";
                     refuse("number of points", points.len() as f64, wanted)
                 })?;
-                let form = Form::spline(spline, &body.name)?;
+                let form = Form::spline(Arc::new(spline), &body.name)?;
+                return Ok(Self::with_form(body.center, body.angle, form));
+            }
+            Shape::Curve { spline } => {
+                let form = Form::spline(Arc::clone(spline), &body.name)?;
                 return Ok(Self::with_form(body.center, body.angle, form));
             }
         };
@@ -126,8 +130,8 @@ impl Outline {
         self.reach
     }
 
-    /// Length of the parameter of [`Self::at`]: 2 pi for an ellipse, the chord length of its
-    /// points for a spline (m).
+    /// Length of the parameter of [`Self::at`]: 2 pi for an ellipse, the last knot of a spline: the
+    /// chord length of its points (m) unless given.
     #[must_use]
     pub fn period(&self) -> f64 {
         match &*self.form {
@@ -137,7 +141,7 @@ impl Outline {
     }
 
     /// Point (m), first and second derivative at a parameter modulo [`Self::period`],
-    /// counter-clockwise: the eccentric angle of an ellipse (rad), the chord length of a spline.
+    /// counter-clockwise: the eccentric angle of an ellipse (rad), the parameter of a spline.
     #[must_use]
     pub fn at(&self, parameter: f64) -> [Point<2>; 3] {
         let [point, first, second] = match &*self.form {
@@ -149,6 +153,25 @@ impl Outline {
             Form::Spline { spline, .. } => spline.evaluate(parameter),
         };
         [self.center + self.turn(point), self.turn(first), self.turn(second)]
+    }
+
+    /// Parameter of [`Self::at`] of the nearest place on the outline, from zero to the period: on
+    /// the outline the inverse of `at`.
+    #[must_use]
+    pub fn parameter_of(&self, point: Point<2>) -> f64 {
+        let local = self.to_local(point);
+        let parameter = match &*self.form {
+            Form::Ellipse([a, b]) => {
+                let foot = nearest_on_ellipse([*a, *b], local).0;
+                (foot.y / b).atan2(foot.x / a)
+            }
+            Form::Spline { spline, samples, spacing, .. } => {
+                parameter_on_spline(spline, samples, *spacing, local)
+            }
+        };
+        let within = parameter.rem_euclid(self.period());
+        // Rounding may give the period itself
+        if within < self.period() { within } else { 0.0 }
     }
 
     /// Parameter of [`Self::at`] of the point of a circle in a direction of the world.
@@ -216,11 +239,7 @@ impl Outline {
     /// Nearest place on the outline.
     #[must_use]
     pub fn nearest(&self, point: Point<2>) -> Nearest {
-        let offset = point - self.center;
-        let local = Point::<2>::new(
-            self.cos * offset.x + self.sin * offset.y,
-            -self.sin * offset.x + self.cos * offset.y,
-        );
+        let local = self.to_local(point);
         let (at, normal, curvature) = match &*self.form {
             Form::Ellipse(semi_axes) => nearest_on_ellipse(*semi_axes, local),
             Form::Spline { spline, samples, spacing, .. } => {
@@ -231,6 +250,15 @@ impl Outline {
         // The foot of the perpendicular makes the offset parallel to the normal
         let gap = gap.signum() * (local - at).norm();
         Nearest { point: self.center + self.turn(at), normal: self.turn(normal), curvature, gap }
+    }
+
+    /// A place of the world in the frame of the body.
+    fn to_local(&self, point: Point<2>) -> Point<2> {
+        let offset = point - self.center;
+        Point::<2>::new(
+            self.cos * offset.x + self.sin * offset.y,
+            -self.sin * offset.x + self.cos * offset.y,
+        )
     }
 
     fn turn(&self, v: Point<2>) -> Point<2> {
@@ -324,6 +352,18 @@ fn nearest_on_spline(
     spacing: f64,
     point: Point<2>,
 ) -> (Point<2>, Point<2>, f64) {
+    let [at, first, second] = spline.evaluate(parameter_on_spline(spline, samples, spacing, point));
+    let speed = first.norm();
+    (at, Point::<2>::new(first.y, -first.x) / speed, cross(first, second) / speed.powi(3))
+}
+
+/// Parameter of the place of a spline nearest to a point.
+fn parameter_on_spline(
+    spline: &Spline,
+    samples: &[(f64, Point<2>)],
+    spacing: f64,
+    point: Point<2>,
+) -> f64 {
     let n = samples.len();
     let gaps: Vec<f64> = samples.iter().map(|(_, place)| (place - point).norm()).collect();
     let shortest = gaps.iter().copied().fold(f64::INFINITY, f64::min);
@@ -343,9 +383,7 @@ fn nearest_on_spline(
             best = (gap, s);
         }
     }
-    let [at, first, second] = spline.evaluate(best.1);
-    let speed = first.norm();
-    (at, Point::<2>::new(first.y, -first.x) / speed, cross(first, second) / speed.powi(3))
+    best.1
 }
 
 /// Root of (c(s) - x) . c'(s) between two parameters, by Newton kept inside the bracket.
@@ -373,7 +411,7 @@ fn foot_on_spline(spline: &Spline, mut low: f64, mut high: f64, start: f64, x: P
 
 impl Form {
     /// Cuts a spline at its extreme points and refuses one that is clockwise or crosses itself.
-    fn spline(spline: Spline, name: &str) -> Result<Self, MeshError> {
+    fn spline(spline: Arc<Spline>, name: &str) -> Result<Self, MeshError> {
         let knots = spline.knots();
         let samples: Vec<f64> = knots
             .windows(2)
@@ -420,12 +458,10 @@ fn extreme(spline: &Spline, samples: &[f64], direction: Point<2>) -> f64 {
             top = i;
         }
     }
-    let step = spline.period() / n as f64;
-    let (mut low, mut high) = (samples[top] - step, samples[top] + step);
     let before = samples[(top + n - 1) % n];
-    low = low.max(if before < samples[top] { before } else { before - spline.period() });
+    let mut low = if before < samples[top] { before } else { before - spline.period() };
     let after = samples[(top + 1) % n];
-    high = high.min(if after > samples[top] { after } else { after + spline.period() });
+    let mut high = if after > samples[top] { after } else { after + spline.period() };
     let mut s = samples[top];
     for _ in 0..100 {
         let [_, first, second] = spline.evaluate(s);
@@ -445,18 +481,22 @@ fn extreme(spline: &Spline, samples: &[f64], direction: Point<2>) -> f64 {
     s.rem_euclid(spline.period())
 }
 
-/// Where two sides of a closed polygon cross, if any do.
+/// Where two sides of a closed polygon cross, if any do: a sweep along x.
 fn crossing(polygon: &[Point<2>]) -> Option<Point<2>> {
     let n = polygon.len();
-    for i in 0..n {
-        let (a, b) = (polygon[i], polygon[(i + 1) % n]);
-        for j in i + 2..n {
-            let (c, d) = (polygon[j], polygon[(j + 1) % n]);
-            let apart = c.x.min(d.x) > a.x.max(b.x)
-                || c.x.max(d.x) < a.x.min(b.x)
-                || c.y.min(d.y) > a.y.max(b.y)
-                || c.y.max(d.y) < a.y.min(b.y);
-            if apart || (j + 1) % n == i {
+    let side = |i: usize| (polygon[i], polygon[(i + 1) % n]);
+    let mut order: Vec<usize> = (0..n).collect();
+    let start = |i: usize| side(i).0.x.min(side(i).1.x);
+    order.sort_by(|i, j| start(*i).total_cmp(&start(*j)));
+    let mut open: Vec<usize> = Vec::new();
+    for &j in &order {
+        let (c, d) = side(j);
+        let (low, high) = (c.y.min(d.y), c.y.max(d.y));
+        open.retain(|i| side(*i).0.x.max(side(*i).1.x) >= c.x.min(d.x));
+        for &i in &open {
+            let (a, b) = side(i);
+            let are_neighbours = (i + 1) % n == j || (j + 1) % n == i;
+            if are_neighbours || low > a.y.max(b.y) || high < a.y.min(b.y) {
                 continue;
             }
             let (p, q) = (cross(b - a, c - a), cross(b - a, d - a));
@@ -465,6 +505,7 @@ fn crossing(polygon: &[Point<2>]) -> Option<Point<2>> {
                 return Some((a + b + c + d) / 4.0);
             }
         }
+        open.push(j);
     }
     None
 }
@@ -551,5 +592,31 @@ mod tests {
         let clockwise_or_crossing =
             matches!(error, MeshError::SelfIntersection { .. } | MeshError::Body { .. });
         assert!(clockwise_or_crossing, "{error}");
+    }
+
+    #[test]
+    fn the_parameter_of_a_place_on_the_outline_gives_it_back() {
+        let fish = crate::FishForm {
+            length: 1.0,
+            head_width: 0.04,
+            tail_width: 0.01,
+            head_end: 0.04,
+            tail_start: 0.95,
+            tip_radius: 1e-3,
+            corner_radius: 0.01,
+        };
+        let spline = Arc::new(crate::Profile::fish(&fish).unwrap().spline().unwrap());
+        let fish = PlacedShape { shape: Shape::Curve { spline }, ..ellipse(1.0, 1.0) };
+        for body in [ellipse(2.0, 0.5), ellipse(0.3, 1.2), ellipse(0.7, 0.7), fish] {
+            let outline = Outline::new(&body).unwrap();
+            let period = outline.period();
+            for i in 0..1000 {
+                let wanted = period * f64::from(i) / 1000.0;
+                let found = outline.parameter_of(outline.at(wanted)[0]);
+                let off = (found - wanted).abs();
+                let off = off.min(period - off);
+                assert!(off < 1e-13 * period, "{i}: {found} for {wanted}");
+            }
+        }
     }
 }

@@ -1,6 +1,7 @@
 //! `Shape`: disc, sphere, ellipse, spheroid, closed spline; boundary curve and mass moments.
 
 use std::f64::consts::PI;
+use std::sync::Arc;
 
 use crate::outline::cross;
 use crate::quadrature::integrate;
@@ -9,7 +10,7 @@ use crate::{Point, Spline};
 /// The outline of a body in its own frame, centred on the origin before placement.
 ///
 /// In an axisymmetric domain the shapes are `Sphere` and `Spheroid`; their meridian (y >= 0) is
-/// meshed. In a planar domain they are `Disc`, `Ellipse` and `Spline`.
+/// meshed. In a planar domain they are `Disc`, `Ellipse`, `Spline` and `Curve`.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Shape {
     /// Disc of the given radius (planar).
@@ -26,6 +27,12 @@ pub enum Shape {
     Spline {
         /// Points in the body frame (m), not repeated at the end.
         points: Vec<[f64; 2]>,
+    },
+    /// Closed smooth curve with a parameter of its own, counter-clockwise (planar): the outline of
+    /// a body that deforms, whose parameter is a material point.
+    Curve {
+        /// Spline in the body frame (m).
+        spline: Arc<Spline>,
     },
     /// Sphere of the given radius, centred on the axis (axisymmetric) or anywhere (3D).
     Sphere {
@@ -59,7 +66,7 @@ pub struct PlacedShape {
 pub struct Moments {
     /// Area (m^2, planar) or volume (m^3, axisymmetric).
     pub measure: f64,
-    /// Centre of area or volume in the body frame (m); only a spline has it off its origin.
+    /// Centre of area or volume in the body frame (m); only splines have it off their origin.
     pub centroid: Point<2>,
     /// Second moments about the centroid.
     pub second: SecondMoments,
@@ -90,6 +97,7 @@ impl Shape {
             Self::Disc { radius } => planar_ellipse([*radius; 2]),
             Self::Ellipse { semi_axes } => planar_ellipse(*semi_axes),
             Self::Spline { points } => return Spline::through(points).map(|s| spline_moments(&s)),
+            Self::Curve { spline } => return Some(spline_moments(spline)),
             Self::Sphere { radius } => ellipsoid([*radius; 2]),
             Self::Spheroid { semi_axes } => ellipsoid(*semi_axes),
         };

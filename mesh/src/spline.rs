@@ -1,12 +1,12 @@
 //! `Spline`: closed cubic curve through points, twice continuously differentiable.
 //!
-//! Between knots s_i (chord length) the curve is the cubic with end values p_i, p_(i+1) and second
+//! Between knots s_i (chord length, or given) the curve is the cubic with end values p_i, p_(i+1) and second
 //! derivatives m_i, m_(i+1); continuity of the first derivative makes the m_i the solution of a
 //! cyclic tridiagonal system.
 
 use crate::Point;
 
-/// A periodic cubic spline, parameter in chord length of its points (m).
+/// A periodic cubic spline; its parameter is the chord length of its points (m), or given.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Spline {
     knots: Vec<f64>,
@@ -20,22 +20,33 @@ impl Spline {
     #[must_use]
     pub fn through(points: &[[f64; 2]]) -> Option<Self> {
         let n = points.len();
-        let mut points: Vec<Point<2>> = points.iter().map(|p| Point::from(*p)).collect();
-        if n < 3 || points.iter().any(|p| !p.iter().all(|x| x.is_finite())) {
-            return None;
-        }
-        let spacing: Vec<f64> = (0..n).map(|i| (points[(i + 1) % n] - points[i]).norm()).collect();
-        if spacing.iter().any(|h| *h <= 0.0) {
-            return None;
-        }
         let mut knots = vec![0.0];
-        for h in &spacing {
-            knots.push(knots[knots.len() - 1] + h);
+        for i in 0..n {
+            let ahead = Point::from(points[(i + 1) % n]) - Point::from(points[i]);
+            knots.push(knots[i] + ahead.norm());
+        }
+        Self::with_knots(points, &knots)
+    }
+
+    /// Closed spline through `points` at given parameters: those of the points, the first one 0,
+    /// and the period; `None` unless they rise and all numbers are finite.
+    ///
+    /// The points of a body that deforms keep their parameters, so a parameter is a material point.
+    /// The curve is linear in its points, so the spline of their velocities is its velocity.
+    #[must_use]
+    pub fn with_knots(points: &[[f64; 2]], knots: &[f64]) -> Option<Self> {
+        let n = points.len();
+        let mut points: Vec<Point<2>> = points.iter().map(|p| Point::from(*p)).collect();
+        let is_finite = points.iter().all(|p| p.iter().all(|x| x.is_finite()));
+        let spacing: Vec<f64> = knots.windows(2).map(|k| k[1] - k[0]).collect();
+        let do_rise = spacing.iter().all(|h| *h > 0.0 && h.is_finite());
+        if n < 3 || knots.len() != n + 1 || knots[0] != 0.0 || !is_finite || !do_rise {
+            return None;
         }
         let mut bends = solve_bends(&points, &spacing);
         points.push(points[0]);
         bends.push(bends[0]);
-        Some(Self { knots, points, bends })
+        Some(Self { knots: knots.to_vec(), points, bends })
     }
 
     /// Length of the parameter interval (m).
@@ -152,6 +163,27 @@ mod tests {
         };
         let order = (error(16) / error(32)).log2();
         assert!((order - 4.0).abs() < 0.1, "order {order}");
+    }
+
+    /// The same points at the same parameters move rigidly with the curve; velocities add.
+    #[test]
+    fn a_spline_with_knots_is_linear_in_its_points() {
+        let (points, rates) = (circle(9), [[0.3, -0.1]; 9]);
+        let spline = Spline::through(&points).unwrap();
+        let again = Spline::with_knots(&points, spline.knots()).unwrap();
+        assert_eq!(spline, again);
+        let moved: Vec<[f64; 2]> = points.iter().map(|[x, y]| [x + 0.3, y - 0.1]).collect();
+        let moved = Spline::with_knots(&moved, spline.knots()).unwrap();
+        let rate = Spline::with_knots(&rates, spline.knots()).unwrap();
+        for i in 0..50 {
+            let s = spline.period() * f64::from(i) / 50.0;
+            let off = moved.evaluate(s)[0] - spline.evaluate(s)[0] - rate.evaluate(s)[0];
+            assert!(off.norm() < 1e-14);
+        }
+        assert!(Spline::with_knots(&points, &spline.knots()[1..]).is_none());
+        let mut falling = spline.knots().to_vec();
+        falling.swap(3, 4);
+        assert!(Spline::with_knots(&points, &falling).is_none());
     }
 
     #[test]

@@ -83,6 +83,7 @@ fn check_kind(domain: &Domain, body: &PlacedShape) -> Result<(), MeshError> {
         Shape::Disc { .. } => ("a disc", false),
         Shape::Ellipse { .. } => ("an ellipse", false),
         Shape::Spline { .. } => ("a spline", false),
+        Shape::Curve { .. } => ("a closed curve", false),
         Shape::Sphere { .. } => ("a sphere", true),
         Shape::Spheroid { .. } => ("a spheroid", true),
     };

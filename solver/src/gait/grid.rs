@@ -1,0 +1,140 @@
+//! `Grid`: Gauss points along a midline, and integrals up to each of them and to the material points.
+
+use alewife_mesh::{Profile, Station};
+
+use super::number::Number;
+use super::rule::Rule;
+
+/// Gauss points of a panel.
+const POINTS: usize = 6;
+
+/// Panels along the body at least.
+const PANELS: f64 = 40.0;
+
+/// Gauss points on panels of a midline between which nothing is less than smooth.
+#[derive(Debug, Clone)]
+pub struct Grid {
+    /// Gauss points from the head on.
+    pub nodes: Vec<Node>,
+    /// Material points of the upper side from the head on.
+    pub stations: Vec<Station>,
+    /// Weights of the integral from the start of a panel to its points, and over all of it.
+    within: Vec<Vec<f64>>,
+    whole: Vec<f64>,
+    /// Panel of each station, and weights of the integral up to it.
+    rows: Vec<(usize, Vec<f64>)>,
+}
+
+/// A Gauss point.
+#[derive(Debug, Clone, Copy)]
+pub struct Node {
+    /// Distance from the head along the midline (m).
+    pub along: f64,
+    /// Half width (m).
+    pub half_width: f64,
+    /// Weight of an integral along the midline (m).
+    pub weight: f64,
+    /// Derivative of `along` by the parameter of the panel in [0, 1] (m).
+    rate: f64,
+}
+
+impl Grid {
+    /// Grid of a profile; `breaks` are places along the midline (m) where panels have to end.
+    pub fn new(profile: &Profile, breaks: &[f64]) -> Self {
+        let rule = Rule::new(POINTS);
+        let longest = profile.length() / PANELS;
+        let mut nodes = Vec::new();
+        let mut ranges: Vec<(usize, f64, f64)> = Vec::new();
+        for piece in 0..profile.n_pieces() {
+            let (start, end) = (profile.at(piece, 0.0).along, profile.at(piece, 1.0).along);
+            let mut ends = vec![0.0];
+            let inside = breaks.iter().filter(|at| **at > start && **at < end);
+            ends.extend(inside.map(|at| profile.find(*at).parameter));
+            ends.push(1.0);
+            for pair in ends.windows(2) {
+                let places = [0, 1].map(|i| profile.at(piece, pair[i]).along);
+                let count = ((places[1] - places[0]) / longest).ceil().max(2.0);
+                let step = (pair[1] - pair[0]) / count;
+                ranges.extend((0..count as usize).map(|i| {
+                    let from = pair[0] + step * i as f64;
+                    (piece, from, step)
+                }));
+            }
+        }
+        for (piece, from, step) in &ranges {
+            for (x, weight) in rule.points.iter().zip(&rule.weights) {
+                let at = profile.at(*piece, from + step * x);
+                let rate = at.rate * step;
+                let (along, half_width) = (at.along, at.half_width);
+                nodes.push(Node { along, half_width, weight: weight * rate, rate });
+            }
+        }
+        let stations = profile.stations();
+        let rows = stations
+            .iter()
+            .map(|station| {
+                let is_in = |(piece, from, step): &(usize, f64, f64)| {
+                    *piece == station.piece && station.parameter <= from + step * (1.0 + 1e-12)
+                };
+                let panel = ranges.iter().position(is_in).unwrap_or(ranges.len() - 1);
+                let (_, from, step) = ranges[panel];
+                (panel, rule.up_to((station.parameter - from) / step))
+            })
+            .collect();
+        let within = rule.points.iter().map(|x| rule.up_to(*x)).collect();
+        Self { nodes, stations, within, whole: rule.weights, rows }
+    }
+
+    /// Integrals along the midline, from its head to each node and to each station, of what is
+    /// given at the nodes (per m).
+    pub fn integrate<D: Number>(&self, values: &[D], start: D) -> (Vec<D>, Vec<D>) {
+        let mut at_nodes = Vec::with_capacity(values.len());
+        let mut starts = Vec::with_capacity(values.len() / POINTS);
+        let mut at_start = start;
+        for (values, nodes) in values.chunks(POINTS).zip(self.nodes.chunks(POINTS)) {
+            starts.push(at_start);
+            for row in &self.within {
+                at_nodes.push(at_start + weighted(row, values, nodes));
+            }
+            at_start += weighted(&self.whole, values, nodes);
+        }
+        let at_stations = self.rows.iter().map(|(panel, row)| {
+            let range = panel * POINTS..(panel + 1) * POINTS;
+            starts[*panel] + weighted(row, &values[range.clone()], &self.nodes[range])
+        });
+        let at_stations = at_stations.collect();
+        (at_nodes, at_stations)
+    }
+
+    /// Solution of dx/ds = f(s, x) with x = `start` at the head, at all nodes, by collocation at the
+    /// Gauss points; Picard's iteration converges within a panel like a power over its factorial.
+    pub fn solve<D: Number>(&self, start: D, f: impl Fn(f64, D) -> D) -> Vec<D> {
+        const ITERATIONS: usize = 12;
+        let mut at_nodes = Vec::with_capacity(self.nodes.len());
+        let mut at_start = start;
+        for nodes in self.nodes.chunks(POINTS) {
+            let slope = f(nodes[0].along, at_start);
+            let mut values: Vec<D> = nodes.iter().map(|_| slope).collect();
+            let mut places = vec![at_start; POINTS];
+            for _ in 0..ITERATIONS {
+                for (place, row) in places.iter_mut().zip(&self.within) {
+                    *place = at_start + weighted(row, &values, nodes);
+                }
+                for (value, (place, node)) in values.iter_mut().zip(places.iter().zip(nodes)) {
+                    *value = f(node.along, *place);
+                }
+            }
+            at_nodes.extend(places);
+            at_start += weighted(&self.whole, &values, nodes);
+        }
+        at_nodes
+    }
+}
+
+fn weighted<D: Number>(row: &[f64], values: &[D], nodes: &[Node]) -> D {
+    let mut sum = D::from(0.0);
+    for ((weight, value), node) in row.iter().zip(values).zip(nodes) {
+        sum += *value * (weight * node.rate);
+    }
+    sum
+}

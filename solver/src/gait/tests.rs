@@ -1,0 +1,368 @@
+//! Deforming outlines against finite differences, published numbers and other quadratures.
+
+use std::time::Instant;
+
+use alewife_mesh::{FishForm, FlagellateForm, Outline, PlacedShape, Point, Profile, Shape};
+
+use super::grid::Grid;
+use super::midline::Frames;
+use super::momentum::offset;
+use super::number::cross;
+use super::rule::Rule;
+use super::*;
+
+fn fish() -> Profile {
+    let form = FishForm {
+        length: 1.0,
+        head_width: 0.04,
+        tail_width: 0.01,
+        head_end: 0.04,
+        tail_start: 0.95,
+        tip_radius: 1e-3,
+        corner_radius: 0.01,
+    };
+    Profile::fish(&form).unwrap()
+}
+
+fn carangiform() -> Midline {
+    let places = [0.0, 0.15, 0.4, 0.65, 0.9, 1.0];
+    let curvatures = [0.82014, 1.46515, 2.57136, 3.75425, 5.09147, 5.70449];
+    let curvature = places.into_iter().zip(curvatures).map(|(s, k)| [s, k]).collect();
+    Midline::Carangiform(Carangiform {
+        length: 1.0,
+        curvature,
+        bending: 0.0,
+        period: 1.0,
+        phase: 0.0,
+        ramp: 1.0,
+    })
+}
+
+fn anguilliform(amplitude: f64) -> Midline {
+    Midline::Anguilliform(Anguilliform {
+        length: 1.0,
+        amplitude,
+        offset: 1.0 / 32.0,
+        period: 1.0,
+        phase: 0.0,
+        ramp: 1.0,
+    })
+}
+
+fn flagellate() -> Profile {
+    let form = FlagellateForm { head: [2.0, 1.0], tail_length: 50.0, thickness: 0.2, fillet: 0.2 };
+    Profile::flagellate(&form).unwrap()
+}
+
+fn flagellum(inextensible: bool) -> Midline {
+    Midline::Flagellum(Flagellum {
+        head: 4.0,
+        length: 50.0,
+        amplitude: 4.0,
+        wavelength: 20.0,
+        period: 0.3,
+        phase: 0.0,
+        ramp: 1.0,
+        joint: 2.5,
+        inextensible,
+    })
+}
+
+/// Name, profile, midline and times of all swimmers.
+fn all() -> Vec<(&'static str, Profile, Midline, [f64; 3])> {
+    vec![
+        ("carangiform", fish(), carangiform(), [0.4, 1.3, 7.77]),
+        ("anguilliform", fish(), anguilliform(4.0 / 33.0), [0.4, 1.3, 7.77]),
+        ("inextensible flagellum", flagellate(), flagellum(true), [0.05, 0.31, 1.7]),
+        ("extensible flagellum", flagellate(), flagellum(false), [0.05, 0.31, 1.7]),
+    ]
+}
+
+fn polar(deformed: &Deformed) -> f64 {
+    match deformed.moments.second {
+        alewife_mesh::SecondMoments::Planar { polar } => polar,
+        alewife_mesh::SecondMoments::Revolved { .. } => panic!("is planar"),
+    }
+}
+
+/// Derivative by central differences of sixth order.
+fn difference<
+    V: std::ops::Sub<Output = V> + std::ops::Add<Output = V> + std::ops::Mul<f64, Output = V>,
+>(
+    f: impl Fn(f64) -> V,
+    at: f64,
+    step: f64,
+) -> V {
+    let by = |n: f64| f(at + n * step) - f(at - n * step);
+    (by(1.0) * 45.0 - by(2.0) * 9.0 + by(3.0)) * (1.0 / (60.0 * step))
+}
+
+#[test]
+fn area_and_centre_stay_and_rates_are_those_of_the_places() {
+    for (name, profile, midline, times) in all() {
+        let [_, period] = midline.cycle();
+        let length = profile.length();
+        let swimmer = Swimmer::new(&profile, midline).unwrap();
+        let rest = swimmer.at(0.0);
+        for time in times {
+            let now = swimmer.at(time);
+            let moments = now.shape.moments().unwrap();
+            let off = (moments.measure / rest.moments.measure - 1.0).abs();
+            assert!(off < 1e-12, "{name} at {time}: area off by {off:.1e}");
+            assert!((now.moments.measure / moments.measure - 1.0).abs() < 1e-13);
+            assert!(moments.centroid.norm() < 1e-12 * length, "{name}: {}", moments.centroid);
+            let step = 2e-3 * period;
+            let inertia = difference(|t| polar(&swimmer.at(t)), time, step);
+            let scale = polar(&now) / period;
+            assert!((inertia - now.inertia_rate).abs() < 1e-7 * scale, "{name}");
+            let knots = match &now.shape {
+                Shape::Curve { spline } => spline.period(),
+                _ => panic!("is a curve"),
+            };
+            let mut worst: f64 = 0.0;
+            for i in 0..97 {
+                let parameter = knots * f64::from(i) / 97.0;
+                let exact = difference(|t| swimmer.at(t).position(parameter), time, step);
+                worst = worst.max((exact - now.rate(parameter)).norm());
+            }
+            assert!(worst < 1e-7 * length / period, "{name} at {time}: rates off by {worst:.1e}");
+            println!("{name} at {time}: {:?}", now.removed);
+            assert!(now.removed.momentum_defect < 1e-5 * now.removed.mean_normal_speed, "{name}");
+        }
+    }
+}
+
+/// Places in the interior on a grid of its own, before the gauge.
+fn interior(grid: &Grid, midline: &Midline, time: f64, across: &[f64]) -> Vec<Point<2>> {
+    let frames: Frames<f64> = midline.frames(grid, time);
+    let mut places = Vec::new();
+    for (node, frame) in grid.nodes.iter().zip(&frames.nodes) {
+        let normal = Point::<2>::from(frame.normal());
+        for m in across {
+            places
+                .push(Point::<2>::from(frame.place) + normal * offset(frame, node.half_width, *m));
+        }
+    }
+    places
+}
+
+/// Angular momentum over another grid, with other points across, and velocities by
+/// finite differences; and that areas within the interior stay.
+#[test]
+fn no_angular_momentum_is_left() {
+    for (name, profile, midline, times) in all() {
+        let [_, period] = midline.cycle();
+        let swimmer = Swimmer::new(&profile, midline.clone()).unwrap();
+        let length = profile.length();
+        let mut breaks = midline.breaks();
+        breaks.extend((1..101).map(|i| length * f64::from(i) / 101.0));
+        breaks.sort_by(f64::total_cmp);
+        let grid = Grid::new(&profile, &breaks);
+        let rule = Rule::new(11);
+        let across: Vec<f64> = rule.points.iter().map(|x| 2.0 * x - 1.0).collect();
+        let weights: Vec<f64> = grid
+            .nodes
+            .iter()
+            .flat_map(|node| rule.weights.iter().map(|w| 2.0 * node.weight * node.half_width * w))
+            .collect();
+        for time in times {
+            let step = 1e-3 * period;
+            let at = |t: f64| interior(&grid, &midline, t, &across);
+            let stencil: Vec<(f64, Vec<Point<2>>)> =
+                [(45.0, 1.0), (-45.0, -1.0), (-9.0, 2.0), (9.0, -2.0), (1.0, 3.0), (-1.0, -3.0)]
+                    .into_iter()
+                    .map(|(weight, steps)| (weight / (60.0 * step), at(time + steps * step)))
+                    .collect();
+            let places = at(time);
+            let rate = |i: usize| -> Point<2> { stencil.iter().map(|(w, p)| p[i] * *w).sum() };
+            let area: f64 = weights.iter().sum();
+            let mean = |f: &dyn Fn(usize) -> Point<2>| -> Point<2> {
+                weights.iter().enumerate().map(|(i, w)| f(i) * *w).sum::<Point<2>>() / area
+            };
+            let center = mean(&|i| places[i]);
+            let drift = mean(&|i| rate(i));
+            let removed = swimmer.at(time).removed;
+            let (mut total, mut size) = (0.0, 0.0);
+            for (i, weight) in weights.iter().enumerate() {
+                let arm = places[i] - center;
+                let turning = Point::<2>::new(-arm.y, arm.x) * removed.angular_velocity;
+                let velocity = rate(i) - drift - turning;
+                let part = weight * cross([arm.x, arm.y], [velocity.x, velocity.y]);
+                total += part;
+                size += part.abs();
+            }
+            println!("{name} at {time}: {total:.1e} of {size:.1e}");
+            assert!(total.abs() < 1e-10 * size, "{name} at {time}: {total:.1e} of {size:.1e}");
+            let slip = (drift - removed.velocity).norm();
+            assert!(slip < 1e-5 * removed.mean_normal_speed, "{name}: {slip:.1e}");
+        }
+    }
+}
+
+/// Tangent, stretch and curvature are those of the places, the interior keeps its areas, and the
+/// midline its length where it is inextensible.
+#[test]
+fn midlines_agree_with_their_derivatives() {
+    for (name, profile, midline, times) in all() {
+        let grid = Grid::new(&profile, &midline.breaks());
+        for time in times {
+            let frames: Frames<f64> = midline.frames(&grid, time);
+            let integral = |f: &dyn Fn(usize) -> f64| -> f64 {
+                grid.nodes.iter().enumerate().map(|(i, node)| f(i) * node.weight).sum()
+            };
+            let (first, last) = (&frames.stations[0], &frames.stations[frames.stations.len() - 1]);
+            for axis in 0..2 {
+                let whole = integral(&|i| frames.nodes[i].stretch * frames.nodes[i].tangent[axis]);
+                let off = (whole - (last.place[axis] - first.place[axis])).abs();
+                assert!(off < 1e-10 * profile.length(), "{name}: places off by {off:.1e}");
+            }
+            let turned: f64 = frames
+                .stations
+                .windows(2)
+                .map(|pair| cross(pair[0].tangent, pair[1].tangent).asin())
+                .sum();
+            let whole = integral(&|i| frames.nodes[i].stretch * frames.nodes[i].curvature);
+            assert!((turned - whole).abs() < 1e-9, "{name}: {turned} {whole}");
+            if name != "extensible flagellum" {
+                // Chords, lengthened by their curvature
+                let length: f64 = frames
+                    .stations
+                    .windows(2)
+                    .map(|pair| {
+                        let [a, b] = [pair[0].place, pair[1].place];
+                        let chord = (b[0] - a[0]).hypot(b[1] - a[1]);
+                        let turn = cross(pair[0].tangent, pair[1].tangent).asin();
+                        chord * (1.0 + turn * turn / 24.0)
+                    })
+                    .sum();
+                let off = (length / profile.length() - 1.0).abs();
+                assert!(off < 1e-6, "{name}: length off by {off:.1e}");
+            }
+            for (node, frame) in grid.nodes.iter().zip(&frames.nodes) {
+                for m in [-0.8, 0.1, 0.9] {
+                    let slope = difference(|m| offset(frame, node.half_width, m), m, 1e-2);
+                    let y: f64 = offset(frame, node.half_width, m);
+                    let density = frame.stretch * (1.0 + frame.curvature * y) * slope;
+                    assert!((density / node.half_width - 1.0).abs() < 1e-9, "{name}");
+                }
+            }
+        }
+    }
+}
+
+/// Range of head and end of the tail across the mean direction of the body, over a period.
+fn swing(swimmer: &Swimmer, tip: f64) -> [f64; 2] {
+    let n = 400;
+    let places: Vec<[Point<2>; 2]> = (0..n)
+        .map(|i| swimmer.at(3.0 + f64::from(i) / f64::from(n)))
+        .map(|deformed| [0.0, tip].map(|parameter| deformed.position(parameter)))
+        .collect();
+    let axis: Point<2> = places.iter().map(|[head, tail]| head - tail).sum();
+    let axis = axis.normalize();
+    println!("axis {axis}");
+    [0, 1].map(|k| {
+        let heights = places.iter().map(|at| cross(axis.into(), at[k].into()));
+        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+        for height in heights {
+            (low, high) = (low.min(height), high.max(height));
+        }
+        high - low
+    })
+}
+
+#[test]
+fn fish_have_their_published_shapes() {
+    let profile = fish();
+    let spline = profile.spline().unwrap();
+    let tip = spline.knots()[profile.stations().len() - 1];
+    let swimmer = Swimmer::new(&profile, carangiform()).unwrap();
+    println!("area {}", swimmer.at(2.0).moments.measure);
+    let [head, tail] = swing(&swimmer, tip);
+    println!("carangiform head {head} tail {tail}");
+    println!("turn after 4 periods {}", swimmer.turning_at(5.0) - swimmer.turning_at(1.0));
+    println!("heading {}", swimmer.turning_at(3.0));
+    assert!((tail - 0.349).abs() < 3e-3, "{tail}");
+    assert!((head - 0.134).abs() < 3e-3, "{head}");
+    let grid = Grid::new(&profile, &[]);
+    let amplitude = (0..100)
+        .map(|i| {
+            let frames: Frames<f64> =
+                anguilliform(4.0 / 33.0).frames(&grid, 2.0 + f64::from(i) / 100.0);
+            frames.stations[frames.stations.len() - 1].place[1]
+        })
+        .fold(0.0, f64::max);
+    assert!((amplitude - 0.125).abs() < 1e-3, "{amplitude}");
+}
+
+#[test]
+fn outlines_do_not_cross_themselves_and_are_fast_to_make() {
+    for (name, profile, midline, times) in all() {
+        let [_, period] = midline.cycle();
+        let start = Instant::now();
+        let swimmer = Swimmer::new(&profile, midline).unwrap();
+        let built = start.elapsed();
+        let start = Instant::now();
+        swimmer.at(times[2] + period);
+        let table = start.elapsed();
+        let start = Instant::now();
+        let shapes: Vec<Deformed> =
+            (0..50).map(|i| swimmer.at(times[2] + period * f64::from(i) / 50.0)).collect();
+        let each = start.elapsed() / 50;
+        let start = Instant::now();
+        for deformed in shapes {
+            let body = PlacedShape {
+                name: name.to_owned(),
+                shape: deformed.shape,
+                center: Point::<2>::zeros(),
+                angle: 0.0,
+                size: None,
+            };
+            Outline::new(&body).unwrap();
+        }
+        let outline = start.elapsed() / 50;
+        println!("{name}: built {built:?}, table {table:?}, at {each:?}, outline {outline:?}");
+        assert!(each.as_secs_f64() < 0.02);
+    }
+}
+
+#[test]
+fn gaits_that_cannot_be_made_are_refused() {
+    let refused = Swimmer::new(&fish(), anguilliform(0.3)).unwrap_err();
+    assert!(matches!(refused, GaitError::Midline { .. }), "{refused}");
+    let Midline::Carangiform(gait) = carangiform() else { panic!("is carangiform") };
+    let bent = Midline::Carangiform(Carangiform { bending: 6.0, ..gait });
+    let refused = Swimmer::new(&fish(), bent).unwrap_err();
+    assert!(matches!(refused, GaitError::Crossing { .. }), "{refused}");
+}
+
+#[test]
+fn pulses_have_the_rates_of_their_places() {
+    let table = vec![[0.0, 1.0], [1.0, 2.0], [2.0, 1.0]];
+    let laws = [
+        PulseLaw::Sine { amplitude: 0.5, period: 2.0, phase: 0.1 },
+        PulseLaw::Table { knots: table, period: Some(3.0) },
+    ];
+    for law in laws {
+        for is_sphere in [false, true] {
+            let pulse = Pulse { radius: 0.7, is_sphere, law: law.clone() };
+            for time in [0.4, 1.3, 4.7, 8.6] {
+                let now = pulse.at(time);
+                let rate = difference(|t| pulse.at(t).position(0.6), time, 1e-2);
+                assert!((rate - now.rate(0.6)).norm() < 1e-7);
+                let inertia = |t: f64| match pulse.at(t).moments.second {
+                    alewife_mesh::SecondMoments::Planar { polar } => polar,
+                    alewife_mesh::SecondMoments::Revolved { across, .. } => across,
+                };
+                assert!((difference(inertia, time, 1e-2) - now.inertia_rate).abs() < 1e-7);
+            }
+        }
+    }
+    let pulse = Pulse {
+        radius: 1.0,
+        is_sphere: false,
+        law: PulseLaw::Table { knots: vec![[0.0, 1.0], [1.0, 2.0], [2.0, 1.0]], period: Some(2.0) },
+    };
+    assert_eq!(pulse.breaks(0.5, 4.5), vec![1.0, 2.0, 3.0, 4.0]);
+    let area = pulse.at(3.25).moments.measure / std::f64::consts::PI;
+    assert!((area - 1.75).abs() < 1e-14);
+}
