@@ -28,6 +28,13 @@ impl Surroundings {
         }
     }
 
+    /// Gives a body, by its index, another outline.
+    pub fn set_body(&mut self, body: usize, outline: Outline) {
+        if let Some(known) = self.outlines.get_mut(body) {
+            *known = outline;
+        }
+    }
+
     /// The surface that faces a point (m) of boundary `boundary` of a mesh, of kind `kind`, if one
     /// is nearer than `reach` (m): its boundary in the mesh and the signed gap (m), negative where
     /// the surfaces overlap.

@@ -53,6 +53,7 @@ pub fn fluid_only(
             load_factor: None,
             spring: None,
             gait: None,
+            shape: None,
             link: None,
         })
     });

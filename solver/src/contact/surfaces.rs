@@ -82,6 +82,18 @@ impl Surfaces {
         })
     }
 
+    /// Gives a body another outline, its origin the centre of mass.
+    ///
+    /// # Errors
+    /// [`ContactError::Outline`] for a shape without outline.
+    pub fn deform(&mut self, body: usize, shape: &PlacedShape) -> Result<(), ContactError> {
+        let outline = Outline::new(shape)?;
+        let surface = &mut self.bodies[body];
+        (surface.reach, surface.thickness) = (outline.reach(), thickness(&outline));
+        (surface.outline, surface.centroid) = (outline, Point::<2>::zeros());
+        Ok(())
+    }
+
     /// Leaves the gaps of pairs of bodies that share a pivot out of account.
     #[must_use]
     pub fn with_joined(mut self, pairs: impl Iterator<Item = (usize, usize)>) -> Self {

@@ -6,7 +6,7 @@
 use alewife_mesh::{BoundaryKind, Facet, Mesh};
 
 use super::link::RigidRow;
-use super::problem::{Drive, Problem};
+use super::problem::{Drive, MovingSurface, Problem};
 use crate::algebra::{AffineConstraints, ConstraintBuilder};
 use crate::body::Pose;
 use crate::space::DofLayout;
@@ -85,8 +85,11 @@ pub(super) fn constrain(
             }
         }
     }
+    let pairs = problem.bodies.iter().zip(poses);
+    let surfaces: Vec<_> = pairs.map(|(body, pose)| body.surface(pose, time)).collect();
     for (node, boundaries) in sides.iter() {
-        constrain_node(problem, mesh, layout, &mut builder, poses, time, node, &boundaries);
+        let at = (node, boundaries.as_slice());
+        constrain_node(problem, mesh, layout, &mut builder, (poses, &surfaces), time, at);
     }
     close_pressures_and_periods(problem, mesh, layout, &mut builder);
     builder.build()
@@ -131,16 +134,14 @@ pub(super) fn close_pressures_and_periods(
     }
 }
 
-#[expect(clippy::too_many_arguments, reason = "one node's share of the function above")]
 fn constrain_node(
     problem: &Problem,
     mesh: &Mesh<2>,
     layout: &DofLayout<2>,
     builder: &mut ConstraintBuilder,
-    poses: &[Pose],
+    (poses, surfaces): (&[Pose], &[MovingSurface<'_>]),
     time: f64,
-    node: usize,
-    boundaries: &[usize],
+    (node, boundaries): (usize, &[usize]),
 ) {
     let place = mesh.nodes[node];
     let body = boundaries.iter().find_map(|&boundary| match mesh.boundaries[boundary].kind {
@@ -149,7 +150,7 @@ fn constrain_node(
     });
     if let Some(body) = body {
         let pose = &poses[body];
-        let slip = problem.bodies[body].slip(pose, &place, time);
+        let slip = surfaces[body].velocity(&place);
         let lever = [place[0] - pose.center.x, place[1] - pose.center.y];
         let turning = [-lever[1], lever[0]];
         for axis in 0..2 {

@@ -13,7 +13,10 @@ pub use constrain::NodeSides;
 pub use divergence_free::DivergenceFree;
 pub use link::{Link, MovingAngle, MovingPoint, Pivot, Turn};
 pub use loads::{BodyLoads, body_loads};
-pub use problem::{Drive, Kinks, Problem, RigidBody, Side, Spring, TimeValue, VelocityProfile};
+pub use problem::{
+    Drive, Kinks, MovingSurface, Problem, RigidBody, Side, Spring, TimeValue, VelocityProfile,
+    second_moment,
+};
 pub use surface_load::surface_load;
 pub use swimming::{Effort, Group, MeanMotion, effort, group_load, mean_motion};
 pub use system::{

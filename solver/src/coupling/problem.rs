@@ -1,13 +1,15 @@
 //! `Problem`: what never changes during a run: fluid, sides of the domain, bodies.
 
-use alewife_mesh::Point;
+use std::sync::Arc;
+
+use alewife_mesh::{Moments, Outline, PlacedShape, Point, SecondMoments};
 use nalgebra::Vector3;
 
 use super::link::Link;
 use super::swimming::Group;
 use crate::body::{Pose, Wrench};
 use crate::flow::BodyForce;
-use crate::gait::Gait;
+use crate::gait::{Deformed, Gait, ShapeMotion};
 
 /// A velocity as a function of place and time (m, s, m/s).
 pub type VelocityProfile = Box<dyn Fn(&Point<2>, f64) -> Point<2> + Send + Sync>;
@@ -76,8 +78,10 @@ pub struct RigidBody {
     pub load_factor: Option<TimeValue>,
     /// Spring and damper.
     pub spring: Option<Spring>,
-    /// Surface motion.
+    /// Slip of the surface.
     pub gait: Option<Box<dyn Gait>>,
+    /// How its outline deforms.
+    pub shape: Option<Arc<dyn ShapeMotion>>,
     /// The body it hangs on; its place and velocity, but for a free pivot's turn, follow from it.
     pub link: Option<Link>,
 }
@@ -108,14 +112,70 @@ impl RigidBody {
         [0, 1, 2].map(|mode| weight[mode] + factor * load[mode])
     }
 
-    /// Velocity of the surface relative to the rigid motion, in the world (m/s), at a world
-    /// point of the plane.
+    /// Moment of inertia at a time, which follows the shape.
     #[must_use]
-    pub fn slip(&self, pose: &Pose, point: &Point<2>, time: f64) -> Point<2> {
-        let Some(gait) = &self.gait else { return Point::<2>::zeros() };
-        let in_body =
-            pose.rotation.inverse() * (Vector3::new(point[0], point[1], 0.0) - pose.center);
-        let velocity = pose.rotation * gait.velocity(&in_body, time);
+    pub fn inertia_at(&self, time: f64) -> f64 {
+        match &self.shape {
+            Some(shape) if self.inertia > 0.0 => {
+                self.inertia * second_moment(&shape.at(time).moments) / self.second_moment
+            }
+            _ => self.inertia,
+        }
+    }
+
+    /// What moves its surface at a time, besides the rigid motion.
+    #[must_use]
+    pub fn surface(&self, pose: &Pose, time: f64) -> MovingSurface<'_> {
+        let shape = self.shape.as_ref().map(|shape| {
+            let deformed = shape.at(time);
+            let center = Point::<2>::new(pose.center.x, pose.center.y);
+            let placed = PlacedShape {
+                name: self.name.clone(),
+                shape: deformed.shape.clone(),
+                center,
+                angle: pose.angle(),
+                size: None,
+            };
+            (deformed, Outline::new(&placed).ok())
+        });
+        MovingSurface { gait: self.gait.as_deref(), shape, pose: *pose, time }
+    }
+}
+
+/// The second moment that resists turning about an axis across the plane or the axis of revolution.
+#[must_use]
+pub fn second_moment(moments: &Moments) -> f64 {
+    match moments.second {
+        SecondMoments::Planar { polar } => polar,
+        // On the axis a body does not turn.
+        SecondMoments::Revolved { across, .. } => across,
+    }
+}
+
+/// The surface of a body at one time.
+pub struct MovingSurface<'a> {
+    gait: Option<&'a dyn Gait>,
+    shape: Option<(Deformed, Option<Outline>)>,
+    pose: Pose,
+    time: f64,
+}
+
+impl MovingSurface<'_> {
+    /// Velocity of the surface relative to the rigid motion, in the world (m/s), at a world
+    /// point of the plane on it.
+    #[must_use]
+    pub fn velocity(&self, point: &Point<2>) -> Point<2> {
+        let rotation = &self.pose.rotation;
+        let mut velocity = Vector3::zeros();
+        if let Some(gait) = self.gait {
+            let lever = Vector3::new(point[0], point[1], 0.0) - self.pose.center;
+            velocity += gait.velocity(&(rotation.inverse() * lever), self.time);
+        }
+        if let Some((deformed, Some(outline))) = &self.shape {
+            let rate = deformed.rate(outline.parameter_of(*point));
+            velocity += Vector3::new(rate.x, rate.y, 0.0);
+        }
+        let velocity = rotation * velocity;
         Point::<2>::new(velocity.x, velocity.y)
     }
 }

@@ -98,6 +98,17 @@ pub struct Levels {
     pub external: Vec<[f64; 3]>,
     /// Loads in free pivots.
     pub pivots: Vec<PivotLoad>,
+    /// Moments of inertia, where bodies deform.
+    pub inertia: Vec<f64>,
+}
+
+impl Levels {
+    /// What resists the three velocities of a body.
+    fn inertia_of(&self, problem: &Problem, body: usize) -> [f64; 3] {
+        let rigid = &problem.bodies[body];
+        let turning = self.inertia.get(body).copied().unwrap_or(rigid.inertia);
+        [rigid.mass, rigid.mass, turning]
+    }
 }
 
 /// Torque torque - resistance (omega_child - omega_parent) on a child in its pivot, the opposite on
@@ -265,9 +276,9 @@ impl FluidSystem {
             let pressures = self.layout.pressure(0)..self.layout.n_fluid();
             spread_flux(&mut raw[pressures], &self.pressure_weights);
         }
-        for (body, rigid) in problem.bodies.iter().enumerate() {
+        for body in 0..problem.bodies.len() {
             let rates = solution.twists[body].in_plane();
-            let inertia = [rigid.mass, rigid.mass, rigid.inertia];
+            let inertia = levels.inertia_of(problem, body);
             for mode in 0..3 {
                 let of = |values: &[[f64; 3]]| values.get(body).map_or(0.0, |value| value[mode]);
                 raw[self.layout.rigid(body, mode)] += inertia[mode]
@@ -401,8 +412,9 @@ impl FluidSystem {
         constraints: &AffineConstraints,
         levels: &Levels,
     ) {
-        for (body, rigid) in problem.bodies.iter().enumerate() {
-            for (mode, inertia) in [rigid.mass, rigid.mass, rigid.inertia].into_iter().enumerate() {
+        for body in 0..problem.bodies.len() {
+            let inertia = levels.inertia_of(problem, body);
+            for (mode, inertia) in inertia.into_iter().enumerate() {
                 let resistance = levels.resistance.get(body).map_or(0.0, |all| all[mode]);
                 let row = constraints.row(self.layout.rigid(body, mode));
                 self.add_square(row, inertia * levels.rate + resistance);

@@ -1,10 +1,9 @@
 //! From a `Case` to a mesh and a `Problem`.
 
 use std::f64::consts::PI;
+use std::sync::Arc;
 
-use alewife_mesh::{
-    BoundaryKind, Mesh, PlacedShape, Point, SecondMoments, SizeBox, Sizing, generate,
-};
+use alewife_mesh::{BoundaryKind, Mesh, PlacedShape, Point, SizeBox, Sizing, generate};
 use nalgebra::Vector3;
 
 use super::RunError;
@@ -16,9 +15,9 @@ use crate::case::{
 use crate::contact::{Law, LawKind};
 use crate::coupling::{
     Drive, Group, Kinks, Link, MovingPoint, Pivot, Problem, RigidBody, Side, Spring, TimeValue,
-    Turn, VelocityProfile,
+    Turn, VelocityProfile, second_moment,
 };
-use crate::gait::{Gait, Squirmer};
+use crate::gait::{Gait, ShapeMotion, Squirmer};
 use crate::time::factor_at;
 
 /// The mesh of a case.
@@ -26,13 +25,25 @@ use crate::time::factor_at;
 /// # Errors
 /// When a body does not fit, or the mesh cannot be made.
 pub fn build_mesh(case: &Case) -> Result<Mesh<2>, RunError> {
-    generate(&case.mesh_domain(), &placed_bodies(case), &sizing(case))
+    generate(&case.mesh_domain(), &placed_bodies(case)?, &sizing(case))
         .map_err(|error| RunError::Mesh(error.to_string()))
 }
 
 /// The bodies of a case as they are meshed at time zero.
-pub(super) fn placed_bodies(case: &Case) -> Vec<PlacedShape> {
-    case.body.iter().map(|body| body.placed(case.mesh.scale)).collect()
+pub(super) fn placed_bodies(case: &Case) -> Result<Vec<PlacedShape>, RunError> {
+    let placed = |body: &Body| {
+        let mut placed = body.placed(case.mesh.scale);
+        if let Some(motion) = shape_motion(body)? {
+            placed.shape = motion.at(0.0).shape;
+        }
+        Ok(placed)
+    };
+    case.body.iter().map(placed).collect()
+}
+
+/// How the outline of a body deforms, if it does.
+fn shape_motion(_body: &Body) -> Result<Option<Arc<dyn ShapeMotion>>, RunError> {
+    Ok(None)
 }
 
 /// The law of contact a case asks for.
@@ -281,11 +292,7 @@ fn rigid_body(
     let moments = body.shape.outline().moments().ok_or_else(|| {
         RunError::Unsupported(format!("body `{}`: its spline has no valid outline", body.name))
     })?;
-    let second_moment = match moments.second {
-        SecondMoments::Planar { polar } => polar,
-        // On the axis a body does not turn.
-        SecondMoments::Revolved { across, .. } => across,
-    };
+    let second_moment = second_moment(&moments);
     let has_inertia = case.fluid.model != Model::Stokes;
     let density = body.density.unwrap_or(case.fluid.density);
     // Weight less buoyancy: the pressure is the one without its hydrostatic part.
@@ -310,6 +317,7 @@ fn rigid_body(
     });
     // The centre of mass of a spline is not the origin of its points.
     let offset = nalgebra::Rotation2::new(body.angle) * moments.centroid;
+    let shape = shape_motion(body)?;
     let gait: Option<Box<dyn Gait>> = match &body.gait {
         None => None,
         Some(GaitSpec::Squirmer(squirmer)) => {
@@ -353,6 +361,7 @@ fn rigid_body(
             ],
         }),
         gait,
+        shape,
         link: None,
     })
 }

@@ -99,8 +99,8 @@ impl March<'_> {
             swim.go_on(step, &shares, &efforts[3][group]);
         }
         let mut contact = ContactLoads::none(places.len());
-        if let MeshPath::Bodies(follower) = self.path {
-            contact.least_gap = follower.surfaces().least_gap(&self.in_frame(state, &places));
+        if let Some(surfaces) = self.surfaces(start + step) {
+            contact.least_gap = surfaces.least_gap(&self.in_frame(state, &places));
         }
         state.contact = contact;
         for (body, twist) in solution.twists.iter().enumerate() {

@@ -1,11 +1,18 @@
 //! `Follower`: the mesh that follows its bodies until it has to be made anew.
 
-use alewife_mesh::{BoundaryKind, Domain, Mesh, PlacedShape, Point, Surroundings};
+use std::borrow::Cow;
+use std::collections::HashMap;
+use std::sync::Arc;
+
+use alewife_mesh::{BoundaryKind, Domain, Mesh, Outline, PlacedShape, Point, Shape, Surroundings};
+use nalgebra::Vector3;
 
 use super::state::pose_at;
+use crate::body::Pose;
 use crate::case::{Case, MeshEquation};
 use crate::contact::{Place, Surfaces};
 use crate::coupling::Problem;
+use crate::gait::{Deformed, ShapeMotion};
 use crate::motion::{
     Fresh, Limits, MeshMotion, MotionError, MotionKind, Reason, RigidMove, Stiffening, holds,
     needs_remesh,
@@ -22,8 +29,14 @@ pub struct Follower {
     motion: MeshMotion,
     /// Places of the bodies in the mesh when it was made.
     made_at: Vec<Place>,
+    /// When it was made (s).
+    made_time: f64,
     /// Bodies as they were then.
     shapes: Vec<PlacedShape>,
+    /// How bodies deform, those that do.
+    deforming: Vec<Option<Arc<dyn ShapeMotion>>>,
+    /// Material points of the nodes on bodies that deform, by the bits of their places when made.
+    materials: HashMap<[u64; 2], f64>,
     /// Whether the mesh turns with each body.
     turns: Vec<bool>,
     /// Shortest edge on each body (m).
@@ -36,8 +49,22 @@ pub struct Follower {
     surfaces: Surfaces,
 }
 
+fn bits(place: &Point<2>) -> [u64; 2] {
+    [place.x.to_bits(), place.y.to_bits()]
+}
+
+/// A body of this shape at a place.
+fn placed(shape: &PlacedShape, deformed: Shape, place: &Place) -> PlacedShape {
+    PlacedShape {
+        shape: deformed,
+        center: Point::<2>::new(place[0], place[1]),
+        angle: place[2],
+        ..shape.clone()
+    }
+}
+
 impl Follower {
-    /// Takes a new mesh, made with bodies of these shapes at these places.
+    /// Takes a new mesh, made with bodies of these shapes at these places at a time (s).
     ///
     /// # Errors
     /// When the equation of the mesh motion cannot be solved, in words.
@@ -47,7 +74,7 @@ impl Follower {
         mesh: &Mesh<2>,
         domain: Domain,
         shapes: Vec<PlacedShape>,
-        made_at: Vec<Place>,
+        (made_at, made_time): (Vec<Place>, f64),
     ) -> Result<Self, String> {
         let moving = &case.mesh.moving;
         let kind = match moving.equation {
@@ -73,11 +100,25 @@ impl Follower {
                 _ => None,
             })
             .collect();
+        let deforming: Vec<_> = problem.bodies.iter().map(|body| body.shape.clone()).collect();
+        let outlines = deforming.iter().enumerate().map(|(body, motion)| {
+            let then = motion.as_ref()?.at(made_time).shape;
+            Outline::new(&placed(&shapes[body], then, &made_at[body])).ok()
+        });
+        let outlines: Vec<Option<Outline>> = outlines.collect();
         let mut edges = vec![f64::INFINITY; problem.bodies.len()];
+        let mut materials = HashMap::new();
         for facet in &mesh.facets {
             if let Some(body) = bodies[usize::from(facet.boundary)] {
-                let [from, to, _] = mesh.facet_nodes(facet).map(|node| mesh.nodes[node as usize]);
-                edges[body] = edges[body].min((to - from).norm());
+                let nodes = mesh.facet_nodes(facet).map(|node| mesh.nodes[node as usize]);
+                edges[body] = edges[body].min((nodes[1] - nodes[0]).norm());
+                if let Some(outline) = &outlines[body] {
+                    for place in nodes {
+                        materials
+                            .entry(bits(&place))
+                            .or_insert_with(|| outline.parameter_of(place));
+                    }
+                }
             }
         }
         let turns = case.body.iter().map(|body| !problem.axisymmetric && !body.is_round());
@@ -85,7 +126,10 @@ impl Follower {
         Ok(Self {
             motion,
             made_at,
+            made_time,
             shapes,
+            deforming,
+            materials,
             turns,
             edges,
             bodies,
@@ -96,31 +140,60 @@ impl Follower {
         })
     }
 
-    /// How each body has carried its mesh from where that was made.
-    fn moves(&self, places: &[Place]) -> Vec<RigidMove> {
-        self.moves_between(&self.made_at, places)
-    }
-
-    /// How bodies carry their mesh from some places to others; round bodies do not turn it.
-    pub fn moves_between(&self, from: &[Place], to: &[Place]) -> Vec<RigidMove> {
-        let pairs = from.iter().zip(to).zip(&self.turns);
-        pairs
-            .map(|((from, to), turns)| {
-                let angle = if *turns { to[2] } else { from[2] };
-                RigidMove::between(&pose_at(from), &pose_at(&[to[0], to[1], angle]))
+    /// How each body has carried its mesh from where that was made to places at a time (s).
+    fn carriers(&self, places: &[Place], time: f64) -> Vec<Carrier> {
+        (0..places.len())
+            .map(|body| {
+                let [x, y, angle] = places[body];
+                let angle = if self.turns[body] { angle } else { self.made_at[body][2] };
+                let to = pose_at(&[x, y, angle]);
+                match &self.deforming[body] {
+                    Some(motion) => Carrier::Deformed(Box::new(motion.at(time)), to),
+                    None => Carrier::Rigid(RigidMove::between(&pose_at(&self.made_at[body]), &to)),
+                }
             })
             .collect()
     }
 
-    /// Places of all nodes with bodies at `places` (m).
+    /// Displacement of a node on a body from its place when the mesh was made (m).
+    fn displacement(&self, carrier: &Carrier, place: &Point<2>) -> Point<2> {
+        match carrier {
+            Carrier::Rigid(moved) => moved.displacement(place),
+            Carrier::Deformed(deformed, pose) => {
+                let Some(parameter) = self.materials.get(&bits(place)) else {
+                    return Point::<2>::zeros();
+                };
+                let at = deformed.position(*parameter);
+                let world = pose.rotation * Vector3::new(at.x, at.y, 0.0) + pose.center;
+                world.xy() - place
+            }
+        }
+    }
+
+    /// Displacements (m) of nodes of this new mesh on bodies to other places at another time (s).
+    pub fn carried(
+        &self,
+        nodes: &[(usize, usize)],
+        mesh: &Mesh<2>,
+        places: &[Place],
+        time: f64,
+    ) -> Vec<Point<2>> {
+        let carriers = self.carriers(places, time);
+        nodes
+            .iter()
+            .map(|&(node, body)| self.displacement(&carriers[body], &mesh.nodes[node]))
+            .collect()
+    }
+
+    /// Places of all nodes with bodies at `places` (m) at a time (s).
     ///
     /// # Errors
     /// When memory runs out.
-    pub fn nodes(&self, places: &[Place]) -> Result<Vec<Point<2>>, MotionError> {
-        let moves = self.moves(places);
+    pub fn nodes(&self, places: &[Place], time: f64) -> Result<Vec<Point<2>>, MotionError> {
+        let carriers = self.carriers(places, time);
         let given = |boundary: usize, place: &Point<2>| {
             self.bodies[boundary]
-                .map_or(Point::<2>::zeros(), |body| moves[body].displacement(place))
+                .map_or(Point::<2>::zeros(), |body| self.displacement(&carriers[body], place))
         };
         let moved = self.motion.displacements(&given)?;
         Ok(self.motion.reference().iter().zip(&moved).map(|(x, d)| x + d).collect())
@@ -147,19 +220,48 @@ impl Follower {
     /// Whether the mesh has to be made anew with bodies at `places`, and why. The mesh is seen from
     /// the frame.
     #[must_use]
-    pub fn wants_remesh(&mut self, mesh: &Mesh<2>, places: &[Place]) -> Option<Reason> {
-        let shapes = self.shapes_at(places);
+    pub fn wants_remesh(&mut self, mesh: &Mesh<2>, places: &[Place], time: f64) -> Option<Reason> {
+        let shapes = self.shapes_at(places, time);
         for (body, shape) in shapes.iter().enumerate() {
-            self.surroundings.place_body(body, shape.center, shape.angle);
+            if self.deforming[body].is_none() {
+                self.surroundings.place_body(body, shape.center, shape.angle);
+            } else if let Ok(outline) = Outline::new(shape) {
+                self.surroundings.set_body(body, outline);
+            }
         }
         needs_remesh(mesh, &self.fresh, &self.surroundings)
     }
 
-    /// The bodies at other places.
+    /// The bodies at other places at a time (s).
     #[must_use]
-    pub fn shapes_at(&self, places: &[Place]) -> Vec<PlacedShape> {
-        let moves = self.moves(places);
-        moves.iter().zip(&self.shapes).map(|(to, shape)| to.carry(shape)).collect()
+    pub fn shapes_at(&self, places: &[Place], time: f64) -> Vec<PlacedShape> {
+        let carriers = self.carriers(places, time);
+        let carried = carriers.into_iter().zip(&self.shapes).zip(places);
+        carried
+            .map(|((carrier, shape), place)| match carrier {
+                Carrier::Rigid(moved) => moved.carry(shape),
+                Carrier::Deformed(deformed, _) => placed(shape, deformed.shape, place),
+            })
+            .collect()
+    }
+
+    /// Outlines and walls at a time (s).
+    #[must_use]
+    pub fn surfaces_at(&self, time: f64) -> Cow<'_, Surfaces> {
+        let mut surfaces = Cow::Borrowed(&self.surfaces);
+        for (body, motion) in self.deforming.iter().enumerate() {
+            let Some(motion) = motion else { continue };
+            let shape = placed(&self.shapes[body], motion.at(time).shape, &[0.0; 3]);
+            // An outline that crosses itself is refused before; the last one stands for it here
+            let _ = surfaces.to_mut().deform(body, &shape);
+        }
+        surfaces
+    }
+
+    /// When the mesh was made (s).
+    #[must_use]
+    pub fn made_time(&self) -> f64 {
+        self.made_time
     }
 
     /// Places of the nodes when the mesh was made (m).
@@ -180,9 +282,16 @@ impl Follower {
         &self.domain
     }
 
-    /// Outlines and walls.
+    /// Outlines and walls when the mesh was made.
     #[must_use]
     pub fn surfaces(&self) -> &Surfaces {
         &self.surfaces
     }
+}
+
+/// How a body carries the nodes on it.
+enum Carrier {
+    Rigid(RigidMove),
+    /// Its outline then, and its pose.
+    Deformed(Box<Deformed>, Pose),
 }

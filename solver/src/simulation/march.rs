@@ -10,6 +10,8 @@
 //! whole (`frame`); the unknown stays the velocity seen from the laboratory, so that no inertial force
 //! appears.
 
+use std::borrow::Cow;
+
 use alewife_mesh::Point;
 
 use super::explicit::INSIDE;
@@ -19,7 +21,7 @@ use super::{RunError, Stage, StepError, Timing};
 use crate::algebra::AffineConstraints;
 use crate::body::Twist;
 use crate::case::Convection as ConvectionChoice;
-use crate::contact::{ContactLoads, ContactStep, Law, Place};
+use crate::contact::{ContactLoads, ContactStep, Law, Place, Surfaces};
 use crate::coupling::{
     BodyLoads, Drive, FluidSystem, Levels, Problem, Solution, SolveError, body_loads, embed,
     flatten, newton_convection,
@@ -143,6 +145,7 @@ impl March<'_> {
     ) -> Result<StepResult, StepError> {
         let past = self.past(state, bdf);
         let time = past.time;
+        let surfaces = self.surfaces(time);
         let asked = if self.problem.kinks.is_some() { time - INSIDE * bdf.step } else { time };
         let mut from = state.places.clone();
         let mut to =
@@ -156,7 +159,7 @@ impl March<'_> {
         let mut iterations = 0;
         let mut start: Option<Solution> = None;
         for _ in 0..MAX_PASSES {
-            let places = self.guarded(state, &from, to);
+            let places = self.guarded(state, surfaces.as_deref(), &from, to);
             let nodes = self.put(state, &places, time, timing)?;
             if !matches!(self.path, MeshPath::Still) {
                 system.move_to(self.problem, &state.mesh);
@@ -176,7 +179,8 @@ impl March<'_> {
             iterations += flow.iterations;
             let mut contact = ContactLoads::none(places.len());
             if let (MeshPath::Bodies(follower), Some(law)) = (self.path, self.contact) {
-                let between = Contact { march: self, follower, law, bdf };
+                let surfaces = surfaces.as_deref().unwrap_or(follower.surfaces());
+                let between = Contact { march: self, surfaces, law, bdf };
                 if let Some(found) = between.solve(
                     system,
                     state,
@@ -210,6 +214,9 @@ impl March<'_> {
                     &flow.solution.velocity,
                 );
                 let efforts = state.efforts(self.problem, &places, &flow.solution, &fluid_loads);
+                if let Some(surfaces) = &surfaces {
+                    contact.least_gap = surfaces.least_gap(&self.in_frame(state, &reached));
+                }
                 self.accept(state, bdf, &past, (flow.solution, reached, contact), timing)?;
                 for (swim, end) in state.swims.iter_mut().zip(&efforts) {
                     // A first-order step comes after a jump: what was before it does not count.
@@ -235,14 +242,31 @@ impl March<'_> {
         let frame_of = |solution: &Solution| frame_velocity(problem, solution);
         // Nearer to the new level than the old one: less is left for an iterative solve.
         let raw_pairs = flatten(&state.now).into_iter().zip(flatten(&state.previous));
-        let history = body_pairs.map(|(now, previous)| {
-            let (now, previous) = (now.in_plane(), previous.in_plane());
+        let mut inertia = Vec::new();
+        if problem.bodies.iter().any(|body| body.shape.is_some() && body.inertia > 0.0) {
+            inertia = problem.bodies.iter().map(|body| body.inertia_at(time)).collect();
+        }
+        let history = body_pairs.enumerate().map(|(body, (now, previous))| {
+            let (mut now, mut previous) = (now.in_plane(), previous.in_plane());
+            if let (Some(next), rigid) = (inertia.get(body), &problem.bodies[body])
+                && rigid.shape.is_some()
+                && *next > 0.0
+            {
+                // d(I omega)/dt in place of I d(omega)/dt
+                now[2] *= rigid.inertia_at(state.time) / next;
+                previous[2] *= rigid.inertia_at(state.time_before()) / next;
+            }
             [0, 1, 2].map(|mode| bdf.history(now[mode], previous[mode]))
         });
+        let history: Vec<[f64; 3]> = history.collect();
         // The new place of a body is that without velocity plus its velocity over `next`.
         let unmoved = self.reached(state, bdf, |_, _| 0.0);
-        let levels = Levels { rate: bdf.next, history: history.collect(), ..Levels::default() }
-            .with_loads(problem, time, &unmoved, 1.0 / bdf.next);
+        let levels = Levels { rate: bdf.next, history, inertia, ..Levels::default() }.with_loads(
+            problem,
+            time,
+            &unmoved,
+            1.0 / bdf.next,
+        );
         Past {
             time,
             history: pairs.clone().map(|(now, before)| bdf.history(*now, *before)).collect(),
@@ -281,6 +305,14 @@ impl March<'_> {
         mode == 2 || matches!(self.path, MeshPath::Bodies(_)) || self.problem.frame == Some(body)
     }
 
+    /// Outlines and walls at a time, where the mesh follows bodies.
+    pub(super) fn surfaces(&self, time: f64) -> Option<Cow<'_, Surfaces>> {
+        match self.path {
+            MeshPath::Bodies(follower) => Some(follower.surfaces_at(time)),
+            _ => None,
+        }
+    }
+
     /// Places in the mesh, seen from the frame that goes with them.
     pub(super) fn in_frame(&self, state: &State, places: &[Place]) -> Vec<Place> {
         state.in_frame(&state.origin_at(self.problem, places), places)
@@ -288,10 +320,16 @@ impl March<'_> {
 
     /// As far on the way between places as leaves some of the smallest gap: predictions know
     /// nothing of what is in the way.
-    fn guarded(&self, state: &State, from: &[Place], to: Vec<Place>) -> Vec<Place> {
-        let MeshPath::Bodies(follower) = self.path else { return to };
+    fn guarded(
+        &self,
+        state: &State,
+        surfaces: Option<&Surfaces>,
+        from: &[Place],
+        to: Vec<Place>,
+    ) -> Vec<Place> {
+        let Some(surfaces) = surfaces else { return to };
         let gap = |places: &[Place]| {
-            let least = follower.surfaces().least_gap(&self.in_frame(state, places));
+            let least = surfaces.least_gap(&self.in_frame(state, places));
             least.map_or(f64::INFINITY, |least| least.gap)
         };
         let kept = KEPT_GAP * gap(from);
@@ -325,7 +363,9 @@ impl March<'_> {
                 }
                 MeshPath::Bodies(follower) => {
                     let places = self.in_frame(state, places);
-                    follower.nodes(&places).map_err(|error| RunError::Mesh(error.to_string()))?
+                    follower
+                        .nodes(&places, time)
+                        .map_err(|error| RunError::Mesh(error.to_string()))?
                 }
             };
             lay(&mut state.mesh.nodes, &nodes, &origin);
@@ -509,9 +549,6 @@ impl March<'_> {
     ) -> Result<(), StepError> {
         let nodes = self.put(state, &places, past.time, timing)?;
         state.contact = contact;
-        if let MeshPath::Bodies(follower) = self.path {
-            state.contact.least_gap = follower.surfaces().least_gap(&self.in_frame(state, &places));
-        }
         for (body, twist) in solution.twists.iter().enumerate() {
             let velocity = twist.in_plane();
             let rate =
@@ -547,7 +584,7 @@ impl March<'_> {
 /// Contact forces of one pass.
 struct Contact<'a, 'b> {
     march: &'a March<'b>,
-    follower: &'a Follower,
+    surfaces: &'a Surfaces,
     law: &'a Law,
     bdf: &'a Bdf,
 }
@@ -564,7 +601,7 @@ impl Contact<'_, '_> {
         solution: &mut Solution,
         timing: &mut Timing,
     ) -> Result<Option<ContactLoads>, StepError> {
-        let surfaces = self.follower.surfaces();
+        let surfaces = self.surfaces;
         let range = self.law.range();
         let free = |body: usize| solution.twists[body].in_plane();
         let without = self.march.reached(state, self.bdf, |body, mode| free(body)[mode]);

@@ -28,7 +28,7 @@ pub(super) fn remake(
 ) -> Result<Follower, String> {
     let origin = state.origin;
     let old_places = state.in_frame(&origin, &state.places);
-    let mut shapes = follower.shapes_at(&old_places);
+    let mut shapes = follower.shapes_at(&old_places, state.time);
     let domain = cut(follower.domain(), &shapes)?;
     let shifts: Vec<Point<2>> = shapes.iter().map(|shape| into(&domain, &shape.center)).collect();
     for (shape, shift) in shapes.iter_mut().zip(&shifts) {
@@ -39,7 +39,8 @@ pub(super) fn remake(
     let places = seen_from(&origin, &state.places, &wraps);
     let previous_places = seen_from(&origin, &state.previous_places, &wraps);
     let new = generate(&domain, &shapes, &sizing(case)).map_err(|error| error.to_string())?;
-    let made = Follower::new(case, problem, &new, domain.clone(), shapes, places.clone())?;
+    let made_at = (places.clone(), state.time);
+    let made = Follower::new(case, problem, &new, domain.clone(), shapes, made_at)?;
 
     let old = state.mesh_in_frame();
     let transfer = Transfer::new(&old, &new, &domain.images())
@@ -47,14 +48,14 @@ pub(super) fn remake(
     let mut before = new.clone();
     before.nodes = transfer.positions(&state.nodes_before);
     // What bodies carry was where they were, exactly.
-    let moves = made.moves_between(&places, &previous_places);
     let sides = NodeSides::new(&new);
     let mut on_bodies = Vec::new();
     for (body, rigid) in problem.bodies.iter().enumerate() {
-        for node in sides.nodes_on(rigid.boundary) {
-            before.nodes[node] = new.nodes[node] + moves[body].displacement(&new.nodes[node]);
-            on_bodies.push((node, body));
-        }
+        on_bodies.extend(sides.nodes_on(rigid.boundary).map(|node| (node, body)));
+    }
+    let back = made.carried(&on_bodies, &new, &previous_places, state.time_before());
+    for (&(node, _), way) in on_bodies.iter().zip(back) {
+        before.nodes[node] = new.nodes[node] + way;
     }
     let poses = |places: &[Place]| -> Vec<Pose> { places.iter().map(pose_at).collect() };
     let mut projection = DivergenceFree::new(problem, &new)
@@ -67,11 +68,13 @@ pub(super) fn remake(
                 twists: old.twists.clone(),
             };
             let poses = poses(places);
+            let pairs = problem.bodies.iter().zip(&poses);
+            let surfaces: Vec<_> = pairs.map(|(body, pose)| body.surface(pose, time)).collect();
             for &(node, body) in &on_bodies {
                 let (pose, place) = (&poses[body], mesh.nodes[node]);
                 let lever = Vector3::new(place.x, place.y, 0.0) - pose.center;
                 let rigid = old.twists[body].velocity_at(&lever).xy();
-                solution.velocity[node] = rigid + problem.bodies[body].slip(pose, &place, time);
+                solution.velocity[node] = rigid + surfaces[body].velocity(&place);
             }
             hold_sides(problem, mesh, &sides, &origin, time, &mut solution.velocity);
             projection

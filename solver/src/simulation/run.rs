@@ -268,10 +268,10 @@ impl Run<'_> {
         self.series.names = measure.names().to_vec();
         let mut state = State::at_rest(&problem, mesh);
         let follower = if self.case.mesh_moves() {
-            let (domain, shapes) = (self.case.mesh_domain(), placed_bodies(self.case));
+            let (domain, shapes) = (self.case.mesh_domain(), placed_bodies(self.case)?);
             let places = state.places.clone();
             let made = self.timing.measure(Stage::MeshMotion, || {
-                Follower::new(self.case, &problem, &state.mesh, domain, shapes, places)
+                Follower::new(self.case, &problem, &state.mesh, domain, shapes, (places, 0.0))
             });
             Some(made.map_err(RunError::Mesh)?)
         } else {
@@ -539,8 +539,9 @@ impl Run<'_> {
         let places = state.in_frame(&state.origin, &state.places);
         // Seen from the frame.
         std::mem::swap(&mut state.mesh.nodes, &mut state.nodes);
-        let reason =
-            self.timing.measure(Stage::MeshMotion, || follower.wants_remesh(&state.mesh, &places));
+        let reason = self
+            .timing
+            .measure(Stage::MeshMotion, || follower.wants_remesh(&state.mesh, &places, state.time));
         std::mem::swap(&mut state.mesh.nodes, &mut state.nodes);
         match reason {
             None => Ok(()),

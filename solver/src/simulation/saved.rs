@@ -1,6 +1,6 @@
 //! `SavedState`: a state as it is written to a file, for a run that goes on from it.
 
-use alewife_mesh::{Boundary, Facet, Mesh, Point};
+use alewife_mesh::{Boundary, Facet, Mesh, PlacedShape, Point};
 use serde::{Deserialize, Serialize};
 
 use super::build::placed_bodies;
@@ -62,6 +62,7 @@ struct Level {
 struct Following {
     nodes: Vec<Pair>,
     made_at: Vec<Place>,
+    made_time: f64,
     /// Start of the domain along its periodic directions.
     domain_start: Pair,
 }
@@ -124,6 +125,7 @@ impl SavedState {
             following: follower.map(|follower| Following {
                 nodes: pairs(follower.reference()),
                 made_at: follower.made_at().to_vec(),
+                made_time: follower.made_time(),
                 domain_start: start_of(follower.domain()),
             }),
         }
@@ -200,12 +202,20 @@ impl SavedState {
                 made.nodes = points(&following.nodes);
                 let domain = started_at(&case.mesh_domain(), following.domain_start);
                 let pairs = problem.bodies.iter().zip(&following.made_at);
-                let shapes =
-                    placed_bodies(case).into_iter().zip(pairs).map(|(shape, (body, at))| {
-                        let start = pose_at(&place_of(&body.pose));
-                        RigidMove::between(&start, &pose_at(at)).carry(&shape)
-                    });
-                let (shapes, made_at) = (shapes.collect(), following.made_at.clone());
+                let shapes = placed_bodies(case).map_err(|error| error.to_string())?;
+                let shapes = shapes.into_iter().zip(pairs).map(|(shape, (body, at))| {
+                    let start = pose_at(&place_of(&body.pose));
+                    let carried = RigidMove::between(&start, &pose_at(at)).carry(&shape);
+                    match &body.shape {
+                        None => carried,
+                        Some(motion) => {
+                            let shape = motion.at(following.made_time).shape;
+                            PlacedShape { shape, ..carried }
+                        }
+                    }
+                });
+                let made_at = (following.made_at.clone(), following.made_time);
+                let shapes = shapes.collect();
                 Some(Follower::new(case, problem, &made, domain, shapes, made_at)?)
             }
             (None, false) => None,
