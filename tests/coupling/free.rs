@@ -107,6 +107,50 @@ fn a_neutral_squirmer_swims_at_its_stokes_speed_with_inertia_and_a_heavy_one_can
     assert!(last(&heavy, "squirmer.velocity.x").abs() < 1e-6);
 }
 
+/// In Stokes flow the speed at the centre of a container that travels along is that of the modes of
+/// each instant, and points along the axis of each instant.
+#[test]
+fn a_squirmer_follows_the_factors_of_its_modes_and_the_turn_of_its_axis() {
+    let squirmer = |geometry: &str, domain: &str, shape: &str, gait: &str, end: f64| {
+        let text = format!(
+            r#"
+            title = "a squirmer in time"
+            geometry = "{geometry}"
+            frame = "squirmer"
+            fluid = {{ model = "stokes", viscosity = 1.0 }}
+            domain.{domain} = {{ radius = 4.0 }}
+            boundary.wall = "no-slip"
+            mesh = {{ size = 0.8, surface = 0.15 }}
+            time.unsteady = {{ step = 0.1, end = {end} }}
+            [[body]]
+            name = "squirmer"
+            shape.{shape} = {{ radius = 1.0 }}
+            center = [0.0, 0.0]
+            motion = "free"
+            gait.squirmer = {{ modes = [1.5, 2.0], {gait} }}
+            "#
+        );
+        let outcome = run(&case(&text));
+        ["x", "y"].map(|axis| last(&outcome, &format!("squirmer.velocity.{axis}")))
+    };
+    let sphere = |gait: &str, end| squirmer("axisymmetric", "half-disc", "sphere", gait, end)[0];
+    let alone = sphere("heading = 0.0", 0.1);
+    // (1 - 5/2 l^3 + 3/2 l^5) / (1 - l^5) at l = 1/4
+    assert!((alone - 0.963_342_907).abs() < 1e-3, "{alone}");
+    let factors = "factors = { 1.sine = { mean = 0.5, frequency = 0.25 }, 2.ramp.duration = 2.0 }";
+    let expected = alone * (0.5 + (0.5 * std::f64::consts::PI * 0.6).sin());
+    let found = sphere(factors, 0.6);
+    assert!((found - expected).abs() < 1e-3 * expected, "{found}, {expected}");
+
+    let disc = |gait: &str, end| squirmer("planar", "disc", "disc", gait, end);
+    let ahead = disc("heading = 0.3", 0.1);
+    let turned = disc("heading = 0.3, turn.table = [[0.0, 0.0], [1.0, 2.0]]", 0.5);
+    let (sin, cos) = 1.0_f64.sin_cos();
+    let expected = [cos * ahead[0] - sin * ahead[1], sin * ahead[0] + cos * ahead[1]];
+    let error = (turned[0] - expected[0]).hypot(turned[1] - expected[1]);
+    assert!(error < 1e-3 * ahead[0], "{turned:?}, {expected:?}");
+}
+
 /// A disc free to turn and drift in a shear flow, at its centre: it neither drifts nor is loaded.
 #[test]
 fn a_disc_in_shear_flow_turns_at_about_half_the_shear_rate() {

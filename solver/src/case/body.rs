@@ -1,5 +1,7 @@
 //! `[[body]]`: outline, place, density, motion and gait of one body.
 
+use std::collections::BTreeMap;
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -96,6 +98,22 @@ pub struct SquirmerGait {
     /// 0 or pi for a body on the axis.
     #[serde(default)]
     pub heading: f64,
+    /// Factors of modes in time, by the number of the mode: `2` is that of B_2.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub factors: BTreeMap<String, TimeFunction>,
+    /// Angle in time by which the swimming axis is turned from `heading`, counter-clockwise (rad);
+    /// planar only. The body itself does not turn by it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub turn: Option<TimeFunction>,
+}
+
+impl SquirmerGait {
+    /// Factor of each mode in time, as many as there are modes.
+    #[must_use]
+    pub fn factors_of_modes(&self) -> Vec<Option<TimeFunction>> {
+        let number = |index: usize| (index + 1).to_string();
+        (0..self.modes.len()).map(|index| self.factors.get(&number(index)).cloned()).collect()
+    }
 }
 
 /// `spring`: force -stiffness (place - anchor) - damping velocity, and the same for the turn.

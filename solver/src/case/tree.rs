@@ -13,7 +13,7 @@ use super::source::{Origin, Source};
 /// Tables that hold exactly one of several alternatives.
 ///
 /// Where two texts name different alternatives, the later one replaces the earlier one whole.
-pub const CHOICES: [&str; 14] = [
+pub const CHOICES: [&str; 15] = [
     "kind",
     "length",
     "torque",
@@ -26,6 +26,7 @@ pub const CHOICES: [&str; 14] = [
     "contact",
     "factor",
     "load_factor",
+    "turn",
     "fields",
     "series",
 ];
@@ -294,7 +295,7 @@ fn empty() -> Value {
 fn is_choice(name: &str, path: &str) -> bool {
     let mut back = path.rsplit('.');
     let parent = back.nth(1).unwrap_or_default();
-    CHOICES.contains(&name) || parent == "boundary"
+    CHOICES.contains(&name) || parent == "boundary" || parent == "factors"
 }
 
 #[cfg(test)]

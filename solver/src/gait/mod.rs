@@ -22,7 +22,18 @@ pub use pulse::{Pulse, PulseLaw};
 pub use squirmer::Squirmer;
 pub use swimmer::Swimmer;
 
+use std::fmt;
+
 use nalgebra::Vector3;
+
+/// A number in time (s), such as a factor (1) or an angle (rad).
+pub struct InTime(pub Box<dyn Fn(f64) -> f64 + Send + Sync>);
+
+impl fmt::Debug for InTime {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("InTime")
+    }
+}
 
 /// The motion of a surface in the frame of its body.
 pub trait Gait: std::fmt::Debug + Send + Sync {

@@ -2,19 +2,25 @@
 //!
 //! u_theta = sum_n B_n V_n(theta), theta from the swimming axis; on a sphere
 //! V_n = 2 / (n (n + 1)) sin(theta) P_n'(cos theta), so V_1 = sin, V_2 = sin cos (@lighthill1952,
-//! @blake1971); on a disc V_n = sin(n theta). A positive B_1 swims along the axis.
+//! @blake1971); on a disc V_n = sin(n theta). A positive B_1 swims along the axis. Each mode may have
+//! a factor in time, and the axis may turn relative to the body, as that of a swimmer does that runs
+//! and tumbles.
 
-use nalgebra::Vector3;
+use nalgebra::{Rotation3, Vector3};
 
-use super::Gait;
+use super::{Gait, InTime};
 
 /// Slip modes and swimming axis of a squirmer.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug)]
 pub struct Squirmer {
     /// B_1, B_2, ... (m/s).
     pub modes: Vec<f64>,
+    /// Factor (1) of each mode in time; 1 where there is none, or the list ends.
+    pub factors: Vec<Option<InTime>>,
     /// Unit vector of the swimming axis in the body frame.
     pub axis: Vector3<f64>,
+    /// Angle (rad) by which the axis is turned about z, relative to the body.
+    pub turn: Option<InTime>,
     /// Whether the squirmer is a sphere; otherwise it is a disc in the plane.
     pub is_sphere: bool,
 }
@@ -22,7 +28,7 @@ pub struct Squirmer {
 impl Squirmer {
     /// Sum of B_n V_n over sin(theta): the slip is this times (cos(theta) e_r - axis), which is
     /// sin(theta) e_theta and has no singularity at the poles.
-    fn profile(&self, cosine: f64) -> f64 {
+    fn profile(&self, cosine: f64, time: f64) -> f64 {
         let terms = self.modes.iter().enumerate().map(|(index, mode)| {
             let n = index as f64 + 1.0;
             let shape = if self.is_sphere {
@@ -30,17 +36,21 @@ impl Squirmer {
             } else {
                 chebyshev_second(index, cosine)
             };
-            mode * shape
+            let factor = self.factors.get(index).and_then(Option::as_ref);
+            mode * shape * factor.map_or(1.0, |factor| factor.0(time))
         });
         terms.sum()
     }
 }
 
 impl Gait for Squirmer {
-    fn velocity(&self, point: &Vector3<f64>, _time: f64) -> Vector3<f64> {
+    fn velocity(&self, point: &Vector3<f64>, time: f64) -> Vector3<f64> {
         let outward = point.normalize();
-        let cosine = outward.dot(&self.axis);
-        (outward * cosine - self.axis) * self.profile(cosine)
+        let axis = self.turn.as_ref().map_or(self.axis, |turn| {
+            Rotation3::from_axis_angle(&Vector3::z_axis(), turn.0(time)) * self.axis
+        });
+        let cosine = outward.dot(&axis);
+        (outward * cosine - axis) * self.profile(cosine, time)
     }
 }
 
@@ -72,7 +82,8 @@ mod tests {
     use super::*;
 
     fn slip(modes: Vec<f64>, is_sphere: bool, theta: f64) -> f64 {
-        let squirmer = Squirmer { modes, axis: Vector3::x(), is_sphere };
+        let (factors, axis, turn) = (Vec::new(), Vector3::x(), None);
+        let squirmer = Squirmer { modes, factors, axis, turn, is_sphere };
         let point = Vector3::new(theta.cos(), theta.sin(), 0.0) * 2.0;
         let along = Vector3::new(-theta.sin(), theta.cos(), 0.0);
         squirmer.velocity(&point, 0.0).dot(&along)
@@ -92,6 +103,24 @@ mod tests {
                 assert!((slip(modes, false, theta) - (n as f64 * theta).sin()).abs() < 1e-13);
             }
         }
+    }
+
+    #[test]
+    fn modes_follow_their_factors_and_the_axis_its_turn() {
+        let squirmer = Squirmer {
+            modes: vec![1.0, 2.0, 4.0],
+            factors: vec![None, Some(InTime(Box::new(|time| 3.0 * time)))],
+            axis: Vector3::y(),
+            turn: Some(InTime(Box::new(|time| 0.2 * time))),
+            is_sphere: false,
+        };
+        let (theta, time) = (0.7_f64, 1.5);
+        let angle = theta + std::f64::consts::FRAC_PI_2 + 0.2 * time;
+        let point = Vector3::new(angle.cos(), angle.sin(), 0.0);
+        let along = Vector3::new(-angle.sin(), angle.cos(), 0.0);
+        let expected = theta.sin() + 9.0 * (2.0 * theta).sin() + 4.0 * (3.0 * theta).sin();
+        let velocity = squirmer.velocity(&point, time);
+        assert!((velocity - along * expected).norm() < 1e-13);
     }
 
     /// A force-free sphere swims at minus its mean slip, 2 B_1 / 3; a disc at B_1 / 2.

@@ -17,7 +17,7 @@ use crate::coupling::{
     Drive, Group, Kinks, Link, MovingPoint, Pivot, Problem, RigidBody, Side, Spring, TimeValue,
     Turn, VelocityProfile, second_moment,
 };
-use crate::gait::{Gait, ShapeMotion, Squirmer};
+use crate::gait::{Gait, InTime, ShapeMotion, Squirmer};
 use crate::time::factor_at;
 
 /// The mesh of a case.
@@ -327,9 +327,15 @@ fn rigid_body(
             } else {
                 Vector3::new(squirmer.heading.cos(), squirmer.heading.sin(), 0.0)
             };
+            let in_time = |function: TimeFunction| {
+                InTime(Box::new(move |time| factor_at(Some(&function), time)))
+            };
+            let factors = squirmer.factors_of_modes().into_iter();
             Some(Box::new(Squirmer {
                 modes: squirmer.modes.clone(),
+                factors: factors.map(|factor| factor.map(in_time)).collect(),
                 axis,
+                turn: squirmer.turn.clone().map(in_time),
                 is_sphere: matches!(body.shape, ShapeSpec::Sphere { .. }),
             }))
         }

@@ -195,6 +195,22 @@ fn check_gait(findings: &mut Findings<'_>, key: &str, body: &Body) {
             "write modes = [B1, B2, ...]",
         );
     }
+    let n_modes = squirmer.modes.len();
+    for (mode, factor) in &squirmer.factors {
+        let factor_key = format!("{key}.gait.squirmer.factors.{mode}");
+        // "02" would be another key for the same mode.
+        if !(1..=n_modes).any(|number| number.to_string() == *mode) {
+            findings.error(
+                &factor_key,
+                format!("the squirmer \"{}\" has {n_modes} modes, and none is `{mode}`", body.name),
+                "name factors by the number of their mode: factors = { 1 = ..., 2 = ... }",
+            );
+        }
+        check_factor(findings, &factor_key, factor);
+    }
+    if let Some(turn) = &squirmer.turn {
+        check_factor(findings, &format!("{key}.gait.squirmer.turn"), turn);
+    }
 }
 
 /// What moves or points off the axis breaks the symmetry.
@@ -234,6 +250,15 @@ fn check_on_axis(findings: &mut Findings<'_>, key: &str, body: &Body) {
                 &format!("{key}.gait.squirmer.heading"),
                 format!("the heading {heading} of \"{name}\" is not along the axis"),
                 "write heading = 0.0 (towards +x) or heading = 3.141592653589793 (towards -x)",
+            );
+        }
+        if squirmer.turn.is_some() {
+            findings.error(
+                &format!("{key}.gait.squirmer.turn"),
+                format!(
+                    "the swimming axis of \"{name}\" turns: off the axis it breaks the symmetry"
+                ),
+                "leave it out; to swim to and fro write factors = { 1 = ... }",
             );
         }
     }
