@@ -4,6 +4,9 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::domain::TimeFunction;
+use super::gait::{
+    AnguilliformGait, CarangiformGait, FishShape, FlagellateShape, FlagellumGait, PulsatingGait,
+};
 
 /// `shape`: one of these, in the body's own frame.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -24,6 +27,10 @@ pub enum ShapeSpec {
         /// Points counter-clockwise in the body frame (m), the first not repeated.
         points: Vec<[f64; 2]>,
     },
+    /// Fish (planar).
+    Fish(FishShape),
+    /// Head with a tail (planar).
+    Flagellate(FlagellateShape),
     /// Sphere (axisymmetric).
     Sphere {
         /// Radius (m).
@@ -81,6 +88,14 @@ pub enum Lock {
 pub enum Gait {
     /// Tangential slip of a spherical or circular squirmer.
     Squirmer(SquirmerGait),
+    /// A wave of curvature along a fish.
+    Carangiform(CarangiformGait),
+    /// A wave of displacements along a fish.
+    Anguilliform(AnguilliformGait),
+    /// A wave along the tail of a flagellate.
+    Flagellum(FlagellumGait),
+    /// Area or volume of a round body as a function of time.
+    Pulsating(PulsatingGait),
 }
 
 /// `gait.squirmer`: u_theta = sum of B_n V_n(theta), theta from the swimming axis.

@@ -6,6 +6,7 @@ mod contact;
 mod deserialize;
 mod domain;
 mod fluid;
+mod gait;
 mod geometry;
 pub mod library;
 mod mesh;
@@ -30,6 +31,9 @@ pub use check::{check, known_quantities};
 pub use contact::Contact;
 pub use domain::{BoundaryCondition, DomainSpec, Geometry, TimeFunction};
 pub use fluid::{Fluid, Model};
+pub use gait::{
+    AnguilliformGait, CarangiformGait, FishShape, FlagellateShape, FlagellumGait, PulsatingGait,
+};
 pub use geometry::opposite;
 pub use mesh::{MeshEquation, MeshSettings, MovingMesh, RefinementBox};
 pub use nearest::nearest;

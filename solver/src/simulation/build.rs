@@ -216,6 +216,18 @@ fn rigid_body(
     let offset = nalgebra::Rotation2::new(body.angle) * moments.centroid;
     let gait: Option<Box<dyn Gait>> = match &body.gait {
         None => None,
+        // Bodies that deform are not there yet
+        Some(
+            GaitSpec::Carangiform(_)
+            | GaitSpec::Anguilliform(_)
+            | GaitSpec::Flagellum(_)
+            | GaitSpec::Pulsating(_),
+        ) => {
+            return Err(RunError::Unsupported(format!(
+                "body `{}` deforms, and runs with bodies that deform are not there yet",
+                body.name
+            )));
+        }
         Some(GaitSpec::Squirmer(squirmer)) => {
             // On the axis the heading is 0 or pi, and must be so to the last bit.
             let axis = if axisymmetric {
