@@ -6,6 +6,9 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::domain::TimeFunction;
+use super::gait::{
+    AnguilliformGait, CarangiformGait, FishShape, FlagellateShape, FlagellumGait, PulsatingGait,
+};
 
 /// `shape`: one of these, in the body's own frame.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -26,6 +29,10 @@ pub enum ShapeSpec {
         /// Points counter-clockwise in the body frame (m), the first not repeated.
         points: Vec<[f64; 2]>,
     },
+    /// Fish (planar).
+    Fish(FishShape),
+    /// Head with a tail (planar).
+    Flagellate(FlagellateShape),
     /// Sphere (axisymmetric).
     Sphere {
         /// Radius (m).
@@ -83,6 +90,14 @@ pub enum Lock {
 pub enum Gait {
     /// Tangential slip of a spherical or circular squirmer.
     Squirmer(SquirmerGait),
+    /// A wave of curvature along a fish.
+    Carangiform(CarangiformGait),
+    /// A wave of displacements along a fish.
+    Anguilliform(AnguilliformGait),
+    /// A wave along the tail of a flagellate.
+    Flagellum(FlagellumGait),
+    /// Area or volume of a round body as a function of time.
+    Pulsating(PulsatingGait),
 }
 
 /// `gait.squirmer`: u_theta = sum of B_n V_n(theta), theta from the swimming axis.
@@ -190,6 +205,10 @@ impl Gait {
     pub fn period(&self) -> Option<f64> {
         match self {
             Self::Squirmer(_) => None,
+            Self::Carangiform(gait) => Some(gait.period),
+            Self::Anguilliform(gait) => Some(gait.period),
+            Self::Flagellum(gait) => Some(gait.period),
+            Self::Pulsating(gait) => gait.period,
         }
     }
 }

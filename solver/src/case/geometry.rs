@@ -1,9 +1,11 @@
 //! What a case asks of the mesh: its domain, with named sides, and its bodies' outlines.
 
-use alewife_mesh::{Domain, PlacedShape, Point, Shape};
+use std::sync::Arc;
+
+use alewife_mesh::{Domain, FishForm, FlagellateForm, PlacedShape, Point, Profile, Shape, Spline};
 
 use super::{
-    Body, BoundaryCondition, Case, DomainSpec, Geometry, Lock, Model, Motion, ShapeSpec,
+    Body, BoundaryCondition, Case, DomainSpec, Gait, Geometry, Lock, Model, Motion, ShapeSpec,
     TimeSettings,
 };
 
@@ -65,18 +67,67 @@ impl ShapeSpec {
             Self::Disc { .. } => "disc",
             Self::Ellipse { .. } => "ellipse",
             Self::Spline { .. } => "spline",
+            Self::Fish(_) => "fish",
+            Self::Flagellate(_) => "flagellate",
             Self::Sphere { .. } => "sphere",
             Self::Spheroid { .. } => "spheroid",
         }
     }
 
-    /// The outline to be meshed.
+    /// Half width along the midline of a fish or a flagellate; `None` for other shapes, and for
+    /// lengths that make no body.
+    #[must_use]
+    pub fn profile(&self) -> Option<Profile> {
+        match self {
+            Self::Fish(fish) => Profile::fish(&FishForm {
+                length: fish.length,
+                head_width: fish.head_width,
+                tail_width: fish.tail_width,
+                head_end: fish.head_end,
+                tail_start: fish.tail_start,
+                tip_radius: fish.tip_radius,
+                corner_radius: fish.corner_radius,
+            }),
+            Self::Flagellate(body) => Profile::flagellate(&FlagellateForm {
+                head: body.head,
+                tail_length: body.tail_length,
+                thickness: body.thickness,
+                fillet: body.fillet.unwrap_or(body.thickness),
+            }),
+            _ => None,
+        }
+    }
+
+    /// Points of a spline, a fish or a flagellate in the body frame (m); none of other shapes.
+    #[must_use]
+    pub fn points(&self) -> Vec<[f64; 2]> {
+        match self {
+            Self::Spline { points } => points.clone(),
+            Self::Fish(_) | Self::Flagellate(_) => {
+                let spline = self.profile().and_then(|profile| profile.spline());
+                let points = |spline: Spline| -> Vec<[f64; 2]> {
+                    let knots = &spline.knots()[1..];
+                    knots.iter().map(|knot| spline.evaluate(*knot)[0].into()).collect()
+                };
+                spline.map_or(Vec::new(), points)
+            }
+            _ => Vec::new(),
+        }
+    }
+
+    /// The outline to be meshed; of a body that deforms, at rest.
     #[must_use]
     pub fn outline(&self) -> Shape {
         match self.clone() {
             Self::Disc { radius } => Shape::Disc { radius },
             Self::Ellipse { semi_axes } => Shape::Ellipse { semi_axes },
             Self::Spline { points } => Shape::Spline { points },
+            Self::Fish(_) | Self::Flagellate(_) => {
+                let spline = self.profile().and_then(|profile| profile.spline());
+                // `check` refuses lengths that make no body
+                let no_body = Shape::Spline { points: Vec::new() };
+                spline.map_or(no_body, |spline| Shape::Curve { spline: Arc::new(spline) })
+            }
             Self::Sphere { radius } => Shape::Sphere { radius },
             Self::Spheroid { semi_axes } => Shape::Spheroid { semi_axes },
         }
@@ -92,12 +143,15 @@ impl ShapeSpec {
         match self {
             Self::Disc { radius } => 2.0 * PI * radius,
             Self::Ellipse { semi_axes } => ellipse(*semi_axes),
-            Self::Spline { points } => (0..points.len())
-                .map(|i| {
-                    let ([ax, ay], [bx, by]) = (points[i], points[(i + 1) % points.len()]);
-                    (bx - ax).hypot(by - ay)
-                })
-                .sum(),
+            Self::Spline { .. } | Self::Fish(_) | Self::Flagellate(_) => {
+                let points = self.points();
+                (0..points.len())
+                    .map(|i| {
+                        let ([ax, ay], [bx, by]) = (points[i], points[(i + 1) % points.len()]);
+                        (bx - ax).hypot(by - ay)
+                    })
+                    .sum()
+            }
             Self::Sphere { radius } => PI * radius,
             Self::Spheroid { semi_axes } => 0.5 * ellipse(*semi_axes),
         }
@@ -109,7 +163,9 @@ impl ShapeSpec {
         match self {
             Self::Disc { radius } | Self::Sphere { radius } => *radius,
             Self::Ellipse { semi_axes: [a, b] } | Self::Spheroid { semi_axes: [a, b] } => a.max(*b),
-            Self::Spline { points } => points.iter().map(|[x, y]| x.hypot(*y)).fold(0.0, f64::max),
+            Self::Spline { .. } | Self::Fish(_) | Self::Flagellate(_) => {
+                self.points().iter().map(|[x, y]| x.hypot(*y)).fold(0.0, f64::max)
+            }
         }
     }
 
@@ -119,15 +175,18 @@ impl ShapeSpec {
         match self {
             Self::Disc { radius } | Self::Sphere { radius } => *radius,
             Self::Ellipse { semi_axes: [a, b] } | Self::Spheroid { semi_axes: [a, b] } => a.min(*b),
-            Self::Spline { points } => (0..DIRECTIONS)
-                .map(|i| std::f64::consts::PI * f64::from(i) / f64::from(DIRECTIONS))
-                .map(|angle| {
-                    let along = |[x, y]: &[f64; 2]| x * angle.cos() + y * angle.sin();
-                    let most = points.iter().map(along).fold(f64::NEG_INFINITY, f64::max);
-                    let least = points.iter().map(along).fold(f64::INFINITY, f64::min);
-                    0.5 * (most - least)
-                })
-                .fold(f64::INFINITY, f64::min),
+            Self::Spline { .. } | Self::Fish(_) | Self::Flagellate(_) => {
+                let points = self.points();
+                (0..DIRECTIONS)
+                    .map(|i| std::f64::consts::PI * f64::from(i) / f64::from(DIRECTIONS))
+                    .map(|angle| {
+                        let along = |[x, y]: &[f64; 2]| x * angle.cos() + y * angle.sin();
+                        let most = points.iter().map(along).fold(f64::NEG_INFINITY, f64::max);
+                        let least = points.iter().map(along).fold(f64::INFINITY, f64::min);
+                        0.5 * (most - least)
+                    })
+                    .fold(f64::INFINITY, f64::min)
+            }
         }
     }
 }
@@ -173,6 +232,20 @@ impl Body {
         }
     }
 
+    /// Whether its outline changes in time.
+    #[must_use]
+    pub fn deforms(&self) -> bool {
+        match self.gait {
+            None | Some(Gait::Squirmer(_)) => false,
+            Some(
+                Gait::Carangiform(_)
+                | Gait::Anguilliform(_)
+                | Gait::Flagellum(_)
+                | Gait::Pulsating(_),
+            ) => true,
+        }
+    }
+
     /// Whether the body looks the same however it is turned in the plane.
     #[must_use]
     pub fn is_round(&self) -> bool {
@@ -181,8 +254,8 @@ impl Body {
 }
 
 impl Case {
-    /// Whether a march in time deforms the mesh: a body moves as seen from the frame, or turns
-    /// and looks different then.
+    /// Whether a march in time deforms the mesh: a body moves as seen from the frame, turns and
+    /// looks different then, or deforms.
     #[must_use]
     pub fn mesh_moves(&self) -> bool {
         let is_frame = |body: &Body| self.frame.as_deref() == Some(body.name.as_str());
@@ -190,7 +263,7 @@ impl Case {
         let moves = |body: &Body| {
             let travels = !is_frame(body) && (body.translates() || frame_moves);
             let turns = self.geometry == Geometry::Planar && body.turns() && !body.is_round();
-            travels || turns
+            travels || turns || body.deforms()
         };
         let any = !self.joint.is_empty() || self.body.iter().any(moves);
         matches!(self.time, TimeSettings::Unsteady(_)) && any

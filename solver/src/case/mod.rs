@@ -7,6 +7,7 @@ mod deserialize;
 mod domain;
 mod expand;
 mod fluid;
+mod gait;
 mod geometry;
 mod joint;
 pub mod library;
@@ -35,6 +36,9 @@ pub use contact::Contact;
 pub use domain::{BoundaryCondition, DomainSpec, Geometry, TimeFunction};
 pub use expand::{Group, hang};
 pub use fluid::{Fluid, Model};
+pub use gait::{
+    AnguilliformGait, CarangiformGait, FishShape, FlagellateShape, FlagellumGait, PulsatingGait,
+};
 pub use geometry::opposite;
 pub use joint::{Hinge, Joint, JointKind};
 pub use mesh::{MeshEquation, MeshSettings, MovingMesh, RefinementBox};

@@ -169,6 +169,10 @@ fn body_line(case: &Case, body: &crate::case::Body) -> String {
             format!("{} with semi-axes {semi_axes:?}", body.shape.name())
         }
         ShapeSpec::Spline { points } => format!("spline through {} points", points.len()),
+        ShapeSpec::Fish(fish) => format!("fish of length {}", fish.length),
+        ShapeSpec::Flagellate(flagellate) => {
+            format!("flagellate with a tail of length {}", flagellate.tail_length)
+        }
     };
     let motion = match &body.motion {
         Motion::Held => "held",
@@ -177,6 +181,10 @@ fn body_line(case: &Case, body: &crate::case::Body) -> String {
     };
     let gait = match &body.gait {
         Some(Gait::Squirmer(_)) => ", squirmer",
+        Some(Gait::Carangiform(_)) => ", carangiform",
+        Some(Gait::Anguilliform(_)) => ", anguilliform",
+        Some(Gait::Flagellum(_)) => ", flagellum",
+        Some(Gait::Pulsating(_)) => ", pulsating",
         None => "",
     };
     let size = body.size.or(case.mesh.surface).unwrap_or(case.mesh.size) * case.mesh.scale;

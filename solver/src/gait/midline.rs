@@ -62,8 +62,8 @@ pub struct Anguilliform {
 /// A wave with an amplitude that grows along the tail like s / L.
 ///
 /// Inextensible: y = r(t) a(x) sin(2 pi (x/lambda - t/T - phase)) with x the distance from the head
-/// along the axis, and material points keep their arc length. Otherwise velocities are prescribed
-/// (@razavi2015): lateral r a(s) (2 pi/T) cos(2 pi (t/T - s/lambda)), axial away from the head
+/// along the axis, and material points keep their arc length. Otherwise velocities are prescribed,
+/// as by Razavi and Ahmadi (2015): lateral r a(s) (2 pi/T) cos(2 pi (t/T - s/lambda)), axial away from the head
 /// r a(s)² pi²/(lambda T) cos(4 pi (t/T - s/lambda)), and displacements are their integrals from
 /// the straight tail at t = 0 on; cross-sections thin where the midline is stretched.
 /// r = 1 - exp(-t / ramp); a = amplitude s/L (1 - exp(-(s / joint)³)), so that curvature is

@@ -1,23 +1,23 @@
 //! From a `Case` to a mesh and a `Problem`.
 
 use std::f64::consts::PI;
-use std::sync::Arc;
 
 use alewife_mesh::{BoundaryKind, Mesh, PlacedShape, Point, SizeBox, Sizing, generate};
 use nalgebra::Vector3;
 
 use super::RunError;
+use super::shape_motion::shape_motion;
 use crate::body::{Pose, Wrench};
 use crate::case::{
     Body, BoundaryCondition, Case, Contact, DomainSpec, Gait as GaitSpec, Geometry, Hinge, Joint,
-    JointKind, Lock, Model, Motion, ShapeSpec, Stroke, TimeFunction,
+    JointKind, Lock, Model, Motion, ShapeSpec, Stroke, TimeFunction, TimeSettings,
 };
 use crate::contact::{Law, LawKind};
 use crate::coupling::{
     Drive, Group, Kinks, Link, MovingPoint, Pivot, Problem, RigidBody, Side, Spring, TimeValue,
     Turn, VelocityProfile, second_moment,
 };
-use crate::gait::{Gait, InTime, ShapeMotion, Squirmer};
+use crate::gait::{Gait, InTime, Squirmer};
 use crate::time::factor_at;
 
 /// The mesh of a case.
@@ -39,11 +39,6 @@ pub(super) fn placed_bodies(case: &Case) -> Result<Vec<PlacedShape>, RunError> {
         Ok(placed)
     };
     case.body.iter().map(placed).collect()
-}
-
-/// How the outline of a body deforms, if it does.
-fn shape_motion(_body: &Body) -> Result<Option<Arc<dyn ShapeMotion>>, RunError> {
-    Ok(None)
 }
 
 /// The law of contact a case asks for.
@@ -121,8 +116,10 @@ pub fn build_problem(case: &Case, mesh: &Mesh<2>) -> Result<Problem, RunError> {
         groups: case.group.iter().map(group).collect(),
         frame,
         body_force: None,
-        kinks: kinks(case),
+        kinks: None,
     };
+    problem.kinks = kinks(case, &problem);
+    check_volumes(case, &problem)?;
     let mut places: Vec<[f64; 3]> = problem.bodies.iter().map(RigidBody::start).collect();
     problem.hang(&mut places, 0.0);
     for (body, [x, y, angle]) in problem.bodies.iter_mut().zip(places) {
@@ -189,29 +186,58 @@ fn link(case: &Case, joint: &Joint, bodies: &mut [RigidBody]) -> Result<(), RunE
     Ok(())
 }
 
-/// Times at which rates of strokes jump.
-fn kinks(case: &Case) -> Option<Kinks> {
-    let strokes: Vec<Stroke> = case
-        .joint
-        .iter()
-        .filter_map(|joint| match &joint.kind {
-            JointKind::Arm { length, .. } => Some(length.clone()),
-            JointKind::Bent { angle } => Some(angle.clone()),
-            // Torques may jump: nothing moves by them at once
-            JointKind::Hinge(_) => None,
-        })
-        .collect();
-    if strokes.is_empty() {
+/// Times at which rates of strokes and shapes jump.
+fn kinks(case: &Case, problem: &Problem) -> Option<Kinks> {
+    let strokes = case.joint.iter().filter_map(|joint| match &joint.kind {
+        JointKind::Arm { length, .. } => Some(length.clone()),
+        JointKind::Bent { angle } => Some(angle.clone()),
+        // Torques may jump: nothing moves by them at once
+        JointKind::Hinge(_) => None,
+    });
+    let strokes: Vec<Stroke> = strokes.collect();
+    let shapes: Vec<_> = problem.bodies.iter().filter_map(|body| body.shape.clone()).collect();
+    if strokes.is_empty() && shapes.is_empty() {
         return None;
     }
     Some(Box::new(move |from, to| {
-        let mut times: Vec<f64> =
-            strokes.iter().flat_map(|stroke| stroke.kinks(from, to)).collect();
+        let of_strokes = strokes.iter().flat_map(|stroke| stroke.kinks(from, to));
+        let of_shapes = shapes.iter().flat_map(|shape| shape.breaks(from, to));
+        let mut times: Vec<f64> = of_strokes.chain(of_shapes).collect();
         times.sort_by(f64::total_cmp);
         times.dedup_by(|later, earlier| *later - *earlier <= 1e-12 * later.abs());
         times
     }))
 }
+
+/// Times of a run at which volumes of bodies are compared.
+const VOLUME_TRIALS: u32 = 50;
+
+/// In an enclosed fluid bodies cannot grow or shrink together.
+fn check_volumes(case: &Case, problem: &Problem) -> Result<(), RunError> {
+    let shapes = || problem.bodies.iter().filter_map(|body| body.shape.as_ref());
+    let TimeSettings::Unsteady(settings) = &case.time else { return Ok(()) };
+    if shapes().next().is_none() || !problem.is_enclosed() {
+        return Ok(());
+    }
+    let volume = |time: f64| shapes().map(|shape| shape.at(time).moments.measure).sum::<f64>();
+    let start = volume(0.0);
+    for trial in 1..VOLUME_TRIALS {
+        // Not in step with any period
+        let time = settings.end.min(100.0 * settings.step) * (f64::from(trial) * 0.618_034).fract();
+        let now = volume(time);
+        if (now - start).abs() > SAME_VOLUME * start {
+            return Err(RunError::Unsupported(format!(
+                "the bodies that deform have the volume {start:.6e} at time 0 and {now:.6e} at time \
+                 {time:.4}, and no side of the domain lets fluid out: give two bodies gaits that \
+                 exchange their volume, or open a side"
+            )));
+        }
+    }
+    Ok(())
+}
+
+/// Change of a volume over itself that is the error of an interpolated outline.
+const SAME_VOLUME: f64 = 1e-6;
 
 /// Extent of the domain along y, where profiles are zero, and its lower end.
 fn height_range(case: &Case) -> [f64; 2] {
@@ -319,7 +345,14 @@ fn rigid_body(
     let offset = nalgebra::Rotation2::new(body.angle) * moments.centroid;
     let shape = shape_motion(body)?;
     let gait: Option<Box<dyn Gait>> = match &body.gait {
-        None => None,
+        // The others deform the body: `shape_motion`
+        None
+        | Some(
+            GaitSpec::Carangiform(_)
+            | GaitSpec::Anguilliform(_)
+            | GaitSpec::Flagellum(_)
+            | GaitSpec::Pulsating(_),
+        ) => None,
         Some(GaitSpec::Squirmer(squirmer)) => {
             // On the axis the heading is 0 or pi, and must be so to the last bit.
             let axis = if axisymmetric {

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use super::Findings;
 use super::boundary::check_factor;
-use super::spring;
+use super::{gait, spring};
 use crate::case::{Body, Gait, Geometry, Motion, ShapeSpec};
 
 /// Largest difference between a heading and the axis that is taken for rounding (rad).
@@ -33,7 +33,7 @@ pub fn check(findings: &mut Findings<'_>) {
         }
         check_motion(findings, &key, body);
         spring::check(findings, &key, body);
-        check_gait(findings, &key, body);
+        gait::check(findings, &key, body);
         if case.geometry == Geometry::Axisymmetric && has_place {
             check_on_axis(findings, &key, body);
         }
@@ -79,11 +79,13 @@ fn check_shape(findings: &mut Findings<'_>, key: &str, shape: &ShapeSpec) {
     };
     let name = shape.name();
     let (fits, allowed) = match shape {
-        ShapeSpec::Disc { .. } | ShapeSpec::Ellipse { .. } | ShapeSpec::Spline { .. } => {
-            (is_planar, "sphere, spheroid")
-        }
+        ShapeSpec::Disc { .. }
+        | ShapeSpec::Ellipse { .. }
+        | ShapeSpec::Spline { .. }
+        | ShapeSpec::Fish(_)
+        | ShapeSpec::Flagellate(_) => (is_planar, "sphere, spheroid"),
         ShapeSpec::Sphere { .. } | ShapeSpec::Spheroid { .. } => {
-            (!is_planar, "disc, ellipse, spline")
+            (!is_planar, "disc, ellipse, spline, fish, flagellate")
         }
     };
     if !fits {
@@ -102,6 +104,7 @@ fn check_shape(findings: &mut Findings<'_>, key: &str, shape: &ShapeSpec) {
                 findings.positive(&format!("{key}.{name}.semi_axes.{axis}"), *length);
             }
         }
+        ShapeSpec::Fish(_) | ShapeSpec::Flagellate(_) => gait::check_shape(findings, key, shape),
         ShapeSpec::Spline { points } => {
             let key = format!("{key}.spline.points");
             let n = points.len();
@@ -172,44 +175,6 @@ fn check_motion(findings: &mut Findings<'_>, key: &str, body: &Body) {
                 "leave it out, or write motion = \"free\"",
             );
         }
-    }
-}
-
-fn check_gait(findings: &mut Findings<'_>, key: &str, body: &Body) {
-    let Some(Gait::Squirmer(squirmer)) = &body.gait else { return };
-    if !matches!(body.shape, ShapeSpec::Disc { .. } | ShapeSpec::Sphere { .. }) {
-        findings.error(
-            &format!("{key}.gait"),
-            format!(
-                "a squirmer is a disc or a sphere, but \"{}\" is of shape `{}`",
-                body.name,
-                body.shape.name()
-            ),
-            "write shape = { disc = ... } (planar) or { sphere = ... } (axisymmetric)",
-        );
-    }
-    if squirmer.modes.is_empty() {
-        findings.error(
-            &format!("{key}.gait.squirmer.modes"),
-            format!("the squirmer \"{}\" has no modes", body.name),
-            "write modes = [B1, B2, ...]",
-        );
-    }
-    let n_modes = squirmer.modes.len();
-    for (mode, factor) in &squirmer.factors {
-        let factor_key = format!("{key}.gait.squirmer.factors.{mode}");
-        // "02" would be another key for the same mode.
-        if !(1..=n_modes).any(|number| number.to_string() == *mode) {
-            findings.error(
-                &factor_key,
-                format!("the squirmer \"{}\" has {n_modes} modes, and none is `{mode}`", body.name),
-                "name factors by the number of their mode: factors = { 1 = ..., 2 = ... }",
-            );
-        }
-        check_factor(findings, &factor_key, factor);
-    }
-    if let Some(turn) = &squirmer.turn {
-        check_factor(findings, &format!("{key}.gait.squirmer.turn"), turn);
     }
 }
 

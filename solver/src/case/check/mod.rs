@@ -7,6 +7,7 @@ mod bodies;
 mod boundary;
 mod contact;
 mod fluid;
+mod gait;
 mod mesh;
 mod placement;
 mod references;

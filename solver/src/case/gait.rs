@@ -1,0 +1,177 @@
+//! `shape` and `gait` of swimmers that deform: fish, flagellates, and bodies that pulsate.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// `shape.fish`: straight along the body's x, head towards +x, origin in the centre of area.
+///
+/// All lengths but the first are over the length.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct FishShape {
+    /// Length (m), up to the point in which the sides of the tail would meet.
+    pub length: f64,
+    /// Radius of the round head.
+    #[serde(default = "head_width")]
+    pub head_width: f64,
+    /// Half width where the sides begin to close.
+    #[serde(default = "tail_width")]
+    pub tail_width: f64,
+    /// Where the round head ends; at most `head_width`.
+    #[serde(default = "head_end")]
+    pub head_end: f64,
+    /// Where the sides begin to close.
+    #[serde(default = "tail_start")]
+    pub tail_start: f64,
+    /// Radius of the round end inscribed in the tail.
+    #[serde(default = "tip_radius")]
+    pub tip_radius: f64,
+    /// Radius with which the corner at `tail_start` is rounded.
+    #[serde(default = "corner_radius")]
+    pub corner_radius: f64,
+}
+
+/// `shape.flagellate`: straight along the body's x, head towards +x, origin in the centre of area.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct FlagellateShape {
+    /// Semi-axes of the elliptic head, along the body and across it (m).
+    pub head: [f64; 2],
+    /// Length of the tail from the end of the head on (m).
+    pub tail_length: f64,
+    /// Width of the tail, which has a round end (m).
+    pub thickness: f64,
+    /// Radius with which the corner of head and tail is filled (m); the thickness if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fillet: Option<f64>,
+}
+
+/// `gait.carangiform`: a wave of curvature K(s) (sin(2 pi (t/T + phase - s/L)) + bending).
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CarangiformGait {
+    /// Period T (s).
+    pub period: f64,
+    /// [s/L, K L], from s/L = 0 to 1, joined by a natural cubic spline.
+    #[serde(default = "curvature")]
+    pub curvature: Vec<[f64; 2]>,
+    /// Constant part of the bracket: steers.
+    #[serde(default)]
+    pub bending: f64,
+    /// Duration of the ramp at the start (s); a period if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ramp: Option<f64>,
+    /// Start in the period (periods).
+    #[serde(default)]
+    pub start_phase: f64,
+}
+
+/// `gait.anguilliform`: a wave amplitude (s + offset L) sin(2 pi (s/L - t/T - phase)).
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct AnguilliformGait {
+    /// Period T (s).
+    pub period: f64,
+    /// Slope of the envelope.
+    #[serde(default = "anguilliform_amplitude")]
+    pub amplitude: f64,
+    /// Where the envelope is zero, before the head, over the length.
+    #[serde(default = "anguilliform_offset")]
+    pub offset: f64,
+    /// Duration of the ramp at the start (s); a period if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ramp: Option<f64>,
+    /// Start in the period (periods).
+    #[serde(default)]
+    pub start_phase: f64,
+}
+
+/// `gait.flagellum`: a wave along the tail, with an amplitude that grows with the distance.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct FlagellumGait {
+    /// Period (s).
+    pub period: f64,
+    /// Wavelength (m).
+    pub wavelength: f64,
+    /// Amplitude at the end of the tail (m).
+    pub amplitude: f64,
+    /// Time constant of the ramp 1 - exp(-t / ramp) (s); a period if absent, 0 for none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ramp: Option<f64>,
+    /// Start in the period (periods).
+    #[serde(default)]
+    pub start_phase: f64,
+    /// Length over which the tail begins to bend (m); a twentieth of the tail if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub joint: Option<f64>,
+    /// Whether the midline keeps its length; otherwise its velocities are prescribed.
+    #[serde(default = "yes")]
+    pub inextensible: bool,
+}
+
+/// `gait.pulsating`: a round body whose area (planar) or volume is a function of time.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PulsatingGait {
+    /// Area or volume over that at rest is 1 + amplitude sin(2 pi (t / period + phase)).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub amplitude: Option<f64>,
+    /// Period (s); a table without it is not repeated.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub period: Option<f64>,
+    /// Start in the period (periods), with `amplitude`.
+    #[serde(default)]
+    pub phase: f64,
+    /// [time (s), area or volume over that at rest], joined by straight lines.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub table: Vec<[f64; 2]>,
+}
+
+fn yes() -> bool {
+    true
+}
+
+fn head_width() -> f64 {
+    0.04
+}
+
+fn tail_width() -> f64 {
+    0.01
+}
+
+fn head_end() -> f64 {
+    0.04
+}
+
+fn tail_start() -> f64 {
+    0.95
+}
+
+fn tip_radius() -> f64 {
+    1e-3
+}
+
+fn corner_radius() -> f64 {
+    0.01
+}
+
+fn anguilliform_amplitude() -> f64 {
+    4.0 / 33.0
+}
+
+fn anguilliform_offset() -> f64 {
+    1.0 / 32.0
+}
+
+/// The curvatures of @novati2017.
+fn curvature() -> Vec<[f64; 2]> {
+    vec![
+        [0.0, 0.82014],
+        [0.15, 1.46515],
+        [0.4, 2.57136],
+        [0.65, 3.75425],
+        [0.9, 5.09147],
+        [1.0, 5.70449],
+    ]
+}
