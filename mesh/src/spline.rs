@@ -67,7 +67,13 @@ impl Spline {
         let s = parameter.rem_euclid(self.period());
         let i = self.knots.partition_point(|k| *k <= s).clamp(1, self.knots.len() - 1) - 1;
         let h = self.knots[i + 1] - self.knots[i];
-        let (b, a) = ((s - self.knots[i]) / h, (self.knots[i + 1] - s) / h);
+        self.evaluate_on(i, (s - self.knots[i]) / h)
+    }
+
+    /// The same on one of its pieces, from its start, 0, to its end, 1.
+    #[must_use]
+    pub fn evaluate_on(&self, i: usize, b: f64) -> [Point<2>; 3] {
+        let (h, a) = (self.knots[i + 1] - self.knots[i], 1.0 - b);
         let (p, q, m, n) = (self.points[i], self.points[i + 1], self.bends[i], self.bends[i + 1]);
         [
             p * a + q * b + (m * (a * a * a - a) + n * (b * b * b - b)) * (h * h / 6.0),

@@ -33,7 +33,8 @@ const ROOMS: [(&str, &[&str]); 17] = [
 ];
 
 /// Foreign crates that may be named in some rooms or files only.
-const FOREIGN: [(&str, &[&str]); 7] = [
+const FOREIGN: [(&str, &[&str]); 8] = [
+    ("num_dual", &["solver/src/gait/"]),
     ("faer", &["solver/src/algebra/", "solver/src/multifrontal/"]),
     ("pulp", &["solver/src/flow/", "solver/src/multifrontal/"]),
     ("metis_sys", &["solver/src/multifrontal/metis.rs"]),

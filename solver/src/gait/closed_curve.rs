@@ -36,28 +36,30 @@ impl ClosedCurve {
     }
 
     /// Place, and derivative by the parameter.
-    pub fn at(&self, parameter: f64) -> [[Dual64; 2]; 2] {
-        let (place, rate) = (self.places.evaluate(parameter), self.rates.evaluate(parameter));
+    ///
+    /// On one of its pieces, from its start, 0, to its end, 1.
+    fn at(&self, piece: usize, part: f64) -> [[Dual64; 2]; 2] {
+        let place = self.places.evaluate_on(piece, part);
+        let rate = self.rates.evaluate_on(piece, part);
         [0, 1].map(|order| [0, 1].map(|axis| Dual64::new(place[order][axis], rate[order][axis])))
     }
 
     /// Unit normals at the knots, out of the body.
     pub fn normals(&self) -> Vec<[Dual64; 2]> {
-        let knots = self.places.knots();
-        let normal = |knot: &f64| {
-            let [x, y] = self.at(*knot)[1];
+        let normal = |piece: usize| {
+            let [x, y] = self.at(piece, 0.0)[1];
             let length = (x * x + y * y).sqrt();
             [y / length, -x / length]
         };
-        knots[..knots.len() - 1].iter().map(normal).collect()
+        (0..self.places.knots().len() - 1).map(normal).collect()
     }
 
     /// Area enclosed by this curve plus a small number times another one: its value and both
     /// derivatives over their factorials.
     pub fn area_along(&self, rule: &Rule, other: &Self) -> [Dual64; 3] {
         let mut sums = [Dual64::from(0.0); 3];
-        self.each_point(rule, |parameter, weight| {
-            let ([p, dp], [q, dq]) = (self.at(parameter), other.at(parameter));
+        self.each_point(rule, |piece, part, weight| {
+            let ([p, dp], [q, dq]) = (self.at(piece, part), other.at(piece, part));
             let half = 0.5 * weight;
             sums[0] += cross(p, dp) * half;
             sums[1] += (cross(p, dq) + cross(q, dp)) * half;
@@ -70,23 +72,23 @@ impl ClosedCurve {
     pub fn enclosed(&self, rule: &Rule) -> Enclosed {
         let zero = Dual64::from(0.0);
         let (mut area, mut first, mut second) = (zero, [zero; 2], zero);
-        self.each_point(rule, |parameter, weight| {
-            let [p, dp] = self.at(parameter);
-            let part = cross(p, dp) * weight;
-            area += part * 0.5;
-            first = [0, 1].map(|i| first[i] + p[i] * part / 3.0);
-            second += (p[0] * p[0] + p[1] * p[1]) * part * 0.25;
+        self.each_point(rule, |piece, part, weight| {
+            let [p, dp] = self.at(piece, part);
+            let sector = cross(p, dp) * weight;
+            area += sector * 0.5;
+            first = [0, 1].map(|i| first[i] + p[i] * sector / 3.0);
+            second += (p[0] * p[0] + p[1] * p[1]) * sector * 0.25;
         });
         let center = first.map(|moment| moment / area);
         let polar = second - area * (center[0] * center[0] + center[1] * center[1]);
         Enclosed { area, center, polar }
     }
 
-    fn each_point(&self, rule: &Rule, mut visit: impl FnMut(f64, f64)) {
-        for ends in self.places.knots().windows(2) {
+    fn each_point(&self, rule: &Rule, mut visit: impl FnMut(usize, f64, f64)) {
+        for (piece, ends) in self.places.knots().windows(2).enumerate() {
             let span = ends[1] - ends[0];
             for (x, weight) in rule.points.iter().zip(&rule.weights) {
-                visit(ends[0] + span * x, span * weight);
+                visit(piece, *x, span * weight);
             }
         }
     }
@@ -98,8 +100,8 @@ impl ClosedCurve {
         for (i, ends) in knots.windows(2).enumerate() {
             let before = if i == 0 { knots.len() - 2 } else { i - 1 };
             let weight = 0.5 * (ends[1] - ends[0] + knots[before + 1] - knots[before]);
-            let [_, along, _] = self.places.evaluate(ends[0]);
-            let [rate, ..] = self.rates.evaluate(ends[0]);
+            let [_, along, _] = self.places.evaluate_on(i, 0.0);
+            let [rate, ..] = self.rates.evaluate_on(i, 0.0);
             sum += weight * (rate.x * along.y - rate.y * along.x).abs();
             length += weight * along.norm();
         }

@@ -53,7 +53,7 @@ impl Grid {
             ends.push(1.0);
             for pair in ends.windows(2) {
                 let places = [0, 1].map(|i| profile.at(piece, pair[i]).along);
-                let count = ((places[1] - places[0]) / longest).ceil().max(2.0);
+                let count = ((places[1] - places[0]) / longest).ceil().max(4.0);
                 let step = (pair[1] - pair[0]) / count;
                 ranges.extend((0..count as usize).map(|i| {
                     let from = pair[0] + step * i as f64;

@@ -166,8 +166,11 @@ impl Midline {
     }
 }
 
-/// x² (3 - 2x) up to one, with x = t / duration: its rate is continuous.
+/// x² (3 - 2x) from zero to one, with x = t / duration: its rate is continuous.
 fn smooth_ramp<D: Number>(time: D, duration: f64) -> D {
+    if time < D::from(0.0) {
+        return D::from(0.0);
+    }
     if time >= D::from(duration) {
         return D::from(1.0);
     }

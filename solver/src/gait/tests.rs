@@ -130,7 +130,6 @@ fn area_and_centre_stay_and_rates_are_those_of_the_places() {
                 worst = worst.max((exact - now.rate(parameter)).norm());
             }
             assert!(worst < 1e-7 * length / period, "{name} at {time}: rates off by {worst:.1e}");
-            println!("{name} at {time}: {:?}", now.removed);
             assert!(now.removed.momentum_defect < 1e-5 * now.removed.mean_normal_speed, "{name}");
         }
     }
@@ -195,7 +194,6 @@ fn no_angular_momentum_is_left() {
                 total += part;
                 size += part.abs();
             }
-            println!("{name} at {time}: {total:.1e} of {size:.1e}");
             assert!(total.abs() < 1e-10 * size, "{name} at {time}: {total:.1e} of {size:.1e}");
             let slip = (drift - removed.velocity).norm();
             assert!(slip < 1e-5 * removed.mean_normal_speed, "{name}: {slip:.1e}");
@@ -283,7 +281,6 @@ fn fish_have_their_published_shapes() {
     let area = swimmer.at(2.0).moments.measure;
     assert!((area - 0.04851).abs() < 5e-6, "{area}");
     let [head, tail] = swing(&swimmer, tip);
-    println!("carangiform head {head} tail {tail}");
     // A wave that is its own mirror image half a period later turns the body to and fro only
     assert!((swimmer.turning_at(5.0) - swimmer.turning_at(1.0)).abs() < 1e-12);
     assert!((tail - 0.349).abs() < 1.5e-3, "{tail}");

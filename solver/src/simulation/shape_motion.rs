@@ -70,3 +70,51 @@ pub fn shape_motion(body: &Body) -> Result<Option<Arc<dyn ShapeMotion>>, RunErro
     let swimmer = Swimmer::new(&profile, midline).map_err(|error| refuse(&error.to_string()))?;
     Ok(Some(Arc::new(swimmer)))
 }
+
+#[cfg(test)]
+mod tests {
+    use alewife_mesh::Outline;
+
+    use super::*;
+    use crate::case::Case;
+
+    fn body(body: &str) -> Body {
+        let text = format!(
+            "title = 't'
+geometry = 'planar'
+fluid = {{ model = 'stokes', viscosity = 1.0 }}
+domain.box = {{ min = [-4.0, -4.0], max = [4.0, 4.0] }}
+mesh.size = 0.5
+time.unsteady = {{ step = 0.1, end = 1.0 }}
+[[body]]
+name = 'b'
+center = [0, 0]
+motion = 'free'
+{body}
+"
+        );
+        Case::parse("t.toml", &text, &[]).unwrap().case.body[0].clone()
+    }
+
+    /// At the start the outline is that of the shape, which is what is meshed.
+    #[test]
+    fn gaits_of_a_case_start_from_its_shape() {
+        for text in [
+            "shape.fish.length = 2.0\ngait.carangiform.period = 1.0",
+            "shape.fish.length = 2.0\ngait.anguilliform.period = 1.0",
+            "shape.flagellate = { head = [0.2, 0.1], tail_length = 5.0, thickness = 0.02 }\n\
+             gait.flagellum = { period = 0.3, wavelength = 2.0, amplitude = 0.4 }",
+            "shape.disc.radius = 1.0\ngait.pulsating = { amplitude = 0.5, period = 1.0 }",
+        ] {
+            let start = shape_motion(&body(text)).unwrap().unwrap().at(0.0);
+            let outline = Outline::new(&body(text).placed(1.0)).unwrap();
+            for parameter in [0.0, 0.3, 1.9] {
+                let off = start.position(parameter) - outline.at(parameter)[0];
+                assert!(off.norm() < 1e-12, "{text}: {off}");
+            }
+        }
+        assert!(shape_motion(&body("shape.fish.length = 1.0")).unwrap().is_none());
+        let bent = "shape.fish.length = 1.0\ngait.carangiform = { period = 1.0, bending = 9.0 }";
+        assert!(shape_motion(&body(bent)).unwrap_err().to_string().contains("crosses itself"));
+    }
+}

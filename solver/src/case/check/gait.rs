@@ -264,3 +264,76 @@ fn squirmer(findings: &mut Findings<'_>, key: &str, body: &Body, squirmer: &Squi
         check_factor(findings, &format!("{key}.gait.squirmer.turn"), turn);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::case::{Case, Severity, check};
+
+    /// Keys of the errors of a case with this body.
+    fn errors(body: &str) -> Vec<String> {
+        let text = format!(
+            "title = 't'
+geometry = 'planar'
+fluid = {{ model = 'stokes', viscosity = 1.0 }}
+domain.box = {{ min = [-4.0, -4.0], max = [4.0, 4.0] }}
+boundary = {{ left = 'no-slip', right = 'do-nothing', bottom = 'no-slip', top = 'no-slip' }}
+mesh = {{ size = 0.5, surface = 0.01 }}
+time.unsteady = {{ step = 0.1, end = 1.0 }}
+[[body]]
+name = 'b'
+center = [0, 0]
+motion = 'free'
+{body}
+"
+        );
+        let file = Case::parse("t.toml", &text, &[]).unwrap();
+        let problems = check(&file).into_iter();
+        problems.filter(|p| p.severity == Severity::Error).map(|p| p.key).collect()
+    }
+
+    #[test]
+    fn swimmers_as_published_have_no_errors() {
+        for body in [
+            "shape.fish.length = 1.0\ngait.carangiform.period = 1.0",
+            "shape.fish.length = 1.0\ngait.anguilliform.period = 1.0",
+            "shape.flagellate = { head = [0.2, 0.1], tail_length = 5.0, thickness = 0.02 }\n\
+             gait.flagellum = { period = 0.3, wavelength = 2.0, amplitude = 0.4 }",
+            "shape.disc.radius = 1.0\ngait.pulsating = { amplitude = 0.5, period = 1.0 }",
+            "shape.disc.radius = 1.0\ngait.pulsating.table = [[0.0, 1.0], [1.0, 2.0]]",
+        ] {
+            assert_eq!(errors(body), Vec::<String>::new(), "{body}");
+        }
+    }
+
+    #[test]
+    fn what_cannot_swim_is_refused_at_its_key() {
+        let fish = |gait: &str| format!("shape.fish.length = 1.0\n{gait}");
+        let disc = |gait: &str| format!("shape.disc.radius = 1.0\n{gait}");
+        let tail = |numbers: &str| {
+            format!("shape.flagellate = {{ head = [0.2, 0.1], tail_length = 5.0, {numbers} }}")
+        };
+        let cases = [
+            (fish("shape.fish.head_end = 0.05"), "body.0.shape.fish.head_end"),
+            (fish("shape.fish.tail_width = 0.1"), "body.0.shape.fish"),
+            (tail("thickness = 0.3"), "body.0.shape.flagellate.thickness"),
+            (tail("thickness = 0.02, fillet = 900.0"), "body.0.shape.flagellate"),
+            (disc("gait.carangiform.period = 1.0"), "body.0.gait"),
+            (fish("gait.pulsating = { amplitude = 0.5, period = 1.0 }"), "body.0.gait"),
+            (fish("gait.carangiform.period = 0.0"), "body.0.gait.carangiform.period"),
+            (
+                fish("gait.carangiform = { period = 1.0, curvature = [[0.0, 1.0], [0.5, 1.0]] }"),
+                "body.0.gait.carangiform.curvature",
+            ),
+            (
+                fish("gait.anguilliform = { period = 1.0, amplitude = 0.3 }"),
+                "body.0.gait.anguilliform.amplitude",
+            ),
+            (disc("gait.pulsating.period = 1.0"), "body.0.gait.pulsating"),
+            (disc("gait.pulsating.amplitude = 0.5"), "body.0.gait.pulsating.amplitude"),
+            (disc("gait.pulsating.table = [[1.0, 1.0]]"), "body.0.gait.pulsating.table"),
+        ];
+        for (body, key) in cases {
+            assert_eq!(errors(&body), [key], "{body}");
+        }
+    }
+}
