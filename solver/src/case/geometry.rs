@@ -181,7 +181,7 @@ impl Body {
 
 impl Case {
     /// Whether a march in time deforms the mesh: a body moves as seen from the frame, or turns
-    /// and looks different then.
+    /// and looks different then; or a side of the domain waves.
     #[must_use]
     pub fn mesh_moves(&self) -> bool {
         let is_frame = |body: &Body| self.frame.as_deref() == Some(body.name.as_str());
@@ -191,7 +191,14 @@ impl Case {
             let turns = self.geometry == Geometry::Planar && body.turns() && !body.is_round();
             travels || turns
         };
-        matches!(self.time, TimeSettings::Unsteady(_)) && self.body.iter().any(moves)
+        matches!(self.time, TimeSettings::Unsteady(_))
+            && (self.body.iter().any(moves) || self.has_waving_sheet())
+    }
+
+    /// Whether a side of the domain waves.
+    #[must_use]
+    pub fn has_waving_sheet(&self) -> bool {
+        self.boundary.values().any(|side| matches!(side, BoundaryCondition::WavingSheet { .. }))
     }
 
     /// Whether force and moment coefficients are defined: 2 F / (density velocity^2 area).

@@ -1,7 +1,9 @@
 //! How a swimmer's surface moves by itself.
 
+mod sheet;
 mod squirmer;
 
+pub use sheet::WavingSheet;
 pub use squirmer::Squirmer;
 
 use std::fmt;

@@ -299,7 +299,9 @@ impl March<'_> {
                 }
                 MeshPath::Bodies(follower) => {
                     let places = self.in_frame(state, places);
-                    follower.nodes(&places).map_err(|error| RunError::Mesh(error.to_string()))?
+                    follower
+                        .nodes(&places, time)
+                        .map_err(|error| RunError::Mesh(error.to_string()))?
                 }
             };
             lay(&mut state.mesh.nodes, &nodes, &origin);
