@@ -678,3 +678,70 @@ fn usage_is_exit_code_2() {
     assert_eq!(alewife(directory.path(), &["fly"]).code, 2);
     assert_eq!(alewife(directory.path(), &["run"]).code, 2);
 }
+
+#[test]
+fn factors_belong_to_modes_and_axes_turn_in_the_plane_only() {
+    let motion = "motion = \"held\"";
+    let swimmer =
+        |gait: &str| format!("motion = \"free\"\ngait.squirmer = {{ modes = [1.0], {gait} }}");
+    refused(
+        motion,
+        &swimmer("factors = { 2 = { sine = { frequency = 1.0 } } }"),
+        &["has 1 modes, and none is `2`", "by the number of their mode"],
+    );
+    refused(
+        motion,
+        &swimmer("turn.table = [[1.0, 0.0], [0.0, 1.0]]"),
+        &["the times of a table must rise"],
+    );
+    let ball = r#"
+        title = "a ball"
+        geometry = "axisymmetric"
+        fluid = { model = "stokes", viscosity = 1.0 }
+        domain.half-disc = { radius = 4.0 }
+        boundary.wall = "no-slip"
+        mesh = { size = 0.2 }
+        time.unsteady = { step = 0.1, end = 1.0 }
+        [[body]]
+        name = "ball"
+        shape.sphere = { radius = 1.0 }
+        center = [0.0, 0.0]
+        motion = "free"
+        gait.squirmer = { modes = [1.0], turn.ramp.duration = 1.0 }
+    "#;
+    assert_refused(&check(ball, &[]), &["breaks the symmetry", "to swim to and fro"]);
+}
+
+#[test]
+fn a_sheet_waves_on_the_bottom_of_a_periodic_box_and_alone() {
+    let sheet = |wavelength: &str, more: &str| {
+        let text = format!(
+            r#"
+            title = "a sheet"
+            geometry = "planar"
+            fluid = {{ model = "stokes", viscosity = 1.0 }}
+            domain.box = {{ min = [0.0, 0.0], max = [2.0, 3.0] }}
+            mesh = {{ size = 0.2 }}
+            [boundary]
+            left.periodic = "right"
+            top = "symmetry"
+            [boundary.bottom.waving-sheet]
+            amplitude = 0.05
+            wavelength = {wavelength}
+            frequency = 1.0
+            {more}
+            "#
+        );
+        check(&text, &[])
+    };
+    let unsteady = "[time.unsteady]\nstep = 0.1\nend = 1.0";
+    assert_accepted(&sheet("1.0", unsteady));
+    assert_refused(&sheet("1.5", unsteady), &["1.333333 wavelengths fit", "divides the length"]);
+    assert_refused(&sheet("0.5", unsteady), &["cannot follow a sheet of amplitude 0.05"]);
+    assert_refused(&sheet("1.0", "[time.steady]"), &["the solution is steady"]);
+    refused(
+        "bottom = \"no-slip\"",
+        "bottom.waving-sheet = { amplitude = 0.01, wavelength = 1.0, frequency = 1.0 }",
+        &["the bottom of a box that is periodic along x"],
+    );
+}

@@ -1,10 +1,12 @@
-//! Bodies that travel: ALE invariants, orders in time, remeshing, contact, springs, in whole runs.
+//! Bodies that travel: ALE invariants, orders in time, remeshing, contact, springs, in whole runs; a
+//! side of the domain that waves.
 
 mod ale;
 mod bodies;
 mod contact;
 mod remesh;
 mod resume;
+mod sheet;
 
 /// A box without flow; bodies are to follow.
 fn tank(model: &str, time: &str, mesh: &str) -> String {

@@ -135,6 +135,19 @@ pub enum BoundaryCondition {
         #[serde(default, skip_serializing_if = "Option::is_none")]
         factor: Option<TimeFunction>,
     },
+    /// A sheet that waves as y = amplitude sin(2 pi (x / wavelength - frequency t)), and the mesh
+    /// with it (planar, `bottom` only, unsteady runs).
+    WavingSheet {
+        /// Amplitude (m).
+        amplitude: f64,
+        /// Wavelength (m); divides the length of the side.
+        wavelength: f64,
+        /// Frequency (1/s); positive ones send the wave towards +x.
+        frequency: f64,
+        /// Whether its material moves up and down only; otherwise it keeps its length.
+        #[serde(default)]
+        extensible: bool,
+    },
     /// One of a periodic pair: the side opposite, by name.
     Periodic(String),
 }

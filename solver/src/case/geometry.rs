@@ -255,7 +255,7 @@ impl Body {
 
 impl Case {
     /// Whether a march in time deforms the mesh: a body moves as seen from the frame, turns and
-    /// looks different then, or deforms.
+    /// looks different then, or deforms; or a side of the domain waves.
     #[must_use]
     pub fn mesh_moves(&self) -> bool {
         let is_frame = |body: &Body| self.frame.as_deref() == Some(body.name.as_str());
@@ -265,7 +265,7 @@ impl Case {
             let turns = self.geometry == Geometry::Planar && body.turns() && !body.is_round();
             travels || turns || body.deforms()
         };
-        let any = !self.joint.is_empty() || self.body.iter().any(moves);
+        let any = !self.joint.is_empty() || self.body.iter().any(moves) || self.has_waving_sheet();
         matches!(self.time, TimeSettings::Unsteady(_)) && any
     }
 
@@ -285,6 +285,12 @@ impl Case {
         let is_told =
             matches!(self.time, TimeSettings::Unsteady(_)) || self.fluid.model == Model::Stokes;
         is_told && !self.body.is_empty() && self.boundary.values().all(is_idle)
+    }
+
+    /// Whether a side of the domain waves.
+    #[must_use]
+    pub fn has_waving_sheet(&self) -> bool {
+        self.boundary.values().any(|side| matches!(side, BoundaryCondition::WavingSheet { .. }))
     }
 
     /// Whether force and moment coefficients are defined: 2 F / (density velocity^2 area).

@@ -156,6 +156,7 @@ fn condition_name(condition: &BoundaryCondition) -> &'static str {
         BoundaryCondition::Velocity { .. } => "velocity",
         BoundaryCondition::Parabolic { .. } => "parabolic",
         BoundaryCondition::Shear { .. } => "shear",
+        BoundaryCondition::WavingSheet { .. } => "waving-sheet",
         BoundaryCondition::Periodic(_) => "periodic",
     }
 }

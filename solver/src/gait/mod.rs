@@ -9,6 +9,7 @@ mod momentum;
 mod number;
 mod pulse;
 mod rule;
+mod sheet;
 mod squirmer;
 mod swimmer;
 #[cfg(test)]
@@ -19,6 +20,7 @@ pub use deformed::{Deformed, Removed, ShapeMotion};
 pub use error::GaitError;
 pub use midline::{Anguilliform, Carangiform, Flagellum, Midline};
 pub use pulse::{Pulse, PulseLaw};
+pub use sheet::WavingSheet;
 pub use squirmer::Squirmer;
 pub use swimmer::Swimmer;
 

@@ -17,7 +17,7 @@ use crate::coupling::{
     Drive, Group, Kinks, Link, MovingPoint, Pivot, Problem, RigidBody, Side, Spring, TimeValue,
     Turn, VelocityProfile, second_moment,
 };
-use crate::gait::{Gait, InTime, Squirmer};
+use crate::gait::{Gait, InTime, Squirmer, WavingSheet};
 use crate::time::factor_at;
 
 /// The mesh of a case.
@@ -25,8 +25,25 @@ use crate::time::factor_at;
 /// # Errors
 /// When a body does not fit, or the mesh cannot be made.
 pub fn build_mesh(case: &Case) -> Result<Mesh<2>, RunError> {
-    generate(&case.mesh_domain(), &placed_bodies(case)?, &sizing(case))
-        .map_err(|error| RunError::Mesh(error.to_string()))
+    let mut mesh = generate(&case.mesh_domain(), &placed_bodies(case)?, &sizing(case))
+        .map_err(|error| RunError::Mesh(error.to_string()))?;
+    // The side of a sheet is made straight, but will not stay so.
+    for facet in &mesh.facets {
+        if waving_sheet(case, &mesh.boundaries[usize::from(facet.boundary)].name).is_some() {
+            mesh.curved[facet.cell as usize] = true;
+        }
+    }
+    Ok(mesh)
+}
+
+/// The sheet that a side of the domain is, if it is one.
+pub(super) fn waving_sheet(case: &Case, side: &str) -> Option<WavingSheet> {
+    match case.boundary.get(side) {
+        Some(&BoundaryCondition::WavingSheet { amplitude, wavelength, frequency, extensible }) => {
+            Some(WavingSheet::new(amplitude, wavelength, frequency, extensible))
+        }
+        _ => None,
+    }
 }
 
 /// The bodies of a case as they are meshed at time zero.
@@ -268,6 +285,12 @@ fn side(case: &Case, name: &str) -> Result<Side, RunError> {
     Ok(match condition {
         BoundaryCondition::NoSlip => {
             Side::Velocity { profile: Box::new(|_, _| Point::<2>::zeros()), is_wall: true }
+        }
+        BoundaryCondition::WavingSheet { amplitude, wavelength, frequency, extensible } => {
+            let sheet = WavingSheet::new(*amplitude, *wavelength, *frequency, *extensible);
+            let profile: VelocityProfile =
+                Box::new(move |place, time| sheet.velocity(place[0], time));
+            Side::Velocity { profile, is_wall: true }
         }
         BoundaryCondition::DoNothing => Side::DoNothing,
         BoundaryCondition::TractionFree => Side::TractionFree,

@@ -7,14 +7,15 @@ use std::sync::Arc;
 use alewife_mesh::{BoundaryKind, Domain, Mesh, Outline, PlacedShape, Point, Shape, Surroundings};
 use nalgebra::Vector3;
 
+use super::build::waving_sheet;
 use super::state::pose_at;
 use crate::body::Pose;
 use crate::case::{Case, MeshEquation};
 use crate::contact::{Place, Surfaces};
 use crate::coupling::Problem;
-use crate::gait::{Deformed, ShapeMotion};
+use crate::gait::{Deformed, ShapeMotion, WavingSheet};
 use crate::motion::{
-    Fresh, Limits, MeshMotion, MotionError, MotionKind, Reason, RigidMove, Stiffening, holds,
+    Fresh, Hold, Limits, MeshMotion, MotionError, MotionKind, Reason, RigidMove, Stiffening, holds,
     needs_remesh,
 };
 
@@ -43,6 +44,8 @@ pub struct Follower {
     edges: Vec<f64>,
     /// Body of each boundary.
     bodies: Vec<Option<usize>>,
+    /// Sheet of each boundary.
+    sheets: Vec<Option<WavingSheet>>,
     fresh: Fresh,
     surroundings: Surroundings,
     domain: Domain,
@@ -81,7 +84,15 @@ impl Follower {
             MeshEquation::Elastic => MotionKind::default(),
             MeshEquation::Harmonic => MotionKind::Harmonic(Stiffening::MasudHughes),
         };
-        let motion = MeshMotion::new(mesh, kind, &holds(mesh, true)).map_err(|e| e.to_string())?;
+        let sheet = |boundary: &alewife_mesh::Boundary| waving_sheet(case, &boundary.name);
+        let sheets: Vec<Option<WavingSheet>> = mesh.boundaries.iter().map(sheet).collect();
+        let mut holds = holds(mesh, true);
+        for (hold, sheet) in holds.iter_mut().zip(&sheets) {
+            if sheet.is_some() {
+                *hold = Hold::Given;
+            }
+        }
+        let motion = MeshMotion::new(mesh, kind, &holds).map_err(|e| e.to_string())?;
         let surroundings = Surroundings::new(&domain, &shapes).map_err(|e| e.to_string())?;
         let limits = Limits { quality: moving.quality, layers: moving.layers };
         let fresh = Fresh::new(mesh, &surroundings, limits);
@@ -133,6 +144,7 @@ impl Follower {
             turns,
             edges,
             bodies,
+            sheets,
             fresh,
             surroundings,
             domain,
@@ -192,11 +204,21 @@ impl Follower {
     pub fn nodes(&self, places: &[Place], time: f64) -> Result<Vec<Point<2>>, MotionError> {
         let carriers = self.carriers(places, time);
         let given = |boundary: usize, place: &Point<2>| {
-            self.bodies[boundary]
-                .map_or(Point::<2>::zeros(), |body| self.displacement(&carriers[body], place))
+            match (self.bodies[boundary], &self.sheets[boundary]) {
+                (Some(body), _) => self.displacement(&carriers[body], place),
+                // Up and down: where the nodes are along the curve makes no difference.
+                (None, Some(sheet)) => Point::<2>::new(0.0, sheet.height(place[0], time)),
+                (None, None) => Point::<2>::zeros(),
+            }
         };
         let moved = self.motion.displacements(&given)?;
         Ok(self.motion.reference().iter().zip(&moved).map(|(x, d)| x + d).collect())
+    }
+
+    /// Whether a side waves, so that the mesh is not at rest even where bodies are.
+    #[must_use]
+    pub fn waves(&self) -> bool {
+        self.sheets.iter().any(Option::is_some)
     }
 
     /// A cell of a moved mesh on which no flow can be solved: its centre (m) and quality.

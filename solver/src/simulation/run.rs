@@ -260,7 +260,7 @@ impl Run<'_> {
         unknown_frame: bool,
     ) -> Result<Parts, RunError> {
         let poses: Vec<_> = problem.bodies.iter().map(|body| body.pose).collect();
-        let system = self
+        let mut system = self
             .timing
             .measure(Stage::Assembly, || FluidSystem::new(&problem, &mesh, &poses, unknown_frame));
         tracing::info!(unknowns = system.n_unknowns, entries = system.n_entries(), "system built");
@@ -277,6 +277,14 @@ impl Run<'_> {
         } else {
             None
         };
+        // Meshed with straight sides: a sheet has its shape from the beginning.
+        if let Some(follower) = follower.as_ref().filter(|follower| follower.waves()) {
+            let nodes = follower.nodes(&state.places, 0.0);
+            state.nodes = nodes.map_err(|error| RunError::Mesh(error.to_string()))?;
+            state.nodes_before.clone_from(&state.nodes);
+            state.mesh.nodes.clone_from(&state.nodes);
+            system.move_to(&problem, &state.mesh);
+        }
         if let Some(follower) = &follower {
             state.contact.least_gap = follower.surfaces().least_gap(&state.places);
         }

@@ -85,6 +85,9 @@ fn check_side(findings: &mut Findings<'_>, key: &str, side: &str, condition: &Bo
         (_, BoundaryCondition::Velocity { value, .. }) => {
             findings.vector(&format!("{key}.velocity.value"), value);
         }
+        (_, BoundaryCondition::WavingSheet { .. }) => {
+            check_sheet(findings, &format!("{key}.waving-sheet"), side, condition);
+        }
         _ => {}
     }
     let (name, factor) = match condition {
@@ -95,6 +98,74 @@ fn check_side(findings: &mut Findings<'_>, key: &str, side: &str, condition: &Bo
     };
     if let Some(factor) = factor {
         check_factor(findings, &format!("{key}.{name}.factor"), factor);
+    }
+}
+
+/// Largest amplitude times wavenumber of a sheet: the mesh follows no steeper one well.
+const STEEPEST: f64 = 0.5;
+/// Whole wavelengths in a side, to this part of one.
+const WHOLE: f64 = 1e-6;
+
+/// Whether a side can wave, and the mesh with it.
+fn check_sheet(findings: &mut Findings<'_>, key: &str, side: &str, condition: &BoundaryCondition) {
+    let BoundaryCondition::WavingSheet { amplitude, wavelength, frequency, .. } = *condition else {
+        return;
+    };
+    let case = findings.case();
+    let is_periodic = ["left", "right"]
+        .iter()
+        .any(|end| matches!(case.boundary.get(*end), Some(BoundaryCondition::Periodic(_))));
+    if side != "bottom" || !is_periodic {
+        findings.error(
+            key,
+            "a waving sheet is the bottom of a box that is periodic along x".to_owned(),
+            "write it on `bottom` of a planar box, with left = { periodic = \"right\" }",
+        );
+        return;
+    }
+    findings.positive(&format!("{key}.amplitude"), amplitude);
+    findings.positive(&format!("{key}.wavelength"), wavelength);
+    if frequency == 0.0 {
+        findings.error(
+            &format!("{key}.frequency"),
+            "a sheet of frequency 0 does not wave".to_owned(),
+            "write a frequency above 0 for a wave towards +x, below 0 towards -x",
+        );
+    }
+    let [[x0, y0], [x1, y1]] = case.domain.extent();
+    let n_waves = (x1 - x0) / wavelength;
+    if wavelength > 0.0 && ((n_waves - n_waves.round()).abs() > WHOLE || n_waves < 0.5) {
+        findings.error(
+            &format!("{key}.wavelength"),
+            format!("{n_waves:.6} wavelengths fit into the side, which is periodic"),
+            "take a wavelength that divides the length of the side",
+        );
+    }
+    let steepness = 2.0 * PI * amplitude / wavelength;
+    if steepness > STEEPEST || amplitude > 0.25 * (y1 - y0) {
+        findings.error(
+            &format!("{key}.amplitude"),
+            format!("the mesh cannot follow a sheet of amplitude {amplitude}"),
+            &format!(
+                "take an amplitude below {STEEPEST} wavelength / 2 pi, and below a quarter of the \
+                 height of the box"
+            ),
+        );
+    }
+    if matches!(case.time, TimeSettings::Steady(_)) {
+        findings.error(
+            key,
+            "a waving sheet moves, and the solution is steady".to_owned(),
+            "march in time with [time.unsteady]",
+        );
+    }
+    if !case.body.is_empty() {
+        findings.error(
+            key,
+            "bodies above a waving sheet are not supported: a new mesh would have a straight side"
+                .to_owned(),
+            "leave out the bodies, or make the side \"no-slip\"",
+        );
     }
 }
 
