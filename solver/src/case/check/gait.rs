@@ -187,7 +187,7 @@ fn pulsating(findings: &mut Findings<'_>, key: &str, gait: &PulsatingGait) {
         return;
     }
     if let Some(amplitude) = gait.amplitude {
-        if !(amplitude.abs() < 1.0) {
+        if amplitude.abs() >= 1.0 {
             findings.error(
                 &format!("{key}.amplitude"),
                 format!("with the amplitude {amplitude} the body would vanish"),
