@@ -167,6 +167,10 @@ impl Follower {
     /// the frame.
     #[must_use]
     pub fn wants_remesh(&mut self, mesh: &Mesh<2>, places: &[Place]) -> Option<Reason> {
+        // A sheet comes back to where it was, and its mesh with it.
+        if self.waves() {
+            return None;
+        }
         let shapes = self.shapes_at(places);
         for (body, shape) in shapes.iter().enumerate() {
             self.surroundings.place_body(body, shape.center, shape.angle);
