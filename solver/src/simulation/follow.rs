@@ -243,6 +243,10 @@ impl Follower {
     /// the frame.
     #[must_use]
     pub fn wants_remesh(&mut self, mesh: &Mesh<2>, places: &[Place], time: f64) -> Option<Reason> {
+        // A sheet comes back to where it was, and its mesh with it.
+        if self.waves() {
+            return None;
+        }
         let shapes = self.shapes_at(places, time);
         for (body, shape) in shapes.iter().enumerate() {
             if self.deforming[body].is_none() {

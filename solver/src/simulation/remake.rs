@@ -26,6 +26,9 @@ pub(super) fn remake(
     state: &mut State,
     follower: &Follower,
 ) -> Result<Follower, String> {
+    if follower.waves() {
+        return Err("a side that waves is not meshed anew; take a smaller amplitude".to_owned());
+    }
     let origin = state.origin;
     let old_places = state.in_frame(&origin, &state.places);
     let mut shapes = follower.shapes_at(&old_places, state.time);
