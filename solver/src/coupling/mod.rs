@@ -2,6 +2,7 @@
 
 mod constrain;
 mod divergence_free;
+mod drift;
 mod loads;
 mod problem;
 mod surface_load;

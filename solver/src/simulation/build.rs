@@ -2,12 +2,11 @@
 
 use std::f64::consts::PI;
 
-use alewife_mesh::{
-    BoundaryKind, Mesh, PlacedShape, Point, SecondMoments, SizeBox, Sizing, generate,
-};
+use alewife_mesh::{BoundaryKind, Mesh, PlacedShape, Point, SecondMoments, SizeBox, Sizing};
 use nalgebra::Vector3;
 
 use super::RunError;
+use super::opened::{Opened, open_first};
 use crate::body::{Pose, Wrench};
 use crate::case::{
     Body, BoundaryCondition, Case, Contact, DomainSpec, Gait as GaitSpec, Geometry, Lock, Model,
@@ -23,8 +22,14 @@ use crate::time::factor_at;
 /// # Errors
 /// When a body does not fit, or the mesh cannot be made.
 pub fn build_mesh(case: &Case) -> Result<Mesh<2>, RunError> {
-    generate(&case.mesh_domain(), &placed_bodies(case), &sizing(case))
-        .map_err(|error| RunError::Mesh(error.to_string()))
+    Ok(first_mesh(case)?.0)
+}
+
+/// The mesh of a case, with its domain and bodies as they are meshed.
+pub(super) fn first_mesh(case: &Case) -> Result<(Mesh<2>, Opened), RunError> {
+    let opened = open_first(&case.mesh_domain(), placed_bodies(case)).map_err(RunError::Mesh)?;
+    let mesh = opened.mesh(&sizing(case)).map_err(|error| RunError::Mesh(error.to_string()))?;
+    Ok((mesh, opened))
 }
 
 /// The bodies of a case as they are meshed at time zero.

@@ -5,6 +5,7 @@ mod error;
 mod follow;
 mod march;
 mod measure;
+mod opened;
 mod remake;
 mod run;
 mod saved;
