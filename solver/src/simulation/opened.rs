@@ -8,6 +8,12 @@ use alewife_mesh::{
 /// Part of the widest free strip of a periodic domain that has to be left at its sides.
 const STRIP_LEFT: f64 = 0.25;
 
+/// A straight strip narrower than this part of the smallest body's size is left to a curved cut.
+const STRIP_NARROW: f64 = 0.25;
+
+/// Periods by which a domain may be off where it was at first: it moves by less than one at a time.
+const MOST_OFF: f64 = 1.5;
+
 /// A domain ready to be meshed.
 #[derive(Debug, Clone)]
 pub(super) struct Opened {
@@ -35,12 +41,16 @@ impl Opened {
 }
 
 /// A domain with bodies anywhere, cut where it was if that leaves them enough room, else along other
-/// straight lines, else along curves.
+/// straight lines, else along curves. `home` is the domain as it was at first.
 ///
 /// # Errors
 /// When no cut is found, in words.
-pub(super) fn open(domain: &Domain, shapes: Vec<PlacedShape>) -> Result<Opened, String> {
-    attempt(domain, shapes).map_err(|error| error.to_string())
+pub(super) fn open(
+    domain: &Domain,
+    home: &Domain,
+    shapes: Vec<PlacedShape>,
+) -> Result<Opened, String> {
+    attempt(domain, home, shapes).map_err(|error| error.to_string())
 }
 
 /// A domain as it is where bodies are whole inside it, else as [`open`] has it.
@@ -52,13 +62,17 @@ pub(super) fn open_first(domain: &Domain, shapes: Vec<PlacedShape>) -> Result<Op
         let shifts = vec![Point::<2>::zeros(); shapes.len()];
         return Ok(Opened { domain: domain.clone(), shifts, shapes, cut: None });
     }
-    open(domain, shapes)
+    open(domain, domain, shapes)
 }
 
-fn attempt(domain: &Domain, mut shapes: Vec<PlacedShape>) -> Result<Opened, MeshError> {
+fn attempt(
+    domain: &Domain,
+    home: &Domain,
+    mut shapes: Vec<PlacedShape>,
+) -> Result<Opened, MeshError> {
     let (domain, cut) = match straight(domain, &shapes)? {
-        Some(moved) => (moved, None),
-        None => (domain.clone(), Some(Cut::between(domain, &shapes)?)),
+        Some(moved) => (returned(moved, home), None),
+        None => (home.clone(), Some(Cut::between(home, &shapes)?)),
     };
     let shifts: Vec<Point<2>> = match &cut {
         None => shapes.iter().map(|shape| into(&domain, &shape.center)).collect(),
@@ -76,10 +90,11 @@ fn straight(domain: &Domain, shapes: &[PlacedShape]) -> Result<Option<Domain>, M
     let mut moved = domain.clone();
     for axis in 0..2 {
         let Some((start, length)) = periodic_range(&moved, axis) else { continue };
-        let mut taken = Vec::new();
+        let (mut taken, mut smallest) = (Vec::new(), f64::INFINITY);
         for shape in shapes {
             let outline = Outline::new(shape)?;
             let reach = outline.reach();
+            smallest = smallest.min(reach);
             let from = (outline.center()[axis] - reach - start).rem_euclid(length);
             taken.push((from, from + 2.0 * reach));
         }
@@ -95,7 +110,10 @@ fn straight(domain: &Domain, shapes: &[PlacedShape]) -> Result<Option<Domain>, M
             end = end.max(to);
         }
         let widest = strips.iter().copied().max_by(|a, b| (a.1 - a.0).total_cmp(&(b.1 - b.0)));
-        let Some((from, to)) = widest else { return Ok(None) };
+        let is_wide = |&(from, to): &(f64, f64)| {
+            domain.is_axisymmetric() || to - from > STRIP_NARROW * smallest
+        };
+        let Some((from, to)) = widest.filter(is_wide) else { return Ok(None) };
         let margin = STRIP_LEFT * (to - from);
         let is_free = strips.iter().any(|&(from, to)| {
             [0.0, length].iter().any(|at| at - from >= margin && to - at >= margin)
@@ -105,6 +123,22 @@ fn straight(domain: &Domain, shapes: &[PlacedShape]) -> Result<Option<Domain>, M
         }
     }
     Ok(Some(moved))
+}
+
+/// A domain moved back by whole periods where it has gone far.
+fn returned(mut domain: Domain, home: &Domain) -> Domain {
+    for axis in 0..2 {
+        let (Some((start, length)), Some((at_first, _))) =
+            (periodic_range(&domain, axis), periodic_range(home, axis))
+        else {
+            continue;
+        };
+        let off = (start - at_first) / length;
+        if off.abs() > MOST_OFF {
+            shift(&mut domain, axis, -off.round() * length);
+        }
+    }
+    domain
 }
 
 /// Start and length of the domain along a periodic axis.
@@ -196,7 +230,7 @@ mod tests {
         let height = |i: i32| if i % 2 == 0 { 0.5 } else { -0.5 };
         let crowd: Vec<_> = (0..8).map(|i| disc(0.25 * f64::from(i), height(i))).collect();
         assert!(straight(&strip(), &crowd).unwrap().is_none());
-        let opened = open(&strip(), crowd).unwrap();
+        let opened = open(&strip(), &strip(), crowd).unwrap();
         assert!(opened.cut.is_some());
         assert!(opened.mesh(&Sizing::graded(0.1, 0.3, 0.4)).is_ok());
     }

@@ -26,7 +26,8 @@ pub(super) fn remake(
 ) -> Result<Follower, String> {
     let origin = state.origin;
     let old_places = state.in_frame(&origin, &state.places);
-    let opened = open(follower.domain(), follower.shapes_at(&old_places))?;
+    let shapes = follower.shapes_at(&old_places);
+    let opened = open(follower.domain(), &case.mesh_domain(), shapes)?;
     let shifts = opened.shifts.iter();
     let wraps: Vec<Point<2>> =
         state.wraps.iter().zip(shifts).map(|(wrap, shift)| wrap + shift).collect();
