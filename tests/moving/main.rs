@@ -5,6 +5,7 @@ mod bodies;
 mod contact;
 mod remesh;
 mod resume;
+mod suspension;
 
 /// A box without flow; bodies are to follow.
 fn tank(model: &str, time: &str, mesh: &str) -> String {

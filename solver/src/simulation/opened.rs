@@ -228,7 +228,9 @@ mod tests {
         let two = straight(&strip(), &[disc(0.0, 0.5), disc(0.5, 0.0)]).unwrap().unwrap();
         assert!((range(&two) - 1.25).abs() < 1e-12, "{two:?}");
         let height = |i: i32| if i % 2 == 0 { 0.5 } else { -0.5 };
-        let crowd: Vec<_> = (0..8).map(|i| disc(0.25 * f64::from(i), height(i))).collect();
+        let named =
+            |i| PlacedShape { name: format!("{i}"), ..disc(0.25 * f64::from(i), height(i)) };
+        let crowd: Vec<_> = (0..8).map(named).collect();
         assert!(straight(&strip(), &crowd).unwrap().is_none());
         let opened = open(&strip(), &strip(), crowd).unwrap();
         assert!(opened.cut.is_some());
