@@ -79,14 +79,22 @@ impl Cut {
             Some(network)
         });
         let found = found.ok_or(MeshError::NoCut { reason: "no way between the bodies" })?;
-        let stretches = found.straightened(&clearance, domain);
-        let mut cut = Self { stretches, shifts: Vec::new(), images: Vec::new() };
-        cut.center(*min, *max, periods);
-        for outline in &outlines {
-            cut.shifts.push(cut.inward(outline.evaluate(0, 0.0)[0], periods)?);
+        let mut refused = None;
+        for sweeps in straighten::SWEEPS {
+            let stretches = found.straightened(&clearance, domain, sweeps);
+            let mut cut = Self { stretches, shifts: Vec::new(), images: Vec::new() };
+            cut.center(*min, *max, periods);
+            let places = outlines.iter().map(|outline| outline.evaluate(0, 0.0)[0]);
+            match places.map(|place| cut.inward(place, periods)).collect() {
+                Ok(shifts) => {
+                    cut.shifts = shifts;
+                    cut.images = cut.neighbours(periods);
+                    return Ok(cut);
+                }
+                Err(error) => refused = Some(error),
+            }
         }
-        cut.images = cut.neighbours(periods);
-        Ok(cut)
+        Err(refused.unwrap_or(MeshError::NoCut { reason: "no way between the bodies" }))
     }
 
     /// Whole periods that take each body into the cell (m).

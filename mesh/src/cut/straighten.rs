@@ -15,8 +15,8 @@ const MOST_POINTS: usize = 20_000;
 /// A point keeps this part of the clearance it had in the middle between the bodies.
 const KEPT: f64 = 0.75;
 
-/// Sweeps along all lines.
-const SWEEPS: usize = 120;
+/// Sweeps along all lines; the second choice where lines pulled straight have met.
+pub const SWEEPS: [usize; 2] = [120, 8];
 
 /// Part of the way to where it is pulled by which a point moves in a sweep.
 const RELAXATION: f64 = 0.7;
@@ -38,22 +38,30 @@ pub enum Network {
 
 impl Network {
     /// The boundary of the cell, with the lines pulled straight.
-    pub fn straightened(self, clearance: &Clearance<'_>, domain: &Domain) -> Vec<Stretch> {
+    pub fn straightened(
+        &self,
+        clearance: &Clearance<'_>,
+        domain: &Domain,
+        sweeps: usize,
+    ) -> Vec<Stretch> {
         match self {
-            Self::Theta { lines, along, over } => theta(lines, along, over, clearance),
-            Self::Crossing { line, wall_axis } => crossing(&line, wall_axis, clearance, domain),
+            Self::Theta { lines, along, over } => theta(lines, *along, *over, clearance, sweeps),
+            Self::Crossing { line, wall_axis } => {
+                crossing(line, *wall_axis, clearance, domain, sweeps)
+            }
         }
     }
 }
 
 fn theta(
-    lines: [Vec<Point<2>>; 3],
+    lines: &[Vec<Point<2>>; 3],
     along: Point<2>,
     over: Point<2>,
     clearance: &Clearance<'_>,
+    sweeps: usize,
 ) -> Vec<Stretch> {
-    let mut lines = lines.map(|line| Tight::new(&line, clearance));
-    for _ in 0..SWEEPS {
+    let mut lines = lines.each_ref().map(|line| Tight::new(line, clearance));
+    for _ in 0..sweeps {
         for line in &mut lines {
             line.sweep(clearance);
         }
@@ -92,10 +100,11 @@ fn crossing(
     wall_axis: usize,
     clearance: &Clearance<'_>,
     domain: &Domain,
+    sweeps: usize,
 ) -> Vec<Stretch> {
     let mut line = Tight::new(line, clearance);
     let along = 1 - wall_axis;
-    for _ in 0..SWEEPS {
+    for _ in 0..sweeps {
         line.sweep(clearance);
         // The ends slide on the walls, to where the line stands upright on them
         let (mut start, mut end) = (line.first(), line.last());
