@@ -1,6 +1,7 @@
 //! `Domain`: the region the fluid and the bodies share, with its named sides.
 
-use crate::Point;
+use crate::cut::lattice;
+use crate::{PlacedShape, Point};
 
 /// The region of the problem before bodies are cut out of it.
 #[derive(Debug, Clone, PartialEq)]
@@ -119,21 +120,41 @@ impl Domain {
         }
     }
 
+    /// Lengths after which the domain repeats along x and y, where it does (m).
+    #[must_use]
+    pub fn periods(&self) -> [Option<f64>; 2] {
+        match self {
+            Self::Box { min, max, periodic_x, periodic_y } => {
+                [periodic_x.then_some(max.x - min.x), periodic_y.then_some(max.y - min.y)]
+            }
+            Self::Cylinder { x, periodic_x, .. } => [periodic_x.then_some(x[1] - x[0]), None],
+            Self::Disc { .. } | Self::HalfDisc { .. } => [None, None],
+        }
+    }
+
     /// The vectors by which a periodic domain repeats next to itself, zero first (m).
     #[must_use]
     pub fn images(&self) -> Vec<Point<2>> {
-        let (width, height) = match self {
-            Self::Box { min, max, periodic_x, periodic_y } => {
-                (periodic_x.then_some(max.x - min.x), periodic_y.then_some(max.y - min.y))
-            }
-            Self::Cylinder { x, periodic_x, .. } => (periodic_x.then_some(x[1] - x[0]), None),
-            Self::Disc { .. } | Self::HalfDisc { .. } => (None, None),
-        };
-        let steps = |length: Option<f64>| length.map_or(vec![0.0], |l| vec![0.0, l, -l]);
-        let mut images = Vec::new();
-        for y in steps(height) {
-            images.extend(steps(width).iter().map(|x| Point::<2>::new(*x, y)));
-        }
-        images
+        lattice(self.periods(), 1)
+    }
+
+    /// The same, far enough that every body meets its neighbours when bodies lie periods apart.
+    #[must_use]
+    pub fn images_of(&self, bodies: &[PlacedShape]) -> Vec<Point<2>> {
+        self.images_around(bodies.iter().map(|body| body.center))
+    }
+
+    /// The same for points (m) that lie periods apart.
+    #[must_use]
+    pub fn images_around(&self, points: impl Iterator<Item = Point<2>> + Clone) -> Vec<Point<2>> {
+        let periods = self.periods();
+        let most = (0..2).map(|axis| {
+            let places = points.clone().map(|point| point[axis]);
+            let [low, high] = places.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| {
+                [low.min(x), high.max(x)]
+            });
+            periods[axis].map_or(1.0, |length| 1.0 + ((high - low) / length).floor())
+        });
+        lattice(periods, most.fold(1.0, f64::max).min(8.0) as i32)
     }
 }

@@ -7,6 +7,7 @@
 mod check;
 mod closest;
 mod curved;
+mod cut;
 mod domain;
 mod error;
 mod generate;
@@ -30,9 +31,10 @@ pub use closest::{
 pub use curved::{
     det_jacobian, jacobian_coefficients, map_quadratic, shape_functions, shape_gradients,
 };
+pub use cut::Cut;
 pub use domain::Domain;
 pub use error::MeshError;
-pub use generate::{check_placement, generate};
+pub use generate::{check_placement, check_wrapped_placement, generate, generate_along};
 pub use locate::{Located, Locator};
 pub use mesh::{Boundary, BoundaryKind, Facet, Mesh, Point, nodes_per_cell};
 pub use outline::{Nearest, Outline};

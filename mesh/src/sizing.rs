@@ -128,7 +128,18 @@ impl SizeField {
             tree: SizeTree::new(sources),
             growth: sizing.growth,
             size: sizing.size,
-            boxes: sizing.boxes.clone(),
+            boxes: if border.has_sides {
+                sizing.boxes.clone()
+            } else {
+                // A cell whose sides are curved may lie in the images of a box
+                let moved = |one: &SizeBox, shift: &Point<2>| SizeBox {
+                    min: one.min + shift,
+                    max: one.max + shift,
+                    ..*one
+                };
+                let images = border.images.iter();
+                images.flat_map(|shift| sizing.boxes.iter().map(|b| moved(b, shift))).collect()
+            },
         })
     }
 

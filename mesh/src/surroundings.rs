@@ -18,7 +18,7 @@ impl Surroundings {
     /// Those of [`Outline::new`].
     pub fn new(domain: &Domain, bodies: &[PlacedShape]) -> Result<Self, MeshError> {
         let outlines = bodies.iter().map(Outline::new).collect::<Result<_, _>>()?;
-        Ok(Self { domain: domain.clone(), outlines, images: domain.images() })
+        Ok(Self { domain: domain.clone(), outlines, images: domain.images_of(bodies) })
     }
 
     /// Puts a body, by its index, in another place (m, rad).

@@ -38,7 +38,7 @@ const FOREIGN: [(&str, &[&str]); 8] = [
     ("faer", &["solver/src/algebra/", "solver/src/multifrontal/"]),
     ("pulp", &["solver/src/flow/", "solver/src/multifrontal/"]),
     ("metis_sys", &["solver/src/multifrontal/metis.rs"]),
-    ("spade", &["mesh/src/generate/"]),
+    ("spade", &["mesh/src/generate/", "mesh/src/cut/"]),
     ("mcap", &["solver/src/observer/"]),
     ("clap", &["solver/src/cli/"]),
     ("indicatif", &["solver/src/observer/"]),

@@ -7,6 +7,7 @@ mod contact;
 mod remesh;
 mod resume;
 mod sheet;
+mod suspension;
 
 /// A box without flow; bodies are to follow.
 fn tank(model: &str, time: &str, mesh: &str) -> String {

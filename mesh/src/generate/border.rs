@@ -4,7 +4,9 @@
 //! outer loop follows the axis and climbs over every body on it by the upper half of its outline.
 
 use std::f64::consts::FRAC_PI_2;
+use std::sync::Arc;
 
+use crate::cut::{Cut, Line, Path};
 use crate::outline::{Outline, cross};
 use crate::quadrature::integrate;
 use crate::{Boundary, BoundaryKind, Domain, PlacedShape, Point};
@@ -34,6 +36,8 @@ pub enum Curve {
         /// Whether it is travelled clockwise.
         reversed: bool,
     },
+    /// A line through the fluid, whose edges are straight.
+    Path(Arc<Path>),
 }
 
 /// All loops of the boundary.
@@ -47,25 +51,17 @@ pub struct Border {
     pub outlines: Vec<Outline>,
     /// Sides of the domain, then bodies.
     pub boundaries: Vec<Boundary>,
+    /// The vectors by which what it bounds repeats next to itself, zero first (m).
+    pub images: Vec<Point<2>>,
+    /// Whether periodic sides are those of the domain, not of a [`Cut`].
+    pub has_sides: bool,
 }
 
 impl Border {
     /// Loops around a domain and its bodies, whose outlines are given.
     pub fn new(domain: &Domain, bodies: &[PlacedShape], mut outlines: Vec<Outline>) -> Self {
+        let boundaries = boundaries(domain, bodies);
         let sides = domain.sides();
-        let kind = |name: &str| match name {
-            "axis" => BoundaryKind::Axis,
-            _ => BoundaryKind::Side,
-        };
-        let boundaries =
-            sides
-                .iter()
-                .map(|name| Boundary { name: (*name).to_string(), kind: kind(name) })
-                .chain(bodies.iter().enumerate().map(|(i, body)| Boundary {
-                    name: body.name.clone(),
-                    kind: BoundaryKind::Body(i),
-                }))
-                .collect();
         let first_body = sides.len() as u16;
         let mut pieces = Vec::new();
         let mut loops = vec![0];
@@ -106,14 +102,31 @@ impl Border {
             }
         }
         if !domain.is_axisymmetric() {
-            for body in 0..bodies.len() {
-                loops.push(pieces.len());
-                for quarter in [3, 2, 1, 0] {
-                    pieces.push(quarter_of(body, quarter, true, first_body + body as u16));
-                }
-            }
+            around_bodies(&mut pieces, &mut loops, bodies.len(), first_body);
         }
-        Self { pieces, loops, outlines, boundaries }
+        Self { pieces, loops, outlines, boundaries, images: domain.images(), has_sides: true }
+    }
+
+    /// Loops around a periodic domain cut open and around its bodies, whose outlines are given.
+    pub fn along(
+        cut: &Cut,
+        domain: &Domain,
+        bodies: &[PlacedShape],
+        outlines: Vec<Outline>,
+    ) -> Self {
+        let mut pieces: Vec<Piece> = Vec::new();
+        for stretch in cut.stretches() {
+            let curve = match &stretch.line {
+                Line::Straight(from, to) => Curve::Segment(*from, *to),
+                Line::Along(path) => Curve::Path(Arc::clone(path)),
+            };
+            pieces.push(Piece { curve, boundary: stretch.side, copy_of: stretch.copy_of });
+        }
+        let mut loops = vec![0];
+        let first_body = domain.sides().len() as u16;
+        around_bodies(&mut pieces, &mut loops, bodies.len(), first_body);
+        let (boundaries, images) = (boundaries(domain, bodies), cut.images().to_vec());
+        Self { pieces, loops, outlines, boundaries, images, has_sides: false }
     }
 
     /// Point (m), first and second derivative of a piece.
@@ -130,6 +143,10 @@ impl Border {
                 let [point, first, second] =
                     self.outlines[*outline].evaluate(*quarter, 1.0 - parameter);
                 [point, -first, second]
+            }
+            Curve::Path(path) => {
+                let (point, direction, _) = path.at(parameter);
+                [point, direction * path.length(), Point::<2>::zeros()]
             }
         }
     }
@@ -169,12 +186,16 @@ impl Border {
         let [_, first, second] = self.evaluate(piece, parameter);
         let speed = first.norm();
         let bend = cross(first, second).abs();
+        if let Curve::Path(path) = &self.pieces[piece].curve {
+            let (_, direction, radius) = path.at(parameter);
+            return (Point::<2>::new(-direction.y, direction.x), radius);
+        }
         (Point::<2>::new(-first.y, first.x) / speed, speed.powi(3) / bend)
     }
 
-    /// Whether a piece is straight.
+    /// Whether the edges of a piece are straight.
     pub fn is_straight(&self, piece: usize) -> bool {
-        matches!(self.pieces[piece].curve, Curve::Segment(..))
+        matches!(self.pieces[piece].curve, Curve::Segment(..) | Curve::Path(_))
     }
 
     /// Whether a piece is one of a periodic pair.
@@ -183,13 +204,43 @@ impl Border {
         self.pieces[piece].copy_of.is_some() || copies.into_iter().any(|(of, _)| of == piece)
     }
 
-    /// Length per parameter where it is constant: segments and circles.
+    /// Length per parameter where it is constant: all but outlines that are no circles.
     fn speed(&self, piece: usize) -> Option<f64> {
         match &self.pieces[piece].curve {
             Curve::Segment(a, b) => Some((b - a).norm()),
             Curve::Quarter { outline, .. } => {
                 self.outlines[*outline].circle_radius().map(|radius| radius * FRAC_PI_2)
             }
+            Curve::Path(path) => Some(path.length()),
+        }
+    }
+}
+
+/// The sides of a domain, then its bodies.
+fn boundaries(domain: &Domain, bodies: &[PlacedShape]) -> Vec<Boundary> {
+    let kind = |name: &str| match name {
+        "axis" => BoundaryKind::Axis,
+        _ => BoundaryKind::Side,
+    };
+    let sides = domain.sides().iter();
+    let sides = sides.map(|name| Boundary { name: (*name).to_string(), kind: kind(name) });
+    let bodies = bodies.iter().enumerate();
+    let bodies =
+        bodies.map(|(i, body)| Boundary { name: body.name.clone(), kind: BoundaryKind::Body(i) });
+    sides.chain(bodies).collect()
+}
+
+/// A clockwise loop around each body of a planar domain.
+fn around_bodies(
+    pieces: &mut Vec<Piece>,
+    loops: &mut Vec<usize>,
+    n_bodies: usize,
+    first_body: u16,
+) {
+    for body in 0..n_bodies {
+        loops.push(pieces.len());
+        for quarter in [3, 2, 1, 0] {
+            pieces.push(quarter_of(body, quarter, true, first_body + body as u16));
         }
     }
 }

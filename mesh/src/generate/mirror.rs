@@ -174,7 +174,7 @@ impl Mirror {
         }
         let mut boundaries = border.boundaries.clone();
         boundaries.push(Boundary { name: String::new(), kind: BoundaryKind::Side });
-        Border { pieces, loops, outlines: border.outlines.clone(), boundaries }
+        Border { pieces, loops, boundaries, ..border.clone() }
     }
 
     /// The sides of a box beyond the line; where the line starts and ends.
@@ -241,7 +241,7 @@ impl Mirror {
         // else the last
         let first_end = match &pieces[0].curve {
             Curve::Segment(_, end) => Some(*end),
-            Curve::Quarter { .. } => None,
+            Curve::Quarter { .. } | Curve::Path(_) => None,
         };
         let place = if first_end == Some(start) { 1 } else { pieces.len() };
         pieces.splice(place..place, made);

@@ -18,11 +18,11 @@ mod surface_sizes;
 mod trial;
 mod triangulation;
 
-use crate::{Domain, Mesh, MeshError, PlacedShape, Quality, SizeField, Sizing};
+use crate::{Cut, Domain, Mesh, MeshError, PlacedShape, Quality, SizeField, Sizing};
 
 pub(crate) use border::Border;
-pub use placement::check_placement;
-pub(crate) use placement::place;
+pub use placement::{check_placement, check_wrapped_placement};
+pub(crate) use placement::{place, place_wrapped};
 pub(crate) use size_tree::SizeTree;
 pub(crate) use surface_sizes::surface_sizes;
 
@@ -86,6 +86,28 @@ pub fn generate(
             return Ok(order::renumber(&mesh));
         }
     }
+    fill(&border, &sizes, sizing.curved).map(|mesh| order::renumber(&mesh))
+}
+
+/// Mesh of the fluid in a periodic box around bodies that leave no straight strip free, cut open
+/// along `cut`, with the bodies moved by its [`Cut::shifts`].
+///
+/// Boundaries are those of [`generate`]; the sides of a periodic pair are curved, and node by node
+/// apart by whole periods.
+///
+/// # Errors
+/// What [`check_wrapped_placement`] and [`Sizing::check`] refuse, [`MeshError::TooManyCells`],
+/// [`MeshError::Boundary`] and [`MeshError::FoldedCell`].
+pub fn generate_along(
+    cut: &Cut,
+    domain: &Domain,
+    bodies: &[PlacedShape],
+    sizing: &Sizing,
+) -> Result<Mesh<2>, MeshError> {
+    sizing.check(domain)?;
+    let outlines = place_wrapped(domain, bodies)?;
+    let border = Border::along(cut, domain, bodies, outlines);
+    let sizes = SizeField::from_border(domain, bodies, sizing, &border)?;
     fill(&border, &sizes, sizing.curved).map(|mesh| order::renumber(&mesh))
 }
 

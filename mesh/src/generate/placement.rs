@@ -17,9 +17,61 @@ pub fn check_placement(domain: &Domain, bodies: &[PlacedShape]) -> Result<(), Me
     place(domain, bodies).map(|_| ())
 }
 
+/// The same where bodies may lie across the periodic sides of a domain, or beyond them: their images
+/// are kept apart, too.
+///
+/// # Errors
+/// Those of [`check_placement`].
+pub fn check_wrapped_placement(domain: &Domain, bodies: &[PlacedShape]) -> Result<(), MeshError> {
+    place_wrapped(domain, bodies).map(|_| ())
+}
+
 /// The outlines of the bodies, once [`check_placement`] holds for them.
 pub(crate) fn place(domain: &Domain, bodies: &[PlacedShape]) -> Result<Vec<Outline>, MeshError> {
+    place_among(domain, bodies, None)
+}
+
+/// The outlines of the bodies, once [`check_wrapped_placement`] holds for them.
+pub(crate) fn place_wrapped(
+    domain: &Domain,
+    bodies: &[PlacedShape],
+) -> Result<Vec<Outline>, MeshError> {
+    place_among(domain, bodies, Some(&domain.images_of(bodies)))
+}
+
+/// The outlines of bodies that are apart from each other and from the sides of a domain; with
+/// images, periodic sides do not count, and images do.
+fn place_among(
+    domain: &Domain,
+    bodies: &[PlacedShape],
+    images: Option<&[Point<2>]>,
+) -> Result<Vec<Outline>, MeshError> {
     check_domain(domain)?;
+    let clearance = |x: Point<2>| {
+        let sides = 0..domain.sides().len();
+        let counted = sides.filter(|&side| images.is_none() || !domain.is_periodic(side));
+        counted.map(|side| domain.side_gap(side, x)).fold(f64::INFINITY, f64::min)
+    };
+    let gap_to = |other: &Outline, x: Point<2>, is_own: bool| match images {
+        None => other.nearest(x).gap,
+        Some(images) => {
+            let images = images.iter().skip(usize::from(is_own));
+            images.fold(f64::INFINITY, |gap, shift| {
+                if other.least_gap(x - shift) < gap {
+                    gap.min(other.nearest(x - shift).gap)
+                } else {
+                    gap
+                }
+            })
+        }
+    };
+    let apart = |other: &Outline, x: Point<2>| match images {
+        None => (x - other.center()).norm(),
+        Some(images) => {
+            let gaps = images.iter().map(|shift| (x - shift - other.center()).norm());
+            gaps.fold(f64::INFINITY, f64::min)
+        }
+    };
     let mut outlines: Vec<Outline> = Vec::with_capacity(bodies.len());
     for (i, body) in bodies.iter().enumerate() {
         check_kind(domain, body)?;
@@ -37,14 +89,27 @@ pub(crate) fn place(domain: &Domain, bodies: &[PlacedShape]) -> Result<Vec<Outli
         }
         let outline = Outline::new(body)?;
         let extent = extent(&outline);
-        let (gap, at) = smallest(&outline, |x| domain.clearance(x));
+        let (gap, at) = smallest(&outline, clearance);
         if gap.is_nan() || gap <= SMALLEST_GAP * extent {
             return Err(MeshError::Outside { body: body.name.clone(), gap, x: at.x, y: at.y });
         }
+        let own_images = images.iter().flat_map(|images| &images[1..]);
+        if own_images.map(|shift| shift.norm()).any(|apart| apart < 3.0 * outline.reach()) {
+            let (gap, at) = smallest(&outline, |x| gap_to(&outline, x, true));
+            if gap.is_nan() || gap <= SMALLEST_GAP * extent {
+                let (first, second) = (body.name.clone(), body.name.clone());
+                return Err(MeshError::Overlap { first, second, gap, x: at.x, y: at.y });
+            }
+        }
         for (other, placed) in bodies.iter().zip(&outlines) {
+            // Circles around both that do not meet say enough
+            let reach = outline.reach() + placed.reach();
+            if apart(placed, outline.center()) > reach + SMALLEST_GAP * extent {
+                continue;
+            }
             let (near, far) = (
-                smallest(&outline, |x| placed.nearest(x).gap),
-                smallest(placed, |x| outline.nearest(x).gap),
+                smallest(&outline, |x| gap_to(placed, x, false)),
+                smallest(placed, |x| gap_to(&outline, x, false)),
             );
             let (gap, at) = if near.0 < far.0 { near } else { far };
             if gap.is_nan() || gap <= SMALLEST_GAP * extent {

@@ -27,7 +27,7 @@ pub fn surface_sizes(
     border: &Border,
 ) -> Result<Vec<(Point<2>, f64)>, MeshError> {
     let surfaces = Surfaces::new(domain, bodies, sizing, border);
-    let images = domain.images();
+    let images = &border.images;
     let mut sources = Vec::new();
     for (index, piece) in border.pieces.iter().enumerate() {
         if border.boundaries[piece.boundary as usize].kind == BoundaryKind::Axis {
@@ -57,7 +57,7 @@ pub fn surface_sizes(
             samples.push(next);
             from = (to, next);
         }
-        for shift in &images {
+        for shift in images {
             sources.extend(samples.iter().map(|(x, size)| (x + shift, *size)));
         }
     }
@@ -84,7 +84,7 @@ struct Surfaces<'a> {
     own: Vec<f64>,
     /// Largest angle an edge turns by (rad).
     turn: f64,
-    images: Vec<Point<2>>,
+    images: &'a [Point<2>],
     /// Places and normals of the bodies that may face themselves, empty for the convex ones.
     facing: Vec<Vec<(Point<2>, Point<2>)>>,
 }
@@ -122,7 +122,7 @@ impl<'a> Surfaces<'a> {
             }
         }
         let n_bodies = bodies.len();
-        let images = domain.images();
+        let images = border.images.as_slice();
         let layers = layers_at_surface(sizing.gap_layers, sizing.growth);
         Self { domain, border, n_bodies, layers, own, turn: sizing.turn, images, facing }
     }
@@ -131,6 +131,7 @@ impl<'a> Surfaces<'a> {
     fn halvings(&self, piece: usize) -> u32 {
         match self.border.pieces[piece].curve {
             Curve::Segment(..) => 2,
+            Curve::Path(_) => 5,
             Curve::Quarter { outline, .. } if self.border.outlines[outline].is_ellipse() => 4,
             Curve::Quarter { .. } => 8,
         }
@@ -146,8 +147,13 @@ impl<'a> Surfaces<'a> {
             BoundaryKind::Body(body) => {
                 let walls = (0..self.domain.sides().len()).map(|side| {
                     let gap = self.domain.side_gap(side, point);
-                    // A periodic side is no surface: one layer up to it is enough
-                    if self.domain.is_periodic(side) { gap } else { gap / layers }
+                    // A periodic side is no surface: one layer up to it is enough. A cut is itself as
+                    // fine as its distance to the bodies
+                    match (self.domain.is_periodic(side), self.border.has_sides) {
+                        (true, true) => gap,
+                        (true, false) => f64::INFINITY,
+                        (false, _) => gap / layers,
+                    }
                 });
                 let walls = walls.fold(f64::INFINITY, f64::min);
                 let gap = self
@@ -170,7 +176,7 @@ impl<'a> Surfaces<'a> {
     /// Distance to the nearest body, the images of all and the body itself left out.
     fn gap_to_bodies(&self, point: Point<2>, but: Option<usize>) -> f64 {
         let bodies = &self.border.outlines[..self.n_bodies];
-        nearest_body(bodies, &self.images, point, but, f64::INFINITY)
+        nearest_body(bodies, self.images, point, but, f64::INFINITY)
             .map_or(f64::INFINITY, |(_, gap)| gap)
     }
 

@@ -147,13 +147,25 @@ def in_mesh(
             return poses
     low = field.nodes.min(axis=0)
 
+    def is_periodic(side: str) -> bool:
+        condition = case.get("boundary", {}).get(side)
+        return isinstance(condition, dict) and "periodic" in condition
+
+    axes = [axis for axis, side in enumerate(("left", "bottom")) if is_periodic(side)]
+
     def periods(center: Array) -> Array:
         shift = np.zeros(2)
-        for axis, side in enumerate(("left", "bottom")):
-            condition = case.get("boundary", {}).get(side)
-            if isinstance(condition, dict) and "periodic" in condition:
-                shift[axis] = -np.floor((center[axis] - low[axis]) / lengths[axis]) * lengths[axis]
-        return shift
+        for axis in axes:
+            shift[axis] = -np.floor((center[axis] - low[axis]) / lengths[axis]) * lengths[axis]
+        # The sides of a mesh may be curved: of all images of a body, the nodes around it are nearest
+        # to the one in the mesh.
+        steps = [(0, 1, -1, 2) if axis in axes else (0,) for axis in range(2)]
+        near = [
+            shift + [x * lengths[0] if x else 0.0, y * lengths[1] if y else 0.0]
+            for y in steps[1]
+            for x in steps[0]
+        ]
+        return min(near, key=lambda by: np.linalg.norm(field.nodes - center - by, axis=1).min())
 
     return {name: (center + periods(center), angle) for name, (center, angle) in poses.items()}
 

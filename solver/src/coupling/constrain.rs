@@ -92,7 +92,29 @@ pub(super) fn constrain(
         constrain_node(problem, mesh, layout, &mut builder, (poses, &surfaces), time, at);
     }
     close_pressures_and_periods(problem, mesh, layout, &mut builder);
+    // What drifts is held at one node; the equation that is left out follows from the others
+    let pinned = pinned_node(mesh);
+    for axis in (0..2).filter(|&axis| problem.drifts()[axis]) {
+        if let Some(node) = pinned {
+            builder.constrain(layout.velocity(node, axis), vec![], 0.0);
+        }
+    }
     builder.build()
+}
+
+/// The node that holds fluid and bodies where nothing else does: a vertex on a side that is no
+/// periodic copy.
+pub(super) fn pinned_node(mesh: &Mesh<2>) -> Option<usize> {
+    let mut is_copy = vec![false; mesh.n_nodes()];
+    for &(copy, _) in &mesh.periodic {
+        is_copy[copy as usize] = true;
+    }
+    let on_sides = mesh
+        .facets
+        .iter()
+        .filter(|facet| mesh.boundaries[usize::from(facet.boundary)].kind == BoundaryKind::Side);
+    let mut vertices = on_sides.map(|facet| mesh.facet_nodes(facet)[0] as usize);
+    vertices.find(|&vertex| !is_copy[vertex])
 }
 
 /// Equal values on periodic pairs, as far as they are free, and in an enclosed flow a level of the

@@ -2,6 +2,7 @@
 
 mod constrain;
 mod divergence_free;
+mod drift;
 mod link;
 mod loads;
 mod problem;

@@ -217,6 +217,33 @@ impl Problem {
             .any(|side| matches!(side, Side::DoNothing | Side::TractionFree))
     }
 
+    /// Whether nothing holds fluid and bodies along x and along y: without inertia, walls, given
+    /// velocities and springs only differences of velocities are determined.
+    ///
+    /// There the mean velocity of fluid and bodies together is zero: no net volume crosses the cell.
+    #[must_use]
+    pub fn drifts(&self) -> [bool; 2] {
+        let is_loose = |body: &RigidBody, axis: usize| {
+            let is_held =
+                |spring: &Spring| spring.stiffness[axis] != 0.0 || spring.damping[axis] != 0.0;
+            matches!(body.drives[axis], Drive::Free) && !body.spring.as_ref().is_some_and(is_held)
+        };
+        let slides = |side: &Side, axis: usize| match side {
+            Side::Periodic => true,
+            Side::Symmetry { normal_axis } => *normal_axis != axis,
+            _ => false,
+        };
+        let sides = || self.sides.iter().flatten();
+        let has_periods = sides().any(|side| matches!(side, Side::Periodic));
+        [0, 1].map(|axis| {
+            !self.axisymmetric
+                && !self.has_inertia
+                && has_periods
+                && sides().all(|side| slides(side, axis))
+                && self.bodies.iter().all(|body| is_loose(body, axis))
+        })
+    }
+
     /// The velocity given at a place (m, s) on these boundaries, bodies left out; a wall's value
     /// counts where boundaries meet.
     #[must_use]

@@ -10,6 +10,7 @@ use nalgebra::DMatrix;
 use thiserror::Error;
 
 use super::constrain::{NodeSides, constrain};
+use super::drift::Drift;
 use super::link::{Link, Turn};
 use super::problem::Problem;
 use crate::algebra::{Accuracy, AffineConstraints, DirectSolver, LinearError, Pattern, Unknowns};
@@ -185,6 +186,8 @@ pub struct FluidSystem {
     unknowns: Unknowns,
     /// int psi dx of each vertex, to spread a flux imbalance evenly.
     pressure_weights: Vec<f64>,
+    /// The common velocity of fluid and bodies, where nothing holds them.
+    drift: Option<Drift>,
 }
 
 impl FluidSystem {
@@ -218,6 +221,7 @@ impl FluidSystem {
             accuracy: Accuracy::default(),
             unknowns,
             pressure_weights,
+            drift: Drift::new(problem, mesh),
         }
     }
 
@@ -318,7 +322,15 @@ impl FluidSystem {
             assemble(&self.assembly, mesh, constraints, terms, &fields, &mut self.values);
             self.add_rigid_inertia(problem, constraints, levels);
         });
-        let mut free = constraints.pick(&flatten(solution));
+        if let Some((axis, sum)) = self.drift.as_ref().and_then(|d| d.unbalanced(&levels.external))
+        {
+            return Err(SolveError::Singular(format!(
+                "the forces on the bodies sum up to {sum:.3e} along {}, where nothing holds fluid and \
+                 bodies; balance them, or hold a body or a side",
+                ["x", "y"][axis]
+            )));
+        }
+        let mut free = constraints.pick(&flatten(&self.pinned(solution)));
         let mut step: Vec<f64> = reduced.iter().map(|value| -value).collect();
         self.solve_linear(&free, &mut step, timing)
             .map_err(|error| self.explain(problem, mesh, constraints, &error))?;
@@ -330,7 +342,24 @@ impl FluidSystem {
             let node = (raw_index / 2).min(self.layout.n_nodes - 1);
             return Err(SolveError::NotFinite { place: mesh.nodes[node] });
         }
-        Ok(embed(&self.layout, &raw))
+        Ok(self.centred(embed(&self.layout, &raw)))
+    }
+
+    /// The solution seen from where the system holds fluid and bodies.
+    fn pinned(&self, solution: &Solution) -> Solution {
+        let mut pinned = solution.clone();
+        if let Some(drift) = &self.drift {
+            drift.pin(&mut pinned);
+        }
+        pinned
+    }
+
+    /// The solution with the mean velocity that is asked for where nothing holds it.
+    fn centred(&self, mut solution: Solution) -> Solution {
+        if let Some(drift) = &self.drift {
+            drift.center(&mut solution);
+        }
+        solution
     }
 
     /// Solves with the assembled matrix, in place, for a correction of the free unknowns `free`.
@@ -449,6 +478,18 @@ impl FluidSystem {
         if problem.is_enclosed() {
             self.pressure_weights = pressure_weights(mesh, self.assembly.tables());
         }
+        self.drift = Drift::new(problem, mesh);
+    }
+
+    /// A solution that meets the constraints, from values of all raw unknowns.
+    #[must_use]
+    pub fn constrained(&self, constraints: &AffineConstraints, raw: &[f64]) -> Solution {
+        let mut solution = embed(&self.layout, raw);
+        if let Some(drift) = &self.drift {
+            drift.pin(&mut solution);
+        }
+        let free = constraints.pick(&flatten(&solution));
+        embed(&self.layout, &constraints.expand(&free))
     }
 
     /// Velocities (m/s, rad/s) of some bodies by unit force along x, along y and unit torque on each
@@ -511,9 +552,9 @@ impl FluidSystem {
                 .measure(Stage::Solve, || solver.solve(pattern, values, &mut change))
                 .map_err(|error| SolveError::Singular(error.to_string()))?;
         }
-        let mut free = constraints.pick(&flatten(solution));
+        let mut free = constraints.pick(&flatten(&self.pinned(solution)));
         free.iter_mut().zip(&change).for_each(|(value, change)| *value += change);
-        *solution = embed(&self.layout, &constraints.expand(&free));
+        *solution = self.centred(embed(&self.layout, &constraints.expand(&free)));
         Ok(())
     }
 

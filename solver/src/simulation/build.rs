@@ -2,10 +2,11 @@
 
 use std::f64::consts::PI;
 
-use alewife_mesh::{BoundaryKind, Mesh, PlacedShape, Point, SizeBox, Sizing, generate};
+use alewife_mesh::{BoundaryKind, Mesh, PlacedShape, Point, SizeBox, Sizing};
 use nalgebra::Vector3;
 
 use super::RunError;
+use super::opened::{Opened, open_first};
 use super::shape_motion::shape_motion;
 use crate::body::{Pose, Wrench};
 use crate::case::{
@@ -25,15 +26,20 @@ use crate::time::factor_at;
 /// # Errors
 /// When a body does not fit, or the mesh cannot be made.
 pub fn build_mesh(case: &Case) -> Result<Mesh<2>, RunError> {
-    let mut mesh = generate(&case.mesh_domain(), &placed_bodies(case)?, &sizing(case))
-        .map_err(|error| RunError::Mesh(error.to_string()))?;
+    Ok(first_mesh(case)?.0)
+}
+
+/// The mesh of a case, with its domain and bodies as they are meshed.
+pub(super) fn first_mesh(case: &Case) -> Result<(Mesh<2>, Opened), RunError> {
+    let opened = open_first(&case.mesh_domain(), placed_bodies(case)?).map_err(RunError::Mesh)?;
+    let mut mesh = opened.mesh(&sizing(case)).map_err(|error| RunError::Mesh(error.to_string()))?;
     // The side of a sheet is made straight, but will not stay so.
     for facet in &mesh.facets {
         if waving_sheet(case, &mesh.boundaries[usize::from(facet.boundary)].name).is_some() {
             mesh.curved[facet.cell as usize] = true;
         }
     }
-    Ok(mesh)
+    Ok((mesh, opened))
 }
 
 /// The sheet that a side of the domain is, if it is one.

@@ -23,8 +23,8 @@ use crate::body::Twist;
 use crate::case::Convection as ConvectionChoice;
 use crate::contact::{ContactLoads, ContactStep, Law, Place, Surfaces};
 use crate::coupling::{
-    BodyLoads, Drive, FluidSystem, Levels, Problem, Solution, SolveError, body_loads, embed,
-    flatten, newton_convection,
+    BodyLoads, Drive, FluidSystem, Levels, Problem, Solution, SolveError, body_loads, flatten,
+    newton_convection,
 };
 use crate::flow::{Convection, FlowTerms};
 use crate::time::Bdf;
@@ -173,7 +173,7 @@ impl March<'_> {
                     .collect(),
             };
             let raw = start.as_ref().map_or_else(|| past.raw_ahead.clone(), flatten);
-            let begin = embed(&system.layout, &constraints.expand(&constraints.pick(&raw)));
+            let begin = system.constrained(&constraints, &raw);
             let mut flow =
                 self.solve(system, state, bdf, &past, &constraints, &mesh_velocity, begin, timing)?;
             iterations += flow.iterations;

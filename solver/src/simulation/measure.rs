@@ -75,8 +75,12 @@ fn find_probes(case: &Case, mesh: &Mesh<2>) -> Vec<Vec<Option<ProbePoint>>> {
     let locator = Locator::new(mesh);
     // A point on an exact curve may lie outside the quadratic geometry by a trifle.
     let reach = 0.01 * case.mesh.surface.unwrap_or(case.mesh.size);
+    // The sides of a periodic mesh may be elsewhere than those of the domain
+    let images = case.mesh_domain().images_around(mesh.nodes.iter().copied());
     let find = |point: &[f64], sign: f64| {
-        let found = locator.nearest(Point::<2>::new(point[0], point[1]));
+        let point = Point::<2>::new(point[0], point[1]);
+        let found = images.iter().filter_map(|shift| locator.nearest(point + shift));
+        let found = found.min_by(|a, b| a.distance.total_cmp(&b.distance));
         let found = found.filter(|found| found.distance <= reach);
         found.map(|found| ProbePoint { cell: found.cell, xi: found.reference.into(), sign })
     };

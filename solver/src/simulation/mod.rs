@@ -7,6 +7,7 @@ mod explicit;
 mod follow;
 mod march;
 mod measure;
+mod opened;
 mod remake;
 mod run;
 mod saved;

@@ -1,19 +1,17 @@
 //! A new mesh in the middle of a run, with both levels of the flow taken over to it.
 
-use alewife_mesh::{BoundaryKind, Domain, Mesh, PlacedShape, Point, generate};
+use alewife_mesh::{BoundaryKind, Mesh, Point};
 use nalgebra::Vector3;
 
 use super::build::sizing;
 use super::follow::Follower;
+use super::opened::{Opened, open};
 use super::state::{State, pose_at, seen_from};
 use crate::body::Pose;
 use crate::case::Case;
 use crate::contact::Place;
 use crate::coupling::{DivergenceFree, NodeSides, Problem, Solution};
 use crate::motion::Transfer;
-
-/// Part of the widest free strip of a periodic domain that has to be left at its sides.
-const STRIP_LEFT: f64 = 0.25;
 
 /// Makes the mesh of a state anew, with bodies where they are, and takes the flow over. On error the
 /// state is where it was.
@@ -31,23 +29,23 @@ pub(super) fn remake(
     }
     let origin = state.origin;
     let old_places = state.in_frame(&origin, &state.places);
-    let mut shapes = follower.shapes_at(&old_places, state.time);
-    let domain = cut(follower.domain(), &shapes)?;
-    let shifts: Vec<Point<2>> = shapes.iter().map(|shape| into(&domain, &shape.center)).collect();
-    for (shape, shift) in shapes.iter_mut().zip(&shifts) {
-        shape.center += shift;
-    }
+    let shapes = follower.shapes_at(&old_places, state.time);
+    let opened = open(follower.domain(), &case.mesh_domain(), shapes)?;
+    let shifts = opened.shifts.iter();
     let wraps: Vec<Point<2>> =
-        state.wraps.iter().zip(&shifts).map(|(wrap, shift)| wrap + shift).collect();
+        state.wraps.iter().zip(shifts).map(|(wrap, shift)| wrap + shift).collect();
     let places = seen_from(&origin, &state.places, &wraps);
     let previous_places = seen_from(&origin, &state.previous_places, &wraps);
-    let new = generate(&domain, &shapes, &sizing(case)).map_err(|error| error.to_string())?;
+    let new = opened.mesh(&sizing(case)).map_err(|error| error.to_string())?;
+    let Opened { domain, shapes, .. } = opened;
     let made_at = (places.clone(), state.time);
     let made = Follower::new(case, problem, &new, domain.clone(), shapes, made_at)?;
 
     let old = state.mesh_in_frame();
-    let transfer = Transfer::new(&old, &new, &domain.images())
-        .ok_or("the flow could not be found in the old mesh")?;
+    // The cells of both meshes may lie periods apart
+    let images = domain.images_around(old.nodes.iter().chain(&new.nodes).copied());
+    let transfer =
+        Transfer::new(&old, &new, &images).ok_or("the flow could not be found in the old mesh")?;
     let mut before = new.clone();
     before.nodes = transfer.positions(&state.nodes_before);
     // What bodies carry was where they were, exactly.
@@ -128,140 +126,5 @@ fn hold_sides(
                 velocity[node][axis] = 0.0;
             }
         }
-    }
-}
-
-/// The domain, its periodic sides put where no body is.
-///
-/// # Errors
-/// When bodies leave no free strip.
-fn cut(domain: &Domain, shapes: &[PlacedShape]) -> Result<Domain, String> {
-    let mut moved = domain.clone();
-    for axis in 0..2 {
-        let Some((start, length)) = periodic_range(&moved, axis) else { continue };
-        let mut taken = Vec::new();
-        for shape in shapes {
-            let outline = alewife_mesh::Outline::new(shape).map_err(|error| error.to_string())?;
-            let reach = outline.reach();
-            let from = (outline.center()[axis] - reach - start).rem_euclid(length);
-            taken.push((from, from + 2.0 * reach));
-        }
-        taken.sort_by(|one, other| one.0.total_cmp(&other.0));
-        let Some(&(first, _)) = taken.first() else { continue };
-        // Free strips, each from the farthest end so far to the next start.
-        let mut end = taken.iter().map(|(_, end)| end - length).fold(f64::NEG_INFINITY, f64::max);
-        let mut strips = Vec::new();
-        for &(from, to) in taken.iter().chain(&[(first + length, first + length)]) {
-            if from > end {
-                strips.push((end, from));
-            }
-            end = end.max(to);
-        }
-        let widest = strips.iter().copied().max_by(|a, b| (a.1 - a.0).total_cmp(&(b.1 - b.0)));
-        let Some((from, to)) = widest else {
-            return Err(format!(
-                "bodies leave no straight strip free across the periodic direction {}",
-                ["x", "y"][axis]
-            ));
-        };
-        let margin = STRIP_LEFT * (to - from);
-        let is_free = strips.iter().any(|&(from, to)| {
-            [0.0, length].iter().any(|at| at - from >= margin && to - at >= margin)
-        });
-        if !is_free {
-            shift(&mut moved, axis, (0.5 * (from + to)).rem_euclid(length));
-        }
-    }
-    Ok(moved)
-}
-
-/// Start and length of the domain along a periodic axis.
-fn periodic_range(domain: &Domain, axis: usize) -> Option<(f64, f64)> {
-    match (domain, axis) {
-        (Domain::Box { min, max, periodic_x: true, .. }, 0)
-        | (Domain::Box { min, max, periodic_y: true, .. }, 1) => {
-            Some((min[axis], max[axis] - min[axis]))
-        }
-        (Domain::Cylinder { x, periodic_x: true, .. }, 0) => Some((x[0], x[1] - x[0])),
-        _ => None,
-    }
-}
-
-/// Where a domain starts along its periodic directions (m), zero along others.
-pub(super) fn start_of(domain: &Domain) -> [f64; 2] {
-    [0, 1].map(|axis| periodic_range(domain, axis).map_or(0.0, |(start, _)| start))
-}
-
-/// A domain that starts elsewhere along its periodic directions.
-pub(super) fn started_at(domain: &Domain, start: [f64; 2]) -> Domain {
-    let mut moved = domain.clone();
-    for (axis, start) in start.into_iter().enumerate() {
-        if let Some((now, _)) = periodic_range(domain, axis) {
-            shift(&mut moved, axis, start - now);
-        }
-    }
-    moved
-}
-
-fn shift(domain: &mut Domain, axis: usize, way: f64) {
-    match domain {
-        Domain::Box { min, max, .. } => {
-            min[axis] += way;
-            max[axis] += way;
-        }
-        Domain::Cylinder { x, .. } => {
-            x[0] += way;
-            x[1] += way;
-        }
-        Domain::Disc { .. } | Domain::HalfDisc { .. } => {}
-    }
-}
-
-/// Whole periods that take a point into the domain (m).
-fn into(domain: &Domain, point: &Point<2>) -> Point<2> {
-    let mut shift = Point::<2>::zeros();
-    for axis in 0..2 {
-        if let Some((start, length)) = periodic_range(domain, axis) {
-            shift[axis] = -((point[axis] - start) / length).floor() * length;
-        }
-    }
-    shift
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use alewife_mesh::Shape;
-
-    fn disc(x: f64, y: f64) -> PlacedShape {
-        PlacedShape {
-            name: "disc".into(),
-            shape: Shape::Disc { radius: 0.2 },
-            center: Point::<2>::new(x, y),
-            angle: 0.0,
-            size: None,
-        }
-    }
-
-    fn strip() -> Domain {
-        let (min, max) = (Point::<2>::new(0.0, -1.0), Point::<2>::new(2.0, 1.0));
-        Domain::Box { min, max, periodic_x: true, periodic_y: false }
-    }
-
-    #[test]
-    fn the_cut_of_a_periodic_domain_keeps_off_the_bodies() {
-        let range = |domain: &Domain| periodic_range(domain, 0).unwrap().0;
-        assert_eq!(range(&cut(&strip(), &[disc(1.0, 0.0)]).unwrap()), 0.0);
-        // Half way round from a body on the cut, and from one that went round
-        for x in [0.1, 2.1, -1.9, 14.1] {
-            let moved = cut(&strip(), &[disc(x, 0.0)]).unwrap();
-            assert!((range(&moved) - 1.1).abs() < 1e-12, "{x}: {moved:?}");
-            let inside = x + into(&moved, &Point::<2>::new(x, 0.0)).x;
-            assert!((1.1..3.1).contains(&inside), "{x}: {inside}");
-        }
-        let two = cut(&strip(), &[disc(0.0, 0.5), disc(0.5, 0.0)]).unwrap();
-        assert!((range(&two) - 1.25).abs() < 1e-12, "{two:?}");
-        let crowd: Vec<_> = (0..8).map(|i| disc(0.25 * f64::from(i), 0.0)).collect();
-        assert!(cut(&strip(), &crowd).unwrap_err().contains("direction x"));
     }
 }

@@ -2,16 +2,17 @@
 
 use alewife_mesh::Mesh;
 
-use super::build::{contact_law, placed_bodies};
+use super::build::{contact_law, first_mesh};
 use super::follow::Follower;
 use super::march::{March, MeshPath};
 use super::measure::{Measure, Moving};
+use super::opened::Opened;
 use super::remake::remake;
 use super::saved::SavedState;
 use super::snapshot::{Observer, Remains, Snapshot};
 use super::state::State;
 use super::steady::{SteadyFlow, solve_steady};
-use super::{RunError, Series, Stage, StepError, StepResult, Timing, build_mesh, build_problem};
+use super::{RunError, Series, Stage, StepError, StepResult, Timing, build_problem};
 use crate::case::{Adaptive, Case, Convection, Initial, Scheme, Steady, TimeSettings, Unsteady};
 use crate::contact::{ContactError, Law};
 use crate::coupling::{
@@ -230,7 +231,7 @@ impl Run<'_> {
         parts: &mut Option<Parts>,
     ) -> Result<(usize, usize), RunError> {
         let case = self.case;
-        let mesh = self.timing.measure(Stage::Mesh, || build_mesh(case))?;
+        let (mesh, opened) = self.timing.measure(Stage::Mesh, || first_mesh(case))?;
         tracing::info!(cells = mesh.n_cells(), nodes = mesh.n_nodes(), "mesh made");
         check_memory(&mesh)?;
         let problem = build_problem(case, &mesh)?;
@@ -240,7 +241,7 @@ impl Run<'_> {
             TimeSettings::Unsteady(settings) => settings.convection == Convection::Extrapolated,
         };
         let unknown_frame = problem.frame.is_some() && problem.has_convection && !is_linear;
-        let parts = parts.insert(self.parts(problem, mesh, unknown_frame)?);
+        let parts = parts.insert(self.parts(problem, mesh, opened, unknown_frame)?);
         if let Some(saved) = saved {
             parts.go_on_from(self.case, saved).map_err(|reason| {
                 RunError::Unsupported(format!("the state cannot be gone on from: {reason}"))
@@ -257,19 +258,22 @@ impl Run<'_> {
         &mut self,
         problem: Problem,
         mesh: Mesh<2>,
+        opened: Opened,
         unknown_frame: bool,
     ) -> Result<Parts, RunError> {
-        let poses: Vec<_> = problem.bodies.iter().map(|body| body.pose).collect();
+        let mut state = State::at_rest(&problem, mesh);
+        state.wraps = opened.shifts;
+        let mesh = &state.mesh;
+        let poses = state.poses_in_mesh();
         let mut system = self
             .timing
-            .measure(Stage::Assembly, || FluidSystem::new(&problem, &mesh, &poses, unknown_frame));
+            .measure(Stage::Assembly, || FluidSystem::new(&problem, mesh, &poses, unknown_frame));
         tracing::info!(unknowns = system.n_unknowns, entries = system.n_entries(), "system built");
-        let measure = Measure::new(self.case, &mesh).map_err(RunError::Unsupported)?;
+        let measure = Measure::new(self.case, mesh).map_err(RunError::Unsupported)?;
         self.series.names = measure.names().to_vec();
-        let mut state = State::at_rest(&problem, mesh);
         let follower = if self.case.mesh_moves() {
-            let (domain, shapes) = (self.case.mesh_domain(), placed_bodies(self.case)?);
-            let places = state.places.clone();
+            let (domain, shapes) = (opened.domain, opened.shapes);
+            let places = state.wrapped(&state.places);
             let made = self.timing.measure(Stage::MeshMotion, || {
                 Follower::new(self.case, &problem, &state.mesh, domain, shapes, (places, 0.0))
             });
@@ -311,11 +315,19 @@ impl Run<'_> {
     ) -> Result<SteadyFlow, RunError> {
         let Parts { problem, system, state, .. } = parts;
         let timing = &mut self.timing;
-        solve_steady(system, problem, &state.mesh, &state.poses(), (0.0, levels), settings, timing)
-            .map_err(|failure| {
-                state.now = failure.last;
-                failure.error
-            })
+        solve_steady(
+            system,
+            problem,
+            &state.mesh,
+            &state.poses_in_mesh(),
+            (0.0, levels),
+            settings,
+            timing,
+        )
+        .map_err(|failure| {
+            state.now = failure.last;
+            failure.error
+        })
     }
 
     fn steady(&mut self, settings: &Steady, parts: &mut Parts) -> Result<usize, RunError> {

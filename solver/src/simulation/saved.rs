@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::build::placed_bodies;
 use super::follow::Follower;
-use super::remake::{start_of, started_at};
+use super::opened::{start_of, started_at};
 use super::state::{State, Swim, place_of, pose_at};
 use crate::body::Twist;
 use crate::case::Case;

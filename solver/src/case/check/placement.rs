@@ -1,6 +1,6 @@
 //! Bodies that overlap or leave the domain, and probes that are not in the fluid.
 
-use alewife_mesh::{Domain, MeshError, Outline, PlacedShape, Point, check_placement};
+use alewife_mesh::{Domain, MeshError, Outline, PlacedShape, Point, check_wrapped_placement};
 
 use super::{Findings, Severity};
 use crate::case::Problem;
@@ -73,13 +73,20 @@ fn placement_problems(domain: &Domain, bodies: &[PlacedShape]) -> Vec<(usize, Me
     let mut problems = Vec::new();
     let mut inside: Vec<usize> = Vec::new();
     for (index, body) in bodies.iter().enumerate() {
-        if let Err(error) = check_placement(domain, std::slice::from_ref(body)) {
+        if let Err(error) = check_wrapped_placement(domain, std::slice::from_ref(body)) {
             problems.push((index, error));
+            continue;
+        }
+        // Across a periodic side a body may lie, beyond it it may not
+        let gap = domain.clearance(body.center);
+        if gap < 0.0 {
+            let (x, y) = (body.center.x, body.center.y);
+            problems.push((index, MeshError::Outside { body: body.name.clone(), gap, x, y }));
             continue;
         }
         for other in &inside {
             let pair = [bodies[*other].clone(), body.clone()];
-            if let Err(error) = check_placement(domain, &pair) {
+            if let Err(error) = check_wrapped_placement(domain, &pair) {
                 problems.push((index, error));
             }
         }
@@ -114,7 +121,8 @@ fn probe_point(
     }
     for (body, placed) in findings.case().body.iter().zip(bodies) {
         let Ok(outline) = Outline::new(placed) else { continue };
-        if outline.nearest(place).gap < -ROUNDING * body.shape.reach() {
+        let gaps = domain.images().into_iter().map(|shift| outline.nearest(place + shift).gap);
+        if gaps.fold(f64::INFINITY, f64::min) < -ROUNDING * body.shape.reach() {
             findings.error(
                 key,
                 format!("the point {point:?} is inside the body \"{}\"", body.name),

@@ -1,0 +1,237 @@
+//! Periodic boxes whose bodies leave no straight strip free are cut open along a curve.
+
+use std::collections::HashMap;
+use std::f64::consts::{PI, TAU};
+
+use alewife_mesh::{
+    Cut, Domain, Mesh, PlacedShape, Point, Quality, Shape, Sizing, check_mesh, check_placement,
+    check_wrapped_placement, generate_along,
+};
+
+/// Smallest angle promised (degrees).
+const SMALLEST_ANGLE: f64 = 25.0;
+
+/// Numbers between 0 and 1, the same in every run.
+struct Random(u64);
+
+impl Random {
+    fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963);
+        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
+    }
+}
+
+fn torus(width: f64, height: f64, periodic: [bool; 2]) -> Domain {
+    let (min, max) = (Point::<2>::new(-1.0, 0.5), Point::<2>::new(width - 1.0, height + 0.5));
+    Domain::Box { min, max, periodic_x: periodic[0], periodic_y: periodic[1] }
+}
+
+fn placed(name: String, shape: Shape, center: Point<2>, angle: f64) -> PlacedShape {
+    PlacedShape { name, shape, center, angle, size: None }
+}
+
+/// Bodies dropped one after the other where there is room, up to a number.
+fn crowd(
+    domain: &Domain,
+    wanted: usize,
+    random: &mut Random,
+    shape: &dyn Fn(&mut Random) -> Shape,
+) -> Vec<PlacedShape> {
+    let Domain::Box { min, max, .. } = domain else { unreachable!("a box") };
+    let mut bodies: Vec<PlacedShape> = Vec::new();
+    for _ in 0..40 * wanted {
+        let center = Point::<2>::new(
+            min.x + (max.x - min.x) * random.next(),
+            min.y + (max.y - min.y) * random.next(),
+        );
+        let name = format!("body{}", bodies.len());
+        bodies.push(placed(name, shape(random), center, TAU * random.next()));
+        if check_wrapped_placement(domain, &bodies).is_err() {
+            bodies.pop();
+        }
+        if bodies.len() == wanted {
+            break;
+        }
+    }
+    bodies
+}
+
+/// Everything that is promised of a mesh cut open; the quality.
+fn assert_cut(domain: &Domain, bodies: &[PlacedShape], sizing: &Sizing) -> Quality {
+    let cut = Cut::between(domain, bodies).expect("there is a way between the bodies");
+    let mut moved = bodies.to_vec();
+    for (body, shift) in moved.iter_mut().zip(cut.shifts()) {
+        body.center += shift;
+    }
+    let mesh = generate_along(&cut, domain, &moved, sizing).expect("the cell is meshed");
+    check_mesh(&mesh).expect("it is a mesh");
+    assert_pairs(domain, &mesh);
+    let quality = Quality::of(&mesh);
+    let Domain::Box { min, max, .. } = domain else { unreachable!("a box") };
+    let area = (max.x - min.x) * (max.y - min.y) - area_of_bodies(&mesh);
+    assert!((mesh.area() / area - 1.0).abs() < 1e-12, "area {} for {area}", mesh.area());
+    quality
+}
+
+/// What the quadratic sides of the bodies enclose, by Simpson's rule, which is exact for them.
+fn area_of_bodies(mesh: &Mesh<2>) -> f64 {
+    let facets = mesh.facets.iter().filter(|facet| facet.boundary >= 4);
+    let cross = |a: Point<2>, b: Point<2>| a.x * b.y - a.y * b.x;
+    -facets
+        .map(|facet| {
+            let [a, b, m] = mesh.facet_nodes(facet).map(|node| mesh.nodes[node as usize]);
+            let at_start = cross(a, m * 4.0 - a * 3.0 - b);
+            let at_end = cross(b, b * 3.0 + a - m * 4.0);
+            (at_start + 4.0 * cross(m, b - a) + at_end) / 12.0
+        })
+        .sum::<f64>()
+}
+
+/// Pairs of nodes are apart by whole periods, and both sides of a pair are all of pairs.
+fn assert_pairs(domain: &Domain, mesh: &Mesh<2>) {
+    let periods = domain.periods();
+    let original: HashMap<u32, u32> = mesh.periodic.iter().copied().collect();
+    for (copy, of) in &mesh.periodic {
+        let apart = mesh.nodes[*copy as usize] - mesh.nodes[*of as usize];
+        assert!(apart.norm() > 0.1);
+        for axis in 0..2 {
+            let length = periods[axis].unwrap_or(f64::INFINITY);
+            let off = apart[axis] - (apart[axis] / length).round() * periods[axis].unwrap_or(0.0);
+            assert!(off.abs() < 1e-12, "{apart}");
+        }
+    }
+    for facet in &mesh.facets {
+        let side = usize::from(facet.boundary);
+        if side < 4 && side % 2 == 1 && domain.is_periodic(side) {
+            assert!(mesh.facet_nodes(facet).iter().all(|node| original.contains_key(node)));
+        }
+    }
+}
+
+fn lobed(radius: f64) -> Shape {
+    let points = (0..20).map(|i| TAU * f64::from(i) / 20.0).map(|t| {
+        let r = radius * (1.0 + 0.2 * (3.0 * t).cos());
+        [r * t.cos(), r * t.sin()]
+    });
+    Shape::Spline { points: points.collect() }
+}
+
+#[test]
+fn dense_random_placements_on_a_torus_are_cut_open_and_meshed() {
+    let mut lowest = f64::INFINITY;
+    for seed in 0..24 {
+        let mut random = Random(seed + 7);
+        let width = 4.0 + 6.0 * random.next();
+        let height = 4.0 + 6.0 * random.next();
+        let periodic = [[true, true], [true, false], [false, true]][(seed % 3) as usize];
+        let domain = torus(width, height, periodic);
+        let wanted = (width * height / (1.3 + random.next()) / PI * 1.5) as usize;
+        let bodies = crowd(&domain, wanted.max(1), &mut random, &|random| match seed / 3 % 3 {
+            0 => Shape::Disc { radius: 0.7 },
+            1 => Shape::Ellipse { semi_axes: [0.9, 0.3 + 0.3 * random.next()] },
+            _ => lobed(0.4 + 0.4 * random.next()),
+        });
+        let crosses = check_placement(&domain, &bodies).is_err();
+        let sizing = Sizing { gap_layers: 2.0, ..Sizing::graded(0.15, 0.3, 0.6) };
+        let quality = assert_cut(&domain, &bodies, &sizing);
+        println!("{seed}: {} bodies, across {crosses}, {:.1}", bodies.len(), quality.min_angle);
+        lowest = lowest.min(quality.min_angle);
+    }
+    assert!(lowest > SMALLEST_ANGLE, "{lowest}");
+}
+
+/// Rows of discs, every other one moved by half of their distance, which fill a torus.
+fn packed(columns: usize, rows: usize, gap: f64) -> (Domain, Vec<PlacedShape>) {
+    let (radius, pitch) = (1.0, 2.0 + gap);
+    let rise = 0.75_f64.sqrt() * pitch;
+    let domain = torus(pitch * columns as f64, rise * rows as f64, [true, true]);
+    let disc = |k: usize| {
+        let (i, j) = (k % columns, k / columns);
+        let x = pitch * (i as f64 + 0.5 * (j % 2) as f64);
+        let center = Point::<2>::new(x, rise * j as f64);
+        placed(format!("disc{k}"), Shape::Disc { radius }, center, 0.0)
+    };
+    let bodies = (0..columns * rows).map(disc).collect();
+    (domain, bodies)
+}
+
+#[test]
+fn discs_a_hundredth_of_their_radius_apart_all_around_are_cut_open() {
+    for (columns, rows, gap) in [(1, 2, 0.01), (2, 2, 0.05), (3, 4, 0.01)] {
+        let (domain, bodies) = packed(columns, rows, gap);
+        let sizing = Sizing { gap_layers: 2.0, ..Sizing::graded(0.2, 0.3, 0.6) };
+        let quality = assert_cut(&domain, &bodies, &sizing);
+        println!("{columns} x {rows}, gap {gap}: {quality}");
+        assert!(quality.min_angle > SMALLEST_ANGLE, "{quality}");
+    }
+}
+
+/// A row and a column of discs that all but touch, with one wider gap in each.
+#[test]
+fn the_cut_takes_the_widest_of_narrow_gaps() {
+    let domain = torus(8.0, 8.0, [true, true]);
+    let radius = 0.99;
+    let at = |k: usize, x: f64, y: f64| {
+        placed(format!("disc{k}"), Shape::Disc { radius }, Point::<2>::new(x, y), 0.0)
+    };
+    // A row and a column that meet in the corner, in each one gap of 0.04 among those of 0.0133
+    let step = 2.0 * radius + 0.04 / 3.0;
+    let mut bodies = vec![at(0, 0.0, 1.0)];
+    for k in 1..4 {
+        let along = step * k as f64;
+        bodies.push(at(2 * k - 1, along, 1.0));
+        bodies.push(at(2 * k, 0.0, 1.0 + along));
+    }
+    let sizing = Sizing { gap_layers: 2.0, ..Sizing::graded(0.2, 0.3, 0.6) };
+    let cut = Cut::between(&domain, &bodies).unwrap();
+    let mut moved = bodies.clone();
+    for (body, shift) in moved.iter_mut().zip(cut.shifts()) {
+        body.center += shift;
+    }
+    let mesh = generate_along(&cut, &domain, &moved, &sizing).unwrap();
+    let narrow = mesh
+        .facets
+        .iter()
+        .filter(|facet| facet.boundary < 4)
+        .map(|facet| {
+            let middle = mesh.nodes[mesh.facet_nodes(facet)[2] as usize];
+            let gap = |body: &PlacedShape| (middle - body.center).norm() - radius;
+            moved.iter().map(gap).fold(f64::INFINITY, f64::min)
+        })
+        .fold(f64::INFINITY, f64::min);
+    // Half of the wide gap
+    assert!(narrow > 0.019, "{narrow}");
+    assert!(assert_cut(&domain, &bodies, &sizing).min_angle > SMALLEST_ANGLE);
+}
+
+#[test]
+fn discs_on_the_corner_of_a_box_and_alone_in_a_row_are_cut_open() {
+    let sizing = Sizing::graded(0.1, 0.3, 0.6);
+    for (width, periodic, radius) in
+        [(4.0, [true, true], 1.0), (2.1, [true, true], 1.0), (4.0, [true, false], 0.4)]
+    {
+        let domain = torus(width, 4.0, periodic);
+        for (x, y) in [(-1.0, 0.5), (-0.2, 0.5), (1.0, 2.5)] {
+            let y = if periodic[1] { y } else { 2.4 };
+            let body = placed("b".into(), Shape::Disc { radius }, Point::<2>::new(x, y), 0.0);
+            let quality = assert_cut(&domain, &[body], &sizing);
+            assert!(quality.min_angle > SMALLEST_ANGLE, "{quality}");
+        }
+    }
+}
+
+#[test]
+fn bodies_that_overlap_an_image_are_refused() {
+    let domain = torus(4.0, 4.0, [true, true]);
+    let disc = |name: &str, x: f64, radius: f64| {
+        placed(name.into(), Shape::Disc { radius }, Point::<2>::new(x, 2.0), 0.0)
+    };
+    assert!(Cut::between(&domain, &[disc("large", 1.0, 2.01)]).is_err());
+    let pair = [disc("a", -0.9, 0.5), disc("b", 2.5, 0.2)];
+    assert!(check_wrapped_placement(&domain, &pair).is_err());
+    assert!(check_placement(&domain, &pair).is_err());
+    let apart = [disc("a", -0.9, 0.5), disc("b", 2.3, 0.2)];
+    assert!(check_wrapped_placement(&domain, &apart).is_ok());
+    let walled = torus(4.0, 4.0, [false, true]);
+    assert!(check_wrapped_placement(&walled, &apart[..1]).is_err());
+}
