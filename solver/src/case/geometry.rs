@@ -258,7 +258,8 @@ impl Case {
     /// looks different then, or deforms; or a side of the domain waves.
     #[must_use]
     pub fn mesh_moves(&self) -> bool {
-        let is_frame = |body: &Body| self.frame.as_deref() == Some(body.name.as_str());
+        let frame = self.frame_body().map(|body| self.body[body].name.as_str());
+        let is_frame = |body: &Body| frame == Some(body.name.as_str());
         let frame_moves = self.body.iter().any(|body| is_frame(body) && body.translates());
         let moves = |body: &Body| {
             let travels = !is_frame(body) && (body.translates() || frame_moves);
@@ -285,6 +286,15 @@ impl Case {
         let is_told =
             matches!(self.time, TimeSettings::Unsteady(_)) || self.fluid.model == Model::Stokes;
         is_told && !self.body.is_empty() && self.boundary.values().all(is_idle)
+    }
+
+    /// The body the frame travels with: that of the name, or the one the others of a swimmer hang on.
+    #[must_use]
+    pub fn frame_body(&self) -> Option<usize> {
+        let name = self.frame.as_deref()?;
+        let of_group = self.group.iter().find(|group| group.name == name);
+        let body = self.body.iter().position(|body| body.name == name);
+        body.or_else(|| of_group?.bodies.first().copied())
     }
 
     /// Whether a side of the domain waves.

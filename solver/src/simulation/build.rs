@@ -116,14 +116,10 @@ pub fn build_problem(case: &Case, mesh: &Mesh<2>) -> Result<Problem, RunError> {
             BoundaryKind::Side => Some(side(case, &known.name)?),
         });
     }
-    let frame = match &case.frame {
-        None => None,
-        Some(name) => {
-            Some(case.body.iter().position(|body| body.name == *name).ok_or_else(|| {
-                RunError::Unsupported(format!("frame = \"{name}\" names no body"))
-            })?)
-        }
-    };
+    let frame = case.frame_body();
+    if let (None, Some(name)) = (frame, &case.frame) {
+        return Err(RunError::Unsupported(format!("frame = \"{name}\" names no body")));
+    }
     for joint in &case.joint {
         link(case, joint, &mut bodies)?;
     }

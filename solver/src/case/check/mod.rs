@@ -101,11 +101,13 @@ fn general(findings: &mut Findings<'_>) {
         }
     }
     if let Some(name) = &case.frame {
-        let names: Vec<&str> = case.body.iter().map(|body| body.name.as_str()).collect();
-        if !names.contains(&name.as_str()) {
+        if case.frame_body().is_none() {
+            let bodies = case.body.iter().map(|body| body.name.as_str());
+            let names: Vec<&str> =
+                bodies.chain(case.group.iter().map(|group| group.name.as_str())).collect();
             findings.error(
                 "frame",
-                format!("`frame` is \"{name}\", but no body has that name"),
+                format!("`frame` is \"{name}\", but no body or swimmer has that name"),
                 &super::deserialize::suggestion(name, &names),
             );
         }

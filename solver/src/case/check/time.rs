@@ -117,7 +117,7 @@ fn adaptive_steps(findings: &mut Findings<'_>, unsteady: &Unsteady, adaptive: &A
 fn steady_frame(findings: &mut Findings<'_>) {
     let case = findings.case();
     for (index, body) in case.body.iter().enumerate() {
-        if body.translates() && case.frame.as_deref() != Some(body.name.as_str()) {
+        if body.translates() && case.frame_body() != Some(index) {
             findings.warning(
                 &format!("body.{index}.motion"),
                 format!("a flow with inertia around the travelling body \"{}\" is steady only as seen from it", body.name),
