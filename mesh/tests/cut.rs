@@ -119,7 +119,8 @@ fn lobed(radius: f64) -> Shape {
 #[test]
 fn dense_random_placements_on_a_torus_are_cut_open_and_meshed() {
     let mut lowest = f64::INFINITY;
-    for seed in 0..24 {
+    // Each shape with each choice of periodic directions
+    for seed in 0..9 {
         let mut random = Random(seed + 7);
         let width = 4.0 + 6.0 * random.next();
         let height = 4.0 + 6.0 * random.next();
