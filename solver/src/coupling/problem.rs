@@ -217,6 +217,14 @@ impl Problem {
             .any(|side| matches!(side, Side::DoNothing | Side::TractionFree))
     }
 
+    /// Whether the work of bodies depends on the level of the pressure, which nothing fixes, by the
+    /// trace of flux that interpolated gaits carry.
+    #[must_use]
+    pub fn works_on_level(&self) -> bool {
+        self.is_enclosed()
+            && self.bodies.iter().any(|body| body.gait.is_some() || body.shape.is_some())
+    }
+
     /// The velocity given at a place (m, s) on these boundaries, bodies left out; a wall's value
     /// counts where boundaries meet.
     #[must_use]
