@@ -75,27 +75,27 @@ fn copies_at_random_are_where_their_seed_puts_them_and_keep_their_gap() {
             }
         }
     }
-    // The same on every machine: the first place as drawn by hand from the counter.
+    // The same on every machine.
     let first = &case.body[2].center;
-    println!("first of seed 7: {first:?}");
+    assert!((first[0] - 4.809_128_167).abs() < 1e-9 && (first[1] - 0.663_442_344).abs() < 1e-9);
 }
 
-/// Two swimmers are pulled into each other and onto a disc between them, and touch nobody.
+/// Two heavy swimmers sink upon a disc and the bottom, their strokes going on.
 #[test]
 fn swimmers_driven_together_do_not_overlap() {
     let text = r#"
         title = "two swimmers and a disc"
         geometry = "planar"
-        fluid = { model = "stokes", viscosity = 1.0, density = 1.0, gravity = [0.0, -10.0] }
+        fluid = { model = "stokes", viscosity = 0.3, density = 1.0, gravity = [0.0, -10.0] }
         domain.box = { min = [-2.0, -1.0], max = [2.0, 1.0] }
         boundary = { left = "no-slip", right = "no-slip", bottom = "no-slip", top = "no-slip" }
         mesh = { size = 0.5, surface = 0.15, gap_layers = 2 }
-        contact.barrier = { range = 0.1, stiffness = 40.0 }
+        contact.barrier = { range = 0.1, stiffness = 80.0 }
         time.unsteady = { step = 0.05, end = 2.0 }
         [[body]]
         name = "disc"
         shape.disc.radius = 0.2
-        center = [-0.1, -0.75]
+        center = [-0.1, -0.6]
         density = 2.0
         motion = "free"
         [[swimmer]]
@@ -114,6 +114,7 @@ fn swimmers_driven_together_do_not_overlap() {
         spacing = [1.8, 0.0]
         "#;
     let outcome = run(&case(text));
+    let mut carried = 0.0f64;
     let gaps = outcome.series.column("flow.least_gap").expect("the mesh moves");
     let least = gaps.iter().copied().fold(f64::INFINITY, f64::min);
     // Contact and fluid carry the weight of each swimmer, all parts of its tree together.
@@ -125,14 +126,10 @@ fn swimmers_driven_together_do_not_overlap() {
         let weight = 3.0 * 2.0 * 10.0 * std::f64::consts::PI * 0.04;
         let (fluid, contact) = (of("force.y"), of("contact_force.y"));
         println!("{swimmer}: fluid {fluid}, contact {contact}, weight {weight}");
+        carried = carried.max(contact / weight);
         assert!((fluid + contact - weight).abs() < 1e-8 * weight);
     }
-    let most = |name: &str| -> f64 {
-        let forces = outcome.series.column(&format!("{name}.contact_force.y")).expect("contact");
-        forces.iter().fold(0.0, |most, force| most.max(force.abs()))
-    };
-    let touched = most("disc");
-    println!("least gap {least}, {} meshes, disc {touched}", last(&outcome, "flow.remeshes"));
+    println!("least gap {least}, {} meshes", last(&outcome, "flow.remeshes"));
+    assert!(carried > 0.1, "nobody stands on anything: {carried}");
     assert!(least > 0.0 && least < 0.1, "{least}");
-    assert!(touched > 0.1);
 }

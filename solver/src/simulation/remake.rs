@@ -11,6 +11,7 @@ use crate::case::Case;
 use crate::contact::Place;
 use crate::coupling::{DivergenceFree, NodeSides, Problem, Solution};
 use crate::motion::Transfer;
+use crate::space::Tables;
 
 /// Part of the widest free strip of a periodic domain that has to be left at its sides.
 const STRIP_LEFT: f64 = 0.25;
@@ -43,7 +44,9 @@ pub(super) fn remake(
     let made = Follower::new(case, problem, &new, domain.clone(), shapes, made_at)?;
 
     let old = state.mesh_in_frame();
+    let tables = Tables::new(problem.axisymmetric);
     let transfer = Transfer::new(&old, &new, &domain.images())
+        .and_then(|transfer| transfer.with_points(&tables, &domain.images()))
         .ok_or("the flow could not be found in the old mesh")?;
     let mut before = new.clone();
     before.nodes = transfer.positions(&state.nodes_before);
@@ -77,9 +80,10 @@ pub(super) fn remake(
                 solution.velocity[node] = rigid + surfaces[body].velocity(&place);
             }
             hold_sides(problem, mesh, &sides, &origin, time, &mut solution.velocity);
+            let missed = transfer.missed(&tables, mesh, &old.velocity, &solution.velocity);
             projection
                 .move_to(problem, mesh)
-                .and_then(|()| projection.project(mesh, &solution.velocity))
+                .and_then(|()| projection.project_with(mesh, &solution.velocity, &missed))
                 .map(|velocity| Solution { velocity, ..solution })
                 .map_err(|error| format!("the flow on the new mesh: {error}"))
         };
