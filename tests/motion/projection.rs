@@ -2,6 +2,7 @@
 
 use alewife::coupling::{DivergenceFree, Problem, Side};
 use alewife::motion::Transfer;
+use alewife::space::Tables;
 use alewife_mesh::{Mesh, Point, Sizing, generate};
 use tests::{Study, fluid_only, sides};
 
@@ -123,4 +124,30 @@ fn a_velocity_that_is_not_finite_is_refused() {
     assert_eq!(projection.project(&mesh, &field).unwrap(), field);
     field[mesh.n_nodes() / 2].x = f64::NAN;
     assert!(projection.project(&mesh, &field).is_err());
+}
+
+/// Interpolation takes what waves have at the nodes: their energy goes up or down with the first power
+/// of its error. The nearest field to what is between the nodes, too, loses it with the second.
+#[test]
+fn what_is_between_the_nodes_keeps_the_energy_of_waves() {
+    let waves = |x: &Point<2>| {
+        let (x, y) = (9.0 * x.x, 8.0 * x.y);
+        Point::<2>::new(8.0 * x.sin() * y.cos(), -9.0 * x.cos() * y.sin())
+    };
+    let energy =
+        |mesh: &Mesh<2>, field: &[Point<2>]| distance(mesh, field, |_| Point::<2>::zeros()).powi(2);
+    let (old, new) = moved_and_new(0.15);
+    let tables = Tables::new(false);
+    let field: Vec<Point<2>> = old.nodes.iter().map(waves).collect();
+    let transfer = Transfer::new(&old, &new, &[]).unwrap().with_points(&tables, &[]).unwrap();
+    let transferred = transfer.quadratic(&field);
+    let missed = transfer.missed(&tables, &new, &field, &transferred);
+    let mut projection = DivergenceFree::new(&walled(&new, false), &new).unwrap();
+    let without = projection.project(&new, &transferred).unwrap();
+    let with = projection.project_with(&new, &transferred, &missed).unwrap();
+    assert!(largest(&projection.defect(&new, &with)) < 1e-12 * 9.0);
+    let whole = energy(&old, &field);
+    let [without, with] = [without, with].map(|field| energy(&new, &field) / whole - 1.0);
+    println!("energy changes by {without:e} without, {with:e} with what is between the nodes");
+    assert!(with.abs() < 0.4 * without.abs(), "{with:e} {without:e}");
 }

@@ -1,53 +1,9 @@
 //! Runs that go on from the state another one left.
 
-use std::sync::{Arc, Mutex};
-
 use alewife::case::Case;
-use alewife::simulation::{
-    Observer, Outcome, Remains, RunError, SavedState, Snapshot, simulate, simulate_from,
-};
+use alewife::simulation::{Outcome, simulate_from};
 use tests::cases::{case, last, run};
-
-/// Stops a run after some steps and keeps the state it leaves.
-struct Stopper {
-    after: usize,
-    steps: usize,
-    left: Arc<Mutex<Option<SavedState>>>,
-}
-
-impl Observer<2> for Stopper {
-    fn on_step(&mut self, snapshot: &Snapshot<'_, 2>) -> std::io::Result<()> {
-        self.steps = snapshot.step;
-        Ok(())
-    }
-
-    fn wants_stop(&self) -> bool {
-        self.steps >= self.after
-    }
-
-    fn on_failure(
-        &mut self,
-        _error: &RunError,
-        remains: Option<&Remains<'_, 2>>,
-    ) -> std::io::Result<()> {
-        *self.left.lock().expect("nobody else holds it") =
-            remains.and_then(|remains| remains.saved.cloned());
-        Ok(())
-    }
-}
-
-/// The state after some steps, through the text it is written as.
-fn stopped(case: &Case, after: usize) -> SavedState {
-    let left = Arc::new(Mutex::new(None));
-    let stopper = Stopper { after, steps: 0, left: Arc::clone(&left) };
-    let error = simulate(case, &mut [Box::new(stopper)]).expect_err("it is stopped");
-    assert!(matches!(error, RunError::Stopped { .. }), "{error}");
-    let saved = left.lock().expect("the run is over").take().expect("there is a state");
-    let text = serde_json::to_string(&saved).expect("it is written");
-    let read: SavedState = serde_json::from_str(&text).expect("it is read");
-    assert!(read == saved, "not a bit is lost");
-    read
-}
+use tests::stopped;
 
 fn two_bodies(adaptive: &str) -> Case {
     case(&format!(

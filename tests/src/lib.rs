@@ -2,10 +2,16 @@
 
 pub mod cases;
 pub mod exact;
+mod moved;
 mod norms;
 mod setup;
+mod stop;
 mod study;
+mod swim;
 
+pub use moved::Moved;
 pub use norms::{Errors, errors};
 pub use setup::{fluid_only, rest, sides};
+pub use stop::stopped;
 pub use study::Study;
+pub use swim::Swim;

@@ -16,7 +16,8 @@ use crate::space::DofLayout;
 /// u where the problem gives velocities: on bodies, walls and inflows, and in the normal component
 /// on symmetry planes.
 ///
-/// With v = u + d: [M B^T; B 0] [d; q] = [0; -B u] on the free unknowns. On open sides q = 0.
+/// With v = u + d: [M B^T; B 0] [d; q] = [m; -B u] on the free unknowns, m zero unless the velocity
+/// meant is another one within the cells. On open sides q = 0.
 #[derive(Debug)]
 pub struct DivergenceFree {
     layout: DofLayout<2>,
@@ -104,7 +105,27 @@ impl DivergenceFree {
         mesh: &Mesh<2>,
         velocity: &[Point<2>],
     ) -> Result<Vec<Point<2>>, LinearError> {
+        self.project_with(mesh, velocity, &[])
+    }
+
+    /// The nearest divergence-free velocity not to the one at the nodes but to one that differs from
+    /// it within the cells: `missed` is int phi times the difference dx of each node (m3/s; m4/s in
+    /// axisymmetric problems).
+    ///
+    /// # Errors
+    /// As [`Self::project`].
+    pub fn project_with(
+        &mut self,
+        mesh: &Mesh<2>,
+        velocity: &[Point<2>],
+        missed: &[Point<2>],
+    ) -> Result<Vec<Point<2>>, LinearError> {
         let mut raw = vec![0.0; self.layout.n_raw()];
+        for (node, missed) in missed.iter().enumerate() {
+            for axis in 0..2 {
+                raw[self.layout.velocity(node, axis)] = missed[axis];
+            }
+        }
         for (vertex, value) in self.defect(mesh, velocity).into_iter().enumerate() {
             raw[self.layout.pressure(vertex)] = -value;
         }

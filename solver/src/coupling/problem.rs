@@ -226,7 +226,8 @@ impl Problem {
         let is_loose = |body: &RigidBody, axis: usize| {
             let is_held =
                 |spring: &Spring| spring.stiffness[axis] != 0.0 || spring.damping[axis] != 0.0;
-            matches!(body.drives[axis], Drive::Free) && !body.spring.as_ref().is_some_and(is_held)
+            !matches!(body.drives[axis], Drive::Given(_))
+                && !body.spring.as_ref().is_some_and(is_held)
         };
         let slides = |side: &Side, axis: usize| match side {
             Side::Periodic => true,
@@ -242,6 +243,14 @@ impl Problem {
                 && sides().all(|side| slides(side, axis))
                 && self.bodies.iter().all(|body| is_loose(body, axis))
         })
+    }
+
+    /// Whether the work of bodies depends on the level of the pressure, which nothing fixes, by the
+    /// trace of flux that interpolated gaits carry.
+    #[must_use]
+    pub fn works_on_level(&self) -> bool {
+        self.is_enclosed()
+            && self.bodies.iter().any(|body| body.gait.is_some() || body.shape.is_some())
     }
 
     /// The velocity given at a place (m, s) on these boundaries, bodies left out; a wall's value

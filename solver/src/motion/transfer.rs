@@ -3,6 +3,8 @@
 use alewife_mesh::{Locator, Mesh, Point, shape_functions};
 use rayon::prelude::*;
 
+use crate::space::{CellValues, Tables};
+
 /// Barycentric coordinates down to this are extrapolated; farther outside they are clamped to it.
 const EXTRAPOLATION: f64 = -0.1;
 
@@ -40,6 +42,8 @@ pub struct Transfer<'a> {
     old: &'a Mesh<2>,
     new: &'a Mesh<2>,
     sources: Vec<Source>,
+    /// Where the quadrature points of the new mesh take their values, cell by cell.
+    points: Vec<Source>,
 }
 
 /// How the nodes of the new mesh lie in the old one.
@@ -65,26 +69,50 @@ impl<'a> Transfer<'a> {
     /// Returns `None` when a node is not finite or the old mesh has no cells.
     #[must_use]
     pub fn new(old: &'a Mesh<2>, new: &'a Mesh<2>, periods: &[Point<2>]) -> Option<Self> {
-        let locator = Locator::new(old);
-        let find = |node: &Point<2>| {
-            if let Some((cell, at)) = locator.locate(*node) {
-                return Some(settle(cell, at, Landing::Inside, 0.0));
-            }
-            let images = std::iter::once(Point::<2>::zeros()).chain(periods.iter().copied());
-            let found = images.filter_map(|shift| locator.nearest(node + shift));
-            let nearest = found.min_by(|a, b| a.distance.total_cmp(&b.distance))?;
-            Some(settle(nearest.cell, nearest.reference, Landing::Extrapolated, nearest.distance))
-        };
-        let order = near_ones_together(&new.nodes);
-        let found: Option<Vec<Source>> = order
-            .par_chunks(NODES_PER_TASK)
-            .flat_map_iter(|nodes| nodes.iter().map(|&node| find(&new.nodes[node as usize])))
-            .collect();
-        let mut sources = vec![NOWHERE; new.n_nodes()];
-        for (node, source) in order.into_iter().zip(found?) {
-            sources[node as usize] = source;
+        Some(Self { old, new, sources: find(old, &new.nodes, periods)?, points: Vec::new() })
+    }
+
+    /// Finds the quadrature points of the new mesh, too, for [`Self::missed`].
+    ///
+    /// Returns `None` as [`Self::new`] does.
+    #[must_use]
+    pub fn with_points(mut self, tables: &Tables<2>, periods: &[Point<2>]) -> Option<Self> {
+        let mut points = Vec::new();
+        let mut workspace = CellValues::default();
+        for cell in 0..self.new.n_cells() {
+            workspace.for_each_point(tables, self.new, cell, |at| points.push(at.position));
         }
-        Some(Self { old, new, sources })
+        self.points = find(self.old, &points, periods)?;
+        Some(self)
+    }
+
+    /// int phi (u - v) dx for each node, with u a field of the old mesh and v one of the new mesh,
+    /// whose nodes are at `nodes` (m): what interpolation loses. [`Self::with_points`] comes before.
+    #[must_use]
+    pub fn missed(
+        &self,
+        tables: &Tables<2>,
+        mesh: &Mesh<2>,
+        old: &[Point<2>],
+        new: &[Point<2>],
+    ) -> Vec<Point<2>> {
+        let mut missed = vec![Point::<2>::zeros(); new.len()];
+        let mut workspace = CellValues::default();
+        let mut sources = self.points.iter();
+        for cell in 0..mesh.n_cells() {
+            let nodes = mesh.cell(cell);
+            workspace.for_each_point(tables, mesh, cell, |at| {
+                let Some(source) = sources.next() else { return };
+                let mut off = self.at(source, |node| old[node]);
+                for (&node, phi) in nodes.iter().zip(at.phi) {
+                    off -= new[node as usize] * *phi;
+                }
+                for (&node, phi) in nodes.iter().zip(at.phi) {
+                    missed[node as usize] += off * (phi * at.dx);
+                }
+            });
+        }
+        missed
     }
 
     /// A quadratic vector field (one vector a node of the old mesh) at the nodes of the new mesh.
@@ -144,6 +172,30 @@ impl<'a> Transfer<'a> {
             .zip(weights)
             .fold(Point::<2>::zeros(), |sum, (&node, weight)| sum + field(node as usize) * weight)
     }
+}
+
+/// Finds places (m) in a mesh; `None` when one is not finite or the mesh has no cells.
+fn find(old: &Mesh<2>, places: &[Point<2>], periods: &[Point<2>]) -> Option<Vec<Source>> {
+    let locator = Locator::new(old);
+    let find = |place: &Point<2>| {
+        if let Some((cell, at)) = locator.locate(*place) {
+            return Some(settle(cell, at, Landing::Inside, 0.0));
+        }
+        let images = std::iter::once(Point::<2>::zeros()).chain(periods.iter().copied());
+        let found = images.filter_map(|shift| locator.nearest(place + shift));
+        let nearest = found.min_by(|a, b| a.distance.total_cmp(&b.distance))?;
+        Some(settle(nearest.cell, nearest.reference, Landing::Extrapolated, nearest.distance))
+    };
+    let order = near_ones_together(places);
+    let found: Option<Vec<Source>> = order
+        .par_chunks(NODES_PER_TASK)
+        .flat_map_iter(|nodes| nodes.iter().map(|&node| find(&places[node as usize])))
+        .collect();
+    let mut sources = vec![NOWHERE; places.len()];
+    for (node, source) in order.into_iter().zip(found?) {
+        sources[node as usize] = source;
+    }
+    Some(sources)
 }
 
 /// Keeps reference coordinates within the cell, or near it where they are extrapolated.

@@ -4,10 +4,10 @@
 //! estimate of second order. Its last stage is the flow at the new time, and the first one of the
 //! next step.
 
-use super::Timing;
 use super::error::StepError;
 use super::march::{March, MeshPath, Past, StepResult};
 use super::state::{State, Swim, pose_at};
+use super::{Stage, Timing};
 use crate::body::Twist;
 use crate::contact::{ContactLoads, Place};
 use crate::coupling::{
@@ -91,8 +91,7 @@ impl March<'_> {
             return Err(StepError::Unsettled { passes: 0 });
         };
         let error = self.explicit_error(&rates);
-        let Instant { mut solution, loads, nodes, .. } = instant;
-        system.center_pressure(self.problem, &mut solution);
+        let Instant { solution, loads, nodes, .. } = instant;
         for (group, swim) in state.swims.iter_mut().enumerate() {
             let stages = efforts.iter().zip(STAGES[2].1);
             let shares: Vec<_> = stages.map(|(stage, share)| (stage[group], *share)).collect();
@@ -155,7 +154,13 @@ impl March<'_> {
         let begin = embed(&system.layout, &constraints.expand(&constraints.pick(&flatten(begin))));
         // Without density its coefficients multiply nothing.
         let bdf = Bdf::first_order(1.0);
-        let flow = self.solve(system, state, &bdf, &past, &constraints, &[], begin, timing)?;
+        let mut flow = self.solve(system, state, &bdf, &past, &constraints, &[], begin, timing)?;
+        system.center_pressure(self.problem, &mut flow.solution);
+        if self.problem.works_on_level() {
+            flow.residual = timing.measure(Stage::Loads, || {
+                self.residual(system, state, &bdf, &past, &[], &flow.solution)
+            });
+        }
         let (solution, iterations) = (flow.solution, flow.iterations);
         let loads = body_loads(
             self.problem,

@@ -203,6 +203,11 @@ impl March<'_> {
             };
             if is_settled {
                 system.center_pressure(self.problem, &mut flow.solution);
+                if self.problem.works_on_level() {
+                    flow.residual = timing.measure(Stage::Loads, || {
+                        self.residual(system, state, bdf, &past, &mesh_velocity, &flow.solution)
+                    });
+                }
                 let error = self.error(state, bdf, &flow.solution);
                 let fluid_loads = body_loads(
                     self.problem,
@@ -405,7 +410,7 @@ impl March<'_> {
         (crossing, convection)
     }
 
-    fn residual(
+    pub(super) fn residual(
         &self,
         system: &FluidSystem,
         state: &State,

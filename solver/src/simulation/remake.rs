@@ -12,6 +12,7 @@ use crate::case::Case;
 use crate::contact::Place;
 use crate::coupling::{DivergenceFree, NodeSides, Problem, Solution};
 use crate::motion::Transfer;
+use crate::space::Tables;
 
 /// Makes the mesh of a state anew, with bodies where they are, and takes the flow over. On error the
 /// state is where it was.
@@ -44,8 +45,10 @@ pub(super) fn remake(
     let old = state.mesh_in_frame();
     // The cells of both meshes may lie periods apart
     let images = domain.images_around(old.nodes.iter().chain(&new.nodes).copied());
-    let transfer =
-        Transfer::new(&old, &new, &images).ok_or("the flow could not be found in the old mesh")?;
+    let tables = Tables::new(problem.axisymmetric);
+    let transfer = Transfer::new(&old, &new, &images)
+        .and_then(|transfer| transfer.with_points(&tables, &images))
+        .ok_or("the flow could not be found in the old mesh")?;
     let mut before = new.clone();
     before.nodes = transfer.positions(&state.nodes_before);
     // What bodies carry was where they were, exactly.
@@ -78,9 +81,10 @@ pub(super) fn remake(
                 solution.velocity[node] = rigid + surfaces[body].velocity(&place);
             }
             hold_sides(problem, mesh, &sides, &origin, time, &mut solution.velocity);
+            let missed = transfer.missed(&tables, mesh, &old.velocity, &solution.velocity);
             projection
                 .move_to(problem, mesh)
-                .and_then(|()| projection.project(mesh, &solution.velocity))
+                .and_then(|()| projection.project_with(mesh, &solution.velocity, &missed))
                 .map(|velocity| Solution { velocity, ..solution })
                 .map_err(|error| format!("the flow on the new mesh: {error}"))
         };

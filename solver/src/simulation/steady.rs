@@ -91,11 +91,30 @@ pub fn solve_steady(
     };
     match newton.solve(at_rest, time) {
         Err(error) => Err(SteadyFailure { error, last: newton.last }),
-        Ok((mut solution, residual)) => {
+        Ok((mut solution, mut residual)) => {
             let iterations = newton.iterations;
-            system.center_pressure(problem, &mut solution);
+            newton.system.center_pressure(problem, &mut solution);
+            if problem.works_on_level() {
+                let part = if problem.has_convection { 1.0 } else { 0.0 };
+                let crossing = newton.crossing(&solution, part);
+                let terms = terms(problem, &crossing, part);
+                residual = newton.system.fluid_residual(mesh, &terms, &solution);
+            }
             Ok(SteadyFlow { solution, residual, iterations })
         }
+    }
+}
+
+/// The equations with a part of the density, 0 for Stokes flow.
+fn terms<'a>(problem: &'a Problem, crossing: &'a [Point<2>], part: f64) -> FlowTerms<'a, 2> {
+    FlowTerms {
+        viscosity: problem.viscosity,
+        density: problem.density * part,
+        rate: 0.0,
+        history: &[],
+        crossing,
+        convection: if part > 0.0 { newton_convection(problem) } else { Convection::None },
+        body_force: problem.body_force,
     }
 }
 
@@ -142,19 +161,7 @@ impl Newton<'_> {
         let mut best = f64::INFINITY;
         for iteration in 0..=self.settings.max_iterations {
             let crossing = self.crossing(&solution, part);
-            let terms = FlowTerms {
-                viscosity: self.problem.viscosity,
-                density: self.problem.density * part,
-                rate: 0.0,
-                history: &[],
-                crossing: &crossing,
-                convection: if part > 0.0 {
-                    newton_convection(self.problem)
-                } else {
-                    Convection::None
-                },
-                body_force: self.problem.body_force,
-            };
+            let terms = terms(self.problem, &crossing, part);
             let raw = self.timing.measure(Stage::Assembly, || {
                 self.system.fluid_residual(self.mesh, &terms, &solution)
             });

@@ -1,0 +1,9 @@
+//! Swimmers in whole runs: invariances, orders in time, articulated and deforming bodies with and
+//! without inertia, copies and contact.
+
+mod articulated;
+mod crowd;
+mod deforming;
+mod invariance;
+mod orders;
+mod reciprocity;
