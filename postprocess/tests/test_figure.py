@@ -10,7 +10,8 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from alewife_post import Run, cli, figure, style
-from alewife_post.drawing import smooth_outline
+from alewife_post.drawing import boundary_loops, smooth_outline
+from alewife_post.read import Field
 
 VTK = pytest.param(
     "vtk", marks=pytest.mark.skipif(not CAN_RENDER, reason="VTK can have no window here")
@@ -135,3 +136,31 @@ def test_a_computed_run_is_drawn(computed_run: Run, tmp_path: Path) -> None:
     out = tmp_path / "picture.png"
     assert cli.picture([str(computed_run.path), "--out", str(out)]) == 0
     assert matplotlib.image.imread(out)[..., :3].std() > 0.05
+
+
+def test_bodies_of_swimmers_are_what_the_mesh_leaves_out() -> None:
+    # One straight-sided cell of four triangles around a square hole, in a square
+    corners = [(-2, -2), (2, -2), (2, 2), (-2, 2), (-1, -1), (1, -1), (1, 1), (-1, 1)]
+    triangles = [
+        (a, b, c)
+        for k in range(4)
+        for a, b, c in [(k, (k + 1) % 4, 4 + k), ((k + 1) % 4, 4 + (k + 1) % 4, 4 + k)]
+    ]
+    nodes = [np.array(corner, dtype=float) for corner in corners]
+    middles: dict[frozenset[int], int] = {}
+    cells = []
+    for a, b, c in triangles:
+        cell = [a, b, c]
+        for ends in ((a, b), (b, c), (c, a)):
+            key = frozenset(ends)
+            if key not in middles:
+                middles[key] = len(nodes)
+                nodes.append((nodes[ends[0]] + nodes[ends[1]]) / 2)
+            cell.append(middles[key])
+        cells.append(cell)
+    zeros = np.zeros((len(nodes), 2))
+    field = Field(
+        time=0.0, nodes=np.array(nodes), cells=np.array(cells), velocity=zeros, pressure=zeros[:, 0]
+    )
+    loops = boundary_loops(field)
+    assert sorted(float(np.ptp(loop, axis=0).max()) for loop in loops) == [2.0, 4.0]

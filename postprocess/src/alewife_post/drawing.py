@@ -66,10 +66,20 @@ def draw_boundary(axes: Axes, field: Field) -> None:
     axes.add_collection(LineCollection(curves, colors=style.BOUNDARY, linewidths=0.7, zorder=4))
 
 
-def draw_bodies(axes: Axes, case: dict[str, Any], poses: dict[str, tuple[Array, float]]) -> None:
+def draw_bodies(
+    axes: Axes,
+    case: dict[str, Any],
+    poses: dict[str, tuple[Array, float]],
+    field: Field,
+) -> None:
     """Bodies, below the fluid so that its edge is theirs; a pose is centre `(2,)` and angle."""
-    for body in case.get("body", []):
-        center, angle = poses[body["name"]]
+    known = {body["name"]: body for body in case.get("body", [])}
+    if any(name not in known or not _keeps_shape(known[name]) for name in poses):
+        _draw_holes(axes, case, field)
+    for name, body in known.items():
+        if not _keeps_shape(body):
+            continue
+        center, angle = poses[name]
         (kind, shape), *_ = body["shape"].items()
         match kind:
             case "disc" | "sphere":
@@ -88,6 +98,59 @@ def draw_bodies(axes: Axes, case: dict[str, Any], poses: dict[str, tuple[Array, 
         axes.add_patch(
             Ellipse(center, width, height, angle=degrees, facecolor=style.BODY, zorder=0)
         )
+
+
+def _keeps_shape(body: dict[str, Any]) -> bool:
+    """Whether a body looks as its shape in the case at all times."""
+    is_simple = next(iter(body["shape"])) in ("disc", "sphere", "ellipse", "spheroid", "spline")
+    return is_simple and next(iter(body.get("gait", {})), "squirmer") == "squirmer"
+
+
+def _draw_holes(axes: Axes, case: dict[str, Any], field: Field) -> None:
+    """What is inside the domain and no fluid: bodies that deform, or were made for a swimmer."""
+    if case.get("geometry") == "axisymmetric":
+        # Half of the outline of a body ends on the axis; the domain has no sides but straight ones
+        # or an arc, and all of it lies below the fluid.
+        low, high = field.nodes.min(axis=0), field.nodes.max(axis=0)
+        reach = max(abs(low[1]), abs(high[1]))
+        if "half-disc" in case.get("domain", {}):
+            center = ((low[0] + high[0]) / 2, 0.0)
+            patch = Ellipse(center, 2 * reach, 2 * reach, facecolor=style.BODY, zorder=0)
+        else:
+            corners = [(low[0], -reach), (high[0], -reach), (high[0], reach), (low[0], reach)]
+            patch = Polygon(corners, facecolor=style.BODY, edgecolor="none", zorder=0)
+        axes.add_patch(patch)
+        return
+    outlines = boundary_loops(field)
+    outer = max(outlines, key=lambda outline: np.prod(np.ptp(outline, axis=0)))
+    for outline in outlines:
+        if outline is not outer:
+            axes.add_patch(Polygon(outline, facecolor=style.BODY, edgecolor="none", zorder=0))
+
+
+def boundary_loops(field: Field) -> list[Array]:
+    """Closed outlines of the fluid, each `(n_points, 2)` along its curved edges."""
+    every, is_boundary = edges(field.cells)
+    ends = every[is_boundary]
+    curves = edge_curves(field.nodes, ends)
+    at: dict[int, list[int]] = {}
+    for edge, (first, second, *_) in enumerate(ends):
+        at.setdefault(int(first), []).append(edge)
+        at.setdefault(int(second), []).append(edge)
+    left = set(range(len(ends)))
+    loops = []
+    while left:
+        edge = min(left)
+        vertex = int(ends[edge][0])
+        points = []
+        while edge in left:
+            left.remove(edge)
+            is_forward = int(ends[edge][0]) == vertex
+            points.append(curves[edge] if is_forward else curves[edge][::-1])
+            vertex = int(ends[edge][1] if is_forward else ends[edge][0])
+            edge = next((other for other in at[vertex] if other in left), edge)
+        loops.append(np.concatenate(points))
+    return loops
 
 
 def centroid(outline: Array) -> Array:

@@ -69,7 +69,7 @@ def picture(
     figure = Figure(figsize=(width, height), layout="compressed")
     axes = figure.add_subplot()
     axes.set_aspect("equal")
-    drawing.draw_bodies(axes, run.case, poses)
+    drawing.draw_bodies(axes, run.case, poses, field)
     is_mesh = quantity == "mesh"
     values = None if is_mesh else nodal_values(field, quantity)
     colour_map, limits = ("viridis", (0.0, 1.0))
@@ -119,12 +119,11 @@ def body_states(run: Run, time: float) -> tuple[dict[str, tuple[Array, float]], 
     """Pose (centre `(2,)`, angle) and velocity `(2,)` of each body, from the message nearest."""
     poses, velocities = {}, {}
     for body in run.case.get("body", []):
-        name, history = body["name"], run.bodies.get(body["name"])
-        if history is None:
+        if body["name"] not in run.bodies:
             # Nothing was measured: the body is where the case put it.
-            poses[name] = (np.array([*body["center"], 0.0])[:2], body.get("angle", 0.0))
-            velocities[name] = np.zeros(2)
-            continue
+            name, center = body["name"], np.array([*body["center"], 0.0])[:2]
+            poses[name], velocities[name] = (center, body.get("angle", 0.0)), np.zeros(2)
+    for name, history in run.bodies.items():
         nearest = int(np.argmin(np.abs(history.time - time)))
         poses[name] = (history.center[nearest, :2], float(history.angle[nearest]))
         velocities[name] = history.velocity[nearest, :2]
@@ -157,11 +156,11 @@ def in_mesh(
         shift = np.zeros(2)
         for axis in axes:
             shift[axis] = -np.floor((center[axis] - low[axis]) / lengths[axis]) * lengths[axis]
-        # The sides of a mesh may be curved: of all images of a body, the nodes around it are nearest
-        # to the one in the mesh.
+        # The sides of a mesh may be curved: of all images of a body, the nodes around it are
+        # nearest to the one in the mesh.
         steps = [(0, 1, -1, 2) if axis in axes else (0,) for axis in range(2)]
         near = [
-            shift + [x * lengths[0] if x else 0.0, y * lengths[1] if y else 0.0]
+            shift + np.array([x * lengths[0] if x else 0.0, y * lengths[1] if y else 0.0])
             for y in steps[1]
             for x in steps[0]
         ]
