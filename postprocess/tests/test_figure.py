@@ -158,9 +158,7 @@ def test_bodies_of_swimmers_are_what_the_mesh_leaves_out() -> None:
                 nodes.append((nodes[ends[0]] + nodes[ends[1]]) / 2)
             cell.append(middles[key])
         cells.append(cell)
-    zeros = np.zeros((len(nodes), 2))
-    field = Field(
-        time=0.0, nodes=np.array(nodes), cells=np.array(cells), velocity=zeros, pressure=zeros[:, 0]
-    )
+    still, none = np.zeros((len(nodes), 2)), np.zeros(len(nodes))
+    field = Field(0.0, np.array(nodes), np.array(cells), still, pressure=none, vorticity=none)
     loops = boundary_loops(field)
     assert sorted(float(np.ptp(loop, axis=0).max()) for loop in loops) == [2.0, 4.0]

@@ -100,17 +100,15 @@ fn general(findings: &mut Findings<'_>) {
             }
         }
     }
-    if let Some(name) = &case.frame {
-        if case.frame_body().is_none() {
-            let bodies = case.body.iter().map(|body| body.name.as_str());
-            let names: Vec<&str> =
-                bodies.chain(case.group.iter().map(|group| group.name.as_str())).collect();
-            findings.error(
-                "frame",
-                format!("`frame` is \"{name}\", but no body or swimmer has that name"),
-                &super::deserialize::suggestion(name, &names),
-            );
-        }
+    if let (Some(name), None) = (&case.frame, case.frame_body()) {
+        let bodies = case.body.iter().map(|body| body.name.as_str());
+        let groups = case.group.iter().map(|group| group.name.as_str());
+        let names: Vec<&str> = bodies.chain(groups).collect();
+        findings.error(
+            "frame",
+            format!("`frame` is \"{name}\", but no body or swimmer has that name"),
+            &super::deserialize::suggestion(name, &names),
+        );
     }
 }
 
