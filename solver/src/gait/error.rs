@@ -16,11 +16,14 @@ pub enum GaitError {
         time: f64,
     },
     /// The outline crosses itself.
-    #[error("at t = {time:.6} the body bends so far that its outline crosses itself: {what}")]
+    #[error(
+        "at t = {time:.6} the body bends so far that its outline crosses itself{what}: make \
+         amplitude, curvature or bending smaller"
+    )]
     Crossing {
         /// When (s).
         time: f64,
-        /// Where.
+        /// Where, or nothing.
         what: String,
     },
     /// The area changes by more than a small correction.

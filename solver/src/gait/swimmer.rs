@@ -2,7 +2,9 @@
 
 use std::sync::Arc;
 
-use alewife_mesh::{Moments, Outline, PlacedShape, Point, Profile, SecondMoments, Shape, Spline};
+use alewife_mesh::{
+    MeshError, Moments, Outline, PlacedShape, Point, Profile, SecondMoments, Shape, Spline,
+};
 use num_dual::{Dual64, DualNum};
 
 use super::closed_curve::ClosedCurve;
@@ -77,8 +79,15 @@ impl Swimmer {
                 angle: 0.0,
                 size: None,
             };
-            Outline::new(&placed)
-                .map_err(|error| GaitError::Crossing { time, what: error.to_string() })?;
+            Outline::new(&placed).map_err(|error| {
+                let what = match error {
+                    MeshError::SelfIntersection { x, y, .. } => {
+                        format!(" near ({x:.4}, {y:.4}) of the body")
+                    }
+                    _ => String::new(),
+                };
+                GaitError::Crossing { time, what }
+            })?;
             let speed = deformed.removed.normal_speed.abs();
             if speed > worst.0 {
                 worst = (speed, time);

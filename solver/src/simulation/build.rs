@@ -132,7 +132,7 @@ pub fn build_problem(case: &Case, mesh: &Mesh<2>) -> Result<Problem, RunError> {
         has_convection: case.fluid.model == Model::NavierStokes,
         sides,
         bodies,
-        groups: case.group.iter().map(group).collect(),
+        groups: case.group.iter().map(|one| group(case, one)).collect(),
         frame,
         body_force: None,
         kinks: None,
@@ -149,8 +149,10 @@ pub fn build_problem(case: &Case, mesh: &Mesh<2>) -> Result<Problem, RunError> {
     Ok(problem)
 }
 
-fn group(group: &crate::case::Group) -> Group {
+fn group(case: &Case, group: &crate::case::Group) -> Group {
     let crate::case::Group { name, bodies, period, resistance } = group.clone();
+    // A steady solution knows no cycle
+    let period = period.filter(|_| matches!(case.time, TimeSettings::Unsteady(_)));
     Group { name, bodies, period, resistance }
 }
 

@@ -57,6 +57,17 @@ pub fn compare(name: &str, case: &Case, outcome: &Outcome) -> Vec<Comparison> {
         .map(|reference| {
             let computed =
                 measured_value(&outcome.series, case, reference).map_err(|error| error.to_string());
+            let computed = computed.and_then(|value| {
+                let is_of_cycle = reference.quantity.contains(".cycle.");
+                match value {
+                    value if value.is_finite() => Ok(value),
+                    _ if is_of_cycle => Err(format!(
+                        "{} is not a number: no whole cycle had ended by then",
+                        reference.quantity
+                    )),
+                    value => Err(format!("{} is {value}", reference.quantity)),
+                }
+            });
             judge(name, reference, computed, outcome.n_dofs, cpu_seconds)
         })
         .collect()

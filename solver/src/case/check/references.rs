@@ -88,12 +88,13 @@ pub fn known_quantities(case: &Case) -> Vec<String> {
             add(&group.name, &OF_A_GROUP);
         }
         add(&group.name, &OF_A_SWIMMER);
-        if group.period.is_some() {
+        let has_cycles = group.period.is_some() && matches!(case.time, TimeSettings::Unsteady(_));
+        if has_cycles {
             add(&group.name, &OF_A_CYCLE);
         }
-        match (group.resistance, group.period) {
-            (Some(_), Some(_)) => add(&group.name, &["cycle.lighthill_efficiency"]),
-            (Some(_), None) => add(&group.name, &["lighthill_efficiency"]),
+        match (group.resistance, has_cycles) {
+            (Some(_), true) => add(&group.name, &["cycle.lighthill_efficiency"]),
+            (Some(_), false) => add(&group.name, &["lighthill_efficiency"]),
             (None, _) => {}
         }
     }
@@ -164,6 +165,15 @@ pub fn check(findings: &mut Findings<'_>) {
 fn check_quantity(findings: &mut Findings<'_>, key: &str, quantity: &str, known: &[String]) {
     if !known.iter().any(|name| name == quantity) {
         let mut help = suggestion(quantity, known);
+        if quantity.contains(".cycle.") {
+            help =
+                "cycles need a march in time and a period: that of a stroke or gait, or `period` \
+                    of the [[swimmer]]"
+                    .to_owned();
+        }
+        if quantity.ends_with("lighthill_efficiency") {
+            help = "this efficiency needs `resistance` of the [[swimmer]]".to_owned();
+        }
         let is_coefficient = COEFFICIENTS.iter().any(|name| quantity.ends_with(name));
         if is_coefficient && !findings.case().has_coefficients() {
             help = "coefficients need [scales] with length and velocity, and a fluid density"

@@ -69,8 +69,14 @@ fn joints(findings: &mut Findings<'_>) {
             let at = |axis: usize| body.center.get(axis).copied().unwrap_or(0.0);
             [at(0), at(1), body.angle]
         };
-        let wanted = hang(place(parent), joint.on_parent, joint.on_child, &joint.kind);
         let found = place(child);
+        // A free pivot may start at any angle: that of the bodies
+        let bend = found[2] - place(parent)[2];
+        let kind = match &joint.kind {
+            JointKind::Hinge(hinge) => JointKind::Hinge(Hinge { rest: bend, ..hinge.clone() }),
+            kind => kind.clone(),
+        };
+        let wanted = hang(place(parent), joint.on_parent, joint.on_child, &kind);
         let size = (wanted[0] - place(parent)[0]).hypot(wanted[1] - place(parent)[1]);
         let is_arm = matches!(joint.kind, JointKind::Arm { .. });
         let off = (wanted[0] - found[0]).hypot(wanted[1] - found[1]);
@@ -201,6 +207,7 @@ fn swimmers(findings: &mut Findings<'_>) {
         if let Some(period) = swimmer.period {
             findings.positive(&format!("{key}.period"), period);
         }
+        periods(findings, &key, &swimmer.kind, swimmer.period);
         if let Some(resistance) = swimmer.resistance {
             findings.positive(&format!("{key}.resistance"), resistance);
         }
@@ -214,12 +221,22 @@ fn swimmers(findings: &mut Findings<'_>) {
             }
         };
         match &swimmer.kind {
-            SwimmerKind::Star { arms, .. } => {
+            SwimmerKind::Star { arms, radius, radii, .. } => {
                 planar_only("star");
+                if radii.is_empty() {
+                    findings.error(
+                        &format!("{key}.kind.star.radii"),
+                        "a star without arms is a disc".to_owned(),
+                        "give one radius or more",
+                    );
+                }
                 for (nth, length) in arms.iter().enumerate() {
                     let key = format!("{key}.kind.star.arms.{nth}");
                     stroke(findings, &key, length);
                     arm(findings, &key, length);
+                    if let Some(end) = radii.get(nth) {
+                        reaches(findings, &key, length, radius + end);
+                    }
                 }
             }
             SwimmerKind::Chain { gap, joints, .. } => {
@@ -247,26 +264,133 @@ fn swimmers(findings: &mut Findings<'_>) {
                     let key = format!("{key}.kind.linked-spheres.arms.{nth}");
                     stroke(findings, &key, length);
                     arm(findings, &key, length);
+                    if let [Some(left), Some(right)] = [radii.get(nth), radii.get(nth + 1)] {
+                        reaches(findings, &key, length, left + right);
+                    }
                 }
             }
-            SwimmerKind::Body { .. } | SwimmerKind::Bodies(_) => {}
+            SwimmerKind::Bodies(names) => {
+                let mut sorted = names.clone();
+                sorted.sort();
+                sorted.dedup();
+                if names.is_empty() || sorted.len() < names.len() {
+                    findings.error(
+                        &format!("{key}.kind.bodies"),
+                        "a swimmer is made of one body or more, each named once".to_owned(),
+                        "write bodies = [\"NAME\", ...] with names of [[body]]",
+                    );
+                }
+                let idle = [
+                    ("center", swimmer.center != [0.0; 2]),
+                    ("angle", swimmer.angle != 0.0),
+                    ("density", swimmer.density.is_some()),
+                    ("motion", swimmer.motion != Motion::Free),
+                    ("size", swimmer.size.is_some()),
+                    ("copies", swimmer.copies.is_some()),
+                ];
+                for (name, _) in idle.iter().filter(|(_, is_given)| *is_given) {
+                    findings.error(
+                        &format!("{key}.{name}"),
+                        format!("`{name}` has no effect on bodies that are there already"),
+                        "leave it out, and write it for the bodies themselves",
+                    );
+                }
+            }
+            SwimmerKind::Body { .. } => {}
         }
-        if let Some(Copies::Random { gap, .. }) = &swimmer.copies {
-            findings.not_negative(&format!("{key}.copies.random.gap"), *gap);
+        match &swimmer.copies {
+            Some(Copies::Random { count, gap, .. }) => {
+                findings.not_negative(&format!("{key}.copies.random.gap"), *gap);
+                none(findings, &format!("{key}.copies.random.count"), *count);
+            }
+            Some(Copies::Lattice { counts, .. }) => {
+                none(findings, &format!("{key}.copies.lattice.counts"), counts[0] * counts[1]);
+            }
+            None => {}
         }
     }
+    short_steps(findings);
     let mut names: Vec<&str> = case.body.iter().map(|body| body.name.as_str()).collect();
-    for group in case.group.iter().filter(|group| group.bodies.len() > 1) {
-        if names.contains(&group.name.as_str()) {
+    for group in &case.group {
+        let is_body = matches!(group.bodies[..], [body] if case.body[body].name == group.name);
+        let is_side = case.domain.sides().contains(&group.name.as_str());
+        if !is_body && (names.contains(&group.name.as_str()) || is_side) {
             findings.error(
                 "swimmer",
-                format!("the name \"{}\" is taken by a body or swimmer", group.name),
+                format!("the name \"{}\" is taken by a body, a swimmer or a side", group.name),
                 "give every body and every swimmer a name of its own",
             );
         }
         names.push(&group.name);
     }
 }
+
+/// Copies that make no swimmer.
+fn none(findings: &mut Findings<'_>, key: &str, count: usize) {
+    if count == 0 {
+        let message = format!("`{key}` makes no swimmer at all");
+        findings.error(key, message, "write 1 or more, or leave the swimmer out");
+    }
+}
+
+/// Round bodies at the ends of an arm must not meet.
+fn reaches(findings: &mut Findings<'_>, key: &str, length: &Stroke, radii: f64) {
+    let [least, _] = length.range();
+    if least > 0.0 && least <= radii {
+        findings.error(
+            key,
+            format!("the arm is as short as {least}, and the radii at its ends sum up to {radii}"),
+            "keep it longer than that at all times, with room for cells in the gap",
+        );
+    }
+}
+
+/// Strokes with different periods have no cycle in common, unless one is named.
+fn periods(findings: &mut Findings<'_>, key: &str, kind: &SwimmerKind, named: Option<f64>) {
+    let strokes: Vec<&Stroke> = match kind {
+        SwimmerKind::LinkedSpheres { arms, .. } | SwimmerKind::Star { arms, .. } => {
+            arms.iter().collect()
+        }
+        SwimmerKind::Chain { joints, .. } => joints
+            .iter()
+            .filter_map(|joint| match joint {
+                Pivot::Bent { angle } => Some(angle),
+                Pivot::Hinge(hinge) => hinge.torque.as_ref(),
+            })
+            .collect(),
+        SwimmerKind::Body { .. } | SwimmerKind::Bodies(_) => Vec::new(),
+    };
+    let found: Vec<f64> = strokes.iter().filter_map(|stroke| stroke.period()).collect();
+    let Some(&first) = found.first() else { return };
+    if named.is_none() && found.iter().any(|other| (other - first).abs() > 1e-9 * first) {
+        findings.warning(
+            &format!("{key}.kind"),
+            format!("the strokes have different periods, and cycles are taken to be of {first}"),
+            "write period = ... for the swimmer: the time after which all of them begin again",
+        );
+    }
+}
+
+/// Steps so long that nothing of a cycle is left.
+fn short_steps(findings: &mut Findings<'_>) {
+    let case = findings.case();
+    let TimeSettings::Unsteady(unsteady) = &case.time else { return };
+    if unsteady.adaptive.is_some() {
+        return;
+    }
+    let periods = case.group.iter().filter_map(|group| group.period);
+    let shortest = periods.fold(f64::INFINITY, f64::min);
+    if unsteady.step * FEWEST_STEPS > shortest {
+        findings.warning(
+            "time.unsteady.step",
+            format!("a cycle of {shortest} has {:.1} steps only", shortest / unsteady.step),
+            "take steps of a tenth of a cycle or less, and compare with half of that",
+        );
+    }
+}
+
+/// Steps of a cycle below which you are warned.
+const FEWEST_STEPS: f64 = 10.0;
 
 /// The explicit method has no inertia, no contact and nothing stiff.
 fn explicit_scheme(findings: &mut Findings<'_>) {
