@@ -490,7 +490,11 @@ fn a_moving_mesh_has_limits_a_new_one_meets() {
 
 #[test]
 fn the_frame_is_that_of_a_body() {
-    refused("[fluid]", "frame = \"disk\"\n[fluid]", &["no body or swimmer has that name", "`disc`?"]);
+    refused(
+        "[fluid]",
+        "frame = \"disk\"\n[fluid]",
+        &["no body or swimmer has that name", "`disc`?"],
+    );
 }
 
 #[test]

@@ -191,7 +191,9 @@ fn the_table_of_cases_is_that_of_the_folders() {
                 (None, absolute) => absolute.map(|absolute| format!("{absolute:e}")),
             })
             .collect();
-        let told: BTreeSet<String> = tolerance.split(", ").map(str::to_owned).collect();
+        // Nothing where all values are zero
+        let told = tolerance.split(", ").filter(|one| !one.is_empty()).map(str::to_owned);
+        let told: BTreeSet<String> = told.collect();
         assert_eq!(told, known, "{name}: tolerances of values that are not 0");
     }
 }
