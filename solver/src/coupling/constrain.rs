@@ -93,9 +93,9 @@ pub(super) fn constrain(
     }
     close_pressures_and_periods(problem, mesh, layout, &mut builder);
     // What drifts is held at one node; the equation that is left out follows from the others
-    let pinned = pinned_node(mesh);
-    for axis in (0..2).filter(|&axis| problem.drifts()[axis]) {
-        if let Some(node) = pinned {
+    let drifts = problem.drifts();
+    if let Some(node) = drifts.contains(&true).then(|| pinned_node(mesh)).flatten() {
+        for axis in (0..2).filter(|&axis| drifts[axis]) {
             builder.constrain(layout.velocity(node, axis), vec![], 0.0);
         }
     }

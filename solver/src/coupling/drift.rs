@@ -22,7 +22,7 @@ impl Drift {
     /// What drifts in a problem on a mesh; `None` where all is held.
     pub fn new(problem: &Problem, mesh: &Mesh<2>) -> Option<Self> {
         let axes = problem.drifts();
-        let pinned = pinned_node(mesh).filter(|_| axes.contains(&true))?;
+        let pinned = axes.contains(&true).then(|| pinned_node(mesh))??;
         Some(Self { axes, pinned, weights: weights(mesh) })
     }
 

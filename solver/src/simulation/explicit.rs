@@ -4,15 +4,13 @@
 //! estimate of second order. Its last stage is the flow at the new time, and the first one of the
 //! next step.
 
+use super::Timing;
 use super::error::StepError;
 use super::march::{March, MeshPath, Past, StepResult};
 use super::state::{State, Swim, pose_at};
-use super::{Stage, Timing};
 use crate::body::Twist;
 use crate::contact::{ContactLoads, Place};
-use crate::coupling::{
-    BodyLoads, Effort, FluidSystem, Levels, Solution, body_loads, embed, flatten,
-};
+use crate::coupling::{BodyLoads, Effort, FluidSystem, Levels, Solution, flatten};
 use crate::time::Bdf;
 
 /// Part of a step by which rates at its ends are asked inside it: those that jump there have two.
@@ -151,27 +149,13 @@ impl March<'_> {
         let constraints = system.constraints(self.problem, &state.mesh, &poses, asked);
         let levels = Levels::default().with_loads(self.problem, asked, places, 0.0);
         let past = Past::without_memory(time, levels);
-        let begin = embed(&system.layout, &constraints.expand(&constraints.pick(&flatten(begin))));
+        let begin = system.constrained(&constraints, &flatten(begin));
         // Without density its coefficients multiply nothing.
         let bdf = Bdf::first_order(1.0);
         let mut flow = self.solve(system, state, &bdf, &past, &constraints, &[], begin, timing)?;
-        system.center_pressure(self.problem, &mut flow.solution);
-        if self.problem.works_on_level() {
-            flow.residual = timing.measure(Stage::Loads, || {
-                self.residual(system, state, &bdf, &past, &[], &flow.solution)
-            });
-        }
+        let (loads, efforts) =
+            self.conclude(system, state, &bdf, &past, &[], places, &mut flow, timing);
         let (solution, iterations) = (flow.solution, flow.iterations);
-        let loads = body_loads(
-            self.problem,
-            &state.mesh,
-            &system.layout,
-            &system.sides,
-            &poses,
-            &flow.residual,
-            &solution.velocity,
-        );
-        let efforts = state.efforts(self.problem, places, &solution, &loads);
         Ok(Instant { solution, loads, efforts, nodes, iterations })
     }
 

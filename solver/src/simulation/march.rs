@@ -23,8 +23,8 @@ use crate::body::Twist;
 use crate::case::Convection as ConvectionChoice;
 use crate::contact::{ContactLoads, ContactStep, Law, Place, Surfaces};
 use crate::coupling::{
-    BodyLoads, Drive, FluidSystem, Levels, Problem, Solution, SolveError, body_loads, flatten,
-    newton_convection,
+    BodyLoads, Drive, Effort, FluidSystem, Levels, Problem, Solution, SolveError, body_loads,
+    flatten, newton_convection,
 };
 use crate::flow::{Convection, FlowTerms};
 use crate::time::Bdf;
@@ -202,23 +202,17 @@ impl March<'_> {
                 _ => true,
             };
             if is_settled {
-                system.center_pressure(self.problem, &mut flow.solution);
-                if self.problem.works_on_level() {
-                    flow.residual = timing.measure(Stage::Loads, || {
-                        self.residual(system, state, bdf, &past, &mesh_velocity, &flow.solution)
-                    });
-                }
-                let error = self.error(state, bdf, &flow.solution);
-                let fluid_loads = body_loads(
-                    self.problem,
-                    &state.mesh,
-                    &system.layout,
-                    &system.sides,
-                    &poses,
-                    &flow.residual,
-                    &flow.solution.velocity,
+                let (fluid_loads, efforts) = self.conclude(
+                    system,
+                    state,
+                    bdf,
+                    &past,
+                    &mesh_velocity,
+                    &places,
+                    &mut flow,
+                    timing,
                 );
-                let efforts = state.efforts(self.problem, &places, &flow.solution, &fluid_loads);
+                let error = self.error(state, bdf, &flow.solution);
                 if let Some(surfaces) = &surfaces {
                     contact.least_gap = surfaces.least_gap(&self.in_frame(state, &reached));
                 }
@@ -237,6 +231,40 @@ impl March<'_> {
             (from, to) = (places, reached);
         }
         Err(StepError::Unsettled { passes: MAX_PASSES })
+    }
+
+    /// Gives the pressure of a flow that is settled its level; what the flow does to bodies at
+    /// `places`, and the groups to it.
+    #[expect(clippy::too_many_arguments, reason = "the end of a pass of a step")]
+    pub(super) fn conclude(
+        &self,
+        system: &FluidSystem,
+        state: &State,
+        bdf: &Bdf,
+        past: &Past,
+        mesh_velocity: &[Point<2>],
+        places: &[Place],
+        flow: &mut Flow,
+        timing: &mut Timing,
+    ) -> (Vec<BodyLoads>, Vec<Effort>) {
+        system.center_pressure(self.problem, &mut flow.solution);
+        if self.problem.works_on_level() {
+            flow.residual = timing.measure(Stage::Loads, || {
+                self.residual(system, state, bdf, past, mesh_velocity, &flow.solution)
+            });
+        }
+        let poses: Vec<_> = state.wrapped(places).iter().map(pose_at).collect();
+        let loads = body_loads(
+            self.problem,
+            &state.mesh,
+            &system.layout,
+            &system.sides,
+            &poses,
+            &flow.residual,
+            &flow.solution.velocity,
+        );
+        let efforts = state.efforts(self.problem, places, &flow.solution, &loads);
+        (loads, efforts)
     }
 
     fn past(&self, state: &State, bdf: &Bdf) -> Past {
