@@ -5,5 +5,6 @@ mod articulated;
 mod crowd;
 mod deforming;
 mod invariance;
+mod joints;
 mod orders;
 mod reciprocity;

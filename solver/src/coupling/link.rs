@@ -10,30 +10,45 @@ use nalgebra::{Rotation2, Vector2};
 
 use super::problem::{Problem, TimeValue};
 
-/// A point and its rate in the frame of a body (m, m/s), as a function of time (s).
-pub type MovingPoint = Box<dyn Fn(f64) -> [Vector2<f64>; 2] + Send + Sync>;
-
 /// A number and its rate as a function of time (s).
-pub type MovingAngle = Box<dyn Fn(f64) -> [f64; 2] + Send + Sync>;
+pub type MovingValue = Box<dyn Fn(f64) -> [f64; 2] + Send + Sync>;
 
 /// How a body hangs on another.
 pub struct Link {
     /// The body it hangs on.
     pub parent: usize,
-    /// The joint in the frame of the parent, from its centre of mass.
-    pub on_parent: MovingPoint,
+    /// The joint in the frame of the parent, from its centre of mass (m).
+    pub on_parent: Vector2<f64>,
+    /// What is between the joints of parent and child; nothing at a pivot.
+    pub arm: Option<Arm>,
     /// The joint in the frame of the child, from its centre of mass (m).
     pub on_child: Vector2<f64>,
     /// The angle of the child less that of the parent.
     pub turn: Turn,
-    /// Whether the surfaces of both are so close by their making that nothing is told of their gap.
-    pub is_pivot: bool,
+}
+
+/// A bar of given length that turns with the parent.
+pub struct Arm {
+    /// Its direction in the frame of the parent, a unit vector.
+    pub along: Vector2<f64>,
+    /// Its length (m, m/s).
+    pub length: MovingValue,
+}
+
+impl Link {
+    /// Where the joint of the child is in the frame of the parent, from its centre of mass, and the rate
+    /// of that (m, m/s).
+    fn ahead(&self, time: f64) -> [Vector2<f64>; 2] {
+        let Some(arm) = &self.arm else { return [self.on_parent, Vector2::zeros()] };
+        let [length, rate] = (arm.length)(time);
+        [self.on_parent + arm.along * length, arm.along * rate]
+    }
 }
 
 /// The angle of a child less that of its parent.
 pub enum Turn {
     /// Given (rad, rad/s).
-    Given(MovingAngle),
+    Given(MovingValue),
     /// Free, with a load.
     Free(Pivot),
 }
@@ -78,7 +93,7 @@ impl RigidRow {
 
 impl Problem {
     /// The bodies, each after the one it hangs on.
-    fn outwards(&self) -> Vec<usize> {
+    pub(super) fn outwards(&self) -> Vec<usize> {
         let mut order = Vec::with_capacity(self.bodies.len());
         let mut is_done = vec![false; self.bodies.len()];
         while order.len() < self.bodies.len() {
@@ -130,7 +145,7 @@ impl Problem {
         places: &[[f64; 3]],
         time: f64,
     ) -> [Vector2<f64>; 2] {
-        let ahead = Rotation2::new(places[link.parent][2]) * (link.on_parent)(time)[0];
+        let ahead = Rotation2::new(places[link.parent][2]) * link.ahead(time)[0];
         [ahead, Rotation2::new(places[body][2]) * link.on_child]
     }
 
@@ -146,7 +161,7 @@ impl Problem {
                 rows[body][2].value += angle(time)[1];
             }
             let [ahead, back] = self.levers(body, link, places, time);
-            let rate = Rotation2::new(places[link.parent][2]) * (link.on_parent)(time)[1];
+            let rate = Rotation2::new(places[link.parent][2]) * link.ahead(time)[1];
             let along = |mode: usize, ahead: f64, back: f64, rate: f64| {
                 let mut row = rows[link.parent][mode].clone();
                 if !self.axisymmetric {

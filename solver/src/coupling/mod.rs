@@ -3,6 +3,7 @@
 mod constrain;
 mod divergence_free;
 mod drift;
+mod joints;
 mod link;
 mod loads;
 mod problem;
@@ -12,7 +13,8 @@ mod system;
 
 pub use constrain::NodeSides;
 pub use divergence_free::DivergenceFree;
-pub use link::{Link, MovingAngle, MovingPoint, Pivot, Turn};
+pub use joints::{BodyStates, JointReport, joint_reports};
+pub use link::{Arm, Link, MovingValue, Pivot, Turn};
 pub use loads::{BodyLoads, body_loads};
 pub use problem::{
     Drive, Kinks, MovingSurface, Problem, RigidBody, Side, Spring, TimeValue, VelocityProfile,

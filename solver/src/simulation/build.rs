@@ -15,8 +15,8 @@ use crate::case::{
 };
 use crate::contact::{Law, LawKind};
 use crate::coupling::{
-    Drive, Group, Kinks, Link, MovingPoint, Pivot, Problem, RigidBody, Side, Spring, TimeValue,
-    Turn, VelocityProfile, second_moment,
+    Arm, Drive, Group, Kinks, Link, Pivot, Problem, RigidBody, Side, Spring, TimeValue, Turn,
+    VelocityProfile, second_moment,
 };
 use crate::gait::{Gait, InTime, Squirmer, WavingSheet};
 use crate::time::factor_at;
@@ -168,34 +168,27 @@ fn link(case: &Case, joint: &Joint, bodies: &mut [RigidBody]) -> Result<(), RunE
         let centroid = case.body[body].shape.outline().moments().map(|moments| moments.centroid);
         Point::<2>::from(point) - centroid.unwrap_or_default()
     };
-    let base = from_center(parent, joint.on_parent);
     let bend = case.body[child].angle - case.body[parent].angle;
-    let (on_parent, turn): (MovingPoint, Turn) = match joint.kind.clone() {
+    let mut arm = None;
+    let turn = match joint.kind.clone() {
         JointKind::Arm { length, direction } => {
             // Along an axis to the last bit
             let snap = |part: f64| if part.abs() < 1e-15 { 0.0 } else { part };
             let along = Point::<2>::new(snap(direction.cos()), snap(direction.sin()));
-            let at = move |time: f64| {
-                let [length, rate] = length.at(time);
-                [base + along * length, along * rate]
-            };
-            (Box::new(at), Turn::Given(Box::new(move |_| [bend, 0.0])))
+            arm = Some(Arm { along, length: Box::new(move |time| length.at(time)) });
+            Turn::Given(Box::new(move |_| [bend, 0.0]))
         }
-        JointKind::Bent { angle } => {
-            let turn = Turn::Given(Box::new(move |time| angle.at(time)));
-            (Box::new(move |_| [base, Point::<2>::zeros()]), turn)
-        }
+        JointKind::Bent { angle } => Turn::Given(Box::new(move |time| angle.at(time))),
         JointKind::Hinge(hinge) => {
             let motor = hinge
                 .torque
                 .map(|torque| -> TimeValue { Box::new(move |time| torque.at(time)[0]) });
             let Hinge { stiffness, damping, rest, .. } = hinge;
-            let turn = Turn::Free(Pivot { stiffness, damping, rest, motor });
-            (Box::new(move |_| [base, Point::<2>::zeros()]), turn)
+            Turn::Free(Pivot { stiffness, damping, rest, motor })
         }
     };
     let is_free = matches!(turn, Turn::Free(_)) && case.geometry == Geometry::Planar;
-    let is_pivot = !matches!(joint.kind, JointKind::Arm { .. });
+    let on_parent = from_center(parent, joint.on_parent);
     let on_child = from_center(child, joint.on_child);
     let body = &mut bodies[child];
     body.drives[0] = Drive::Linked;
@@ -203,7 +196,7 @@ fn link(case: &Case, joint: &Joint, bodies: &mut [RigidBody]) -> Result<(), RunE
         body.drives[1] = Drive::Linked;
         body.drives[2] = if is_free { Drive::Free } else { Drive::Linked };
     }
-    body.link = Some(Link { parent, on_parent, on_child, turn, is_pivot });
+    body.link = Some(Link { parent, on_parent, arm, on_child, turn });
     Ok(())
 }
 

@@ -99,7 +99,7 @@ impl Follower {
         let walls: Vec<usize> =
             (0..domain.sides().len()).filter(|&side| domain.wall(side).is_some()).collect();
         let pivots = problem.bodies.iter().enumerate().filter_map(|(child, body)| {
-            body.link.as_ref().filter(|link| link.is_pivot).map(|link| (link.parent, child))
+            body.link.as_ref().filter(|link| link.arm.is_none()).map(|link| (link.parent, child))
         });
         let surfaces =
             Surfaces::new(&domain, &walls, &shapes).map_err(|e| e.to_string())?.with_joined(pivots);

@@ -8,7 +8,8 @@ use super::state::{State, Swim};
 use crate::body::{Pose, Twist, Wrench};
 use crate::case::{Case, Geometry, Probe, known_quantities};
 use crate::coupling::{
-    BodyLoads, Effort, FluidSystem, Group, Problem, Solution, group_load, mean_motion, surface_load,
+    BodyLoads, BodyStates, Effort, FluidSystem, Group, JointReport, Problem, Solution, group_load,
+    joint_reports, mean_motion, surface_load,
 };
 use crate::space::{CellValues, p1_values, p2_values};
 
@@ -176,6 +177,12 @@ impl Measure {
             }
             reports.push(report);
         }
+        let joints = joints(problem, state, loads);
+        values.extend(
+            joints
+                .iter()
+                .flat_map(|joint| [joint.coordinate, joint.rate, joint.load, joint.power()]),
+        );
         for (group, swim) in problem.groups.iter().zip(&state.swims) {
             values.extend(group_values(problem, state, group, swim, (&poses, loads)));
         }
@@ -210,6 +217,22 @@ impl Measure {
         }
         (reports, values)
     }
+}
+
+/// The joints of all bodies.
+fn joints(problem: &Problem, state: &State, loads: &[BodyLoads]) -> Vec<JointReport> {
+    let in_plane = |twists: &[Twist]| twists.iter().map(Twist::in_plane).collect::<Vec<_>>();
+    let contact = &state.contact.wrenches;
+    let loads =
+        loads.iter().zip(contact).map(|(fluid, contact)| (fluid.load + *contact).in_plane());
+    let now = BodyStates {
+        time: state.time,
+        places: &state.places,
+        velocities: &in_plane(&state.now.twists),
+        accelerations: &in_plane(&state.accelerations),
+        loads: &loads.collect::<Vec<_>>(),
+    };
+    joint_reports(problem, &now)
 }
 
 /// Values of a group in the order of [`known_quantities`].

@@ -2,7 +2,7 @@
 
 use super::Findings;
 use crate::case::deserialize::suggestion;
-use crate::case::{Case, Geometry, Reference, Statistic, TimeSettings};
+use crate::case::{Case, Geometry, JointKind, Reference, Statistic, TimeSettings};
 
 /// What is measured on every body.
 const OF_A_BODY: [&str; 15] = [
@@ -58,6 +58,12 @@ const OF_A_CYCLE: [&str; 8] = [
     "cycle.drift",
 ];
 
+/// What is measured on a joint, told of with the body that hangs by it.
+const OF_A_PIVOT: [&str; 4] = ["joint.angle", "joint.rate", "joint.torque", "joint.power"];
+
+/// The same where there is an arm.
+const OF_AN_ARM: [&str; 4] = ["joint.length", "joint.rate", "joint.force", "joint.power"];
+
 /// What is measured at every probe.
 const OF_A_PROBE: [&str; 3] = ["velocity.x", "velocity.y", "pressure"];
 
@@ -81,6 +87,14 @@ pub fn known_quantities(case: &Case) -> Vec<String> {
         }
         if case.contact.is_some() {
             add(&body.name, &OF_CONTACT);
+        }
+    }
+    for body in &case.body {
+        let joint = case.joint.iter().find(|joint| joint.child == body.name);
+        match joint.map(|joint| &joint.kind) {
+            Some(JointKind::Arm { .. }) => add(&body.name, &OF_AN_ARM),
+            Some(_) => add(&body.name, &OF_A_PIVOT),
+            None => {}
         }
     }
     for group in &case.group {
