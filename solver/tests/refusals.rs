@@ -816,6 +816,27 @@ fn strokes_have_lengths_and_times_that_rise() {
 }
 
 #[test]
+fn links_that_meet_in_their_strokes_are_foreseen() {
+    let folds = |amplitude: f64| {
+        format!(
+            "links = [[0.4, 0.1], [0.4, 0.1], [0.4, 0.1]]\ngap = 0.2\njoints = [\
+             {{ bent.angle.sine = {{ amplitude = {amplitude}, period = 1.0 }} }}, \
+             {{ bent.angle.sine = {{ amplitude = -{amplitude}, period = 1.0 }} }}]\n#"
+        )
+    };
+    let with = |amplitude: f64| {
+        let rest =
+            "links = [[0.4, 0.1], [0.4, 0.1]]\ngap = 0.2\njoints = [{ hinge = { damping = 0.1 } }]";
+        SWIMMING.replacen(rest, &folds(amplitude), 1)
+    };
+    assert_accepted(&check(&with(0.8), &[]));
+    assert_refused(
+        &check(&with(2.6), &[]),
+        &["in their strokes \"chain-1\" and \"chain-3\" meet at time 0.", "bend less"],
+    );
+}
+
+#[test]
 fn bodies_and_joints_make_trees() {
     let back = "[[joint]]\nparent = \"leaf\"\nchild = \"root\"\n\
                 kind.arm = { length.constant = 1.0, direction = 3.141592653589793 }\n[[swimmer]]";
@@ -887,6 +908,10 @@ fn a_chain_does_not_stand_on_the_axis() {
     }
     let spheres = "linked-spheres = { radii = [0.3, 0.2], arms = [{ constant = 1.0 }] }";
     assert_accepted(&check(&format!("{text}{spheres}"), &[]));
+    let turned = "body.shape.sphere.radius = 1.0\n[[swimmer]]\nname = \"other\"\ncenter = [3.0, 0.0]\n\
+                  angle = 3.141592653589793\nkind.body.shape.sphere.radius = 1.0";
+    let told = ["the angle of \"other\" breaks the symmetry", "gait.squirmer.heading = 3.14"];
+    assert_refused(&check(&format!("{text}{turned}"), &[]), &told);
 }
 
 #[test]

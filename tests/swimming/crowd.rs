@@ -133,3 +133,40 @@ fn swimmers_driven_together_do_not_overlap() {
     assert!(carried > 0.1, "nobody stands on anything: {carried}");
     assert!(least > 0.0 && least < 0.1, "{least}");
 }
+
+/// Parts of a swimmer may reach beyond a periodic side: there it swims as anywhere else.
+#[test]
+fn a_chain_may_start_across_a_periodic_side() {
+    let at = |x: f64| {
+        run(&case(&format!(
+            r#"
+            title = "a chain in a periodic channel"
+            geometry = "planar"
+            fluid = {{ model = "stokes", viscosity = 1.0 }}
+            domain.box = {{ min = [-2.0, -2.0], max = [2.0, 2.0] }}
+            boundary = {{ left.periodic = "right", bottom = "no-slip", top = "no-slip" }}
+            mesh = {{ size = 0.5, surface = 0.06 }}
+            time.unsteady = {{ step = 0.05, end = 0.3 }}
+            [[swimmer]]
+            name = "chain"
+            center = [{x}, 0.0]
+            [swimmer.kind.chain]
+            links = [[0.3, 0.1], [0.3, 0.1], [0.3, 0.1]]
+            gap = 0.1
+            joints = [
+                {{ bent.angle.sine = {{ amplitude = 0.4, period = 1.0 }} }},
+                {{ bent.angle = 0.3 }},
+            ]
+            "#
+        )))
+    };
+    let ends = [0.0, 1.8].map(|x| {
+        let outcome = at(x);
+        ["velocity.x", "velocity.y", "angular_velocity", "power"]
+            .map(|name| last(&outcome, &format!("chain.{name}")))
+    });
+    println!("{ends:?}");
+    for (one, other) in ends[0].iter().zip(ends[1]) {
+        assert!((one - other).abs() < 1e-5 * ends[0][3], "{ends:?}");
+    }
+}

@@ -155,3 +155,14 @@ fn a_swimmer_that_goes_on_from_a_state_ends_where_it_would_have_ended() {
         }
     }
 }
+
+#[test]
+fn a_state_of_another_gait_is_refused() {
+    let with = |beat: &str| case(&fish(beat, "step = 0.02, end = 0.6", COARSE));
+    let saved = stopped(&with(BEAT), 24);
+    let other = BEAT.replace("period = ", "period = 1.1 + ");
+    let other = with(&other.replace("1.1 + ", "1"));
+    let error = simulate_from(&other, Some(&saved), &mut []).expect_err("another gait");
+    let told = error.to_string();
+    assert!(told.contains("a run goes on with the gait it began with"), "{told}");
+}

@@ -1,7 +1,8 @@
 //! What is told of joints: the loads that come through them, by an independent way.
 
-use alewife::simulation::Outcome;
+use alewife::simulation::{Outcome, simulate_from};
 use tests::cases::{case, last, run};
+use tests::stopped;
 
 fn column(outcome: &Outcome, name: &str) -> Vec<f64> {
     outcome.series.column(name).expect("the quantity exists")
@@ -151,4 +152,32 @@ fn an_arm_carries_the_weight_of_what_hangs_on_it() {
     assert!((carried / -weight - 1.0).abs() < 1e-9, "{carried} and {weight}");
     assert!((last(&outcome, "weight.joint.length") - 1.0).abs() < 1e-14);
     assert_eq!(last(&outcome, "weight.joint.power"), 0.0);
+}
+
+#[test]
+fn a_state_of_other_strokes_is_refused() {
+    let with = |amplitude: f64| {
+        case(&format!(
+            r#"
+            title = "three discs"
+            geometry = "planar"
+            fluid = {{ model = "stokes", viscosity = 1.0 }}
+            domain.disc.radius = 3.0
+            boundary.wall = "no-slip"
+            mesh = {{ size = 1.0, surface = 0.2, growth = 0.5, gap_layers = 1, moving.layers = 1 }}
+            time.unsteady = {{ step = 0.05, end = 0.4 }}
+            [[swimmer]]
+            name = "three"
+            [swimmer.kind.linked-spheres]
+            radii = [0.2, 0.2, 0.2]
+            arms = [0.7, {{ sine = {{ mean = 0.7, amplitude = {amplitude}, period = 1.0 }} }}]
+            "#
+        ))
+    };
+    let saved = stopped(&with(0.1), 3);
+    assert!(simulate_from(&with(0.1), Some(&saved), &mut []).is_ok());
+    let error = simulate_from(&with(0.2), Some(&saved), &mut []).expect_err("other strokes");
+    let told = error.to_string();
+    assert!(told.contains("body `three-3` was left at"), "{told}");
+    assert!(told.contains("a run goes on with the strokes it began with"), "{told}");
 }

@@ -210,6 +210,9 @@ fn plain(wanted: &dyn Expected) -> String {
     }
 }
 
+/// The alternative that a plain number stands for.
+const CONSTANT: &str = "constant";
+
 impl<'de> de::Deserializer<'de> for &Node {
     type Error = TypeError;
 
@@ -282,6 +285,11 @@ impl<'de> de::Deserializer<'de> for &Node {
                     format!("{found} where exactly one alternative is wanted"),
                     format!("give one of: {list}"),
                 ))
+            }
+            // What may change in time may be a plain number, too
+            Value::Integer(_) | Value::Float(_) if alternatives.contains(&CONSTANT) => {
+                let content = Some(self);
+                visitor.visit_enum(Alternative { tag: CONSTANT, at: &self.origin, content })
             }
             _ => Err(other(
                 "this is not one of its alternatives".to_owned(),

@@ -208,7 +208,7 @@ fn put(parts: &[Part], center: Point<2>, angle: f64) -> Vec<[f64; 3]> {
             places[nth] = match &part.hangs {
                 None => Some([center.x, center.y, angle]),
                 Some((parent, on_parent, on_child, kind)) => {
-                    places[*parent].map(|at| hang(at, *on_parent, *on_child, kind))
+                    places[*parent].map(|at| hang(at, *on_parent, *on_child, kind, 0.0))
                 }
             };
         }
@@ -216,18 +216,19 @@ fn put(parts: &[Part], center: Point<2>, angle: f64) -> Vec<[f64; 3]> {
     places.into_iter().flatten().collect()
 }
 
-/// Place at time zero of a child whose parent is at a place.
+/// Place at a time (s) of a child whose parent is at a place.
 pub fn hang(
     parent: [f64; 3],
     on_parent: [f64; 2],
     on_child: [f64; 2],
     kind: &JointKind,
+    time: f64,
 ) -> [f64; 3] {
     let (arm, bend) = match kind {
         JointKind::Arm { length, direction } => {
-            (Rotation2::new(*direction) * Point::<2>::new(length.at(0.0)[0], 0.0), 0.0)
+            (Rotation2::new(*direction) * Point::<2>::new(length.at(time)[0], 0.0), 0.0)
         }
-        JointKind::Bent { angle } => (Point::<2>::zeros(), angle.at(0.0)[0]),
+        JointKind::Bent { angle } => (Point::<2>::zeros(), angle.at(time)[0]),
         JointKind::Hinge(hinge) => (Point::<2>::zeros(), hinge.rest),
     };
     let angle = parent[2] + bend;

@@ -4,6 +4,9 @@ use std::fmt::Write as _;
 
 use super::{Case, Gait, Geometry, Model, ShapeSpec, TimeSettings};
 
+/// Gaps that are told of: of many bodies those of the closest pairs.
+const MOST_GAPS: usize = 3;
+
 /// density * velocity * length / viscosity of `[scales]`; 0 in Stokes flow.
 #[must_use]
 pub fn reynolds(case: &Case) -> Option<f64> {
@@ -81,13 +84,56 @@ pub fn derived_numbers(case: &Case) -> Vec<DerivedNumber> {
             }
         }
     }
+    for group in &case.group {
+        let Some(period) = group.period else { continue };
+        let name = &group.name;
+        if let TimeSettings::Unsteady(time) = &case.time {
+            add(
+                &format!("{name}: steps per cycle"),
+                period / time.step,
+                "period / time.unsteady.step",
+            );
+        }
+        if has_inertia {
+            let length = extent(case, &group.bodies);
+            let value = length * length / (kinematic * period);
+            let formula = "density * length^2 / (viscosity * period), from end to end at the start";
+            add(&format!("{name}: oscillatory Reynolds number"), value, formula);
+        }
+    }
     for (name, gap, formula) in gaps(case) {
         add(&name, gap, &formula);
     }
     table
 }
 
-/// Gaps between bodies over the size of the smaller one, by their surrounding circles.
+/// Largest distance of two points of bodies at the start (m): of one body its length, of several by
+/// their surrounding circles.
+fn extent(case: &Case, bodies: &[usize]) -> f64 {
+    if let [body] = bodies {
+        return match &case.body[*body].shape {
+            ShapeSpec::Fish(fish) => fish.length,
+            ShapeSpec::Flagellate(shape) => 2.0 * shape.head[0] + shape.tail_length,
+            shape => 2.0 * shape.reach(),
+        };
+    }
+    let circle = |body: usize| {
+        let body = &case.body[body];
+        let at = |axis: usize| body.center.get(axis).copied().unwrap_or(0.0);
+        (at(0), at(1), body.shape.reach())
+    };
+    let mut most = 0.0f64;
+    for &one in bodies {
+        for &other in bodies {
+            let ((x1, y1, r1), (x2, y2, r2)) = (circle(one), circle(other));
+            most = most.max((x2 - x1).hypot(y2 - y1) + r1 + r2);
+        }
+    }
+    most
+}
+
+/// Gaps between bodies over the size of the smaller one, by their surrounding circles: the smallest
+/// ones.
 fn gaps(case: &Case) -> Vec<(String, f64, String)> {
     let mut found = Vec::new();
     for (i, first) in case.body.iter().enumerate() {
@@ -104,6 +150,8 @@ fn gaps(case: &Case) -> Vec<(String, f64, String)> {
             ));
         }
     }
+    found.sort_by(|one, other| one.1.total_cmp(&other.1));
+    found.truncate(MOST_GAPS);
     found
 }
 

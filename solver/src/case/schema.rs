@@ -15,6 +15,10 @@ pub fn schema() -> Value {
                         name of a shipped case. Tables are merged, everything else is replaced; \
                         reference, variant and quick are not inherited.",
     });
+    // A plain number is a stroke, too
+    if let Some(strokes) = schema["$defs"]["Stroke"]["oneOf"].as_array_mut() {
+        strokes.push(json!({ "type": "number", "description": "The same as `constant`." }));
+    }
     // What is needed may stand in the extended file.
     let required = schema["required"].take();
     if let Some(object) = schema.as_object_mut() {
@@ -54,6 +58,12 @@ mod tests {
                 (is_tagged && is_one_of_one) || has_alternatives_with_values(root, option)
             })
         })
+    }
+
+    #[test]
+    fn a_stroke_may_be_a_number() {
+        let strokes = schema()["$defs"]["Stroke"]["oneOf"].as_array().cloned().unwrap();
+        assert!(strokes.iter().any(|stroke| stroke["type"] == "number"));
     }
 
     #[test]

@@ -8,8 +8,9 @@ use super::exit::{Exit, Failure};
 use super::style::{self, Ink, on_stdout, say};
 use super::{engine, read_and_check};
 use crate::case::{
-    BoundaryCondition, Cadence, Case, CaseFile, DomainSpec, Gait, Model, Motion, Precision,
-    Problem, ShapeSpec, TimeSettings, geometry_name, known_quantities, number_table, significant,
+    BoundaryCondition, Cadence, Case, CaseFile, DomainSpec, Gait, Group, Joint, JointKind, Model,
+    Motion, Precision, Problem, Scheme, ShapeSpec, Stroke, TimeSettings, geometry_name,
+    known_quantities, number_table, significant,
 };
 use crate::coupling::memory_estimate;
 
@@ -101,6 +102,12 @@ pub fn facts(file: &CaseFile) -> String {
     for body in &case.body {
         line("body", body_line(case, body));
     }
+    for joint in &case.joint {
+        line("joint", joint_line(joint));
+    }
+    for group in &case.group {
+        line("swimmer", swimmer_line(case, group));
+    }
     line("time", time(case));
     if let Some(frame) = &case.frame {
         line("frame", format!("travels with {frame}"));
@@ -190,7 +197,46 @@ fn body_line(case: &Case, body: &crate::case::Body) -> String {
     };
     let size = body.size.or(case.mesh.surface).unwrap_or(case.mesh.size) * case.mesh.scale;
     let edges = body.shape.perimeter() / size;
-    format!("{}: {shape} at {:?}, {motion}{gait}, about {edges:.0} edges", body.name, body.center)
+    let at: Vec<String> = body.center.iter().map(|value| significant(*value)).collect();
+    let at = at.join(", ");
+    format!("{}: {shape} at [{at}], {motion}{gait}, about {edges:.0} edges", body.name)
+}
+
+fn joint_line(joint: &Joint) -> String {
+    let stroke = |stroke: &Stroke| match stroke {
+        Stroke::Constant(value) => significant(*value),
+        _ => {
+            let [least, most] = stroke.range();
+            format!("{} to {}", significant(least), significant(most))
+        }
+    };
+    let what = match &joint.kind {
+        JointKind::Arm { length, .. } => format!("arm of length {}", stroke(length)),
+        JointKind::Bent { angle } => format!("bent by {}", stroke(angle)),
+        JointKind::Hinge(hinge) => {
+            let motor = hinge.torque.as_ref().map(|torque| format!(", torque {}", stroke(torque)));
+            format!(
+                "hinge, stiffness {}, damping {}{}",
+                significant(hinge.stiffness),
+                significant(hinge.damping),
+                motor.unwrap_or_default()
+            )
+        }
+    };
+    format!("{} hangs on {}: {what}", joint.child, joint.parent)
+}
+
+fn swimmer_line(case: &Case, group: &Group) -> String {
+    let bodies = match group.bodies.len() {
+        1 => "1 body".to_owned(),
+        n => format!("{n} bodies, told of as one"),
+    };
+    let period = group.period.map(|period| format!(", period {}", significant(period)));
+    let motion = match group.bodies.iter().all(|body| case.body[*body].motion == Motion::Free) {
+        true => ", swims freely",
+        false => "",
+    };
+    format!("{}: {bodies}{}{motion}", group.name, period.unwrap_or_default())
 }
 
 fn time(case: &Case) -> String {
@@ -208,12 +254,21 @@ fn time(case: &Case) -> String {
     }
 }
 
-/// Linear systems a run solves: exact for Stokes flow, a usual number for Newton's method.
+/// Linear systems a run solves: exact for steady Stokes flow, a usual number otherwise.
 fn n_systems(case: &Case) -> f64 {
     match (&case.time, case.fluid.model) {
         (TimeSettings::Steady(_), Model::NavierStokes) => 6.0,
         (TimeSettings::Steady(_), _) => 1.0,
-        (TimeSettings::Unsteady(time), _) => (time.end / time.step).ceil(),
+        (TimeSettings::Unsteady(time), _) => {
+            let a_step = match time.scheme {
+                // One for each stage
+                Scheme::Rk3 => 3.0,
+                // Bodies and mesh agree after another pass
+                _ if case.mesh_moves() => 2.0,
+                _ => 1.0,
+            };
+            a_step * (time.end / time.step).ceil()
+        }
     }
 }
 
@@ -223,6 +278,8 @@ fn costs(case: &Case, mesh: &Mesh<2>) -> String {
     let memory = memory_estimate(2 * mesh.n_nodes() + mesh.n_vertices);
     // Measured on planar runs with 1.1 10^4 to 2 10^5 unknowns, on one core, every system factorised.
     let factorisation = 0.0095 * (n_dofs / 1e4).powf(1.4);
+    // What follows the bodies: the mesh, its quality, contact, measurements, new meshes.
+    let following = if case.mesh_moves() { 0.5 } else { 0.0 };
     let assembly = 6e-7 * n_dofs;
     let systems = n_systems(case);
     let output = output_size(case, mesh);
@@ -230,7 +287,7 @@ fn costs(case: &Case, mesh: &Mesh<2>) -> String {
     let _ = writeln!(text, "  {:<16} {n_dofs}", "unknowns");
     let _ =
         writeln!(text, "  {:<16} {}, most of it for the factorisation", "memory", bytes(memory));
-    let seconds = factorisation + assembly;
+    let seconds = (factorisation + assembly) * (1.0 + following);
     let is_adaptive = matches!(&case.time, TimeSettings::Unsteady(time) if time.adaptive.is_some());
     let cost = if is_adaptive {
         format!("{} for each linear system; how many, the steps will tell", duration(seconds))

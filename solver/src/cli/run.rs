@@ -67,26 +67,21 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
         let text = format!("{:#}\n", comparisons_to_json(&comparisons));
         write_atomic(&out.join(COMPARISON_FILE), text.as_bytes())?;
     }
-    if !options.quiet {
-        tell(&comparisons);
-        if comparisons.is_empty() {
-            tell_last_values(&file.case, &outcome);
-        }
-        let seconds: f64 = outcome.timing.cpu.iter().sum();
-        let remeshes = outcome.series.column("flow.remeshes").and_then(|all| all.last().copied());
-        let moving = remeshes.map_or_else(String::new, |remeshes| {
-            format!(
-                ", {:.3} s a step, {remeshes} new meshes",
-                seconds / outcome.steps.max(1) as f64
-            )
-        });
-        say(&format!(
-            "{} unknowns, {} steps, {seconds:.2} s of CPU time{moving}; written to {}",
-            outcome.n_dofs,
-            outcome.steps,
-            out.display()
-        ));
+    tell(&comparisons);
+    if comparisons.is_empty() {
+        tell_last_values(&file.case, &outcome);
     }
+    let seconds: f64 = outcome.timing.cpu.iter().sum();
+    let remeshes = outcome.series.column("flow.remeshes").and_then(|all| all.last().copied());
+    let moving = remeshes.map_or_else(String::new, |remeshes| {
+        format!(", {:.3} s a step, {remeshes} new meshes", seconds / outcome.steps.max(1) as f64)
+    });
+    say(&format!(
+        "{} unknowns, {} steps, {seconds:.2} s of CPU time{moving}; written to {}",
+        outcome.n_dofs,
+        outcome.steps,
+        out.display()
+    ));
     Ok(Exit::Done)
 }
 
@@ -129,7 +124,8 @@ fn tell_last_values(case: &Case, outcome: &Outcome) {
         .collect();
     let body_of = |name: &str| told.iter().any(|told| name.starts_with(&format!("{told}.")));
     for (name, value) in outcome.series.names.iter().zip(last) {
-        if body_of(name) && !name.contains("surface_") {
+        // Of cycles nothing is known before the first has ended
+        if body_of(name) && !name.contains("surface_") && !value.is_nan() {
             say(&format!("{name:32}  {}", significant(*value)));
         }
     }

@@ -1,6 +1,6 @@
 //! `SavedState`: a state as it is written to a file, for a run that goes on from it.
 
-use alewife_mesh::{Boundary, Facet, Mesh, PlacedShape, Point};
+use alewife_mesh::{Boundary, Facet, Mesh, Outline, PlacedShape, Point};
 use serde::{Deserialize, Serialize};
 
 use super::build::placed_bodies;
@@ -15,6 +15,12 @@ use crate::motion::RigidMove;
 
 /// Version of the file; others are refused.
 const VERSION: u32 = 2;
+
+/// Way over the size of its coordinates by which a body may be elsewhere when a run goes on.
+const JUMP: f64 = 1e-9;
+
+/// Way over the length of an edge by which the outline of a body may be elsewhere then.
+const OUTLINE_JUMP: f64 = 1e-2;
 
 type Pair = [f64; 2];
 
@@ -179,6 +185,18 @@ impl SavedState {
         if !fits {
             return Err("its parts do not fit together".to_owned());
         }
+        let mut hung = self.places.clone();
+        problem.hang(&mut hung, self.time);
+        for (name, (was, put)) in names.iter().zip(self.places.iter().zip(&hung)) {
+            let size = was.iter().chain(put).fold(0.0f64, |most, value| most.max(value.abs()));
+            if was.iter().zip(put).any(|(was, put)| (was - put).abs() > JUMP * size) {
+                return Err(format!(
+                    "body `{name}` was left at ({:.6}, {:.6}) turned by {:.6}, and the joints of this case \
+                     put it at ({:.6}, {:.6}) turned by {:.6}: a run goes on with the strokes it began with",
+                    was[0], was[1], was[2], put[0], put[1], put[2]
+                ));
+            }
+        }
         let origin = Point::<2>::new(self.origin[0], self.origin[1]);
         let nodes = points(&self.nodes);
         let facet = |&(cell, side, boundary): &(u32, u8, u16)| Facet { cell, side, boundary };
@@ -215,7 +233,8 @@ impl SavedState {
                     }
                 });
                 let made_at = (following.made_at.clone(), following.made_time);
-                let shapes = shapes.collect();
+                let shapes: Vec<PlacedShape> = shapes.collect();
+                goes_on(problem, &made, &shapes)?;
                 Some(Follower::new(case, problem, &made, domain, shapes, made_at)?)
             }
             (None, false) => None,
@@ -242,4 +261,27 @@ impl SavedState {
         };
         Ok((state, follower))
     }
+}
+
+/// Whether bodies that deform had these outlines when a mesh was made.
+fn goes_on(problem: &Problem, made: &Mesh<2>, shapes: &[PlacedShape]) -> Result<(), String> {
+    for (body, shape) in problem.bodies.iter().zip(shapes) {
+        if body.shape.is_none() {
+            continue;
+        }
+        let outline = Outline::new(shape).map_err(|error| error.to_string())?;
+        for facet in made.facets.iter().filter(|facet| usize::from(facet.boundary) == body.boundary)
+        {
+            let [start, end, _] = made.facet_nodes(facet).map(|node| made.nodes[node as usize]);
+            let off = (outline.at(outline.parameter_of(start))[0] - start).norm();
+            if off > OUTLINE_JUMP * (end - start).norm() {
+                return Err(format!(
+                    "the surface of body `{}` is {off:.3e} from where the gait of this case puts it: \
+                     a run goes on with the gait it began with",
+                    body.name
+                ));
+            }
+        }
+    }
+    Ok(())
 }

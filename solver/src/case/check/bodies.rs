@@ -186,7 +186,14 @@ fn check_on_axis(findings: &mut Findings<'_>, key: &str, body: &Body) {
             findings.error(
                 &format!("{key}.{field}"),
                 format!("`{key}.{field}` is {value}: {what} of \"{name}\" breaks the symmetry"),
-                "in an axisymmetric case it must be 0",
+                match field {
+                    "angle" => {
+                        "in an axisymmetric case it must be 0; a squirmer faces -x with \
+                         gait.squirmer.heading = 3.141592653589793, linked spheres are given from left \
+                         to right"
+                    }
+                    _ => "in an axisymmetric case it must be 0",
+                },
             );
         }
     };

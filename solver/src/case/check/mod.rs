@@ -12,6 +12,7 @@ mod mesh;
 mod placement;
 mod references;
 mod spring;
+mod strokes;
 mod swimmers;
 mod time;
 
@@ -44,8 +45,11 @@ pub fn check(file: &CaseFile) -> Vec<Problem> {
     mesh::check(&mut findings);
     time::check(&mut findings);
     references::check(&mut findings);
-    if findings.problems.iter().all(|problem| problem.severity == Severity::Warning) {
+    if findings.has_no_error() {
         placement::check(&mut findings);
+    }
+    if findings.has_no_error() {
+        strokes::check(&mut findings);
     }
     findings.problems
 }
@@ -121,6 +125,10 @@ struct Findings<'a> {
 impl<'a> Findings<'a> {
     fn case(&self) -> &'a Case {
         &self.file.case
+    }
+
+    fn has_no_error(&self) -> bool {
+        self.problems.iter().all(|problem| problem.severity == Severity::Warning)
     }
 
     fn add(&mut self, severity: Severity, key: &str, message: String, help: &str) {

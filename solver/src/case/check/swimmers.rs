@@ -76,7 +76,7 @@ fn joints(findings: &mut Findings<'_>) {
             JointKind::Hinge(hinge) => JointKind::Hinge(Hinge { rest: bend, ..hinge.clone() }),
             kind => kind.clone(),
         };
-        let wanted = hang(place(parent), joint.on_parent, joint.on_child, &kind);
+        let wanted = hang(place(parent), joint.on_parent, joint.on_child, &kind, 0.0);
         let size = (wanted[0] - place(parent)[0]).hypot(wanted[1] - place(parent)[1]);
         let is_arm = matches!(joint.kind, JointKind::Arm { .. });
         let off = (wanted[0] - found[0]).hypot(wanted[1] - found[1]);
