@@ -36,7 +36,9 @@ pub(super) fn remake(
     let wraps: Vec<Point<2>> =
         state.wraps.iter().zip(shifts).map(|(wrap, shift)| wrap + shift).collect();
     let places = seen_from(&origin, &state.places, &wraps);
-    let previous_places = seen_from(&origin, &state.previous_places, &wraps);
+    // The frame was elsewhere, too
+    let origin_before = state.origin_at(problem, &state.previous_places);
+    let previous_places = seen_from(&origin_before, &state.previous_places, &wraps);
     let new = opened.mesh(&sizing(case)).map_err(|error| error.to_string())?;
     let Opened { domain, shapes, .. } = opened;
     let made_at = (places.clone(), state.time);
@@ -89,13 +91,8 @@ pub(super) fn remake(
                 .map_err(|error| format!("the flow on the new mesh: {error}"))
         };
     let now = level(&new, &state.now, &places, origin, state.time)?;
-    let previous = level(
-        &before,
-        &state.previous,
-        &previous_places,
-        state.origin_at(problem, &state.previous_places),
-        state.time_before(),
-    )?;
+    let previous =
+        level(&before, &state.previous, &previous_places, origin_before, state.time_before())?;
     let rates = transfer.quadratic(&state.rates);
     (state.now, state.previous, state.rates, state.wraps) = (now, previous, rates, wraps);
     state.nodes_before = before.nodes;
