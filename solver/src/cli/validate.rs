@@ -1,11 +1,15 @@
 //! `validate`: shipped cases against published values, as a table or as JSON, with an exit code.
 
+use std::path::{Path, PathBuf};
+
 use clap::Args;
 
 use super::exit::{Exit, Failure};
 use super::style::{Ink, complain, on_stdout, say};
 use super::{engine, read_and_check, run, threads};
 use crate::case::{Case, library};
+use crate::observer::RunDirectory;
+use crate::simulation::RunError;
 use crate::validation::{
     Comparison, Verdict, compare, comparison_page, comparisons_to_json, not_computed,
 };
@@ -31,6 +35,9 @@ pub struct Options {
     /// Print a page of Markdown instead of a table
     #[arg(long, conflicts_with = "json")]
     markdown: bool,
+    /// Keep the runs, each in a directory of its own in this one
+    #[arg(long, short, value_name = "DIR")]
+    out: Option<PathBuf>,
     /// Threads; by default those the batch system or the machine grants
     #[arg(long, short, value_name = "N")]
     threads: Option<usize>,
@@ -47,12 +54,12 @@ pub fn validate(options: &Options) -> Result<Exit, Failure> {
     for name in &names {
         members.extend(members_of(name, options.quick)?);
     }
-    threads::start(options.threads)?;
+    let n_threads = threads::start(options.threads)?;
 
     let mut comparisons: Vec<Comparison> = Vec::new();
     for (index, member) in members.iter().enumerate() {
         complain(&format!("[{}/{}] {member}", index + 1, members.len()));
-        comparisons.extend(validate_one(member)?);
+        comparisons.extend(validate_one(member, options.out.as_deref(), n_threads)?);
     }
     let n_bad = comparisons.iter().filter(|row| row.verdict != Verdict::Within).count();
     if options.json {
@@ -85,11 +92,25 @@ fn members_of(name: &str, only_quick: bool) -> Result<Vec<String>, Failure> {
 }
 
 /// Runs one case; a run that fails is a row of the table, not the end of the validation.
-fn validate_one(member: &str) -> Result<Vec<Comparison>, Failure> {
+fn validate_one(
+    member: &str,
+    out: Option<&Path>,
+    n_threads: usize,
+) -> Result<Vec<Comparison>, Failure> {
     let (file, _) = read_and_check(member, &[])?;
     let name = file.full_name();
-    Ok(match engine::simulate(&file.case) {
+    let outcome = match out {
+        None => engine::simulate(&file.case),
+        Some(out) => {
+            let out = out.join(name.replace('/', "-"));
+            let directory = RunDirectory::create(&out, &file.case, n_threads, false)?;
+            engine::simulate_into(&file.case, None, &directory, true)
+        }
+    };
+    Ok(match outcome {
         Ok(outcome) => compare(&name, &file.case, &outcome),
+        // Asked to stop: that is no verdict
+        Err(error @ RunError::Stopped { .. }) => return Err(error.into()),
         Err(error) => not_computed(&name, &file.case, &error.to_string()),
     })
 }
