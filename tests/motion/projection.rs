@@ -141,7 +141,7 @@ fn what_is_between_the_nodes_keeps_the_energy_of_waves() {
     let field: Vec<Point<2>> = old.nodes.iter().map(waves).collect();
     let transfer = Transfer::new(&old, &new, &[]).unwrap().with_points(&tables, &[]).unwrap();
     let transferred = transfer.quadratic(&field);
-    let missed = transfer.missed(&tables, &new, &field, &transferred);
+    let missed = transfer.missed(&tables, &field, &transferred);
     let mut projection = DivergenceFree::new(&walled(&new, false), &new).unwrap();
     let without = projection.project(&new, &transferred).unwrap();
     let with = projection.project_with(&new, &transferred, &missed).unwrap();

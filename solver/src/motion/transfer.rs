@@ -86,16 +86,17 @@ impl<'a> Transfer<'a> {
         Some(self)
     }
 
-    /// int phi (u - v) dx for each node, with u a field of the old mesh and v one of the new mesh,
-    /// whose nodes are at `nodes` (m): what interpolation loses. [`Self::with_points`] comes before.
+    /// The new mesh.
     #[must_use]
-    pub fn missed(
-        &self,
-        tables: &Tables<2>,
-        mesh: &Mesh<2>,
-        old: &[Point<2>],
-        new: &[Point<2>],
-    ) -> Vec<Point<2>> {
+    pub fn mesh(&self) -> &'a Mesh<2> {
+        self.new
+    }
+
+    /// int phi (u - v) dx for each node, with u a field of the old mesh and v one of the new mesh: what
+    /// interpolation loses. [`Self::with_points`] comes before.
+    #[must_use]
+    pub fn missed(&self, tables: &Tables<2>, old: &[Point<2>], new: &[Point<2>]) -> Vec<Point<2>> {
+        let mesh = self.new;
         let mut missed = vec![Point::<2>::zeros(); new.len()];
         let mut workspace = CellValues::default();
         let mut sources = self.points.iter();
@@ -119,16 +120,6 @@ impl<'a> Transfer<'a> {
     #[must_use]
     pub fn quadratic(&self, field: &[Point<2>]) -> Vec<Point<2>> {
         self.sources.iter().map(|source| self.at(source, |node| field[node])).collect()
-    }
-
-    /// Places (m) at which the nodes of the new mesh would have been one level before, had they
-    /// moved with the old mesh, whose nodes were at `before`.
-    #[must_use]
-    pub fn positions(&self, before: &[Point<2>]) -> Vec<Point<2>> {
-        // What is interpolated is the way: exact for a mesh at rest, and free of periods
-        let way = |node: usize| before[node] - self.old.nodes[node];
-        let pairs = self.new.nodes.iter().zip(&self.sources);
-        pairs.map(|(place, source)| place + self.at(source, way)).collect()
     }
 
     /// A linear field (one value a vertex of the old mesh) at the vertices of the new mesh.

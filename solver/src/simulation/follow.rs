@@ -182,21 +182,6 @@ impl Follower {
         }
     }
 
-    /// Displacements (m) of nodes of this new mesh on bodies to other places at another time (s).
-    pub fn carried(
-        &self,
-        nodes: &[(usize, usize)],
-        mesh: &Mesh<2>,
-        places: &[Place],
-        time: f64,
-    ) -> Vec<Point<2>> {
-        let carriers = self.carriers(places, time);
-        nodes
-            .iter()
-            .map(|&(node, body)| self.displacement(&carriers[body], &mesh.nodes[node]))
-            .collect()
-    }
-
     /// Places of all nodes with bodies at `places` (m) at a time (s).
     ///
     /// # Errors

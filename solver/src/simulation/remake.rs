@@ -51,23 +51,28 @@ pub(super) fn remake(
     let transfer = Transfer::new(&old, &new, &images)
         .and_then(|transfer| transfer.with_points(&tables, &images))
         .ok_or("the flow could not be found in the old mesh")?;
+    // One level back the new mesh is where its own motion puts it: nodes whose way had a kink would
+    // cost the next step its second order.
     let mut before = new.clone();
-    before.nodes = transfer.positions(&state.nodes_before);
-    // What bodies carry was where they were, exactly.
+    before.nodes =
+        made.nodes(&previous_places, state.time_before()).map_err(|error| error.to_string())?;
+    let mut old_before = old.clone();
+    old_before.nodes.clone_from(&state.nodes_before);
+    let images_before = domain.images_around(old_before.nodes.iter().chain(&before.nodes).copied());
+    let transfer_before = Transfer::new(&old_before, &before, &images_before)
+        .and_then(|transfer| transfer.with_points(&tables, &images_before))
+        .ok_or("the flow of the step before could not be found in the old mesh")?;
     let sides = NodeSides::new(&new);
     let mut on_bodies = Vec::new();
     for (body, rigid) in problem.bodies.iter().enumerate() {
         on_bodies.extend(sides.nodes_on(rigid.boundary).map(|node| (node, body)));
     }
-    let back = made.carried(&on_bodies, &new, &previous_places, state.time_before());
-    for (&(node, _), way) in on_bodies.iter().zip(back) {
-        before.nodes[node] = new.nodes[node] + way;
-    }
     let poses = |places: &[Place]| -> Vec<Pose> { places.iter().map(pose_at).collect() };
     let mut projection = DivergenceFree::new(problem, &new)
         .map_err(|error| format!("the flow on the new mesh: {error}"))?;
     let mut level =
-        |mesh: &Mesh<2>, old: &Solution, places: &[Place], origin: Point<2>, time: f64| {
+        |transfer: &Transfer<'_>, old: &Solution, places: &[Place], origin: Point<2>, time: f64| {
+            let mesh = transfer.mesh();
             let mut solution = Solution {
                 velocity: transfer.quadratic(&old.velocity),
                 pressure: transfer.linear(&old.pressure),
@@ -83,16 +88,21 @@ pub(super) fn remake(
                 solution.velocity[node] = rigid + surfaces[body].velocity(&place);
             }
             hold_sides(problem, mesh, &sides, &origin, time, &mut solution.velocity);
-            let missed = transfer.missed(&tables, mesh, &old.velocity, &solution.velocity);
+            let missed = transfer.missed(&tables, &old.velocity, &solution.velocity);
             projection
                 .move_to(problem, mesh)
                 .and_then(|()| projection.project_with(mesh, &solution.velocity, &missed))
                 .map(|velocity| Solution { velocity, ..solution })
                 .map_err(|error| format!("the flow on the new mesh: {error}"))
         };
-    let now = level(&new, &state.now, &places, origin, state.time)?;
-    let previous =
-        level(&before, &state.previous, &previous_places, origin_before, state.time_before())?;
+    let now = level(&transfer, &state.now, &places, origin, state.time)?;
+    let previous = level(
+        &transfer_before,
+        &state.previous,
+        &previous_places,
+        origin_before,
+        state.time_before(),
+    )?;
     let rates = transfer.quadratic(&state.rates);
     (state.now, state.previous, state.rates, state.wraps) = (now, previous, rates, wraps);
     state.nodes_before = before.nodes;
