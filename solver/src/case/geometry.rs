@@ -5,7 +5,7 @@ use std::sync::Arc;
 use alewife_mesh::{Domain, FishForm, FlagellateForm, PlacedShape, Point, Profile, Shape, Spline};
 
 use super::{
-    Body, BoundaryCondition, Case, DomainSpec, Gait, Geometry, Lock, Model, Motion, ShapeSpec,
+    Body, BoundaryCondition, Case, DomainSpec, Gait, Geometry, Lock, Motion, ShapeSpec,
     TimeSettings,
 };
 
@@ -283,9 +283,7 @@ impl Case {
                     | BoundaryCondition::Periodic(_)
             )
         };
-        let is_told =
-            matches!(self.time, TimeSettings::Unsteady(_)) || self.fluid.model == Model::Stokes;
-        is_told && !self.body.is_empty() && self.boundary.values().all(is_idle)
+        !self.body.is_empty() && self.boundary.values().all(is_idle)
     }
 
     /// The body the frame travels with: that of the name, or the one the others of a swimmer hang on.

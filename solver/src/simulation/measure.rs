@@ -6,7 +6,7 @@ use nalgebra::SMatrix;
 use super::snapshot::BodyReport;
 use super::state::{State, Swim};
 use crate::body::{Pose, Twist, Wrench};
-use crate::case::{Case, Geometry, Probe, known_quantities};
+use crate::case::{Case, Geometry, Probe, TimeSettings, known_quantities};
 use crate::coupling::{
     BodyLoads, BodyStates, Effort, FluidSystem, Group, JointReport, Problem, Solution, group_load,
     joint_reports, mean_motion, surface_load,
@@ -29,6 +29,7 @@ pub(super) struct Measure {
     coefficients: Option<[f64; 2]>,
     has_contact: bool,
     energy: Option<Energy>,
+    is_march: bool,
 }
 
 /// Where the work of the bodies goes, since the first measurement.
@@ -43,11 +44,11 @@ struct Energy {
 }
 
 impl Energy {
-    /// The defect over the turnover. Without inertia the rates of the present.
-    fn defect(&mut self, has_inertia: bool, now: [f64; 4]) -> f64 {
+    /// The defect over the turnover; where the flow has no memory, of the rates of the present.
+    fn defect(&mut self, has_memory: bool, now: [f64; 4]) -> f64 {
         let [time, power, dissipation, kinetic] = now;
         let before = self.last.replace(now);
-        if !has_inertia {
+        if !has_memory {
             return (power - dissipation) / power.abs().max(dissipation);
         }
         if let Some([then, old_power, old_dissipation, old_kinetic]) = before {
@@ -121,7 +122,9 @@ impl Measure {
         });
         let has_contact = case.contact.is_some();
         let energy = case.balances_energy().then(Energy::default);
-        Ok(Self { names: known_quantities(case), probes, coefficients, has_contact, energy })
+        let is_march = matches!(case.time, TimeSettings::Unsteady(_));
+        let names = known_quantities(case);
+        Ok(Self { names, probes, coefficients, has_contact, energy, is_march })
     }
 
     /// Finds the probes in a mesh that has moved, seen from the frame.
@@ -209,7 +212,7 @@ impl Measure {
         if let Some(energy) = &mut self.energy {
             let power: f64 = loads.iter().map(|load| load.power).sum();
             let now = [state.time, power, integrals.dissipation, integrals.kinetic_energy];
-            values.push(energy.defect(problem.has_inertia, now));
+            values.push(energy.defect(self.is_march && problem.has_inertia, now));
         }
         if let Some(Moving { remeshes }) = moving {
             let gap = state.contact.least_gap.map_or(f64::INFINITY, |least| least.gap);
