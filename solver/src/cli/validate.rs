@@ -7,9 +7,9 @@ use clap::Args;
 use super::exit::{Exit, Failure};
 use super::style::{Ink, complain, on_stdout, say};
 use super::{engine, read_and_check, run, threads};
-use crate::case::{Case, library};
-use crate::observer::RunDirectory;
-use crate::simulation::RunError;
+use crate::case::{Cadence, Case, Numbers, Statistics, library};
+use crate::observer::{RunDirectory, read_outcome};
+use crate::simulation::{Outcome, RunError};
 use crate::validation::{
     Comparison, Verdict, compare, comparison_page, comparisons_to_json, not_computed,
 };
@@ -21,6 +21,8 @@ Examples:
   alewife validate --quick
   alewife validate squirmer-alone dfg-2d-1
   alewife validate --json > validation.json
+  alewife validate three-sphere --out runs      keep the runs; later, with other references,
+  alewife validate three-sphere --from runs     compare them again
 
 The exit code is 20 if a value is outside its tolerance or could not be computed.")]
 pub struct Options {
@@ -38,6 +40,9 @@ pub struct Options {
     /// Keep the runs, each in a directory of its own in this one
     #[arg(long, short, value_name = "DIR")]
     out: Option<PathBuf>,
+    /// Compare runs that were kept there by --out, as long as nothing but references has changed
+    #[arg(long, value_name = "DIR", conflicts_with = "out")]
+    from: Option<PathBuf>,
     /// Threads; by default those the batch system or the machine grants
     #[arg(long, short, value_name = "N")]
     threads: Option<usize>,
@@ -59,7 +64,7 @@ pub fn validate(options: &Options) -> Result<Exit, Failure> {
     let mut comparisons: Vec<Comparison> = Vec::new();
     for (index, member) in members.iter().enumerate() {
         complain(&format!("[{}/{}] {member}", index + 1, members.len()));
-        comparisons.extend(validate_one(member, options.out.as_deref(), n_threads)?);
+        comparisons.extend(validate_one(member, options, n_threads)?);
     }
     let n_bad = comparisons.iter().filter(|row| row.verdict != Verdict::Within).count();
     if options.json {
@@ -91,21 +96,23 @@ fn members_of(name: &str, only_quick: bool) -> Result<Vec<String>, Failure> {
     Ok(members)
 }
 
-/// Runs one case; a run that fails is a row of the table, not the end of the validation.
+/// Runs one case, or reads its run; a run that fails is a row of the table, not the end of the
+/// validation.
 fn validate_one(
     member: &str,
-    out: Option<&Path>,
+    options: &Options,
     n_threads: usize,
 ) -> Result<Vec<Comparison>, Failure> {
     let (file, _) = read_and_check(member, &[])?;
     let name = file.full_name();
-    let outcome = match out {
-        None => engine::simulate(&file.case),
-        Some(out) => {
-            let out = out.join(name.replace('/', "-"));
-            let directory = RunDirectory::create(&out, &file.case, n_threads, false)?;
+    let of_run = name.replace('/', "-");
+    let outcome = match (&options.out, &options.from) {
+        (Some(out), _) => {
+            let directory = RunDirectory::create(&out.join(of_run), &file.case, n_threads, false)?;
             engine::simulate_into(&file.case, None, &directory, true)
         }
+        (None, Some(from)) => Ok(kept(&from.join(of_run), &file.case)?),
+        (None, None) => engine::simulate(&file.case),
     };
     Ok(match outcome {
         Ok(outcome) => compare(&name, &file.case, &outcome),
@@ -113,4 +120,38 @@ fn validate_one(
         Err(error @ RunError::Stopped { .. }) => return Err(error.into()),
         Err(error) => not_computed(&name, &file.case, &error.to_string()),
     })
+}
+
+/// A run that was kept, of this very case but for what it is held against.
+fn kept(directory: &Path, case: &Case) -> Result<Outcome, Failure> {
+    let refuse = |exit, reason: String| {
+        Failure::new(exit, format!("--from: {}: {reason}", directory.display()))
+    };
+    let path = directory.join("case.toml");
+    let text = std::fs::read_to_string(&path)
+        .map_err(|error| refuse(Exit::NoInput, format!("its case.toml: {error}")))?;
+    let was = Case::parse(&path.display().to_string(), &text, &[])?.case;
+    if computed(&was) != computed(case) {
+        let reason = "the case has changed since, not only its references; run it again";
+        return Err(refuse(Exit::BadCase, reason.to_owned()));
+    }
+    if !matches!(case.output.series, Cadence::Steps(1)) {
+        let reason = "its series.csv does not have every step (output.series)";
+        return Err(refuse(Exit::BadCase, reason.to_owned()));
+    }
+    read_outcome(directory).map_err(|error| refuse(Exit::NoInput, error.to_string()))
+}
+
+/// What decides the numbers of a run: a case without words and references.
+fn computed(case: &Case) -> Case {
+    Case {
+        title: String::new(),
+        description: String::new(),
+        numbers: Numbers::default(),
+        statistics: Statistics::default(),
+        reference: Vec::new(),
+        variant: Vec::new(),
+        quick: false,
+        ..case.clone()
+    }
 }

@@ -17,6 +17,7 @@
 mod csv;
 mod fields;
 mod foxglove;
+mod kept;
 mod log;
 mod mcap;
 mod process;
@@ -35,6 +36,7 @@ use crate::simulation::Observer;
 
 pub use csv::SeriesFile;
 pub use fields::FieldFiles;
+pub use kept::read_outcome;
 pub use log::start_log;
 pub use mcap::MessageFile;
 pub use progress::Progress;
