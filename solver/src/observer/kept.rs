@@ -4,8 +4,7 @@ use std::io;
 use std::path::Path;
 
 use super::status::{RunState, Status};
-use crate::simulation::{Outcome, Series};
-use crate::timing::{Stage, Timing};
+use crate::simulation::{Outcome, Series, Stage, Timing};
 
 /// What the run in `directory` left: its series, its time and its size.
 ///
