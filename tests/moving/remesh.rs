@@ -2,15 +2,11 @@
 
 use std::sync::{Arc, Mutex};
 
-use alewife::simulation::{Observer, Outcome, Snapshot, simulate};
+use alewife::simulation::{Observer, Snapshot, simulate};
 use alewife::space::{CellValues, Tables};
-use tests::cases::{case, last, run};
+use tests::cases::{case, column, last, run};
 
 use super::tank;
-
-fn column(outcome: &Outcome, name: &str) -> Vec<f64> {
-    outcome.series.column(name).expect("the quantity exists")
-}
 
 /// A disc sinks far enough for several meshes.
 #[test]

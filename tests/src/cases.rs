@@ -21,12 +21,20 @@ pub fn run(case: &Case) -> Outcome {
     simulate(case, &mut []).expect("the case runs")
 }
 
+/// All values of a quantity.
+///
+/// # Panics
+/// When there is no such quantity.
+#[must_use]
+pub fn column(outcome: &Outcome, quantity: &str) -> Vec<f64> {
+    outcome.series.column(quantity).expect("the quantity exists")
+}
+
 /// The last value of a quantity.
 ///
 /// # Panics
 /// When there is no such quantity.
 #[must_use]
 pub fn last(outcome: &Outcome, quantity: &str) -> f64 {
-    let column = outcome.series.column(quantity).expect("the quantity exists");
-    *column.last().expect("the run has a row")
+    *column(outcome, quantity).last().expect("the run has a row")
 }

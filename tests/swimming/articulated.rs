@@ -3,11 +3,7 @@
 use std::f64::consts::PI;
 
 use alewife::simulation::Outcome;
-use tests::cases::{case, last, run};
-
-fn column(outcome: &Outcome, name: &str) -> Vec<f64> {
-    outcome.series.column(name).expect("the quantity exists")
-}
+use tests::cases::{case, column, last, run};
 
 /// Semi-axes of a link, and from its centre to the pivot.
 const LINK: [f64; 2] = [0.4, 0.12];

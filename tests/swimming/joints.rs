@@ -1,12 +1,8 @@
 //! What is told of joints: the loads that come through them, by an independent way.
 
-use alewife::simulation::{Outcome, simulate_from};
-use tests::cases::{case, last, run};
+use alewife::simulation::simulate_from;
+use tests::cases::{case, column, last, run};
 use tests::stopped;
-
-fn column(outcome: &Outcome, name: &str) -> Vec<f64> {
-    outcome.series.column(name).expect("the quantity exists")
-}
 
 /// Three hinged links with weights in a fluid: torques through the hinges less those of spring, damper
 /// and motor there, over the largest torque.

@@ -256,10 +256,10 @@ fn period(kind: &SwimmerKind) -> Option<f64> {
 
 fn kind_period(kind: &JointKind) -> Option<f64> {
     match kind {
-        JointKind::Arm { length, .. } => length.period(),
-        JointKind::Bent { angle } => angle.period(),
-        JointKind::Hinge(hinge) => hinge.torque.as_ref().and_then(Stroke::period),
+        JointKind::Hinge(hinge) => hinge.torque.as_ref(),
+        given => given.stroke(),
     }
+    .and_then(Stroke::period)
 }
 
 fn bodies_period(case: &Case, bodies: &[usize]) -> Option<f64> {

@@ -49,6 +49,18 @@ pub enum JointKind {
     Hinge(Hinge),
 }
 
+impl JointKind {
+    /// What is given in time of where the child is; nothing of a free pivot.
+    #[must_use]
+    pub fn stroke(&self) -> Option<&Stroke> {
+        match self {
+            Self::Arm { length, .. } => Some(length),
+            Self::Bent { angle } => Some(angle),
+            Self::Hinge(_) => None,
+        }
+    }
+}
+
 /// `hinge`.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]

@@ -90,15 +90,17 @@ pub fn joint_reports(problem: &Problem, now: &BodyStates<'_>) -> Vec<JointReport
 /// What a body needs to move as it does besides fluid, contact and all that acts on it from outside.
 fn missing(problem: &Problem, now: &BodyStates<'_>, body: usize) -> [f64; 3] {
     let rigid = &problem.bodies[body];
-    let inertia = [rigid.mass, rigid.mass, rigid.inertia_at(now.time)];
+    let inertia = if problem.has_inertia {
+        [rigid.mass, rigid.mass, rigid.inertia_at(now.time)]
+    } else {
+        [0.0; 3]
+    };
     let (external, load) = (rigid.external(now.time), now.loads[body]);
     [0, 1, 2].map(|mode| {
-        let own =
-            if problem.has_inertia { inertia[mode] * now.accelerations[body][mode] } else { 0.0 };
         let held = rigid.spring.as_ref().map_or(0.0, |spring| {
             spring.stiffness[mode] * (now.places[body][mode] - spring.rest[mode])
                 + spring.damping[mode] * now.velocities[body][mode]
         });
-        own + held - external[mode] - load[mode]
+        inertia[mode] * now.accelerations[body][mode] + held - external[mode] - load[mode]
     })
 }

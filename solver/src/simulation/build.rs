@@ -202,13 +202,9 @@ fn link(case: &Case, joint: &Joint, bodies: &mut [RigidBody]) -> Result<(), RunE
 
 /// Times at which rates of strokes and shapes jump.
 fn kinks(case: &Case, problem: &Problem) -> Option<Kinks> {
-    let strokes = case.joint.iter().filter_map(|joint| match &joint.kind {
-        JointKind::Arm { length, .. } => Some(length.clone()),
-        JointKind::Bent { angle } => Some(angle.clone()),
-        // Torques may jump: nothing moves by them at once
-        JointKind::Hinge(_) => None,
-    });
-    let strokes: Vec<Stroke> = strokes.collect();
+    // Torques of hinges may jump: nothing moves by them at once
+    let strokes: Vec<Stroke> =
+        case.joint.iter().filter_map(|joint| joint.kind.stroke().cloned()).collect();
     let shapes: Vec<_> = problem.bodies.iter().filter_map(|body| body.shape.clone()).collect();
     if strokes.is_empty() && shapes.is_empty() {
         return None;

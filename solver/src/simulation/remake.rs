@@ -1,6 +1,6 @@
 //! A new mesh in the middle of a run, with both levels of the flow taken over to it.
 
-use alewife_mesh::{BoundaryKind, Mesh, Point};
+use alewife_mesh::{BoundaryKind, Domain, Mesh, Point};
 use nalgebra::Vector3;
 
 use super::build::sizing;
@@ -45,11 +45,8 @@ pub(super) fn remake(
     let made = Follower::new(case, problem, &new, domain.clone(), shapes, made_at)?;
 
     let old = state.mesh_in_frame();
-    // The cells of both meshes may lie periods apart
-    let images = domain.images_around(old.nodes.iter().chain(&new.nodes).copied());
     let tables = Tables::new(problem.axisymmetric);
-    let transfer = Transfer::new(&old, &new, &images)
-        .and_then(|transfer| transfer.with_points(&tables, &images))
+    let transfer = between(&domain, &tables, &old, &new)
         .ok_or("the flow could not be found in the old mesh")?;
     // One level back the new mesh is where its own motion puts it: nodes whose way had a kink would
     // cost the next step its second order.
@@ -58,9 +55,7 @@ pub(super) fn remake(
         made.nodes(&previous_places, state.time_before()).map_err(|error| error.to_string())?;
     let mut old_before = old.clone();
     old_before.nodes.clone_from(&state.nodes_before);
-    let images_before = domain.images_around(old_before.nodes.iter().chain(&before.nodes).copied());
-    let transfer_before = Transfer::new(&old_before, &before, &images_before)
-        .and_then(|transfer| transfer.with_points(&tables, &images_before))
+    let transfer_before = between(&domain, &tables, &old_before, &before)
         .ok_or("the flow of the step before could not be found in the old mesh")?;
     let sides = NodeSides::new(&new);
     let mut on_bodies = Vec::new();
@@ -112,6 +107,18 @@ pub(super) fn remake(
         *node += origin;
     }
     Ok(made)
+}
+
+/// From one mesh of a domain to another, quadrature points included; the cells of both may lie periods
+/// apart. `None` as of [`Transfer::new`].
+fn between<'a>(
+    domain: &Domain,
+    tables: &Tables<2>,
+    old: &'a Mesh<2>,
+    new: &'a Mesh<2>,
+) -> Option<Transfer<'a>> {
+    let images = domain.images_around(old.nodes.iter().chain(&new.nodes).copied());
+    Transfer::new(old, new, &images)?.with_points(tables, &images)
 }
 
 /// Gives nodes on sides the velocities that hold there.

@@ -3,7 +3,7 @@
 use alewife_mesh::{Domain, MeshError, PlacedShape, Point, check_placement};
 
 use super::Findings;
-use crate::case::{Case, Geometry, Joint, JointKind, Stroke, TimeSettings, hang};
+use crate::case::{Case, Geometry, Joint, Stroke, TimeSettings, hang};
 
 /// Times of a cycle at which bodies are looked at.
 const TIMES: u32 = 96;
@@ -35,14 +35,8 @@ pub fn check(findings: &mut Findings<'_>) {
             }
             next += 1;
         }
-        let strokes: Vec<&Stroke> = joints
-            .iter()
-            .filter_map(|(_, _, joint)| match &joint.kind {
-                JointKind::Arm { length, .. } => Some(length),
-                JointKind::Bent { angle } => Some(angle),
-                JointKind::Hinge(_) => None,
-            })
-            .collect();
+        let strokes: Vec<&Stroke> =
+            joints.iter().filter_map(|(_, _, joint)| joint.kind.stroke()).collect();
         let end = strokes.iter().map(|stroke| cycle(stroke)).fold(0.0, f64::max);
         let end = end.min(unsteady.end);
         // How a free hinge bends, only the run will tell.
