@@ -34,10 +34,10 @@ const ROOMS: [(&str, &[&str]); 17] = [
 
 /// Foreign crates that may be named in some rooms or files only.
 const FOREIGN: [(&str, &[&str]); 8] = [
-    ("num_dual", &["solver/src/gait/"]),
-    ("faer", &["solver/src/algebra/", "solver/src/multifrontal/"]),
-    ("pulp", &["solver/src/flow/", "solver/src/multifrontal/"]),
-    ("metis_sys", &["solver/src/multifrontal/metis.rs"]),
+    ("num_dual", &["solver/core/src/gait/"]),
+    ("faer", &["solver/linear/src/algebra/", "solver/linear/src/multifrontal/"]),
+    ("pulp", &["solver/core/src/flow/", "solver/linear/src/multifrontal/"]),
+    ("metis_sys", &["solver/linear/src/multifrontal/metis.rs"]),
     ("spade", &["mesh/src/generate/", "mesh/src/cut/"]),
     ("mcap", &["solver/src/observer/"]),
     ("clap", &["solver/src/cli/"]),
@@ -66,10 +66,23 @@ fn sources(folder: &str) -> BTreeMap<String, String> {
     found
 }
 
-/// The room of a file of the solver: its folder, or its own name at the top.
+/// Source folders of all crates.
+const CRATES: [&str; 5] =
+    ["mesh/src", "solver/case/src", "solver/core/src", "solver/linear/src", "solver/src"];
+
+/// The source files of all crates, by path relative to the root.
+fn all_sources() -> impl Iterator<Item = (String, String)> {
+    CRATES.into_iter().flat_map(sources)
+}
+
+/// The room of a file of the solver: the crate of case files is one, all others are folders of their
+/// crates, or files at the top.
 fn room(file: &str) -> Option<&str> {
-    let inside = file.strip_prefix("solver/src/")?;
-    let room = inside.split('/').next()?;
+    if file.starts_with("solver/case/src/") {
+        return Some("case");
+    }
+    let inside = CRATES.into_iter().find_map(|folder| file.strip_prefix(folder))?;
+    let room = inside.split('/').nth(1)?;
     Some(room.trim_end_matches(".rs"))
 }
 
@@ -77,7 +90,7 @@ fn room(file: &str) -> Option<&str> {
 fn rooms_use_only_the_rooms_below_them() {
     let rules: BTreeMap<_, _> = ROOMS.into_iter().collect();
     let mut wrong = Vec::new();
-    for (file, text) in sources("solver/src") {
+    for (file, text) in all_sources().filter(|(file, _)| file.starts_with("solver/")) {
         let Some(room) = room(&file).filter(|&room| room != "lib") else { continue };
         let allowed = rules.get(room);
         for (number, line) in text.lines().enumerate() {
@@ -99,7 +112,7 @@ fn rooms_use_only_the_rooms_below_them() {
 #[test]
 fn foreign_crates_are_named_where_they_live_only() {
     let mut wrong = Vec::new();
-    for (file, text) in sources("solver/src").into_iter().chain(sources("mesh/src")) {
+    for (file, text) in all_sources() {
         for (name, homes) in FOREIGN {
             let uses = text.lines().any(|line| {
                 line.trim_start().starts_with(&format!("use {name}::"))
@@ -123,14 +136,12 @@ fn the_map_agrees_with_the_first_line_of_each_file() {
     let text = fs::read_to_string(&page).expect("docs/architecture.md exists");
     let (begin, end) = ("<!-- map: begin -->\n", "<!-- map: end -->");
     let mut table = String::from("| File | What lives there |\n|---|---|\n");
-    for folder in ["mesh/src", "solver/src"] {
-        for (file, text) in sources(folder) {
-            let first = text.lines().next().unwrap_or_default();
-            let sentence = first.strip_prefix("//! ").unwrap_or_else(|| {
-                panic!("{file}: a file opens with `//! ` and a sentence, not `{first}`")
-            });
-            writeln!(table, "| `{file}` | {sentence} |").expect("a string takes all");
-        }
+    for (file, text) in all_sources() {
+        let first = text.lines().next().unwrap_or_default();
+        let sentence = first.strip_prefix("//! ").unwrap_or_else(|| {
+            panic!("{file}: a file opens with `//! ` and a sentence, not `{first}`")
+        });
+        writeln!(table, "| `{file}` | {sentence} |").expect("a string takes all");
     }
     let start = text.find(begin).expect("the page marks the map's beginning") + begin.len();
     let stop = text.find(end).expect("the page marks the map's end");
@@ -147,8 +158,7 @@ fn the_map_agrees_with_the_first_line_of_each_file() {
 fn every_citation_has_its_entry() {
     let bibliography =
         fs::read_to_string(root().join("docs/references.bib")).expect("the bibliography exists");
-    let mut texts: BTreeMap<String, String> =
-        ["mesh/src", "solver/src", "tests"].into_iter().flat_map(sources).collect();
+    let mut texts: BTreeMap<String, String> = all_sources().chain(sources("tests")).collect();
     for page in fs::read_dir(root().join("docs")).expect("docs exists") {
         let path = page.expect("the entry is readable").path();
         if path.extension().is_some_and(|extension| extension == "md") {

@@ -1,9 +1,9 @@
 //! Sides of the domain against flows they must let through unchanged.
 
-use alewife::case::{Convection, Steady};
-use alewife::coupling::{FluidSystem, Levels, Side};
-use alewife::simulation::{March, MeshPath, State, Timing, solve_steady};
-use alewife::time::Bdf;
+use alewife_core::case::{Convection, Steady};
+use alewife_core::coupling::{FluidSystem, Levels, Side};
+use alewife_core::simulation::{March, MeshPath, State, Timing, solve_steady};
+use alewife_core::time::Bdf;
 use alewife_mesh::{Domain, Point, Sizing, generate};
 use tests::cases::{case, last, run};
 use tests::exact::{Exact, TaylorGreen};

@@ -1,8 +1,8 @@
 //! Orders in space, on straight and curved domains, planar and axisymmetric.
 
-use alewife::case::Steady;
-use alewife::coupling::{FluidSystem, Levels, Problem, Side, Solution};
-use alewife::simulation::{Timing, solve_steady};
+use alewife_core::case::Steady;
+use alewife_core::coupling::{FluidSystem, Levels, Problem, Side, Solution};
+use alewife_core::simulation::{Timing, solve_steady};
 use alewife_mesh::{Domain, Mesh, PlacedShape, Point, Shape, Sizing, generate};
 use tests::exact::{Exact, Kovasznay, StokesSphere, SwirlingCells};
 use tests::{Errors, Study, errors, fluid_only, rest, sides};

@@ -1,9 +1,9 @@
 //! Orders in time.
 
-use alewife::case::Convection;
-use alewife::coupling::FluidSystem;
-use alewife::simulation::{March, MeshPath, State, Timing};
-use alewife::time::Bdf;
+use alewife_core::case::Convection;
+use alewife_core::coupling::FluidSystem;
+use alewife_core::simulation::{March, MeshPath, State, Timing};
+use alewife_core::time::Bdf;
 use alewife_mesh::{Domain, Mesh, Point, Sizing, generate};
 use tests::exact::{Exact, TaylorGreen};
 use tests::{Study, fluid_only, sides};

@@ -2,7 +2,7 @@
 
 use std::sync::{Arc, Mutex};
 
-use alewife::simulation::{Observer, Remains, RunError, Snapshot, simulate};
+use alewife_core::simulation::{Observer, Remains, RunError, Snapshot, simulate};
 use tests::cases::case;
 
 /// Remembers the largest speed and the reason of a failure.

@@ -1,6 +1,6 @@
 //! The same input gives the same bits, on any number of threads and in every run.
 
-use alewife::simulation::Outcome;
+use alewife_core::simulation::Outcome;
 use tests::cases::{case, run};
 
 const CASE: &str = r#"

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use alewife::case::{
+use alewife_core::case::{
     Case, CaseFile, Reference, Severity, check, known_quantities, schema, significant,
 };
 

@@ -1,8 +1,8 @@
 //! The matrices of all shipped cases are solved to rounding, with one refinement at most.
 
-use alewife::case::{Case, Steady, library};
-use alewife::coupling::{FluidSystem, Levels};
-use alewife::simulation::{Timing, build_mesh, build_problem, solve_steady};
+use alewife_core::case::{Case, Steady, library};
+use alewife_core::coupling::{FluidSystem, Levels};
+use alewife_core::simulation::{Timing, build_mesh, build_problem, solve_steady};
 use rayon::prelude::*;
 
 /// Relative residual that every system has to reach.

@@ -1,8 +1,10 @@
 //! What a moved mesh keeps: bits at rest, rigid motions, curves, symmetry, pairs, the axis.
 
-use alewife::body::Pose;
-use alewife::motion::{Hold, MeshMotion, MotionError, MotionKind, RigidMove, Stiffening, holds};
-use alewife::space::simplex_rule;
+use alewife_core::body::Pose;
+use alewife_core::motion::{
+    Hold, MeshMotion, MotionError, MotionKind, RigidMove, Stiffening, holds,
+};
+use alewife_core::space::simplex_rule;
 use alewife_mesh::{
     Boundary, BoundaryKind, Domain, Facet, Mesh, Point, Sizing, check_mesh, generate,
 };

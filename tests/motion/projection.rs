@@ -1,8 +1,8 @@
 //! The divergence-free projection: what it makes zero, keeps, and how far it goes.
 
-use alewife::coupling::{DivergenceFree, Problem, Side};
-use alewife::motion::Transfer;
-use alewife::space::Tables;
+use alewife_core::coupling::{DivergenceFree, Problem, Side};
+use alewife_core::motion::Transfer;
+use alewife_core::space::Tables;
 use alewife_mesh::{Mesh, Point, Sizing, generate};
 use tests::{Study, fluid_only, sides};
 

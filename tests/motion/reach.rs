@@ -1,7 +1,7 @@
 //! How far a disc may go before its mesh is spoilt, for each kind of motion.
 
-use alewife::body::Pose;
-use alewife::motion::{MeshMotion, MotionKind, RigidMove, Stiffening, holds};
+use alewife_core::body::Pose;
+use alewife_core::motion::{MeshMotion, MotionKind, RigidMove, Stiffening, holds};
 use alewife_mesh::{Mesh, Sizing, generate};
 
 use super::{disc, square};

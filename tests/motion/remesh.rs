@@ -1,7 +1,7 @@
 //! When a mesh is given up, and that a new one ends the reason.
 
-use alewife::body::Pose;
-use alewife::motion::{
+use alewife_core::body::Pose;
+use alewife_core::motion::{
     Fresh, Limits, MeshMotion, MotionKind, Reason, RigidMove, holds, needs_remesh,
 };
 use alewife_mesh::{Mesh, Sizing, Surroundings, generate};

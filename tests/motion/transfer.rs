@@ -1,8 +1,8 @@
 //! Fields from mesh to mesh: exact where they can be, of third order where not.
 
-use alewife::body::Pose;
-use alewife::motion::{Landing, MeshMotion, MotionKind, RigidMove, Transfer, holds};
-use alewife::space::{CellValues, Tables};
+use alewife_core::body::Pose;
+use alewife_core::motion::{Landing, MeshMotion, MotionKind, RigidMove, Transfer, holds};
+use alewife_core::space::{CellValues, Tables};
 use alewife_mesh::{Domain, Mesh, Point, Sizing, generate};
 use tests::Study;
 

@@ -2,10 +2,10 @@
 
 use std::f64::consts::PI;
 
-use alewife::case::Convection;
-use alewife::coupling::FluidSystem;
-use alewife::simulation::{March, MeshPath, State, Timing};
-use alewife::time::Bdf;
+use alewife_core::case::Convection;
+use alewife_core::coupling::FluidSystem;
+use alewife_core::simulation::{March, MeshPath, State, Timing};
+use alewife_core::time::Bdf;
 use alewife_mesh::{Domain, Mesh, Point, Sizing, generate};
 use tests::exact::{Exact, TaylorGreen};
 use tests::{Study, errors, fluid_only, sides};

@@ -1,7 +1,7 @@
 //! Free and driven bodies in a mesh that follows them.
 
 use super::tank;
-use alewife::simulation::Outcome;
+use alewife_core::simulation::Outcome;
 use tests::Study;
 use tests::cases::{case, last, run};
 

@@ -2,8 +2,8 @@
 
 use std::sync::{Arc, Mutex};
 
-use alewife::simulation::{Observer, Snapshot, simulate};
-use alewife::space::{CellValues, Tables};
+use alewife_core::simulation::{Observer, Snapshot, simulate};
+use alewife_core::space::{CellValues, Tables};
 use tests::cases::{case, column, last, run};
 
 use super::tank;

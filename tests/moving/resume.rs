@@ -1,7 +1,7 @@
 //! Runs that go on from the state another one left.
 
-use alewife::case::Case;
-use alewife::simulation::{Outcome, simulate_from};
+use alewife_core::case::Case;
+use alewife_core::simulation::{Outcome, simulate_from};
 use tests::cases::{case, last, run};
 use tests::stopped;
 

@@ -1,7 +1,7 @@
 //! Cases given as text, for tests that need a whole run.
 
-use alewife::case::Case;
-use alewife::simulation::{Outcome, simulate};
+use alewife_core::case::Case;
+use alewife_core::simulation::{Outcome, simulate};
 
 /// A case from its text.
 ///

@@ -1,7 +1,7 @@
 //! Norms of the difference between a solution and an exact one.
 
-use alewife::coupling::Solution;
-use alewife::space::{CellValues, Tables};
+use alewife_core::coupling::Solution;
+use alewife_core::space::{CellValues, Tables};
 use alewife_mesh::{Mesh, Point};
 use nalgebra::SMatrix;
 

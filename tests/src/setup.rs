@@ -1,7 +1,7 @@
 //! Problems made by hand, without a case file.
 
-use alewife::body::{Pose, Wrench};
-use alewife::coupling::{Drive, Problem, RigidBody, Side, VelocityProfile};
+use alewife_core::body::{Pose, Wrench};
+use alewife_core::coupling::{Drive, Problem, RigidBody, Side, VelocityProfile};
 use alewife_mesh::{BoundaryKind, Mesh, Point};
 
 /// A profile that is zero.

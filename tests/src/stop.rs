@@ -2,8 +2,8 @@
 
 use std::sync::{Arc, Mutex};
 
-use alewife::case::Case;
-use alewife::simulation::{Observer, Remains, RunError, SavedState, Snapshot, simulate};
+use alewife_core::case::Case;
+use alewife_core::simulation::{Observer, Remains, RunError, SavedState, Snapshot, simulate};
 
 /// Stops a run after some steps and keeps the state it leaves.
 struct Stopper {

@@ -1,12 +1,12 @@
 //! A case marched step by step on a mesh that is given.
 
-use alewife::body::Twist;
-use alewife::case::{Case, Convection, Steady};
-use alewife::coupling::{BodyLoads, FluidSystem, Levels, Problem, body_loads};
-use alewife::simulation::{
+use alewife_core::body::Twist;
+use alewife_core::case::{Case, Convection, Steady};
+use alewife_core::coupling::{BodyLoads, FluidSystem, Levels, Problem, body_loads};
+use alewife_core::simulation::{
     Follower, March, MeshPath, State, Timing, build_problem, shape_motion, solve_steady,
 };
-use alewife::time::Bdf;
+use alewife_core::time::Bdf;
 use alewife_mesh::{Mesh, PlacedShape, Point};
 
 /// A march on one mesh, which follows its bodies.

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use alewife::simulation::Outcome;
+use alewife_core::simulation::Outcome;
 use tests::cases::{case, column, last, run};
 
 /// Semi-axes of a link, and from its centre to the pivot.

@@ -1,6 +1,6 @@
 //! Many swimmers: where copies are put, and what keeps them apart.
 
-use alewife::case::Case;
+use alewife_core::case::Case;
 use tests::cases::{case, last, run};
 
 /// Swimmers of three discs in a box, so many and so placed.

@@ -1,7 +1,7 @@
 //! Bodies that deform, with inertia: balances, meshes made anew in the middle of a beat, states that
 //! are gone on from.
 
-use alewife::simulation::{Outcome, build_mesh, build_problem, simulate_from};
+use alewife_core::simulation::{Outcome, build_mesh, build_problem, simulate_from};
 use tests::cases::{case, column, last, run};
 use tests::stopped;
 

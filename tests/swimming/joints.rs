@@ -1,6 +1,6 @@
 //! What is told of joints: the loads that come through them, by an independent way.
 
-use alewife::simulation::simulate_from;
+use alewife_core::simulation::simulate_from;
 use tests::cases::{case, column, last, run};
 use tests::stopped;
 

@@ -1,6 +1,6 @@
 //! CPU time of the assembly of the matrix and of the residual, on one thread.
 //!
-//! `cargo bench -p alewife --bench assembly`; throughputs are microseconds a cell.
+//! `cargo bench -p benches --bench assembly`; throughputs are microseconds a cell.
 
 mod systems;
 

@@ -1,10 +1,10 @@
 //! CPU time of the sparse LU, phase by phase, and of faer's on the same matrices, on one thread.
 //!
-//! `cargo bench -p alewife --bench linear_solver`
+//! `cargo bench -p benches --bench linear_solver`
 
 mod systems;
 
-use alewife::multifrontal::{Analysis, Factors, Ordering, PatternRef};
+use alewife_core::multifrontal::{Analysis, Factors, Ordering, PatternRef};
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::linalg::lu::{LuRef, LuSymbolicParams, NumericLu, factorize_symbolic_lu};

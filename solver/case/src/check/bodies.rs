@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use super::Findings;
 use super::boundary::check_factor;
 use super::{gait, spring};
-use crate::case::{Body, Gait, Geometry, Motion, ShapeSpec};
+use crate::{Body, Gait, Geometry, Motion, ShapeSpec};
 
 /// Largest difference between a heading and the axis that is taken for rounding (rad).
 const HEADING_ROUNDING: f64 = 1e-3;

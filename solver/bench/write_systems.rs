@@ -1,6 +1,6 @@
 //! Writes the matrices of the benchmarks, with our figures and faer's on them, for `compare.py`.
 //!
-//! `cargo bench -p alewife --bench write_systems -- FOLDER`, then
+//! `cargo bench -p benches --bench write_systems -- FOLDER`, then
 //! `compare.py FOLDER/10k FOLDER/50k FOLDER/200k --figures FOLDER/figures.json`.
 
 mod systems;
@@ -9,8 +9,8 @@ use std::fs;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
-use alewife::multifrontal::{Analysis, Factors, Ordering, PatternRef};
-use alewife::simulation::cpu_seconds;
+use alewife_core::multifrontal::{Analysis, Factors, Ordering, PatternRef};
+use alewife_core::simulation::cpu_seconds;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::linalg::lu::{LuRef, LuSymbolicParams, NumericLu, factorize_symbolic_lu};
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};

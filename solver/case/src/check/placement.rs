@@ -3,7 +3,7 @@
 use alewife_mesh::{Domain, MeshError, Outline, PlacedShape, Point, check_wrapped_placement};
 
 use super::{Findings, Severity};
-use crate::case::Problem;
+use crate::Problem;
 
 /// Distance out of the fluid, over the size of the domain or a body, that is taken for rounding.
 const ROUNDING: f64 = 1e-6;

@@ -1,7 +1,7 @@
 //! Problems of `[time]`.
 
 use super::Findings;
-use crate::case::{Adaptive, Model, Scheme, TimeSettings, Unsteady};
+use crate::{Adaptive, Model, Scheme, TimeSettings, Unsteady};
 
 /// Distance of end / step from a whole number above which the last step is not a whole one.
 const WHOLE_STEPS: f64 = 1e-6;

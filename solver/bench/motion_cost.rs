@@ -2,11 +2,11 @@
 //!
 //! `cargo run --release -p alewife --example motion_cost`
 
-use alewife::body::Pose;
-use alewife::motion::{
+use alewife_core::body::Pose;
+use alewife_core::motion::{
     Fresh, Limits, MeshMotion, MotionKind, RigidMove, Stiffening, Transfer, holds, needs_remesh,
 };
-use alewife::timing::cpu_seconds;
+use alewife_core::timing::cpu_seconds;
 use alewife_mesh::{Domain, Locator, PlacedShape, Point, Shape, Sizing, Surroundings, generate};
 
 fn timed<T>(what: &str, run: impl FnOnce() -> T) -> T {

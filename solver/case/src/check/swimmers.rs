@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::Findings;
-use crate::case::{
+use crate::{
     Copies, Geometry, Hinge, JointKind, Model, Motion, Pivot, Scheme, Stroke, SwimmerKind,
     TimeSettings, hang,
 };
@@ -37,7 +37,7 @@ fn joints(findings: &mut Findings<'_>) {
                 findings.error(
                     &format!("{key}.{what}"),
                     format!("`{what}` is \"{name}\", but no body has that name"),
-                    &crate::case::deserialize::suggestion(name, &names),
+                    &crate::deserialize::suggestion(name, &names),
                 );
             }
         }

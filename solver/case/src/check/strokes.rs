@@ -3,7 +3,7 @@
 use alewife_mesh::{Domain, MeshError, PlacedShape, Point, check_placement};
 
 use super::Findings;
-use crate::case::{Case, Geometry, Joint, Stroke, TimeSettings, hang};
+use crate::{Case, Geometry, Joint, Stroke, TimeSettings, hang};
 
 /// Times of a cycle at which bodies are looked at.
 const TIMES: u32 = 96;

@@ -1,8 +1,8 @@
 //! Problems of `[mesh]`, `[output]` and cells too coarse for a body.
 
 use super::Findings;
-use crate::case::deserialize::suggestion;
-use crate::case::{Cadence, MovingMesh};
+use crate::deserialize::suggestion;
+use crate::{Cadence, MovingMesh};
 
 /// Edges on an outline below which a body is hardly round.
 const FEWEST_EDGES: f64 = 8.0;

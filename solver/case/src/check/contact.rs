@@ -1,7 +1,7 @@
 //! Problems of `[contact]`: numbers that make no law, and cases it has no part in.
 
 use super::Findings;
-use crate::case::{Contact, Convection, Geometry, Lock, Motion, TimeSettings};
+use crate::{Contact, Convection, Geometry, Lock, Motion, TimeSettings};
 
 /// Range over half the least width of a body above which contact is no short-range force.
 const SHORT_RANGE: f64 = 0.5;
@@ -117,7 +117,7 @@ fn check_strength(findings: &mut Findings<'_>, contact: &Option<Contact>) {
 
 #[cfg(test)]
 mod tests {
-    use crate::case::{Case, Contact, Problem, Severity, check};
+    use crate::{Case, Contact, Problem, Severity, check};
 
     const CASE: &str = "
 title = 'A disc in a box'

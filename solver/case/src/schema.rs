@@ -34,7 +34,7 @@ pub fn schema() -> Value {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::case::tree::CHOICES;
+    use crate::tree::CHOICES;
 
     /// The schema a `$ref` leads to.
     fn resolved<'a>(root: &'a Value, schema: &'a Value) -> &'a Value {

@@ -1,8 +1,8 @@
 //! Problems of `[fluid]` and `[scales]`, and numbers that disagree.
 
 use super::Findings;
-use crate::case::numbers::{density_ratio, reynolds, significant};
-use crate::case::{Geometry, Model};
+use crate::numbers::{density_ratio, reynolds, significant};
+use crate::{Geometry, Model};
 
 /// Largest relative difference between a declared number and the derived one.
 const AGREEMENT: f64 = 1e-6;

@@ -1,12 +1,12 @@
 //! The flow of the shipped case dfg-2d-2 in the middle of a time step, at a wanted size.
 
-use alewife::algebra::{AffineConstraints, Pattern};
-use alewife::case::Case;
-use alewife::coupling::{FluidSystem, Problem, Solution, embed, flatten};
-use alewife::flow::{Assembly, Convection, FlowTerms, assemble, residual};
-use alewife::multifrontal::Unknowns;
-use alewife::simulation::{build_mesh, build_problem, cpu_seconds};
-use alewife::time::Bdf;
+use alewife_core::algebra::{AffineConstraints, Pattern};
+use alewife_core::case::Case;
+use alewife_core::coupling::{FluidSystem, Problem, Solution, embed, flatten};
+use alewife_core::flow::{Assembly, Convection, FlowTerms, assemble, residual};
+use alewife_core::multifrontal::Unknowns;
+use alewife_core::simulation::{build_mesh, build_problem, cpu_seconds};
+use alewife_core::time::Bdf;
 use alewife_mesh::{Mesh, Point};
 use criterion::Throughput;
 use criterion::measurement::{Measurement, ValueFormatter};

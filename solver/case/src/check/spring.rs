@@ -1,7 +1,7 @@
 //! Problems of `body.spring`: numbers that make no spring, and motions it has no hold on.
 
 use super::Findings;
-use crate::case::{Body, Lock, Motion, Spring, TimeSettings};
+use crate::{Body, Lock, Motion, Spring, TimeSettings};
 
 pub fn check(findings: &mut Findings<'_>, key: &str, body: &Body) {
     let Some(spring) = &body.spring else { return };
@@ -83,7 +83,7 @@ fn check_hold(findings: &mut Findings<'_>, key: &str, body: &Body, spring: &Spri
 
 #[cfg(test)]
 mod tests {
-    use crate::case::{Case, Severity, check};
+    use crate::{Case, Severity, check};
 
     /// Keys and messages of the problems of a case with these lines for its body.
     fn problems(lines: &str, severity: Severity) -> Vec<(String, String)> {

@@ -3,9 +3,9 @@
 use std::f64::consts::PI;
 
 use super::Findings;
-use crate::case::deserialize::suggestion;
-use crate::case::geometry::opposite;
-use crate::case::{BoundaryCondition, DomainSpec, TimeFunction, TimeSettings};
+use crate::deserialize::suggestion;
+use crate::geometry::opposite;
+use crate::{BoundaryCondition, DomainSpec, TimeFunction, TimeSettings};
 
 /// Net inflow over gross flow above which fluid piles up.
 const BALANCE: f64 = 1e-9;

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use super::Findings;
 use super::boundary::check_factor;
-use crate::case::{
+use crate::{
     AnguilliformGait, Body, CarangiformGait, FlagellumGait, Gait, PulsatingGait, ShapeSpec,
     SquirmerGait, TimeSettings,
 };
@@ -267,7 +267,7 @@ fn squirmer(findings: &mut Findings<'_>, key: &str, body: &Body, squirmer: &Squi
 
 #[cfg(test)]
 mod tests {
-    use crate::case::{Case, Severity, check};
+    use crate::{Case, Severity, check};
 
     /// Keys of the errors of a case with this body.
     fn errors(body: &str) -> Vec<String> {

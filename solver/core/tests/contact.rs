@@ -3,11 +3,11 @@
 
 use std::f64::consts::{FRAC_PI_4, TAU};
 
-use alewife::contact::{
+use alewife_core::contact::{
     ContactError, ContactLoads, ContactSolution, ContactStep, Feature, Law, LawKind, Partner,
     Place, Surfaces,
 };
-use alewife::time::Bdf;
+use alewife_core::time::Bdf;
 use alewife_mesh::{Domain, PlacedShape, Point, Shape};
 use nalgebra::{DMatrix, Vector6};
 use proptest::prelude::*;

@@ -1,8 +1,8 @@
 //! Problems of `[[reference]]` and `[statistics]`: quantities, statistics and tolerances.
 
 use super::Findings;
-use crate::case::deserialize::suggestion;
-use crate::case::{Case, Geometry, JointKind, Reference, Statistic, TimeSettings};
+use crate::deserialize::suggestion;
+use crate::{Case, Geometry, JointKind, Reference, Statistic, TimeSettings};
 
 /// What is measured on every body.
 const OF_A_BODY: [&str; 15] = [

@@ -1,0 +1,1 @@
+//! Speed of assembly, linear solver and mesh motion: `cargo bench -p benches`.

@@ -1,0 +1,16 @@
+//! Swimmers in a viscous fluid: bodies move, the mesh follows, one system gives fluid and bodies
+//! together, observers look on.
+
+pub mod body;
+pub mod contact;
+pub mod coupling;
+pub mod flow;
+pub mod gait;
+pub mod motion;
+pub mod simulation;
+pub mod space;
+pub mod time;
+pub mod timing;
+
+pub use alewife_case as case;
+pub use alewife_linear::{algebra, multifrontal};

@@ -1,0 +1,4 @@
+//! Sparse linear algebra: constraints, sparsity patterns, direct and Krylov solvers.
+
+pub mod algebra;
+pub mod multifrontal;
