@@ -3,6 +3,7 @@
 use alewife_core::case::{Convection, Steady};
 use alewife_core::coupling::{FluidSystem, Levels, Side};
 use alewife_core::simulation::{March, MeshPath, State, Timing, solve_steady};
+use alewife_core::space::Metric;
 use alewife_core::time::Bdf;
 use alewife_mesh::{Domain, Point, Sizing, generate};
 use tests::cases::{case, last, run};
@@ -23,7 +24,7 @@ fn decaying_vortices_in_a_doubly_periodic_box_converge_at_third_order() {
         let domain = Domain::Box { min, max, periodic_x: true, periodic_y: true };
         let mesh = generate(&domain, &[], &uniform(size)).expect("a rectangle is meshed");
         let sides = mesh.boundaries.iter().map(|_| Some(Side::Periodic)).collect();
-        let problem = fluid_only(&mesh, sides, 1.0, exact.viscosity, false);
+        let problem = fluid_only(&mesh, sides, 1.0, exact.viscosity, Metric::Cartesian);
         let mut system = FluidSystem::new(&problem, &mesh, &[], false);
         let mut state = State::at_rest(&problem, mesh.clone());
         let step = 1e-3;
@@ -37,7 +38,7 @@ fn decaying_vortices_in_a_doubly_periodic_box_converge_at_third_order() {
         for _ in 0..10 {
             march.advance(&mut system, &mut state, &bdf, &mut timing).expect("the step is solved");
         }
-        errors(&mesh, &state.now, &exact, state.time, false).velocity
+        errors(&mesh, &state.now, &exact, state.time, Metric::Cartesian).velocity
     });
     // Proven are three; on mirror-symmetric meshes it is a little more.
     assert!(study.order() > 2.85, "vortices in a periodic box: {study:?}");
@@ -53,7 +54,7 @@ fn a_uniform_stream_passes_between_symmetry_planes_unchanged() {
     sides[1] = Some(Side::TractionFree);
     sides[2] = Some(Side::Symmetry { normal_axis: 1 });
     sides[3] = Some(Side::Symmetry { normal_axis: 1 });
-    let problem = fluid_only(&mesh, sides, 1.0, 0.01, false);
+    let problem = fluid_only(&mesh, sides, 1.0, 0.01, Metric::Cartesian);
     let mut system = FluidSystem::new(&problem, &mesh, &[], false);
     let settings = Steady { tolerance: 1e-11, max_iterations: 10 };
     let mut timing = Timing::default();

@@ -3,6 +3,7 @@
 use alewife_core::case::Steady;
 use alewife_core::coupling::{FluidSystem, Levels, Problem, Side, Solution};
 use alewife_core::simulation::{Timing, solve_steady};
+use alewife_core::space::Metric;
 use alewife_mesh::{Domain, Mesh, PlacedShape, Point, Shape, Sizing, generate};
 use tests::exact::{Exact, Kovasznay, StokesSphere, SwirlingCells};
 use tests::{Errors, Study, errors, fluid_only, rest, sides};
@@ -40,8 +41,8 @@ fn assert_orders(name: &str, sizes: &[f64], mut solve: impl FnMut(f64) -> Errors
 
 #[test]
 fn poiseuille_flow_is_exact_in_a_channel_and_in_a_tube() {
-    for axisymmetric in [false, true] {
-        let domain = if axisymmetric {
+    for metric in [Metric::Cartesian, Metric::Revolved] {
+        let domain = if metric.is_revolved() {
             Domain::Cylinder { x: [0.0, 2.0], radius: 1.0, periodic_x: false }
         } else {
             let (min, max) = (Point::<2>::new(0.0, -1.0), Point::<2>::new(2.0, 1.0));
@@ -58,13 +59,13 @@ fn poiseuille_flow_is_exact_in_a_channel_and_in_a_tube() {
                 *side = Some(Side::DoNothing);
             }
         }
-        let problem = fluid_only(&mesh, sides, 1.0, 0.1, axisymmetric);
+        let problem = fluid_only(&mesh, sides, 1.0, 0.1, metric);
         let solution = solve(&problem, &mesh);
         for (place, velocity) in mesh.nodes.iter().zip(&solution.velocity) {
             assert!((velocity - parabola(place)).norm() < 1e-10, "at {place}");
         }
         // The pressure falls by 2 mu (channel) or 4 mu (tube) per unit length to 0 at the outlet.
-        let slope = if axisymmetric { 0.4 } else { 0.2 };
+        let slope = if metric.is_revolved() { 0.4 } else { 0.2 };
         for (place, pressure) in mesh.nodes.iter().zip(&solution.pressure) {
             assert!((pressure - slope * (2.0 - place[0])).abs() < 1e-10, "at {place}");
         }
@@ -79,8 +80,8 @@ fn kovasznay_flow_converges_at_the_orders_of_taylor_hood_in_a_straight_domain() 
         let domain = Domain::Box { min, max, periodic_x: false, periodic_y: false };
         let mesh = generate(&domain, &[], &uniform(size)).expect("a rectangle is meshed");
         let sides = sides(&mesh, move |place, time| exact.velocity(place, time));
-        let problem = fluid_only(&mesh, sides, 1.0, 1.0 / 40.0, false);
-        errors(&mesh, &solve(&problem, &mesh), &exact, 0.0, false)
+        let problem = fluid_only(&mesh, sides, 1.0, 1.0 / 40.0, Metric::Cartesian);
+        errors(&mesh, &solve(&problem, &mesh), &exact, 0.0, Metric::Cartesian)
     });
 }
 
@@ -91,8 +92,8 @@ fn kovasznay_flow_converges_at_the_same_orders_between_curved_boundaries() {
         let domain = Domain::Disc { center: Point::<2>::new(0.3, 0.5), radius: 0.8 };
         let mesh = generate(&domain, &[], &uniform(size)).expect("a disc is meshed");
         let sides = sides(&mesh, move |place, time| exact.velocity(place, time));
-        let problem = fluid_only(&mesh, sides, 1.0, 1.0 / 40.0, false);
-        errors(&mesh, &solve(&problem, &mesh), &exact, 0.0, false)
+        let problem = fluid_only(&mesh, sides, 1.0, 1.0 / 40.0, Metric::Cartesian);
+        errors(&mesh, &solve(&problem, &mesh), &exact, 0.0, Metric::Cartesian)
     });
 }
 
@@ -110,8 +111,8 @@ fn stokes_flow_past_a_sphere_converges_at_the_same_orders_and_its_drag_is_six_pi
         };
         let mesh = generate(&domain, &[sphere], &uniform(size)).expect("a shell is meshed");
         let sides = sides(&mesh, move |place, time| exact.velocity(place, time));
-        let problem = fluid_only(&mesh, sides, 0.0, 1.0, true);
-        errors(&mesh, &solve(&problem, &mesh), &exact, 0.0, true)
+        let problem = fluid_only(&mesh, sides, 0.0, 1.0, Metric::Revolved);
+        errors(&mesh, &solve(&problem, &mesh), &exact, 0.0, Metric::Revolved)
     });
 }
 
@@ -122,9 +123,10 @@ fn a_manufactured_axisymmetric_flow_with_convection_converges_at_the_same_orders
         let domain = Domain::Cylinder { x: [-0.5, 1.0], radius: 1.0, periodic_x: false };
         let mesh = generate(&domain, &[], &uniform(size)).expect("a cylinder is meshed");
         let sides = sides(&mesh, move |place, time| EXACT.velocity(place, time));
-        let mut problem = fluid_only(&mesh, sides, EXACT.density, EXACT.viscosity, true);
+        let mut problem =
+            fluid_only(&mesh, sides, EXACT.density, EXACT.viscosity, Metric::Revolved);
         problem.body_force = Some(&|place| EXACT.force(place));
-        errors(&mesh, &solve(&problem, &mesh), &EXACT, 0.0, true)
+        errors(&mesh, &solve(&problem, &mesh), &EXACT, 0.0, Metric::Revolved)
     });
 }
 
@@ -141,7 +143,7 @@ fn a_traction_free_outlet_bends_poiseuille_flow_and_a_do_nothing_outlet_does_not
         sides[0] = Some(Side::Velocity { profile: parabola, is_wall: false });
         sides[1] = Some(outlet);
         sides[2] = Some(Side::Velocity { profile: rest(), is_wall: true });
-        let solution = solve(&fluid_only(&mesh, sides, 0.0, 1.0, false), &mesh);
+        let solution = solve(&fluid_only(&mesh, sides, 0.0, 1.0, Metric::Cartesian), &mesh);
         solution.velocity.iter().map(|velocity| velocity[1].abs()).fold(0.0, f64::max)
     };
     assert!(crossflow(Side::DoNothing) < 1e-12);

@@ -3,6 +3,7 @@
 use alewife_core::case::Convection;
 use alewife_core::coupling::FluidSystem;
 use alewife_core::simulation::{March, MeshPath, State, Timing};
+use alewife_core::space::Metric;
 use alewife_core::time::Bdf;
 use alewife_mesh::{Domain, Mesh, Point, Sizing, generate};
 use tests::exact::{Exact, TaylorGreen};
@@ -23,7 +24,7 @@ fn mesh() -> Mesh<2> {
 /// first two levels.
 fn run(mesh: &Mesh<2>, n_steps: usize, second_order: bool, choice: Convection) -> Vec<Point<2>> {
     let sides = sides(mesh, |place, time| EXACT.velocity(place, time));
-    let problem = fluid_only(mesh, sides, 1.0, EXACT.viscosity, false);
+    let problem = fluid_only(mesh, sides, 1.0, EXACT.viscosity, Metric::Cartesian);
     let mut system = FluidSystem::new(&problem, mesh, &[], false);
     let mut state = State::at_rest(&problem, mesh.clone());
     let step = END / n_steps as f64;

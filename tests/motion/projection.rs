@@ -2,7 +2,7 @@
 
 use alewife_core::coupling::{DivergenceFree, Problem, Side};
 use alewife_core::motion::Transfer;
-use alewife_core::space::Tables;
+use alewife_core::space::{Metric, Tables};
 use alewife_mesh::{Mesh, Point, Sizing, generate};
 use tests::{Study, fluid_only, sides};
 
@@ -25,8 +25,8 @@ fn largest(values: &[f64]) -> f64 {
     values.iter().fold(0.0, |most, value| most.max(value.abs()))
 }
 
-fn walled(mesh: &Mesh<2>, axisymmetric: bool) -> Problem {
-    fluid_only(mesh, sides(mesh, |_, _| Point::<2>::zeros()), 1.0, 1.0, axisymmetric)
+fn walled(mesh: &Mesh<2>, metric: Metric) -> Problem {
+    fluid_only(mesh, sides(mesh, |_, _| Point::<2>::zeros()), 1.0, 1.0, metric)
 }
 
 /// Sets problems with walls, an open side, periodic sides, and an axis.
@@ -37,13 +37,13 @@ fn problems() -> Vec<(&'static str, Mesh<2>, Problem)> {
     let looped = generate(&square(true, false), &body, &sizing).unwrap();
     let (domain, sphere) = tube(0.2);
     let round = generate(&domain, &[sphere], &sizing).unwrap();
-    let enclosed = walled(&closed, false);
-    let mut open = walled(&closed, false);
+    let enclosed = walled(&closed, Metric::Cartesian);
+    let mut open = walled(&closed, Metric::Cartesian);
     open.sides[1] = Some(Side::DoNothing);
-    let mut periodic = walled(&looped, false);
+    let mut periodic = walled(&looped, Metric::Cartesian);
     periodic.sides[0] = Some(Side::Periodic);
     periodic.sides[1] = Some(Side::Periodic);
-    let axial = walled(&round, true);
+    let axial = walled(&round, Metric::Revolved);
     vec![
         ("walls", closed.clone(), enclosed),
         ("open", closed, open),
@@ -101,7 +101,7 @@ fn the_projection_goes_no_farther_than_the_error_of_the_transfer() {
         let field: Vec<Point<2>> = old.nodes.iter().map(curl).collect();
         let transferred = Transfer::new(&old, &new, &[]).unwrap().quadratic(&field);
         let error = distance(&new, &transferred, curl);
-        let mut projection = DivergenceFree::new(&walled(&new, false), &new).unwrap();
+        let mut projection = DivergenceFree::new(&walled(&new, Metric::Cartesian), &new).unwrap();
         let projected = projection.project(&new, &transferred).unwrap();
         let correction: Vec<Point<2>> =
             projected.iter().zip(&transferred).map(|(one, two)| one - two).collect();
@@ -137,12 +137,12 @@ fn what_is_between_the_nodes_keeps_the_energy_of_waves() {
     let energy =
         |mesh: &Mesh<2>, field: &[Point<2>]| distance(mesh, field, |_| Point::<2>::zeros()).powi(2);
     let (old, new) = moved_and_new(0.15);
-    let tables = Tables::new(false);
+    let tables = Tables::new(Metric::Cartesian);
     let field: Vec<Point<2>> = old.nodes.iter().map(waves).collect();
     let transfer = Transfer::new(&old, &new, &[]).unwrap().with_points(&tables, &[]).unwrap();
     let transferred = transfer.quadratic(&field);
     let missed = transfer.missed(&tables, &field, &transferred);
-    let mut projection = DivergenceFree::new(&walled(&new, false), &new).unwrap();
+    let mut projection = DivergenceFree::new(&walled(&new, Metric::Cartesian), &new).unwrap();
     let without = projection.project(&new, &transferred).unwrap();
     let with = projection.project_with(&new, &transferred, &missed).unwrap();
     assert!(largest(&projection.defect(&new, &with)) < 1e-12 * 9.0);

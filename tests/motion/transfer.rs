@@ -2,7 +2,7 @@
 
 use alewife_core::body::Pose;
 use alewife_core::motion::{Landing, MeshMotion, MotionKind, RigidMove, Transfer, holds};
-use alewife_core::space::{CellValues, Tables};
+use alewife_core::space::{CellValues, Metric, Tables};
 use alewife_mesh::{Domain, Mesh, Point, Sizing, generate};
 use tests::Study;
 
@@ -14,7 +14,7 @@ fn sample(mesh: &Mesh<2>, field: impl Fn(&Point<2>) -> Point<2>) -> Vec<Point<2>
 
 /// L2 norm of a quadratic field less a function.
 pub fn distance(mesh: &Mesh<2>, field: &[Point<2>], exact: impl Fn(&Point<2>) -> Point<2>) -> f64 {
-    let (tables, mut workspace) = (Tables::new(false), CellValues::default());
+    let (tables, mut workspace) = (Tables::new(Metric::Cartesian), CellValues::default());
     let mut sum = 0.0;
     for cell in 0..mesh.n_cells() {
         let nodes = mesh.cell(cell);

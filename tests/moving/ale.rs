@@ -5,6 +5,7 @@ use std::f64::consts::PI;
 use alewife_core::case::Convection;
 use alewife_core::coupling::FluidSystem;
 use alewife_core::simulation::{March, MeshPath, State, Timing};
+use alewife_core::space::Metric;
 use alewife_core::time::Bdf;
 use alewife_mesh::{Domain, Mesh, Point, Sizing, generate};
 use tests::exact::{Exact, TaylorGreen};
@@ -37,7 +38,7 @@ fn run(
     exact: impl Fn(&Point<2>, f64) -> Point<2> + Send + Sync + Clone + 'static,
     viscosity: f64,
 ) -> State {
-    let problem = fluid_only(mesh, sides(mesh, exact.clone()), 1.0, viscosity, false);
+    let problem = fluid_only(mesh, sides(mesh, exact.clone()), 1.0, viscosity, Metric::Cartesian);
     let step = end / n_steps as f64;
     let mut ends = vec![None; mesh.n_nodes()];
     for cell in 0..mesh.n_cells() {
@@ -116,7 +117,7 @@ fn the_flow_on_a_moving_mesh_is_the_exact_one() {
     let study = Study::run(&[0.125, 0.09, 0.0625], |size| {
         let exact = |place: &Point<2>, time: f64| EXACT.velocity(place, time);
         let end = run(&mesh(size), 40, 0.1, Convection::Newton, exact, EXACT.viscosity);
-        errors(&end.mesh, &end.now, &EXACT, end.time, false).velocity
+        errors(&end.mesh, &end.now, &EXACT, end.time, Metric::Cartesian).velocity
     });
     // Nearer to 4 on cells as large as these; 3 is what is proven.
     println!("vortices on a moving mesh: order {:.3}, {:?}", study.order(), study.errors);

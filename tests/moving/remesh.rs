@@ -3,7 +3,7 @@
 use std::sync::{Arc, Mutex};
 
 use alewife_core::simulation::{Observer, Snapshot, simulate};
-use alewife_core::space::{CellValues, Tables};
+use alewife_core::space::{CellValues, Metric, Tables};
 use tests::cases::{case, column, last, run};
 
 use super::tank;
@@ -43,7 +43,7 @@ struct Momentum(Arc<Mutex<Vec<[f64; 2]>>>);
 
 impl Observer<2> for Momentum {
     fn on_step(&mut self, snapshot: &Snapshot<'_, 2>) -> std::io::Result<()> {
-        let tables = Tables::new(false);
+        let tables = Tables::new(Metric::Cartesian);
         let mut workspace = CellValues::default();
         let mut sum = [0.0; 2];
         for cell in 0..snapshot.mesh.n_cells() {

@@ -1,7 +1,7 @@
 //! Norms of the difference between a solution and an exact one.
 
 use alewife_core::coupling::Solution;
-use alewife_core::space::{CellValues, Tables};
+use alewife_core::space::{CellValues, Metric, Tables};
 use alewife_mesh::{Mesh, Point};
 use nalgebra::SMatrix;
 
@@ -25,9 +25,9 @@ pub fn errors(
     solution: &Solution,
     exact: &dyn Exact,
     time: f64,
-    axisymmetric: bool,
+    metric: Metric,
 ) -> Errors {
-    let tables = Tables::new(axisymmetric);
+    let tables = Tables::new(metric);
     let mut workspace = CellValues::default();
     let (mut velocity_sum, mut gradient_sum) = (0.0, 0.0);
     let (mut volume, mut shift, mut square) = (0.0, 0.0, 0.0);

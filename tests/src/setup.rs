@@ -2,6 +2,7 @@
 
 use alewife_core::body::{Pose, Wrench};
 use alewife_core::coupling::{Drive, Problem, RigidBody, Side, VelocityProfile};
+use alewife_core::space::Metric;
 use alewife_mesh::{BoundaryKind, Mesh, Point};
 
 /// A profile that is zero.
@@ -35,7 +36,7 @@ pub fn fluid_only(
     sides: Vec<Option<Side>>,
     density: f64,
     viscosity: f64,
-    axisymmetric: bool,
+    metric: Metric,
 ) -> Problem {
     let bodies = mesh.boundaries.iter().enumerate().filter_map(|(index, boundary)| {
         let BoundaryKind::Body(_) = boundary.kind else { return None };
@@ -58,7 +59,7 @@ pub fn fluid_only(
         })
     });
     Problem {
-        axisymmetric,
+        metric,
         density,
         viscosity,
         has_inertia: density > 0.0,

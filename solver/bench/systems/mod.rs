@@ -78,7 +78,7 @@ impl TimeStep {
         let constraints = system.constraints(&problem, &mesh, &poses, 0.0);
         let sides = problem.do_nothing_sides();
         let (pattern, assembly) =
-            Assembly::new(&mesh, system.layout, &constraints, problem.axisymmetric, &sides, None);
+            Assembly::new(&mesh, system.layout, &constraints, problem.metric, &sides, None);
         let (peak, height) = (1.5, 0.41);
         let parabola = |place: &Point<2>| {
             let s = place[1] / height;

@@ -52,7 +52,7 @@ impl DivergenceFree {
         let layout = DofLayout::new(mesh, 0);
         let constraints = hold_given_velocities(problem, mesh, &layout);
         let (pattern, assembly) =
-            Assembly::new(mesh, layout, &constraints, problem.axisymmetric, &[], None);
+            Assembly::new(mesh, layout, &constraints, problem.metric, &[], None);
         let solver = DirectSolver::analyse(&pattern, &unknowns(&layout, &constraints));
         let values = vec![0.0; pattern.rows.len()];
         let mut projection =

@@ -164,7 +164,7 @@ impl Problem {
             let rate = Rotation2::new(places[link.parent][2]) * link.ahead(time)[1];
             let along = |mode: usize, ahead: f64, back: f64, rate: f64| {
                 let mut row = rows[link.parent][mode].clone();
-                if !self.axisymmetric {
+                if self.metric.has_rotation() {
                     row = row.plus(&rows[link.parent][2], ahead).plus(&rows[body][2], back);
                 }
                 row.value += rate;

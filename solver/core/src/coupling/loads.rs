@@ -4,7 +4,6 @@
 //! for P2-P1 it converges about twice as fast as an integral of the stress (@babuska1984).
 
 use alewife_mesh::{Mesh, Point};
-use nalgebra::Vector3;
 
 use super::constrain::NodeSides;
 use super::problem::Problem;
@@ -44,13 +43,8 @@ pub fn body_loads(
                 );
                 let lever = mesh.nodes[node] - Point::<2>::new(pose.center.x, pose.center.y);
                 loads.power -= force.dot(&velocity[node]);
-                // Turned about the axis, radial forces cancel and in-plane torques vanish.
-                if problem.axisymmetric {
-                    loads.load.force.x += force[0];
-                } else {
-                    loads.load.force += Vector3::new(force[0], force[1], 0.0);
-                    loads.load.torque.z += lever[0] * force[1] - lever[1] * force[0];
-                }
+                loads.load.force += problem.metric.total_force(&force);
+                loads.load.torque += problem.metric.total_torque(&lever, &force);
             }
             loads
         })

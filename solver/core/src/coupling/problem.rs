@@ -10,6 +10,7 @@ use super::swimming::Group;
 use crate::body::{Pose, Wrench};
 use crate::flow::BodyForce;
 use crate::gait::{Deformed, Gait, ShapeMotion};
+use crate::space::Metric;
 
 /// A velocity as a function of place and time (m, s, m/s).
 pub type VelocityProfile = Box<dyn Fn(&Point<2>, f64) -> Point<2> + Send + Sync>;
@@ -182,8 +183,8 @@ impl MovingSurface<'_> {
 
 /// Everything that is given.
 pub struct Problem {
-    /// Whether the half plane y >= 0 is turned about x.
-    pub axisymmetric: bool,
+    /// Cartesian, or revolved about x.
+    pub metric: Metric,
     /// Density (kg/m3).
     pub density: f64,
     /// Dynamic viscosity (Pa s).
@@ -237,7 +238,7 @@ impl Problem {
         let sides = || self.sides.iter().flatten();
         let has_periods = sides().any(|side| matches!(side, Side::Periodic));
         [0, 1].map(|axis| {
-            !self.axisymmetric
+            !self.metric.is_revolved()
                 && !self.has_inertia
                 && has_periods
                 && sides().all(|side| slides(side, axis))

@@ -1,11 +1,11 @@
 //! The load of the fluid on a boundary by integrating its stress: a cross-check of lower order.
 
 use alewife_mesh::{Mesh, Point};
-use nalgebra::{SMatrix, Vector3};
+use nalgebra::SMatrix;
 
 use crate::body::Wrench;
 use crate::flow::{Fields, for_each_facet_point};
-use crate::space::{interval_rule, p1_values, triangle_side_point};
+use crate::space::{Metric, interval_rule, p1_values, triangle_side_point};
 
 /// A boundary whose stress is integrated.
 #[derive(Debug, Clone, Copy)]
@@ -13,7 +13,7 @@ pub(super) struct Surface<'a> {
     pub mesh: &'a Mesh<2>,
     pub boundary: usize,
     pub viscosity: f64,
-    pub axisymmetric: bool,
+    pub metric: Metric,
 }
 
 impl Surface<'_> {
@@ -29,7 +29,7 @@ impl Surface<'_> {
         for facet in mesh.facets.iter().filter(|facet| usize::from(facet.boundary) == self.boundary)
         {
             let nodes = mesh.cell(facet.cell as usize);
-            for_each_facet_point(mesh, facet, &rule, self.axisymmetric, |at| {
+            for_each_facet_point(mesh, facet, &rule, self.metric, |at| {
                 let mut velocity = Point::<2>::zeros();
                 let mut gradient = SMatrix::<f64, 2, 2>::zeros();
                 for (a, &node) in nodes.iter().enumerate() {
@@ -59,20 +59,15 @@ pub fn surface_load(
     boundary: usize,
     fields: &Fields<'_, 2>,
     viscosity: f64,
-    axisymmetric: bool,
+    metric: Metric,
     center: Point<2>,
 ) -> Wrench {
     let mut load = Wrench::default();
-    let surface = Surface { mesh, boundary, viscosity, axisymmetric };
+    let surface = Surface { mesh, boundary, viscosity, metric };
     surface.for_each_force(fields, |place, force, _| {
         let lever = place - center;
-        // Turned about the axis, radial forces cancel and in-plane torques vanish.
-        if axisymmetric {
-            load.force.x += force[0];
-        } else {
-            load.force += Vector3::new(force[0], force[1], 0.0);
-            load.torque.z += lever[0] * force[1] - lever[1] * force[0];
-        }
+        load.force += metric.total_force(force);
+        load.torque += metric.total_torque(&lever, force);
     });
     load
 }

@@ -102,7 +102,7 @@ pub fn mean_motion(
             mass * lever.cross(&(twists[body].linear - linear)).z + own * twists[body].angular.z;
         inertia += mass * lever.norm_squared() + own;
     }
-    let spin = if problem.axisymmetric { 0.0 } else { momentum / inertia };
+    let spin = if problem.metric.has_rotation() { momentum / inertia } else { 0.0 };
     let twist = Twist { linear, angular: Vector3::new(0.0, 0.0, spin) };
     MeanMotion { center: center.xy(), twist }
 }
@@ -144,7 +144,7 @@ pub fn effort(
             mesh,
             boundary: problem.bodies[body].boundary,
             viscosity: problem.viscosity,
-            axisymmetric: problem.axisymmetric,
+            metric: problem.metric,
         };
         surface.for_each_force(&solution.fields(), |place, force, velocity| {
             let lever = place - wraps[body] - center;

@@ -203,7 +203,7 @@ impl FluidSystem {
             mesh,
             layout,
             &constraints,
-            problem.axisymmetric,
+            problem.metric,
             &problem.do_nothing_sides(),
             frame,
         );
@@ -419,18 +419,17 @@ impl FluidSystem {
 
     /// A raw unknown in words.
     fn name(&self, problem: &Problem, mesh: &Mesh<2>, raw: usize) -> String {
-        let axes = if problem.axisymmetric { ["axial", "radial"] } else { ["x", "y"] };
         let at =
             |node: usize| format!("({:.4e}, {:.4e})", mesh.nodes[node][0], mesh.nodes[node][1]);
         let first_pressure = self.layout.pressure(0);
         if raw < first_pressure {
-            format!("the {} velocity at {}", axes[raw % 2], at(raw / 2))
+            format!("the {} velocity at {}", problem.metric.axis_name(raw % 2), at(raw / 2))
         } else if raw < self.layout.n_fluid() {
             format!("the pressure at {}", at(raw - first_pressure))
         } else {
             let (body, mode) =
                 ((raw - self.layout.n_fluid()) / 3, (raw - self.layout.n_fluid()) % 3);
-            let what = [axes[0], axes[1], "angular"][mode];
+            let what = if mode < 2 { problem.metric.axis_name(mode) } else { "angular" };
             format!("the {what} velocity of body {:?}", problem.bodies[body].name)
         }
     }

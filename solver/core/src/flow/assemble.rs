@@ -14,7 +14,7 @@ use super::open_side::add_open_side;
 use super::points::PointTable;
 use super::terms::{Convection, Fields, FlowTerms};
 use crate::algebra::{AffineConstraints, CellMaps, Pattern};
-use crate::space::{DofLayout, Rule, Tables, interval_rule};
+use crate::space::{DofLayout, Metric, Rule, Tables, interval_rule};
 
 /// Cells a thread takes at a time: their matrices stay in its cache.
 const CELLS_PER_TASK: usize = 64;
@@ -57,7 +57,7 @@ impl Assembly {
         mesh: &Mesh<2>,
         layout: DofLayout<2>,
         constraints: &AffineConstraints,
-        axisymmetric: bool,
+        metric: Metric,
         open_boundaries: &[usize],
         frame: Option<usize>,
     ) -> (Pattern, Self) {
@@ -84,8 +84,8 @@ impl Assembly {
                 open[facet.cell as usize] = Some(*facet);
             }
         }
-        let tables = Tables::new(axisymmetric);
-        let straight = if axisymmetric {
+        let tables = Tables::new(metric);
+        let straight = if metric.is_revolved() {
             StraightTable::Axisymmetric(Box::new(PointTable::new(tables.rule(false))))
         } else {
             StraightTable::Planar(Box::new(PointTable::new(tables.rule(false))))
@@ -180,8 +180,7 @@ pub fn assemble(
 ) {
     debug_assert!(assembly.with_frame || terms.convection != Convection::NewtonInFrame);
     values.fill(0.0);
-    let axisymmetric = assembly.tables.is_axisymmetric();
-    let input = Input { mesh, axisymmetric, terms, fields };
+    let input = Input { mesh, metric: assembly.tables.metric(), terms, fields };
     let size = assembly.maps.largest_matrix();
     for_each_cell(
         mesh.n_cells(),
@@ -201,8 +200,7 @@ pub fn residual(
     terms: &FlowTerms<'_, 2>,
     fields: &Fields<'_, 2>,
 ) -> Vec<f64> {
-    let axisymmetric = assembly.tables.is_axisymmetric();
-    let input = Input { mesh, axisymmetric, terms, fields };
+    let input = Input { mesh, metric: assembly.tables.metric(), terms, fields };
     let mut total = vec![0.0; assembly.layout.n_raw()];
     for_each_cell(
         mesh.n_cells(),
@@ -256,7 +254,7 @@ impl WithSimd for Matrices<'_> {
                     input.mesh,
                     facet,
                     &assembly.facet_rule,
-                    input.axisymmetric,
+                    input.metric,
                     input.terms.viscosity,
                     Some((matrix, n_local)),
                     None,
@@ -301,7 +299,7 @@ impl WithSimd for Residuals<'_> {
                     input.mesh,
                     facet,
                     &assembly.facet_rule,
-                    input.axisymmetric,
+                    input.metric,
                     input.terms.viscosity,
                     None,
                     Some((local, input.fields.velocity)),
@@ -320,11 +318,13 @@ mod tests {
     use crate::algebra::ConstraintBuilder;
     use crate::space::CellValues;
 
+    const METRICS: [Metric; 2] = [Metric::Cartesian, Metric::Revolved];
+
     const CONVECTIONS: [Convection; 4] =
         [Convection::None, Convection::Oseen, Convection::Newton, Convection::NewtonInFrame];
 
-    fn mesh_of_disc(curved: bool, axisymmetric: bool) -> Mesh<2> {
-        let domain = if axisymmetric {
+    fn mesh_of_disc(curved: bool, metric: Metric) -> Mesh<2> {
+        let domain = if metric.is_revolved() {
             Domain::HalfDisc { center: 0.0, radius: 1.0 }
         } else {
             Domain::Disc { center: Point::<2>::zeros(), radius: 1.0 }
@@ -360,13 +360,13 @@ mod tests {
     }
 
     impl Setting {
-        fn new(mesh: Mesh<2>, axisymmetric: bool, with_frame: bool) -> Self {
+        fn new(mesh: Mesh<2>, metric: Metric, with_frame: bool) -> Self {
             let layout = DofLayout::new(&mesh, 1);
             let constraints = ConstraintBuilder::new(layout.n_raw()).build();
             let frame = with_frame.then_some(0);
             // Every side is open, curved ones too.
             let (pattern, assembly) =
-                Assembly::new(&mesh, layout, &constraints, axisymmetric, &[0, 1], frame);
+                Assembly::new(&mesh, layout, &constraints, metric, &[0, 1], frame);
             let nodes = &mesh.nodes[..mesh.n_vertices];
             Self {
                 velocity: field(&mesh, 0.0),
@@ -461,11 +461,13 @@ mod tests {
     /// The residual is of second order in the unknowns, so central differences are exact.
     #[test]
     fn the_matrix_is_the_derivative_of_the_residual() {
-        for (curved, axisymmetric) in [(false, false), (true, false), (false, true), (true, true)] {
+        for (curved, metric) in
+            [false, true].into_iter().flat_map(|curved| METRICS.map(|metric| (curved, metric)))
+        {
             for convection in CONVECTIONS {
                 let in_frame = convection == Convection::NewtonInFrame;
-                let mesh = mesh_of_disc(curved, axisymmetric);
-                let mut setting = Setting::new(mesh, axisymmetric, in_frame);
+                let mesh = mesh_of_disc(curved, metric);
+                let mut setting = Setting::new(mesh, metric, in_frame);
                 let matrix = setting.matrix(convection);
                 let direction = setting.moved(0.5, in_frame);
                 let ahead = setting.residual(convection);
@@ -476,24 +478,24 @@ mod tests {
                 let mut product = vec![0.0; direction.len()];
                 setting.pattern.multiply_add(&matrix, &direction, &mut product);
                 let error = largest_difference(&difference, &product);
-                assert!(error < 1e-12, "{convection:?}, {curved}, {axisymmetric}: {error}");
+                assert!(error < 1e-12, "{convection:?}, {curved}, {metric:?}: {error}");
             }
         }
     }
 
     #[test]
     fn on_straight_cells_both_maps_agree() {
-        for axisymmetric in [false, true] {
-            let mut mesh = mesh_of_disc(false, axisymmetric);
+        for metric in METRICS {
+            let mut mesh = mesh_of_disc(false, metric);
             // Away from the axis, where 1 / r is nearly a polynomial on a cell.
             for node in &mut mesh.nodes {
                 node[1] += 20.0;
             }
-            let tolerance = if axisymmetric { 1e-10 } else { 1e-13 };
+            let tolerance = if metric.is_revolved() { 1e-10 } else { 1e-13 };
             let mut bent = mesh.clone();
             bent.curved.fill(true);
-            let straight = Setting::new(mesh, axisymmetric, false);
-            let bent = Setting::new(bent, axisymmetric, false);
+            let straight = Setting::new(mesh, metric, false);
+            let bent = Setting::new(bent, metric, false);
             for convection in &CONVECTIONS[..3] {
                 let (one, other) = (straight.matrix(*convection), bent.matrix(*convection));
                 assert!(largest_difference(&one, &other) < tolerance);
@@ -506,8 +508,8 @@ mod tests {
     /// The same integrals point by point, without arrays of lanes: power of the residual.
     #[test]
     fn the_residual_tested_with_the_velocity_is_its_power() {
-        for axisymmetric in [false, true] {
-            let mut setting = Setting::new(mesh_of_disc(true, axisymmetric), axisymmetric, false);
+        for metric in METRICS {
+            let mut setting = Setting::new(mesh_of_disc(true, metric), metric, false);
             setting.assembly.open.fill(None);
             let residual = setting.residual(Convection::Oseen);
             let mut power = 0.0;
@@ -517,7 +519,7 @@ mod tests {
                 }
             }
             let expected = setting.with_terms(Convection::Oseen, |terms, fields| {
-                power_by_points(&setting, terms, fields, axisymmetric)
+                power_by_points(&setting, terms, fields, metric)
             });
             assert!((power - expected).abs() < 1e-12 * expected.abs(), "{power} {expected}");
         }
@@ -528,7 +530,7 @@ mod tests {
         setting: &Setting,
         terms: &FlowTerms<'_, 2>,
         fields: &Fields<'_, 2>,
-        axisymmetric: bool,
+        metric: Metric,
     ) -> f64 {
         let mut power = 0.0;
         let mut workspace = CellValues::default();
@@ -547,7 +549,7 @@ mod tests {
                 }
                 let pressure: f64 =
                     (0..3).map(|v| fields.pressure[nodes[v] as usize] * at.psi[v]).sum();
-                let stretch = if axisymmetric { velocity[1] / at.position[1] } else { 0.0 };
+                let stretch = metric.hoop_strain(&velocity, &at.position);
                 let strain = (gradient + gradient.transpose()) / 2.0;
                 let change = velocity * terms.rate + history + gradient * crossing;
                 power += at.dx

@@ -8,17 +8,20 @@
 //!   + rho phi_a phi_b d_j u0_i                                      (Newton)
 //! ```
 //!
-//! and -psi_v d_i phi_a for the pressure, with its transpose. Axisymmetric problems, with axis x
-//! and radius y = r, add the hoop stress 2 mu u_r v_r / r^2 and div u = d_x u_x + d_r u_r + u_r / r.
+//! and -psi_v d_i phi_a for the pressure, with its transpose. Axisymmetric problems, with
+//! axis x and radius y = r, add the hoop stress 2 mu u_r v_r / r^2 and div u = d_x u_x + d_r u_r + u_r / r.
 
 use alewife_mesh::{Mesh, Point};
 use pulp::Simd;
 
 use super::points::{
-    CellPoints, PointTable, RADIAL, add_product, add_scaled, gather, multiply_add, nodes_of,
-    product, scaled,
+    CellPoints, PointTable, add_product, add_scaled, gather, multiply_add, nodes_of, product,
+    scaled,
 };
 use super::terms::{Convection, Fields, FlowTerms};
+use crate::space::Metric;
+
+const RADIAL: usize = Metric::RADIAL;
 
 /// Local numbering of the raw unknowns of a cell: N velocities along each axis, pressures, then
 /// the velocities of the frame where they are unknowns of every cell.
@@ -45,7 +48,7 @@ impl<const D: usize, const N: usize> LocalLayout<D, N> {
 #[derive(Clone, Copy)]
 pub(super) struct Input<'a, const D: usize> {
     pub mesh: &'a Mesh<D>,
-    pub axisymmetric: bool,
+    pub metric: Metric,
     pub terms: &'a FlowTerms<'a, D>,
     pub fields: &'a Fields<'a, D>,
 }
@@ -64,10 +67,10 @@ pub(super) fn cell_residual<
     table: &PointTable<D, N, P, Q>,
     residual: &mut [f64],
 ) {
-    let Input { mesh, axisymmetric, terms, fields } = input;
+    let Input { mesh, metric, terms, fields } = input;
     let nodes: &[u32; N] = nodes_of(mesh, cell);
     let corners = gather(&mesh.nodes, nodes);
-    let points = CellPoints::new::<S, N, P>(table, &corners, mesh.curved[cell], axisymmetric);
+    let points = CellPoints::new::<S, N, P>(table, &corners, mesh.curved[cell], metric);
     let velocity = gather(fields.velocity, nodes);
     let mut pressure = [0.0; N];
     for (value, &vertex) in pressure.iter_mut().zip(&nodes[..=D]) {
@@ -123,7 +126,7 @@ pub(super) fn cell_residual<
             divergence[q] += gradient[i][i][q];
         }
     }
-    if axisymmetric {
+    if metric.is_revolved() {
         let radial = table.quadratic::<S>(&velocity[RADIAL]);
         for q in 0..Q {
             let radius = points.position[RADIAL][q];
@@ -196,16 +199,16 @@ pub(super) fn cell_matrix<
     with_frame: bool,
     matrix: &mut [f64],
 ) {
-    let Input { mesh, axisymmetric, terms, fields } = input;
+    let Input { mesh, metric, terms, fields } = input;
     let size = LocalLayout::<D, N>::FLUID + if with_frame { D } else { 0 };
     let nodes: &[u32; N] = nodes_of(mesh, cell);
     let corners = gather(&mesh.nodes, nodes);
-    let points = CellPoints::new::<S, N, P>(table, &corners, mesh.curved[cell], axisymmetric);
+    let points = CellPoints::new::<S, N, P>(table, &corners, mesh.curved[cell], metric);
     let gradients = points.gradients::<S, N, P>(table);
     let viscous = scaled(&points.dx, terms.viscosity);
     let inertia = scaled(&points.dx, terms.density);
     let mut inverse_radius = [0.0; Q];
-    if axisymmetric {
+    if metric.is_revolved() {
         for q in 0..Q {
             inverse_radius[q] = 1.0 / points.position[RADIAL][q];
         }
@@ -282,7 +285,7 @@ pub(super) fn cell_matrix<
         let velocity = gather(fields.velocity, nodes);
         add_newton::<S, D, N, P, Q>(table, &points, &velocity, &inertia, in_frame, size, matrix);
     }
-    if axisymmetric {
+    if metric.is_revolved() {
         let mut hoop = [[0.0; P]; Q];
         for q in 0..Q {
             let weight = 2.0 * viscous[q] * inverse_radius[q] * inverse_radius[q];
@@ -300,7 +303,7 @@ pub(super) fn cell_matrix<
             for q in 0..Q {
                 add_product::<S, P>(&mut divergence[vertex], &gradients[q][axis], weight[q]);
             }
-            if axisymmetric && axis == RADIAL {
+            if metric.is_revolved() && axis == RADIAL {
                 let weight = product(&weight, &inverse_radius);
                 for q in 0..Q {
                     add_product::<S, P>(&mut divergence[vertex], &table.phi[q], weight[q]);

@@ -4,13 +4,11 @@
 //! when mu (grad u) n - p n = 0 instead, so the part mu (grad u)^T n is taken off again:
 //! - int_side mu d_i u_j n_j v_i ds.
 
-use std::f64::consts::TAU;
-
 use alewife_mesh::{Facet, Mesh, Point, nodes_per_cell};
 use nalgebra::SMatrix;
 
 use super::cell_terms::LocalLayout;
-use crate::space::{CellValues, Rule, triangle_side_point};
+use crate::space::{CellValues, Metric, Rule, triangle_side_point};
 
 /// Values at one quadrature point of a boundary facet.
 #[derive(Debug, Clone)]
@@ -19,7 +17,7 @@ pub struct FacetPoint<const D: usize> {
     pub phi: Vec<f64>,
     /// Its gradients (1/m).
     pub grad_phi: Vec<Point<D>>,
-    /// Outward normal of the fluid times the length of the facet's piece (m; m2 axisymmetric).
+    /// Outward normal of the fluid times the length of the facet's piece (m; m2 revolved).
     pub normal_ds: Point<D>,
     /// Position (m).
     pub position: Point<D>,
@@ -32,7 +30,7 @@ pub fn for_each_facet_point(
     mesh: &Mesh<2>,
     facet: &Facet,
     rule: &Rule<1>,
-    axisymmetric: bool,
+    metric: Metric,
     mut visit: impl FnMut(&FacetPoint<2>),
 ) {
     let side = usize::from(facet.side);
@@ -42,8 +40,8 @@ pub fn for_each_facet_point(
         let (phi, grad_phi, map, position) = CellValues::at(mesh, facet.cell as usize, &xi);
         let tangent: Point<2> = map * along;
         // Cells run counter-clockwise, so the outward normal is to the right of the side.
-        let ring = if axisymmetric { TAU * position[1] } else { 1.0 };
-        let normal_ds = Point::<2>::new(tangent[1], -tangent[0]) * (weight * ring);
+        let normal_ds =
+            Point::<2>::new(tangent[1], -tangent[0]) * (weight * metric.ring(&position));
         visit(&FacetPoint { phi, grad_phi, normal_ds, position, s: point[0] });
     }
 }
@@ -53,7 +51,7 @@ pub(super) fn add_open_side(
     mesh: &Mesh<2>,
     facet: &Facet,
     rule: &Rule<1>,
-    axisymmetric: bool,
+    metric: Metric,
     viscosity: f64,
     matrix: Option<(&mut [f64], usize)>,
     residual: Option<(&mut [f64], &[Point<2>])>,
@@ -63,7 +61,7 @@ pub(super) fn add_open_side(
     let nodes = mesh.cell(facet.cell as usize);
     let mut matrix = matrix;
     let mut residual = residual;
-    for_each_facet_point(mesh, facet, rule, axisymmetric, |at| {
+    for_each_facet_point(mesh, facet, rule, metric, |at| {
         if let Some((matrix, size)) = matrix.as_mut() {
             for a in 0..nodes.len() {
                 for b in 0..nodes.len() {

@@ -9,7 +9,7 @@ use std::f64::consts::TAU;
 use alewife_mesh::{Mesh, Point};
 use pulp::Simd;
 
-use crate::space::{Rule, p1_values, p2_gradients, p2_values};
+use crate::space::{Metric, Rule, p1_values, p2_gradients, p2_values};
 
 /// x y + z, fused where that is one instruction.
 #[inline(always)]
@@ -149,7 +149,7 @@ impl<const D: usize, const Q: usize> CellPoints<D, Q> {
         table: &PointTable<D, N, P, Q>,
         corners: &[[f64; N]; D],
         curved: bool,
-        axisymmetric: bool,
+        metric: Metric,
     ) -> Self {
         // Loops, for `map` and `from_fn` of arrays need not be inlined, and so lose the dispatch.
         let mut position = [[0.0; Q]; D];
@@ -185,8 +185,8 @@ impl<const D: usize, const Q: usize> CellPoints<D, Q> {
             determinant = [one_determinant[0]; Q];
         }
         let mut dx = product(&table.weights, &determinant);
-        if axisymmetric {
-            dx = product(&dx, &scaled(&position[RADIAL], TAU));
+        if metric.is_revolved() {
+            dx = product(&dx, &scaled(&position[Metric::RADIAL], TAU));
         }
         Self { dx, position, inverse }
     }
@@ -226,9 +226,6 @@ impl<const D: usize, const Q: usize> CellPoints<D, Q> {
         gradient
     }
 }
-
-/// Index of the radial component in axisymmetric problems.
-pub(super) const RADIAL: usize = 1;
 
 /// Inverses and determinants of L matrices \[row\]\[column\]\[lane\] of size 2 or 3.
 #[inline(always)]

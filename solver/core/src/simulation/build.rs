@@ -19,6 +19,7 @@ use crate::coupling::{
     VelocityProfile, second_moment,
 };
 use crate::gait::{Gait, InTime, Squirmer, WavingSheet};
+use crate::space::Metric;
 use crate::time::factor_at;
 
 /// The mesh of a case.
@@ -103,16 +104,19 @@ pub fn sizing(case: &Case) -> Sizing {
 /// # Errors
 /// When the case asks for something that is not there yet.
 pub fn build_problem(case: &Case, mesh: &Mesh<2>) -> Result<Problem, RunError> {
-    let axisymmetric = case.geometry == Geometry::Axisymmetric;
+    let metric = match case.geometry {
+        Geometry::Planar => Metric::Cartesian,
+        Geometry::Axisymmetric => Metric::Revolved,
+    };
     let mut sides = Vec::new();
     let mut bodies = Vec::new();
     for (boundary, known) in mesh.boundaries.iter().enumerate() {
         sides.push(match known.kind {
             BoundaryKind::Body(body) => {
-                bodies.push(rigid_body(case, &case.body[body], boundary, axisymmetric)?);
+                bodies.push(rigid_body(case, &case.body[body], boundary, metric)?);
                 None
             }
-            BoundaryKind::Axis => Some(Side::Symmetry { normal_axis: 1 }),
+            BoundaryKind::Axis => Some(Side::Symmetry { normal_axis: Metric::RADIAL }),
             BoundaryKind::Side => Some(side(case, &known.name)?),
         });
     }
@@ -125,7 +129,7 @@ pub fn build_problem(case: &Case, mesh: &Mesh<2>) -> Result<Problem, RunError> {
     }
     let has_inertia = case.fluid.model != Model::Stokes;
     let mut problem = Problem {
-        axisymmetric,
+        metric,
         density: if has_inertia { case.fluid.density } else { 0.0 },
         viscosity: case.fluid.viscosity,
         has_inertia,
@@ -288,12 +292,12 @@ fn side(case: &Case, name: &str) -> Result<Side, RunError> {
         BoundaryCondition::DoNothing => Side::DoNothing,
         BoundaryCondition::TractionFree => Side::TractionFree,
         BoundaryCondition::Periodic(_) => Side::Periodic,
-        BoundaryCondition::Axis => Side::Symmetry { normal_axis: 1 },
+        BoundaryCondition::Axis => Side::Symmetry { normal_axis: Metric::RADIAL },
         BoundaryCondition::Symmetry => match name {
             "left" | "right" => Side::Symmetry { normal_axis: 0 },
-            "bottom" | "top" => Side::Symmetry { normal_axis: 1 },
+            "bottom" | "top" => Side::Symmetry { normal_axis: Metric::RADIAL },
             "wall" if matches!(case.domain, DomainSpec::Cylinder { .. }) => {
-                Side::Symmetry { normal_axis: 1 }
+                Side::Symmetry { normal_axis: Metric::RADIAL }
             }
             _ => {
                 return Err(RunError::Unsupported(format!(
@@ -329,7 +333,7 @@ fn rigid_body(
     case: &Case,
     body: &Body,
     boundary: usize,
-    axisymmetric: bool,
+    metric: Metric,
 ) -> Result<RigidBody, RunError> {
     let moments = body.shape.outline().moments().ok_or_else(|| {
         RunError::Unsupported(format!("body `{}`: its spline has no valid outline", body.name))
@@ -344,7 +348,9 @@ fn rigid_body(
     let weight = [0, 1].map(|axis| net_mass * along(&case.fluid.gravity, axis));
     let locked = |mode: usize| {
         let lock = [Lock::X, Lock::Y, Lock::Rotation][mode];
-        body.locked.contains(&lock) || (axisymmetric && mode > 0)
+        let is_possible =
+            if mode == 2 { metric.has_rotation() } else { metric.has_translation(mode) };
+        body.locked.contains(&lock) || !is_possible
     };
     let drives = [0, 1, 2].map(|mode| match &body.motion {
         Motion::Free if !locked(mode) => Drive::Free,
@@ -371,7 +377,7 @@ fn rigid_body(
         ) => None,
         Some(GaitSpec::Squirmer(squirmer)) => {
             // On the axis the heading is 0 or pi, and must be so to the last bit.
-            let axis = if axisymmetric {
+            let axis = if metric.is_revolved() {
                 Vector3::x() * if (squirmer.heading.abs() - PI).abs() < 1e-3 { -1.0 } else { 1.0 }
             } else {
                 Vector3::new(squirmer.heading.cos(), squirmer.heading.sin(), 0.0)

@@ -132,7 +132,7 @@ impl Follower {
                 }
             }
         }
-        let turns = case.body.iter().map(|body| !problem.axisymmetric && !body.is_round());
+        let turns = case.body.iter().map(|body| problem.metric.has_rotation() && !body.is_round());
         let turns = turns.collect();
         Ok(Self {
             motion,

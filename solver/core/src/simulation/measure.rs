@@ -156,7 +156,7 @@ impl Measure {
                 rigid.boundary,
                 &state.now.fields(),
                 problem.viscosity,
-                problem.axisymmetric,
+                problem.metric,
                 Point::<2>::new(center.x, center.y),
             );
             let report = BodyReport {
@@ -309,7 +309,7 @@ fn integrate(system: &FluidSystem, problem: &Problem, state: &State) -> Integral
                 gradient += nodal * at.grad_phi[a].transpose();
             }
             let rate = (gradient + gradient.transpose()) / 2.0;
-            let stretch = if problem.axisymmetric { velocity[1] / at.position[1] } else { 0.0 };
+            let stretch = problem.metric.hoop_strain(&velocity, &at.position);
             sums.dissipation +=
                 2.0 * problem.viscosity * (rate.norm_squared() + stretch * stretch) * at.dx;
             sums.kinetic_energy += problem.density * velocity.norm_squared() / 2.0 * at.dx;

@@ -45,7 +45,7 @@ pub(super) fn remake(
     let made = Follower::new(case, problem, &new, domain.clone(), shapes, made_at)?;
 
     let old = state.mesh_in_frame();
-    let tables = Tables::new(problem.axisymmetric);
+    let tables = Tables::new(problem.metric);
     let transfer = between(&domain, &tables, &old, &new)
         .ok_or("the flow could not be found in the old mesh")?;
     // One level back the new mesh is where its own motion puts it: nodes whose way had a kink would

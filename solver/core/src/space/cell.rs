@@ -1,15 +1,14 @@
 //! Basis values, physical gradients and weights at the quadrature points of one cell.
 //!
 //! x(X) = sum_a x_a phi_a(X) on curved cells, the affine map of the vertices on the others. In
-//! axisymmetric problems dx carries the ring's length 2 pi r, so that integrals are those of the
-//! whole body of revolution.
-
-use std::f64::consts::TAU;
+//! axisymmetric problems dx carries the ring's length 2 pi r, so that integrals are those of the whole body
+//! of revolution.
 
 use alewife_mesh::{Mesh, Point};
 use nalgebra::{SMatrix, SVector};
 
 use super::basis::{p1_gradients, p1_values, p2_gradients, p2_values};
+use super::metric::Metric;
 use super::quadrature::{Rule, simplex_rule};
 
 /// Values of the bases at the points of a rule.
@@ -36,16 +35,16 @@ impl<const D: usize> BasisTable<D> {
 pub struct Tables<const D: usize> {
     affine: BasisTable<D>,
     curved: BasisTable<D>,
-    axisymmetric: bool,
+    metric: Metric,
 }
 
 impl<const D: usize> Tables<D> {
     /// Tables exact for the convection term on affine cells (degree 5; 6 with the factor r), and
     /// of degree 8 on curved cells, where the integrands are rational.
     #[must_use]
-    pub fn new(axisymmetric: bool) -> Self {
-        let affine = BasisTable::new(if axisymmetric { 6 } else { 5 });
-        Self { affine, curved: BasisTable::new(8), axisymmetric }
+    pub fn new(metric: Metric) -> Self {
+        let affine = BasisTable::new(5 + metric.ring_degree());
+        Self { affine, curved: BasisTable::new(8), metric }
     }
 
     /// The quadrature rule of curved or of straight cells.
@@ -54,10 +53,10 @@ impl<const D: usize> Tables<D> {
         if curved { &self.curved.rule } else { &self.affine.rule }
     }
 
-    /// Whether the ring's length is part of dx.
+    /// The metric that dx belongs to.
     #[must_use]
-    pub fn is_axisymmetric(&self) -> bool {
-        self.axisymmetric
+    pub fn metric(&self) -> Metric {
+        self.metric
     }
 }
 
@@ -136,12 +135,11 @@ impl<const D: usize> CellValues<D> {
             } else {
                 weighted_sum(&self.corners[..=D], &table.psi[q])
             };
-            let ring = if tables.axisymmetric { TAU * position[1] } else { 1.0 };
             visit(&PointValues {
                 phi: &table.phi[q],
                 psi: &table.psi[q],
                 grad_phi: &self.grad_phi,
-                dx: table.rule.weights[q] * determinant * ring,
+                dx: table.rule.weights[q] * determinant * tables.metric.ring(&position),
                 position,
             });
         }
