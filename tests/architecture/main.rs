@@ -13,7 +13,7 @@ const ROOMS: [(&str, &[&str]); 17] = [
     ("multifrontal", &[]),
     ("algebra", &["multifrontal"]),
     ("time", &["case"]),
-    ("body", &[]),
+    ("body", &["time"]),
     ("contact", &["body"]),
     ("gait", &["body"]),
     ("motion", &["algebra", "body", "space", "time"]),

@@ -125,7 +125,7 @@ pub fn transforms(bodies: &[BodyReport], time: f64) -> Value {
             "parent_frame_id": WORLD,
             "child_frame_id": body.name,
             "translation": vector(&body.pose.center),
-            "rotation": quaternion(&body.pose.rotation),
+            "rotation": quaternion(&body.pose.rotation()),
         })
     });
     json!({"transforms": transforms.collect::<Vec<_>>()})
@@ -211,7 +211,7 @@ pub fn body(report: &BodyReport, step: usize, time: f64) -> Value {
         "pose": {
             "center": vector(center),
             "rotation": quaternion(rotation),
-            "angle": report.pose.angle(),
+            "angle": report.pose.heading(),
         },
         "twist": {"linear": vector(linear), "angular": vector(angular)},
         "load": wrench(&report.load),

@@ -1,7 +1,13 @@
-//! What moves as one piece; always in 3D, a 2D run frees x, y and the turn about z.
+//! What moves as one piece: pose, velocity, load and inertia, in three dimensions whatever the flow is.
+//!
+//! A geometry leaves a body some of the six rigid motions ([`Modes`]).
 
+mod inertia;
+mod modes;
 mod pose;
 mod twist;
 
-pub use pose::Pose;
+pub use inertia::{Inertia, velocity_of_momentum};
+pub use modes::{Mode, Modes, RigidVector};
+pub use pose::{Orientation, Pose};
 pub use twist::{Twist, Wrench};

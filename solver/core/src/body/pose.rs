@@ -1,30 +1,222 @@
-//! `Pose`: centre of mass and rotation; to and from the body frame.
+//! `Pose`: centre of mass and orientation of a body; how a pose follows from velocities.
+//!
+//! Displacements between poses are [`RigidVector`]s: the way of the centre, and the rotation vector
+//! phi of the relative rotation, R_b = exp([phi]) R_a. Poses are advanced by backward differences of
+//! these increments, which in the plane is the backward difference of the angle, and in space is of
+//! second order as well: with omega the angular velocity at the new time,
+//! R_next = exp([theta]) R_now, theta = (omega + a2 phi) / a0, phi the rotation vector of the step
+//! before and a0, a2 as in [`Bdf`]. The rate of a rotation vector differs from omega by theta x omega / 2;
+//! theta is the step times omega up to first order, so that this is of second order in the step.
 
-use nalgebra::{UnitQuaternion, Vector3};
+use nalgebra::{Matrix3, UnitQuaternion, Vector3};
+use serde::{Deserialize, Serialize};
+
+use super::modes::RigidVector;
+use super::twist::Twist;
+use crate::time::Bdf;
+
+/// How a body is turned from its own frame to the world.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub enum Orientation {
+    /// By an angle about z (rad), which counts full turns.
+    Planar(f64),
+    /// By a rotation of space.
+    Spatial(UnitQuaternion<f64>),
+}
 
 /// Where a body is and how it is turned.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Pose {
     /// Centre of mass, in the world (m).
     pub center: Vector3<f64>,
     /// Rotation from the body frame to the world.
-    pub rotation: UnitQuaternion<f64>,
+    pub orientation: Orientation,
 }
 
 impl Pose {
     /// A pose in the plane: the centre's z is zero and the body is turned about z.
     #[must_use]
     pub fn planar(x: f64, y: f64, angle: f64) -> Self {
-        Self {
-            center: Vector3::new(x, y, 0.0),
-            rotation: UnitQuaternion::from_axis_angle(&Vector3::z_axis(), angle),
+        Self { center: Vector3::new(x, y, 0.0), orientation: Orientation::Planar(angle) }
+    }
+
+    /// A pose in space.
+    #[must_use]
+    pub fn spatial(center: Vector3<f64>, rotation: UnitQuaternion<f64>) -> Self {
+        Self { center, orientation: Orientation::Spatial(rotation) }
+    }
+
+    /// Angle of the rotation about z (rad): of a planar pose the one that counts full turns, of a
+    /// spatial one that of the image of the x axis, within (-pi, pi].
+    #[must_use]
+    pub fn angle(&self) -> f64 {
+        match self.orientation {
+            Orientation::Planar(angle) => angle,
+            Orientation::Spatial(_) => self.heading(),
         }
     }
 
-    /// Angle of the rotation about z (rad), within (-pi, pi].
+    /// The direction of the body's x axis in the x-y plane (rad), within (-pi, pi].
     #[must_use]
-    pub fn angle(&self) -> f64 {
-        let ahead = self.rotation * Vector3::x();
+    pub fn heading(&self) -> f64 {
+        let ahead = self.rotation() * Vector3::x();
         ahead.y.atan2(ahead.x)
+    }
+
+    /// The rotation from the body frame to the world.
+    #[must_use]
+    pub fn rotation(&self) -> UnitQuaternion<f64> {
+        match self.orientation {
+            Orientation::Planar(angle) => {
+                UnitQuaternion::from_axis_angle(&Vector3::z_axis(), angle)
+            }
+            Orientation::Spatial(rotation) => rotation,
+        }
+    }
+
+    /// A vector of the body frame in the world.
+    #[must_use]
+    pub fn to_world(&self, vector: &Vector3<f64>) -> Vector3<f64> {
+        match self.orientation {
+            Orientation::Planar(angle) => {
+                let (sin, cos) = angle.sin_cos();
+                let [x, y] = [cos * vector.x - sin * vector.y, sin * vector.x + cos * vector.y];
+                Vector3::new(x, y, vector.z)
+            }
+            Orientation::Spatial(rotation) => rotation * vector,
+        }
+    }
+
+    /// A symmetric tensor of the body frame in the world: R T R^T.
+    #[must_use]
+    pub fn tensor_to_world(&self, tensor: &Matrix3<f64>) -> Matrix3<f64> {
+        match self.orientation {
+            Orientation::Planar(_) if is_diagonal_about_z(tensor) => *tensor,
+            _ => {
+                let rotation = self.rotation().to_rotation_matrix();
+                rotation * tensor * rotation.transpose()
+            }
+        }
+    }
+
+    /// The displacement that leads here from another pose (m, rad): way of the centre and rotation
+    /// vector of the relative rotation; in the plane full turns count.
+    #[must_use]
+    pub fn displacement_from(&self, start: &Self) -> RigidVector {
+        let way = self.center - start.center;
+        let turn = match (self.orientation, start.orientation) {
+            (Orientation::Planar(end), Orientation::Planar(begin)) => {
+                Vector3::new(0.0, 0.0, end - begin)
+            }
+            _ => (self.rotation() * start.rotation().inverse()).scaled_axis(),
+        };
+        RigidVector::from_fn(|i, _| if i < 3 { way[i] } else { turn[i - 3] })
+    }
+
+    /// The pose a displacement (m, rad) leads to from here. A planar pose stays planar: it has no
+    /// part in what turns it about x or y.
+    #[must_use]
+    pub fn displaced(&self, displacement: &RigidVector) -> Self {
+        let (way, turn) = (displacement.fixed_rows::<3>(0), displacement.fixed_rows::<3>(3));
+        let orientation = match self.orientation {
+            Orientation::Planar(angle) => Orientation::Planar(angle + turn.z),
+            Orientation::Spatial(rotation) => {
+                let mut turned = UnitQuaternion::from_scaled_axis(turn.into_owned()) * rotation;
+                turned.renormalize();
+                Orientation::Spatial(turned)
+            }
+        };
+        Self { center: self.center + way, orientation }
+    }
+
+    /// The pose a body that is here, and was at `previous` one step before, gets to with a velocity at
+    /// the new time; what rests stays where it is to the last bit.
+    #[must_use]
+    pub fn advanced(&self, bdf: &Bdf, previous: &Self, velocity: &Twist) -> Self {
+        self.displaced(&bdf.increment(velocity.to_vector(), self.displacement_from(previous)))
+    }
+
+    /// The velocity at the new time of a body that gets to `next` from here, and was at `previous` one
+    /// step before: the inverse of [`Self::advanced`].
+    #[must_use]
+    pub fn velocity_to(&self, bdf: &Bdf, next: &Self, previous: &Self) -> Twist {
+        let increments = [next.displacement_from(self), self.displacement_from(previous)];
+        Twist::from_vector(&bdf.rate_of_increments(increments))
+    }
+}
+
+/// Whether turns about z leave a tensor as it is.
+fn is_diagonal_about_z(tensor: &Matrix3<f64>) -> bool {
+    let off = |i: usize, j: usize| i != j && tensor[(i, j)] != 0.0;
+    let has_off = (0..9).any(|entry| off(entry / 3, entry % 3));
+    !has_off && tensor[(0, 0)] == tensor[(1, 1)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn turned(pose: &Pose, vector: &Vector3<f64>) -> Vector3<f64> {
+        pose.rotation() * vector
+    }
+
+    #[test]
+    fn planar_and_spatial_poses_turn_vectors_alike() {
+        let vector = Vector3::new(0.3, -1.2, 0.4);
+        for angle in [0.0, 0.4, -2.0, 3.1, 7.0] {
+            let planar = Pose::planar(1.0, 2.0, angle);
+            let spatial = Pose::spatial(planar.center, planar.rotation());
+            assert!((planar.to_world(&vector) - spatial.to_world(&vector)).norm() < 1e-15);
+            assert!((planar.to_world(&vector) - turned(&planar, &vector)).norm() < 1e-15);
+            assert!((spatial.angle() - angle).sin().abs() < 1e-15);
+        }
+    }
+
+    #[test]
+    fn a_displacement_leads_from_pose_to_pose() {
+        let start = Pose::spatial(
+            Vector3::new(0.1, 0.2, 0.3),
+            UnitQuaternion::from_euler_angles(0.4, -0.2, 1.1),
+        );
+        let end = Pose::spatial(
+            Vector3::new(-1.0, 0.5, 2.0),
+            UnitQuaternion::from_euler_angles(-0.3, 0.6, 2.0),
+        );
+        let reached = start.displaced(&end.displacement_from(&start));
+        assert!((reached.center - end.center).norm() < 1e-15);
+        assert!(reached.rotation().angle_to(&end.rotation()) < 1e-14);
+        // Angles of the plane count full turns
+        let many = Pose::planar(0.0, 0.0, 20.0).displacement_from(&Pose::planar(0.0, 0.0, 1.0));
+        assert_eq!(many[5], 19.0);
+        let tensor = Matrix3::from_diagonal(&Vector3::new(1.0, 2.0, 3.0));
+        let world = end.tensor_to_world(&tensor);
+        let axis = turned(&end, &Vector3::y());
+        assert!((world * axis - axis * 2.0).norm() < 1e-14);
+    }
+
+    /// A body that spins about z while it drifts: the planar pose and the quaternion agree.
+    #[test]
+    fn a_quaternion_follows_a_planar_angle() {
+        let bdf = Bdf::second_order(0.1, 0.07);
+        let plane = [Pose::planar(0.0, 0.0, 0.3), Pose::planar(0.1, 0.2, 0.5)];
+        let space = plane.map(|pose| Pose::spatial(pose.center, pose.rotation()));
+        let velocity =
+            Twist { linear: Vector3::new(1.0, -2.0, 0.0), angular: Vector3::new(0.0, 0.0, 4.0) };
+        let [flat, round] = [plane, space].map(|[before, now]| {
+            let next = now.advanced(&bdf, &before, &velocity);
+            let back = now.velocity_to(&bdf, &next, &before);
+            assert!((back.to_vector() - velocity.to_vector()).norm() < 1e-13);
+            next
+        });
+        assert!((flat.center - round.center).norm() < 1e-15);
+        assert!(flat.rotation().angle_to(&round.rotation()) < 1e-15);
+    }
+
+    #[test]
+    fn what_rests_stays_to_the_last_bit() {
+        let pose = Pose::planar(0.3, -0.7, 1.234);
+        let bdf = Bdf::second_order(0.1, 0.07);
+        assert_eq!(pose.advanced(&bdf, &pose, &Twist::default()), pose);
+        assert_eq!(pose.velocity_to(&bdf, &pose, &pose), Twist::default());
     }
 }

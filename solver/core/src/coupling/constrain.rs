@@ -65,7 +65,7 @@ pub(super) fn constrain(
     let mut builder = ConstraintBuilder::new(layout.n_raw());
     let rows = problem.has_links().then(|| {
         let places: Vec<[f64; 3]> =
-            poses.iter().map(|pose| [pose.center.x, pose.center.y, pose.angle()]).collect();
+            poses.iter().map(|pose| [pose.center.x, pose.center.y, pose.heading()]).collect();
         problem.rigid_rows(&places, time)
     });
     for (body, rigid) in problem.bodies.iter().enumerate() {

@@ -102,7 +102,7 @@ impl RigidBody {
     /// Centre and angle at time zero (m, rad).
     #[must_use]
     pub fn start(&self) -> [f64; 3] {
-        [self.pose.center.x, self.pose.center.y, self.pose.angle()]
+        [self.pose.center.x, self.pose.center.y, self.pose.heading()]
     }
 
     /// Force along x and y (N) and torque (N m) from outside, fluid, springs and contact left out.
@@ -134,7 +134,7 @@ impl RigidBody {
                 name: self.name.clone(),
                 shape: deformed.shape.clone(),
                 center,
-                angle: pose.angle(),
+                angle: pose.heading(),
                 size: None,
             };
             (deformed, Outline::new(&placed).ok())
@@ -166,7 +166,7 @@ impl MovingSurface<'_> {
     /// point of the plane on it.
     #[must_use]
     pub fn velocity(&self, point: &Point<2>) -> Point<2> {
-        let rotation = &self.pose.rotation;
+        let rotation = self.pose.rotation();
         let mut velocity = Vector3::zeros();
         if let Some(gait) = self.gait {
             let lever = Vector3::new(point[0], point[1], 0.0) - self.pose.center;

@@ -20,7 +20,7 @@ impl RigidMove {
     /// The motion from one planar pose to another.
     #[must_use]
     pub fn between(from: &Pose, to: &Pose) -> Self {
-        let rotation = to.rotation * from.rotation.inverse();
+        let rotation = to.rotation() * from.rotation().inverse();
         // 1 - cos and sin by half angles: no digits are lost where the body hardly turns
         let (half_sin, half_cos) = (rotation.k, rotation.w);
         let (sin, less) = (2.0 * half_sin * half_cos, -2.0 * half_sin * half_sin);

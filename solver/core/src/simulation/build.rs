@@ -418,7 +418,7 @@ fn rigid_body(
             rest: [
                 spring.anchor.first().copied().unwrap_or(center.x),
                 spring.anchor.get(1).copied().unwrap_or(center.y),
-                spring.rest_angle.unwrap_or_else(|| pose.angle()),
+                spring.rest_angle.unwrap_or_else(|| pose.heading()),
             ],
         }),
         gait,

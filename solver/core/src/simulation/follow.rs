@@ -176,7 +176,7 @@ impl Follower {
                     return Point::<2>::zeros();
                 };
                 let at = deformed.position(*parameter);
-                let world = pose.rotation * Vector3::new(at.x, at.y, 0.0) + pose.center;
+                let world = pose.rotation() * Vector3::new(at.x, at.y, 0.0) + pose.center;
                 world.xy() - place
             }
         }

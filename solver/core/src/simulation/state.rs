@@ -190,7 +190,7 @@ pub(super) fn seen_from(origin: &Point<2>, places: &[Place], wraps: &[Point<2>])
 /// Centre and angle of a pose (m, rad).
 #[must_use]
 pub fn place_of(pose: &Pose) -> Place {
-    [pose.center.x, pose.center.y, pose.angle()]
+    [pose.center.x, pose.center.y, pose.heading()]
 }
 
 /// The pose with a centre and angle (m, rad).

@@ -74,6 +74,24 @@ impl Bdf {
         (next - now) * self.next - (now - previous) * self.previous
     }
 
+    /// The increment over the step of a quantity whose rate at the new time is known, from its increment
+    /// over the step before: [`Self::integrate`] for quantities that have increments only, such as
+    /// rotations.
+    pub fn increment<T>(&self, rate: T, last: T) -> T
+    where
+        T: std::ops::Mul<f64, Output = T> + std::ops::Add<Output = T>,
+    {
+        (rate + last * self.previous) * (1.0 / self.next)
+    }
+
+    /// The rate at the new time from the increments over this step and over the one before.
+    pub fn rate_of_increments<T>(&self, [this, last]: [T; 2]) -> T
+    where
+        T: std::ops::Mul<f64, Output = T> + std::ops::Sub<Output = T>,
+    {
+        this * self.next - last * self.previous
+    }
+
     /// Whether the step is of second order.
     #[must_use]
     pub fn is_second_order(&self) -> bool {
