@@ -203,14 +203,14 @@ pub fn step<const D: usize>(snapshot: &Snapshot<'_, D>) -> Value {
 
 /// One body.
 pub fn body(report: &BodyReport, step: usize, time: f64) -> Value {
-    let Pose { center, rotation } = &report.pose;
+    let Pose { center, .. } = &report.pose;
     let Twist { linear, angular } = &report.twist;
     json!({
         "step": step,
         "time": time,
         "pose": {
             "center": vector(center),
-            "rotation": quaternion(rotation),
+            "rotation": quaternion(&report.pose.rotation()),
             "angle": report.pose.heading(),
         },
         "twist": {"linear": vector(linear), "angular": vector(angular)},

@@ -7,7 +7,7 @@
 
 use nalgebra::{Matrix3, Matrix6, Vector3};
 
-use super::modes::{Mode, Modes, RigidVector};
+use super::modes::{Modes, RigidVector};
 use super::pose::Pose;
 use super::twist::Twist;
 
