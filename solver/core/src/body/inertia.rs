@@ -5,7 +5,7 @@
 //! I omega the gyroscopic term omega x I omega is contained, and without torque the angular momentum
 //! stays the same to rounding.
 
-use nalgebra::{Matrix3, Matrix6, Vector3};
+use nalgebra::{Matrix3, Matrix6};
 
 use super::modes::{Modes, RigidVector};
 use super::pose::Pose;
@@ -71,36 +71,41 @@ impl Inertia {
     }
 }
 
-/// The velocity, in the motions of a geometry, to which a momentum belongs: the inverse of a matrix of
-/// [`Inertia::matrix`], zero in motions without inertia.
+/// The velocity with which a body of the mass matrix `next` has the momentum that one of the matrix
+/// `then` has with `velocity`: next^-1 then velocity in the motions of a geometry.
+///
+/// Without inertia, and where both matrices are equal, it is the velocity itself to the last bit.
 #[must_use]
-pub fn velocity_of_momentum(
-    matrix: &Matrix6<f64>,
-    momentum: &RigidVector,
+pub fn carried_velocity(
+    then: &Matrix6<f64>,
+    next: &Matrix6<f64>,
+    velocity: &RigidVector,
     modes: Modes,
 ) -> RigidVector {
-    let mut velocity = RigidVector::zeros();
-    for mode in modes.iter().filter(|mode| !mode.is_rotation()) {
-        let mass = matrix[(mode.index(), mode.index())];
-        velocity[mode] = if mass == 0.0 { 0.0 } else { momentum[mode] / mass };
+    if then == next {
+        return *velocity;
     }
-    let tensor: Matrix3<f64> = matrix.fixed_view::<3, 3>(3, 3).into_owned();
-    let angular: Vector3<f64> = momentum.fixed_rows::<3>(3).into_owned();
+    let mut carried = *velocity;
     if modes == Modes::SPATIAL {
-        let turn = tensor.try_inverse().map_or_else(Vector3::zeros, |inverse| inverse * angular);
-        velocity.fixed_rows_mut::<3>(3).copy_from(&turn);
+        let half = |matrix: &Matrix6<f64>| matrix.fixed_view::<3, 3>(3, 3).into_owned();
+        let angular = half(then) * velocity.fixed_rows::<3>(3);
+        if let Some(inverse) = half(next).try_inverse() {
+            carried.fixed_rows_mut::<3>(3).copy_from(&(inverse * angular));
+        }
     } else {
         for mode in modes.rotations() {
-            let moment = tensor[(mode.axis(), mode.axis())];
-            velocity[mode] = if moment == 0.0 { 0.0 } else { momentum[mode] / moment };
+            let moment = |matrix: &Matrix6<f64>| matrix[(mode.index(), mode.index())];
+            if moment(next) > 0.0 {
+                carried[mode] *= moment(then) / moment(next);
+            }
         }
     }
-    velocity
+    carried
 }
 
 #[cfg(test)]
 mod tests {
-    use nalgebra::UnitQuaternion;
+    use nalgebra::{UnitQuaternion, Vector3};
 
     use super::*;
     use crate::time::Bdf;
@@ -130,16 +135,19 @@ mod tests {
             self.inertia.kinetic_energy(&self.poses[1], &self.twists[1])
         }
 
-        /// Solves a0 L_next = -(a1 L_now + a2 L_previous) by iteration on the pose.
+        /// Solves a0 L_next + a1 L_now + a2 L_previous = 0 by iteration on the pose.
         fn step(&mut self, bdf: &Bdf) {
-            let target = -bdf.history(self.momentum(1), self.momentum(0)) / bdf.next;
             let mut twist = self.twists[1];
             let mut pose = self.poses[1];
             for _ in 0..50 {
                 pose = self.poses[1].advanced(bdf, &self.poses[0], &twist);
-                let matrix = self.inertia.matrix(&pose);
-                let velocity = velocity_of_momentum(&matrix, &target, Modes::SPATIAL);
-                twist = Twist::from_vector(&velocity);
+                let next = self.inertia.matrix(&pose);
+                let [before, now] = [0, 1].map(|level: usize| {
+                    let then = self.inertia.matrix(&self.poses[level]);
+                    let velocity = self.twists[level].to_vector();
+                    carried_velocity(&then, &next, &velocity, Modes::SPATIAL)
+                });
+                twist = Twist::from_vector(&(bdf.history(now, before) * (-1.0 / bdf.next)));
             }
             self.poses = [self.poses[1], pose];
             self.twists = [self.twists[1], twist];
@@ -195,15 +203,21 @@ mod tests {
     }
 
     #[test]
-    fn velocity_and_momentum_are_inverse() {
+    fn carried_velocities_have_the_same_momentum() {
         let top = Top::new();
-        let matrix = top.inertia.matrix(&top.poses[1]);
-        let back = velocity_of_momentum(&matrix, &top.momentum(1), Modes::SPATIAL);
-        assert!((back - top.twists[1].to_vector()).norm() < 1e-14);
-        let disc = Inertia::planar(2.0, 0.5);
-        let matrix = disc.matrix(&Pose::planar(0.0, 0.0, 1.0));
-        let momentum = RigidVector::from_column_slice(&[2.0, 4.0, 0.0, 0.0, 0.0, 3.0]);
-        let velocity = velocity_of_momentum(&matrix, &momentum, Modes::PLANAR);
-        assert_eq!(velocity.as_slice(), [1.0, 2.0, 0.0, 0.0, 0.0, 6.0]);
+        let next = top.inertia.matrix(&Pose::spatial(
+            Vector3::zeros(),
+            UnitQuaternion::from_euler_angles(-1.0, 0.2, 0.3),
+        ));
+        let (then, velocity) = (top.inertia.matrix(&top.poses[1]), top.twists[1].to_vector());
+        let carried = carried_velocity(&then, &next, &velocity, Modes::SPATIAL);
+        assert!((next * carried - top.momentum(1)).norm() < 1e-14);
+        assert_eq!(carried_velocity(&then, &then, &velocity, Modes::SPATIAL), velocity);
+        let [disc, smaller] = [0.5, 0.25].map(|polar| {
+            Inertia::planar(2.0, polar).matrix(&Pose::planar(0.0, 0.0, 1.0))
+        });
+        let velocity = RigidVector::from_column_slice(&[2.0, 4.0, 0.0, 0.0, 0.0, 3.0]);
+        let carried = carried_velocity(&disc, &smaller, &velocity, Modes::PLANAR);
+        assert_eq!(carried.as_slice(), [2.0, 4.0, 0.0, 0.0, 0.0, 6.0]);
     }
 }

@@ -2,12 +2,14 @@
 //!
 //! A geometry leaves a body some of the six rigid motions ([`Modes`]).
 
+mod embedding;
 mod inertia;
 mod modes;
 mod pose;
 mod twist;
 
-pub use inertia::{Inertia, velocity_of_momentum};
+pub use embedding::{in_space, on_mesh};
+pub use inertia::{Inertia, carried_velocity};
 pub use modes::{Mode, Modes, RigidVector};
 pub use pose::{Orientation, Pose};
 pub use twist::{Twist, Wrench};

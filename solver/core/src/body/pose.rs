@@ -8,7 +8,7 @@
 //! before and a0, a2 as in [`Bdf`]. The rate of a rotation vector differs from omega by theta x omega / 2;
 //! theta is the step times omega up to first order, so that this is of second order in the step.
 
-use nalgebra::{Matrix3, UnitQuaternion, Vector3};
+use nalgebra::{Matrix3, UnitQuaternion, UnitVector3, Vector3};
 use serde::{Deserialize, Serialize};
 
 use super::modes::RigidVector;
@@ -97,6 +97,24 @@ impl Pose {
                 rotation * tensor * rotation.transpose()
             }
         }
+    }
+
+    /// The pose turned about its centre by an angle (rad) about an axis of the body frame.
+    #[must_use]
+    pub fn turned(&self, axis: &UnitVector3<f64>, angle: f64) -> Self {
+        let orientation = match self.orientation {
+            Orientation::Planar(before) => Orientation::Planar(before + axis.z * angle),
+            Orientation::Spatial(rotation) => {
+                Orientation::Spatial(rotation * UnitQuaternion::from_axis_angle(axis, angle))
+            }
+        };
+        Self { orientation, ..*self }
+    }
+
+    /// The pose with its centre moved by a vector (m).
+    #[must_use]
+    pub fn shifted(&self, shift: &Vector3<f64>) -> Self {
+        Self { center: self.center + shift, ..*self }
     }
 
     /// The displacement that leads here from another pose (m, rad): way of the centre and rotation

@@ -3,192 +3,214 @@
 //! A node on a body: u = U + omega x (x - G) + slip, with U and omega raw unknowns themselves.
 //! Where boundaries meet, bodies come first, then walls, then inflows, then symmetry planes.
 
-use alewife_mesh::{BoundaryKind, Facet, Mesh};
+use alewife_mesh::{BoundaryKind, Mesh, NodeId, Point};
 
-use super::link::RigidRow;
-use super::problem::{Drive, MovingSurface, Problem};
+use super::boundaries::{Boundaries, BoundaryNode};
+use super::kinematics::{RigidRow, turned_component};
+use super::problem::{Drive, Problem};
+use super::shapes::{BodyShapes, MovingSurface};
 use crate::algebra::{AffineConstraints, ConstraintBuilder};
-use crate::body::Pose;
+use crate::body::{Pose, Twist, in_space};
 use crate::space::DofLayout;
 
-/// The boundaries each node lies on.
-#[derive(Debug, Clone)]
-pub struct NodeSides {
-    /// (node, boundary), sorted, each pair once.
-    pairs: Vec<(u32, u16)>,
+/// Bodies at one time: where they are and how their surfaces move.
+#[derive(Debug, Clone, Copy)]
+pub struct BodiesAt<'a> {
+    /// Poses in the mesh.
+    pub poses: &'a [Pose],
+    /// Shapes, and the time (s) at which boundary values and gaits are taken.
+    pub shapes: &'a BodyShapes,
 }
 
-impl NodeSides {
-    /// Collects the nodes of all boundary facets.
-    #[must_use]
-    pub fn new(mesh: &Mesh<2>) -> Self {
-        let mut pairs = Vec::with_capacity(3 * mesh.facets.len());
-        for facet in &mesh.facets {
-            let side = usize::from(facet.side);
-            let cell = mesh.cell(facet.cell as usize);
-            for local in [side, (side + 1) % 3, side + 3] {
-                pairs.push((cell[local], facet.boundary));
+/// What constraints are made of on one mesh.
+pub(super) struct Constrainer<'a, const D: usize> {
+    pub problem: &'a Problem<D>,
+    pub mesh: &'a Mesh<D>,
+    pub layout: &'a DofLayout<D>,
+}
+
+impl<const D: usize> Constrainer<'_, D> {
+    /// The constraints with bodies at these poses.
+    pub fn constraints(&self, boundaries: &Boundaries, bodies: BodiesAt<'_>) -> AffineConstraints {
+        let mut builder = ConstraintBuilder::new(self.layout.n_raw());
+        self.constrain_rigid_velocities(bodies, &mut builder);
+        let surfaces = bodies.shapes.surfaces(&self.problem.bodies, bodies.poses);
+        for at in boundaries.nodes() {
+            match at.body {
+                Some(body) => {
+                    self.attach_to_body(at.node, body, &surfaces[body], &mut builder);
+                }
+                None => self.constrain_side(&at, bodies.shapes.time(), &mut builder),
             }
         }
-        pairs.sort_unstable();
-        pairs.dedup();
-        Self { pairs }
+        self.close_pressures_and_periods(&mut builder);
+        self.pin_free_translations(&mut builder);
+        builder.build()
     }
 
-    /// Nodes with the boundaries they lie on.
-    pub fn iter(&self) -> impl Iterator<Item = (usize, Vec<usize>)> + '_ {
-        self.pairs.chunk_by(|one, other| one.0 == other.0).map(|pairs| {
-            let boundaries = pairs.iter().map(|&(_, boundary)| usize::from(boundary)).collect();
-            (pairs[0].0 as usize, boundaries)
-        })
-    }
-
-    /// Nodes on one boundary.
-    pub fn nodes_on(&self, boundary: usize) -> impl Iterator<Item = usize> + '_ {
-        self.pairs
-            .iter()
-            .filter(move |&&(_, other)| usize::from(other) == boundary)
-            .map(|&(node, _)| node as usize)
-    }
-}
-
-/// The constraints at a time, for bodies at these poses.
-#[must_use]
-pub(super) fn constrain(
-    problem: &Problem,
-    mesh: &Mesh<2>,
-    layout: &DofLayout<2>,
-    sides: &NodeSides,
-    poses: &[Pose],
-    time: f64,
-) -> AffineConstraints {
-    let mut builder = ConstraintBuilder::new(layout.n_raw());
-    let rows = problem.has_links().then(|| {
-        let places: Vec<[f64; 3]> =
-            poses.iter().map(|pose| [pose.center.x, pose.center.y, pose.heading()]).collect();
-        problem.rigid_rows(&places, time)
-    });
-    for (body, rigid) in problem.bodies.iter().enumerate() {
-        for (mode, drive) in rigid.drives.iter().enumerate() {
-            match (drive, &rows) {
-                (Drive::Given(value), _) => {
-                    builder.constrain(layout.rigid(body, mode), vec![], value(time));
-                }
-                (Drive::Linked, Some(rows)) => {
+    /// Rigid velocities that are given or follow from others.
+    fn constrain_rigid_velocities(&self, bodies: BodiesAt<'_>, builder: &mut ConstraintBuilder) {
+        let problem = self.problem;
+        let time = bodies.shapes.time();
+        let modes = problem.modes();
+        let rows = problem.has_joints().then(|| problem.rigid_rows(bodies.poses, time));
+        for (body, rigid) in problem.bodies.iter().enumerate() {
+            for (position, mode) in modes.iter().enumerate() {
+                let raw = self.layout.rigid(body, position);
+                let drive = rigid.drive(mode);
+                if let Some(value) = drive.given(time) {
+                    builder.constrain(raw, vec![], value);
+                } else if let (Drive::Linked, Some(rows)) = (drive, &rows) {
                     let RigidRow { entries, value } = &rows[body][mode];
-                    let entries = entries
-                        .iter()
-                        .map(|((body, mode), weight)| (layout.rigid(*body, *mode), *weight));
-                    builder.constrain(layout.rigid(body, mode), entries.collect(), *value);
+                    let entries = entries.iter().filter_map(|(unknown, weight)| {
+                        let position = modes.position(unknown.mode)?;
+                        Some((self.layout.rigid(unknown.body, position), *weight))
+                    });
+                    builder.constrain(raw, entries.collect(), *value);
                 }
-                (Drive::Linked, None) | (Drive::Free, _) => {}
             }
         }
     }
-    let pairs = problem.bodies.iter().zip(poses);
-    let surfaces: Vec<_> = pairs.map(|(body, pose)| body.surface(pose, time)).collect();
-    for (node, boundaries) in sides.iter() {
-        let at = (node, boundaries.as_slice());
-        constrain_node(problem, mesh, layout, &mut builder, (poses, &surfaces), time, at);
-    }
-    close_pressures_and_periods(problem, mesh, layout, &mut builder);
-    // What drifts is held at one node; the equation that is left out follows from the others
-    let drifts = problem.drifts();
-    if let Some(node) = drifts.contains(&true).then(|| pinned_node(mesh)).flatten() {
-        for axis in (0..2).filter(|&axis| drifts[axis]) {
-            builder.constrain(layout.velocity(node, axis), vec![], 0.0);
+
+    /// u = U + omega x (x - G) + slip.
+    fn attach_to_body(
+        &self,
+        node: NodeId,
+        body: usize,
+        surface: &MovingSurface<'_>,
+        builder: &mut ConstraintBuilder,
+    ) {
+        let modes = self.problem.modes();
+        let position = in_space(&self.mesh.nodes[node]);
+        let slip = surface.velocity(&position);
+        let lever = position - surface.pose().center;
+        for axis in 0..D {
+            let entries = modes.iter().enumerate().filter_map(|(position, mode)| {
+                let weight = match (mode.is_rotation(), mode.axis() == axis) {
+                    (false, true) => 1.0,
+                    (true, false) => turned_component(mode, &lever, axis),
+                    (false, false) | (true, true) => return None,
+                };
+                Some((self.layout.rigid(body, position), weight))
+            });
+            builder.constrain(self.layout.velocity(node, axis), entries.collect(), slip[axis]);
         }
     }
-    builder.build()
+
+    fn constrain_side(&self, at: &BoundaryNode, time: f64, builder: &mut ConstraintBuilder) {
+        let point = &self.mesh.nodes[at.node];
+        if let Some(velocity) = self.problem.given_velocity(&at.boundaries, point, time) {
+            for axis in 0..D {
+                builder.constrain(self.layout.velocity(at.node, axis), vec![], velocity[axis]);
+            }
+            return;
+        }
+        for normal_axis in self.problem.symmetry_axes(&at.boundaries) {
+            builder.constrain(self.layout.velocity(at.node, normal_axis), vec![], 0.0);
+        }
+    }
+
+    /// Equal values on periodic pairs, as far as they are free, and in an enclosed flow a level of the
+    /// pressure.
+    pub fn close_pressures_and_periods(&self, builder: &mut ConstraintBuilder) {
+        let Self { mesh, layout, .. } = self;
+        for pair in &mesh.periodic {
+            for axis in 0..D {
+                let raw = layout.velocity(pair.copy, axis);
+                if !builder.is_constrained(raw) {
+                    let original = layout.velocity(pair.original, axis);
+                    builder.constrain(raw, vec![(original, 1.0)], 0.0);
+                }
+            }
+            if pair.copy.index() < layout.n_vertices {
+                let original = layout.pressure(pair.original);
+                builder.constrain(layout.pressure(pair.copy), vec![(original, 1.0)], 0.0);
+            }
+        }
+        if self.problem.is_enclosed() {
+            // Any vertex will do that is not itself a periodic copy, but on a side of the domain the
+            // level is that far away: next to a body it may be large, and the cells far away, where
+            // it is then felt, are large too.
+            let pinned = vertices_on_sides(mesh)
+                .chain(mesh.vertex_ids())
+                .map(|vertex| layout.pressure(vertex))
+                .find(|&raw| !builder.is_constrained(raw));
+            if let Some(raw) = pinned {
+                builder.constrain(raw, vec![], 0.0);
+            }
+        }
+    }
+
+    /// Holds one node where nothing else holds fluid and bodies; the equation that is left out follows
+    /// from the others.
+    fn pin_free_translations(&self, builder: &mut ConstraintBuilder) {
+        let is_free = self.problem.free_translations();
+        let Some(node) = is_free.contains(&true).then(|| pinned_node(self.mesh)).flatten() else {
+            return;
+        };
+        for axis in (0..D).filter(|&axis| is_free[axis]) {
+            builder.constrain(self.layout.velocity(node, axis), vec![], 0.0);
+        }
+    }
+}
+
+/// The first vertex of each facet on a side of the domain.
+fn vertices_on_sides<const D: usize>(mesh: &Mesh<D>) -> impl Iterator<Item = NodeId> {
+    let is_side = |boundary| mesh.boundaries[boundary].kind == BoundaryKind::Side;
+    let facets = mesh.facets.iter().filter(move |facet| is_side(facet.boundary));
+    facets.map(|facet| mesh.facet_vertices(facet)[0])
 }
 
 /// The node that holds fluid and bodies where nothing else does: a vertex on a side that is no
 /// periodic copy.
-pub(super) fn pinned_node(mesh: &Mesh<2>) -> Option<usize> {
+pub(super) fn pinned_node<const D: usize>(mesh: &Mesh<D>) -> Option<NodeId> {
     let mut is_copy = vec![false; mesh.n_nodes()];
-    for &(copy, _) in &mesh.periodic {
-        is_copy[copy as usize] = true;
+    for pair in &mesh.periodic {
+        is_copy[pair.copy] = true;
     }
-    let on_sides = mesh
-        .facets
-        .iter()
-        .filter(|facet| mesh.boundaries[usize::from(facet.boundary)].kind == BoundaryKind::Side);
-    let mut vertices = on_sides.map(|facet| mesh.facet_nodes(facet)[0] as usize);
-    vertices.find(|&vertex| !is_copy[vertex])
+    vertices_on_sides(mesh).find(|&vertex| !is_copy[vertex])
 }
 
-/// Equal values on periodic pairs, as far as they are free, and in an enclosed flow a level of the
-/// pressure.
-pub(super) fn close_pressures_and_periods(
-    problem: &Problem,
-    mesh: &Mesh<2>,
-    layout: &DofLayout<2>,
-    builder: &mut ConstraintBuilder,
+/// Boundary values at the nodes of a velocity that is given everywhere else: those of bodies with these
+/// rigid velocities, of sides with given velocities, and none across symmetry planes. `origin` is the
+/// position of the frame in which the mesh is seen (m).
+pub fn impose_boundary_values<const D: usize>(
+    problem: &Problem<D>,
+    mesh: &Mesh<D>,
+    boundaries: &Boundaries,
+    values: &BoundaryValues<'_, D>,
+    velocity: &mut [Point<D>],
 ) {
-    for &(copy, original) in &mesh.periodic {
-        let (copy, original) = (copy as usize, original as usize);
-        for axis in 0..2 {
-            let raw = layout.velocity(copy, axis);
-            if !builder.is_constrained(raw) {
-                builder.constrain(raw, vec![(layout.velocity(original, axis), 1.0)], 0.0);
+    let BodiesAt { poses, shapes } = values.bodies;
+    let surfaces = shapes.surfaces(&problem.bodies, poses);
+    for at in boundaries.nodes() {
+        let point = mesh.nodes[at.node];
+        if let Some(body) = at.body {
+            let lever = in_space(&point) - poses[body].center;
+            let rigid = values.twists[body].velocity_at(&lever);
+            let slip = surfaces[body].velocity(&in_space(&point));
+            velocity[at.node] = Point::<D>::from_fn(|axis, _| rigid[axis] + slip[axis]);
+            continue;
+        }
+        let in_laboratory = point + values.origin;
+        let given = problem.given_velocity(&at.boundaries, &in_laboratory, shapes.time());
+        if let Some(given) = given {
+            velocity[at.node] = given;
+        } else {
+            for axis in problem.symmetry_axes(&at.boundaries) {
+                velocity[at.node][axis] = 0.0;
             }
         }
-        if copy < layout.n_vertices {
-            builder.constrain(layout.pressure(copy), vec![(layout.pressure(original), 1.0)], 0.0);
-        }
-    }
-    if problem.is_enclosed() {
-        // Any vertex will do that is not itself a periodic copy, but on a side of the domain the
-        // level is that far away: next to a body it may be large, and the cells far away, where
-        // it is then felt, are large too.
-        let is_side = |facet: &&Facet| {
-            mesh.boundaries[usize::from(facet.boundary)].kind == BoundaryKind::Side
-        };
-        let on_sides =
-            mesh.facets.iter().filter(is_side).map(|facet| mesh.facet_nodes(facet)[0] as usize);
-        let pinned = on_sides
-            .chain(0..layout.n_vertices)
-            .map(|vertex| layout.pressure(vertex))
-            .find(|&raw| !builder.is_constrained(raw));
-        if let Some(raw) = pinned {
-            builder.constrain(raw, vec![], 0.0);
-        }
     }
 }
 
-fn constrain_node(
-    problem: &Problem,
-    mesh: &Mesh<2>,
-    layout: &DofLayout<2>,
-    builder: &mut ConstraintBuilder,
-    (poses, surfaces): (&[Pose], &[MovingSurface<'_>]),
-    time: f64,
-    (node, boundaries): (usize, &[usize]),
-) {
-    let place = mesh.nodes[node];
-    let body = boundaries.iter().find_map(|&boundary| match mesh.boundaries[boundary].kind {
-        BoundaryKind::Body(body) => Some(body),
-        _ => None,
-    });
-    if let Some(body) = body {
-        let pose = &poses[body];
-        let slip = surfaces[body].velocity(&place);
-        let lever = [place[0] - pose.center.x, place[1] - pose.center.y];
-        let turning = [-lever[1], lever[0]];
-        for axis in 0..2 {
-            let entries =
-                vec![(layout.rigid(body, axis), 1.0), (layout.rigid(body, 2), turning[axis])];
-            builder.constrain(layout.velocity(node, axis), entries, slip[axis]);
-        }
-        return;
-    }
-    if let Some(velocity) = problem.given_velocity(boundaries, &place, time) {
-        for axis in 0..2 {
-            builder.constrain(layout.velocity(node, axis), vec![], velocity[axis]);
-        }
-        return;
-    }
-    for normal_axis in problem.symmetry_axes(boundaries) {
-        builder.constrain(layout.velocity(node, normal_axis), vec![], 0.0);
-    }
+/// What [`impose_boundary_values`] takes the values from.
+#[derive(Debug, Clone, Copy)]
+pub struct BoundaryValues<'a, const D: usize> {
+    /// Bodies as seen from the frame.
+    pub bodies: BodiesAt<'a>,
+    /// Their rigid velocities.
+    pub twists: &'a [Twist],
+    /// Position of the frame (m).
+    pub origin: Point<D>,
 }

@@ -5,9 +5,9 @@
 
 use alewife_mesh::{Mesh, Point};
 
-use super::constrain::NodeSides;
+use super::boundaries::Boundaries;
 use super::problem::Problem;
-use crate::body::{Pose, Wrench};
+use crate::body::{Pose, Wrench, on_mesh};
 use crate::space::DofLayout;
 
 /// What the fluid does to a body, and the body to the fluid.
@@ -19,34 +19,39 @@ pub struct BodyLoads {
     pub power: f64,
 }
 
-/// Loads of all bodies from the raw residual at a solution.
+/// A flow on a mesh with the raw residual of the fluid's equations at it.
+#[derive(Debug, Clone, Copy)]
+pub struct ResidualOnMesh<'a, const D: usize> {
+    /// The mesh.
+    pub mesh: &'a Mesh<D>,
+    /// Numbering of the residual.
+    pub layout: &'a DofLayout<D>,
+    /// Its boundaries.
+    pub boundaries: &'a Boundaries,
+    /// Velocity at the nodes (m/s).
+    pub velocity: &'a [Point<D>],
+    /// The residual.
+    pub residual: &'a [f64],
+}
+
+/// Loads of all bodies at these poses in the mesh.
 #[must_use]
-pub fn body_loads(
-    problem: &Problem,
-    mesh: &Mesh<2>,
-    layout: &DofLayout<2>,
-    sides: &NodeSides,
+pub fn body_loads<const D: usize>(
+    problem: &Problem<D>,
     poses: &[Pose],
-    residual: &[f64],
-    velocity: &[Point<2>],
+    flow: &ResidualOnMesh<'_, D>,
 ) -> Vec<BodyLoads> {
-    problem
-        .bodies
-        .iter()
-        .zip(poses)
-        .map(|(body, pose)| {
-            let mut loads = BodyLoads::default();
-            for node in sides.nodes_on(body.boundary) {
-                let force = -Point::<2>::new(
-                    residual[layout.velocity(node, 0)],
-                    residual[layout.velocity(node, 1)],
-                );
-                let lever = mesh.nodes[node] - Point::<2>::new(pose.center.x, pose.center.y);
-                loads.power -= force.dot(&velocity[node]);
-                loads.load.force += problem.metric.total_force(&force);
-                loads.load.torque += problem.metric.total_torque(&lever, &force);
-            }
-            loads
-        })
-        .collect()
+    let loads = problem.bodies.iter().zip(poses).map(|(body, pose)| {
+        let center = on_mesh::<D>(&pose.center);
+        let mut loads = BodyLoads::default();
+        for &node in flow.boundaries.nodes_on(body.boundary) {
+            let force = -Point::<D>::from_fn(|axis, _| flow.residual[flow.layout.velocity(node, axis)]);
+            let lever = flow.mesh.nodes[node] - center;
+            loads.power -= force.dot(&flow.velocity[node]);
+            loads.load.force += problem.metric.total_force(&force);
+            loads.load.torque += problem.metric.total_torque(&lever, &force);
+        }
+        loads
+    });
+    loads.collect()
 }

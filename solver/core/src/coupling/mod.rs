@@ -1,29 +1,39 @@
 //! Fluid and bodies in one system: nobody else knows both.
 
+mod boundaries;
 mod constrain;
-mod divergence_free;
-mod drift;
-mod joints;
-mod link;
+mod diagnosis;
+mod error;
+mod joint_loads;
+mod kinematics;
 mod loads;
+mod nullspace;
 mod problem;
+mod projection;
+mod propulsion;
+mod rigid_equations;
+mod shapes;
+mod solution;
 mod surface_load;
-mod swimming;
 mod system;
 
-pub use constrain::NodeSides;
-pub use divergence_free::DivergenceFree;
-pub use joints::{BodyStates, JointReport, joint_reports};
-pub use link::{Arm, Link, MovingValue, Pivot, Turn};
-pub use loads::{BodyLoads, body_loads};
+pub use boundaries::{Boundaries, BoundaryNode};
+pub use constrain::{BodiesAt, BoundaryValues, impose_boundary_values};
+pub use error::{SolveError, coordinates};
+pub use joint_loads::{BodyStates, JointReport, joint_reports};
+pub use loads::{BodyLoads, ResidualOnMesh, body_loads};
 pub use problem::{
-    Drive, Kinks, MovingSurface, Problem, RigidBody, Side, Spring, TimeValue, VelocityProfile,
-    second_moment,
+    Arm, Drive, Group, Joint, MovingValue, Pivot, Problem, RateDiscontinuities, RigidBody, Side,
+    Spring, TimeValue, Turn, VelocityProfile, second_moments,
 };
-pub use surface_load::surface_load;
-pub use swimming::{Effort, Group, MeanMotion, effort, group_load, mean_motion};
-pub use system::{
-    FluidSystem, Levels, PivotLoad, Solution, SolveError, embed, flatten, memory_estimate,
+pub use projection::DivergenceFreeProjection;
+pub use propulsion::{
+    LoadedBodies, MeanMotion, PropulsionPower, group_load, mean_motion, propulsion_power,
 };
-
-pub(crate) use system::newton_convection;
+pub use rigid_equations::{
+    OlderMotion, PivotLoad, PosesByVelocity, RigidBodyEquation, RigidBodyEquations,
+};
+pub use shapes::{BodyShapes, MovingSurface, ShapeError};
+pub use solution::Solution;
+pub use surface_load::SurfaceStress;
+pub use system::{BodyLoad, Configuration, FluidSystem, memory_estimate};

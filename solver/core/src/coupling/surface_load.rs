@@ -1,73 +1,76 @@
 //! The load of the fluid on a boundary by integrating its stress: a cross-check of lower order.
 
-use alewife_mesh::{Mesh, Point};
+use alewife_mesh::{BoundaryId, Mesh, Point};
 use nalgebra::SMatrix;
 
+use super::boundaries::Boundaries;
 use crate::body::Wrench;
-use crate::flow::{Fields, for_each_facet_point};
-use crate::space::{Metric, interval_rule, p1_values, triangle_side_point};
+use crate::flow::Fields;
+use crate::space::{FacetRule, Metric};
 
-/// A boundary whose stress is integrated.
+/// A flow whose stress is integrated over boundaries.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Surface<'a> {
-    pub mesh: &'a Mesh<2>,
-    pub boundary: usize,
+pub struct SurfaceStress<'a, const D: usize> {
+    /// The mesh.
+    pub mesh: &'a Mesh<D>,
+    /// Its boundaries.
+    pub boundaries: &'a Boundaries,
+    /// Quadrature on facets.
+    pub rule: &'a FacetRule<D>,
+    /// Dynamic viscosity (Pa s).
     pub viscosity: f64,
-    pub metric: Metric,
+    /// Velocity and pressure.
+    pub fields: Fields<'a, D>,
 }
 
-impl Surface<'_> {
-    /// Visits the quadrature points of the boundary: place (m), - sigma n ds with n out of the fluid,
-    /// the force on the body (N), and velocity of the fluid (m/s).
-    pub fn for_each_force(
+/// The stress at one quadrature point of a boundary.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct SurfacePoint<const D: usize> {
+    /// Position (m).
+    pub position: Point<D>,
+    /// - sigma n ds with n out of the fluid: the force on the body (N).
+    pub force: Point<D>,
+    /// Velocity of the fluid (m/s).
+    pub velocity: Point<D>,
+}
+
+impl<const D: usize> SurfaceStress<'_, D> {
+    /// Visits the quadrature points of a boundary.
+    pub(super) fn for_each_point(
         &self,
-        fields: &Fields<'_, 2>,
-        mut visit: impl FnMut(&Point<2>, &Point<2>, &Point<2>),
+        boundary: BoundaryId,
+        mut visit: impl FnMut(&SurfacePoint<D>),
     ) {
-        let rule = interval_rule(4);
-        let mesh = self.mesh;
-        for facet in mesh.facets.iter().filter(|facet| usize::from(facet.boundary) == self.boundary)
-        {
-            let nodes = mesh.cell(facet.cell as usize);
-            for_each_facet_point(mesh, facet, &rule, self.metric, |at| {
-                let mut velocity = Point::<2>::zeros();
-                let mut gradient = SMatrix::<f64, 2, 2>::zeros();
+        let Self { mesh, fields, .. } = self;
+        for &facet in self.boundaries.facets_on(boundary) {
+            let facet = &mesh.facets[facet];
+            let nodes = mesh.cell(facet.cell);
+            self.rule.for_each_point(mesh, facet, |at| {
+                let mut velocity = Point::<D>::zeros();
+                let mut gradient = SMatrix::<f64, D, D>::zeros();
                 for (a, &node) in nodes.iter().enumerate() {
-                    let nodal = fields.velocity[node as usize];
+                    let nodal = fields.velocity[node];
                     velocity += nodal * at.phi[a];
                     gradient += nodal * at.grad_phi[a].transpose();
                 }
-                let psi = p1_values(&triangle_side_point(usize::from(facet.side), at.s));
-                let pressure: f64 = nodes
-                    .iter()
-                    .zip(&psi)
-                    .map(|(&node, psi)| fields.pressure[node as usize] * psi)
-                    .sum();
+                let pressure: f64 =
+                    nodes.iter().zip(at.psi).map(|(&node, psi)| fields.pressure[node] * psi).sum();
                 let traction = (gradient + gradient.transpose()) * at.normal_ds * self.viscosity
                     - at.normal_ds * pressure;
-                visit(&at.position, &-traction, &velocity);
+                visit(&SurfacePoint { position: at.position, force: -traction, velocity });
             });
         }
     }
-}
 
-/// Force and torque about `center` of the fluid on a boundary:
-/// F = - int sigma n ds with n out of the fluid.
-#[must_use]
-pub fn surface_load(
-    mesh: &Mesh<2>,
-    boundary: usize,
-    fields: &Fields<'_, 2>,
-    viscosity: f64,
-    metric: Metric,
-    center: Point<2>,
-) -> Wrench {
-    let mut load = Wrench::default();
-    let surface = Surface { mesh, boundary, viscosity, metric };
-    surface.for_each_force(fields, |place, force, _| {
-        let lever = place - center;
-        load.force += metric.total_force(force);
-        load.torque += metric.total_torque(&lever, force);
-    });
-    load
+    /// Force and torque about `center` of the fluid on a boundary:
+    /// F = - int sigma n ds with n out of the fluid.
+    #[must_use]
+    pub fn load(&self, boundary: BoundaryId, metric: Metric, center: &Point<D>) -> Wrench {
+        let mut load = Wrench::default();
+        self.for_each_point(boundary, |at| {
+            load.force += metric.total_force(&at.force);
+            load.torque += metric.total_torque(&(at.position - center), &at.force);
+        });
+        load
+    }
 }

@@ -2,202 +2,81 @@
 //!
 //! A step of Newton's method on R(x) = 0 with x = P y + g: solve P^T J P dy = -P^T R(x). On the
 //! rows of U and omega, P^T gathers minus the fluid's load, to which Newton and Euler add
-//! m dU/dt - F_ext and I domega/dt - T_ext: no interface stress, no multiplier, and no added-mass
+//! m dU/dt - F_ext and d(I omega)/dt - T_ext: no interface stress, no multiplier, and no added-mass
 //! instability at any density ratio.
 
-use alewife_mesh::{Mesh, Point};
+use alewife_mesh::Mesh;
 use nalgebra::DMatrix;
-use thiserror::Error;
 
-use super::constrain::{NodeSides, constrain};
-use super::drift::Drift;
-use super::link::{Link, Turn};
+use super::boundaries::Boundaries;
+use super::constrain::{BodiesAt, Constrainer};
+use super::error::SolveError;
+use super::loads::{BodyLoads, ResidualOnMesh, body_loads};
+use super::nullspace::TranslationNullspace;
 use super::problem::Problem;
+use super::rigid_equations::{RigidBodyEquations, rotations};
+use super::shapes::BodyShapes;
+use super::solution::Solution;
+use super::surface_load::SurfaceStress;
 use crate::algebra::{Accuracy, AffineConstraints, DirectSolver, LinearError, Pattern, Unknowns};
-use crate::body::{Pose, Twist};
-use crate::flow::{Assembly, Convection, Fields, FlowTerms, assemble, pressure_unknowns, residual};
-use crate::space::{CellValues, DofLayout, Tables};
+use crate::body::{Modes, Pose, RigidVector, Twist};
+use crate::flow::{Assembly, FlowTerms, assemble, pressure_unknowns, residual};
+use crate::space::{CellValues, DofLayout, FacetRule, Tables};
 use crate::timing::{Stage, Timing};
 
-/// Why a system could not be solved.
-#[derive(Debug, Error)]
-pub enum SolveError {
-    /// No inverse, or no accurate solution.
-    #[error("{0}")]
-    Singular(String),
-    /// A value of the solution is not a number.
-    #[error("the solution is not finite near ({}, {})", .place[0], .place[1])]
-    NotFinite {
-        /// Where (m).
-        place: Point<2>,
-    },
-}
-
-/// Values of all raw unknowns.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Solution {
-    /// Velocity at the nodes (m/s).
-    pub velocity: Vec<Point<2>>,
-    /// Pressure at the vertices (Pa).
-    pub pressure: Vec<f64>,
-    /// Rigid velocities of the bodies.
-    pub twists: Vec<Twist>,
-}
-
-impl Solution {
-    /// Everything at rest.
-    #[must_use]
-    pub fn at_rest(layout: &DofLayout<2>) -> Self {
-        Self {
-            velocity: vec![Point::<2>::zeros(); layout.n_nodes],
-            pressure: vec![0.0; layout.n_vertices],
-            twists: vec![Twist::default(); layout.n_bodies],
-        }
-    }
-
-    /// The fields among the unknowns.
-    #[must_use]
-    pub fn fields(&self) -> Fields<'_, 2> {
-        Fields { velocity: &self.velocity, pressure: &self.pressure }
-    }
-}
-
-/// A solution as one vector of raw unknowns.
-#[must_use]
-pub fn flatten(solution: &Solution) -> Vec<f64> {
-    let velocities = solution.velocity.iter().flat_map(|velocity| [velocity[0], velocity[1]]);
-    let rigid = solution.twists.iter().flat_map(Twist::in_plane);
-    velocities.chain(solution.pressure.iter().copied()).chain(rigid).collect()
-}
-
-/// A vector of raw unknowns as a solution.
-#[must_use]
-pub fn embed(layout: &DofLayout<2>, raw: &[f64]) -> Solution {
-    let mut solution = Solution::at_rest(layout);
-    for (node, velocity) in solution.velocity.iter_mut().enumerate() {
-        *velocity = Point::<2>::new(raw[layout.velocity(node, 0)], raw[layout.velocity(node, 1)]);
-    }
-    let pressures = layout.pressure(0)..layout.n_fluid();
-    solution.pressure.copy_from_slice(&raw[pressures]);
-    for (body, twist) in solution.twists.iter_mut().enumerate() {
-        *twist = Twist::planar([0, 1, 2].map(|mode| raw[layout.rigid(body, mode)]));
-    }
-    solution
-}
-
-/// What Newton's and Euler's equations of the bodies are at one time: with V one of U_x, U_y, omega,
-/// inertia * (rate * V + history) + resistance * V = fluid + external.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Levels {
-    /// Factor of the new value in its time derivative (1/s), 0 when steady.
-    pub rate: f64,
-    /// Older part of the time derivative for each body (m/s2, rad/s2); none when steady.
-    pub history: Vec<[f64; 3]>,
-    /// Load per velocity of each body (N s/m, N m s/rad); none without springs.
-    pub resistance: Vec<[f64; 3]>,
-    /// Load from outside on each body (N, N m).
-    pub external: Vec<[f64; 3]>,
-    /// Loads in free pivots.
-    pub pivots: Vec<PivotLoad>,
-    /// Moments of inertia, where bodies deform.
-    pub inertia: Vec<f64>,
-}
-
-impl Levels {
-    /// What resists the three velocities of a body.
-    fn inertia_of(&self, problem: &Problem, body: usize) -> [f64; 3] {
-        let rigid = &problem.bodies[body];
-        let turning = self.inertia.get(body).copied().unwrap_or(rigid.inertia);
-        [rigid.mass, rigid.mass, turning]
-    }
-}
-
-/// Torque torque - resistance (omega_child - omega_parent) on a child in its pivot, the opposite on
-/// its parent.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PivotLoad {
-    /// The body that hangs.
-    pub child: usize,
-    /// The body it hangs on.
-    pub parent: usize,
-    /// Torque per angular velocity (N m s).
-    pub resistance: f64,
-    /// Torque without the turning of this step (N m).
-    pub torque: f64,
-}
-
-impl Levels {
-    /// Bodies without acceleration where they are at the start, under the loads of a time.
-    #[must_use]
-    pub fn steady(problem: &Problem, time: f64) -> Self {
-        let places: Vec<[f64; 3]> = problem.bodies.iter().map(|body| body.start()).collect();
-        Self::default().with_loads(problem, time, &places, 0.0)
-    }
-
-    /// With loads and springs of a time, where a body gets to `unmoved` plus `coefficient` (s) times
-    /// its velocity.
-    #[must_use]
-    pub fn with_loads(
-        mut self,
-        problem: &Problem,
-        time: f64,
-        unmoved: &[[f64; 3]],
-        coefficient: f64,
-    ) -> Self {
-        self.external = problem.bodies.iter().map(|body| body.external(time)).collect();
-        for (child, rigid) in problem.bodies.iter().enumerate() {
-            let Some(Link { parent, turn: Turn::Free(pivot), .. }) = &rigid.link else { continue };
-            let bend = unmoved[child][2] - unmoved[*parent][2] - pivot.rest;
-            let motor = pivot.motor.as_ref().map_or(0.0, |motor| motor(time));
-            self.pivots.push(PivotLoad {
-                child,
-                parent: *parent,
-                resistance: pivot.damping + pivot.stiffness * coefficient,
-                torque: motor - pivot.stiffness * bend,
-            });
-        }
-        for (body, rigid) in problem.bodies.iter().enumerate() {
-            let Some(spring) = &rigid.spring else { continue };
-            self.resistance.resize(problem.bodies.len(), [0.0; 3]);
-            for mode in 0..3 {
-                let stiffness = spring.stiffness[mode];
-                self.resistance[body][mode] = spring.damping[mode] + stiffness * coefficient;
-                self.external[body][mode] -= stiffness * (unmoved[body][mode] - spring.rest[mode]);
-            }
-        }
-        self
-    }
+/// Everything that defines the system on one configuration of the mesh.
+#[derive(Debug)]
+pub struct Configuration<'a, const D: usize> {
+    /// What is solved.
+    pub problem: &'a Problem<D>,
+    /// The mesh.
+    pub mesh: &'a Mesh<D>,
+    /// Boundary conditions and bodies.
+    pub constraints: &'a AffineConstraints,
+    /// Newton's and Euler's equations.
+    pub bodies: &'a RigidBodyEquations,
 }
 
 /// Pattern, factorisation and workspace for the systems on one mesh.
-pub struct FluidSystem {
+pub struct FluidSystem<const D: usize> {
     /// Numbering of the raw unknowns.
-    pub layout: DofLayout<2>,
-    /// Boundaries of the nodes.
-    pub sides: NodeSides,
+    pub layout: DofLayout<D>,
+    /// Boundaries of the mesh.
+    pub boundaries: Boundaries,
     /// Number of free unknowns.
     pub n_unknowns: usize,
-    assembly: Assembly,
-    pattern: Pattern,
-    values: Vec<f64>,
-    solver: Option<DirectSolver>,
+    modes: Modes,
+    facet_rule: FacetRule<D>,
+    pub(super) assembly: Assembly<D>,
+    pub(super) pattern: Pattern,
+    pub(super) values: Vec<f64>,
+    pub(super) solver: Option<DirectSolver>,
     accuracy: Accuracy,
     /// What each unknown is.
-    unknowns: Unknowns,
-    /// int psi dx of each vertex, to spread a flux imbalance evenly.
+    pub(super) unknowns: Unknowns,
+    /// int psi dx of each vertex, to make given velocities compatible with incompressibility.
     pressure_weights: Vec<f64>,
     /// The common velocity of fluid and bodies, where nothing holds them.
-    drift: Option<Drift>,
+    nullspace: Option<TranslationNullspace<D>>,
 }
 
-impl FluidSystem {
+impl<const D: usize> FluidSystem<D> {
     /// Analyses a problem on a mesh. `unknown_frame` makes the frame's velocity an unknown of the
     /// convection.
     #[must_use]
-    pub fn new(problem: &Problem, mesh: &Mesh<2>, poses: &[Pose], unknown_frame: bool) -> Self {
-        let layout = DofLayout::new(mesh, problem.bodies.len());
-        let sides = NodeSides::new(mesh);
-        let constraints = constrain(problem, mesh, &layout, &sides, poses, 0.0);
+    pub fn new(
+        problem: &Problem<D>,
+        mesh: &Mesh<D>,
+        poses: &[Pose],
+        unknown_frame: bool,
+    ) -> Self {
+        let modes = problem.modes();
+        let layout = DofLayout::new(mesh, problem.bodies.len(), modes.len());
+        let boundaries = Boundaries::new(mesh);
+        // Which unknowns are constrained does not depend on how bodies deform
+        let shapes = BodyShapes::rigid(problem.bodies.len());
+        let constraints = Constrainer { problem, mesh, layout: &layout }
+            .constraints(&boundaries, BodiesAt { poses, shapes: &shapes });
         let frame = problem.frame.filter(|_| unknown_frame);
         let (pattern, assembly) = Assembly::new(
             mesh,
@@ -212,8 +91,10 @@ impl FluidSystem {
         let unknowns = unknowns(&layout, &constraints);
         Self {
             layout,
-            sides,
+            boundaries,
             n_unknowns: constraints.n_unknowns(),
+            modes,
+            facet_rule: FacetRule::new(problem.metric),
             assembly,
             pattern,
             values,
@@ -221,7 +102,7 @@ impl FluidSystem {
             accuracy: Accuracy::default(),
             unknowns,
             pressure_weights,
-            drift: Drift::new(problem, mesh),
+            nullspace: TranslationNullspace::new(problem, mesh),
         }
     }
 
@@ -231,7 +112,7 @@ impl FluidSystem {
         self.pattern.rows.len()
     }
 
-    /// What the linear solver is told of each free unknown.
+    /// What the linear solver is given of each free unknown.
     #[must_use]
     pub fn unknowns(&self) -> &Unknowns {
         &self.unknowns
@@ -243,61 +124,94 @@ impl FluidSystem {
         self.accuracy
     }
 
-    /// Constraints at a time.
+    /// Basis tables, for measurements.
+    #[must_use]
+    pub fn tables(&self) -> &Tables<D> {
+        self.assembly.tables()
+    }
+
+    /// The stress of a flow on the boundaries of the mesh.
+    #[must_use]
+    pub fn surface_stress<'a>(
+        &'a self,
+        problem: &Problem<D>,
+        mesh: &'a Mesh<D>,
+        solution: &'a Solution<D>,
+    ) -> SurfaceStress<'a, D> {
+        SurfaceStress {
+            mesh,
+            boundaries: &self.boundaries,
+            rule: &self.facet_rule,
+            viscosity: problem.viscosity,
+            fields: solution.fields(),
+        }
+    }
+
+    /// Loads of a flow on the bodies at these poses in the mesh, from the raw residual at it.
+    #[must_use]
+    pub fn body_loads(
+        &self,
+        problem: &Problem<D>,
+        mesh: &Mesh<D>,
+        poses: &[Pose],
+        solution: &Solution<D>,
+        residual: &[f64],
+    ) -> Vec<BodyLoads> {
+        let flow = ResidualOnMesh {
+            mesh,
+            layout: &self.layout,
+            boundaries: &self.boundaries,
+            velocity: &solution.velocity,
+            residual,
+        };
+        body_loads(problem, poses, &flow)
+    }
+
+    /// Constraints with bodies at these poses, at the time of their shapes.
     #[must_use]
     pub fn constraints(
         &self,
-        problem: &Problem,
-        mesh: &Mesh<2>,
-        poses: &[Pose],
-        time: f64,
+        problem: &Problem<D>,
+        mesh: &Mesh<D>,
+        bodies: BodiesAt<'_>,
     ) -> AffineConstraints {
-        constrain(problem, mesh, &self.layout, &self.sides, poses, time)
+        Constrainer { problem, mesh, layout: &self.layout }.constraints(&self.boundaries, bodies)
+    }
+
+    /// Takes note that the mesh has moved.
+    pub fn move_to(&mut self, problem: &Problem<D>, mesh: &Mesh<D>) {
+        if problem.is_enclosed() {
+            self.pressure_weights = pressure_weights(mesh, self.assembly.tables());
+        }
+        self.nullspace = TranslationNullspace::new(problem, mesh);
     }
 
     /// The raw residual of the fluid's equations at a solution.
     #[must_use]
     pub fn fluid_residual(
         &self,
-        mesh: &Mesh<2>,
-        terms: &FlowTerms<'_, 2>,
-        solution: &Solution,
+        mesh: &Mesh<D>,
+        terms: &FlowTerms<'_, D>,
+        solution: &Solution<D>,
     ) -> Vec<f64> {
         residual(&self.assembly, mesh, terms, &solution.fields())
     }
 
-    /// P^T R: the residual of fluid and bodies on the free unknowns.
+    /// P^T R: the residual of fluid and bodies on the free unknowns, from that of the fluid.
     #[must_use]
     pub fn reduced_residual(
         &self,
-        problem: &Problem,
-        constraints: &AffineConstraints,
-        levels: &Levels,
-        solution: &Solution,
-        mut raw: Vec<f64>,
+        at: &Configuration<'_, D>,
+        solution: &Solution<D>,
+        fluid: &[f64],
     ) -> Vec<f64> {
-        if problem.is_enclosed() {
-            let pressures = self.layout.pressure(0)..self.layout.n_fluid();
-            spread_flux(&mut raw[pressures], &self.pressure_weights);
+        let mut raw = fluid.to_vec();
+        if at.problem.is_enclosed() {
+            make_compatible(&mut raw[self.layout.pressures()], &self.pressure_weights);
         }
-        for body in 0..problem.bodies.len() {
-            let rates = solution.twists[body].in_plane();
-            let inertia = levels.inertia_of(problem, body);
-            for mode in 0..3 {
-                let of = |values: &[[f64; 3]]| values.get(body).map_or(0.0, |value| value[mode]);
-                raw[self.layout.rigid(body, mode)] += inertia[mode]
-                    * (levels.rate * rates[mode] + of(&levels.history))
-                    + of(&levels.resistance) * rates[mode]
-                    - of(&levels.external);
-            }
-        }
-        for pivot in &levels.pivots {
-            let rate = |body: usize| solution.twists[body].angular.z;
-            let torque = pivot.torque - pivot.resistance * (rate(pivot.child) - rate(pivot.parent));
-            raw[self.layout.rigid(pivot.child, 2)] -= torque;
-            raw[self.layout.rigid(pivot.parent, 2)] += torque;
-        }
-        constraints.restrict(&raw)
+        let row = |body: usize, position: usize| self.layout.rigid(body, position);
+        at.bodies.add_residual(&solution.twists, self.modes, row, &mut raw);
+        at.constraints.restrict(&raw)
     }
 
     /// One Newton step: assembles and factorises the Jacobian at `solution` and returns the next
@@ -305,59 +219,50 @@ impl FluidSystem {
     ///
     /// # Errors
     /// When the matrix is singular or the solution not finite.
-    #[expect(clippy::too_many_arguments, reason = "the step needs all that defines the system")]
     pub fn newton_step(
         &mut self,
-        problem: &Problem,
-        mesh: &Mesh<2>,
-        constraints: &AffineConstraints,
-        terms: &FlowTerms<'_, 2>,
-        levels: &Levels,
-        solution: &Solution,
+        at: &Configuration<'_, D>,
+        terms: &FlowTerms<'_, D>,
+        solution: &Solution<D>,
         reduced: &[f64],
         timing: &mut Timing,
-    ) -> Result<Solution, SolveError> {
+    ) -> Result<Solution<D>, SolveError> {
         timing.measure(Stage::Assembly, || {
-            let fields = solution.fields();
-            assemble(&self.assembly, mesh, constraints, terms, &fields, &mut self.values);
-            self.add_rigid_inertia(problem, constraints, levels);
+            let (fields, values) = (solution.fields(), &mut self.values);
+            assemble(&self.assembly, at.mesh, at.constraints, terms, &fields, values);
+            self.add_rigid_matrix(at);
         });
-        if let Some((axis, sum)) = self.drift.as_ref().and_then(|d| d.unbalanced(&levels.external))
-        {
-            return Err(SolveError::Singular(format!(
-                "the forces on the bodies sum up to {sum:.3e} along {}, where nothing holds fluid and \
-                 bodies; balance them, or hold a body or a side",
-                ["x", "y"][axis]
-            )));
+        if let Some(nullspace) = &self.nullspace {
+            nullspace.check_balance(at.bodies)?;
         }
-        let mut free = constraints.pick(&flatten(&self.pinned(solution)));
+        let mut free = at.constraints.pick(&self.pinned(solution).to_raw(self.modes));
         let mut step: Vec<f64> = reduced.iter().map(|value| -value).collect();
-        self.solve_linear(&free, &mut step, timing)
-            .map_err(|error| self.explain(problem, mesh, constraints, &error))?;
+        self.solve_linear(&free, &mut step, timing).map_err(|error| self.explain(at, error))?;
         for (value, correction) in free.iter_mut().zip(&step) {
             *value += correction;
         }
-        let raw = constraints.expand(&free);
-        if let Some(raw_index) = raw.iter().position(|value| !value.is_finite()) {
-            let node = (raw_index / 2).min(self.layout.n_nodes - 1);
-            return Err(SolveError::NotFinite { place: mesh.nodes[node] });
+        let raw = at.constraints.expand(&free);
+        if let Some(index) = raw.iter().position(|value| !value.is_finite()) {
+            let node = (index / D).min(self.layout.n_nodes - 1);
+            let near = at.mesh.nodes[node].as_slice().to_vec();
+            return Err(SolveError::NotFinite { near });
         }
-        Ok(self.centred(embed(&self.layout, &raw)))
+        Ok(self.centered(Solution::from_raw(&self.layout, self.modes, &raw)))
     }
 
     /// The solution seen from where the system holds fluid and bodies.
-    fn pinned(&self, solution: &Solution) -> Solution {
+    fn pinned(&self, solution: &Solution<D>) -> Solution<D> {
         let mut pinned = solution.clone();
-        if let Some(drift) = &self.drift {
-            drift.pin(&mut pinned);
+        if let Some(nullspace) = &self.nullspace {
+            nullspace.pin(&mut pinned);
         }
         pinned
     }
 
     /// The solution with the mean velocity that is asked for where nothing holds it.
-    fn centred(&self, mut solution: Solution) -> Solution {
-        if let Some(drift) = &self.drift {
-            drift.center(&mut solution);
+    fn centered(&self, mut solution: Solution<D>) -> Solution<D> {
+        if let Some(nullspace) = &self.nullspace {
+            nullspace.center(&mut solution);
         }
         solution
     }
@@ -382,88 +287,40 @@ impl FluidSystem {
         Ok(())
     }
 
-    /// What an error of the linear algebra means: which unknown, where, and what may be missing.
-    fn explain(
-        &self,
-        problem: &Problem,
-        mesh: &Mesh<2>,
-        constraints: &AffineConstraints,
-        error: &LinearError,
-    ) -> SolveError {
-        let LinearError::Singular(singular) = error else {
-            return SolveError::Singular(error.to_string());
-        };
-        let name = |unknown: usize| {
-            let raw =
-                (0..self.layout.n_raw()).find(|&raw| constraints.unknown(raw) == Some(unknown));
-            raw.map_or_else(|| format!("unknown {unknown}"), |raw| self.name(problem, mesh, raw))
-        };
-        let listed = |unknowns: &[usize]| {
-            let mut names: Vec<String> = unknowns.iter().take(3).map(|&one| name(one)).collect();
-            if unknowns.len() > names.len() {
-                names.push(format!("{} more", unknowns.len() - names.len()));
-            }
-            names.join(", ")
-        };
-        let advice = if singular.unknowns.iter().any(|one| self.unknowns.dense.contains(one)) {
-            "; nothing holds body and fluid: a wall, a given velocity or locked directions would"
-        } else {
-            ""
-        };
-        SolveError::Singular(format!(
-            "the equations do not determine {}; left without an unknown is the equation of {}{advice}",
-            listed(&singular.unknowns),
-            listed(&singular.equations)
-        ))
-    }
-
-    /// A raw unknown in words.
-    fn name(&self, problem: &Problem, mesh: &Mesh<2>, raw: usize) -> String {
-        let at =
-            |node: usize| format!("({:.4e}, {:.4e})", mesh.nodes[node][0], mesh.nodes[node][1]);
-        let first_pressure = self.layout.pressure(0);
-        if raw < first_pressure {
-            format!("the {} velocity at {}", problem.metric.axis_name(raw % 2), at(raw / 2))
-        } else if raw < self.layout.n_fluid() {
-            format!("the pressure at {}", at(raw - first_pressure))
-        } else {
-            let (body, mode) =
-                ((raw - self.layout.n_fluid()) / 3, (raw - self.layout.n_fluid()) % 3);
-            let what = if mode < 2 { problem.metric.axis_name(mode) } else { "angular" };
-            format!("the {what} velocity of body {:?}", problem.bodies[body].name)
-        }
-    }
-
-    fn add_rigid_inertia(
-        &mut self,
-        problem: &Problem,
-        constraints: &AffineConstraints,
-        levels: &Levels,
-    ) {
-        for body in 0..problem.bodies.len() {
-            let inertia = levels.inertia_of(problem, body);
-            for (mode, inertia) in inertia.into_iter().enumerate() {
-                let resistance = levels.resistance.get(body).map_or(0.0, |all| all[mode]);
-                let row = constraints.row(self.layout.rigid(body, mode));
-                self.add_square(row, inertia * levels.rate + resistance);
+    /// Adds what Newton's and Euler's equations have of the matrix.
+    fn add_rigid_matrix(&mut self, at: &Configuration<'_, D>) {
+        let layout = self.layout;
+        let row = |body: usize, position: usize| at.constraints.row(layout.rigid(body, position));
+        let modes = self.modes;
+        for (body, equation) in at.bodies.bodies.iter().enumerate() {
+            for (i, one) in modes.iter().enumerate() {
+                for (j, other) in modes.iter().enumerate() {
+                    let mut factor =
+                        equation.inertia[(one.index(), other.index())] * at.bodies.rate;
+                    if i == j {
+                        factor += equation.resistance[one];
+                    }
+                    self.add_product(row(body, i), row(body, j), factor);
+                }
             }
         }
-        for pivot in &levels.pivots {
-            let [child, parent] =
-                [pivot.child, pivot.parent].map(|body| constraints.row(self.layout.rigid(body, 2)));
-            let opposite = parent.iter().map(|(unknown, weight)| (*unknown, -weight));
-            let turn: Vec<(u32, f64)> = child.iter().copied().chain(opposite).collect();
-            self.add_square(&turn, pivot.resistance);
+        for pivot in &at.bodies.pivots {
+            for (position, _) in rotations(modes) {
+                let [child, parent] = [pivot.child, pivot.parent].map(|body| row(body, position));
+                let opposite = parent.iter().map(|(unknown, weight)| (*unknown, -weight));
+                let turn: Vec<(u32, f64)> = child.iter().copied().chain(opposite).collect();
+                self.add_product(&turn, &turn, pivot.resistance);
+            }
         }
     }
 
-    /// Adds factor * v v^T with the row vector v of some unknowns.
-    fn add_square(&mut self, row: &[(u32, f64)], factor: f64) {
+    /// Adds factor * v w^T with row vectors v and w of some unknowns.
+    fn add_product(&mut self, v: &[(u32, f64)], w: &[(u32, f64)], factor: f64) {
         if factor == 0.0 {
             return;
         }
-        for &(first, one) in row {
-            for &(second, other) in row {
+        for &(first, one) in v {
+            for &(second, other) in w {
                 let position = self.pattern.position(first as usize, second as usize);
                 if let Some(position) = position {
                     self.values[position] += one * other * factor;
@@ -472,27 +329,22 @@ impl FluidSystem {
         }
     }
 
-    /// Takes note that the mesh has moved.
-    pub fn move_to(&mut self, problem: &Problem, mesh: &Mesh<2>) {
-        if problem.is_enclosed() {
-            self.pressure_weights = pressure_weights(mesh, self.assembly.tables());
-        }
-        self.drift = Drift::new(problem, mesh);
-    }
-
-    /// A solution that meets the constraints, from values of all raw unknowns.
+    /// The solution with all free unknowns zero.
     #[must_use]
-    pub fn constrained(&self, constraints: &AffineConstraints, raw: &[f64]) -> Solution {
-        let mut solution = embed(&self.layout, raw);
-        if let Some(drift) = &self.drift {
-            drift.pin(&mut solution);
-        }
-        let free = constraints.pick(&flatten(&solution));
-        embed(&self.layout, &constraints.expand(&free))
+    pub fn at_rest(&self, constraints: &AffineConstraints) -> Solution<D> {
+        let raw = constraints.expand(&vec![0.0; constraints.n_unknowns()]);
+        Solution::from_raw(&self.layout, self.modes, &raw)
     }
 
-    /// Velocities (m/s, rad/s) of some bodies by unit force along x, along y and unit torque on each
-    /// of them, with the matrix last assembled: 3 n x 3 n, zero for motions that are given.
+    /// A solution that meets the constraints, from another one.
+    #[must_use]
+    pub fn constrained(&self, constraints: &AffineConstraints, from: &Solution<D>) -> Solution<D> {
+        let free = constraints.pick(&self.pinned(from).to_raw(self.modes));
+        Solution::from_raw(&self.layout, self.modes, &constraints.expand(&free))
+    }
+
+    /// Velocities (m/s, rad/s) of some bodies by unit loads in each of their rigid motions, with the
+    /// matrix last assembled: n m x n m for n bodies with m motions, zero for motions that are given.
     ///
     /// # Errors
     /// When the matrix is singular.
@@ -502,9 +354,11 @@ impl FluidSystem {
         bodies: &[usize],
         timing: &mut Timing,
     ) -> Result<DMatrix<f64>, SolveError> {
-        let modes = bodies.iter().flat_map(|&body| [0, 1, 2].map(|mode| (body, mode)));
+        let n_modes = self.modes.len();
+        let layout = self.layout;
+        let raw = bodies.iter().flat_map(|&body| (0..n_modes).map(move |mode| (body, mode)));
         let rows: Vec<&[(u32, f64)]> =
-            modes.map(|(body, mode)| constraints.row(self.layout.rigid(body, mode))).collect();
+            raw.map(|(body, mode)| constraints.row(layout.rigid(body, mode))).collect();
         let mut masters: Vec<usize> =
             rows.iter().flat_map(|row| row.iter().map(|(unknown, _)| *unknown as usize)).collect();
         masters.sort_unstable();
@@ -524,54 +378,50 @@ impl FluidSystem {
         Ok(&weights * inverse * weights.transpose())
     }
 
-    /// Adds to a solution what further loads (N, N, N m) on some bodies change, with the matrix last
+    /// Adds to a solution what further loads (N, N m) on some bodies change, with the matrix last
     /// assembled.
     ///
     /// # Errors
     /// When the matrix is singular.
-    pub fn respond(
+    pub fn apply_body_loads(
         &mut self,
         constraints: &AffineConstraints,
-        loads: &[(usize, [f64; 3])],
-        solution: &mut Solution,
+        loads: &[BodyLoad],
+        solution: &mut Solution<D>,
         timing: &mut Timing,
     ) -> Result<(), SolveError> {
         let mut change = vec![0.0; self.n_unknowns];
-        for &(body, load) in loads {
-            for (mode, load) in load.into_iter().enumerate() {
-                for (unknown, weight) in constraints.row(self.layout.rigid(body, mode)) {
-                    change[*unknown as usize] += weight * load;
+        for BodyLoad { body, load } in loads {
+            for (position, mode) in self.modes.iter().enumerate() {
+                for (unknown, weight) in constraints.row(self.layout.rigid(*body, position)) {
+                    change[*unknown as usize] += weight * load[mode];
                 }
             }
         }
         self.factorised(timing)?;
         let (pattern, values) = (&self.pattern, &self.values);
         if let Some(solver) = &mut self.solver {
-            timing
-                .measure(Stage::Solve, || solver.solve(pattern, values, &mut change))
-                .map_err(|error| SolveError::Singular(error.to_string()))?;
+            timing.measure(Stage::Solve, || solver.solve(pattern, values, &mut change))?;
         }
-        let mut free = constraints.pick(&flatten(&self.pinned(solution)));
+        let mut free = constraints.pick(&self.pinned(solution).to_raw(self.modes));
         free.iter_mut().zip(&change).for_each(|(value, change)| *value += change);
-        *solution = self.centred(embed(&self.layout, &constraints.expand(&free)));
+        let raw = constraints.expand(&free);
+        *solution = self.centered(Solution::from_raw(&self.layout, self.modes, &raw));
         Ok(())
     }
 
     /// The solver with factors of the matrix last assembled.
-    fn factorised(&mut self, timing: &mut Timing) -> Result<&mut DirectSolver, SolveError> {
+    fn factorised(&mut self, timing: &mut Timing) -> Result<&mut DirectSolver, LinearError> {
         let (pattern, values) = (&self.pattern, &self.values);
         timing.measure(Stage::Factorisation, || {
             let solver =
                 self.solver.get_or_insert_with(|| DirectSolver::analyse(pattern, &self.unknowns));
-            solver
-                .factorise(pattern, values)
-                .map(|()| solver)
-                .map_err(|error| SolveError::Singular(error.to_string()))
+            solver.factorise(pattern, values).map(|()| solver)
         })
     }
 
     /// Shifts the pressure of an enclosed flow to zero mean.
-    pub fn center_pressure(&self, problem: &Problem, solution: &mut Solution) {
+    pub fn center_pressure(&self, problem: &Problem<D>, solution: &mut Solution<D>) {
         if !problem.is_enclosed() {
             return;
         }
@@ -582,24 +432,30 @@ impl FluidSystem {
             *pressure -= mean;
         }
     }
+}
 
-    /// Basis tables, for measurements.
-    #[must_use]
-    pub fn tables(&self) -> &Tables<2> {
-        self.assembly.tables()
-    }
+/// A load on a body.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BodyLoad {
+    /// The body.
+    pub body: usize,
+    /// The load (N, N m).
+    pub load: RigidVector,
 }
 
 /// What the linear solver has to know of each free unknown.
-pub(super) fn unknowns(layout: &DofLayout<2>, constraints: &AffineConstraints) -> Unknowns {
+pub(super) fn unknowns<const D: usize>(
+    layout: &DofLayout<D>,
+    constraints: &AffineConstraints,
+) -> Unknowns {
     let is_pressure = pressure_unknowns(layout, constraints);
     let mut unknowns =
         Unknowns { node: vec![0; is_pressure.len()], is_pressure, dense: Vec::new() };
-    for node in 0..layout.n_nodes {
-        let velocities = (0..2).map(|axis| layout.velocity(node, axis));
-        let pressure = (node < layout.n_vertices).then(|| layout.pressure(node));
+    for node in layout.nodes() {
+        let velocities = (0..D).map(|axis| layout.velocity(node, axis));
+        let pressure = (node.index() < layout.n_vertices).then(|| layout.pressure(node));
         for unknown in velocities.chain(pressure).filter_map(|raw| constraints.unknown(raw)) {
-            unknowns.node[unknown] = node as u32;
+            unknowns.node[unknown] = u32::from(node);
         }
     }
     let rigid = layout.n_fluid()..layout.n_raw();
@@ -607,12 +463,12 @@ pub(super) fn unknowns(layout: &DofLayout<2>, constraints: &AffineConstraints) -
     unknowns
 }
 
-/// Takes their sum out of the residuals of the pressures, by the weights.
+/// Subtracts their sum from the residuals of the pressures, by the weights.
 ///
 /// Boundary values interpolated on curved sides may carry a tiny net flux, which an enclosed
-/// incompressible fluid cannot take: spread evenly it is not left to the one vertex whose pressure is
-/// fixed.
-pub(super) fn spread_flux(residuals: &mut [f64], weights: &[f64]) {
+/// incompressible fluid cannot take: distributed evenly it is not left to the one vertex whose pressure
+/// is fixed.
+pub(super) fn make_compatible(residuals: &mut [f64], weights: &[f64]) {
     let flux: f64 = residuals.iter().sum();
     let volume: f64 = weights.iter().sum();
     for (value, weight) in residuals.iter_mut().zip(weights) {
@@ -621,14 +477,14 @@ pub(super) fn spread_flux(residuals: &mut [f64], weights: &[f64]) {
 }
 
 /// int psi dx of each vertex.
-pub(super) fn pressure_weights(mesh: &Mesh<2>, tables: &Tables<2>) -> Vec<f64> {
+pub(super) fn pressure_weights<const D: usize>(mesh: &Mesh<D>, tables: &Tables<D>) -> Vec<f64> {
     let mut weights = vec![0.0; mesh.n_vertices];
     let mut workspace = CellValues::default();
-    for cell in 0..mesh.n_cells() {
+    for cell in mesh.cell_ids() {
         let nodes = mesh.cell(cell);
         workspace.for_each_point(tables, mesh, cell, |at| {
-            for (&vertex, psi) in nodes.iter().zip(at.psi) {
-                weights[vertex as usize] += psi * at.dx;
+            for (&vertex, psi) in boundaries.nodes().zip(at.psi) {
+                weights[vertex] += psi * at.dx;
             }
         });
     }
@@ -641,15 +497,4 @@ pub(super) fn pressure_weights(mesh: &Mesh<2>, tables: &Tables<2>) -> Vec<f64> {
 #[must_use]
 pub fn memory_estimate(n_dofs: usize) -> f64 {
     5e6 + 33e6 * (n_dofs as f64 / 1e4).powf(1.03)
-}
-
-/// How a convection acts when the frame's velocity may be an unknown.
-#[must_use]
-pub(crate) fn newton_convection(problem: &Problem) -> Convection {
-    let frame_is_unknown = problem.frame.is_some();
-    match (problem.has_convection, frame_is_unknown) {
-        (false, _) => Convection::None,
-        (true, false) => Convection::Newton,
-        (true, true) => Convection::NewtonInFrame,
-    }
 }

@@ -1,4 +1,4 @@
-//! What swimmers did over the last cycle: way, work, efficiency, and how much that still changes.
+//! What swimmers did over the last cycle: displacement, work, efficiency, and how much that still changes.
 
 use serde::{Deserialize, Serialize};
 
@@ -8,8 +8,8 @@ pub struct Record {
     /// Time (s).
     pub time: f64,
     /// Centre of mass and angle (m, m, rad).
-    pub place: [f64; 3],
-    /// Time integrals of the numbers of an effort (J; N s for thrust and drag).
+    pub position: [f64; 3],
+    /// Time integrals of the numbers of a [`PropulsionPower`] (J; N s for thrust and drag).
     pub work: [f64; 6],
     /// Time integral of the power where it is positive (J).
     pub positive_work: f64,
@@ -25,13 +25,13 @@ pub struct Cycles {
 /// Averages over a cycle; not a number before its end.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CycleMeans {
-    /// Way of the centre of mass (m) and turn (rad).
+    /// Displacement of the centre of mass (m) and angle turned (rad).
     pub displacement: [f64; 3],
     /// Its length over the period (m/s).
     pub speed: f64,
     /// Mean rate of work on the fluid (W).
     pub power: f64,
-    /// Work without what is won back in time, over the length of the way (J/m).
+    /// Positive work over the length of the displacement (J/m).
     pub cost_of_transport: f64,
     /// Mean of thrust times speed over itself and the mean power of the shape.
     pub efficiency: f64,
@@ -45,9 +45,9 @@ pub struct CycleMeans {
 const SAME: f64 = 1e-6;
 
 impl Cycles {
-    /// Takes note of a time and forgets what is more than two periods (s) old.
+    /// Adds a record and drops what is more than two periods (s) old.
     pub fn push(&mut self, record: Record, period: f64) {
-        // A step that is made again replaces the one before
+        // A step that is repeated replaces the one before
         self.records.retain(|known| known.time < record.time - SAME * period);
         self.records.push(record);
         let oldest = record.time - 2.0 * period * (1.0 + SAME);
@@ -79,7 +79,7 @@ impl Cycles {
         };
         Some(Record {
             time,
-            place: std::array::from_fn(|i| mix(&|record| record.place[i])),
+            position: std::array::from_fn(|i| mix(&|record| record.position[i])),
             work: std::array::from_fn(|i| mix(&|record| record.work[i])),
             positive_work: mix(&|record| record.positive_work),
         })
@@ -99,7 +99,7 @@ impl Cycles {
         };
         let Some(now) = self.records.last() else { return nothing };
         let Some(before) = self.at(now.time - period, period) else { return nothing };
-        let way = |to: &Record, from: &Record| [0, 1, 2].map(|i| to.place[i] - from.place[i]);
+        let way = |to: &Record, from: &Record| [0, 1, 2].map(|i| to.position[i] - from.position[i]);
         let displacement = way(now, &before);
         let length = displacement[0].hypot(displacement[1]);
         let mean = |nth: usize| (now.work[nth] - before.work[nth]) / period;
@@ -133,9 +133,9 @@ mod tests {
             let period = 2.0;
             for n in 0..40 {
                 let time = f64::from(n) * step;
-                let place = [0.3 * time, 0.4 * time, 0.1 * time * time];
+                let position = [0.3 * time, 0.4 * time, 0.1 * time * time];
                 let work = [2.0 * time, time, 0.0, 0.0, 0.0, 3.0 * time];
-                cycles.push(Record { time, place, work, positive_work: 2.5 * time }, period);
+                cycles.push(Record { time, position, work, positive_work: 2.5 * time }, period);
             }
             let now = 39.0 * step;
             let means = cycles.means(period, Some(4.0));

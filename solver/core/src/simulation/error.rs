@@ -1,22 +1,25 @@
 //! `RunError`: what stopped a run, at which step, for which body or cell.
 
-use alewife_mesh::Point;
+use alewife_mesh::MeshError;
 use thiserror::Error;
 
 use crate::contact::ContactError;
-use crate::coupling::SolveError;
+use super::resume::ResumeError;
+use super::scene::RemeshError;
+use crate::coupling::{ShapeError, SolveError, coordinates};
+use crate::motion::MotionError;
 
-/// Why a step was not made. A new mesh or a shorter step may help where it is not `Run`.
+/// Why a step was not made. Remeshing or a shorter step may help where it is not `Run`.
 #[derive(Debug, Error)]
 pub enum StepError {
     /// Neither would help.
     #[error(transparent)]
     Run(#[from] RunError),
     /// A cell is inverted, or nearly so, where the bodies go.
-    #[error("the mesh folds at ({:.6e}, {:.6e}): a cell has quality {quality:.2e}", .place[0], .place[1])]
-    Mesh {
+    #[error("the mesh degenerates at {}: a cell has quality {quality:.2e}", coordinates(.center))]
+    DegenerateCell {
         /// Centre of the cell (m).
-        place: Point<2>,
+        center: Vec<f64>,
         /// Its quality.
         quality: f64,
     },
@@ -25,18 +28,30 @@ pub enum StepError {
     Contact(#[from] ContactError),
     /// The step is too long for the accuracy asked for.
     #[error("the error of the step is {error:.2e}, and {tolerance:.2e} is accepted")]
-    Inexact {
+    LocalErrorTooLarge {
         /// Estimate of the error, relative to the velocities.
         error: f64,
         /// What is accepted.
         tolerance: f64,
     },
-    /// Places of bodies and flow do not come to agree.
+    /// Poses of bodies and flow do not come to agree.
     #[error("bodies are not where the flow was solved for after {passes} passes")]
-    Unsettled {
+    CouplingNotConverged {
         /// Passes made.
         passes: usize,
     },
+}
+
+impl From<ShapeError> for StepError {
+    fn from(error: ShapeError) -> Self {
+        Self::Run(error.into())
+    }
+}
+
+impl From<MotionError> for StepError {
+    fn from(error: MotionError) -> Self {
+        Self::Run(error.into())
+    }
 }
 
 /// Every way a run can stop before its end.
@@ -65,8 +80,9 @@ pub enum RunError {
     },
     /// A velocity or pressure is no longer a number.
     #[error(
-        "step {step} (t = {time}): the solution is not finite near {place:?}; \
-         lower time.unsteady.step or refine the mesh there"
+        "step {step} (t = {time}): the solution is not finite near {}; \
+         lower time.unsteady.step or refine the mesh there",
+        coordinates(.near)
     )]
     NotFinite {
         /// Step.
@@ -74,7 +90,7 @@ pub enum RunError {
         /// Time (s).
         time: f64,
         /// Where (m).
-        place: Point<2>,
+        near: Vec<f64>,
     },
     /// The linear system is singular.
     #[error("step {step} (t = {time}): the linear system cannot be solved: {reason}")]
@@ -105,9 +121,9 @@ pub enum RunError {
     /// No shorter step helps.
     #[error(
         "step {step} (t = {time}): {reason}, with steps down to {smallest:.3e}; \
-         the last state is in failure/: look at its flow there, and go on from it with --resume"
+         the last state is in failure/: look at its flow there, and resume from it with --resume"
     )]
-    Stuck {
+    StepSizeUnderflow {
         /// Step.
         step: usize,
         /// Time (s).
@@ -117,16 +133,20 @@ pub enum RunError {
         /// What went wrong in it.
         reason: String,
     },
-    /// The mesh could not be made anew.
-    #[error("step {step} (t = {time}): the mesh cannot be made anew: {reason}")]
+    /// Remeshing failed.
+    #[error("step {step} (t = {time}): remeshing failed: {reason}")]
     Remesh {
         /// Step.
         step: usize,
         /// Time (s).
         time: f64,
         /// Which body, and why.
-        reason: String,
+        #[source]
+        reason: Box<RemeshError>,
     },
+    /// A gait gives its body no shape at some time.
+    #[error(transparent)]
+    Shape(#[from] ShapeError),
     /// Contact cannot be solved for.
     #[error("step {step} (t = {time}): {reason}")]
     Contact {
@@ -137,9 +157,15 @@ pub enum RunError {
         /// Which bodies, and why.
         reason: Box<ContactError>,
     },
-    /// The mesh could not be made.
+    /// The mesh could not be generated.
     #[error("mesh: {0}")]
-    Mesh(String),
+    Mesh(#[from] MeshError),
+    /// The mesh could not be moved.
+    #[error("mesh: {0}")]
+    MeshMotion(#[from] MotionError),
+    /// A run cannot resume from a state.
+    #[error("cannot resume from this state: {0}")]
+    Resume(#[from] ResumeError),
     /// An observer could not write.
     #[error("output: {0}")]
     Output(#[from] std::io::Error),
@@ -154,12 +180,22 @@ pub enum RunError {
 }
 
 impl RunError {
+    /// A mesh that could not be set up at the start.
+    pub(super) fn from_remesh(error: RemeshError) -> Self {
+        match error {
+            RemeshError::Mesh(error) => Self::Mesh(error),
+            RemeshError::Motion(error) => Self::MeshMotion(error),
+            RemeshError::Shape(error) => Self::Shape(error),
+            error => Self::Unsupported(error.to_string()),
+        }
+    }
+
     /// The failure of a linear solve, at a step and time.
     #[must_use]
     pub fn from_solve(error: SolveError, step: usize, time: f64) -> Self {
         match error {
-            SolveError::Singular(reason) => Self::Singular { step, time, reason },
-            SolveError::NotFinite { place } => Self::NotFinite { step, time, place },
+            SolveError::NotFinite { near } => Self::NotFinite { step, time, near },
+            error => Self::Singular { step, time, reason: error.to_string() },
         }
     }
 }

@@ -1,185 +1,239 @@
-//! Explicit steps of the `stokes` model, where places of bodies are all that evolves.
+//! Explicit steps of the `stokes` model, where poses of bodies are all that evolves.
 //!
 //! dq/dt = V(q, t), one Stokes flow a stage, by the third-order method of @bogacki1989 with an error
 //! estimate of second order. Its last stage is the flow at the new time, and the first one of the
 //! next step.
 
-use super::Timing;
+use alewife_mesh::Point;
+
 use super::error::StepError;
-use super::march::{March, MeshPath, Past, StepResult};
-use super::state::{State, Swim, pose_at};
-use crate::body::Twist;
-use crate::contact::{ContactLoads, Place};
-use crate::coupling::{BodyLoads, Effort, FluidSystem, Levels, Solution, flatten};
-use crate::time::Bdf;
+use super::history::{INSIDE, StepHistory};
+use super::pass::{Pass, PassEquations, Placement};
+use super::propulsion_history::{PowerShare, PropulsionStep};
+use super::state::{NewLevel, State};
+use super::step::{StepReport, TimeStepper, Workspace};
+use crate::body::{Pose, RigidVector, Twist};
+use crate::contact::ContactLoads;
+use crate::coupling::{BodyLoads, PropulsionPower, Solution};
 
-/// Part of a step by which rates at its ends are asked inside it: those that jump there have two.
-pub(super) const INSIDE: f64 = 1e-9;
+/// A stage after the first.
+struct Stage {
+    /// Its time as a part of the step.
+    part: f64,
+    /// Weights of the stages before in its poses.
+    weights: &'static [f64],
+}
 
-/// Weights of the stages before in the place of a stage.
-const STAGES: [(f64, &[f64]); 3] =
-    [(0.5, &[0.5]), (0.75, &[0.0, 0.75]), (1.0, &[2.0 / 9.0, 1.0 / 3.0, 4.0 / 9.0])];
-/// Weights of the stages in the error of the new places.
+const STAGES: [Stage; 3] = [
+    Stage { part: 0.5, weights: &[0.5] },
+    Stage { part: 0.75, weights: &[0.0, 0.75] },
+    Stage { part: 1.0, weights: &[2.0 / 9.0, 1.0 / 3.0, 4.0 / 9.0] },
+];
+/// Weights of the stages in the error of the new poses.
 const ERROR: [f64; 4] = [-5.0 / 72.0, 1.0 / 12.0, 1.0 / 9.0, -1.0 / 8.0];
 
-/// A flow that belongs to bodies at their places.
+/// When a flow is instantaneous.
+#[derive(Debug, Clone, Copy)]
 struct Instant {
-    solution: Solution,
+    /// Time of the shapes (s).
+    time: f64,
+    /// Time at which rates of gaits and boundary values are taken (s).
+    rates_at: f64,
+}
+
+/// A flow that belongs to bodies at their poses.
+struct InstantaneousFlow<const D: usize> {
+    solution: Solution<D>,
     loads: Vec<BodyLoads>,
-    efforts: Vec<Effort>,
-    nodes: Vec<alewife_mesh::Point<2>>,
+    powers: Vec<PropulsionPower>,
+    nodes: Vec<Point<D>>,
     iterations: usize,
 }
 
-impl March<'_> {
-    /// Advances `state` by `step` (s). `is_kink` says that rates jump at its beginning. On error the
-    /// state is where it was.
+/// What the stages of a step have given so far.
+struct Stages<const D: usize> {
+    /// Velocities of the bodies, by stage.
+    rates: Vec<Vec<RigidVector>>,
+    /// Powers of the groups, by stage.
+    powers: Vec<Vec<PropulsionPower>>,
+    /// Flow of the last stage, from which the next one starts.
+    last: Solution<D>,
+    iterations: usize,
+}
+
+impl<const D: usize> Stages<D> {
+    fn push(&mut self, flow: &InstantaneousFlow<D>) {
+        self.rates.push(rates_of(&flow.solution));
+        self.powers.push(flow.powers.clone());
+        self.last = flow.solution.clone();
+        self.iterations += flow.iterations;
+    }
+}
+
+fn rates_of<const D: usize>(solution: &Solution<D>) -> Vec<RigidVector> {
+    solution.twists.iter().map(Twist::to_vector).collect()
+}
+
+impl<const D: usize> TimeStepper<'_, D> {
+    /// The level a step of a size (s) leads to from a state. `rates_jump` says that rates jump at its
+    /// beginning.
     ///
     /// # Errors
-    /// When the system is singular, the solution not finite, or the mesh folds.
-    pub fn advance_explicit(
+    /// When the system is singular, the solution not finite, a gait fails, or the mesh degenerates.
+    pub fn advance_explicitly(
         &self,
-        system: &mut FluidSystem,
-        state: &mut State,
-        step: f64,
-        is_kink: bool,
-        timing: &mut Timing,
-    ) -> Result<StepResult, StepError> {
-        let result = self.explicit_step(system, state, step, is_kink, timing);
-        if result.is_err() {
-            self.put_back(state);
+        work: &mut Workspace<D>,
+        state: &State<D>,
+        size: f64,
+        rates_jump: bool,
+    ) -> Result<(NewLevel<D>, StepReport), StepError> {
+        let mut stages = self.first_stage(work, state, size, rates_jump)?;
+        let [first, second, third] = STAGES;
+        for stage in [first, second] {
+            let (flow, _) = self.stage(work, state, size, &stages, &stage)?;
+            stages.push(&flow);
         }
-        result
+        let (flow, poses) = self.stage(work, state, size, &stages, &third)?;
+        stages.push(&flow);
+        let report = StepReport {
+            loads: flow.loads.clone(),
+            iterations: stages.iterations,
+            error: self.explicit_error(&stages.rates),
+        };
+        Ok((self.explicit_level(state, size, flow, poses, &stages.powers)?, report))
     }
 
-    fn explicit_step(
+    /// The flow at the beginning, which is that of the state unless rates jump.
+    fn first_stage(
         &self,
-        system: &mut FluidSystem,
-        state: &mut State,
-        step: f64,
-        is_kink: bool,
-        timing: &mut Timing,
-    ) -> Result<StepResult, StepError> {
-        let (start, from) = (state.time, state.places.clone());
-        let mut iterations = 0;
-        let (first, effort) = if is_kink {
-            let (time, now) = (start + INSIDE * step, state.now.clone());
-            let instant = self.instant(system, state, &from, (start, time), &now, timing)?;
-            iterations += instant.iterations;
-            (instant.solution, instant.efforts)
+        work: &mut Workspace<D>,
+        state: &State<D>,
+        size: f64,
+        rates_jump: bool,
+    ) -> Result<Stages<D>, StepError> {
+        let mut stages = Stages {
+            rates: Vec::new(),
+            powers: Vec::new(),
+            last: state.now.clone(),
+            iterations: 0,
+        };
+        if rates_jump {
+            let at = Instant { time: state.time, rates_at: state.time + INSIDE * size };
+            let flow = self.flow_at(work, state, &state.poses, at, &state.now)?;
+            stages.push(&flow);
         } else {
-            (state.now.clone(), state.swims.iter().map(Swim::effort).collect())
-        };
-        let mut rates = vec![in_plane(&first)];
-        let mut efforts = vec![effort];
-        let mut last = None;
-        let mut begin = first;
-        for (part, weights) in STAGES {
-            let time = start + part * step;
-            let asked = if part < 1.0 { time } else { time - INSIDE * step };
-            let places = self.stage_places(&from, &rates, weights, step, time);
-            let instant = self.instant(system, state, &places, (time, asked), &begin, timing)?;
-            iterations += instant.iterations;
-            rates.push(in_plane(&instant.solution));
-            efforts.push(instant.efforts.clone());
-            begin = instant.solution.clone();
-            last = Some((instant, places));
+            stages.rates.push(rates_of(&state.now));
+            stages.powers.push(state.propulsion.iter().map(|history| history.power()).collect());
         }
-        let Some((instant, places)) = last else {
-            return Err(StepError::Unsettled { passes: 0 });
-        };
-        let error = self.explicit_error(&rates);
-        let Instant { solution, loads, nodes, .. } = instant;
-        for (group, swim) in state.swims.iter_mut().enumerate() {
-            let stages = efforts.iter().zip(STAGES[2].1);
-            let shares: Vec<_> = stages.map(|(stage, share)| (stage[group], *share)).collect();
-            swim.go_on(step, &shares, &efforts[3][group]);
-        }
-        let mut contact = ContactLoads::none(places.len());
-        if let Some(surfaces) = self.surfaces(start + step) {
-            contact.least_gap = surfaces.least_gap(&self.in_frame(state, &places));
-        }
-        state.contact = contact;
-        for (body, twist) in solution.twists.iter().enumerate() {
-            let (new, old) = (twist.in_plane(), state.now.twists[body].in_plane());
-            state.accelerations[body] = Twist::planar([0, 1, 2].map(|i| (new[i] - old[i]) / step));
-        }
-        self.move_on(state, start + step, step, solution, places, nodes);
-        Ok(StepResult { loads, iterations, error })
+        Ok(stages)
     }
 
-    /// Places of a stage; bodies that hang on others follow them exactly.
-    fn stage_places(
+    fn stage(
         &self,
-        from: &[Place],
-        rates: &[Vec<[f64; 3]>],
-        weights: &[f64],
-        step: f64,
-        time: f64,
-    ) -> Vec<Place> {
-        let mut places = from.to_vec();
-        for (body, place) in places.iter_mut().enumerate() {
-            for (mode, value) in place.iter_mut().enumerate() {
-                if self.moves(body, mode) {
-                    let pairs = rates.iter().zip(weights);
-                    *value +=
-                        step * pairs.map(|(rate, weight)| weight * rate[body][mode]).sum::<f64>();
-                }
-            }
-        }
-        self.problem.hang(&mut places, time);
-        places
+        work: &mut Workspace<D>,
+        state: &State<D>,
+        size: f64,
+        stages: &Stages<D>,
+        stage: &Stage,
+    ) -> Result<(InstantaneousFlow<D>, Vec<Pose>), StepError> {
+        let time = state.time + stage.part * size;
+        let rates_at = if stage.part < 1.0 { time } else { time - INSIDE * size };
+        let poses = self.stage_poses(state, &stages.rates, stage, size);
+        let flow = self.flow_at(work, state, &poses, Instant { time, rates_at }, &stages.last)?;
+        Ok((flow, poses))
     }
 
-    /// Solves for the flow of bodies at places at a time, with rates of gaits asked at another one.
-    fn instant(
+    /// Poses of a stage; bodies that hang on others follow them exactly.
+    fn stage_poses(
         &self,
-        system: &mut FluidSystem,
-        state: &mut State,
-        places: &[Place],
-        (time, asked): (f64, f64),
-        begin: &Solution,
-        timing: &mut Timing,
-    ) -> Result<Instant, StepError> {
-        let nodes = self.put(state, places, time, timing)?;
-        if !matches!(self.path, MeshPath::Still) {
-            system.move_to(self.problem, &state.mesh);
-        }
-        let poses: Vec<_> = state.wrapped(places).iter().map(pose_at).collect();
-        let constraints = system.constraints(self.problem, &state.mesh, &poses, asked);
-        let levels = Levels::default().with_loads(self.problem, asked, places, 0.0);
-        let past = Past::without_memory(time, levels);
-        let begin = system.constrained(&constraints, &flatten(begin));
-        // Without density its coefficients multiply nothing.
-        let bdf = Bdf::first_order(1.0);
-        let mut flow = self.solve(system, state, &bdf, &past, &constraints, &[], begin, timing)?;
-        let (loads, efforts) =
-            self.conclude(system, state, &bdf, &past, &[], places, &mut flow, timing);
-        let (solution, iterations) = (flow.solution, flow.iterations);
-        Ok(Instant { solution, loads, efforts, nodes, iterations })
+        state: &State<D>,
+        rates: &[Vec<RigidVector>],
+        stage: &Stage,
+        size: f64,
+    ) -> Vec<Pose> {
+        let pose = |(body, from): (usize, &Pose)| {
+            let weighted = rates.iter().zip(stage.weights).map(|(rate, weight)| rate[body] * *weight);
+            let displacement = weighted.fold(RigidVector::zeros(), |sum, part| sum + part) * size;
+            from.displaced(&self.restricted(body, &displacement))
+        };
+        let mut poses: Vec<Pose> = state.poses.iter().enumerate().map(pose).collect();
+        self.problem.apply_joints(&mut poses, state.time + stage.part * size);
+        poses
     }
 
-    /// Error of the new places over the way of a step, at most.
-    fn explicit_error(&self, rates: &[Vec<[f64; 3]>]) -> f64 {
-        let reach = |body: usize| match self.path {
-            MeshPath::Bodies(follower) => follower.surfaces().reach(body),
-            _ => 0.0,
-        };
+    /// The flow of bodies at poses at an instant, from a first guess.
+    fn flow_at(
+        &self,
+        work: &mut Workspace<D>,
+        state: &State<D>,
+        poses: &[Pose],
+        at: Instant,
+        guess: &Solution<D>,
+    ) -> Result<InstantaneousFlow<D>, StepError> {
+        let history = StepHistory::instantaneous(self.problem, poses, at.time, at.rates_at)?;
+        let nodes = self.path.move_mesh(work, self.problem, state, poses, &history.shapes)?;
+        let placement = Placement { nodes: nodes.clone(), poses: poses.to_vec() };
+        let pass = Pass::new(self, work, state, &history, placement);
+        let equations = PassEquations::new(self, &history, &pass);
+        let mut flow = self.solve(work, &equations, guess.clone())?;
+        let loads = self.loads(work, state, &equations, &mut flow);
+        Ok(InstantaneousFlow {
+            solution: flow.solution,
+            loads: loads.bodies,
+            powers: loads.propulsion,
+            nodes,
+            iterations: flow.iterations,
+        })
+    }
+
+    fn explicit_level(
+        &self,
+        state: &State<D>,
+        size: f64,
+        flow: InstantaneousFlow<D>,
+        poses: Vec<Pose>,
+        powers: &[Vec<PropulsionPower>],
+    ) -> Result<NewLevel<D>, StepError> {
+        let time = state.time + size;
+        let mut contact = ContactLoads::none(poses.len());
+        if let Some(gaps) = self.path.gaps_at_time(&self.problem.bodies, time)? {
+            contact.minimum_gap = gaps.minimum_gap(&state.in_own_frame(self.problem, &poses));
+        }
+        let twists = flow.solution.twists.iter().zip(&state.now.twists);
+        let accelerations = twists.map(|(new, old)| {
+            Twist::from_vector(&((new.to_vector() - old.to_vector()) / size))
+        });
+        let propulsion = (0..state.propulsion.len()).map(|group| {
+            let stages = powers.iter().zip(STAGES[2].weights);
+            let shares =
+                stages.map(|(stage, share)| PowerShare { power: stage[group], share: *share });
+            PropulsionStep { shares: shares.collect(), end: powers[STAGES.len()][group] }
+        });
+        Ok(NewLevel {
+            time,
+            step: size,
+            accelerations: accelerations.collect(),
+            propulsion: propulsion.collect(),
+            solution: flow.solution,
+            nodes: flow.nodes,
+            rates: None,
+            poses,
+            contact,
+        })
+    }
+
+    /// Error of the new poses over the largest velocity of a step, at most.
+    fn explicit_error(&self, rates: &[Vec<RigidVector>]) -> f64 {
         let (mut error, mut scale) = (0.0f64, 0.0f64);
         for body in 0..self.problem.bodies.len() {
-            for mode in 0..3 {
-                let length = if mode == 2 { reach(body) } else { 1.0 };
-                let pairs = rates.iter().zip(ERROR);
-                let off: f64 = pairs.map(|(rate, weight)| weight * rate[body][mode]).sum();
-                error = error.max(length * off.abs());
+            for mode in self.problem.modes().iter() {
+                let length = self.path.length_of(body, mode);
+                let weighted = rates.iter().zip(ERROR).map(|(rate, weight)| weight * rate[body][mode]);
+                error = error.max(length * weighted.sum::<f64>().abs());
                 scale =
                     rates.iter().map(|rate| length * rate[body][mode].abs()).fold(scale, f64::max);
             }
         }
         if scale > 0.0 { error / scale } else { 0.0 }
     }
-}
-
-fn in_plane(solution: &Solution) -> Vec<[f64; 3]> {
-    solution.twists.iter().map(Twist::in_plane).collect()
 }

@@ -61,7 +61,7 @@ pub struct Snapshot<'a, const D: usize> {
 /// The last fields of a run that failed: of the last accepted step, or the last iterate of a
 /// steady solution that was not found.
 #[derive(Debug, Clone, Copy)]
-pub struct Remains<'a, const D: usize> {
+pub struct LastState<'a, const D: usize> {
     /// Time (s).
     pub time: f64,
     /// The mesh.
@@ -70,7 +70,7 @@ pub struct Remains<'a, const D: usize> {
     pub velocity: &'a [Point<D>],
     /// Pressure at the vertices (Pa).
     pub pressure: &'a [f64],
-    /// All that evolves, for a run that goes on; none of a steady solution.
+    /// All that evolves, for a run that resumes; none of a steady solution.
     pub saved: Option<&'a SavedState>,
 }
 
@@ -103,7 +103,7 @@ pub trait Observer<const D: usize> {
     fn on_failure(
         &mut self,
         _error: &RunError,
-        _remains: Option<&Remains<'_, D>>,
+        _last: Option<&LastState<'_, D>>,
     ) -> std::io::Result<()> {
         Ok(())
     }

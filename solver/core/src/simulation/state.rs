@@ -1,120 +1,116 @@
 //! `State`: what evolves: mesh, fields, bodies, at the present level and the one before.
 
 use alewife_mesh::{Mesh, Point};
-use serde::{Deserialize, Serialize};
+use nalgebra::Vector3;
 
-use super::cycles::{Cycles, Record};
-use crate::body::{Pose, Twist};
-use crate::contact::{ContactLoads, Place};
-use crate::coupling::{BodyLoads, Effort, Problem, Solution, effort};
+use super::energy::EnergyBalance;
+use super::propulsion_history::{PropulsionHistory, PropulsionStep};
+use crate::body::{Pose, Twist, on_mesh};
+use crate::contact::ContactLoads;
+use crate::coupling::{
+    BodyLoads, LoadedBodies, Problem, PropulsionPower, Solution, SurfaceStress, propulsion_power,
+};
 use crate::space::DofLayout;
 
 /// Everything that evolves.
 #[derive(Debug, Clone)]
-pub struct State {
+pub struct State<const D: usize> {
     /// Number of steps made.
     pub step: usize,
     /// Time (s).
     pub time: f64,
-    /// The last step (s), zero before the first.
+    /// The last step (s), zero before the first and where rates jump.
     pub last_step: f64,
-    /// The mesh now, in the laboratory.
-    pub mesh: Mesh<2>,
-    /// Where the frame of reference is now (m).
-    pub origin: Point<2>,
-    /// Places of the nodes now, seen from the frame (m).
-    pub nodes: Vec<Point<2>>,
-    /// Places of the same nodes one step before, seen from the frame (m).
-    pub nodes_before: Vec<Point<2>>,
-    /// Fields and twists now.
-    pub now: Solution,
-    /// Fields and twists one step before.
-    pub previous: Solution,
-    /// Places of the bodies now, in the laboratory; angles are counted through turns.
-    pub places: Vec<Place>,
-    /// Places of the bodies one step before.
-    pub previous_places: Vec<Place>,
-    /// What is added to the place of a body for where it is in the mesh (m): whole periods.
-    pub wraps: Vec<Point<2>>,
+    /// The step proposed by the step-size control (s), none before the first or with fixed steps.
+    pub proposed_step: Option<f64>,
+    /// Sizes (s) of the pieces of the first step that are still to be made, the next one last.
+    pub start_pieces: Vec<f64>,
+    /// Meshes generated since the first.
+    pub remeshes: usize,
+    /// The mesh at present, in the laboratory.
+    pub mesh: Mesh<D>,
+    /// Where the frame of reference is at present (m).
+    pub origin: Vector3<f64>,
+    /// Positions of the nodes at present, seen from the frame (m).
+    pub nodes: Vec<Point<D>>,
+    /// Positions of the same nodes one step before, seen from the frame (m).
+    pub nodes_before: Vec<Point<D>>,
+    /// Fields and rigid velocities at present.
+    pub now: Solution<D>,
+    /// Fields and rigid velocities one step before.
+    pub previous: Solution<D>,
+    /// Poses of the bodies at present, in the laboratory.
+    pub poses: Vec<Pose>,
+    /// Poses of the bodies one step before.
+    pub previous_poses: Vec<Pose>,
+    /// What is added to the centre of a body for where it is in the mesh (m): whole periods.
+    pub image_shifts: Vec<Vector3<f64>>,
     /// Rates of change of the velocities at the nodes (m/s2).
-    pub rates: Vec<Point<2>>,
-    /// Rates of change of the twists (m/s2, rad/s2).
+    pub rates: Vec<Point<D>>,
+    /// Rates of change of the rigid velocities (m/s2, rad/s2).
     pub accelerations: Vec<Twist>,
-    /// The largest velocity so far (m/s).
+    /// The largest speed so far (m/s).
     pub top_speed: f64,
-    /// Loads of contact.
+    /// Loads of contact, and the smallest gap.
     pub contact: ContactLoads,
-    /// What each group of bodies does and did.
-    pub swims: Vec<Swim>,
+    /// What each group of bodies does and has done.
+    pub propulsion: Vec<PropulsionHistory>,
+    /// Where the work of the bodies went so far.
+    pub energy: EnergyBalance,
 }
 
-/// What a group of bodies does and did.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-pub struct Swim {
-    /// Numbers of its present effort.
-    effort: [f64; 6],
-    /// Their time integrals since the start.
-    work: [f64; 6],
-    /// Time integral of the power where it is positive (J).
-    positive_work: f64,
-    /// The last two cycles.
-    pub cycles: Cycles,
+/// The level a step leads to.
+#[derive(Debug, Clone)]
+pub struct NewLevel<const D: usize> {
+    /// Time (s).
+    pub time: f64,
+    /// Size of the step (s).
+    pub step: f64,
+    /// Fields and rigid velocities.
+    pub solution: Solution<D>,
+    /// Poses of the bodies, in the laboratory.
+    pub poses: Vec<Pose>,
+    /// Positions of the nodes, seen from the frame (m).
+    pub nodes: Vec<Point<D>>,
+    /// Rates of change of the velocities at the nodes (m/s2); `None` leaves those before.
+    pub rates: Option<Vec<Point<D>>>,
+    /// Rates of change of the rigid velocities (m/s2, rad/s2).
+    pub accelerations: Vec<Twist>,
+    /// Loads of contact, and the smallest gap.
+    pub contact: ContactLoads,
+    /// What each group of bodies did in the step.
+    pub propulsion: Vec<PropulsionStep>,
 }
 
-impl Swim {
-    /// What it does now.
-    #[must_use]
-    pub fn effort(&self) -> Effort {
-        Effort::of(self.effort)
-    }
-
-    /// Takes note of an effort without a step.
-    pub fn start(&mut self, effort: &Effort) {
-        self.effort = effort.numbers();
-    }
-
-    /// Takes note of a step (s) with the efforts at some times in it, each with its share, and the
-    /// effort at its end.
-    pub fn go_on(&mut self, step: f64, shares: &[(Effort, f64)], end: &Effort) {
-        for (effort, share) in shares {
-            let numbers = effort.numbers();
-            self.work.iter_mut().zip(numbers).for_each(|(sum, value)| *sum += step * share * value);
-            self.positive_work += step * share * effort.power.max(0.0);
-        }
-        self.effort = end.numbers();
-    }
-
-    /// The record of a time and place.
-    #[must_use]
-    pub fn record(&self, time: f64, place: [f64; 3]) -> Record {
-        Record { time, place, work: self.work, positive_work: self.positive_work }
-    }
-}
-
-impl State {
+impl<const D: usize> State<D> {
     /// Everything at rest at time zero.
     #[must_use]
-    pub fn at_rest(problem: &Problem, mesh: Mesh<2>) -> Self {
-        let layout = DofLayout::new(&mesh, problem.bodies.len());
-        let at_rest = Solution::at_rest(&layout);
-        let places: Vec<Place> = problem.bodies.iter().map(|body| place_of(&body.pose)).collect();
+    pub fn at_rest(problem: &Problem<D>, mesh: Mesh<D>) -> Self {
+        let n_bodies = problem.bodies.len();
+        let at_rest =
+            Solution::at_rest(&DofLayout::new(&mesh, n_bodies, problem.modes().len()));
+        let poses: Vec<Pose> = problem.bodies.iter().map(|body| body.pose).collect();
         Self {
             step: 0,
             time: 0.0,
             last_step: 0.0,
-            origin: Point::<2>::zeros(),
+            proposed_step: None,
+            start_pieces: Vec::new(),
+            remeshes: 0,
+            origin: Vector3::zeros(),
             nodes: mesh.nodes.clone(),
             nodes_before: mesh.nodes.clone(),
             now: at_rest.clone(),
             previous: at_rest,
-            previous_places: places.clone(),
-            wraps: vec![Point::<2>::zeros(); places.len()],
-            rates: vec![Point::<2>::zeros(); mesh.n_nodes()],
-            accelerations: vec![Twist::default(); places.len()],
+            previous_poses: poses.clone(),
+            image_shifts: vec![Vector3::zeros(); n_bodies],
+            rates: vec![Point::<D>::zeros(); mesh.n_nodes()],
+            accelerations: vec![Twist::default(); n_bodies],
             top_speed: 0.0,
-            contact: ContactLoads::none(places.len()),
-            swims: vec![Swim::default(); problem.groups.len()],
-            places,
+            contact: ContactLoads::none(n_bodies),
+            propulsion: vec![PropulsionHistory::default(); problem.groups.len()],
+            energy: EnergyBalance::default(),
+            poses,
             mesh,
         }
     }
@@ -125,76 +121,102 @@ impl State {
         self.time - self.last_step
     }
 
-    /// Poses of the bodies now, in the laboratory.
-    #[must_use]
-    pub fn poses(&self) -> Vec<Pose> {
-        self.places.iter().map(pose_at).collect()
+    /// The one place where a state moves on in time.
+    pub fn accept(&mut self, problem: &Problem<D>, level: NewLevel<D>) {
+        self.top_speed = self.top_speed.max(level.solution.top_speed());
+        self.origin = self.origin_at(problem, &level.poses);
+        let origin = on_mesh::<D>(&self.origin);
+        for (node, seen) in self.mesh.nodes.iter_mut().zip(&level.nodes) {
+            *node = seen + origin;
+        }
+        for (history, step) in self.propulsion.iter_mut().zip(&level.propulsion) {
+            history.add_step(level.step, step);
+        }
+        self.nodes_before = std::mem::replace(&mut self.nodes, level.nodes);
+        self.previous_poses = std::mem::replace(&mut self.poses, level.poses);
+        self.previous = std::mem::replace(&mut self.now, level.solution);
+        if let Some(rates) = level.rates {
+            self.rates = rates;
+        }
+        (self.accelerations, self.contact) = (level.accelerations, level.contact);
+        self.step += 1;
+        (self.time, self.last_step) = (level.time, level.step);
     }
 
-    /// Poses of the bodies where they are in the mesh.
+    /// Poses where bodies would be in the mesh.
     #[must_use]
-    pub fn poses_in_mesh(&self) -> Vec<Pose> {
-        self.wrapped(&self.places).iter().map(pose_at).collect()
+    pub fn in_mesh(&self, poses: &[Pose]) -> Vec<Pose> {
+        seen_from(&Vector3::zeros(), poses, &self.image_shifts)
     }
 
-    /// Places of bodies where they would be in the mesh.
+    /// Poses where bodies would be in the mesh, seen from a frame at `origin` (m).
     #[must_use]
-    pub fn wrapped(&self, places: &[Place]) -> Vec<Place> {
-        seen_from(&Point::<2>::zeros(), places, &self.wraps)
+    pub fn in_frame(&self, origin: &Vector3<f64>, poses: &[Pose]) -> Vec<Pose> {
+        seen_from(origin, poses, &self.image_shifts)
     }
 
-    /// Places of bodies where they would be in the mesh, seen from a frame at `origin` (m).
+    /// Poses where bodies would be in the mesh, seen from the frame that goes with them.
     #[must_use]
-    pub fn in_frame(&self, origin: &Point<2>, places: &[Place]) -> Vec<Place> {
-        seen_from(origin, places, &self.wraps)
+    pub fn in_own_frame(&self, problem: &Problem<D>, poses: &[Pose]) -> Vec<Pose> {
+        self.in_frame(&self.origin_at(problem, poses), poses)
     }
 
-    /// The mesh now, seen from the frame.
+    /// Present poses in the mesh, seen from the frame, with bodies moved by further periods (m).
     #[must_use]
-    pub fn mesh_in_frame(&self) -> Mesh<2> {
+    pub fn shifted_poses(&self, shifts: &[Vector3<f64>]) -> Vec<Pose> {
+        let pairs = self.image_shifts.iter().zip(shifts);
+        let image_shifts: Vec<_> = pairs.map(|(known, shift)| known + shift).collect();
+        seen_from(&self.origin, &self.poses, &image_shifts)
+    }
+
+    /// Puts the state on another mesh, seen from the frame, whose nodes were at `before` (m) one step
+    /// before.
+    pub(super) fn put_on_mesh(&mut self, mesh: Mesh<D>, before: Vec<Point<D>>) {
+        self.nodes.clone_from(&mesh.nodes);
+        self.nodes_before = before;
+        self.mesh = mesh;
+        let origin = on_mesh::<D>(&self.origin);
+        for node in &mut self.mesh.nodes {
+            *node += origin;
+        }
+    }
+
+    /// The mesh at present, seen from the frame.
+    #[must_use]
+    pub fn mesh_in_frame(&self) -> Mesh<D> {
         Mesh { nodes: self.nodes.clone(), ..self.mesh.clone() }
     }
 
-    /// What the groups do in a flow on the mesh as it lies, with bodies at these places.
+    /// What the groups do in a flow, with bodies at these poses in the laboratory.
     #[must_use]
-    pub fn efforts(
+    pub fn propulsion_powers(
         &self,
-        problem: &Problem,
-        places: &[Place],
-        solution: &Solution,
+        problem: &Problem<D>,
+        poses: &[Pose],
+        twists: &[Twist],
         loads: &[BodyLoads],
-    ) -> Vec<Effort> {
-        let poses: Vec<Pose> = places.iter().map(pose_at).collect();
-        let of = |group| effort(problem, &self.mesh, group, (&poses, &self.wraps), solution, loads);
-        problem.groups.iter().map(of).collect()
+        stress: &SurfaceStress<'_, D>,
+    ) -> Vec<PropulsionPower> {
+        let bodies = LoadedBodies { poses, image_shifts: &self.image_shifts, twists, loads };
+        let groups = problem.groups.iter();
+        groups.map(|group| propulsion_power(problem, group, &bodies, stress)).collect()
     }
 
-    /// Where the frame is with bodies at these places (m).
+    /// Where the frame is with bodies at these poses (m).
     #[must_use]
-    pub fn origin_at(&self, problem: &Problem, places: &[Place]) -> Point<2> {
-        problem.frame.map_or(Point::<2>::zeros(), |body| {
-            let start = &problem.bodies[body].pose.center;
-            Point::<2>::new(places[body][0] - start.x, places[body][1] - start.y)
+    pub fn origin_at(&self, problem: &Problem<D>, poses: &[Pose]) -> Vector3<f64> {
+        problem.frame.map_or(Vector3::zeros(), |body| {
+            poses[body].center - problem.bodies[body].pose.center
         })
     }
 }
 
-/// Places of bodies, `wraps` added to them, seen from a frame at `origin` (m).
-pub(super) fn seen_from(origin: &Point<2>, places: &[Place], wraps: &[Point<2>]) -> Vec<Place> {
-    let pairs = places.iter().zip(wraps);
-    pairs
-        .map(|([x, y, angle], wrap)| [x + wrap.x - origin.x, y + wrap.y - origin.y, *angle])
-        .collect()
-}
-
-/// Centre and angle of a pose (m, rad).
-#[must_use]
-pub fn place_of(pose: &Pose) -> Place {
-    [pose.center.x, pose.center.y, pose.heading()]
-}
-
-/// The pose with a centre and angle (m, rad).
-#[must_use]
-pub fn pose_at(place: &Place) -> Pose {
-    Pose::planar(place[0], place[1], place[2])
+/// Poses, `image_shifts` added to their centres, seen from a frame at `origin` (m).
+pub(super) fn seen_from(
+    origin: &Vector3<f64>,
+    poses: &[Pose],
+    image_shifts: &[Vector3<f64>],
+) -> Vec<Pose> {
+    let pairs = poses.iter().zip(image_shifts);
+    pairs.map(|(pose, shift)| Pose { center: pose.center + shift - origin, ..*pose }).collect()
 }

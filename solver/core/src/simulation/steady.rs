@@ -4,22 +4,42 @@
 //! value in steps that halve on failure and double on success (continuation in the Reynolds
 //! number).
 
-use alewife_mesh::{Mesh, Point};
+use alewife_mesh::Point;
 
-use super::{RunError, Stage, Timing};
-use crate::algebra::AffineConstraints;
-use crate::body::Pose;
-use crate::case::Steady;
-use crate::coupling::{
-    FluidSystem, Levels, Problem, Solution, SolveError, embed, newton_convection,
+use super::newton::{
+    Criterion, Flow, FlowEquations, Iterate, NewtonFailure, flow_residual, newton,
 };
+use super::step::Workspace;
+use super::RunError;
+use crate::case::Steady;
+use crate::coupling::{BodiesAt, Configuration, Problem, RigidBodyEquations, Solution, SolveError};
 use crate::flow::{Convection, FlowTerms};
+
+/// Residuals relative to that at rest that count as rounding once they stop falling.
+const ROUNDING: f64 = 1e-8;
+/// Smallest step of the continuation, as a part of the whole density.
+const SMALLEST_STEP: f64 = 1.0 / 64.0;
+/// Growth of the residual from which there is no return.
+const DIVERGENCE: f64 = 1e4;
+
+/// A steady flow that is asked for.
+#[derive(Debug, Clone, Copy)]
+pub struct SteadyTask<'a> {
+    /// Where bodies are and what moves their surfaces.
+    pub bodies: BodiesAt<'a>,
+    /// Newton's and Euler's equations.
+    pub equations: &'a RigidBodyEquations,
+    /// Accuracy.
+    pub settings: &'a Steady,
+    /// Whether the fluid is convected.
+    pub has_convection: bool,
+}
 
 /// A converged flow.
 #[derive(Debug, Clone)]
-pub struct SteadyFlow {
+pub struct SteadyFlow<const D: usize> {
     /// The fields and rigid velocities.
-    pub solution: Solution,
+    pub solution: Solution<D>,
     /// Raw residual of the fluid's equations at it.
     pub residual: Vec<f64>,
     /// Linear systems solved.
@@ -28,202 +48,184 @@ pub struct SteadyFlow {
 
 /// A flow that was not found.
 #[derive(Debug)]
-pub struct SteadyFailure {
+pub struct SteadyFailure<const D: usize> {
     /// Why.
     pub error: RunError,
     /// The last iterate.
-    pub last: Solution,
-}
-
-/// One attempt of Newton's method.
-enum Attempt {
-    Converged(Solution, Vec<f64>),
-    Stalled { residual: f64 },
-}
-
-/// Residuals relative to the first that count as rounding once they stop falling.
-const ROUNDING: f64 = 1e-8;
-/// Smallest step of the continuation, as a part of the whole density.
-const SMALLEST_STEP: f64 = 1.0 / 64.0;
-
-/// What stays the same over the iterations.
-struct Newton<'a> {
-    system: &'a mut FluidSystem,
-    problem: &'a Problem,
-    mesh: &'a Mesh<2>,
-    constraints: &'a AffineConstraints,
-    levels: &'a Levels,
-    settings: &'a Steady,
-    timing: &'a mut Timing,
-    /// Size of the residual of a fluid at rest, which all others are relative to.
-    scale: f64,
-    iterations: usize,
-    /// The last iterate, to be looked at when no more can be found.
-    last: Solution,
-}
-
-/// Solves for a steady flow at a time (s) with the bodies at these poses, under the loads of `levels`.
-///
-/// # Errors
-/// When the system is singular or Newton's method stalls at the smallest step of continuation.
-pub fn solve_steady(
-    system: &mut FluidSystem,
-    problem: &Problem,
-    mesh: &Mesh<2>,
-    poses: &[Pose],
-    (time, levels): (f64, &Levels),
-    settings: &Steady,
-    timing: &mut Timing,
-) -> Result<SteadyFlow, SteadyFailure> {
-    let constraints = system.constraints(problem, mesh, poses, time);
-    let at_rest = embed(&system.layout, &constraints.expand(&vec![0.0; constraints.n_unknowns()]));
-    let mut newton = Newton {
-        system,
-        problem,
-        mesh,
-        constraints: &constraints,
-        levels,
-        settings,
-        timing,
-        scale: 0.0,
-        iterations: 0,
-        last: at_rest.clone(),
-    };
-    match newton.solve(at_rest, time) {
-        Err(error) => Err(SteadyFailure { error, last: newton.last }),
-        Ok((mut solution, mut residual)) => {
-            let iterations = newton.iterations;
-            newton.system.center_pressure(problem, &mut solution);
-            if problem.works_on_level() {
-                let part = if problem.has_convection { 1.0 } else { 0.0 };
-                let crossing = newton.crossing(&solution, part);
-                let terms = terms(problem, &crossing, part);
-                residual = newton.system.fluid_residual(mesh, &terms, &solution);
-            }
-            Ok(SteadyFlow { solution, residual, iterations })
-        }
-    }
+    pub last: Solution<D>,
 }
 
 /// The equations with a part of the density, 0 for Stokes flow.
-fn terms<'a>(problem: &'a Problem, crossing: &'a [Point<2>], part: f64) -> FlowTerms<'a, 2> {
-    FlowTerms {
-        viscosity: problem.viscosity,
-        density: problem.density * part,
-        rate: 0.0,
-        history: &[],
-        crossing,
-        convection: if part > 0.0 { newton_convection(problem) } else { Convection::None },
-        body_force: problem.body_force,
+struct SteadyEquations<'a, const D: usize> {
+    problem: &'a Problem<D>,
+    part: f64,
+}
+
+impl<const D: usize> FlowEquations<D> for SteadyEquations<'_, D> {
+    /// The velocity seen from the frame.
+    fn convecting_velocity(&self, solution: &Solution<D>) -> Vec<Point<D>> {
+        if self.part == 0.0 {
+            return Vec::new();
+        }
+        let frame = self.problem.frame_velocity(&solution.twists);
+        solution.velocity.iter().map(|velocity| velocity - frame).collect()
+    }
+
+    fn terms<'a>(&'a self, convecting_velocity: &'a [Point<D>]) -> FlowTerms<'a, D> {
+        let problem = self.problem;
+        let convection =
+            if self.part > 0.0 { problem.newton_convection() } else { Convection::None };
+        FlowTerms {
+            viscosity: problem.viscosity,
+            density: problem.density * self.part,
+            rate: 0.0,
+            history: &[],
+            convecting_velocity,
+            convection,
+            body_force: problem.body_force,
+        }
+    }
+
+    fn on_iteration(&self, iteration: usize, residual: f64) {
+        tracing::info!(density_part = self.part, iteration, residual, "newton");
     }
 }
 
-impl Newton<'_> {
-    /// The flow and its raw residual, by way of Stokes flow.
-    fn solve(&mut self, at_rest: Solution, time: f64) -> Result<(Solution, Vec<f64>), RunError> {
-        let (mut reached, mut residual) = match self.attempt(at_rest, 0.0)? {
-            Attempt::Converged(solution, residual) => (solution, residual),
-            Attempt::Stalled { residual } => {
-                // Without convection the equations are linear: one solve is all there is to it.
-                let reason = format!(
-                    "the Stokes flow leaves a residual of {residual:.1e}: perhaps nothing balances \
-                     the force on a free body or fixes its velocity, or numbers overflow in these \
-                     units"
-                );
-                return Err(RunError::Singular { step: 0, time, reason });
-            }
+/// Solves for a steady flow on the mesh of `work`.
+///
+/// # Errors
+/// When the system is singular or Newton's method stalls at the smallest step of continuation.
+pub fn solve_steady<const D: usize>(
+    work: &mut Workspace<D>,
+    problem: &Problem<D>,
+    task: &SteadyTask<'_>,
+) -> Result<SteadyFlow<D>, SteadyFailure<D>> {
+    let constraints = work.system.constraints(problem, &work.mesh, task.bodies);
+    let mut continuation = Continuation { problem, task, scale: None, iterations: 0 };
+    let mesh = work.mesh.clone();
+    let at = Configuration { problem, mesh: &mesh, constraints: &constraints, bodies: task.equations };
+    let mut flow = continuation.solve(work, &at)?;
+    work.system.center_pressure(problem, &mut flow.solution);
+    if problem.power_depends_on_pressure_level() {
+        let part = if task.has_convection { 1.0 } else { 0.0 };
+        let equations = SteadyEquations { problem, part };
+        flow.residual = flow_residual(&work.system, &at, &equations, &flow.solution);
+    }
+    let Flow { solution, residual, .. } = flow;
+    Ok(SteadyFlow { solution, residual, iterations: continuation.iterations })
+}
+
+/// Newton's method by way of Stokes flow.
+struct Continuation<'a, const D: usize> {
+    problem: &'a Problem<D>,
+    task: &'a SteadyTask<'a>,
+    /// Size of the residual of a fluid at rest, which all others are relative to.
+    scale: Option<f64>,
+    iterations: usize,
+}
+
+/// What came of one part of the density.
+enum Attempt<const D: usize> {
+    Converged(Flow<D>),
+    /// A smaller part may be found.
+    Stalled(Iterate<D>),
+}
+
+impl<const D: usize> Continuation<'_, D> {
+    fn solve(
+        &mut self,
+        work: &mut Workspace<D>,
+        at: &Configuration<'_, D>,
+    ) -> Result<Flow<D>, SteadyFailure<D>> {
+        let at_rest = work.system.at_rest(at.constraints);
+        let mut flow = match self.attempt(work, at, at_rest, 0.0)? {
+            Attempt::Converged(flow) => flow,
+            Attempt::Stalled(end) => return Err(self.undetermined(end)),
         };
-        if !self.problem.has_convection {
-            return Ok((reached, residual));
+        if !self.task.has_convection {
+            return Ok(flow);
         }
         let (mut part, mut increment) = (0.0, 1.0f64);
         while part < 1.0 {
             let target = (part + increment).min(1.0);
-            match self.attempt(reached.clone(), target)? {
-                Attempt::Converged(solution, raw) => {
-                    (reached, residual) = (solution, raw);
+            match self.attempt(work, at, flow.solution.clone(), target)? {
+                Attempt::Converged(found) => {
+                    flow = found;
                     part = target;
                     increment *= 2.0;
                 }
-                Attempt::Stalled { residual } if increment <= SMALLEST_STEP => {
-                    return Err(self.stalled(residual, time));
+                Attempt::Stalled(end) if increment <= SMALLEST_STEP => {
+                    return Err(self.stalled(end));
                 }
-                Attempt::Stalled { .. } => increment /= 2.0,
+                Attempt::Stalled(_) => increment /= 2.0,
             }
         }
-        Ok((reached, residual))
+        Ok(flow)
     }
 
     /// Iterates with a part of the density, 0 for Stokes flow.
-    fn attempt(&mut self, start: Solution, part: f64) -> Result<Attempt, RunError> {
-        let mut solution = start;
-        let mut last = f64::INFINITY;
-        let mut best = f64::INFINITY;
-        for iteration in 0..=self.settings.max_iterations {
-            let crossing = self.crossing(&solution, part);
-            let terms = terms(self.problem, &crossing, part);
-            let raw = self.timing.measure(Stage::Assembly, || {
-                self.system.fluid_residual(self.mesh, &terms, &solution)
-            });
-            let reduced = self.system.reduced_residual(
-                self.problem,
-                self.constraints,
-                self.levels,
-                &solution,
-                raw.clone(),
-            );
-            let size = reduced.iter().fold(0.0f64, |most, value| most.max(value.abs()));
-            if self.scale == 0.0 {
-                self.scale = size;
+    fn attempt(
+        &mut self,
+        work: &mut Workspace<D>,
+        at: &Configuration<'_, D>,
+        start: Solution<D>,
+        part: f64,
+    ) -> Result<Attempt<D>, SteadyFailure<D>> {
+        let criterion = Criterion {
+            tolerance: self.task.settings.tolerance,
+            rounding: ROUNDING,
+            stationary: None,
+            max_iterations: self.task.settings.max_iterations,
+            scale: self.scale,
+            accepts_start: true,
+            is_linear: false,
+            divergence: Some(DIVERGENCE),
+        };
+        let equations = SteadyEquations { problem: self.problem, part };
+        let Workspace { system, timing, .. } = work;
+        match newton(system, timing, at, &equations, &criterion, start) {
+            Ok(flow) => {
+                self.take(flow.iterations, flow.scale);
+                Ok(Attempt::Converged(flow))
             }
-            let relative = if self.scale > 0.0 { size / self.scale } else { 0.0 };
-            tracing::info!(density_part = part, iteration, residual = relative, "newton");
-            let at_rounding = relative < ROUNDING && relative > 0.3 * last;
-            if relative <= self.settings.tolerance || at_rounding {
-                return Ok(Attempt::Converged(solution, raw));
-            }
-            best = best.min(relative);
-            let hopeless = !relative.is_finite() || relative > 1e4 * best.max(1e-3);
-            if iteration == self.settings.max_iterations || hopeless {
-                return Ok(Attempt::Stalled { residual: relative });
-            }
-            last = relative;
-            let step = self.system.newton_step(
-                self.problem,
-                self.mesh,
-                self.constraints,
-                &terms,
-                self.levels,
-                &solution,
-                &reduced,
-                self.timing,
-            );
-            self.iterations += 1;
-            self.last = solution;
-            solution = match step {
-                Ok(next) => next,
-                Err(SolveError::NotFinite { .. }) if part > 0.0 => {
-                    return Ok(Attempt::Stalled { residual: relative });
+            Err(NewtonFailure { error, end }) => {
+                self.take(end.iterations, end.scale);
+                match error {
+                    None => Ok(Attempt::Stalled(end)),
+                    Some(SolveError::NotFinite { .. }) if part > 0.0 => Ok(Attempt::Stalled(end)),
+                    Some(error) => {
+                        let error = RunError::from_solve(error, 0, self.task.bodies.shapes.time());
+                        Err(SteadyFailure { error, last: end.solution })
+                    }
                 }
-                Err(error) => return Err(RunError::from_solve(error, 0, 0.0)),
-            };
+            }
         }
-        unreachable!("the last iteration returns")
     }
 
-    /// What convects: the velocity seen from the frame.
-    fn crossing(&self, solution: &Solution, part: f64) -> Vec<Point<2>> {
-        if part == 0.0 {
-            return Vec::new();
-        }
-        let frame = self.problem.frame.map_or(Point::<2>::zeros(), |body| {
-            let linear = &solution.twists[body].linear;
-            Point::<2>::new(linear.x, linear.y)
-        });
-        solution.velocity.iter().map(|velocity| velocity - frame).collect()
+    fn take(&mut self, iterations: usize, scale: f64) {
+        self.iterations += iterations;
+        self.scale = Some(scale).filter(|scale| *scale > 0.0);
     }
 
-    fn stalled(&self, residual: f64, time: f64) -> RunError {
-        RunError::NewtonStalled { step: 0, time, residual, iterations: self.iterations }
+    /// Without convection the equations are linear: one solve is all there is to it.
+    fn undetermined(&self, end: Iterate<D>) -> SteadyFailure<D> {
+        let reason = format!(
+            "the Stokes flow leaves a residual of {:.1e}: perhaps nothing balances the force on a free \
+             body or fixes its velocity, or numbers overflow in these units",
+            end.residual
+        );
+        let time = self.task.bodies.shapes.time();
+        let error = RunError::Singular { step: 0, time, reason };
+        SteadyFailure { error, last: end.solution }
+    }
+
+    fn stalled(&self, end: Iterate<D>) -> SteadyFailure<D> {
+        let error = RunError::NewtonStalled {
+            step: 0,
+            time: self.task.bodies.shapes.time(),
+            residual: end.residual,
+            iterations: self.iterations,
+        };
+        SteadyFailure { error, last: end.solution }
     }
 }

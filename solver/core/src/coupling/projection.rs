@@ -1,13 +1,14 @@
 //! The nearest discretely divergence-free velocity to a given one, with its boundary values.
 //!
 //! What is interpolated from mesh to mesh is no longer divergence-free; without this projection
-//! the pressure of the next step would have to undo that at once, as a spike in the forces.
+//! the pressure of the next step would have to correct that at once, as a spike in the forces.
 
-use alewife_mesh::{BoundaryKind, Mesh, Point};
+use alewife_mesh::{BoundaryKind, Mesh, NodeId, Point};
 
-use super::constrain::{NodeSides, close_pressures_and_periods};
+use super::boundaries::{Boundaries, BoundaryNode};
+use super::constrain::Constrainer;
 use super::problem::{Problem, Side};
-use super::system::{pressure_weights, spread_flux, unknowns};
+use super::system::{make_compatible, pressure_weights, unknowns};
 use crate::algebra::{AffineConstraints, ConstraintBuilder, DirectSolver, LinearError, Pattern};
 use crate::flow::{Assembly, Convection, Fields, FlowTerms, assemble, residual};
 use crate::space::DofLayout;
@@ -17,39 +18,39 @@ use crate::space::DofLayout;
 /// on symmetry planes.
 ///
 /// With v = u + d: [M B^T; B 0] [d; q] = [m; -B u] on the free unknowns, m zero unless the velocity
-/// meant is another one within the cells. On open sides q = 0.
+/// to be projected is another one within the cells. On open sides q = 0.
 #[derive(Debug)]
-pub struct DivergenceFree {
-    layout: DofLayout<2>,
+pub struct DivergenceFreeProjection<const D: usize> {
+    layout: DofLayout<D>,
     constraints: AffineConstraints,
-    assembly: Assembly,
+    assembly: Assembly<D>,
     pattern: Pattern,
     values: Vec<f64>,
     solver: DirectSolver,
-    /// int psi dx of each vertex when the flow is enclosed, to spread a net flux.
+    /// int psi dx of each vertex when the flow is enclosed, to distribute a net flux.
     enclosed_weights: Option<Vec<f64>>,
 }
 
 /// Neither stress nor convection, and as much mass as asked for.
-fn terms<'a>(density: f64) -> FlowTerms<'a, 2> {
+fn terms<'a, const D: usize>(density: f64) -> FlowTerms<'a, D> {
     FlowTerms {
         viscosity: 0.0,
         density,
         rate: 1.0,
         history: &[],
-        crossing: &[],
+        convecting_velocity: &[],
         convection: Convection::None,
         body_force: None,
     }
 }
 
-impl DivergenceFree {
+impl<const D: usize> DivergenceFreeProjection<D> {
     /// Assembles and factorises the projection of a problem on a mesh.
     ///
     /// # Errors
     /// When the factorisation fails.
-    pub fn new(problem: &Problem, mesh: &Mesh<2>) -> Result<Self, LinearError> {
-        let layout = DofLayout::new(mesh, 0);
+    pub fn new(problem: &Problem<D>, mesh: &Mesh<D>) -> Result<Self, LinearError> {
+        let layout = DofLayout::new(mesh, 0, 0);
         let constraints = hold_given_velocities(problem, mesh, &layout);
         let (pattern, assembly) =
             Assembly::new(mesh, layout, &constraints, problem.metric, &[], None);
@@ -61,12 +62,13 @@ impl DivergenceFree {
         Ok(projection)
     }
 
-    /// Goes to another configuration of the same mesh.
+    /// Moves to another configuration of the same mesh.
     ///
     /// # Errors
     /// When the factorisation fails.
-    pub fn move_to(&mut self, problem: &Problem, mesh: &Mesh<2>) -> Result<(), LinearError> {
-        let (velocity, pressure) = rest(&self.layout);
+    pub fn move_to(&mut self, problem: &Problem<D>, mesh: &Mesh<D>) -> Result<(), LinearError> {
+        let velocity = vec![Point::<D>::zeros(); self.layout.n_nodes];
+        let pressure = vec![0.0; self.layout.n_vertices];
         let fields = Fields { velocity: &velocity, pressure: &pressure };
         let (constraints, values) = (&self.constraints, &mut self.values);
         assemble(&self.assembly, mesh, constraints, &terms(1.0), &fields, values);
@@ -77,56 +79,56 @@ impl DivergenceFree {
     }
 
     /// -int psi div u dx for each vertex (m3/s; m2/s planar), the net flux of an enclosed flow
-    /// spread over the domain as the solver does: what [`Self::project`] makes zero.
+    /// distributed over the domain as the solver does: what [`Self::project`] makes zero.
     #[must_use]
-    pub fn defect(&self, mesh: &Mesh<2>, velocity: &[Point<2>]) -> Vec<f64> {
+    pub fn defect(&self, mesh: &Mesh<D>, velocity: &[Point<D>]) -> Vec<f64> {
         let pressure = vec![0.0; self.layout.n_vertices];
         let fields = Fields { velocity, pressure: &pressure };
         let raw = residual(&self.assembly, mesh, &terms(0.0), &fields);
-        let mut defect = raw[self.layout.pressure(0)..self.layout.n_fluid()].to_vec();
+        let mut defect = raw[self.layout.pressures()].to_vec();
         if let Some(weights) = &self.enclosed_weights {
-            spread_flux(&mut defect, weights);
+            make_compatible(&mut defect, weights);
         }
         // A pressure of one side of a periodic pair tests both
-        for &(copy, original) in &mesh.periodic {
-            if (copy as usize) < self.layout.n_vertices {
-                defect[original as usize] += std::mem::take(&mut defect[copy as usize]);
+        for pair in &mesh.periodic {
+            if pair.copy.index() < self.layout.n_vertices {
+                defect[pair.original] += std::mem::take(&mut defect[pair.copy]);
             }
         }
         defect
     }
 
-    /// The projection of a velocity (m/s at the nodes) on the mesh it was made for.
+    /// The projection of a velocity (m/s at the nodes) on the mesh it was assembled for.
     ///
     /// # Errors
     /// When the system cannot be solved, as for velocities that are not finite.
     pub fn project(
         &mut self,
-        mesh: &Mesh<2>,
-        velocity: &[Point<2>],
-    ) -> Result<Vec<Point<2>>, LinearError> {
+        mesh: &Mesh<D>,
+        velocity: &[Point<D>],
+    ) -> Result<Vec<Point<D>>, LinearError> {
         self.project_with(mesh, velocity, &[])
     }
 
     /// The nearest divergence-free velocity not to the one at the nodes but to one that differs from
-    /// it within the cells: `missed` is int phi times the difference dx of each node (m3/s; m4/s in
+    /// it within the cells: `residual` is int phi times the difference dx of each node (m3/s; m4/s in
     /// axisymmetric problems).
     ///
     /// # Errors
     /// As [`Self::project`].
     pub fn project_with(
         &mut self,
-        mesh: &Mesh<2>,
-        velocity: &[Point<2>],
-        missed: &[Point<2>],
-    ) -> Result<Vec<Point<2>>, LinearError> {
+        mesh: &Mesh<D>,
+        velocity: &[Point<D>],
+        residual: &[Point<D>],
+    ) -> Result<Vec<Point<D>>, LinearError> {
         let mut raw = vec![0.0; self.layout.n_raw()];
-        for (node, missed) in missed.iter().enumerate() {
-            for axis in 0..2 {
-                raw[self.layout.velocity(node, axis)] = missed[axis];
+        for (node, residual) in self.layout.nodes().zip(residual) {
+            for axis in 0..D {
+                raw[self.layout.velocity(node, axis)] = residual[axis];
             }
         }
-        for (vertex, value) in self.defect(mesh, velocity).into_iter().enumerate() {
+        for (vertex, value) in self.layout.vertices().zip(self.defect(mesh, velocity)) {
             raw[self.layout.pressure(vertex)] = -value;
         }
         let mut free = self.constraints.restrict(&raw);
@@ -135,42 +137,35 @@ impl DivergenceFree {
         }
         self.solver.solve(&self.pattern, &self.values, &mut free)?;
         let correction = self.constraints.expand(&free);
-        let corrected = velocity.iter().enumerate().map(|(node, velocity)| {
-            let [x, y] = [0, 1].map(|axis| correction[self.layout.velocity(node, axis)]);
-            velocity + Point::<2>::new(x, y)
+        let corrected = self.layout.nodes().zip(velocity).map(|(node, velocity)| {
+            velocity + Point::<D>::from_fn(|axis, _| correction[self.layout.velocity(node, axis)])
         });
         Ok(corrected.collect())
     }
 }
 
-fn rest(layout: &DofLayout<2>) -> (Vec<Point<2>>, Vec<f64>) {
-    (vec![Point::<2>::zeros(); layout.n_nodes], vec![0.0; layout.n_vertices])
-}
-
 /// No correction where velocities are given; equal ones at periodic pairs; one pressure pinned
 /// when no side is open.
-fn hold_given_velocities(
-    problem: &Problem,
-    mesh: &Mesh<2>,
-    layout: &DofLayout<2>,
+fn hold_given_velocities<const D: usize>(
+    problem: &Problem<D>,
+    mesh: &Mesh<D>,
+    layout: &DofLayout<D>,
 ) -> AffineConstraints {
     let mut builder = ConstraintBuilder::new(layout.n_raw());
-    let sides = NodeSides::new(mesh);
-    for (node, boundaries) in sides.iter() {
+    for BoundaryNode { node, boundaries, .. } in Boundaries::new(mesh).nodes() {
         for boundary in boundaries {
             let is_body = matches!(mesh.boundaries[boundary].kind, BoundaryKind::Body(_));
-            let held: &[usize] = match &problem.sides[boundary] {
-                _ if is_body => &[0, 1],
-                Some(Side::Velocity { .. }) => &[0, 1],
-                Some(Side::Symmetry { normal_axis: 0 }) => &[0],
-                Some(Side::Symmetry { .. }) => &[1],
-                Some(Side::DoNothing | Side::TractionFree | Side::Periodic) | None => &[],
-            };
-            for &axis in held {
+            let mut hold = |node: NodeId, axis: usize| {
                 builder.constrain(layout.velocity(node, axis), vec![], 0.0);
+            };
+            match &problem.sides[boundary] {
+                Some(Side::Symmetry { normal_axis }) if !is_body => hold(node, *normal_axis),
+                Some(Side::Velocity { .. }) => (0..D).for_each(|axis| hold(node, axis)),
+                _ if is_body => (0..D).for_each(|axis| hold(node, axis)),
+                _ => {}
             }
         }
     }
-    close_pressures_and_periods(problem, mesh, layout, &mut builder);
+    Constrainer { problem, mesh, layout }.close_pressures_and_periods(&mut builder);
     builder.build()
 }

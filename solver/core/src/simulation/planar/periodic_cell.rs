@@ -1,4 +1,4 @@
-//! `Opened`: a periodic domain cut open where no body is, with the bodies moved into it.
+//! `PeriodicCell`: a periodic domain cut open where no body is, with the bodies moved into it.
 
 use alewife_mesh::{
     Cut, Domain, Mesh, MeshError, Outline, PlacedShape, Point, Sizing, check_placement, generate,
@@ -16,7 +16,7 @@ const MOST_OFF: f64 = 1.5;
 
 /// A domain ready to be meshed.
 #[derive(Debug, Clone)]
-pub(super) struct Opened {
+pub(super) struct PeriodicCell {
     /// The domain, where its straight sides are.
     pub domain: Domain,
     /// Whole periods by which each body has been moved (m).
@@ -27,7 +27,7 @@ pub(super) struct Opened {
     cut: Option<Cut>,
 }
 
-impl Opened {
+impl PeriodicCell {
     /// The mesh.
     ///
     /// # Errors
@@ -44,32 +44,12 @@ impl Opened {
 /// straight lines, else along curves. `home` is the domain as it was at first.
 ///
 /// # Errors
-/// When no cut is found, in words.
-pub(super) fn open(
-    domain: &Domain,
-    home: &Domain,
-    shapes: Vec<PlacedShape>,
-) -> Result<Opened, String> {
-    attempt(domain, home, shapes).map_err(|error| error.to_string())
-}
-
-/// A domain as it is where bodies are whole inside it, else as [`open`] has it.
-///
-/// # Errors
-/// When no cut is found, in words.
-pub(super) fn open_first(domain: &Domain, shapes: Vec<PlacedShape>) -> Result<Opened, String> {
-    if domain.images().len() == 1 || check_placement(domain, &shapes).is_ok() {
-        let shifts = vec![Point::<2>::zeros(); shapes.len()];
-        return Ok(Opened { domain: domain.clone(), shifts, shapes, cut: None });
-    }
-    open(domain, domain, shapes)
-}
-
-fn attempt(
+/// When no cut is found.
+pub(super) fn choose_periodic_cell(
     domain: &Domain,
     home: &Domain,
     mut shapes: Vec<PlacedShape>,
-) -> Result<Opened, MeshError> {
+) -> Result<PeriodicCell, MeshError> {
     let (domain, cut) = match straight(domain, &shapes)? {
         Some(moved) => (returned(moved, home), None),
         None => (home.clone(), Some(Cut::between(home, &shapes)?)),
@@ -81,7 +61,22 @@ fn attempt(
     for (shape, shift) in shapes.iter_mut().zip(&shifts) {
         shape.center += shift;
     }
-    Ok(Opened { domain, shifts, shapes, cut })
+    Ok(PeriodicCell { domain, shifts, shapes, cut })
+}
+
+/// A domain as it is where bodies are whole inside it, else as [`choose_periodic_cell`] has it.
+///
+/// # Errors
+/// When no cut is found.
+pub(super) fn initial_cell(
+    domain: &Domain,
+    shapes: Vec<PlacedShape>,
+) -> Result<PeriodicCell, MeshError> {
+    if domain.images().len() == 1 || check_placement(domain, &shapes).is_ok() {
+        let shifts = vec![Point::<2>::zeros(); shapes.len()];
+        return Ok(PeriodicCell { domain: domain.clone(), shifts, shapes, cut: None });
+    }
+    choose_periodic_cell(domain, domain, shapes)
 }
 
 /// The domain, its straight periodic sides put where no body is; `None` when bodies leave no free
@@ -154,16 +149,16 @@ fn periodic_range(domain: &Domain, axis: usize) -> Option<(f64, f64)> {
 }
 
 /// Where a domain starts along its periodic directions (m), zero along others.
-pub(super) fn start_of(domain: &Domain) -> [f64; 2] {
-    [0, 1].map(|axis| periodic_range(domain, axis).map_or(0.0, |(start, _)| start))
+pub(super) fn start_of(domain: &Domain) -> Point<2> {
+    Point::<2>::from_fn(|axis, _| periodic_range(domain, axis).map_or(0.0, |(start, _)| start))
 }
 
 /// A domain that starts elsewhere along its periodic directions.
-pub(super) fn started_at(domain: &Domain, start: [f64; 2]) -> Domain {
+pub(super) fn started_at(domain: &Domain, start: &Point<2>) -> Domain {
     let mut moved = domain.clone();
-    for (axis, start) in start.into_iter().enumerate() {
+    for axis in 0..2 {
         if let Some((now, _)) = periodic_range(domain, axis) {
-            shift(&mut moved, axis, start - now);
+            shift(&mut moved, axis, start[axis] - now);
         }
     }
     moved
@@ -232,8 +227,8 @@ mod tests {
             |i| PlacedShape { name: format!("{i}"), ..disc(0.25 * f64::from(i), height(i)) };
         let crowd: Vec<_> = (0..8).map(named).collect();
         assert!(straight(&strip(), &crowd).unwrap().is_none());
-        let opened = open(&strip(), &strip(), crowd).unwrap();
-        assert!(opened.cut.is_some());
-        assert!(opened.mesh(&Sizing::graded(0.1, 0.3, 0.4)).is_ok());
+        let cell = choose_periodic_cell(&strip(), &strip(), crowd).unwrap();
+        assert!(cell.cut.is_some());
+        assert!(cell.mesh(&Sizing::graded(0.1, 0.3, 0.4)).is_ok());
     }
 }

@@ -1,0 +1,168 @@
+//! Forward kinematics of bodies that hang on others: their poses and velocities by those of their parents.
+//!
+//! With a the lever from the centre of the parent to the joint and b that from the centre of the
+//! child, both in the world, U_child = U_parent + omega_parent x a + R da/dt - omega_child x b. The
+//! velocities of a tree are so made of those of its root and of its free pivots: reduced coordinates,
+//! in which Newton's and Euler's equations of all bodies are those of each body, tested with these
+//! combinations (Kane's equations).
+
+use nalgebra::Vector3;
+
+use super::problem::{Joint, Problem, Turn};
+use crate::body::{Mode, Modes, Pose};
+
+/// A rigid velocity of a body.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct RigidUnknown {
+    pub body: usize,
+    pub mode: Mode,
+}
+
+/// A rigid velocity as a sum of weight times a rigid velocity that is independent, and a value.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(super) struct RigidRow {
+    pub entries: Vec<(RigidUnknown, f64)>,
+    pub value: f64,
+}
+
+impl RigidRow {
+    fn independent(body: usize, mode: Mode) -> Self {
+        Self { entries: vec![(RigidUnknown { body, mode }, 1.0)], value: 0.0 }
+    }
+
+    /// This plus `weight` times another.
+    fn plus(mut self, other: &Self, weight: f64) -> Self {
+        for (unknown, entry) in &other.entries {
+            match self.entries.iter_mut().find(|(known, _)| known == unknown) {
+                Some((_, sum)) => *sum += weight * entry,
+                None => self.entries.push((*unknown, weight * entry)),
+            }
+        }
+        self.value += weight * other.value;
+        self
+    }
+}
+
+/// The rigid velocities of one body, by [`Mode`].
+pub(super) type RigidRows = [RigidRow; 6];
+
+/// Levers from the centres of parent and child to their joint, and the rate of the first one at rest, all
+/// in the world.
+struct Levers {
+    parent: Vector3<f64>,
+    child: Vector3<f64>,
+    rate: Vector3<f64>,
+}
+
+impl Levers {
+    fn new(joint: &Joint, parent: &Pose, child: &Pose, time: f64) -> Self {
+        let [lever, rate] = joint.lever_on_parent(time);
+        Self {
+            parent: parent.to_world(&lever),
+            child: child.to_world(&joint.on_child),
+            rate: parent.to_world(&rate),
+        }
+    }
+}
+
+impl<const D: usize> Problem<D> {
+    /// The bodies, each after the one it hangs on. Circles of joints are refused with the case.
+    pub(super) fn parents_first(&self) -> Vec<usize> {
+        let depth = |body: usize| {
+            let parent = |body: &usize| self.bodies[*body].joint.as_ref().map(|joint| joint.parent);
+            std::iter::successors(Some(body), parent).take(self.bodies.len()).count()
+        };
+        let mut order: Vec<usize> = (0..self.bodies.len()).collect();
+        order.sort_by_cached_key(|body| depth(*body));
+        order
+    }
+
+    /// Puts the bodies that hang on others where those want them at a time (s); rotations in free pivots
+    /// are those there are.
+    pub fn apply_joints(&self, poses: &mut [Pose], time: f64) {
+        if !self.has_joints() {
+            return;
+        }
+        for body in self.parents_first() {
+            let Some(joint) = &self.bodies[body].joint else { continue };
+            let parent = poses[joint.parent];
+            if let Turn::Given { axis, angle } = &joint.turn {
+                poses[body].orientation = parent.turned(axis, angle(time)[0]).orientation;
+            }
+            let levers = Levers::new(joint, &parent, &poses[body], time);
+            poses[body].center = parent.center + levers.parent - levers.child;
+        }
+    }
+
+    /// The rigid velocities of all bodies by those that are independent.
+    pub(super) fn rigid_rows(&self, poses: &[Pose], time: f64) -> Vec<RigidRows> {
+        let modes = self.modes();
+        let mut rows: Vec<RigidRows> = (0..self.bodies.len())
+            .map(|body| Mode::ALL.map(|mode| RigidRow::independent(body, mode)))
+            .collect();
+        for body in self.parents_first() {
+            let Some(joint) = &self.bodies[body].joint else { continue };
+            let parent = &poses[joint.parent];
+            if let Turn::Given { axis, angle } = &joint.turn {
+                let axis = parent.to_world(axis);
+                for mode in modes.rotations() {
+                    rows[body][mode] = rows[joint.parent][mode].clone();
+                    rows[body][mode].value += angle(time)[1] * axis[mode.axis()];
+                }
+            }
+            let levers = Levers::new(joint, parent, &poses[body], time);
+            let translations: [RigidRow; D] = std::array::from_fn(|axis| {
+                joined_row([&rows[joint.parent], &rows[body]], &levers, modes, axis)
+            });
+            for (axis, row) in translations.into_iter().enumerate() {
+                rows[body][Mode::along(axis)] = row;
+            }
+        }
+        rows
+    }
+}
+
+/// The velocity along an axis of a child by the rows of parent and child.
+fn joined_row(
+    [parent, child]: [&RigidRows; 2],
+    levers: &Levers,
+    modes: Modes,
+    axis: usize,
+) -> RigidRow {
+    let mut row = parent[Mode::along(axis)].clone();
+    for mode in modes.rotations().filter(|mode| mode.axis() != axis) {
+        row = row.plus(&parent[mode], turned_component(mode, &levers.parent, axis));
+        row = row.plus(&child[mode], -turned_component(mode, &levers.child, axis));
+    }
+    row.value += levers.rate[axis];
+    row
+}
+
+/// The velocity along an axis at a lever (m) by a unit angular velocity: (e x lever) . e_axis.
+pub(super) fn turned_component(rotation: Mode, lever: &Vector3<f64>, axis: usize) -> f64 {
+    let about = rotation.axis();
+    // The cyclic order x, y, z
+    if (about + 1) % 3 == axis {
+        lever[(about + 2) % 3] * -1.0
+    } else if (about + 2) % 3 == axis {
+        lever[(about + 1) % 3]
+    } else {
+        0.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn turned_components_are_those_of_the_cross_product() {
+        let lever = Vector3::new(0.3, -1.2, 2.5);
+        for mode in Modes::SPATIAL.rotations() {
+            let exact = Vector3::ith(mode.axis(), 1.0).cross(&lever);
+            for axis in 0..3 {
+                assert_eq!(turned_component(mode, &lever, axis), exact[axis]);
+            }
+        }
+    }
+}

@@ -1,0 +1,129 @@
+//! `TranslationNullspace`: the velocity fluid and bodies have in common where nothing holds them.
+
+use alewife_mesh::{Mesh, NodeId, Point};
+use nalgebra::{SMatrix, Vector3};
+
+use super::constrain::pinned_node;
+use super::error::SolveError;
+use super::problem::Problem;
+use super::rigid_equations::RigidBodyEquations;
+use super::solution::Solution;
+use crate::body::{Mode, in_space, on_mesh};
+
+/// Loads that sum up to less than this part of their sizes are balanced.
+const BALANCED: f64 = 1e-9;
+
+/// Takes a common velocity out of fluid and bodies.
+#[derive(Debug, Clone)]
+pub(super) struct TranslationNullspace<const D: usize> {
+    /// Along which coordinates nothing holds them.
+    axes: [bool; D],
+    /// The node at which the system holds them.
+    pinned: NodeId,
+    /// Nodes of one side of each periodic pair, with the weights of their velocity in the mean
+    /// velocity.
+    weights: Vec<(NodeId, SMatrix<f64, D, D>)>,
+}
+
+impl<const D: usize> TranslationNullspace<D> {
+    /// That of a problem on a mesh; `None` where all is held.
+    pub fn new(problem: &Problem<D>, mesh: &Mesh<D>) -> Option<Self> {
+        let axes = problem.free_translations();
+        let pinned = axes.contains(&true).then(|| pinned_node(mesh))??;
+        Some(Self { axes, pinned, weights: weights(mesh) })
+    }
+
+    /// The sum of loads along each free axis must be zero.
+    ///
+    /// # Errors
+    /// [`SolveError::Unbalanced`] for the first axis along which it is not.
+    pub fn check_balance(&self, bodies: &RigidBodyEquations) -> Result<(), SolveError> {
+        for axis in (0..D).filter(|&axis| self.axes[axis]) {
+            let loads = || bodies.bodies.iter().map(|body| body.external[Mode::along(axis)]);
+            let (sum, size): (f64, f64) = (loads().sum(), loads().map(f64::abs).sum());
+            if sum.abs() > BALANCED * size {
+                return Err(SolveError::Unbalanced { axis: ["x", "y", "z"][axis], sum });
+            }
+        }
+        Ok(())
+    }
+
+    /// Moves with the node at which the system holds fluid and bodies.
+    pub fn pin(&self, solution: &mut Solution<D>) {
+        let velocity = solution.velocity[self.pinned];
+        self.subtract(&velocity, solution);
+    }
+
+    /// Makes the mean velocity of fluid and bodies zero.
+    pub fn center(&self, solution: &mut Solution<D>) {
+        let mean = self.weights.iter().fold(Point::<D>::zeros(), |sum, (node, weights)| {
+            let velocity = &solution.velocity[*node];
+            sum + Point::<D>::from_fn(|axis, _| weights.column(axis).dot(velocity))
+        });
+        self.subtract(&mean, solution);
+    }
+
+    fn subtract(&self, velocity: &Point<D>, solution: &mut Solution<D>) {
+        let common =
+            Point::<D>::from_fn(|axis, _| if self.axes[axis] { velocity[axis] } else { 0.0 });
+        for velocity in &mut solution.velocity {
+            *velocity -= common;
+        }
+        for twist in &mut solution.twists {
+            twist.linear -= in_space(&common);
+        }
+    }
+}
+
+/// The mean of a solenoidal velocity over fluid and bodies is the sum over periodic pairs of sides of
+/// the way between them times the flux across, over the volume: int u_i = int div(x_i u), in which
+/// surfaces of bodies between fluid and body cancel.
+fn weights<const D: usize>(mesh: &Mesh<D>) -> Vec<(NodeId, SMatrix<f64, D, D>)> {
+    let mut original = vec![None; mesh.n_nodes()];
+    for pair in &mesh.periodic {
+        original[pair.copy] = Some(pair.original);
+    }
+    let [at_vertices, at_inner] = basis_means::<D>();
+    let mut volume = Point::<D>::zeros();
+    let mut weights = Vec::new();
+    for facet in &mesh.facets {
+        // Vertices may be copies of another pair of sides, inner nodes are not
+        let mut inner = mesh.facet_inner_nodes(facet);
+        let Some(copy) = inner.clone().next() else { continue };
+        let Some(of) = original[copy] else { continue };
+        let way = mesh.nodes[copy] - mesh.nodes[of];
+        let vertices = mesh.facet_vertices(facet);
+        let outward = vector_area(&vertices.map(|vertex| mesh.nodes[vertex]));
+        let mut add = |node: NodeId, mean: f64| {
+            weights.push((node, SMatrix::from_fn(|i, axis| outward[i] * (mean * way[axis]))));
+        };
+        add(vertices[0], at_vertices);
+        inner.by_ref().for_each(|node| add(node, at_inner));
+        vertices[1..].iter().for_each(|&vertex| add(vertex, at_vertices));
+        volume += way.component_mul(&outward);
+    }
+    for (_, weights) in &mut weights {
+        for axis in 0..D {
+            let volume = if volume[axis] == 0.0 { 1.0 } else { volume[axis] };
+            weights.column_mut(axis).iter_mut().for_each(|weight| *weight /= volume);
+        }
+    }
+    weights
+}
+
+/// Means over a facet of the quadratic basis functions of its vertices and of its inner nodes.
+fn basis_means<const D: usize>() -> [f64; 2] {
+    if D == 2 { [1.0 / 6.0, 4.0 / 6.0] } else { [0.0, 1.0 / 3.0] }
+}
+
+/// Normal of a straight facet out of its cell times its measure (m^(D-1)).
+fn vector_area<const D: usize>(corners: &[Point<D>; D]) -> Point<D> {
+    let [first, second] = [corners[0], corners[1]];
+    let along = in_space(&(second - first));
+    let normal = if D == 2 {
+        Vector3::new(along.y, -along.x, 0.0)
+    } else {
+        along.cross(&in_space(&(corners[D - 1] - first))) * 0.5
+    };
+    on_mesh(&normal)
+}

@@ -1,0 +1,143 @@
+//! `RigidBody`: a body in the fluid: what moves it, its inertia, loads, gait and joint.
+
+use std::sync::Arc;
+
+use alewife_mesh::{BoundaryId, Moments, SecondMoments};
+use nalgebra::{Matrix3, Vector3};
+
+use super::in_time::TimeValue;
+use super::joint::Joint;
+use crate::body::{Inertia, Mode, Pose, RigidVector, Wrench};
+use crate::gait::{DeformedOutline, Gait, ShapeMotion};
+
+/// What determines one rigid velocity of a body.
+pub enum Drive {
+    /// It is an unknown of the system.
+    Free,
+    /// It is zero; the reaction is a result.
+    Held,
+    /// It is given in time (m/s or rad/s); the reaction is a result.
+    Given(TimeValue),
+    /// It follows from the body at the other end of the joint.
+    Linked,
+}
+
+impl Drive {
+    /// The value at a time (s), where it is given.
+    #[must_use]
+    pub fn given(&self, time: f64) -> Option<f64> {
+        match self {
+            Self::Held => Some(0.0),
+            Self::Given(value) => Some(value(time)),
+            Self::Free | Self::Linked => None,
+        }
+    }
+}
+
+/// A linear spring and damper between a body and a pose, by the six rigid motions.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Spring {
+    /// Force per way (N/m), torque per angle (N m/rad).
+    pub stiffness: RigidVector,
+    /// Force per velocity (N s/m), torque per angular velocity (N m s/rad).
+    pub damping: RigidVector,
+    /// Where it is at rest.
+    pub rest: Pose,
+}
+
+/// A body in the fluid.
+pub struct RigidBody {
+    /// Name in the case file.
+    pub name: String,
+    /// Its boundary in the mesh.
+    pub boundary: BoundaryId,
+    /// Pose at time zero.
+    pub pose: Pose,
+    /// What determines its velocities, by [`Mode`].
+    pub drives: [Drive; 6],
+    /// Mass and inertia tensor, zero without inertia; of the shape at rest where it deforms.
+    pub inertia: Inertia,
+    /// Volume (m3; area planar, m2) and second moments: the inertia of unit density.
+    pub volume: Inertia,
+    /// Weight less buoyancy.
+    pub weight: Wrench,
+    /// External load besides, at the time its factor is one.
+    pub load: Wrench,
+    /// Factor of the external load in time.
+    pub load_factor: Option<TimeValue>,
+    /// Spring and damper.
+    pub spring: Option<Spring>,
+    /// Slip of the surface.
+    pub gait: Option<Box<dyn Gait>>,
+    /// How its outline deforms.
+    pub shape: Option<Arc<dyn ShapeMotion>>,
+    /// The joint by which it hangs on another body; its pose and velocity follow from it, but for the
+    /// rotation in a free pivot.
+    pub joint: Option<Joint>,
+}
+
+impl RigidBody {
+    /// A force-free and torque-free body without inertia or gait, held in all motions.
+    #[must_use]
+    pub fn held(name: impl Into<String>, boundary: BoundaryId, pose: Pose) -> Self {
+        Self {
+            name: name.into(),
+            boundary,
+            pose,
+            drives: [const { Drive::Held }; 6],
+            inertia: Inertia::default(),
+            volume: Inertia::default(),
+            weight: Wrench::default(),
+            load: Wrench::default(),
+            load_factor: None,
+            spring: None,
+            gait: None,
+            shape: None,
+            joint: None,
+        }
+    }
+
+    /// The same body, free in all motions.
+    #[must_use]
+    pub fn free(self) -> Self {
+        Self { drives: [const { Drive::Free }; 6], ..self }
+    }
+
+    /// What determines a velocity.
+    #[must_use]
+    pub fn drive(&self, mode: Mode) -> &Drive {
+        &self.drives[mode]
+    }
+
+    /// Load from outside (N, N m) at a time (s), without those of fluid, springs and contact.
+    #[must_use]
+    pub fn external(&self, time: f64) -> RigidVector {
+        let factor = self.load_factor.as_ref().map_or(1.0, |factor| factor(time));
+        self.weight.to_vector() + self.load.to_vector() * factor
+    }
+
+    /// Mass and inertia tensor with an outline, those at rest for a body that does not deform.
+    #[must_use]
+    pub fn inertia_with(&self, outline: Option<&DeformedOutline>) -> Inertia {
+        let Some(outline) = outline.filter(|_| !self.inertia.is_zero()) else {
+            return self.inertia;
+        };
+        let (deformed, rest) = (second_moments(&outline.moments), self.volume.tensor);
+        let tensor = Matrix3::from_fn(|i, j| {
+            let at_rest = self.inertia.tensor[(i, j)];
+            if at_rest == 0.0 { 0.0 } else { at_rest * deformed[(i, j)] / rest[(i, j)] }
+        });
+        Inertia { tensor, ..self.inertia }
+    }
+}
+
+/// Tensor of inertia of a body of unit density (m5; m4 planar) about its centroid.
+#[must_use]
+pub fn second_moments(moments: &Moments) -> Matrix3<f64> {
+    let [along, across, about_z] = match moments.second {
+        // In the plane only the moment about z is known, and needed
+        SecondMoments::Planar { polar } => [0.0, 0.0, polar],
+        SecondMoments::Revolved { along, across } => [along, across, across],
+    };
+    Matrix3::from_diagonal(&Vector3::new(along, across, about_z))
+}

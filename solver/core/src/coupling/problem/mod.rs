@@ -1,0 +1,151 @@
+//! `Problem`: what never changes during a run: fluid, sides of the domain, bodies.
+
+mod body;
+mod group;
+mod in_time;
+mod joint;
+mod side;
+
+use alewife_mesh::{BoundaryId, Point};
+
+pub use body::{Drive, RigidBody, Spring, second_moments};
+pub use group::Group;
+pub use in_time::{MovingValue, RateDiscontinuities, TimeValue};
+pub use joint::{Arm, Joint, Pivot, Turn};
+pub use side::{Side, VelocityProfile};
+
+use crate::body::{Mode, Modes, Twist, on_mesh};
+use crate::flow::{BodyForce, Convection};
+use crate::space::Metric;
+
+/// Everything that is given.
+pub struct Problem<const D: usize> {
+    /// Cartesian, or revolved about x.
+    pub metric: Metric,
+    /// Density (kg/m3).
+    pub density: f64,
+    /// Dynamic viscosity (Pa s).
+    pub viscosity: f64,
+    /// Whether fluid and bodies have inertia (else quasi-steady Stokes flow).
+    pub has_inertia: bool,
+    /// Whether the fluid is convected.
+    pub has_convection: bool,
+    /// What holds on each boundary of the mesh; `None` for bodies.
+    pub sides: Vec<Option<Side<D>>>,
+    /// The bodies, in the order of their boundaries.
+    pub bodies: Vec<RigidBody>,
+    /// Bodies that are reported as one.
+    pub groups: Vec<Group>,
+    /// The body the frame travels with.
+    pub frame: Option<usize>,
+    /// Force per unit volume, for manufactured solutions.
+    pub body_force: Option<BodyForce<'static, D>>,
+    /// Times at which the rates of gaits jump, if they ever do.
+    pub rate_discontinuities: Option<RateDiscontinuities>,
+}
+
+impl<const D: usize> Problem<D> {
+    /// The rigid motions bodies have.
+    #[must_use]
+    pub fn modes(&self) -> Modes {
+        match (self.metric, D) {
+            (Metric::Revolved, _) => Modes::AXISYMMETRIC,
+            (Metric::Cartesian, 2) => Modes::PLANAR,
+            (Metric::Cartesian, _) => Modes::SPATIAL,
+        }
+    }
+
+    /// Whether no boundary fixes the level of the pressure.
+    #[must_use]
+    pub fn is_enclosed(&self) -> bool {
+        !self.sides.iter().flatten().any(Side::is_open)
+    }
+
+    /// Along which coordinates nothing holds fluid and bodies: without inertia, walls, given
+    /// velocities and springs only differences of velocities are determined.
+    ///
+    /// There the mean velocity of fluid and bodies together is zero: no net volume crosses the cell.
+    #[must_use]
+    pub fn free_translations(&self) -> [bool; D] {
+        let is_loose = |body: &RigidBody, axis: usize| {
+            let mode = Mode::along(axis);
+            let spring = body.spring.as_ref();
+            let is_held = spring.is_some_and(|s| s.stiffness[mode] != 0.0 || s.damping[mode] != 0.0);
+            !matches!(body.drive(mode), Drive::Given(_) | Drive::Held) && !is_held
+        };
+        let sides = || self.sides.iter().flatten();
+        let has_periods = sides().any(|side| matches!(side, Side::Periodic));
+        std::array::from_fn(|axis| {
+            !self.metric.is_revolved()
+                && !self.has_inertia
+                && has_periods
+                && sides().all(|side| side.lets_slide(axis))
+                && self.bodies.iter().all(|body| is_loose(body, axis))
+        })
+    }
+
+    /// Whether the power of bodies depends on the level of the pressure, which nothing fixes, by the
+    /// small net flux that interpolated gaits carry.
+    #[must_use]
+    pub fn power_depends_on_pressure_level(&self) -> bool {
+        self.is_enclosed()
+            && self.bodies.iter().any(|body| body.gait.is_some() || body.shape.is_some())
+    }
+
+    /// The velocity given at a point (m, s) on these boundaries, bodies left out; a wall's value
+    /// counts where boundaries meet.
+    #[must_use]
+    pub fn given_velocity(
+        &self,
+        boundaries: &[BoundaryId],
+        point: &Point<D>,
+        time: f64,
+    ) -> Option<Point<D>> {
+        let given = |walls: bool| {
+            boundaries.iter().find_map(|&boundary| match &self.sides[boundary] {
+                Some(Side::Velocity { profile, is_wall }) if *is_wall == walls => Some(profile),
+                _ => None,
+            })
+        };
+        given(true).or_else(|| given(false)).map(|profile| profile(point, time))
+    }
+
+    /// Coordinates along which there is no velocity on these boundaries by symmetry.
+    pub fn symmetry_axes(&self, boundaries: &[BoundaryId]) -> impl Iterator<Item = usize> {
+        boundaries.iter().filter_map(|&boundary| match self.sides[boundary] {
+            Some(Side::Symmetry { normal_axis }) => Some(normal_axis),
+            _ => None,
+        })
+    }
+
+    /// Boundaries with the do-nothing condition.
+    #[must_use]
+    pub fn do_nothing_sides(&self) -> Vec<BoundaryId> {
+        let is_open = |side: &Option<Side<D>>| matches!(side, Some(Side::DoNothing));
+        let boundaries = self.sides.iter().enumerate().filter(|(_, side)| is_open(side));
+        boundaries.map(|(boundary, _)| BoundaryId::new(boundary)).collect()
+    }
+
+    /// Velocity of the frame with these velocities of the bodies (m/s); none in the laboratory.
+    #[must_use]
+    pub fn frame_velocity(&self, twists: &[Twist]) -> Point<D> {
+        self.frame.map_or(Point::<D>::zeros(), |body| on_mesh(&twists[body].linear))
+    }
+
+    /// Whether any body hangs on another.
+    #[must_use]
+    pub fn has_joints(&self) -> bool {
+        self.bodies.iter().any(|body| body.joint.is_some())
+    }
+
+    /// How convection is linearised by Newton's method: with the frame's velocity among the unknowns
+    /// where a frame travels.
+    #[must_use]
+    pub fn newton_convection(&self) -> Convection {
+        match (self.has_convection, self.frame.is_some()) {
+            (false, _) => Convection::None,
+            (true, false) => Convection::Newton,
+            (true, true) => Convection::NewtonInFrame,
+        }
+    }
+}

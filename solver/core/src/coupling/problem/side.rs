@@ -1,0 +1,46 @@
+//! `Side`: what holds on a boundary of the fluid that is not a body.
+
+use alewife_mesh::Point;
+
+/// A velocity as a function of position and time (m, s, m/s).
+pub type VelocityProfile<const D: usize> = Box<dyn Fn(&Point<D>, f64) -> Point<D> + Send + Sync>;
+
+/// What holds on a boundary that is not a body.
+pub enum Side<const D: usize> {
+    /// Given velocity. Where two such sides meet, a wall's value counts.
+    Velocity {
+        /// The velocity.
+        profile: VelocityProfile<D>,
+        /// Whether the side is a wall rather than an inflow.
+        is_wall: bool,
+    },
+    /// mu du/dn - p n = 0.
+    DoNothing,
+    /// sigma n = 0.
+    TractionFree,
+    /// No velocity along this coordinate, no traction along the others.
+    Symmetry {
+        /// 0 for x, 1 for y, 2 for z.
+        normal_axis: usize,
+    },
+    /// One of a periodic pair; the mesh knows the partner nodes.
+    Periodic,
+}
+
+impl<const D: usize> Side<D> {
+    /// Whether the traction is given, so that the side fixes the level of the pressure.
+    #[must_use]
+    pub fn is_open(&self) -> bool {
+        matches!(self, Self::DoNothing | Self::TractionFree)
+    }
+
+    /// Whether fluid and bodies may move along a coordinate as a whole without being held here.
+    #[must_use]
+    pub fn lets_slide(&self, axis: usize) -> bool {
+        match self {
+            Self::Periodic => true,
+            Self::Symmetry { normal_axis } => *normal_axis != axis,
+            Self::Velocity { .. } | Self::DoNothing | Self::TractionFree => false,
+        }
+    }
+}

@@ -1,0 +1,92 @@
+//! `Solution`: values of all raw unknowns: velocities, pressures, rigid velocities.
+
+use alewife_mesh::Point;
+
+use crate::body::{Modes, RigidVector, Twist};
+use crate::flow::Fields;
+use crate::space::DofLayout;
+
+/// Values of all raw unknowns.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Solution<const D: usize> {
+    /// Velocity at the nodes (m/s).
+    pub velocity: Vec<Point<D>>,
+    /// Pressure at the vertices (Pa).
+    pub pressure: Vec<f64>,
+    /// Rigid velocities of the bodies.
+    pub twists: Vec<Twist>,
+}
+
+impl<const D: usize> Solution<D> {
+    /// Everything at rest.
+    #[must_use]
+    pub fn at_rest(layout: &DofLayout<D>) -> Self {
+        Self {
+            velocity: vec![Point::<D>::zeros(); layout.n_nodes],
+            pressure: vec![0.0; layout.n_vertices],
+            twists: vec![Twist::default(); layout.n_bodies],
+        }
+    }
+
+    /// From a vector of raw unknowns, with the rigid motions `modes` of the bodies.
+    #[must_use]
+    pub fn from_raw(layout: &DofLayout<D>, modes: Modes, raw: &[f64]) -> Self {
+        let velocities = raw[..layout.pressure(0)].chunks_exact(D);
+        let twist = |body: usize| {
+            let mut vector = RigidVector::zeros();
+            for (position, mode) in modes.iter().enumerate() {
+                vector[mode] = raw[layout.rigid(body, position)];
+            }
+            Twist::from_vector(&vector)
+        };
+        Self {
+            velocity: velocities.map(Point::<D>::from_column_slice).collect(),
+            pressure: raw[layout.pressure(0)..layout.n_fluid()].to_vec(),
+            twists: (0..layout.n_bodies).map(twist).collect(),
+        }
+    }
+
+    /// As a vector of raw unknowns, in the order of [`DofLayout`].
+    #[must_use]
+    pub fn to_raw(&self, modes: Modes) -> Vec<f64> {
+        let velocities = self.velocity.iter().flat_map(|velocity| velocity.iter().copied());
+        let rigid =
+            self.twists.iter().flat_map(|twist| modes.iter().map(|mode| twist.component(mode)));
+        velocities.chain(self.pressure.iter().copied()).chain(rigid).collect()
+    }
+
+    /// The fields among the unknowns.
+    #[must_use]
+    pub fn fields(&self) -> Fields<'_, D> {
+        Fields { velocity: &self.velocity, pressure: &self.pressure }
+    }
+
+    /// The largest speed of the fluid (m/s).
+    #[must_use]
+    pub fn top_speed(&self) -> f64 {
+        self.velocity.iter().map(|velocity| velocity.norm()).fold(0.0, f64::max)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn check<const D: usize>(modes: Modes) {
+        let layout =
+            DofLayout::<D> { n_nodes: 5, n_vertices: 3, n_bodies: 2, n_modes: modes.len() };
+        let raw: Vec<f64> = (0..layout.n_raw()).map(|i| 0.5 + i as f64).collect();
+        let solution = Solution::from_raw(&layout, modes, &raw);
+        assert_eq!(solution.to_raw(modes), raw);
+        assert_eq!(solution.velocity[2][D - 1], raw[layout.velocity(2, D - 1)]);
+        let last = modes.iter().next_back().unwrap();
+        assert_eq!(solution.twists[1].component(last), raw[layout.rigid(1, modes.len() - 1)]);
+    }
+
+    #[test]
+    fn unknowns_go_to_fields_and_back() {
+        check::<2>(Modes::PLANAR);
+        check::<2>(Modes::AXISYMMETRIC);
+        check::<3>(Modes::SPATIAL);
+    }
+}

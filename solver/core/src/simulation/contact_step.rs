@@ -1,0 +1,107 @@
+//! Contact forces of one pass: found for the gaps at the end of the step, and added to the flow.
+
+use nalgebra::DMatrix;
+
+use super::error::StepError;
+use super::newton::{Flow, flow_residual};
+use super::pass::PassEquations;
+use super::predict::integrate_poses;
+use super::state::State;
+use super::step::{TimeStepper, Workspace};
+use super::{RunError, Stage};
+use crate::body::{Pose, Twist};
+use crate::contact::{ContactLoads, ContactSolution, ContactStep, Gaps, Law};
+use crate::coupling::{BodyLoad, SolveError};
+
+/// Contact is looked for where bodies may get to with this times their displacement.
+const CONTACT_MARGIN: f64 = 2.0;
+
+/// What contact needs to know of a pass.
+pub(super) struct PassContact<'a, const D: usize> {
+    pub stepper: &'a TimeStepper<'a, D>,
+    pub state: &'a State<D>,
+    pub gaps: Option<&'a dyn Gaps>,
+    pub equations: &'a PassEquations<'a, D>,
+}
+
+impl<const D: usize> PassContact<'_, D> {
+    /// Adds contact to a flow found without it; loads of contact on all bodies.
+    ///
+    /// # Errors
+    /// When contact forces are not found, or the linear system cannot be solved.
+    pub fn apply(&self, work: &mut Workspace<D>, flow: &mut Flow<D>) -> Result<ContactLoads, StepError> {
+        let none = ContactLoads::none(self.state.poses.len());
+        let (Some(law), Some(gaps)) = (self.stepper.contact, self.gaps) else { return Ok(none) };
+        let candidates = self.candidate_bodies(gaps, law, &flow.solution.twists);
+        if candidates.is_empty() {
+            return Ok(none);
+        }
+        let Workspace { system, mesh, timing } = work;
+        let step = &self.equations.history.step;
+        let fail = |error: SolveError| RunError::from_solve(error, step.number, step.time);
+        let constraints = &self.equations.pass.constraints;
+        let mobility = system.mobility(constraints, &candidates, timing).map_err(fail)?;
+        let loads =
+            self.solve(gaps, law, &candidates, &flow.solution.twists, &mobility)?.loads;
+        let on_bodies: Vec<BodyLoad> = candidates
+            .iter()
+            .map(|&body| BodyLoad { body, load: loads.wrenches[body].to_vector() })
+            .collect();
+        if on_bodies.iter().any(|on_body| on_body.load.iter().any(|part| *part != 0.0)) {
+            let solution = &mut flow.solution;
+            system.apply_body_loads(constraints, &on_bodies, solution, timing).map_err(fail)?;
+        }
+        let at = self.equations.pass.at(self.stepper.problem, mesh);
+        flow.residual = timing.measure(Stage::Loads, || {
+            flow_residual(system, &at, self.equations, &flow.solution)
+        });
+        Ok(loads)
+    }
+
+    /// Poses as seen from where the frame is in this pass: its way is no part of the unknowns.
+    fn seen(&self, poses: &[Pose]) -> Vec<Pose> {
+        let origin = self.state.origin_at(self.stepper.problem, &self.equations.pass.poses);
+        self.state.in_frame(&origin, poses)
+    }
+
+    /// The bodies that may get within the range of something with velocities found without contact.
+    fn candidate_bodies(&self, gaps: &dyn Gaps, law: &Law, twists: &[Twist]) -> Vec<usize> {
+        let step = &self.equations.history.step;
+        let without = integrate_poses(self.stepper, self.state, step, twists);
+        let (from, to) = (self.seen(&self.state.poses), self.seen(&without));
+        gaps.candidate_bodies(&from, &to, CONTACT_MARGIN, law.range())
+    }
+
+    /// The contact forces for velocities found without them.
+    fn solve(
+        &self,
+        gaps: &dyn Gaps,
+        law: &Law,
+        bodies: &[usize],
+        twists: &[Twist],
+        mobility: &DMatrix<f64>,
+    ) -> Result<ContactSolution, StepError> {
+        let (state, bdf) = (self.state, &self.equations.history.step.bdf);
+        let poses = &self.equations.pass.poses;
+        let free_velocities: Vec<Twist> = bodies.iter().map(|&body| twists[body]).collect();
+        let predicted_velocities: Vec<Twist> = bodies
+            .iter()
+            .map(|&body| {
+                state.poses[body].velocity_to(bdf, &poses[body], &state.previous_poses[body])
+            })
+            .collect();
+        let step = ContactStep {
+            gaps,
+            law,
+            modes: self.stepper.problem.modes(),
+            bodies,
+            free_velocities: &free_velocities,
+            mobility,
+            predicted: &self.seen(poses),
+            predicted_velocities: &predicted_velocities,
+            coefficient: 1.0 / bdf.next,
+            start: &self.seen(&state.poses),
+        };
+        Ok(step.solve()?)
+    }
+}

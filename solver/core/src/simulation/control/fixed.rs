@@ -1,0 +1,95 @@
+//! Fixed steps, halved where they must be.
+
+use super::start::{Piece, count_steps, pieces};
+use super::{SMALLEST_PART, step_size_underflow};
+use crate::case::{Scheme, Unsteady};
+use crate::coupling::BodyLoads;
+use crate::simulation::RunError;
+use crate::simulation::advance::Attempt;
+use crate::simulation::run::{Run, StepSummary};
+use crate::simulation::step::StepReport;
+
+/// Growth of a step over the one before beyond which BDF2 would not be stable.
+const LARGEST_GROWTH: f64 = 2.1;
+
+/// What the pieces of a step amount to.
+#[derive(Default)]
+struct StepTally {
+    loads: Vec<BodyLoads>,
+    iterations: usize,
+}
+
+impl StepTally {
+    fn add(&mut self, step: StepReport) {
+        self.loads = step.loads;
+        self.iterations += step.iterations;
+    }
+}
+
+impl<const D: usize> Run<'_, D> {
+    /// Makes all steps; their number.
+    pub(in crate::simulation) fn fixed_steps(
+        &mut self,
+        settings: &Unsteady,
+    ) -> Result<usize, RunError> {
+        let n_steps = count_steps(settings);
+        // A resumed run may be anywhere within a step
+        let first = (self.simulation.state.time / settings.step + 1e-9).floor() as usize;
+        for index in first..n_steps {
+            let started = self.simulation.state.time;
+            let target = ((index + 1) as f64 * settings.step).min(settings.end);
+            let mut tally = StepTally::default();
+            for piece in pieces(settings, &self.simulation, target) {
+                self.fixed_piece(settings, index, piece, &mut tally)?;
+            }
+            // Counted, not summed, so that rounding does not pile up
+            let is_last = index + 1 == n_steps;
+            let state = &mut self.simulation.state;
+            state.time = if is_last { settings.end } else { (index + 1) as f64 * settings.step };
+            let summary = StepSummary {
+                iterations: tally.iterations,
+                time_step: state.time - started,
+                is_last,
+            };
+            self.report(&tally.loads, summary)?;
+            self.check_signals(is_last)?;
+        }
+        Ok(n_steps)
+    }
+
+    /// Makes one piece of a step, in halves where it must be.
+    fn fixed_piece(
+        &mut self,
+        settings: &Unsteady,
+        index: usize,
+        piece: Piece,
+        tally: &mut StepTally,
+    ) -> Result<(), RunError> {
+        let smallest = settings.step * SMALLEST_PART;
+        if piece.is_restart {
+            // What was before does not count for what comes
+            self.simulation.state.last_step = 0.0;
+        }
+        // The next one last
+        let mut to_do = vec![piece.size];
+        while let Some(size) = to_do.pop() {
+            let before = self.simulation.state.last_step;
+            let grows = before > 0.0 && size > LARGEST_GROWTH * before;
+            if grows && settings.scheme == Scheme::Bdf2 {
+                to_do.extend([0.5 * size; 2]);
+                continue;
+            }
+            self.simulation.state.step = index;
+            match self.simulation.try_step(size, f64::INFINITY)? {
+                Attempt::Made(step) => tally.add(step),
+                Attempt::Rejected(error) if size <= smallest => {
+                    return Err(step_size_underflow(&self.simulation, size, &error));
+                }
+                Attempt::Rejected(_) => to_do.extend([0.5 * size; 2]),
+            }
+            // A step in many pieces may take long
+            self.check_signals(false)?;
+        }
+        Ok(())
+    }
+}

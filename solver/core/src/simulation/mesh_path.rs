@@ -1,0 +1,91 @@
+//! `MeshPath`: how the nodes of the mesh move in a step.
+
+use alewife_mesh::{NodeId, Point};
+
+use super::error::StepError;
+use super::moving_mesh::{GapsAt, MovingMesh};
+use super::state::State;
+use super::step::Workspace;
+use super::Stage;
+use crate::body::{Pose, on_mesh};
+use crate::coupling::{BodyShapes, Problem};
+
+/// Position (m) of a node at a time (s).
+pub type NodePath<'a, const D: usize> = &'a (dyn Fn(NodeId, f64) -> Point<D> + Sync);
+
+/// How the nodes of the mesh move, seen from the frame.
+#[derive(Clone, Copy)]
+pub enum MeshPath<'a, const D: usize> {
+    /// Not at all.
+    Fixed,
+    /// To given positions.
+    Given(NodePath<'a, D>),
+    /// With the bodies.
+    FollowsBodies(&'a MovingMesh<D>),
+}
+
+impl<'a, const D: usize> MeshPath<'a, D> {
+    /// Whether the mesh stays as it is.
+    #[must_use]
+    pub fn is_fixed(&self) -> bool {
+        matches!(self, Self::Fixed)
+    }
+
+    /// The mesh that follows the bodies, if one does.
+    #[must_use]
+    pub fn moving_mesh(&self) -> Option<&'a MovingMesh<D>> {
+        match self {
+            Self::FollowsBodies(moving) => Some(moving),
+            Self::Fixed | Self::Given(_) => None,
+        }
+    }
+
+    /// The gaps between bodies of these shapes and walls, where the mesh follows bodies.
+    pub(super) fn gaps(&self, shapes: &BodyShapes) -> Option<GapsAt<'a>> {
+        self.moving_mesh().map(|moving| moving.gaps_at(shapes))
+    }
+
+    /// Moves the mesh of a pass with bodies of these shapes to poses; returns the positions of its nodes
+    /// seen from the frame.
+    ///
+    /// # Errors
+    /// When the equation of mesh motion cannot be solved, or a cell degenerates.
+    pub(super) fn move_mesh(
+        &self,
+        work: &mut Workspace<D>,
+        problem: &Problem<D>,
+        state: &State<D>,
+        poses: &[Pose],
+        shapes: &BodyShapes,
+    ) -> Result<Vec<Point<D>>, StepError> {
+        let origin = state.origin_at(problem, poses);
+        let Workspace { mesh, timing, .. } = work;
+        timing.measure(Stage::MeshMotion, || {
+            let nodes = match self {
+                Self::Fixed => state.nodes.clone(),
+                Self::Given(path) => {
+                    mesh.node_ids().map(|node| path(node, shapes.time())).collect()
+                }
+                Self::FollowsBodies(moving) => {
+                    moving.nodes(&state.in_frame(&origin, poses), shapes)?
+                }
+            };
+            let origin = on_mesh::<D>(&origin);
+            for (node, seen) in mesh.nodes.iter_mut().zip(&nodes) {
+                *node = seen + origin;
+            }
+            if let Self::FollowsBodies(moving) = self
+                && let Some(cell) = moving.degenerate_cell(mesh)
+            {
+                let center = cell.center.as_slice().to_vec();
+                return Err(StepError::DegenerateCell { center, quality: cell.quality });
+            }
+            Ok(nodes)
+        })
+    }
+
+    /// Whether bodies are near enough to where the flow was solved for.
+    pub(super) fn resolves(&self, solved_at: &[Pose], reached: &[Pose]) -> bool {
+        self.moving_mesh().is_none_or(|moving| !moving.needs_correction(solved_at, reached))
+    }
+}

@@ -1,0 +1,249 @@
+//! `MovingMesh`: the mesh that follows its bodies until it is replaced (the ALE map).
+
+use std::ops::Deref;
+
+use alewife_mesh::{BoundaryId, BoundaryKind, Mesh, NodeId, Point, WorstCell};
+
+use super::scene::{Meshed, RemeshError, Scene};
+use super::state::State;
+use crate::body::{Pose, in_space, on_mesh};
+use crate::contact::Gaps;
+use crate::coupling::{BodyShapes, Problem};
+use crate::motion::{
+    MeshBoundaryCondition, MeshMotion, MotionError, MotionKind, RigidMove, mesh_boundary_conditions,
+};
+
+/// Part of an edge by which a body may be elsewhere than where the flow was solved.
+const MISPLACED: f64 = 1e-3;
+/// Quality of a cell over the lowest one of the reference mesh below which no flow is solved on it.
+const DEGENERATE: f64 = 0.02;
+
+/// A mesh with all that moves it, from one remeshing to the next. Positions are seen from the frame.
+#[derive(Debug)]
+pub struct MovingMesh<const D: usize> {
+    motion: MeshMotion<D>,
+    /// Poses of the bodies in the reference mesh.
+    reference_poses: Vec<Pose>,
+    /// Time of the reference mesh (s).
+    reference_time: f64,
+    /// Whether the mesh turns with each body.
+    turns: Vec<bool>,
+    /// Shortest edge on each body (m).
+    edges: Vec<f64>,
+    /// Body of each boundary.
+    bodies: Vec<Option<usize>>,
+    scene: Box<dyn Scene<D>>,
+}
+
+/// How meshes move.
+#[derive(Debug, Clone)]
+pub struct MotionSettings {
+    /// The equation of mesh motion.
+    pub kind: MotionKind,
+    /// Whether the mesh turns with each body.
+    pub turns: Vec<bool>,
+}
+
+/// The gaps between bodies and walls at one time.
+pub enum GapsAt<'a> {
+    /// Those of the reference mesh.
+    Reference(&'a dyn Gaps),
+    /// Those of bodies that have deformed since.
+    Deformed(Box<dyn Gaps>),
+}
+
+impl<'a> Deref for GapsAt<'a> {
+    type Target = dyn Gaps + 'a;
+
+    fn deref(&self) -> &Self::Target {
+        match self {
+            Self::Reference(gaps) => *gaps,
+            Self::Deformed(gaps) => gaps.as_ref(),
+        }
+    }
+}
+
+/// How a body carries the nodes on it.
+enum SurfaceMap {
+    Rigid(RigidMove),
+    /// With its own shape, to a pose.
+    Deformed(Pose),
+}
+
+impl<const D: usize> MovingMesh<D> {
+    /// Takes a mesh generated at a time (s) as the reference.
+    ///
+    /// # Errors
+    /// When the equation of the mesh motion cannot be solved.
+    pub fn new(
+        mesh: &Mesh<D>,
+        scene: Box<dyn Scene<D>>,
+        settings: &MotionSettings,
+        reference_poses: Vec<Pose>,
+        reference_time: f64,
+    ) -> Result<Self, MotionError> {
+        let mut conditions = mesh_boundary_conditions(mesh, true);
+        for (boundary, condition) in conditions.iter_mut().enumerate() {
+            let origin = Point::<D>::zeros();
+            let boundary = BoundaryId::new(boundary);
+            if scene.side_displacement(boundary, &origin, reference_time).is_some() {
+                *condition = MeshBoundaryCondition::Given;
+            }
+        }
+        let bodies: Vec<Option<usize>> = mesh
+            .boundaries
+            .iter()
+            .map(|boundary| match boundary.kind {
+                BoundaryKind::Body(body) => Some(body),
+                BoundaryKind::Side | BoundaryKind::Axis => None,
+            })
+            .collect();
+        let mut edges = vec![f64::INFINITY; reference_poses.len()];
+        for facet in &mesh.facets {
+            if let Some(body) = bodies[facet.boundary] {
+                let vertices = mesh.facet_vertices(facet);
+                let length = (mesh.nodes[vertices[1]] - mesh.nodes[vertices[0]]).norm();
+                edges[body] = edges[body].min(length);
+            }
+        }
+        let motion = MeshMotion::new(mesh, settings.kind, &conditions)?;
+        let turns = settings.turns.clone();
+        Ok(Self { motion, reference_poses, reference_time, turns, edges, bodies, scene })
+    }
+
+    /// How each body has carried its nodes from the reference mesh to these poses.
+    fn surface_maps(&self, poses: &[Pose], shapes: &BodyShapes) -> Vec<SurfaceMap> {
+        let map = |(body, pose): (usize, &Pose)| {
+            let reference = &self.reference_poses[body];
+            let orientation =
+                if self.turns[body] { pose.orientation } else { reference.orientation };
+            let to = Pose { orientation, ..*pose };
+            match shapes.deformed(body) {
+                Some(_) => SurfaceMap::Deformed(to),
+                None => SurfaceMap::Rigid(RigidMove::between(reference, &to)),
+            }
+        };
+        poses.iter().enumerate().map(map).collect()
+    }
+
+    /// Positions of all nodes (m) with bodies of these shapes at poses, at the time of the shapes.
+    ///
+    /// # Errors
+    /// When memory runs out, or a node on a body has no material point.
+    pub fn nodes(&self, poses: &[Pose], shapes: &BodyShapes) -> Result<Vec<Point<D>>, MotionError> {
+        let maps = self.surface_maps(poses, shapes);
+        let given = |boundary: BoundaryId, node: NodeId, reference: &Point<D>| {
+            let Some(body) = self.bodies[boundary] else {
+                let moved = self.scene.side_displacement(boundary, reference, shapes.time());
+                return moved.unwrap_or_else(Point::<D>::zeros);
+            };
+            match &maps[body] {
+                SurfaceMap::Rigid(moved) => moved.displacement(reference),
+                SurfaceMap::Deformed(pose) => {
+                    let at = self.scene.material_position(node, body, shapes);
+                    let at = at.expect("every node of a facet on a body has a material point");
+                    on_mesh(&(pose.rotation() * at + pose.center - in_space(reference)))
+                }
+            }
+        };
+        let moved = self.motion.displacements(&given)?;
+        Ok(self.motion.reference().iter().zip(&moved).map(|(x, d)| x + d).collect())
+    }
+
+    /// A cell of a moved mesh on which no flow can be solved.
+    #[must_use]
+    pub fn degenerate_cell(&self, mesh: &Mesh<D>) -> Option<WorstCell<D>> {
+        let lowest = DEGENERATE * self.scene.lowest_quality();
+        mesh.worst_cell().filter(|worst| worst.quality <= lowest)
+    }
+
+    /// Whether a body is so far from where the flow was solved that it has to be solved again.
+    #[must_use]
+    pub fn needs_correction(&self, solved_at: &[Pose], poses: &[Pose]) -> bool {
+        let pairs = solved_at.iter().zip(poses).enumerate();
+        pairs.into_iter().any(|(body, (solved, pose))| {
+            let off = pose.displacement_from(solved);
+            let [way, turn] = [0, 3].map(|first| off.fixed_rows::<3>(first).norm());
+            let turn = if self.turns[body] { turn } else { 0.0 };
+            way + turn * self.gaps().reach(body) > MISPLACED * self.edges[body]
+        })
+    }
+
+    /// Whether the mesh of a state has to be replaced, and why.
+    #[must_use]
+    pub fn remesh_reason(&mut self, state: &State<D>, shapes: &BodyShapes) -> Option<String> {
+        // A moving wall comes back to where it was, and its mesh with it
+        if self.scene.has_moving_wall() {
+            return None;
+        }
+        let poses = state.in_frame(&state.origin, &state.poses);
+        self.scene.remesh_reason(&state.mesh_in_frame(), &poses, shapes)
+    }
+
+    /// Generates a mesh with the bodies where they are in a state.
+    ///
+    /// # Errors
+    /// When it cannot be generated.
+    pub fn remesh(&self, state: &State<D>, shapes: &BodyShapes) -> Result<Meshed<D>, RemeshError> {
+        if self.scene.has_moving_wall() {
+            return Err(RemeshError::MovingWall);
+        }
+        let poses = state.in_frame(&state.origin, &state.poses);
+        let shifted = |shifts: &[nalgebra::Vector3<f64>]| state.shifted_poses(shifts);
+        self.scene.remesh(&poses, shapes, &shifted)
+    }
+
+    /// The same kind of motion for another mesh, generated at a time (s).
+    ///
+    /// # Errors
+    /// When the equation of the mesh motion cannot be solved.
+    pub fn succeeded_by(
+        &self,
+        mesh: &Mesh<D>,
+        scene: Box<dyn Scene<D>>,
+        poses: Vec<Pose>,
+        time: f64,
+    ) -> Result<Self, MotionError> {
+        let settings = MotionSettings { kind: self.motion.kind(), turns: self.turns.clone() };
+        Self::new(mesh, scene, &settings, poses, time)
+    }
+
+    /// Gaps between bodies of these shapes, and walls.
+    #[must_use]
+    pub fn gaps_at(&self, shapes: &BodyShapes) -> GapsAt<'_> {
+        match self.scene.deformed_gaps(shapes) {
+            Some(gaps) => GapsAt::Deformed(gaps),
+            None => GapsAt::Reference(self.scene.gaps()),
+        }
+    }
+
+    /// Gaps between bodies in the shapes of the reference mesh, and walls.
+    #[must_use]
+    pub fn gaps(&self) -> &dyn Gaps {
+        self.scene.gaps()
+    }
+
+    /// Domain and bodies of the reference mesh.
+    #[must_use]
+    pub fn scene(&self) -> &dyn Scene<D> {
+        self.scene.as_ref()
+    }
+
+    /// Time of the reference mesh (s).
+    #[must_use]
+    pub fn reference_time(&self) -> f64 {
+        self.reference_time
+    }
+
+    /// Positions of the nodes of the reference mesh (m).
+    #[must_use]
+    pub fn reference(&self) -> &[Point<D>] {
+        self.motion.reference()
+    }
+
+    /// Poses of the bodies in the reference mesh.
+    #[must_use]
+    pub fn reference_poses(&self) -> &[Pose] {
+        &self.reference_poses
+    }
+}

@@ -1,0 +1,227 @@
+//! Newton's method for the flow on one configuration of the mesh, steady or in a step.
+
+use alewife_mesh::Point;
+
+use super::step::Step;
+use super::{RunError, Stage, Timing};
+use crate::coupling::{Configuration, FluidSystem, Solution, SolveError};
+use crate::flow::FlowTerms;
+
+/// The equations of the fluid as a function of the solution they are linearised at.
+pub(super) trait FlowEquations<const D: usize> {
+    /// What convects at the nodes (m/s); none without convection.
+    fn convecting_velocity(&self, solution: &Solution<D>) -> Vec<Point<D>>;
+
+    /// The terms with this convecting velocity.
+    fn terms<'a>(&'a self, convecting_velocity: &'a [Point<D>]) -> FlowTerms<'a, D>;
+
+    /// Called with each residual, relative to the scale of the criterion.
+    fn on_iteration(&self, _iteration: usize, _residual: f64) {}
+}
+
+/// The raw residual of the fluid at a solution.
+pub(super) fn flow_residual<const D: usize>(
+    system: &FluidSystem<D>,
+    at: &Configuration<'_, D>,
+    equations: &impl FlowEquations<D>,
+    solution: &Solution<D>,
+) -> Vec<f64> {
+    let convecting_velocity = equations.convecting_velocity(solution);
+    system.fluid_residual(at.mesh, &equations.terms(&convecting_velocity), solution)
+}
+
+/// When Newton's method ends.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Criterion {
+    /// Residual relative to the scale that counts as converged.
+    pub tolerance: f64,
+    /// Residuals relative to the scale that count as rounding once they stop falling.
+    pub rounding: f64,
+    /// Change of the velocities over their size that is rounding, if that ends the iteration.
+    pub stationary: Option<f64>,
+    /// Most iterations.
+    pub max_iterations: usize,
+    /// What residuals are relative to; the first one if not given.
+    pub scale: Option<f64>,
+    /// Whether the first iterate may be the solution.
+    pub accepts_start: bool,
+    /// Whether one linear system gives the solution.
+    pub is_linear: bool,
+    /// Growth of the residual over the least one from which there is no return, if that is looked for.
+    pub divergence: Option<f64>,
+}
+
+impl Criterion {
+    /// For the flow of one pass of a step.
+    pub fn of_step(is_linear: bool) -> Self {
+        Self {
+            tolerance: 1e-10,
+            rounding: 1e-7,
+            stationary: Some(1e-13),
+            max_iterations: 20,
+            scale: None,
+            accepts_start: false,
+            is_linear,
+            divergence: None,
+        }
+    }
+}
+
+/// Residual over the scale at which a least residual counts when divergence is looked for.
+const LARGE: f64 = 1e-3;
+
+/// A part of the last residual that is no progress any more.
+const NO_PROGRESS: f64 = 0.3;
+
+/// A flow with its raw residual.
+pub(super) struct Flow<const D: usize> {
+    pub solution: Solution<D>,
+    /// Raw residual of the fluid's equations.
+    pub residual: Vec<f64>,
+    /// Linear systems solved.
+    pub iterations: usize,
+    /// What residuals were relative to.
+    pub scale: f64,
+}
+
+/// An iterate that is no solution.
+pub(super) struct Iterate<const D: usize> {
+    pub solution: Solution<D>,
+    /// Residual relative to the scale.
+    pub residual: f64,
+    /// Linear systems solved.
+    pub iterations: usize,
+    /// What residuals were relative to.
+    pub scale: f64,
+}
+
+/// Why Newton's method ended without a solution.
+pub(super) struct NewtonFailure<const D: usize> {
+    /// The linear system that could not be solved; `None` where the residual did not get small.
+    pub error: Option<SolveError>,
+    /// The last iterate.
+    pub end: Iterate<D>,
+}
+
+impl<const D: usize> NewtonFailure<D> {
+    /// The error of a run that ends with it in a step.
+    pub fn in_step(self, step: &Step) -> RunError {
+        let Step { number, time, .. } = *step;
+        let Iterate { residual, iterations, .. } = self.end;
+        match self.error {
+            Some(error) => RunError::from_solve(error, number, time),
+            None => RunError::NewtonStalled { step: number, time, residual, iterations },
+        }
+    }
+}
+
+/// Solves R(u) = 0 for fluid and bodies from a first iterate that meets the constraints.
+pub(super) fn newton<const D: usize>(
+    system: &mut FluidSystem<D>,
+    timing: &mut Timing,
+    at: &Configuration<'_, D>,
+    equations: &impl FlowEquations<D>,
+    criterion: &Criterion,
+    start: Solution<D>,
+) -> Result<Flow<D>, NewtonFailure<D>> {
+    let mut solution = start;
+    let mut progress = Progress::new(criterion);
+    loop {
+        let iterations = progress.iterations;
+        let convecting_velocity = equations.convecting_velocity(&solution);
+        let terms = equations.terms(&convecting_velocity);
+        // The second residual of a linear system is for the loads only
+        let is_for_loads = criterion.is_linear && iterations == 1;
+        let stage = if is_for_loads { Stage::Loads } else { Stage::Assembly };
+        let residual = timing.measure(stage, || system.fluid_residual(at.mesh, &terms, &solution));
+        if is_for_loads {
+            return Ok(Flow { solution, residual, iterations, scale: progress.scale() });
+        }
+        let reduced = system.reduced_residual(at, &solution, &residual);
+        let relative = progress.relative(&reduced);
+        equations.on_iteration(iterations, relative);
+        let scale = progress.scale();
+        if progress.is_converged(relative) {
+            return Ok(Flow { solution, residual, iterations, scale });
+        }
+        let end = |solution, iterations| Iterate { solution, residual: relative, iterations, scale };
+        if progress.is_hopeless(relative) {
+            return Err(NewtonFailure { error: None, end: end(solution, iterations) });
+        }
+        let next = match system.newton_step(at, &terms, &solution, &reduced, timing) {
+            Ok(next) => next,
+            Err(error) => {
+                let end = end(solution, iterations + 1);
+                return Err(NewtonFailure { error: Some(error), end });
+            }
+        };
+        progress.take(relative, &solution, &next);
+        solution = next;
+    }
+}
+
+/// How the residual has fallen so far.
+struct Progress<'a> {
+    criterion: &'a Criterion,
+    scale: Option<f64>,
+    iterations: usize,
+    last: f64,
+    least: f64,
+    is_stationary: bool,
+}
+
+impl<'a> Progress<'a> {
+    fn new(criterion: &'a Criterion) -> Self {
+        Self {
+            criterion,
+            scale: criterion.scale,
+            iterations: 0,
+            last: f64::INFINITY,
+            least: f64::INFINITY,
+            is_stationary: false,
+        }
+    }
+
+    /// The largest entry of a residual relative to the scale.
+    fn relative(&mut self, reduced: &[f64]) -> f64 {
+        let size = reduced.iter().fold(0.0f64, |most, value| most.max(value.abs()));
+        let scale = *self.scale.get_or_insert(size);
+        if scale > 0.0 { size / scale } else { 0.0 }
+    }
+
+    fn scale(&self) -> f64 {
+        self.scale.unwrap_or(0.0)
+    }
+
+    fn is_converged(&self, relative: f64) -> bool {
+        let Criterion { tolerance, rounding, accepts_start, .. } = *self.criterion;
+        let is_rounding = relative < rounding && relative > NO_PROGRESS * self.last;
+        let may_end = accepts_start || self.iterations > 0;
+        may_end && (relative <= tolerance || is_rounding || self.is_stationary)
+    }
+
+    fn is_hopeless(&self, relative: f64) -> bool {
+        let least = self.least.min(relative).max(LARGE);
+        let diverges = |growth: f64| !relative.is_finite() || relative > growth * least;
+        self.iterations == self.criterion.max_iterations
+            || self.criterion.divergence.is_some_and(diverges)
+    }
+
+    fn take<const D: usize>(&mut self, relative: f64, from: &Solution<D>, to: &Solution<D>) {
+        self.least = self.least.min(relative);
+        self.last = relative;
+        self.iterations += 1;
+        // Where the first residual is rounding already, no other is small beside it
+        let is_rounding = |limit| change(from, to) <= limit;
+        self.is_stationary = self.criterion.stationary.is_some_and(is_rounding);
+    }
+}
+
+/// Largest change of a velocity over the largest velocity.
+fn change<const D: usize>(from: &Solution<D>, to: &Solution<D>) -> f64 {
+    let most = |sizes: &mut dyn Iterator<Item = f64>| sizes.fold(0.0, f64::max);
+    let pairs = from.velocity.iter().zip(&to.velocity);
+    let change = most(&mut pairs.map(|(from, to)| (to - from).amax()));
+    let size = most(&mut to.velocity.iter().map(|velocity| velocity.amax()));
+    if change > 0.0 { change / size } else { 0.0 }
+}

@@ -1,0 +1,142 @@
+//! What a planar or axisymmetric case says of meshes: domain, sizes, bodies, sheets.
+
+use alewife_mesh::{Domain, Mesh, PlacedShape, SizeBox, Sizing};
+
+use super::periodic_cell::{PeriodicCell, initial_cell};
+use super::shape_motion::shape_motion;
+use crate::body::Pose;
+use crate::case::{Body, BoundaryCondition, Case};
+use crate::coupling::{Problem, ShapeError};
+use crate::gait::WavingSheet;
+use crate::motion::Limits;
+use crate::simulation::RunError;
+
+/// Angle by which an outline turns along one edge at most (rad), however large its size.
+const LARGEST_TURN: f64 = 0.5;
+
+/// What stays the same over all meshes of a run.
+#[derive(Debug)]
+pub(in crate::simulation) struct PlanarCase {
+    /// The domain as it was at first.
+    pub home: Domain,
+    /// The wanted cell sizes.
+    pub sizing: Sizing,
+    /// When a mesh is replaced.
+    pub limits: Limits,
+    /// Whether the mesh turns with each body.
+    pub turns: Vec<bool>,
+    /// Whether each body deforms.
+    pub deforms: Vec<bool>,
+    /// Bodies that share a pivot.
+    pub pivots: Vec<[usize; 2]>,
+    /// The bodies at time zero.
+    pub start_shapes: Vec<PlacedShape>,
+    /// Their poses.
+    pub start_poses: Vec<Pose>,
+    /// Sides that wave, by name.
+    sheets: Vec<(String, WavingSheet)>,
+}
+
+impl PlanarCase {
+    /// That of a case and its problem.
+    pub fn new(case: &Case, problem: &Problem<2>) -> Result<Self, RunError> {
+        let moving = &case.mesh.moving;
+        let pivots = problem.bodies.iter().enumerate().filter_map(|(child, body)| {
+            let joint = body.joint.as_ref().filter(|joint| joint.arm.is_none())?;
+            Some([joint.parent, child])
+        });
+        let turns = case.body.iter().map(|body| !problem.metric.is_revolved() && !body.is_round());
+        let sheets = case.boundary.keys().filter_map(|side| Some((side.clone(), waving_sheet(case, side)?)));
+        Ok(Self {
+            home: case.mesh_domain(),
+            sizing: sizing(case),
+            limits: Limits { quality: moving.quality, layers: moving.layers },
+            turns: turns.collect(),
+            deforms: problem.bodies.iter().map(|body| body.shape.is_some()).collect(),
+            pivots: pivots.collect(),
+            start_shapes: placed_bodies(case)?,
+            start_poses: problem.bodies.iter().map(|body| body.pose).collect(),
+            sheets: sheets.collect(),
+        })
+    }
+
+    /// The sheet that a side is, if it is one.
+    pub fn sheet(&self, side: &str) -> Option<WavingSheet> {
+        self.sheets.iter().find(|(name, _)| name == side).map(|(_, sheet)| sheet.clone())
+    }
+}
+
+/// The mesh of a case.
+///
+/// # Errors
+/// When a body does not fit, or the mesh cannot be generated.
+pub fn build_mesh(case: &Case) -> Result<Mesh<2>, RunError> {
+    Ok(initial_mesh(case)?.mesh)
+}
+
+/// The mesh of a case at time zero, with its domain and bodies as they are meshed.
+pub(in crate::simulation) struct InitialMesh {
+    /// The mesh.
+    pub mesh: Mesh<2>,
+    /// Domain and bodies.
+    pub cell: PeriodicCell,
+}
+
+/// Generates the mesh of a case at time zero.
+pub(in crate::simulation) fn initial_mesh(case: &Case) -> Result<InitialMesh, RunError> {
+    let cell = initial_cell(&case.mesh_domain(), placed_bodies(case)?)?;
+    let mut mesh = cell.mesh(&sizing(case))?;
+    // The side of a sheet is straight at first, but will not stay so
+    for facet in &mesh.facets {
+        if waving_sheet(case, &mesh.boundaries[facet.boundary].name).is_some() {
+            mesh.curved[facet.cell] = true;
+        }
+    }
+    Ok(InitialMesh { mesh, cell })
+}
+
+/// The sheet that a side of the domain is, if it is one.
+fn waving_sheet(case: &Case, side: &str) -> Option<WavingSheet> {
+    match case.boundary.get(side) {
+        Some(&BoundaryCondition::WavingSheet { amplitude, wavelength, frequency, extensible }) => {
+            Some(WavingSheet::new(amplitude, wavelength, frequency, extensible))
+        }
+        _ => None,
+    }
+}
+
+/// The bodies of a case as they are meshed at time zero.
+fn placed_bodies(case: &Case) -> Result<Vec<PlacedShape>, RunError> {
+    let placed = |body: &Body| {
+        let mut placed = body.placed(case.mesh.scale);
+        if let Some(motion) = shape_motion(body)? {
+            let start = motion.at(0.0);
+            let start = start.map_err(|reason| ShapeError { body: body.name.clone(), reason })?;
+            placed.shape = start.shape();
+        }
+        Ok(placed)
+    };
+    case.body.iter().map(placed).collect()
+}
+
+/// The wanted cell sizes of a case.
+#[must_use]
+pub fn sizing(case: &Case) -> Sizing {
+    let mesh = &case.mesh;
+    let boxes = mesh.boxes.iter().map(|refined| SizeBox {
+        min: refined.min.into(),
+        max: refined.max.into(),
+        size: refined.size * mesh.scale,
+    });
+    Sizing {
+        size: mesh.size * mesh.scale,
+        surface: mesh.surface.unwrap_or(mesh.size) * mesh.scale,
+        sides: mesh.sides.iter().map(|(name, size)| (name.clone(), size * mesh.scale)).collect(),
+        // A finer mesh has the same shape: more layers in gaps, slower growth
+        growth: mesh.growth * mesh.scale,
+        gap_layers: mesh.gap_layers / mesh.scale,
+        turn: LARGEST_TURN * mesh.scale,
+        boxes: boxes.collect(),
+        curved: mesh.curved,
+    }
+}

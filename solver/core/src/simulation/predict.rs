@@ -1,0 +1,104 @@
+//! Where bodies get to: predicted, limited by the gaps between them, and integrated from velocities.
+
+use super::mesh_path::MeshPath;
+use super::state::State;
+use super::step::{Step, TimeStepper};
+use crate::body::{Mode, Pose, RigidVector, Twist};
+use crate::contact::Gaps;
+use crate::coupling::Problem;
+
+/// Part of the smallest gap that is left at least when bodies are put nearer to each other.
+const KEPT_GAP: f64 = 0.5;
+
+/// Smallest part of a predicted displacement that is tried.
+const SMALLEST_PART: f64 = 1e-6;
+
+impl<const D: usize> TimeStepper<'_, D> {
+    /// Whether a body goes where one of its velocities takes it: it stays where the mesh is that does
+    /// not follow.
+    pub(super) fn moves(&self, body: usize, mode: Mode) -> bool {
+        mode.is_rotation()
+            || matches!(self.path, MeshPath::FollowsBodies(_))
+            || self.problem.frame == Some(body)
+    }
+
+    /// The components of a displacement along which a body moves.
+    pub(super) fn restricted(&self, body: usize, displacement: &RigidVector) -> RigidVector {
+        let mut kept = RigidVector::zeros();
+        for mode in self.problem.modes().iter().filter(|mode| self.moves(body, *mode)) {
+            kept[mode] = displacement[mode];
+        }
+        kept
+    }
+}
+
+/// Poses at the new time, with given velocities as they are then and the others extrapolated.
+pub(super) fn predict_poses<const D: usize>(
+    stepper: &TimeStepper<'_, D>,
+    state: &State<D>,
+    step: &Step,
+) -> Vec<Pose> {
+    let levels = state.now.twists.iter().zip(&state.previous.twists);
+    let twists = stepper.problem.bodies.iter().zip(levels).map(|(body, (now, before))| {
+        let mut velocity = step.bdf.extrapolate(now.to_vector(), before.to_vector());
+        for mode in Mode::ALL {
+            if let Some(given) = body.drive(mode).given(step.time) {
+                velocity[mode] = given;
+            }
+        }
+        Twist::from_vector(&velocity)
+    });
+    integrate_poses(stepper, state, step, &twists.collect::<Vec<_>>())
+}
+
+/// Poses at the new time of bodies with these velocities there.
+pub(super) fn integrate_poses<const D: usize>(
+    stepper: &TimeStepper<'_, D>,
+    state: &State<D>,
+    step: &Step,
+    twists: &[Twist],
+) -> Vec<Pose> {
+    let levels = state.poses.iter().zip(&state.previous_poses);
+    let advanced = levels.zip(twists).enumerate().map(|(body, ((now, before), twist))| {
+        let last = now.displacement_from(before);
+        let increment = step.bdf.increment(twist.to_vector(), last);
+        now.displaced(&stepper.restricted(body, &increment))
+    });
+    let mut poses: Vec<Pose> = advanced.collect();
+    stepper.problem.apply_joints(&mut poses, step.time);
+    poses
+}
+
+/// Poses at the new time of bodies without velocity there.
+pub(super) fn unmoved_poses<const D: usize>(
+    stepper: &TimeStepper<'_, D>,
+    state: &State<D>,
+    step: &Step,
+) -> Vec<Pose> {
+    integrate_poses(stepper, state, step, &vec![Twist::default(); state.poses.len()])
+}
+
+/// As far on the way between poses as leaves some of the smallest gap: predictions know
+/// nothing of what is in the way.
+pub(super) fn limit_by_gaps<const D: usize>(
+    problem: &Problem<D>,
+    gaps: Option<&dyn Gaps>,
+    state: &State<D>,
+    from: &[Pose],
+    to: Vec<Pose>,
+) -> Vec<Pose> {
+    let Some(gaps) = gaps else { return to };
+    let gap = |poses: &[Pose]| {
+        let minimum = gaps.minimum_gap(&state.seen_from_own_frame(problem, poses));
+        minimum.map_or(f64::INFINITY, |minimum| minimum.gap)
+    };
+    let kept = KEPT_GAP * gap(from);
+    let mut part = 1.0;
+    let mut trial = to.clone();
+    while gap(&trial) < kept && part > SMALLEST_PART {
+        part *= 0.5;
+        let pairs = from.iter().zip(&to);
+        trial = pairs.map(|(from, to)| from.displaced(&(to.displacement_from(from) * part))).collect();
+    }
+    trial
+}

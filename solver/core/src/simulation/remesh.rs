@@ -1,0 +1,146 @@
+//! A new mesh in the middle of a run, with both levels of the flow taken over to it.
+
+use alewife_mesh::{Mesh, Point};
+use nalgebra::Vector3;
+
+use super::moving_mesh::MovingMesh;
+use super::scene::{Meshed, RemeshError};
+use super::state::{State, seen_from};
+use crate::body::on_mesh;
+use crate::coupling::{
+    BodiesAt, BodyShapes, Boundaries, BoundaryValues, DivergenceFreeProjection, Problem, Solution,
+    impose_boundary_values,
+};
+use crate::motion::Transfer;
+use crate::space::Tables;
+
+/// One level of a flow, on the old mesh and where the new one is to be then.
+struct Level<'a, const D: usize> {
+    name: &'static str,
+    solution: &'a Solution<D>,
+    /// The old mesh then, seen from the frame.
+    old: &'a Mesh<D>,
+    /// The new mesh then, seen from the frame.
+    new: &'a Mesh<D>,
+    /// Bodies then, seen from the frame.
+    bodies: BodiesAt<'a>,
+    /// Position of the frame then (m).
+    origin: Vector3<f64>,
+}
+
+/// Replaces the mesh of a state, with bodies where they are, and takes the flow over. On error the
+/// state is where it was.
+///
+/// # Errors
+/// When the mesh cannot be generated, or the flow not be made divergence-free on it.
+pub(super) fn remesh<const D: usize>(
+    problem: &Problem<D>,
+    state: &mut State<D>,
+    moving: &MovingMesh<D>,
+) -> Result<MovingMesh<D>, RemeshError> {
+    let shapes = BodyShapes::at(&problem.bodies, state.time)?;
+    let Meshed { mesh: new, scene, poses, shifts } = moving.remesh(state, &shapes)?;
+    let image_shifts: Vec<Vector3<f64>> =
+        state.image_shifts.iter().zip(&shifts).map(|(known, shift)| known + shift).collect();
+    // The frame was elsewhere one level back, too
+    let origin_before = state.origin_at(problem, &state.previous_poses);
+    let previous_poses = seen_from(&origin_before, &state.previous_poses, &image_shifts);
+    let successor = moving.succeeded_by(&new, scene, poses.clone(), state.time)?;
+
+    // One level back the new mesh is where its own motion puts it: nodes whose way had a kink would
+    // cost the next step its second order
+    let shapes_before = BodyShapes::at(&problem.bodies, state.time_before())?;
+    let nodes_before = successor.nodes(&previous_poses, &shapes_before)?;
+    let before = Mesh { nodes: nodes_before, ..new.clone() };
+    let old = state.mesh_in_frame();
+    let old_before = Mesh { nodes: state.nodes_before.clone(), ..old.clone() };
+    let bodies = |poses, shapes| BodiesAt { poses, shapes };
+    let mut takeover = Takeover::new(problem, &new, &successor)?;
+    let now = Level {
+        name: "present level",
+        solution: &state.now,
+        old: &old,
+        new: &new,
+        bodies: bodies(&poses, &shapes),
+        origin: state.origin,
+    };
+    let previous = Level {
+        name: "level before",
+        solution: &state.previous,
+        old: &old_before,
+        new: &before,
+        bodies: bodies(&previous_poses, &shapes_before),
+        origin: origin_before,
+    };
+    let (now, rates) = takeover.level(&now, &state.rates)?;
+    let (previous, _) = takeover.level(&previous, &[])?;
+    (state.now, state.previous, state.rates) = (now, previous, rates);
+    state.image_shifts = image_shifts;
+    state.put_on_mesh(new, before.nodes);
+    Ok(successor)
+}
+
+/// Takes levels of a flow from one mesh to another.
+struct Takeover<'a, const D: usize> {
+    problem: &'a Problem<D>,
+    moving: &'a MovingMesh<D>,
+    boundaries: Boundaries,
+    tables: Tables<D>,
+    /// None where nothing has inertia: the older velocities are first guesses only.
+    projection: Option<DivergenceFreeProjection<D>>,
+}
+
+impl<'a, const D: usize> Takeover<'a, D> {
+    fn new(
+        problem: &'a Problem<D>,
+        new: &Mesh<D>,
+        moving: &'a MovingMesh<D>,
+    ) -> Result<Self, RemeshError> {
+        let projection =
+            problem.has_inertia.then(|| DivergenceFreeProjection::new(problem, new)).transpose()?;
+        let (boundaries, tables) = (Boundaries::new(new), Tables::new(problem.metric));
+        Ok(Self { problem, moving, boundaries, tables, projection })
+    }
+
+    /// A level on the new mesh, and other velocities (m/s2 at the nodes) with it.
+    fn level(
+        &mut self,
+        level: &Level<'_, D>,
+        others: &[Point<D>],
+    ) -> Result<(Solution<D>, Vec<Point<D>>), RemeshError> {
+        let images = self.moving.scene().images([level.old, level.new]);
+        let not_found = || RemeshError::NotFound { level: level.name };
+        let transfer =
+            Transfer::new(level.old, level.new, &images).ok_or_else(not_found)?;
+        let others = if others.is_empty() { Vec::new() } else { transfer.quadratic(others) };
+        let mut solution = Solution {
+            velocity: transfer.quadratic(&level.solution.velocity),
+            pressure: transfer.linear(&level.solution.pressure),
+            twists: level.solution.twists.clone(),
+        };
+        let values = BoundaryValues {
+            bodies: level.bodies,
+            twists: &solution.twists,
+            origin: on_mesh(&level.origin),
+        };
+        impose_boundary_values(
+            self.problem,
+            level.new,
+            &self.boundaries,
+            &values,
+            &mut solution.velocity,
+        );
+        if let Some(projection) = &mut self.projection {
+            let transfer =
+                transfer.with_points(&self.tables, &images).ok_or_else(not_found)?;
+            let residual = transfer.projection_residual(
+                &self.tables,
+                &level.solution.velocity,
+                &solution.velocity,
+            );
+            projection.move_to(self.problem, level.new)?;
+            solution.velocity = projection.project_with(level.new, &solution.velocity, &residual)?;
+        }
+        Ok((solution, others))
+    }
+}

@@ -1,0 +1,110 @@
+//! `Scene`: domain and bodies as they were meshed, and what a run asks of their exact surfaces.
+
+use std::fmt::Debug;
+
+use alewife_mesh::{BoundaryId, Mesh, MeshError, NodeId, Point};
+use nalgebra::Vector3;
+use thiserror::Error;
+
+use crate::body::Pose;
+use crate::contact::{ContactError, Gaps};
+use crate::coupling::{BodyShapes, ShapeError};
+use crate::motion::MotionError;
+
+/// Why a mesh could not be generated, or the flow not be taken over to it.
+#[derive(Debug, Error)]
+pub enum RemeshError {
+    /// The mesh cannot be generated.
+    #[error(transparent)]
+    Mesh(#[from] MeshError),
+    /// The mesh could not be moved.
+    #[error(transparent)]
+    Motion(#[from] MotionError),
+    /// The surfaces have no gaps.
+    #[error(transparent)]
+    Gaps(#[from] ContactError),
+    /// A gait gives its body no shape.
+    #[error(transparent)]
+    Shape(#[from] ShapeError),
+    /// The flow on it could not be made divergence-free.
+    #[error("the flow on the new mesh: {0}")]
+    Projection(#[from] crate::algebra::LinearError),
+    /// A node of the new mesh is not found in the old one.
+    #[error("the flow of the {level} could not be found in the old mesh")]
+    NotFound {
+        /// Which level.
+        level: &'static str,
+    },
+    /// A side that moves is not meshed again.
+    #[error("a side that waves is not remeshed; take a smaller amplitude")]
+    MovingWall,
+}
+
+/// A mesh with the scene it was generated for.
+pub struct Meshed<const D: usize> {
+    /// The mesh, seen from the frame.
+    pub mesh: Mesh<D>,
+    /// What it was generated for.
+    pub scene: Box<dyn Scene<D>>,
+    /// Poses of the bodies in it.
+    pub poses: Vec<Pose>,
+    /// Whole periods by which each body has been moved (m).
+    pub shifts: Vec<Vector3<f64>>,
+}
+
+/// Poses of bodies that have been moved by whole periods (m).
+pub type PosesByShift<'a> = &'a dyn Fn(&[Vector3<f64>]) -> Vec<Pose>;
+
+/// Domain and bodies as they were meshed: the reference configuration of a moving mesh.
+pub trait Scene<const D: usize>: Debug + Send + Sync {
+    /// Gaps between bodies in the shapes they had then, and walls.
+    fn gaps(&self) -> &dyn Gaps;
+
+    /// Gaps between bodies of these shapes, and walls; `None` where no body deforms.
+    fn deformed_gaps(&self, shapes: &BodyShapes) -> Option<Box<dyn Gaps>>;
+
+    /// Position of a node on a body that deforms, in the frame of the body (m); `None` for a node that
+    /// is on none.
+    fn material_position(&self, node: NodeId, body: usize, shapes: &BodyShapes)
+    -> Option<Vector3<f64>>;
+
+    /// Displacement (m) at a time (s) of a point of a side that moves; `None` for other sides.
+    fn side_displacement(
+        &self,
+        boundary: BoundaryId,
+        reference: &Point<D>,
+        time: f64,
+    ) -> Option<Point<D>>;
+
+    /// Whether a side moves, so that the mesh is not at rest even where bodies are.
+    fn has_moving_wall(&self) -> bool;
+
+    /// Lowest quality of a cell then.
+    fn lowest_quality(&self) -> f64;
+
+    /// Whether a mesh that has moved since then must be replaced, with bodies of these shapes at poses
+    /// seen from the frame, and why.
+    fn remesh_reason(
+        &mut self,
+        mesh: &Mesh<D>,
+        poses: &[Pose],
+        shapes: &BodyShapes,
+    ) -> Option<String>;
+
+    /// Generates a mesh with bodies of these shapes at poses seen from the frame.
+    ///
+    /// # Errors
+    /// When it cannot be generated.
+    fn remesh(
+        &self,
+        poses: &[Pose],
+        shapes: &BodyShapes,
+        shifted: PosesByShift<'_>,
+    ) -> Result<Meshed<D>, RemeshError>;
+
+    /// The vectors by which the domain repeats (m), for points of these meshes.
+    fn images(&self, meshes: [&Mesh<D>; 2]) -> Vec<Point<D>>;
+
+    /// Where the domain starts along each coordinate (m).
+    fn domain_start(&self) -> Point<D>;
+}
