@@ -10,8 +10,8 @@ use super::opened::{Opened, open_first};
 use super::shape_motion::shape_motion;
 use crate::body::{Pose, Wrench};
 use crate::case::{
-    Body, BoundaryCondition, Case, Contact, DomainSpec, Gait as GaitSpec, Geometry, Hinge, Joint,
-    JointKind, Lock, Model, Motion, ShapeSpec, Stroke, TimeFunction, TimeSettings,
+    Body, BoundaryCondition, Case, ContactSpec, DomainSpec, FlowModel, GaitSpec, Geometry, Hinge,
+    Joint, JointKind, Lock, Motion, ShapeSpec, Stroke, TimeFunction, TimeSettings,
 };
 use crate::contact::{Law, LawKind};
 use crate::coupling::{
@@ -66,10 +66,10 @@ pub(super) fn placed_bodies(case: &Case) -> Result<Vec<PlacedShape>, RunError> {
 }
 
 /// The law of contact a case asks for.
-pub(super) fn contact_law(contact: &Contact) -> Result<Law, RunError> {
+pub(super) fn contact_law(contact: &ContactSpec) -> Result<Law, RunError> {
     let (kind, range) = match *contact {
-        Contact::Quadratic { range, epsilon } => (LawKind::Quadratic { epsilon }, range),
-        Contact::Barrier { range, stiffness } => (LawKind::Barrier { stiffness }, range),
+        ContactSpec::Quadratic { range, epsilon } => (LawKind::Quadratic { epsilon }, range),
+        ContactSpec::Barrier { range, stiffness } => (LawKind::Barrier { stiffness }, range),
     };
     Law::new(kind, range).map_err(|error| RunError::Unsupported(error.to_string()))
 }
@@ -127,13 +127,13 @@ pub fn build_problem(case: &Case, mesh: &Mesh<2>) -> Result<Problem, RunError> {
     for joint in &case.joint {
         link(case, joint, &mut bodies)?;
     }
-    let has_inertia = case.fluid.model != Model::Stokes;
+    let has_inertia = case.fluid.model != FlowModel::Stokes;
     let mut problem = Problem {
         metric,
         density: if has_inertia { case.fluid.density } else { 0.0 },
         viscosity: case.fluid.viscosity,
         has_inertia,
-        has_convection: case.fluid.model == Model::NavierStokes,
+        has_convection: case.fluid.model == FlowModel::NavierStokes,
         sides,
         bodies,
         groups: case.group.iter().map(|one| group(case, one)).collect(),
@@ -339,7 +339,7 @@ fn rigid_body(
         RunError::Unsupported(format!("body `{}`: its spline has no valid outline", body.name))
     })?;
     let second_moment = second_moment(&moments);
-    let has_inertia = case.fluid.model != Model::Stokes;
+    let has_inertia = case.fluid.model != FlowModel::Stokes;
     let density = body.density.unwrap_or(case.fluid.density);
     // Weight less buoyancy: the pressure is the one without its hydrostatic part.
     let net_mass = (density - case.fluid.density) * moments.measure;

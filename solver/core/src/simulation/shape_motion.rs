@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::RunError;
-use crate::case::{Body, Gait, ShapeSpec};
+use crate::case::{Body, GaitSpec, ShapeSpec};
 use crate::gait::{
     Anguilliform, Carangiform, Flagellum, Midline, Pulse, PulseLaw, ShapeMotion, Swimmer,
 };
@@ -15,9 +15,9 @@ use crate::gait::{
 pub fn shape_motion(body: &Body) -> Result<Option<Arc<dyn ShapeMotion>>, RunError> {
     let refuse = |why: &str| RunError::Unsupported(format!("body `{}`: {why}", body.name));
     let midline = match (&body.gait, &body.shape) {
-        (None | Some(Gait::Squirmer(_)), _) => return Ok(None),
+        (None | Some(GaitSpec::Squirmer(_)), _) => return Ok(None),
         (
-            Some(Gait::Pulsating(gait)),
+            Some(GaitSpec::Pulsating(gait)),
             ShapeSpec::Disc { radius } | ShapeSpec::Sphere { radius },
         ) => {
             let law = match gait.amplitude {
@@ -31,7 +31,7 @@ pub fn shape_motion(body: &Body) -> Result<Option<Arc<dyn ShapeMotion>>, RunErro
             let is_sphere = matches!(body.shape, ShapeSpec::Sphere { .. });
             return Ok(Some(Arc::new(Pulse { radius: *radius, is_sphere, law })));
         }
-        (Some(Gait::Carangiform(gait)), ShapeSpec::Fish(fish)) => {
+        (Some(GaitSpec::Carangiform(gait)), ShapeSpec::Fish(fish)) => {
             Midline::Carangiform(Carangiform {
                 length: fish.length,
                 curvature: gait.curvature.clone(),
@@ -41,7 +41,7 @@ pub fn shape_motion(body: &Body) -> Result<Option<Arc<dyn ShapeMotion>>, RunErro
                 ramp: gait.ramp.unwrap_or(gait.period),
             })
         }
-        (Some(Gait::Anguilliform(gait)), ShapeSpec::Fish(fish)) => {
+        (Some(GaitSpec::Anguilliform(gait)), ShapeSpec::Fish(fish)) => {
             Midline::Anguilliform(Anguilliform {
                 length: fish.length,
                 amplitude: gait.amplitude,
@@ -51,7 +51,7 @@ pub fn shape_motion(body: &Body) -> Result<Option<Arc<dyn ShapeMotion>>, RunErro
                 ramp: gait.ramp.unwrap_or(gait.period),
             })
         }
-        (Some(Gait::Flagellum(gait)), ShapeSpec::Flagellate(body)) => {
+        (Some(GaitSpec::Flagellum(gait)), ShapeSpec::Flagellate(body)) => {
             Midline::Flagellum(Flagellum {
                 head: 2.0 * body.head[0],
                 length: body.tail_length,
