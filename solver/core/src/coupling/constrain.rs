@@ -3,7 +3,7 @@
 //! A node on a body: u = U + omega x (x - G) + slip, with U and omega raw unknowns themselves.
 //! Where boundaries meet, bodies come first, then walls, then inflows, then symmetry planes.
 
-use alewife_mesh::{BoundaryKind, Facet, Mesh};
+use alewife_mesh::{BoundaryId, BoundaryKind, Facet, Mesh, NodeId, PeriodicPair};
 
 use super::link::RigidRow;
 use super::problem::{Drive, MovingSurface, Problem};
@@ -14,8 +14,8 @@ use crate::space::DofLayout;
 /// The boundaries each node lies on.
 #[derive(Debug, Clone)]
 pub struct NodeSides {
-    /// (node, boundary), sorted, each pair once.
-    pairs: Vec<(u32, u16)>,
+    /// Sorted, each pair once.
+    pairs: Vec<(NodeId, BoundaryId)>,
 }
 
 impl NodeSides {
@@ -24,11 +24,7 @@ impl NodeSides {
     pub fn new(mesh: &Mesh<2>) -> Self {
         let mut pairs = Vec::with_capacity(3 * mesh.facets.len());
         for facet in &mesh.facets {
-            let side = usize::from(facet.side);
-            let cell = mesh.cell(facet.cell as usize);
-            for local in [side, (side + 1) % 3, side + 3] {
-                pairs.push((cell[local], facet.boundary));
-            }
+            pairs.extend(mesh.facet_nodes(facet).map(|node| (node, facet.boundary)));
         }
         pairs.sort_unstable();
         pairs.dedup();
@@ -36,19 +32,19 @@ impl NodeSides {
     }
 
     /// Nodes with the boundaries they lie on.
-    pub fn iter(&self) -> impl Iterator<Item = (usize, Vec<usize>)> + '_ {
+    pub fn iter(&self) -> impl Iterator<Item = (NodeId, Vec<usize>)> + '_ {
         self.pairs.chunk_by(|one, other| one.0 == other.0).map(|pairs| {
-            let boundaries = pairs.iter().map(|&(_, boundary)| usize::from(boundary)).collect();
-            (pairs[0].0 as usize, boundaries)
+            let boundaries = pairs.iter().map(|&(_, boundary)| boundary.index()).collect();
+            (pairs[0].0, boundaries)
         })
     }
 
     /// Nodes on one boundary.
-    pub fn nodes_on(&self, boundary: usize) -> impl Iterator<Item = usize> + '_ {
+    pub fn nodes_on(&self, boundary: usize) -> impl Iterator<Item = NodeId> + '_ {
         self.pairs
             .iter()
-            .filter(move |&&(_, other)| usize::from(other) == boundary)
-            .map(|&(node, _)| node as usize)
+            .filter(move |&&(_, other)| other.index() == boundary)
+            .map(|&(node, _)| node)
     }
 }
 
@@ -104,16 +100,16 @@ pub(super) fn constrain(
 
 /// The node that holds fluid and bodies where nothing else does: a vertex on a side that is no
 /// periodic copy.
-pub(super) fn pinned_node(mesh: &Mesh<2>) -> Option<usize> {
+pub(super) fn pinned_node(mesh: &Mesh<2>) -> Option<NodeId> {
     let mut is_copy = vec![false; mesh.n_nodes()];
-    for &(copy, _) in &mesh.periodic {
-        is_copy[copy as usize] = true;
+    for pair in &mesh.periodic {
+        is_copy[pair.copy] = true;
     }
     let on_sides = mesh
         .facets
         .iter()
-        .filter(|facet| mesh.boundaries[usize::from(facet.boundary)].kind == BoundaryKind::Side);
-    let mut vertices = on_sides.map(|facet| mesh.facet_nodes(facet)[0] as usize);
+        .filter(|facet| mesh.boundaries[facet.boundary].kind == BoundaryKind::Side);
+    let mut vertices = on_sides.map(|facet| mesh.facet_vertices(facet)[0]);
     vertices.find(|&vertex| !is_copy[vertex])
 }
 
@@ -125,15 +121,14 @@ pub(super) fn close_pressures_and_periods(
     layout: &DofLayout<2>,
     builder: &mut ConstraintBuilder,
 ) {
-    for &(copy, original) in &mesh.periodic {
-        let (copy, original) = (copy as usize, original as usize);
+    for &PeriodicPair { copy, original } in &mesh.periodic {
         for axis in 0..2 {
             let raw = layout.velocity(copy, axis);
             if !builder.is_constrained(raw) {
                 builder.constrain(raw, vec![(layout.velocity(original, axis), 1.0)], 0.0);
             }
         }
-        if copy < layout.n_vertices {
+        if copy.index() < layout.n_vertices {
             builder.constrain(layout.pressure(copy), vec![(layout.pressure(original), 1.0)], 0.0);
         }
     }
@@ -141,13 +136,11 @@ pub(super) fn close_pressures_and_periods(
         // Any vertex will do that is not itself a periodic copy, but on a side of the domain the
         // level is that far away: next to a body it may be large, and the cells far away, where
         // it is then felt, are large too.
-        let is_side = |facet: &&Facet| {
-            mesh.boundaries[usize::from(facet.boundary)].kind == BoundaryKind::Side
-        };
+        let is_side = |facet: &&Facet| mesh.boundaries[facet.boundary].kind == BoundaryKind::Side;
         let on_sides =
-            mesh.facets.iter().filter(is_side).map(|facet| mesh.facet_nodes(facet)[0] as usize);
+            mesh.facets.iter().filter(is_side).map(|facet| mesh.facet_vertices(facet)[0]);
         let pinned = on_sides
-            .chain(0..layout.n_vertices)
+            .chain(layout.vertices())
             .map(|vertex| layout.pressure(vertex))
             .find(|&raw| !builder.is_constrained(raw));
         if let Some(raw) = pinned {
@@ -163,7 +156,7 @@ fn constrain_node(
     builder: &mut ConstraintBuilder,
     (poses, surfaces): (&[Pose], &[MovingSurface<'_>]),
     time: f64,
-    (node, boundaries): (usize, &[usize]),
+    (node, boundaries): (NodeId, &[usize]),
 ) {
     let place = mesh.nodes[node];
     let body = boundaries.iter().find_map(|&boundary| match mesh.boundaries[boundary].kind {

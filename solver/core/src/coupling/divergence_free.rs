@@ -3,7 +3,7 @@
 //! What is interpolated from mesh to mesh is no longer divergence-free; without this projection
 //! the pressure of the next step would have to undo that at once, as a spike in the forces.
 
-use alewife_mesh::{BoundaryKind, Mesh, Point};
+use alewife_mesh::{BoundaryKind, Mesh, PeriodicPair, Point};
 
 use super::constrain::{NodeSides, close_pressures_and_periods};
 use super::problem::{Problem, Side};
@@ -83,14 +83,14 @@ impl DivergenceFree {
         let pressure = vec![0.0; self.layout.n_vertices];
         let fields = Fields { velocity, pressure: &pressure };
         let raw = residual(&self.assembly, mesh, &terms(0.0), &fields);
-        let mut defect = raw[self.layout.pressure(0)..self.layout.n_fluid()].to_vec();
+        let mut defect = raw[self.layout.pressures()].to_vec();
         if let Some(weights) = &self.enclosed_weights {
             spread_flux(&mut defect, weights);
         }
         // A pressure of one side of a periodic pair tests both
-        for &(copy, original) in &mesh.periodic {
-            if (copy as usize) < self.layout.n_vertices {
-                defect[original as usize] += std::mem::take(&mut defect[copy as usize]);
+        for &PeriodicPair { copy, original } in &mesh.periodic {
+            if copy.index() < self.layout.n_vertices {
+                defect[original] += std::mem::take(&mut defect[copy]);
             }
         }
         defect
@@ -121,12 +121,12 @@ impl DivergenceFree {
         missed: &[Point<2>],
     ) -> Result<Vec<Point<2>>, LinearError> {
         let mut raw = vec![0.0; self.layout.n_raw()];
-        for (node, missed) in missed.iter().enumerate() {
+        for (node, missed) in self.layout.nodes().zip(missed) {
             for axis in 0..2 {
                 raw[self.layout.velocity(node, axis)] = missed[axis];
             }
         }
-        for (vertex, value) in self.defect(mesh, velocity).into_iter().enumerate() {
+        for (vertex, value) in self.layout.vertices().zip(self.defect(mesh, velocity)) {
             raw[self.layout.pressure(vertex)] = -value;
         }
         let mut free = self.constraints.restrict(&raw);
@@ -135,7 +135,7 @@ impl DivergenceFree {
         }
         self.solver.solve(&self.pattern, &self.values, &mut free)?;
         let correction = self.constraints.expand(&free);
-        let corrected = velocity.iter().enumerate().map(|(node, velocity)| {
+        let corrected = self.layout.nodes().zip(velocity).map(|(node, velocity)| {
             let [x, y] = [0, 1].map(|axis| correction[self.layout.velocity(node, axis)]);
             velocity + Point::<2>::new(x, y)
         });

@@ -1,6 +1,6 @@
 //! `Drift`: the velocity fluid and bodies have together where nothing holds them.
 
-use alewife_mesh::{Mesh, Point};
+use alewife_mesh::{Mesh, NodeId, Point};
 
 use super::constrain::pinned_node;
 use super::problem::Problem;
@@ -12,10 +12,10 @@ use crate::body::Twist;
 pub(super) struct Drift {
     axes: [bool; 2],
     /// The node at which the system holds them.
-    pinned: usize,
+    pinned: NodeId,
     /// Nodes of one side of each periodic pair, with the weights of their velocity in x and y of the
     /// mean velocity.
-    weights: Vec<(usize, [Point<2>; 2])>,
+    weights: Vec<(NodeId, [Point<2>; 2])>,
 }
 
 impl Drift {
@@ -66,15 +66,16 @@ impl Drift {
 /// The mean of a solenoidal velocity over fluid and bodies is the sum over periodic pairs of sides of
 /// the way between them times the flux across, over the area: int u_i = int div(x_i u), in which
 /// surfaces of bodies between fluid and body cancel.
-fn weights(mesh: &Mesh<2>) -> Vec<(usize, [Point<2>; 2])> {
+fn weights(mesh: &Mesh<2>) -> Vec<(NodeId, [Point<2>; 2])> {
     let mut original = vec![None; mesh.n_nodes()];
-    for &(copy, of) in &mesh.periodic {
-        original[copy as usize] = Some(of as usize);
+    for pair in &mesh.periodic {
+        original[pair.copy] = Some(pair.original);
     }
     let mut area = Point::<2>::zeros();
     let mut weights = Vec::new();
     for facet in &mesh.facets {
-        let [a, b, middle] = mesh.facet_nodes(facet).map(|node| node as usize);
+        let [a, b] = mesh.facet_vertices(facet);
+        let Some(middle) = mesh.facet_inner_nodes(facet).next() else { continue };
         // Ends may be copies of the other pair, the middle is not
         let Some(of) = original[middle] else { continue };
         let way = mesh.nodes[middle] - mesh.nodes[of];

@@ -26,23 +26,19 @@ impl Surface<'_> {
     ) {
         let rule = interval_rule(4);
         let mesh = self.mesh;
-        for facet in mesh.facets.iter().filter(|facet| usize::from(facet.boundary) == self.boundary)
-        {
-            let nodes = mesh.cell(facet.cell as usize);
+        for facet in mesh.facets.iter().filter(|facet| facet.boundary.index() == self.boundary) {
+            let nodes = mesh.cell(facet.cell);
             for_each_facet_point(mesh, facet, &rule, self.metric, |at| {
                 let mut velocity = Point::<2>::zeros();
                 let mut gradient = SMatrix::<f64, 2, 2>::zeros();
                 for (a, &node) in nodes.iter().enumerate() {
-                    let nodal = fields.velocity[node as usize];
+                    let nodal = fields.velocity[node];
                     velocity += nodal * at.phi[a];
                     gradient += nodal * at.grad_phi[a].transpose();
                 }
                 let psi = p1_values(&triangle_side_point(usize::from(facet.side), at.s));
-                let pressure: f64 = nodes
-                    .iter()
-                    .zip(&psi)
-                    .map(|(&node, psi)| fields.pressure[node as usize] * psi)
-                    .sum();
+                let pressure: f64 =
+                    nodes.iter().zip(&psi).map(|(&node, psi)| fields.pressure[node] * psi).sum();
                 let traction = (gradient + gradient.transpose()) * at.normal_ds * self.viscosity
                     - at.normal_ds * pressure;
                 visit(&at.position, &-traction, &velocity);

@@ -74,11 +74,10 @@ pub fn flatten(solution: &Solution) -> Vec<f64> {
 #[must_use]
 pub fn embed(layout: &DofLayout<2>, raw: &[f64]) -> Solution {
     let mut solution = Solution::at_rest(layout);
-    for (node, velocity) in solution.velocity.iter_mut().enumerate() {
+    for (node, velocity) in layout.nodes().zip(&mut solution.velocity) {
         *velocity = Point::<2>::new(raw[layout.velocity(node, 0)], raw[layout.velocity(node, 1)]);
     }
-    let pressures = layout.pressure(0)..layout.n_fluid();
-    solution.pressure.copy_from_slice(&raw[pressures]);
+    solution.pressure.copy_from_slice(&raw[layout.pressures()]);
     for (body, twist) in solution.twists.iter_mut().enumerate() {
         *twist = Twist::planar([0, 1, 2].map(|mode| raw[layout.rigid(body, mode)]));
     }
@@ -277,8 +276,7 @@ impl FluidSystem {
         mut raw: Vec<f64>,
     ) -> Vec<f64> {
         if problem.is_enclosed() {
-            let pressures = self.layout.pressure(0)..self.layout.n_fluid();
-            spread_flux(&mut raw[pressures], &self.pressure_weights);
+            spread_flux(&mut raw[self.layout.pressures()], &self.pressure_weights);
         }
         for body in 0..problem.bodies.len() {
             let rates = solution.twists[body].in_plane();
@@ -421,7 +419,7 @@ impl FluidSystem {
     fn name(&self, problem: &Problem, mesh: &Mesh<2>, raw: usize) -> String {
         let at =
             |node: usize| format!("({:.4e}, {:.4e})", mesh.nodes[node][0], mesh.nodes[node][1]);
-        let first_pressure = self.layout.pressure(0);
+        let first_pressure = self.layout.pressures().start;
         if raw < first_pressure {
             format!("the {} velocity at {}", problem.metric.axis_name(raw % 2), at(raw / 2))
         } else if raw < self.layout.n_fluid() {
@@ -595,11 +593,11 @@ pub(super) fn unknowns(layout: &DofLayout<2>, constraints: &AffineConstraints) -
     let is_pressure = pressure_unknowns(layout, constraints);
     let mut unknowns =
         Unknowns { node: vec![0; is_pressure.len()], is_pressure, dense: Vec::new() };
-    for node in 0..layout.n_nodes {
+    for node in layout.nodes() {
         let velocities = (0..2).map(|axis| layout.velocity(node, axis));
-        let pressure = (node < layout.n_vertices).then(|| layout.pressure(node));
+        let pressure = (node.index() < layout.n_vertices).then(|| layout.pressure(node));
         for unknown in velocities.chain(pressure).filter_map(|raw| constraints.unknown(raw)) {
-            unknowns.node[unknown] = node as u32;
+            unknowns.node[unknown] = u32::from(node);
         }
     }
     let rigid = layout.n_fluid()..layout.n_raw();
@@ -624,11 +622,11 @@ pub(super) fn spread_flux(residuals: &mut [f64], weights: &[f64]) {
 pub(super) fn pressure_weights(mesh: &Mesh<2>, tables: &Tables<2>) -> Vec<f64> {
     let mut weights = vec![0.0; mesh.n_vertices];
     let mut workspace = CellValues::default();
-    for cell in 0..mesh.n_cells() {
+    for cell in mesh.cell_ids() {
         let nodes = mesh.cell(cell);
         workspace.for_each_point(tables, mesh, cell, |at| {
             for (&vertex, psi) in nodes.iter().zip(at.psi) {
-                weights[vertex as usize] += psi * at.dx;
+                weights[vertex] += psi * at.dx;
             }
         });
     }

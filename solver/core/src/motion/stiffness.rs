@@ -1,6 +1,6 @@
 //! The matrix of mesh motion on linear elements, with small cells made stiff.
 
-use alewife_mesh::Mesh;
+use alewife_mesh::{CellId, Mesh, NodeId};
 use nalgebra::SVector;
 
 use super::surface_distance::surface_distances;
@@ -96,24 +96,22 @@ impl Stiffness {
     pub fn new<const D: usize>(
         mesh: &Mesh<D>,
         kind: MotionKind,
-        carrying: impl Iterator<Item = u32>,
+        carrying: impl Iterator<Item = NodeId>,
     ) -> Self {
         let (n_components, stiffening) = match kind {
             MotionKind::Harmonic(stiffening) => (1, stiffening),
             MotionKind::Elastic { stiffening, .. } => (D, stiffening),
         };
-        let geometry: Vec<_> =
-            (0..mesh.n_cells()).map(|cell| simplex_gradients(mesh, cell)).collect();
+        let geometry: Vec<_> = mesh.cell_ids().map(|cell| simplex_gradients(mesh, cell)).collect();
         let measures: Vec<f64> = geometry.iter().map(|(measure, _)| *measure).collect();
         let factors = stiffening.factors(&measures, || surface_distances(mesh, carrying));
         let n_local = (D + 1) * n_components;
         let mut raw = Vec::with_capacity(n_local * mesh.n_cells());
         let mut cells = vec![0.0; n_local * n_local * mesh.n_cells()];
         for (cell, (measure, gradients)) in geometry.iter().enumerate() {
-            for &vertex in &mesh.cell(cell)[..=D] {
-                raw.extend(
-                    (0..n_components).map(|axis| vertex * n_components as u32 + axis as u32),
-                );
+            for &vertex in mesh.cell_vertices(CellId::new(cell)) {
+                let first = vertex.index() * n_components;
+                raw.extend((first..first + n_components).map(|unknown| unknown as u32));
             }
             let matrix = &mut cells[cell * n_local * n_local..(cell + 1) * n_local * n_local];
             let weight = measure * factors[cell];

@@ -36,8 +36,8 @@ pub(super) fn first_mesh(case: &Case) -> Result<(Mesh<2>, Opened), RunError> {
     let mut mesh = opened.mesh(&sizing(case)).map_err(|error| RunError::Mesh(error.to_string()))?;
     // The side of a sheet is made straight, but will not stay so.
     for facet in &mesh.facets {
-        if waving_sheet(case, &mesh.boundaries[usize::from(facet.boundary)].name).is_some() {
-            mesh.curved[facet.cell as usize] = true;
+        if waving_sheet(case, &mesh.boundaries[facet.boundary].name).is_some() {
+            mesh.curved[facet.cell] = true;
         }
     }
     Ok((mesh, opened))

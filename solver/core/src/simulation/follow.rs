@@ -120,11 +120,11 @@ impl Follower {
         let mut edges = vec![f64::INFINITY; problem.bodies.len()];
         let mut materials = HashMap::new();
         for facet in &mesh.facets {
-            if let Some(body) = bodies[usize::from(facet.boundary)] {
-                let nodes = mesh.facet_nodes(facet).map(|node| mesh.nodes[node as usize]);
-                edges[body] = edges[body].min((nodes[1] - nodes[0]).norm());
+            if let Some(body) = bodies[facet.boundary] {
+                let [start, end] = mesh.facet_vertices(facet).map(|vertex| mesh.nodes[vertex]);
+                edges[body] = edges[body].min((end - start).norm());
                 if let Some(outline) = &outlines[body] {
-                    for place in nodes {
+                    for place in mesh.facet_nodes(facet).map(|node| mesh.nodes[node]) {
                         materials
                             .entry(bits(&place))
                             .or_insert_with(|| outline.parameter_of(place));

@@ -1,6 +1,6 @@
 //! The quantities of a run: loads and motions of bodies, probes, integrals of the flow.
 
-use alewife_mesh::{Locator, Mesh, Point};
+use alewife_mesh::{CellId, Locator, Mesh, Point};
 use nalgebra::SMatrix;
 
 use super::snapshot::BodyReport;
@@ -15,7 +15,7 @@ use crate::space::{CellValues, p1_values, p2_values};
 
 /// One value of a probe's point: where it is in the mesh, and with which sign it counts.
 struct ProbePoint {
-    cell: usize,
+    cell: CellId,
     xi: Point<2>,
     sign: f64,
 }
@@ -198,11 +198,11 @@ impl Measure {
                 };
                 let nodes = state.mesh.cell(point.cell);
                 for (&node, phi) in nodes.iter().zip(p2_values(&point.xi)) {
-                    sum[0] += point.sign * phi * velocity[node as usize][0];
-                    sum[1] += point.sign * phi * velocity[node as usize][1];
+                    sum[0] += point.sign * phi * velocity[node][0];
+                    sum[1] += point.sign * phi * velocity[node][1];
                 }
                 for (&node, psi) in nodes.iter().zip(p1_values(&point.xi)) {
-                    sum[2] += point.sign * psi * pressure[node as usize];
+                    sum[2] += point.sign * psi * pressure[node];
                 }
             }
             values.extend(sum);
@@ -298,13 +298,13 @@ fn body_values(report: &BodyReport, angle: f64, acceleration: &Twist) -> [f64; 1
 fn integrate(system: &FluidSystem, problem: &Problem, state: &State) -> Integrals {
     let mut sums = Integrals::default();
     let mut workspace = CellValues::default();
-    for cell in 0..state.mesh.n_cells() {
+    for cell in state.mesh.cell_ids() {
         let nodes = state.mesh.cell(cell);
         workspace.for_each_point(system.tables(), &state.mesh, cell, |at| {
             let mut velocity = Point::<2>::zeros();
             let mut gradient = SMatrix::<f64, 2, 2>::zeros();
             for (a, &node) in nodes.iter().enumerate() {
-                let nodal = &state.now.velocity[node as usize];
+                let nodal = &state.now.velocity[node];
                 velocity += nodal * at.phi[a];
                 gradient += nodal * at.grad_phi[a].transpose();
             }

@@ -175,12 +175,10 @@ impl Parts {
         let frame = state.origin_at(&self.problem, &state.places)
             - state.origin_at(&self.problem, &state.previous_places);
         let mut most = f64::MIN_POSITIVE;
-        for cell in 0..state.mesh.n_cells() {
-            let nodes = state.mesh.cell(cell);
-            let [a, b, c] = [0, 1, 2].map(|corner| state.nodes[nodes[corner] as usize]);
+        for nodes in state.mesh.cells() {
+            let [a, b, c] = [0, 1, 2].map(|corner| state.nodes[nodes[corner]]);
             let edge = (b - a).norm().min((c - b).norm()).min((a - c).norm());
             for &node in nodes {
-                let node = node as usize;
                 let way = state.nodes[node] - state.nodes_before[node] + frame;
                 let passing = state.now.velocity[node] - way / state.last_step;
                 most = most.max(passing.norm() / edge);

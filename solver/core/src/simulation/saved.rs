@@ -1,6 +1,8 @@
 //! `SavedState`: a state as it is written to a file, for a run that goes on from it.
 
-use alewife_mesh::{Boundary, Facet, Mesh, Outline, PlacedShape, Point};
+use alewife_mesh::{
+    Boundary, Facet, Mesh, NodeId, Outline, PeriodicPair, PlacedShape, Point, Simplex,
+};
 use serde::{Deserialize, Serialize};
 
 use super::build::placed_bodies;
@@ -104,7 +106,7 @@ impl SavedState {
             twists: rigid(&solution.twists),
         };
         let mesh = &state.mesh;
-        let facet = |facet: &Facet| (facet.cell, facet.side, facet.boundary);
+        let facet = |facet: &Facet| (facet.cell.into(), facet.side, facet.boundary.into());
         Self {
             version: VERSION,
             bodies: problem.bodies.iter().map(|body| body.name.clone()).collect(),
@@ -112,10 +114,10 @@ impl SavedState {
             time: state.time,
             last_step: state.last_step,
             n_vertices: mesh.n_vertices,
-            cells: mesh.cells.clone(),
+            cells: mesh.cells.iter().copied().map(u32::from).collect(),
             curved: mesh.curved.clone(),
             facets: mesh.facets.iter().map(facet).collect(),
-            periodic: mesh.periodic.clone(),
+            periodic: mesh.periodic.iter().map(|p| (p.copy.into(), p.original.into())).collect(),
             origin: [state.origin.x, state.origin.y],
             nodes: pairs(&state.nodes),
             nodes_before: pairs(&state.nodes_before),
@@ -162,7 +164,7 @@ impl SavedState {
         let (n_nodes, n_bodies) = (self.nodes.len(), names.len());
         let n_boundaries = boundaries.len();
         let fits = self.n_vertices <= n_nodes
-            && self.cells.len() == 6 * self.curved.len()
+            && self.cells.len() == Simplex::<2>::N_NODES * self.curved.len()
             && self.cells.iter().all(|node| (*node as usize) < n_nodes)
             && self.facets.iter().all(|facet| {
                 (facet.0 as usize) < self.curved.len() && usize::from(facet.2) < n_boundaries
@@ -199,15 +201,23 @@ impl SavedState {
         }
         let origin = Point::<2>::new(self.origin[0], self.origin[1]);
         let nodes = points(&self.nodes);
-        let facet = |&(cell, side, boundary): &(u32, u8, u16)| Facet { cell, side, boundary };
+        let facet = |&(cell, side, boundary): &(u32, u8, u16)| Facet {
+            cell: cell.into(),
+            side,
+            boundary: boundary.into(),
+        };
+        let pair = |&(copy, original): &(u32, u32)| PeriodicPair {
+            copy: copy.into(),
+            original: original.into(),
+        };
         let mesh = Mesh {
             nodes: nodes.iter().map(|node| node + origin).collect(),
             n_vertices: self.n_vertices,
-            cells: self.cells.clone(),
+            cells: self.cells.iter().copied().map(NodeId::from).collect(),
             curved: self.curved.clone(),
             facets: self.facets.iter().map(facet).collect(),
             boundaries: boundaries.to_vec(),
-            periodic: self.periodic.clone(),
+            periodic: self.periodic.iter().map(pair).collect(),
         };
         let level = |level: &Level| Solution {
             velocity: points(&level.velocity),
@@ -270,9 +280,8 @@ fn goes_on(problem: &Problem, made: &Mesh<2>, shapes: &[PlacedShape]) -> Result<
             continue;
         }
         let outline = Outline::new(shape).map_err(|error| error.to_string())?;
-        for facet in made.facets.iter().filter(|facet| usize::from(facet.boundary) == body.boundary)
-        {
-            let [start, end, _] = made.facet_nodes(facet).map(|node| made.nodes[node as usize]);
+        for facet in made.facets.iter().filter(|facet| facet.boundary.index() == body.boundary) {
+            let [start, end] = made.facet_vertices(facet).map(|vertex| made.nodes[vertex]);
             let off = (outline.at(outline.parameter_of(start))[0] - start).norm();
             if off > OUTLINE_JUMP * (end - start).norm() {
                 return Err(format!(
