@@ -2,7 +2,7 @@
 
 use alewife_core::algebra::{AffineConstraints, Pattern};
 use alewife_core::case::Case;
-use alewife_core::coupling::{FluidSystem, Problem, Solution, embed, flatten};
+use alewife_core::coupling::{BodyShapes, FluidSystem, Problem, Solution, embed, flatten};
 use alewife_core::flow::{Assembly, Convection, FlowTerms, assemble, residual};
 use alewife_core::multifrontal::Unknowns;
 use alewife_core::simulation::{build_mesh, build_problem, cpu_seconds};
@@ -75,7 +75,8 @@ impl TimeStep {
         let problem = build_problem(&case, &mesh).expect("the case can be built");
         let poses: Vec<_> = problem.bodies.iter().map(|body| body.pose).collect();
         let system = FluidSystem::new(&problem, &mesh, &poses, false);
-        let constraints = system.constraints(&problem, &mesh, &poses, 0.0);
+        let shapes = BodyShapes::at(&problem.bodies, 0.0).expect("no body deforms");
+        let constraints = system.constraints(&problem, &mesh, &poses, &shapes);
         let sides = problem.do_nothing_sides();
         let (pattern, assembly) =
             Assembly::new(&mesh, system.layout, &constraints, problem.metric, &sides, None);

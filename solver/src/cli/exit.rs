@@ -81,7 +81,7 @@ pub fn exit_of(error: &RunError) -> Exit {
         | RunError::Contact { .. }
         | RunError::NotFinite { .. }
         | RunError::Singular { .. } => Exit::Diverged,
-        RunError::Unsupported(_) | RunError::TooLarge { .. } => Exit::BadCase,
+        RunError::Unsupported(_) | RunError::Shape(_) | RunError::TooLarge { .. } => Exit::BadCase,
         RunError::Mesh(_) | RunError::Remesh { .. } => Exit::Mesh,
         RunError::Output(_) => Exit::InputOutput,
         RunError::Stopped { .. } => Exit::Stopped,

@@ -6,7 +6,8 @@
 use alewife_mesh::{BoundaryId, BoundaryKind, Facet, Mesh, NodeId, PeriodicPair};
 
 use super::link::RigidRow;
-use super::problem::{Drive, MovingSurface, Problem};
+use super::problem::{Drive, Problem};
+use super::shapes::{BodyShapes, MovingSurface};
 use crate::algebra::{AffineConstraints, ConstraintBuilder};
 use crate::body::Pose;
 use crate::space::DofLayout;
@@ -48,7 +49,7 @@ impl NodeSides {
     }
 }
 
-/// The constraints at a time, for bodies at these poses.
+/// The constraints at the time of `shapes`, for bodies at these poses.
 #[must_use]
 pub(super) fn constrain(
     problem: &Problem,
@@ -56,8 +57,9 @@ pub(super) fn constrain(
     layout: &DofLayout<2>,
     sides: &NodeSides,
     poses: &[Pose],
-    time: f64,
+    shapes: &BodyShapes,
 ) -> AffineConstraints {
+    let time = shapes.time();
     let mut builder = ConstraintBuilder::new(layout.n_raw());
     let rows = problem.has_links().then(|| {
         let places: Vec<[f64; 3]> =
@@ -81,8 +83,7 @@ pub(super) fn constrain(
             }
         }
     }
-    let pairs = problem.bodies.iter().zip(poses);
-    let surfaces: Vec<_> = pairs.map(|(body, pose)| body.surface(pose, time)).collect();
+    let surfaces = shapes.surfaces(&problem.bodies, poses);
     for (node, boundaries) in sides.iter() {
         let at = (node, boundaries.as_slice());
         constrain_node(problem, mesh, layout, &mut builder, (poses, &surfaces), time, at);

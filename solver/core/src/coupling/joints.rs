@@ -7,12 +7,13 @@ use nalgebra::{Rotation2, Vector2};
 
 use super::link::Turn;
 use super::problem::Problem;
+use super::shapes::BodyShapes;
 
 /// What is known of the bodies at one time; entries for x, y and the turn of each.
 #[derive(Debug, Clone, Copy)]
 pub struct BodyStates<'a> {
-    /// Time (s).
-    pub time: f64,
+    /// Their shapes, and when this is.
+    pub shapes: &'a BodyShapes,
     /// Centres of mass and angles (m, rad).
     pub places: &'a [[f64; 3]],
     /// Velocities (m/s, rad/s).
@@ -63,7 +64,7 @@ pub fn joint_reports(problem: &Problem, now: &BodyStates<'_>) -> Vec<JointReport
         let to_joint = Rotation2::new(now.places[child][2]) * link.on_child;
         let report = match &link.arm {
             Some(arm) => {
-                let [length, rate] = (arm.length)(now.time);
+                let [length, rate] = (arm.length)(now.shapes.time());
                 let along = Rotation2::new(now.places[parent][2]) * arm.along;
                 JointReport { child, coordinate: length, rate, load: force.dot(&along) }
             }
@@ -71,7 +72,7 @@ pub fn joint_reports(problem: &Problem, now: &BodyStates<'_>) -> Vec<JointReport
                 let torque = carried[child][2] - cross(to_joint);
                 let coordinate = now.places[child][2] - now.places[parent][2];
                 let rate = match &link.turn {
-                    Turn::Given(angle) => angle(now.time)[1],
+                    Turn::Given(angle) => angle(now.shapes.time())[1],
                     Turn::Free(_) => now.velocities[child][2] - now.velocities[parent][2],
                 };
                 JointReport { child, coordinate, rate, load: torque }
@@ -91,11 +92,11 @@ pub fn joint_reports(problem: &Problem, now: &BodyStates<'_>) -> Vec<JointReport
 fn missing(problem: &Problem, now: &BodyStates<'_>, body: usize) -> [f64; 3] {
     let rigid = &problem.bodies[body];
     let inertia = if problem.has_inertia {
-        [rigid.mass, rigid.mass, rigid.inertia_at(now.time)]
+        [rigid.mass, rigid.mass, rigid.inertia_with(now.shapes.deformed(body))]
     } else {
         [0.0; 3]
     };
-    let (external, load) = (rigid.external(now.time), now.loads[body]);
+    let (external, load) = (rigid.external(now.shapes.time()), now.loads[body]);
     [0, 1, 2].map(|mode| {
         let held = rigid.spring.as_ref().map_or(0.0, |spring| {
             spring.stiffness[mode] * (now.places[body][mode] - spring.rest[mode])

@@ -7,6 +7,7 @@ mod joints;
 mod link;
 mod loads;
 mod problem;
+mod shapes;
 mod surface_load;
 mod swimming;
 mod system;
@@ -17,9 +18,10 @@ pub use joints::{BodyStates, JointReport, joint_reports};
 pub use link::{Arm, Link, MovingValue, Pivot, Turn};
 pub use loads::{BodyLoads, body_loads};
 pub use problem::{
-    Drive, Kinks, MovingSurface, Problem, RigidBody, Side, Spring, TimeValue, VelocityProfile,
+    Drive, Problem, RateDiscontinuities, RigidBody, Side, Spring, TimeValue, VelocityProfile,
     second_moment,
 };
+pub use shapes::{BodyShapes, MovingSurface, ShapeError};
 pub use surface_load::surface_load;
 pub use swimming::{Effort, Group, MeanMotion, effort, group_load, mean_motion};
 pub use system::{

@@ -2,14 +2,13 @@
 
 use std::sync::Arc;
 
-use alewife_mesh::{Moments, Outline, PlacedShape, Point, SecondMoments};
-use nalgebra::Vector3;
+use alewife_mesh::{Moments, Point, SecondMoments};
 
 use super::link::Link;
 use super::swimming::Group;
 use crate::body::{Pose, Wrench};
 use crate::flow::BodyForce;
-use crate::gait::{Deformed, Gait, ShapeMotion};
+use crate::gait::{DeformedOutline, Gait, ShapeMotion};
 use crate::space::Metric;
 
 /// A velocity as a function of place and time (m, s, m/s).
@@ -19,7 +18,7 @@ pub type VelocityProfile = Box<dyn Fn(&Point<2>, f64) -> Point<2> + Send + Sync>
 pub type TimeValue = Box<dyn Fn(f64) -> f64 + Send + Sync>;
 
 /// Times (s) between two times, ascending.
-pub type Kinks = Box<dyn Fn(f64, f64) -> Vec<f64> + Send + Sync>;
+pub type RateDiscontinuities = Box<dyn Fn(f64, f64) -> Vec<f64> + Send + Sync>;
 
 /// What holds on a boundary that is not a body.
 pub enum Side {
@@ -113,33 +112,15 @@ impl RigidBody {
         [0, 1, 2].map(|mode| weight[mode] + factor * load[mode])
     }
 
-    /// Moment of inertia at a time, which follows the shape.
+    /// Moment of inertia with an outline (kg m2; kg m planar), that at rest for a rigid body.
     #[must_use]
-    pub fn inertia_at(&self, time: f64) -> f64 {
-        match &self.shape {
-            Some(shape) if self.inertia > 0.0 => {
-                self.inertia * second_moment(&shape.at(time).moments) / self.second_moment
+    pub fn inertia_with(&self, outline: Option<&DeformedOutline>) -> f64 {
+        match outline {
+            Some(outline) if self.inertia > 0.0 => {
+                self.inertia * second_moment(&outline.moments) / self.second_moment
             }
             _ => self.inertia,
         }
-    }
-
-    /// What moves its surface at a time, besides the rigid motion.
-    #[must_use]
-    pub fn surface(&self, pose: &Pose, time: f64) -> MovingSurface<'_> {
-        let shape = self.shape.as_ref().map(|shape| {
-            let deformed = shape.at(time);
-            let center = Point::<2>::new(pose.center.x, pose.center.y);
-            let placed = PlacedShape {
-                name: self.name.clone(),
-                shape: deformed.shape.clone(),
-                center,
-                angle: pose.heading(),
-                size: None,
-            };
-            (deformed, Outline::new(&placed).ok())
-        });
-        MovingSurface { gait: self.gait.as_deref(), shape, pose: *pose, time }
     }
 }
 
@@ -150,34 +131,6 @@ pub fn second_moment(moments: &Moments) -> f64 {
         SecondMoments::Planar { polar } => polar,
         // On the axis a body does not turn.
         SecondMoments::Revolved { across, .. } => across,
-    }
-}
-
-/// The surface of a body at one time.
-pub struct MovingSurface<'a> {
-    gait: Option<&'a dyn Gait>,
-    shape: Option<(Deformed, Option<Outline>)>,
-    pose: Pose,
-    time: f64,
-}
-
-impl MovingSurface<'_> {
-    /// Velocity of the surface relative to the rigid motion, in the world (m/s), at a world
-    /// point of the plane on it.
-    #[must_use]
-    pub fn velocity(&self, point: &Point<2>) -> Point<2> {
-        let rotation = self.pose.rotation();
-        let mut velocity = Vector3::zeros();
-        if let Some(gait) = self.gait {
-            let lever = Vector3::new(point[0], point[1], 0.0) - self.pose.center;
-            velocity += gait.velocity(&(rotation.inverse() * lever), self.time);
-        }
-        if let Some((deformed, Some(outline))) = &self.shape {
-            let rate = deformed.rate(outline.parameter_of(*point));
-            velocity += Vector3::new(rate.x, rate.y, 0.0);
-        }
-        let velocity = rotation * velocity;
-        Point::<2>::new(velocity.x, velocity.y)
     }
 }
 
@@ -204,7 +157,7 @@ pub struct Problem {
     /// Force per unit volume, for manufactured solutions.
     pub body_force: Option<BodyForce<'static, 2>>,
     /// Times at which the rates of gaits jump, if they ever do.
-    pub kinks: Option<Kinks>,
+    pub rate_discontinuities: Option<RateDiscontinuities>,
 }
 
 impl Problem {

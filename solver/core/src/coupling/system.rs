@@ -13,6 +13,7 @@ use super::constrain::{NodeSides, constrain};
 use super::drift::Drift;
 use super::link::{Link, Turn};
 use super::problem::Problem;
+use super::shapes::BodyShapes;
 use crate::algebra::{Accuracy, AffineConstraints, DirectSolver, LinearError, Pattern, Unknowns};
 use crate::body::{Pose, Twist};
 use crate::flow::{Assembly, Convection, Fields, FlowTerms, assemble, pressure_unknowns, residual};
@@ -196,7 +197,9 @@ impl FluidSystem {
     pub fn new(problem: &Problem, mesh: &Mesh<2>, poses: &[Pose], unknown_frame: bool) -> Self {
         let layout = DofLayout::new(mesh, problem.bodies.len());
         let sides = NodeSides::new(mesh);
-        let constraints = constrain(problem, mesh, &layout, &sides, poses, 0.0);
+        // Which unknowns are constrained does not depend on how bodies deform
+        let shapes = BodyShapes::rigid(problem.bodies.len());
+        let constraints = constrain(problem, mesh, &layout, &sides, poses, &shapes);
         let frame = problem.frame.filter(|_| unknown_frame);
         let (pattern, assembly) = Assembly::new(
             mesh,
@@ -242,16 +245,16 @@ impl FluidSystem {
         self.accuracy
     }
 
-    /// Constraints at a time.
+    /// Constraints at the time of `shapes`.
     #[must_use]
     pub fn constraints(
         &self,
         problem: &Problem,
         mesh: &Mesh<2>,
         poses: &[Pose],
-        time: f64,
+        shapes: &BodyShapes,
     ) -> AffineConstraints {
-        constrain(problem, mesh, &self.layout, &self.sides, poses, time)
+        constrain(problem, mesh, &self.layout, &self.sides, poses, shapes)
     }
 
     /// The raw residual of the fluid's equations at a solution.

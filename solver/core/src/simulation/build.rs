@@ -15,8 +15,8 @@ use crate::case::{
 };
 use crate::contact::{Law, LawKind};
 use crate::coupling::{
-    Arm, Drive, Group, Kinks, Link, Pivot, Problem, RigidBody, Side, Spring, TimeValue, Turn,
-    VelocityProfile, second_moment,
+    Arm, BodyShapes, Drive, Group, Link, Pivot, Problem, RateDiscontinuities, RigidBody,
+    ShapeError, Side, Spring, TimeValue, Turn, VelocityProfile, second_moment,
 };
 use crate::gait::{Gait, InTime, Squirmer, WavingSheet};
 use crate::space::Metric;
@@ -58,7 +58,9 @@ pub(super) fn placed_bodies(case: &Case) -> Result<Vec<PlacedShape>, RunError> {
     let placed = |body: &Body| {
         let mut placed = body.placed(case.mesh.scale);
         if let Some(motion) = shape_motion(body)? {
-            placed.shape = motion.at(0.0).shape;
+            let start = motion.at(0.0);
+            let start = start.map_err(|reason| ShapeError { body: body.name.clone(), reason })?;
+            placed.shape = start.shape();
         }
         Ok(placed)
     };
@@ -139,9 +141,9 @@ pub fn build_problem(case: &Case, mesh: &Mesh<2>) -> Result<Problem, RunError> {
         groups: case.group.iter().map(|one| group(case, one)).collect(),
         frame,
         body_force: None,
-        kinks: None,
+        rate_discontinuities: None,
     };
-    problem.kinks = kinks(case, &problem);
+    problem.rate_discontinuities = rate_discontinuities(case, &problem);
     check_volumes(case, &problem)?;
     let mut places: Vec<[f64; 3]> = problem.bodies.iter().map(RigidBody::start).collect();
     problem.hang(&mut places, 0.0);
@@ -205,7 +207,7 @@ fn link(case: &Case, joint: &Joint, bodies: &mut [RigidBody]) -> Result<(), RunE
 }
 
 /// Times at which rates of strokes and shapes jump.
-fn kinks(case: &Case, problem: &Problem) -> Option<Kinks> {
+fn rate_discontinuities(case: &Case, problem: &Problem) -> Option<RateDiscontinuities> {
     // Torques of hinges may jump: nothing moves by them at once
     let strokes: Vec<Stroke> =
         case.joint.iter().filter_map(|joint| joint.kind.stroke().cloned()).collect();
@@ -214,8 +216,8 @@ fn kinks(case: &Case, problem: &Problem) -> Option<Kinks> {
         return None;
     }
     Some(Box::new(move |from, to| {
-        let of_strokes = strokes.iter().flat_map(|stroke| stroke.kinks(from, to));
-        let of_shapes = shapes.iter().flat_map(|shape| shape.breaks(from, to));
+        let of_strokes = strokes.iter().flat_map(|stroke| stroke.rate_discontinuities(from, to));
+        let of_shapes = shapes.iter().flat_map(|shape| shape.discontinuities(from, to));
         let mut times: Vec<f64> = of_strokes.chain(of_shapes).collect();
         times.sort_by(f64::total_cmp);
         times.dedup_by(|later, earlier| *later - *earlier <= 1e-12 * later.abs());
@@ -228,17 +230,21 @@ const VOLUME_TRIALS: u32 = 50;
 
 /// In an enclosed fluid bodies cannot grow or shrink together.
 fn check_volumes(case: &Case, problem: &Problem) -> Result<(), RunError> {
-    let shapes = || problem.bodies.iter().filter_map(|body| body.shape.as_ref());
     let TimeSettings::Unsteady(settings) = &case.time else { return Ok(()) };
-    if shapes().next().is_none() || !problem.is_enclosed() {
+    let is_rigid = problem.bodies.iter().all(|body| body.shape.is_none());
+    if is_rigid || !problem.is_enclosed() {
         return Ok(());
     }
-    let volume = |time: f64| shapes().map(|shape| shape.at(time).moments.measure).sum::<f64>();
-    let start = volume(0.0);
+    let volume = |time: f64| -> Result<f64, RunError> {
+        let shapes = BodyShapes::at(&problem.bodies, time)?;
+        let deformed = (0..problem.bodies.len()).filter_map(|body| shapes.deformed(body));
+        Ok(deformed.map(|deformed| deformed.moments.measure).sum())
+    };
+    let start = volume(0.0)?;
     for trial in 1..VOLUME_TRIALS {
         // Not in step with any period
         let time = settings.end.min(100.0 * settings.step) * (f64::from(trial) * 0.618_034).fract();
-        let now = volume(time);
+        let now = volume(time)?;
         if (now - start).abs() > SAME_VOLUME * start {
             return Err(RunError::Unsupported(format!(
                 "the bodies that deform have the volume {start:.6e} at time 0 and {now:.6e} at time \

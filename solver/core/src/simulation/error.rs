@@ -4,7 +4,7 @@ use alewife_mesh::Point;
 use thiserror::Error;
 
 use crate::contact::ContactError;
-use crate::coupling::SolveError;
+use crate::coupling::{ShapeError, SolveError};
 
 /// Why a step was not made. A new mesh or a shorter step may help where it is not `Run`.
 #[derive(Debug, Error)]
@@ -127,6 +127,9 @@ pub enum RunError {
         /// Which body, and why.
         reason: String,
     },
+    /// A gait gives its body no shape at some time.
+    #[error(transparent)]
+    Shape(#[from] ShapeError),
     /// Contact cannot be solved for.
     #[error("step {step} (t = {time}): {reason}")]
     Contact {
@@ -151,6 +154,12 @@ pub enum RunError {
         /// Time (s).
         time: f64,
     },
+}
+
+impl From<ShapeError> for StepError {
+    fn from(error: ShapeError) -> Self {
+        Self::Run(error.into())
+    }
 }
 
 impl RunError {

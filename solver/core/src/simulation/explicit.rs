@@ -10,7 +10,7 @@ use super::march::{March, MeshPath, Past, StepResult};
 use super::state::{State, Swim, pose_at};
 use crate::body::Twist;
 use crate::contact::{ContactLoads, Place};
-use crate::coupling::{BodyLoads, Effort, FluidSystem, Levels, Solution, flatten};
+use crate::coupling::{BodyLoads, BodyShapes, Effort, FluidSystem, Levels, Solution, flatten};
 use crate::time::Bdf;
 
 /// Part of a step by which rates at its ends are asked inside it: those that jump there have two.
@@ -27,25 +27,26 @@ struct Instant {
     solution: Solution,
     loads: Vec<BodyLoads>,
     efforts: Vec<Effort>,
+    shapes: BodyShapes,
     nodes: Vec<alewife_mesh::Point<2>>,
     iterations: usize,
 }
 
 impl March<'_> {
-    /// Advances `state` by `step` (s). `is_kink` says that rates jump at its beginning. On error the
+    /// Advances `state` by `step` (s). `jumps` says that rates jump at its beginning. On error the
     /// state is where it was.
     ///
     /// # Errors
-    /// When the system is singular, the solution not finite, or the mesh folds.
+    /// When the system is singular, the solution not finite, the mesh folds, or a gait fails.
     pub fn advance_explicit(
         &self,
         system: &mut FluidSystem,
         state: &mut State,
         step: f64,
-        is_kink: bool,
+        jumps: bool,
         timing: &mut Timing,
     ) -> Result<StepResult, StepError> {
-        let result = self.explicit_step(system, state, step, is_kink, timing);
+        let result = self.explicit_step(system, state, step, jumps, timing);
         if result.is_err() {
             self.put_back(state);
         }
@@ -57,12 +58,12 @@ impl March<'_> {
         system: &mut FluidSystem,
         state: &mut State,
         step: f64,
-        is_kink: bool,
+        jumps: bool,
         timing: &mut Timing,
     ) -> Result<StepResult, StepError> {
         let (start, from) = (state.time, state.places.clone());
         let mut iterations = 0;
-        let (first, effort) = if is_kink {
+        let (first, effort) = if jumps {
             let (time, now) = (start + INSIDE * step, state.now.clone());
             let instant = self.instant(system, state, &from, (start, time), &now, timing)?;
             iterations += instant.iterations;
@@ -89,14 +90,14 @@ impl March<'_> {
             return Err(StepError::Unsettled { passes: 0 });
         };
         let error = self.explicit_error(&rates);
-        let Instant { solution, loads, nodes, .. } = instant;
+        let Instant { solution, loads, shapes, nodes, .. } = instant;
         for (group, swim) in state.swims.iter_mut().enumerate() {
             let stages = efforts.iter().zip(STAGES[2].1);
             let shares: Vec<_> = stages.map(|(stage, share)| (stage[group], *share)).collect();
             swim.go_on(step, &shares, &efforts[3][group]);
         }
         let mut contact = ContactLoads::none(places.len());
-        if let Some(surfaces) = self.surfaces(start + step) {
+        if let Some(surfaces) = self.surfaces(&shapes) {
             contact.least_gap = surfaces.least_gap(&self.in_frame(state, &places));
         }
         state.contact = contact;
@@ -141,22 +142,24 @@ impl March<'_> {
         begin: &Solution,
         timing: &mut Timing,
     ) -> Result<Instant, StepError> {
-        let nodes = self.put(state, places, time, timing)?;
+        let shapes = BodyShapes::at(&self.problem.bodies, time)?;
+        let nodes = self.put(state, places, &shapes, timing)?;
         if !matches!(self.path, MeshPath::Still) {
             system.move_to(self.problem, &state.mesh);
         }
         let poses: Vec<_> = state.wrapped(places).iter().map(pose_at).collect();
-        let constraints = system.constraints(self.problem, &state.mesh, &poses, asked);
+        let rates = BodyShapes::at(&self.problem.bodies, asked)?;
+        let constraints = system.constraints(self.problem, &state.mesh, &poses, &rates);
         let levels = Levels::default().with_loads(self.problem, asked, places, 0.0);
-        let past = Past::without_memory(time, levels);
+        let past = Past::without_memory(shapes, levels);
         let begin = system.constrained(&constraints, &flatten(begin));
         // Without density its coefficients multiply nothing.
         let bdf = Bdf::first_order(1.0);
         let mut flow = self.solve(system, state, &bdf, &past, &constraints, &[], begin, timing)?;
         let (loads, efforts) =
             self.conclude(system, state, &bdf, &past, &[], places, &mut flow, timing);
-        let (solution, iterations) = (flow.solution, flow.iterations);
-        Ok(Instant { solution, loads, efforts, nodes, iterations })
+        let (solution, iterations, shapes) = (flow.solution, flow.iterations, past.shapes);
+        Ok(Instant { solution, loads, efforts, shapes, nodes, iterations })
     }
 
     /// Error of the new places over the way of a step, at most.

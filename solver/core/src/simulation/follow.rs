@@ -2,7 +2,6 @@
 
 use std::borrow::Cow;
 use std::collections::HashMap;
-use std::sync::Arc;
 
 use alewife_mesh::{BoundaryKind, Domain, Mesh, Outline, PlacedShape, Point, Shape, Surroundings};
 use nalgebra::Vector3;
@@ -12,8 +11,8 @@ use super::state::pose_at;
 use crate::body::Pose;
 use crate::case::{Case, MeshEquation};
 use crate::contact::{Place, Surfaces};
-use crate::coupling::Problem;
-use crate::gait::{Deformed, ShapeMotion, WavingSheet};
+use crate::coupling::{BodyShapes, Problem, RigidBody};
+use crate::gait::{DeformedOutline, WavingSheet};
 use crate::motion::{
     Fresh, Hold, Limits, MeshMotion, MotionError, MotionKind, Reason, RigidMove, Stiffening, holds,
     needs_remesh,
@@ -34,8 +33,6 @@ pub struct Follower {
     made_time: f64,
     /// Bodies as they were then.
     shapes: Vec<PlacedShape>,
-    /// How bodies deform, those that do.
-    deforming: Vec<Option<Arc<dyn ShapeMotion>>>,
     /// Material points of the nodes on bodies that deform, by the bits of their places when made.
     materials: HashMap<[u64; 2], f64>,
     /// Whether the mesh turns with each body.
@@ -67,7 +64,8 @@ fn placed(shape: &PlacedShape, deformed: Shape, place: &Place) -> PlacedShape {
 }
 
 impl Follower {
-    /// Takes a new mesh, made with bodies of these shapes at these places at a time (s).
+    /// Takes a new mesh, made with bodies of these shapes, as they are deformed then, at these places
+    /// at a time (s).
     ///
     /// # Errors
     /// When the equation of the mesh motion cannot be solved, in words.
@@ -111,12 +109,13 @@ impl Follower {
                 _ => None,
             })
             .collect();
-        let deforming: Vec<_> = problem.bodies.iter().map(|body| body.shape.clone()).collect();
-        let outlines = deforming.iter().enumerate().map(|(body, motion)| {
-            let then = motion.as_ref()?.at(made_time).shape;
-            Outline::new(&placed(&shapes[body], then, &made_at[body])).ok()
-        });
-        let outlines: Vec<Option<Outline>> = outlines.collect();
+        let outline = |(body, rigid): (usize, &RigidBody)| {
+            let deforms = rigid.shape.is_some();
+            let then = placed(&shapes[body], shapes[body].shape.clone(), &made_at[body]);
+            deforms.then(|| Outline::new(&then)).transpose()
+        };
+        let outlines: Result<Vec<_>, _> = problem.bodies.iter().enumerate().map(outline).collect();
+        let outlines = outlines.map_err(|error| error.to_string())?;
         let mut edges = vec![f64::INFINITY; problem.bodies.len()];
         let mut materials = HashMap::new();
         for facet in &mesh.facets {
@@ -139,7 +138,6 @@ impl Follower {
             made_at,
             made_time,
             shapes,
-            deforming,
             materials,
             turns,
             edges,
@@ -152,15 +150,15 @@ impl Follower {
         })
     }
 
-    /// How each body has carried its mesh from where that was made to places at a time (s).
-    fn carriers(&self, places: &[Place], time: f64) -> Vec<Carrier> {
+    /// How each body has carried its mesh from where that was made to places, with these shapes.
+    fn carriers<'a>(&self, places: &[Place], shapes: &'a BodyShapes) -> Vec<Carrier<'a>> {
         (0..places.len())
             .map(|body| {
                 let [x, y, angle] = places[body];
                 let angle = if self.turns[body] { angle } else { self.made_at[body][2] };
                 let to = pose_at(&[x, y, angle]);
-                match &self.deforming[body] {
-                    Some(motion) => Carrier::Deformed(Box::new(motion.at(time)), to),
+                match shapes.deformed(body) {
+                    Some(deformed) => Carrier::Deformed(deformed, to),
                     None => Carrier::Rigid(RigidMove::between(&pose_at(&self.made_at[body]), &to)),
                 }
             })
@@ -168,13 +166,12 @@ impl Follower {
     }
 
     /// Displacement of a node on a body from its place when the mesh was made (m).
-    fn displacement(&self, carrier: &Carrier, place: &Point<2>) -> Point<2> {
+    fn displacement(&self, carrier: &Carrier<'_>, place: &Point<2>) -> Point<2> {
         match carrier {
             Carrier::Rigid(moved) => moved.displacement(place),
             Carrier::Deformed(deformed, pose) => {
-                let Some(parameter) = self.materials.get(&bits(place)) else {
-                    return Point::<2>::zeros();
-                };
+                let parameter = self.materials.get(&bits(place));
+                let parameter = parameter.expect("every node of a facet on the body has one");
                 let at = deformed.position(*parameter);
                 let world = pose.rotation() * Vector3::new(at.x, at.y, 0.0) + pose.center;
                 world.xy() - place
@@ -182,17 +179,21 @@ impl Follower {
         }
     }
 
-    /// Places of all nodes with bodies at `places` (m) at a time (s).
+    /// Places of all nodes with bodies of these shapes at `places` (m), at the time of the shapes.
     ///
     /// # Errors
     /// When memory runs out.
-    pub fn nodes(&self, places: &[Place], time: f64) -> Result<Vec<Point<2>>, MotionError> {
-        let carriers = self.carriers(places, time);
+    pub fn nodes(
+        &self,
+        places: &[Place],
+        shapes: &BodyShapes,
+    ) -> Result<Vec<Point<2>>, MotionError> {
+        let carriers = self.carriers(places, shapes);
         let given = |boundary: usize, place: &Point<2>| {
             match (self.bodies[boundary], &self.sheets[boundary]) {
                 (Some(body), _) => self.displacement(&carriers[body], place),
                 // Up and down: where the nodes are along the curve makes no difference.
-                (None, Some(sheet)) => Point::<2>::new(0.0, sheet.height(place[0], time)),
+                (None, Some(sheet)) => Point::<2>::new(0.0, sheet.height(place[0], shapes.time())),
                 (None, None) => Point::<2>::zeros(),
             }
         };
@@ -224,47 +225,52 @@ impl Follower {
         })
     }
 
-    /// Whether the mesh has to be made anew with bodies at `places`, and why. The mesh is seen from
-    /// the frame.
+    /// Whether the mesh has to be made anew with bodies of these shapes at `places`, and why. The mesh
+    /// is seen from the frame.
     #[must_use]
-    pub fn wants_remesh(&mut self, mesh: &Mesh<2>, places: &[Place], time: f64) -> Option<Reason> {
+    pub fn wants_remesh(
+        &mut self,
+        mesh: &Mesh<2>,
+        places: &[Place],
+        shapes: &BodyShapes,
+    ) -> Option<Reason> {
         // A sheet comes back to where it was, and its mesh with it.
         if self.waves() {
             return None;
         }
-        let shapes = self.shapes_at(places, time);
-        for (body, shape) in shapes.iter().enumerate() {
-            if self.deforming[body].is_none() {
-                self.surroundings.place_body(body, shape.center, shape.angle);
-            } else if let Ok(outline) = Outline::new(shape) {
-                self.surroundings.set_body(body, outline);
+        let placed = self.shapes_at(places, shapes);
+        for (body, PlacedShape { center, angle, .. }) in placed.into_iter().enumerate() {
+            match shapes.outline(body) {
+                None => self.surroundings.place_body(body, center, angle),
+                Some(outline) => {
+                    self.surroundings.set_body(body, outline.placed_at(center, angle));
+                }
             }
         }
         needs_remesh(mesh, &self.fresh, &self.surroundings)
     }
 
-    /// The bodies at other places at a time (s).
+    /// The bodies at other places, with these shapes.
     #[must_use]
-    pub fn shapes_at(&self, places: &[Place], time: f64) -> Vec<PlacedShape> {
-        let carriers = self.carriers(places, time);
+    pub fn shapes_at(&self, places: &[Place], shapes: &BodyShapes) -> Vec<PlacedShape> {
+        let carriers = self.carriers(places, shapes);
         let carried = carriers.into_iter().zip(&self.shapes).zip(places);
         carried
             .map(|((carrier, shape), place)| match carrier {
                 Carrier::Rigid(moved) => moved.carry(shape),
-                Carrier::Deformed(deformed, _) => placed(shape, deformed.shape, place),
+                Carrier::Deformed(deformed, _) => placed(shape, deformed.shape(), place),
             })
             .collect()
     }
 
-    /// Outlines and walls at a time (s).
+    /// Outlines, as bodies of these shapes have them, and walls.
     #[must_use]
-    pub fn surfaces_at(&self, time: f64) -> Cow<'_, Surfaces> {
+    pub fn surfaces_at(&self, shapes: &BodyShapes) -> Cow<'_, Surfaces> {
         let mut surfaces = Cow::Borrowed(&self.surfaces);
-        for (body, motion) in self.deforming.iter().enumerate() {
-            let Some(motion) = motion else { continue };
-            let shape = placed(&self.shapes[body], motion.at(time).shape, &[0.0; 3]);
-            // An outline that crosses itself is refused before; the last one stands for it here
-            let _ = surfaces.to_mut().deform(body, &shape);
+        for body in 0..self.shapes.len() {
+            if let Some(outline) = shapes.outline(body) {
+                surfaces.to_mut().deform(body, outline.clone());
+            }
         }
         surfaces
     }
@@ -301,8 +307,8 @@ impl Follower {
 }
 
 /// How a body carries the nodes on it.
-enum Carrier {
+enum Carrier<'a> {
     Rigid(RigidMove),
     /// Its outline then, and its pose.
-    Deformed(Box<Deformed>, Pose),
+    Deformed(&'a DeformedOutline, Pose),
 }

@@ -23,8 +23,8 @@ use crate::body::Twist;
 use crate::case::Convection as ConvectionChoice;
 use crate::contact::{ContactLoads, ContactStep, Law, Place, Surfaces};
 use crate::coupling::{
-    BodyLoads, Drive, Effort, FluidSystem, Levels, Problem, Solution, SolveError, body_loads,
-    flatten, newton_convection,
+    BodyLoads, BodyShapes, Drive, Effort, FluidSystem, Levels, Problem, ShapeError, Solution,
+    SolveError, body_loads, flatten, newton_convection,
 };
 use crate::flow::{Convection, FlowTerms};
 use crate::time::Bdf;
@@ -85,6 +85,8 @@ pub struct StepResult {
 /// The older levels of a step, with what follows from them.
 pub(super) struct Past {
     time: f64,
+    /// The bodies at the new time.
+    pub(super) shapes: BodyShapes,
     /// Older part of du/dt at the nodes (m/s2).
     history: Vec<Point<2>>,
     /// Velocities at the nodes extrapolated to the new time (m/s).
@@ -104,9 +106,10 @@ pub(super) struct Flow {
 
 impl Past {
     /// That of a flow without inertia.
-    pub(super) fn without_memory(time: f64, levels: Levels) -> Self {
+    pub(super) fn without_memory(shapes: BodyShapes, levels: Levels) -> Self {
         let (history, ahead, raw_ahead) = Default::default();
-        Self { time, history, ahead, raw_ahead, levels, frame_ahead: Point::<2>::zeros() }
+        let (time, frame_ahead) = (shapes.time(), Point::<2>::zeros());
+        Self { time, shapes, history, ahead, raw_ahead, levels, frame_ahead }
     }
 }
 
@@ -114,8 +117,8 @@ impl March<'_> {
     /// Advances `state` by the step of `bdf`. On error the state is where it was.
     ///
     /// # Errors
-    /// When the system is singular, the solution not finite, Newton's method stalls, the mesh folds,
-    /// or contact or places of bodies are not found.
+    /// When the system is singular, the solution not finite, Newton's method stalls, the mesh folds, a
+    /// gait fails, or contact or places of bodies are not found.
     pub fn advance(
         &self,
         system: &mut FluidSystem,
@@ -143,10 +146,14 @@ impl March<'_> {
         bdf: &Bdf,
         timing: &mut Timing,
     ) -> Result<StepResult, StepError> {
-        let past = self.past(state, bdf);
+        let past = self.past(state, bdf)?;
         let time = past.time;
-        let surfaces = self.surfaces(time);
-        let asked = if self.problem.kinks.is_some() { time - INSIDE * bdf.step } else { time };
+        let surfaces = self.surfaces(&past.shapes);
+        // Rates that jump at the end of the step are those before it
+        let rates = match &self.problem.rate_discontinuities {
+            Some(_) => &BodyShapes::at(&self.problem.bodies, time - INSIDE * bdf.step)?,
+            None => &past.shapes,
+        };
         let mut from = state.places.clone();
         let mut to =
             self.reached(state, bdf, |body, mode| match &self.problem.bodies[body].drives[mode] {
@@ -160,12 +167,12 @@ impl March<'_> {
         let mut start: Option<Solution> = None;
         for _ in 0..MAX_PASSES {
             let places = self.guarded(state, surfaces.as_deref(), &from, to);
-            let nodes = self.put(state, &places, time, timing)?;
+            let nodes = self.put(state, &places, &past.shapes, timing)?;
             if !matches!(self.path, MeshPath::Still) {
                 system.move_to(self.problem, &state.mesh);
             }
             let poses: Vec<_> = state.wrapped(&places).iter().map(pose_at).collect();
-            let constraints = system.constraints(self.problem, &state.mesh, &poses, asked);
+            let constraints = system.constraints(self.problem, &state.mesh, &poses, rates);
             let mesh_velocity: Vec<Point<2>> = match (self.path, self.problem.has_inertia) {
                 (MeshPath::Still, _) | (_, false) => Vec::new(),
                 _ => (0..nodes.len())
@@ -267,7 +274,7 @@ impl March<'_> {
         (loads, efforts)
     }
 
-    fn past(&self, state: &State, bdf: &Bdf) -> Past {
+    fn past(&self, state: &State, bdf: &Bdf) -> Result<Past, ShapeError> {
         let problem = self.problem;
         let time = state.time + bdf.step;
         let pairs = state.now.velocity.iter().zip(&state.previous.velocity);
@@ -275,9 +282,14 @@ impl March<'_> {
         let frame_of = |solution: &Solution| frame_velocity(problem, solution);
         // Nearer to the new level than the old one: less is left for an iterative solve.
         let raw_pairs = flatten(&state.now).into_iter().zip(flatten(&state.previous));
-        let mut inertia = Vec::new();
+        let shapes = BodyShapes::at(&problem.bodies, time)?;
+        let (mut inertia, mut inertia_now, mut inertia_before) = Default::default();
         if problem.bodies.iter().any(|body| body.shape.is_some() && body.inertia > 0.0) {
-            inertia = problem.bodies.iter().map(|body| body.inertia_at(time)).collect();
+            let at = |time: f64| -> Result<Vec<f64>, ShapeError> {
+                problem.bodies.iter().map(|body| body.inertia_at(time)).collect()
+            };
+            inertia = shapes.inertia(&problem.bodies);
+            (inertia_now, inertia_before) = (at(state.time)?, at(state.time_before())?);
         }
         let history = body_pairs.enumerate().map(|(body, (now, previous))| {
             let (mut now, mut previous) = (now.in_plane(), previous.in_plane());
@@ -286,8 +298,8 @@ impl March<'_> {
                 && *next > 0.0
             {
                 // d(I omega)/dt in place of I d(omega)/dt
-                now[2] *= rigid.inertia_at(state.time) / next;
-                previous[2] *= rigid.inertia_at(state.time_before()) / next;
+                now[2] *= inertia_now[body] / next;
+                previous[2] *= inertia_before[body] / next;
             }
             [0, 1, 2].map(|mode| bdf.history(now[mode], previous[mode]))
         });
@@ -300,14 +312,15 @@ impl March<'_> {
             &unmoved,
             1.0 / bdf.next,
         );
-        Past {
+        Ok(Past {
             time,
+            shapes,
             history: pairs.clone().map(|(now, before)| bdf.history(*now, *before)).collect(),
             ahead: pairs.map(|(now, before)| bdf.extrapolate(*now, *before)).collect(),
             raw_ahead: raw_pairs.map(|(now, before)| bdf.extrapolate(now, before)).collect(),
             levels,
             frame_ahead: bdf.extrapolate(frame_of(&state.now), frame_of(&state.previous)),
-        }
+        })
     }
 
     /// Where bodies get to with velocities at the new time.
@@ -338,10 +351,10 @@ impl March<'_> {
         mode == 2 || matches!(self.path, MeshPath::Bodies(_)) || self.problem.frame == Some(body)
     }
 
-    /// Outlines and walls at a time, where the mesh follows bodies.
-    pub(super) fn surfaces(&self, time: f64) -> Option<Cow<'_, Surfaces>> {
+    /// Outlines of bodies of these shapes, and walls, where the mesh follows bodies.
+    pub(super) fn surfaces(&self, shapes: &BodyShapes) -> Option<Cow<'_, Surfaces>> {
         match self.path {
-            MeshPath::Bodies(follower) => Some(follower.surfaces_at(time)),
+            MeshPath::Bodies(follower) => Some(follower.surfaces_at(shapes)),
             _ => None,
         }
     }
@@ -378,13 +391,13 @@ impl March<'_> {
         trial
     }
 
-    /// Puts the mesh where bodies at `places` want it; returns the places of its nodes seen from the
-    /// frame.
+    /// Puts the mesh where bodies of these shapes at `places` want it; returns the places of its nodes
+    /// seen from the frame.
     pub(super) fn put(
         &self,
         state: &mut State,
         places: &[Place],
-        time: f64,
+        shapes: &BodyShapes,
         timing: &mut Timing,
     ) -> Result<Vec<Point<2>>, StepError> {
         let origin = state.origin_at(self.problem, places);
@@ -392,12 +405,12 @@ impl March<'_> {
             let nodes = match self.path {
                 MeshPath::Still => state.nodes.clone(),
                 MeshPath::Given(place) => {
-                    (0..state.nodes.len()).map(|node| place(node, time)).collect()
+                    (0..state.nodes.len()).map(|node| place(node, shapes.time())).collect()
                 }
                 MeshPath::Bodies(follower) => {
                     let places = self.in_frame(state, places);
                     follower
-                        .nodes(&places, time)
+                        .nodes(&places, shapes)
                         .map_err(|error| RunError::Mesh(error.to_string()))?
                 }
             };
@@ -580,7 +593,7 @@ impl March<'_> {
         (solution, places, contact): (Solution, Vec<Place>, ContactLoads),
         timing: &mut Timing,
     ) -> Result<(), StepError> {
-        let nodes = self.put(state, &places, past.time, timing)?;
+        let nodes = self.put(state, &places, &past.shapes, timing)?;
         state.contact = contact;
         for (body, twist) in solution.twists.iter().enumerate() {
             let velocity = twist.in_plane();

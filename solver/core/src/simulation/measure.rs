@@ -8,8 +8,8 @@ use super::state::{State, Swim};
 use crate::body::{Pose, Twist, Wrench};
 use crate::case::{Case, Geometry, Probe, TimeSettings, known_quantities};
 use crate::coupling::{
-    BodyLoads, BodyStates, Effort, FluidSystem, Group, JointReport, Problem, Solution, group_load,
-    joint_reports, mean_motion, surface_load,
+    BodyLoads, BodyShapes, BodyStates, Effort, FluidSystem, Group, JointReport, Problem,
+    ShapeError, Solution, group_load, joint_reports, mean_motion, surface_load,
 };
 use crate::space::{CellValues, p1_values, p2_values};
 
@@ -137,6 +137,9 @@ impl Measure {
     }
 
     /// Reports of all bodies and the values of all quantities.
+    ///
+    /// # Errors
+    /// When a gait fails.
     pub(super) fn measure(
         &mut self,
         system: &FluidSystem,
@@ -144,7 +147,7 @@ impl Measure {
         state: &State,
         loads: &[BodyLoads],
         moving: Option<Moving>,
-    ) -> (Vec<BodyReport>, Vec<f64>) {
+    ) -> Result<(Vec<BodyReport>, Vec<f64>), ShapeError> {
         let Solution { velocity, pressure, twists } = &state.now;
         let (poses, in_mesh) = (state.poses(), state.poses_in_mesh());
         let mut reports = Vec::new();
@@ -180,7 +183,7 @@ impl Measure {
             }
             reports.push(report);
         }
-        let joints = joints(problem, state, loads);
+        let joints = joints(problem, state, loads)?;
         values.extend(
             joints
                 .iter()
@@ -218,24 +221,31 @@ impl Measure {
             let gap = state.contact.least_gap.map_or(f64::INFINITY, |least| least.gap);
             values.extend([gap, state.mesh.n_cells() as f64, remeshes as f64]);
         }
-        (reports, values)
+        Ok((reports, values))
     }
 }
 
 /// The joints of all bodies.
-fn joints(problem: &Problem, state: &State, loads: &[BodyLoads]) -> Vec<JointReport> {
+fn joints(
+    problem: &Problem,
+    state: &State,
+    loads: &[BodyLoads],
+) -> Result<Vec<JointReport>, ShapeError> {
+    if !problem.has_links() {
+        return Ok(Vec::new());
+    }
     let in_plane = |twists: &[Twist]| twists.iter().map(Twist::in_plane).collect::<Vec<_>>();
     let contact = &state.contact.wrenches;
     let loads =
         loads.iter().zip(contact).map(|(fluid, contact)| (fluid.load + *contact).in_plane());
     let now = BodyStates {
-        time: state.time,
+        shapes: &BodyShapes::at(&problem.bodies, state.time)?,
         places: &state.places,
         velocities: &in_plane(&state.now.twists),
         accelerations: &in_plane(&state.accelerations),
         loads: &loads.collect::<Vec<_>>(),
     };
-    joint_reports(problem, &now)
+    Ok(joint_reports(problem, &now))
 }
 
 /// Values of a group in the order of [`known_quantities`].

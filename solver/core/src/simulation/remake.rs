@@ -10,7 +10,7 @@ use super::state::{State, pose_at, seen_from};
 use crate::body::Pose;
 use crate::case::Case;
 use crate::contact::Place;
-use crate::coupling::{DivergenceFree, NodeSides, Problem, Solution};
+use crate::coupling::{BodyShapes, DivergenceFree, NodeSides, Problem, Solution};
 use crate::motion::Transfer;
 use crate::space::Tables;
 
@@ -30,7 +30,10 @@ pub(super) fn remake(
     }
     let origin = state.origin;
     let old_places = state.in_frame(&origin, &state.places);
-    let shapes = follower.shapes_at(&old_places, state.time);
+    let shapes_at =
+        |time: f64| BodyShapes::at(&problem.bodies, time).map_err(|error| error.to_string());
+    let (now, before) = (shapes_at(state.time)?, shapes_at(state.time_before())?);
+    let shapes = follower.shapes_at(&old_places, &now);
     let opened = open(follower.domain(), &case.mesh_domain(), shapes)?;
     let shifts = opened.shifts.iter();
     let wraps: Vec<Point<2>> =
@@ -48,14 +51,13 @@ pub(super) fn remake(
     let tables = Tables::new(problem.metric);
     let transfer = between(&domain, &tables, &old, &new)
         .ok_or("the flow could not be found in the old mesh")?;
-    // One level back the new mesh is where its own motion puts it: nodes whose way had a kink would
+    // One level back the new mesh is where its own motion puts it: nodes whose velocity jumps would
     // cost the next step its second order.
-    let mut before = new.clone();
-    before.nodes =
-        made.nodes(&previous_places, state.time_before()).map_err(|error| error.to_string())?;
+    let mut new_before = new.clone();
+    new_before.nodes = made.nodes(&previous_places, &before).map_err(|error| error.to_string())?;
     let mut old_before = old.clone();
     old_before.nodes.clone_from(&state.nodes_before);
-    let transfer_before = between(&domain, &tables, &old_before, &before)
+    let transfer_before = between(&domain, &tables, &old_before, &new_before)
         .ok_or("the flow of the step before could not be found in the old mesh")?;
     let sides = NodeSides::new(&new);
     let mut on_bodies = Vec::new();
@@ -65,42 +67,39 @@ pub(super) fn remake(
     let poses = |places: &[Place]| -> Vec<Pose> { places.iter().map(pose_at).collect() };
     let mut projection = DivergenceFree::new(problem, &new)
         .map_err(|error| format!("the flow on the new mesh: {error}"))?;
-    let mut level =
-        |transfer: &Transfer<'_>, old: &Solution, places: &[Place], origin: Point<2>, time: f64| {
-            let mesh = transfer.mesh();
-            let mut solution = Solution {
-                velocity: transfer.quadratic(&old.velocity),
-                pressure: transfer.linear(&old.pressure),
-                twists: old.twists.clone(),
-            };
-            let poses = poses(places);
-            let pairs = problem.bodies.iter().zip(&poses);
-            let surfaces: Vec<_> = pairs.map(|(body, pose)| body.surface(pose, time)).collect();
-            for &(node, body) in &on_bodies {
-                let (pose, place) = (&poses[body], mesh.nodes[node]);
-                let lever = Vector3::new(place.x, place.y, 0.0) - pose.center;
-                let rigid = old.twists[body].velocity_at(&lever).xy();
-                solution.velocity[node] = rigid + surfaces[body].velocity(&place);
-            }
-            hold_sides(problem, mesh, &sides, &origin, time, &mut solution.velocity);
-            let missed = transfer.missed(&tables, &old.velocity, &solution.velocity);
-            projection
-                .move_to(problem, mesh)
-                .and_then(|()| projection.project_with(mesh, &solution.velocity, &missed))
-                .map(|velocity| Solution { velocity, ..solution })
-                .map_err(|error| format!("the flow on the new mesh: {error}"))
+    let mut level = |transfer: &Transfer<'_>,
+                     old: &Solution,
+                     places: &[Place],
+                     origin: Point<2>,
+                     shapes: &BodyShapes| {
+        let mesh = transfer.mesh();
+        let mut solution = Solution {
+            velocity: transfer.quadratic(&old.velocity),
+            pressure: transfer.linear(&old.pressure),
+            twists: old.twists.clone(),
         };
-    let now = level(&transfer, &state.now, &places, origin, state.time)?;
-    let previous = level(
-        &transfer_before,
-        &state.previous,
-        &previous_places,
-        origin_before,
-        state.time_before(),
-    )?;
+        let poses = poses(places);
+        let surfaces = shapes.surfaces(&problem.bodies, &poses);
+        for &(node, body) in &on_bodies {
+            let (pose, place) = (&poses[body], mesh.nodes[node]);
+            let lever = Vector3::new(place.x, place.y, 0.0) - pose.center;
+            let rigid = old.twists[body].velocity_at(&lever).xy();
+            solution.velocity[node] = rigid + surfaces[body].velocity(&place);
+        }
+        hold_sides(problem, mesh, &sides, &origin, shapes.time(), &mut solution.velocity);
+        let missed = transfer.missed(&tables, &old.velocity, &solution.velocity);
+        projection
+            .move_to(problem, mesh)
+            .and_then(|()| projection.project_with(mesh, &solution.velocity, &missed))
+            .map(|velocity| Solution { velocity, ..solution })
+            .map_err(|error| format!("the flow on the new mesh: {error}"))
+    };
+    let new_now = level(&transfer, &state.now, &places, origin, &now)?;
+    let new_previous =
+        level(&transfer_before, &state.previous, &previous_places, origin_before, &before)?;
     let rates = transfer.quadratic(&state.rates);
-    (state.now, state.previous, state.rates, state.wraps) = (now, previous, rates, wraps);
-    state.nodes_before = before.nodes;
+    (state.now, state.previous, state.rates, state.wraps) = (new_now, new_previous, rates, wraps);
+    state.nodes_before = new_before.nodes;
     state.nodes.clone_from(&new.nodes);
     state.mesh = new;
     for node in &mut state.mesh.nodes {

@@ -16,7 +16,7 @@ use super::{RunError, Series, Stage, StepError, StepResult, Timing, build_proble
 use crate::case::{Adaptive, Case, Convection, Initial, Scheme, Steady, TimeSettings, Unsteady};
 use crate::contact::{ContactError, Law};
 use crate::coupling::{
-    BodyLoads, FluidSystem, Levels, Problem, body_loads, mean_motion, memory_estimate,
+    BodyLoads, BodyShapes, FluidSystem, Levels, Problem, body_loads, mean_motion, memory_estimate,
 };
 use crate::time::Bdf;
 
@@ -40,8 +40,8 @@ const START_PIECES: u32 = 7;
 /// The smallest step over the given one, of fixed steps that are halved where they must be.
 const SMALLEST_PART: f64 = 1.0 / 1024.0;
 
-/// Part of a step by which a kink may be off and still be at its end.
-const KINK: f64 = 1e-7;
+/// Part of a step by which a discontinuity of rates may be off and still be at its end.
+const SAME_TIME: f64 = 1e-7;
 
 /// Error over the tolerance above which a step is not taken.
 const REJECTED: f64 = 2.0;
@@ -150,10 +150,10 @@ impl Parts {
     }
 
     /// Whether rates of gaits jump within `near` (s) of now.
-    fn is_at_kink(&self, near: f64) -> bool {
+    fn is_at_discontinuity(&self, near: f64) -> bool {
         let time = self.state.time;
-        let kinks = self.problem.kinks.as_ref();
-        kinks.is_some_and(|kinks| !kinks(time - near, time + near).is_empty())
+        let times = self.problem.rate_discontinuities.as_ref();
+        times.is_some_and(|times| !times(time - near, time + near).is_empty())
     }
 
     /// Loads of the fluid by the raw residual at the present solution.
@@ -281,7 +281,7 @@ impl Run<'_> {
         };
         // Meshed with straight sides: a sheet has its shape from the beginning.
         if let Some(follower) = follower.as_ref().filter(|follower| follower.waves()) {
-            let nodes = follower.nodes(&state.places, 0.0);
+            let nodes = follower.nodes(&state.places, &BodyShapes::at(&problem.bodies, 0.0)?);
             state.nodes = nodes.map_err(|error| RunError::Mesh(error.to_string()))?;
             state.nodes_before.clone_from(&state.nodes);
             state.mesh.nodes.clone_from(&state.nodes);
@@ -437,8 +437,8 @@ impl Run<'_> {
             parts.state.step = index;
             let left = settings.end - parts.state.time;
             // Pieces of the first step grow fast enough by themselves.
-            let near = KINK * proposed.min(left);
-            if index > 0 && parts.is_at_kink(near) {
+            let near = SAME_TIME * proposed.min(left);
+            if index > 0 && parts.is_at_discontinuity(near) {
                 start = start_pieces(settings.scheme, true, settings.step.min(proposed));
                 start.reverse();
                 parts.state.last_step = 0.0;
@@ -446,9 +446,9 @@ impl Run<'_> {
             let is_start = !start.is_empty() && settings.scheme == Scheme::Bdf2;
             let mut size = start.pop().unwrap_or(proposed).min(largest);
             let now = parts.state.time;
-            let kink = parts.problem.kinks.as_ref();
-            let kink = kink.and_then(|kinks| kinks(now + near, settings.end).first().copied());
-            let left = kink.map_or(left, |kink| kink - now);
+            let times = parts.problem.rate_discontinuities.as_ref();
+            let next = times.and_then(|times| times(now + near, settings.end).first().copied());
+            let left = next.map_or(left, |next| next - now);
             if left < 2.0 * size {
                 size = if left <= size * (1.0 + 1e-9) { left } else { 0.5 * left };
             }
@@ -508,7 +508,7 @@ impl Run<'_> {
                 Scheme::Bdf2 if state.last_step > 0.0 => Bdf::second_order(size, state.last_step),
                 _ => Bdf::first_order(size),
             };
-            let is_kink =
+            let jumps =
                 settings.scheme == Scheme::Rk3 && state.last_step == 0.0 && state.time > 0.0;
             let march = March {
                 problem,
@@ -520,7 +520,7 @@ impl Run<'_> {
             let (step, time) = (state.step + 1, state.time + size);
             let timing = &mut self.timing;
             let made = if settings.scheme == Scheme::Rk3 {
-                march.advance_explicit(system, state, size, is_kink, timing)
+                march.advance_explicit(system, state, size, jumps, timing)
             } else {
                 march.advance(system, state, &bdf, timing)
             };
@@ -553,13 +553,16 @@ impl Run<'_> {
     }
 
     fn remesh_where_needed(&mut self, parts: &mut Parts) -> Result<(), RunError> {
-        let Parts { state, follower: Some(follower), .. } = &mut *parts else { return Ok(()) };
+        let Parts { problem, state, follower: Some(follower), .. } = &mut *parts else {
+            return Ok(());
+        };
+        let shapes = BodyShapes::at(&problem.bodies, state.time)?;
         let places = state.in_frame(&state.origin, &state.places);
         // Seen from the frame.
         std::mem::swap(&mut state.mesh.nodes, &mut state.nodes);
         let reason = self
             .timing
-            .measure(Stage::MeshMotion, || follower.wants_remesh(&state.mesh, &places, state.time));
+            .measure(Stage::MeshMotion, || follower.wants_remesh(&state.mesh, &places, &shapes));
         std::mem::swap(&mut state.mesh.nodes, &mut state.nodes);
         match reason {
             None => Ok(()),
@@ -611,7 +614,7 @@ impl Run<'_> {
         let moving = follower.as_ref().map(|_| Moving { remeshes: *remeshes });
         let (bodies, values) = self
             .timing
-            .measure(Stage::Loads, || measure.measure(system, problem, state, loads, moving));
+            .measure(Stage::Loads, || measure.measure(system, problem, state, loads, moving))?;
         self.series.times.push(state.time);
         let timing = self.timing;
         let snapshot = Snapshot {
@@ -664,12 +667,12 @@ fn count_steps(settings: &Unsteady) -> usize {
 /// starts anew with it.
 fn pieces(settings: &Unsteady, parts: &Parts, target: f64) -> Vec<(f64, bool)> {
     let state = &parts.state;
-    let near = KINK * settings.step;
-    let kinks = parts.problem.kinks.as_ref();
+    let near = SAME_TIME * settings.step;
+    let times = parts.problem.rate_discontinuities.as_ref();
     let mut at = state.time;
-    let mut ends = kinks.map_or_else(Vec::new, |kinks| kinks(state.time + near, target - near));
+    let mut ends = times.map_or_else(Vec::new, |times| times(state.time + near, target - near));
     ends.push(target);
-    let mut is_start = state.last_step == 0.0 || parts.is_at_kink(near);
+    let mut is_start = state.last_step == 0.0 || parts.is_at_discontinuity(near);
     let mut pieces = Vec::new();
     for end in ends {
         let sizes = start_pieces(settings.scheme, is_start, end - at);

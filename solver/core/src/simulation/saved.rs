@@ -12,7 +12,7 @@ use super::state::{State, Swim, place_of, pose_at};
 use crate::body::Twist;
 use crate::case::Case;
 use crate::contact::{ContactLoads, Place};
-use crate::coupling::{Problem, Solution};
+use crate::coupling::{BodyShapes, Problem, Solution};
 use crate::motion::RigidMove;
 
 /// Version of the file; others are refused.
@@ -231,15 +231,15 @@ impl SavedState {
                 let domain = started_at(&case.mesh_domain(), following.domain_start);
                 let pairs = problem.bodies.iter().zip(&following.made_at);
                 let shapes = placed_bodies(case).map_err(|error| error.to_string())?;
-                let shapes = shapes.into_iter().zip(pairs).map(|(shape, (body, at))| {
+                let then = BodyShapes::at(&problem.bodies, following.made_time)
+                    .map_err(|error| error.to_string())?;
+                let pairs = pairs.enumerate();
+                let shapes = shapes.into_iter().zip(pairs).map(|(shape, (nth, (body, at)))| {
                     let start = pose_at(&place_of(&body.pose));
                     let carried = RigidMove::between(&start, &pose_at(at)).carry(&shape);
-                    match &body.shape {
+                    match then.deformed(nth) {
                         None => carried,
-                        Some(motion) => {
-                            let shape = motion.at(following.made_time).shape;
-                            PlacedShape { shape, ..carried }
-                        }
+                        Some(deformed) => PlacedShape { shape: deformed.shape(), ..carried },
                     }
                 });
                 let made_at = (following.made_at.clone(), following.made_time);

@@ -4,8 +4,9 @@ use std::sync::Arc;
 
 use super::RunError;
 use crate::case::{Body, GaitSpec, ShapeSpec};
+use crate::coupling::ShapeError;
 use crate::gait::{
-    Anguilliform, Carangiform, Flagellum, Midline, Pulse, PulseLaw, ShapeMotion, Swimmer,
+    Anguilliform, Carangiform, Flagellum, Midline, Pulse, PulseLaw, ShapeMotion, SlenderBody,
 };
 
 /// How the outline of a body moves in the body's frame; `None` if it does not.
@@ -67,8 +68,9 @@ pub fn shape_motion(body: &Body) -> Result<Option<Arc<dyn ShapeMotion>>, RunErro
         _ => return Err(refuse("its gait does not fit its shape")),
     };
     let profile = body.shape.profile().ok_or_else(|| refuse("its lengths make no body"))?;
-    let swimmer = Swimmer::new(&profile, midline).map_err(|error| refuse(&error.to_string()))?;
-    Ok(Some(Arc::new(swimmer)))
+    let slender = SlenderBody::new(&profile, midline)
+        .map_err(|reason| ShapeError { body: body.name.clone(), reason })?;
+    Ok(Some(Arc::new(slender)))
 }
 
 #[cfg(test)]
@@ -106,7 +108,7 @@ motion = 'free'
              gait.flagellum = { period = 0.3, wavelength = 2.0, amplitude = 0.4 }",
             "shape.disc.radius = 1.0\ngait.pulsating = { amplitude = 0.5, period = 1.0 }",
         ] {
-            let start = shape_motion(&body(text)).unwrap().unwrap().at(0.0);
+            let start = shape_motion(&body(text)).unwrap().unwrap().at(0.0).unwrap();
             let outline = Outline::new(&body(text).placed(1.0)).unwrap();
             for parameter in [0.0, 0.3, 1.9] {
                 let off = start.position(parameter) - outline.at(parameter)[0];

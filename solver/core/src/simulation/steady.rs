@@ -11,7 +11,7 @@ use crate::algebra::AffineConstraints;
 use crate::body::Pose;
 use crate::case::Steady;
 use crate::coupling::{
-    FluidSystem, Levels, Problem, Solution, SolveError, embed, newton_convection,
+    BodyShapes, FluidSystem, Levels, Problem, Solution, SolveError, embed, newton_convection,
 };
 use crate::flow::{Convection, FlowTerms};
 
@@ -65,7 +65,8 @@ struct Newton<'a> {
 /// Solves for a steady flow at a time (s) with the bodies at these poses, under the loads of `levels`.
 ///
 /// # Errors
-/// When the system is singular or Newton's method stalls at the smallest step of continuation.
+/// When the system is singular, a gait fails, or Newton's method stalls at the smallest step of
+/// continuation.
 pub fn solve_steady(
     system: &mut FluidSystem,
     problem: &Problem,
@@ -75,7 +76,14 @@ pub fn solve_steady(
     settings: &Steady,
     timing: &mut Timing,
 ) -> Result<SteadyFlow, SteadyFailure> {
-    let constraints = system.constraints(problem, mesh, poses, time);
+    let shapes = match BodyShapes::at(&problem.bodies, time) {
+        Ok(shapes) => shapes,
+        Err(error) => {
+            let last = Solution::at_rest(&system.layout);
+            return Err(SteadyFailure { error: error.into(), last });
+        }
+    };
+    let constraints = system.constraints(problem, mesh, poses, &shapes);
     let at_rest = embed(&system.layout, &constraints.expand(&vec![0.0; constraints.n_unknowns()]));
     let mut newton = Newton {
         system,

@@ -1,0 +1,148 @@
+//! `BodyShapes`: the shapes of all bodies at one time, and the velocities of their surfaces.
+
+use alewife_mesh::{Outline, Point};
+use nalgebra::Vector3;
+use thiserror::Error;
+
+use super::problem::RigidBody;
+use crate::body::Pose;
+use crate::gait::{DeformedOutline, Gait, GaitError};
+
+/// A gait that gives a body no shape at some time.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[error("body `{body}`: {reason}")]
+pub struct ShapeError {
+    /// Name of the body.
+    pub body: String,
+    /// When, and why.
+    #[source]
+    pub reason: GaitError,
+}
+
+/// The shapes of all bodies at one time, each evaluated once.
+#[derive(Debug, Clone)]
+pub struct BodyShapes {
+    time: f64,
+    /// `None` for bodies that do not deform.
+    shapes: Vec<Option<BodyShape>>,
+}
+
+#[derive(Debug, Clone)]
+struct BodyShape {
+    deformed: DeformedOutline,
+    outline: Outline,
+}
+
+impl RigidBody {
+    /// The outline at a time (s); `None` for a body that does not deform.
+    fn deformed_at(&self, time: f64) -> Result<Option<DeformedOutline>, ShapeError> {
+        let deformed = self.shape.as_ref().map(|motion| motion.at(time)).transpose();
+        deformed.map_err(|reason| ShapeError { body: self.name.clone(), reason })
+    }
+
+    /// Moment of inertia at a time, which follows the shape (kg m2; kg m planar).
+    ///
+    /// # Errors
+    /// [`ShapeError`] where the gait gives the body no shape.
+    pub fn inertia_at(&self, time: f64) -> Result<f64, ShapeError> {
+        Ok(self.inertia_with(self.deformed_at(time)?.as_ref()))
+    }
+}
+
+impl BodyShapes {
+    /// The shapes at a time (s).
+    ///
+    /// # Errors
+    /// [`ShapeError`] where a gait gives its body no shape.
+    pub fn at(bodies: &[RigidBody], time: f64) -> Result<Self, ShapeError> {
+        let shape = |body: &RigidBody| {
+            let Some(deformed) = body.deformed_at(time)? else { return Ok(None) };
+            let outline = deformed.outline(time);
+            let outline =
+                outline.map_err(|reason| ShapeError { body: body.name.clone(), reason })?;
+            Ok(Some(BodyShape { deformed, outline }))
+        };
+        Ok(Self { time, shapes: bodies.iter().map(shape).collect::<Result<_, _>>()? })
+    }
+
+    /// At time zero, as if no body deformed.
+    pub(super) fn rigid(n_bodies: usize) -> Self {
+        Self { time: 0.0, shapes: vec![None; n_bodies] }
+    }
+
+    /// When (s).
+    #[must_use]
+    pub fn time(&self) -> f64 {
+        self.time
+    }
+
+    /// Positions, velocities and moments of a body that deforms, in its own frame.
+    #[must_use]
+    pub fn deformed(&self, body: usize) -> Option<&DeformedOutline> {
+        self.shapes[body].as_ref().map(|shape| &shape.deformed)
+    }
+
+    /// The closed curve of a body that deforms; its centre is the origin, its angle zero.
+    #[must_use]
+    pub fn outline(&self, body: usize) -> Option<&Outline> {
+        self.shapes[body].as_ref().map(|shape| &shape.outline)
+    }
+
+    /// Moments of inertia of the bodies about their centres (kg m2; kg m planar).
+    #[must_use]
+    pub fn inertia(&self, bodies: &[RigidBody]) -> Vec<f64> {
+        let bodies = bodies.iter().enumerate();
+        bodies.map(|(body, rigid)| rigid.inertia_with(self.deformed(body))).collect()
+    }
+
+    /// What moves the surfaces of the bodies at these poses, besides their rigid motions.
+    #[must_use]
+    pub fn surfaces<'a>(
+        &'a self,
+        bodies: &'a [RigidBody],
+        poses: &[Pose],
+    ) -> Vec<MovingSurface<'a>> {
+        let surface = |((body, shape), pose): ((&'a RigidBody, &'a Option<BodyShape>), &Pose)| {
+            let place = |shape: &'a BodyShape| {
+                let center = Point::<2>::new(pose.center.x, pose.center.y);
+                (&shape.deformed, shape.outline.placed_at(center, pose.heading()))
+            };
+            MovingSurface {
+                gait: body.gait.as_deref(),
+                shape: shape.as_ref().map(place),
+                pose: *pose,
+                time: self.time,
+            }
+        };
+        bodies.iter().zip(&self.shapes).zip(poses).map(surface).collect()
+    }
+}
+
+/// The surface of a body at one time.
+pub struct MovingSurface<'a> {
+    gait: Option<&'a dyn Gait>,
+    /// The outline in the frame of the body, and where it is in the world.
+    shape: Option<(&'a DeformedOutline, Outline)>,
+    pose: Pose,
+    time: f64,
+}
+
+impl MovingSurface<'_> {
+    /// Velocity of the surface relative to the rigid motion, in the world (m/s), at a world
+    /// point of the plane on it.
+    #[must_use]
+    pub fn velocity(&self, point: &Point<2>) -> Point<2> {
+        let rotation = self.pose.rotation();
+        let mut velocity = Vector3::zeros();
+        if let Some(gait) = self.gait {
+            let lever = Vector3::new(point[0], point[1], 0.0) - self.pose.center;
+            velocity += gait.velocity(&(rotation.inverse() * lever), self.time);
+        }
+        if let Some((deformed, outline)) = &self.shape {
+            let rate = deformed.rate(outline.parameter_of(*point));
+            velocity += Vector3::new(rate.x, rate.y, 0.0);
+        }
+        let velocity = rotation * velocity;
+        Point::<2>::new(velocity.x, velocity.y)
+    }
+}
