@@ -8,7 +8,9 @@ use alewife_mesh::{BoundaryKind, Mesh, PeriodicPair, Point};
 use super::constrain::{NodeSides, close_pressures_and_periods};
 use super::problem::{Problem, Side};
 use super::system::{pressure_weights, spread_flux, unknowns};
-use crate::algebra::{AffineConstraints, ConstraintBuilder, DirectSolver, LinearError, Pattern};
+use crate::algebra::{
+    AffineConstraints, ConstraintBuilder, DirectSolver, LinearError, LinearSolver, SparseMatrix,
+};
 use crate::flow::{Assembly, Convection, Fields, FlowTerms, assemble, residual};
 use crate::space::DofLayout;
 
@@ -23,8 +25,7 @@ pub struct DivergenceFree {
     layout: DofLayout<2>,
     constraints: AffineConstraints,
     assembly: Assembly,
-    pattern: Pattern,
-    values: Vec<f64>,
+    matrix: SparseMatrix,
     solver: DirectSolver,
     /// int psi dx of each vertex when the flow is enclosed, to spread a net flux.
     enclosed_weights: Option<Vec<f64>>,
@@ -53,10 +54,10 @@ impl DivergenceFree {
         let constraints = hold_given_velocities(problem, mesh, &layout);
         let (pattern, assembly) =
             Assembly::new(mesh, layout, &constraints, problem.metric, &[], None);
-        let solver = DirectSolver::analyse(&pattern, &unknowns(&layout, &constraints));
-        let values = vec![0.0; pattern.rows.len()];
+        let solver = DirectSolver::new(&pattern, &unknowns(&layout, &constraints));
+        let matrix = SparseMatrix::zeros(pattern);
         let mut projection =
-            Self { layout, constraints, assembly, pattern, values, solver, enclosed_weights: None };
+            Self { layout, constraints, assembly, matrix, solver, enclosed_weights: None };
         projection.move_to(problem, mesh)?;
         Ok(projection)
     }
@@ -68,9 +69,9 @@ impl DivergenceFree {
     pub fn move_to(&mut self, problem: &Problem, mesh: &Mesh<2>) -> Result<(), LinearError> {
         let (velocity, pressure) = rest(&self.layout);
         let fields = Fields { velocity: &velocity, pressure: &pressure };
-        let (constraints, values) = (&self.constraints, &mut self.values);
+        let (constraints, values) = (&self.constraints, self.matrix.values_mut());
         assemble(&self.assembly, mesh, constraints, &terms(1.0), &fields, values);
-        self.solver.factorise(&self.pattern, &self.values)?;
+        self.solver.set_up(&self.matrix)?;
         self.enclosed_weights =
             problem.is_enclosed().then(|| pressure_weights(mesh, self.assembly.tables()));
         Ok(())
@@ -133,7 +134,7 @@ impl DivergenceFree {
         if free.iter().all(|value| *value == 0.0) {
             return Ok(velocity.to_vec());
         }
-        self.solver.solve(&self.pattern, &self.values, &mut free)?;
+        self.solver.solve(&self.matrix, &mut free)?;
         let correction = self.constraints.expand(&free);
         let corrected = self.layout.nodes().zip(velocity).map(|(node, velocity)| {
             let [x, y] = [0, 1].map(|axis| correction[self.layout.velocity(node, axis)]);

@@ -14,7 +14,9 @@ use super::drift::Drift;
 use super::link::{Link, Turn};
 use super::problem::Problem;
 use super::shapes::BodyShapes;
-use crate::algebra::{Accuracy, AffineConstraints, DirectSolver, LinearError, Pattern, Unknowns};
+use crate::algebra::{
+    Accuracy, AffineConstraints, DirectSolver, LinearError, LinearSolver, SparseMatrix, Unknowns,
+};
 use crate::body::{Pose, Twist};
 use crate::flow::{Assembly, Convection, Fields, FlowTerms, assemble, pressure_unknowns, residual};
 use crate::space::{CellValues, DofLayout, Tables};
@@ -178,9 +180,8 @@ pub struct FluidSystem {
     /// Number of free unknowns.
     pub n_unknowns: usize,
     assembly: Assembly,
-    pattern: Pattern,
-    values: Vec<f64>,
-    solver: Option<DirectSolver>,
+    matrix: SparseMatrix,
+    solver: Option<Box<dyn LinearSolver>>,
     accuracy: Accuracy,
     /// What each unknown is.
     unknowns: Unknowns,
@@ -210,15 +211,13 @@ impl FluidSystem {
             frame,
         );
         let pressure_weights = pressure_weights(mesh, assembly.tables());
-        let values = vec![0.0; pattern.rows.len()];
         let unknowns = unknowns(&layout, &constraints);
         Self {
             layout,
             sides,
             n_unknowns: constraints.n_unknowns(),
             assembly,
-            pattern,
-            values,
+            matrix: SparseMatrix::zeros(pattern),
             solver: None,
             accuracy: Accuracy::default(),
             unknowns,
@@ -230,7 +229,7 @@ impl FluidSystem {
     /// Entries of the matrix.
     #[must_use]
     pub fn n_entries(&self) -> usize {
-        self.pattern.rows.len()
+        self.matrix.pattern().n_entries()
     }
 
     /// What the linear solver is told of each free unknown.
@@ -320,7 +319,8 @@ impl FluidSystem {
     ) -> Result<Solution, SolveError> {
         timing.measure(Stage::Assembly, || {
             let fields = solution.fields();
-            assemble(&self.assembly, mesh, constraints, terms, &fields, &mut self.values);
+            let values = self.matrix.values_mut();
+            assemble(&self.assembly, mesh, constraints, terms, &fields, values);
             self.add_rigid_inertia(problem, constraints, levels);
         });
         if let Some((axis, sum)) = self.drift.as_ref().and_then(|d| d.unbalanced(&levels.external))
@@ -370,15 +370,15 @@ impl FluidSystem {
         rhs: &mut [f64],
         timing: &mut Timing,
     ) -> Result<(), LinearError> {
-        let (pattern, values) = (&self.pattern, &self.values);
+        let (matrix, unknowns) = (&self.matrix, &self.unknowns);
         let solver = timing.measure(Stage::Factorisation, || {
-            self.solver.get_or_insert_with(|| DirectSolver::analyse(pattern, &self.unknowns))
+            self.solver.get_or_insert_with(|| analyse(matrix, unknowns))
         });
-        let is_solved = timing
-            .measure(Stage::Solve, || solver.solve_with_old_factors(pattern, values, rhs, free))?;
+        let is_solved =
+            timing.measure(Stage::Solve, || solver.solve_with_earlier_set_up(matrix, rhs, free))?;
         if !is_solved {
-            timing.measure(Stage::Factorisation, || solver.factorise(pattern, values))?;
-            self.accuracy = timing.measure(Stage::Solve, || solver.solve(pattern, values, rhs))?;
+            timing.measure(Stage::Factorisation, || solver.set_up(matrix))?;
+            self.accuracy = timing.measure(Stage::Solve, || solver.solve(matrix, rhs))?;
         }
         Ok(())
     }
@@ -465,9 +465,9 @@ impl FluidSystem {
         }
         for &(first, one) in row {
             for &(second, other) in row {
-                let position = self.pattern.position(first as usize, second as usize);
-                if let Some(position) = position {
-                    self.values[position] += one * other * factor;
+                let pattern = self.matrix.pattern();
+                if let Some(entry) = pattern.entry(first as usize, second as usize) {
+                    self.matrix.values_mut()[entry] += one * other * factor;
                 }
             }
         }
@@ -510,8 +510,10 @@ impl FluidSystem {
             rows.iter().flat_map(|row| row.iter().map(|(unknown, _)| *unknown as usize)).collect();
         masters.sort_unstable();
         masters.dedup();
-        let solver = self.factorised(timing)?;
-        let inverse = timing.measure(Stage::Solve, || solver.inverse_of_dense(&masters));
+        let Factorised { matrix, solver } = self.factorised(timing)?;
+        let inverse = timing
+            .measure(Stage::Solve, || solver.inverse_of_dense(matrix, &masters))
+            .map_err(|error| SolveError::Singular(error.to_string()))?;
         // Velocities by loads on the masters, one column each
         let inverse = DMatrix::from_column_slice(masters.len(), masters.len(), &inverse);
         let mut weights: DMatrix<f64> = DMatrix::zeros(rows.len(), masters.len());
@@ -545,13 +547,10 @@ impl FluidSystem {
                 }
             }
         }
-        self.factorised(timing)?;
-        let (pattern, values) = (&self.pattern, &self.values);
-        if let Some(solver) = &mut self.solver {
-            timing
-                .measure(Stage::Solve, || solver.solve(pattern, values, &mut change))
-                .map_err(|error| SolveError::Singular(error.to_string()))?;
-        }
+        let Factorised { matrix, solver } = self.factorised(timing)?;
+        timing
+            .measure(Stage::Solve, || solver.solve(matrix, &mut change))
+            .map_err(|error| SolveError::Singular(error.to_string()))?;
         let mut free = constraints.pick(&flatten(&self.pinned(solution)));
         free.iter_mut().zip(&change).for_each(|(value, change)| *value += change);
         *solution = self.centred(embed(&self.layout, &constraints.expand(&free)));
@@ -559,15 +558,12 @@ impl FluidSystem {
     }
 
     /// The solver with factors of the matrix last assembled.
-    fn factorised(&mut self, timing: &mut Timing) -> Result<&mut DirectSolver, SolveError> {
-        let (pattern, values) = (&self.pattern, &self.values);
+    fn factorised(&mut self, timing: &mut Timing) -> Result<Factorised<'_>, SolveError> {
+        let (matrix, unknowns) = (&self.matrix, &self.unknowns);
         timing.measure(Stage::Factorisation, || {
-            let solver =
-                self.solver.get_or_insert_with(|| DirectSolver::analyse(pattern, &self.unknowns));
-            solver
-                .factorise(pattern, values)
-                .map(|()| solver)
-                .map_err(|error| SolveError::Singular(error.to_string()))
+            let solver = self.solver.get_or_insert_with(|| analyse(matrix, unknowns));
+            solver.set_up(matrix).map_err(|error| SolveError::Singular(error.to_string()))?;
+            Ok(Factorised { matrix, solver: solver.as_mut() })
         })
     }
 
@@ -589,6 +585,17 @@ impl FluidSystem {
     pub fn tables(&self) -> &Tables<2> {
         self.assembly.tables()
     }
+}
+
+/// A matrix with a solver that is set up for it.
+struct Factorised<'a> {
+    matrix: &'a SparseMatrix,
+    solver: &'a mut dyn LinearSolver,
+}
+
+/// A solver for matrices with the pattern of this one.
+fn analyse(matrix: &SparseMatrix, unknowns: &Unknowns) -> Box<dyn LinearSolver> {
+    Box::new(DirectSolver::new(matrix.pattern(), unknowns))
 }
 
 /// What the linear solver has to know of each free unknown.

@@ -60,8 +60,7 @@ impl MeshMotion {
         let mut systems = Vec::new();
         for axes in groups {
             let constraints = held.constraints(&axes[..stiffness.n_components.min(axes.len())]);
-            let (pattern, values) = stiffness.reduce::<2>(&constraints);
-            let cholesky = Cholesky::factorise(&pattern, &values)?;
+            let cholesky = Cholesky::factorise(&stiffness.reduce::<2>(&constraints))?;
             systems.push(System { axes, constraints, cholesky });
         }
         let (inner, carried) = inner_nodes(mesh, holds);

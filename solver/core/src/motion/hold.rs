@@ -3,7 +3,7 @@
 use alewife_mesh::{BoundaryId, BoundaryKind, Mesh, NodeId, PeriodicPair, Point};
 use thiserror::Error;
 
-use crate::algebra::{AffineConstraints, ConstraintBuilder, NotPositiveDefinite};
+use crate::algebra::{AffineConstraints, CholeskyError, ConstraintBuilder};
 
 /// Nodes of a straight side differ by no more than this, relative to the size of the mesh.
 const STRAIGHT: f64 = 1e-12;
@@ -46,7 +46,7 @@ pub enum MotionError {
     },
     /// The matrix of the motion has no inverse, or memory ran out.
     #[error("the motion of the mesh: {0}")]
-    Singular(#[from] NotPositiveDefinite),
+    Singular(#[from] CholeskyError),
 }
 
 /// The holds of a mesh whose bodies move: bodies are given, the axis slides, periodic sides are
