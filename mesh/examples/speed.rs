@@ -116,10 +116,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         // Edge lengths over the wanted size: extremes, and the share between 0.6 and 1.5
         let sizes = SizeField::new(&domain, &bodies, &sizing)?;
         let (mut low, mut high, mut fit, mut all) = (f64::INFINITY, 0.0_f64, 0, 0);
-        for cell in 0..mesh.n_cells() {
-            let nodes = mesh.cell_nodes(cell);
-            for side in 0..3 {
-                let (a, b) = (nodes[side], nodes[(side + 1) % 3]);
+        for cell in mesh.cell_ids() {
+            for edge in mesh.cell_edges(cell) {
+                let [a, b] = edge.ends.map(|vertex| mesh.nodes[vertex]);
                 let relative = (b - a).norm() / sizes.at((a + b) * 0.5);
                 low = low.min(relative);
                 high = high.max(relative);

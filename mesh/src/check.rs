@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use crate::outline::cross;
-use crate::{Mesh, MeshError, jacobian_coefficients};
+use crate::{CellId, Mesh, MeshError, NodeId, jacobian_coefficients};
 
 /// Whether a mesh is one: the first broken invariant is named.
 ///
@@ -18,14 +18,14 @@ pub fn check_mesh(mesh: &Mesh<2>) -> Result<(), MeshError> {
     let broken = |what, index| Err(MeshError::Invariant { what, index });
     let mut used = vec![false; mesh.n_nodes()];
     // Ends of an edge in order, to its mid node and the cell with its side
-    let mut open: HashMap<[u32; 2], (u32, usize, u8)> = HashMap::new();
-    for cell in 0..mesh.n_cells() {
+    let mut open: HashMap<[NodeId; 2], (NodeId, CellId, u8)> = HashMap::new();
+    for cell in mesh.cell_ids() {
         let local = mesh.cell(cell);
-        if local.iter().any(|node| *node as usize >= mesh.n_nodes()) {
-            return broken("a cell has a node that does not exist", cell);
+        if local.iter().any(|node| node.index() >= mesh.n_nodes()) {
+            return broken("a cell has a node that does not exist", cell.index());
         }
-        if local[..3].iter().any(|node| *node as usize >= mesh.n_vertices) {
-            return broken("a corner of a cell is not a vertex", cell);
+        if local[..3].iter().any(|node| node.index() >= mesh.n_vertices) {
+            return broken("a corner of a cell is not a vertex", cell.index());
         }
         let nodes = mesh.cell_nodes(cell);
         let is_positive = if mesh.curved[cell] {
@@ -34,27 +34,30 @@ pub fn check_mesh(mesh: &Mesh<2>) -> Result<(), MeshError> {
             cross(nodes[1] - nodes[0], nodes[2] - nodes[0]) > 0.0
         };
         if !is_positive {
-            return broken("a cell has a Jacobian that is not positive", cell);
+            return broken("a cell has a Jacobian that is not positive", cell.index());
         }
         for node in local {
-            used[*node as usize] = true;
+            used[*node] = true;
         }
         for side in 0..3 {
             let (a, b, middle) = (local[side], local[(side + 1) % 3], local[3 + side]);
             match open.remove(&[b, a]) {
                 Some((other, ..)) if other != middle => {
-                    return broken("two cells disagree about the mid node of their edge", cell);
+                    return broken(
+                        "two cells disagree about the mid node of their edge",
+                        cell.index(),
+                    );
                 }
                 Some(_) => {
                     let chord = (nodes[side] + nodes[(side + 1) % 3]) * 0.5;
                     let length = (nodes[side] - nodes[(side + 1) % 3]).norm();
                     if (nodes[3 + side] - chord).norm() > 1e-12 * length {
-                        return broken("an interior edge is not straight", cell);
+                        return broken("an interior edge is not straight", cell.index());
                     }
                 }
                 None => {
                     if open.insert([a, b], (middle, cell, side as u8)).is_some() {
-                        return broken("an edge is used twice in the same direction", cell);
+                        return broken("an edge is used twice in the same direction", cell.index());
                     }
                 }
             }
@@ -69,27 +72,27 @@ pub fn check_mesh(mesh: &Mesh<2>) -> Result<(), MeshError> {
 
 fn check_facets(
     mesh: &Mesh<2>,
-    mut open: HashMap<[u32; 2], (u32, usize, u8)>,
+    mut open: HashMap<[NodeId; 2], (NodeId, CellId, u8)>,
 ) -> Result<(), MeshError> {
     let broken = |what, index| Err(MeshError::Invariant { what, index });
     let mut balance = vec![0_i32; mesh.n_vertices];
     let mut facets = vec![0_u8; mesh.n_cells()];
     for facet in &mesh.facets {
-        let (cell, side) = (facet.cell as usize, facet.side as usize);
-        if facet.boundary as usize >= mesh.boundaries.len() {
-            return broken("a facet has a boundary that does not exist", cell);
+        let (cell, side) = (facet.cell, facet.side as usize);
+        if facet.boundary.index() >= mesh.boundaries.len() {
+            return broken("a facet has a boundary that does not exist", cell.index());
         }
         let local = mesh.cell(cell);
         let ends = [local[side], local[(side + 1) % 3]];
         if open.remove(&ends) != Some((local[3 + side], cell, side as u8)) {
-            return broken("a facet is not on the boundary or is listed twice", cell);
+            return broken("a facet is not on the boundary or is listed twice", cell.index());
         }
-        balance[ends[0] as usize] += 1;
-        balance[ends[1] as usize] -= 1;
+        balance[ends[0]] += 1;
+        balance[ends[1]] -= 1;
         facets[cell] += 1;
     }
     if let Some((_, cell, _)) = open.into_values().min_by_key(|(_, cell, _)| *cell) {
-        return broken("a boundary edge is no facet", cell);
+        return broken("a boundary edge is no facet", cell.index());
     }
     if let Some(vertex) = balance.iter().position(|b| *b != 0) {
         return broken("the boundary is not closed", vertex);
@@ -103,13 +106,13 @@ fn check_facets(
 fn check_periodic(mesh: &Mesh<2>) -> Result<(), MeshError> {
     let broken = |what, index| Err(MeshError::Invariant { what, index });
     let mut is_copy = vec![false; mesh.n_nodes()];
-    for (copy, _) in &mesh.periodic {
-        if std::mem::replace(&mut is_copy[*copy as usize], true) {
-            return broken("a periodic copy is listed twice", *copy as usize);
+    for pair in &mesh.periodic {
+        if std::mem::replace(&mut is_copy[pair.copy], true) {
+            return broken("a periodic copy is listed twice", pair.copy.index());
         }
     }
-    match mesh.periodic.iter().find(|(_, original)| is_copy[*original as usize]) {
-        Some((_, original)) => broken("a periodic original is a copy", *original as usize),
+    match mesh.periodic.iter().find(|pair| is_copy[pair.original]) {
+        Some(pair) => broken("a periodic original is a copy", pair.original.index()),
         None => Ok(()),
     }
 }

@@ -1,14 +1,14 @@
 //! Quadratic geometry: mid nodes on the exact boundary, and whether a curved cell is folded.
 
 use crate::outline::cross;
-use crate::{Mesh, Point};
+use crate::{CellId, Mesh, Point};
 
 impl Mesh<2> {
     /// Places of the six nodes of a cell (m).
     #[must_use]
-    pub fn cell_nodes(&self, cell: usize) -> [Point<2>; 6] {
+    pub fn cell_nodes(&self, cell: CellId) -> [Point<2>; 6] {
         let nodes = self.cell(cell);
-        std::array::from_fn(|i| self.nodes[nodes[i] as usize])
+        std::array::from_fn(|i| self.nodes[nodes[i]])
     }
 
     /// Area (m²), curved sides included.
@@ -16,7 +16,7 @@ impl Mesh<2> {
     pub fn area(&self) -> f64 {
         // det J is quadratic, for which the mean over the middles of the sides is exact
         let middle = [[0.5, 0.0], [0.5, 0.5], [0.0, 0.5]];
-        (0..self.n_cells())
+        self.cell_ids()
             .map(|cell| {
                 let nodes = self.cell_nodes(cell);
                 middle.into_iter().map(|at| det_jacobian(&nodes, at)).sum::<f64>() / 6.0

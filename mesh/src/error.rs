@@ -2,6 +2,8 @@
 
 use thiserror::Error;
 
+use crate::CellId;
+
 /// Why a domain with its bodies cannot be meshed, or why a mesh is not one.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
@@ -160,8 +162,8 @@ pub enum MeshError {
          {det_jacobian:.2e}; lower mesh.surface or set mesh.curved = false"
     )]
     FoldedCell {
-        /// Index of the cell.
-        cell: usize,
+        /// The cell.
+        cell: CellId,
         /// Smallest Bezier coefficient of det J (m^2).
         det_jacobian: f64,
         /// Centre of the cell, x (m).

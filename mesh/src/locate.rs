@@ -4,7 +4,7 @@
 //! of a curved one by Newton's method.
 
 use crate::outline::cross;
-use crate::{Mesh, Point, map_quadratic};
+use crate::{CellId, Mesh, Point, map_quadratic};
 
 /// A point this far outside (in sizes of the mesh) still counts as on its boundary.
 const TOLERANCE: f64 = 1e-9;
@@ -25,7 +25,7 @@ const FOUND: f64 = 1e-10;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Located<const D: usize> {
     /// The cell.
-    pub cell: usize,
+    pub cell: CellId,
     /// Reference coordinates in it; a little outside the simplex when the point is outside.
     pub reference: [f64; D],
     /// Distance from the point to the cell (m), zero inside.
@@ -53,7 +53,7 @@ impl Locator<2> {
         let mut corners = Vec::with_capacity(3 * mesh.n_cells());
         let mut curved = vec![STRAIGHT; mesh.n_cells()];
         let mut quadratic = Vec::new();
-        for cell in 0..mesh.n_cells() {
+        for cell in mesh.cell_ids() {
             let nodes = mesh.cell_nodes(cell);
             let mut bounds =
                 (nodes[0].inf(&nodes[1]).inf(&nodes[2]), nodes[0].sup(&nodes[1]).sup(&nodes[2]));
@@ -79,7 +79,7 @@ impl Locator<2> {
     ///
     /// A point outside by rounding (1e-9 of the size of the mesh) is found in the nearest cell.
     #[must_use]
-    pub fn locate(&self, point: Point<2>) -> Option<(usize, [f64; 2])> {
+    pub fn locate(&self, point: Point<2>) -> Option<(CellId, [f64; 2])> {
         self.search(point, self.tolerance).map(|found| (found.cell, found.reference))
     }
 
@@ -96,7 +96,7 @@ impl Locator<2> {
     fn search(&self, point: Point<2>, reach: f64) -> Option<Located<2>> {
         let mut best: Option<Located<2>> = None;
         self.tree.visit_near(point, reach, |cell, reach| {
-            let found = self.place_in(cell, point);
+            let found = self.place_in(CellId::new(cell), point);
             if found.distance <= *reach && best.is_none_or(|b| found.distance < b.distance) {
                 best = Some(found);
                 *reach = found.distance;
@@ -107,8 +107,8 @@ impl Locator<2> {
     }
 
     /// Where a point is with respect to one cell.
-    fn place_in(&self, cell: usize, point: Point<2>) -> Located<2> {
-        let [a, b, c] = std::array::from_fn(|i| self.corners[3 * cell + i]);
+    fn place_in(&self, cell: CellId, point: Point<2>) -> Located<2> {
+        let [a, b, c] = std::array::from_fn(|i| self.corners[3 * cell.index() + i]);
         let (u, v, w) = (b - a, c - a, point - a);
         let det = cross(u, v);
         let straight = [cross(w, v) / det, cross(u, w) / det];
@@ -349,7 +349,7 @@ mod tests {
     fn the_image_of_a_reference_point_is_found_there() {
         let mesh = channel();
         let locator = Locator::new(&mesh);
-        for cell in 0..mesh.n_cells() {
+        for cell in mesh.cell_ids() {
             let nodes = mesh.cell_nodes(cell);
             for at in [[0.3, 0.3], [0.05, 0.9], [0.5, 0.02], [0.02, 0.02]] {
                 let (place, _) = map_quadratic(&nodes, at);

@@ -2,14 +2,10 @@
 
 use nalgebra::SVector;
 
+use crate::{BoundaryId, CellId, FacetId, NodeId, Simplex};
+
 /// A place in space (m), D components.
 pub type Point<const D: usize> = SVector<f64, D>;
-
-/// Number of P2 nodes of a simplex: 6 for a triangle, 10 for a tetrahedron.
-#[must_use]
-pub const fn nodes_per_cell(dimension: usize) -> usize {
-    (dimension + 1) * (dimension + 2) / 2
-}
 
 /// What a boundary of the mesh belongs to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -35,34 +31,52 @@ pub struct Boundary {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Facet {
     /// The cell it bounds.
-    pub cell: u32,
-    /// Local side. In 2D side s joins local vertices s and (s + 1) % 3, its mid node is 3 + s.
+    pub cell: CellId,
+    /// Local facet of that cell, an index into [`Simplex::FACETS`].
     pub side: u8,
-    /// Index into [`Mesh::boundaries`].
-    pub boundary: u16,
+    /// The boundary it is part of.
+    pub boundary: BoundaryId,
+}
+
+/// Two nodes of a periodic mesh: the unknowns of the copy are those of the original.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub struct PeriodicPair {
+    /// The node that has no unknowns of its own.
+    pub copy: NodeId,
+    /// The node whose unknowns it shares; never itself a copy.
+    pub original: NodeId,
+}
+
+/// An edge of a cell.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Edge<'a> {
+    /// Vertices at its ends.
+    pub ends: [NodeId; 2],
+    /// Its inner nodes, at [`Simplex::EDGE_PARAMETERS`].
+    pub inner: &'a [NodeId],
 }
 
 /// A conforming mesh of triangles (D = 2) or tetrahedra (D = 3) with quadratic geometry.
 ///
-/// Local numbering in 2D: vertices 0, 1, 2 counter-clockwise, then the mid nodes of the edges
-/// (0,1), (1,2), (2,0); this is VTK's order for quadratic triangles (type 22).
-/// Interior edges are straight: their mid node is the average of their ends.
+/// [`Simplex`] fixes the local numbering of nodes, edges and facets; cells are positive
+/// (counter-clockwise in the plane). Interior edges are straight: their inner nodes lie on the line
+/// between their ends.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mesh<const D: usize> {
-    /// Positions of all P2 nodes (m): the vertices first, then one node per edge.
+    /// Positions of all nodes (m): the vertices first, then the inner nodes of the edges.
     pub nodes: Vec<Point<D>>,
     /// Number of vertices; the first `n_vertices` nodes are the vertices.
     pub n_vertices: usize,
-    /// Node indices of all cells, [`nodes_per_cell`] for each.
-    pub cells: Vec<u32>,
+    /// Nodes of all cells, [`Simplex::N_NODES`] for each.
+    pub cells: Vec<NodeId>,
     /// Whether a cell has a curved side (needs its full isoparametric map); the rest is affine.
     pub curved: Vec<bool>,
     /// All boundary facets.
     pub facets: Vec<Facet>,
     /// The named boundaries the facets refer to.
     pub boundaries: Vec<Boundary>,
-    /// Periodic pairs (copy, original) of P2 nodes: the copy's unknowns are the original's.
-    pub periodic: Vec<(u32, u32)>,
+    /// Periodic pairs of nodes, sorted by copy.
+    pub periodic: Vec<PeriodicPair>,
 }
 
 impl<const D: usize> Mesh<D> {
@@ -72,25 +86,88 @@ impl<const D: usize> Mesh<D> {
         self.curved.len()
     }
 
-    /// Number of P2 nodes.
+    /// Number of nodes.
     #[must_use]
     pub fn n_nodes(&self) -> usize {
         self.nodes.len()
     }
 
-    /// P2 nodes of one cell, [`nodes_per_cell`] of them.
-    #[must_use]
-    pub fn cell(&self, cell: usize) -> &[u32] {
-        let n = nodes_per_cell(D);
-        &self.cells[cell * n..(cell + 1) * n]
+    /// All cells, in order.
+    pub fn cell_ids(&self) -> impl ExactSizeIterator<Item = CellId> + Clone + use<D> {
+        (0..self.n_cells()).map(CellId::new)
     }
-}
 
-impl Mesh<2> {
-    /// Nodes of a facet: start, end, middle; the fluid is on the left from start to end.
+    /// All nodes, in order.
+    pub fn node_ids(&self) -> impl ExactSizeIterator<Item = NodeId> + Clone + use<D> {
+        (0..self.n_nodes()).map(NodeId::new)
+    }
+
+    /// All vertices, in order.
+    pub fn vertex_ids(&self) -> impl ExactSizeIterator<Item = NodeId> + Clone + use<D> {
+        (0..self.n_vertices).map(NodeId::new)
+    }
+
+    /// All boundary facets, in order.
+    pub fn facet_ids(&self) -> impl ExactSizeIterator<Item = FacetId> + Clone + use<D> {
+        (0..self.facets.len()).map(FacetId::new)
+    }
+
+    /// Nodes of each cell in turn, [`Simplex::N_NODES`] of them.
+    pub fn cells(&self) -> impl ExactSizeIterator<Item = &[NodeId]> + Clone {
+        self.cells.chunks_exact(Simplex::<D>::N_NODES)
+    }
+
+    /// Nodes of one cell, [`Simplex::N_NODES`] of them.
     #[must_use]
-    pub fn facet_nodes(&self, facet: &Facet) -> [u32; 3] {
-        let (cell, side) = (self.cell(facet.cell as usize), facet.side as usize);
-        [cell[side], cell[(side + 1) % 3], cell[3 + side]]
+    pub fn cell(&self, cell: CellId) -> &[NodeId] {
+        let n = Simplex::<D>::N_NODES;
+        &self.cells[cell.index() * n..(cell.index() + 1) * n]
+    }
+
+    /// Vertices of one cell, D + 1 of them.
+    #[must_use]
+    pub fn cell_vertices(&self, cell: CellId) -> &[NodeId] {
+        &self.cell(cell)[..=D]
+    }
+
+    /// Edges of one cell, in the order of [`Simplex::EDGES`].
+    pub fn cell_edges(&self, cell: CellId) -> impl ExactSizeIterator<Item = Edge<'_>> + Clone {
+        let nodes = self.cell(cell);
+        Simplex::<D>::EDGES.iter().enumerate().map(move |(edge, ends)| Edge {
+            ends: ends.map(|vertex| nodes[vertex]),
+            inner: &nodes[Simplex::<D>::edge_nodes(edge)],
+        })
+    }
+
+    /// Centroid (m) of the vertices of one cell.
+    #[must_use]
+    pub fn cell_center(&self, cell: CellId) -> Point<D> {
+        let sum: Point<D> = self.cell_vertices(cell).iter().map(|&node| self.nodes[node]).sum();
+        sum / (D + 1) as f64
+    }
+
+    /// Vertices of a facet; in the plane the fluid is on the left from the first to the second.
+    #[must_use]
+    pub fn facet_vertices(&self, facet: &Facet) -> [NodeId; D] {
+        let nodes = self.cell(facet.cell);
+        Simplex::<D>::facet_vertices(usize::from(facet.side)).map(|local| nodes[local])
+    }
+
+    /// Nodes of a facet: its vertices, then its inner nodes.
+    pub fn facet_nodes<'a>(
+        &'a self,
+        facet: &Facet,
+    ) -> impl DoubleEndedIterator<Item = NodeId> + ExactSizeIterator + Clone + use<'a, D> {
+        let nodes = self.cell(facet.cell);
+        Simplex::<D>::FACETS[usize::from(facet.side)].iter().map(|&local| nodes[local])
+    }
+
+    /// Nodes of a facet that are no vertices.
+    pub fn facet_inner_nodes<'a>(
+        &'a self,
+        facet: &Facet,
+    ) -> impl DoubleEndedIterator<Item = NodeId> + ExactSizeIterator + Clone + use<'a, D> {
+        let nodes = self.cell(facet.cell);
+        Simplex::<D>::facet_inner_nodes(usize::from(facet.side)).iter().map(|&local| nodes[local])
     }
 }

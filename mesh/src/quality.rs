@@ -3,7 +3,7 @@
 use std::fmt;
 
 use crate::outline::cross;
-use crate::{Mesh, Point, jacobian_coefficients};
+use crate::{CellId, Mesh, Point, jacobian_coefficients};
 
 /// Worst cells listed.
 const LISTED: usize = 5;
@@ -48,7 +48,7 @@ pub struct Quality {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WorstCell {
     /// Index of the cell.
-    pub cell: usize,
+    pub cell: CellId,
     /// Its mean ratio.
     pub ratio: f64,
     /// Its smallest angle (degrees).
@@ -61,7 +61,7 @@ pub struct WorstCell {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CellQuality {
     /// Index of the cell.
-    pub cell: usize,
+    pub cell: CellId,
     /// See [`Mesh::cell_quality`].
     pub quality: f64,
     /// Centre of the cell (m).
@@ -86,7 +86,7 @@ impl Mesh<2> {
     /// # Source
     /// @liu1994 for the mean ratio, @johnen2013 for curved cells.
     #[must_use]
-    pub fn cell_quality(&self, cell: usize) -> f64 {
+    pub fn cell_quality(&self, cell: CellId) -> f64 {
         let nodes = self.cell_nodes(cell);
         let [a, b, c] = [nodes[0], nodes[1], nodes[2]];
         let twice_area = cross(b - a, c - a);
@@ -107,7 +107,7 @@ impl Mesh<2> {
     /// The cell with the lowest quality; `None` for a mesh without cells.
     #[must_use]
     pub fn worst_cell(&self) -> Option<CellQuality> {
-        let all = (0..self.n_cells()).map(|cell| (cell, self.cell_quality(cell)));
+        let all = self.cell_ids().map(|cell| (cell, self.cell_quality(cell)));
         let (cell, quality) = all.min_by(|a, b| a.1.total_cmp(&b.1))?;
         let [a, b, c, ..] = self.cell_nodes(cell);
         Some(CellQuality { cell, quality, center: (a + b + c) / 3.0 })
@@ -122,7 +122,7 @@ impl Quality {
         let mut all: Vec<WorstCell> = Vec::with_capacity(n);
         let (mut shortest, mut longest) = (f64::INFINITY, 0.0_f64);
         let mut min_curved_jacobian = 1.0_f64;
-        for cell in 0..n {
+        for cell in mesh.cell_ids() {
             let nodes = mesh.cell_nodes(cell);
             let [a, b, c] = [nodes[0], nodes[1], nodes[2]];
             let sides = [b - a, c - b, a - c];

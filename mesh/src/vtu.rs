@@ -8,7 +8,7 @@ use std::io::{self, Write};
 
 use flate2::{Compression, write::ZlibEncoder};
 
-use crate::Mesh;
+use crate::{Mesh, Simplex};
 
 /// Bytes of a block before compression.
 const BLOCK: usize = 32 * 1024;
@@ -87,9 +87,9 @@ pub fn write_vtu_as<const D: usize>(
         .collect();
     file.declare_floats(&mut xml, Precision::F64, &("Points", 3, &positions), mesh.n_nodes())?;
     xml += "</Points>\n<Cells>\n";
-    let per_cell = crate::nodes_per_cell(D) as u64;
+    let per_cell = Simplex::<D>::N_NODES as u64;
     let integers = |name: &str| format!("type=\"Int64\" Name=\"{name}\"");
-    let bytes: Vec<u8> = mesh.cells.iter().flat_map(|n| u64::from(*n).to_le_bytes()).collect();
+    let bytes: Vec<u8> = mesh.cells.iter().flat_map(|n| (n.index() as u64).to_le_bytes()).collect();
     file.declare(&mut xml, &integers("connectivity"), &bytes)?;
     let offsets = (1..=mesh.n_cells() as u64).flat_map(|i| (i * per_cell).to_le_bytes());
     file.declare(&mut xml, &integers("offsets"), &offsets.collect::<Vec<u8>>())?;
@@ -167,14 +167,14 @@ fn escape(name: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Facet, Point};
+    use crate::{Facet, NodeId, Point};
 
     fn triangle() -> Mesh<2> {
         let nodes = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [0.5, 0.0], [0.5, 0.5], [0.0, 0.5]];
         Mesh {
             nodes: nodes.into_iter().map(Point::<2>::from).collect(),
             n_vertices: 3,
-            cells: vec![0, 1, 2, 3, 4, 5],
+            cells: (0..6).map(NodeId::new).collect(),
             curved: vec![false],
             facets: Vec::<Facet>::new(),
             boundaries: Vec::new(),

@@ -1,11 +1,11 @@
 //! Periodic boxes whose bodies leave no straight strip free are cut open along a curve.
 
-use std::collections::HashMap;
+use std::collections::HashSet;
 use std::f64::consts::{PI, TAU};
 
 use alewife_mesh::{
-    Cut, Domain, Mesh, PlacedShape, Point, Quality, Shape, Sizing, check_mesh, check_placement,
-    check_wrapped_placement, generate_along,
+    Cut, Domain, Mesh, NodeId, PeriodicPair, PlacedShape, Point, Quality, Shape, Sizing,
+    check_mesh, check_placement, check_wrapped_placement, generate_along,
 };
 
 /// Smallest angle promised (degrees).
@@ -75,11 +75,12 @@ fn assert_cut(domain: &Domain, bodies: &[PlacedShape], sizing: &Sizing) -> Quali
 
 /// What the quadratic sides of the bodies enclose, by Simpson's rule, which is exact for them.
 fn area_of_bodies(mesh: &Mesh<2>) -> f64 {
-    let facets = mesh.facets.iter().filter(|facet| facet.boundary >= 4);
+    let facets = mesh.facets.iter().filter(|facet| facet.boundary.index() >= 4);
     let cross = |a: Point<2>, b: Point<2>| a.x * b.y - a.y * b.x;
     -facets
         .map(|facet| {
-            let [a, b, m] = mesh.facet_nodes(facet).map(|node| mesh.nodes[node as usize]);
+            let nodes: Vec<_> = mesh.facet_nodes(facet).map(|node| mesh.nodes[node]).collect();
+            let (a, b, m) = (nodes[0], nodes[1], nodes[2]);
             let at_start = cross(a, m * 4.0 - a * 3.0 - b);
             let at_end = cross(b, b * 3.0 + a - m * 4.0);
             (at_start + 4.0 * cross(m, b - a) + at_end) / 12.0
@@ -90,9 +91,9 @@ fn area_of_bodies(mesh: &Mesh<2>) -> f64 {
 /// Pairs of nodes are apart by whole periods, and both sides of a pair are all of pairs.
 fn assert_pairs(domain: &Domain, mesh: &Mesh<2>) {
     let periods = domain.periods();
-    let original: HashMap<u32, u32> = mesh.periodic.iter().copied().collect();
-    for (copy, of) in &mesh.periodic {
-        let apart = mesh.nodes[*copy as usize] - mesh.nodes[*of as usize];
+    let copies: HashSet<NodeId> = mesh.periodic.iter().map(|pair| pair.copy).collect();
+    for PeriodicPair { copy, original } in &mesh.periodic {
+        let apart = mesh.nodes[*copy] - mesh.nodes[*original];
         assert!(apart.norm() > 0.1);
         for axis in 0..2 {
             let length = periods[axis].unwrap_or(f64::INFINITY);
@@ -101,9 +102,9 @@ fn assert_pairs(domain: &Domain, mesh: &Mesh<2>) {
         }
     }
     for facet in &mesh.facets {
-        let side = usize::from(facet.boundary);
+        let side = facet.boundary.index();
         if side < 4 && side % 2 == 1 && domain.is_periodic(side) {
-            assert!(mesh.facet_nodes(facet).iter().all(|node| original.contains_key(node)));
+            assert!(mesh.facet_nodes(facet).all(|node| copies.contains(&node)));
         }
     }
 }
@@ -193,9 +194,10 @@ fn the_cut_takes_the_widest_of_narrow_gaps() {
     let narrow = mesh
         .facets
         .iter()
-        .filter(|facet| facet.boundary < 4)
+        .filter(|facet| facet.boundary.index() < 4)
         .map(|facet| {
-            let middle = mesh.nodes[mesh.facet_nodes(facet)[2] as usize];
+            let inner = mesh.facet_inner_nodes(facet).next();
+            let middle = mesh.nodes[inner.expect("one inner node")];
             let gap = |body: &PlacedShape| (middle - body.center).norm() - radius;
             moved.iter().map(gap).fold(f64::INFINITY, f64::min)
         })

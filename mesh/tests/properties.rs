@@ -1,11 +1,11 @@
 //! Any valid placement of bodies gives a mesh: invariants, angles, area, symmetry, periodicity.
 
-use std::collections::HashMap;
+use std::collections::HashSet;
 use std::f64::consts::{PI, TAU};
 
 use alewife_mesh::{
-    Domain, Locator, Mesh, PlacedShape, Point, Quality, Shape, SizeBox, SizeField, Sizing,
-    check_mesh, check_placement, generate,
+    CellId, Domain, Locator, Mesh, NodeId, PeriodicPair, PlacedShape, Point, Quality, Shape,
+    SizeBox, SizeField, Sizing, check_mesh, check_placement, generate,
 };
 use proptest::prelude::*;
 
@@ -114,17 +114,17 @@ fn is_polygon(domain: &Domain, bodies: &[PlacedShape]) -> bool {
 /// Every node of a periodic side appears, apart from its original by a period.
 fn assert_periodic(domain: &Domain, mesh: &Mesh<2>) {
     let periods = domain.images();
-    let original: HashMap<u32, u32> = mesh.periodic.iter().copied().collect();
-    for (copy, of) in &mesh.periodic {
-        let apart = mesh.nodes[*copy as usize] - mesh.nodes[*of as usize];
+    let copies: HashSet<NodeId> = mesh.periodic.iter().map(|pair| pair.copy).collect();
+    for PeriodicPair { copy, original } in &mesh.periodic {
+        let apart = mesh.nodes[*copy] - mesh.nodes[*original];
         assert!(periods.iter().any(|p| (apart - p).norm() < 1e-12 * (1.0 + p.norm())), "{apart}");
         assert!(apart.norm() > 0.1);
     }
     for facet in &mesh.facets {
-        let side = facet.boundary as usize;
+        let side = facet.boundary.index();
         // The second of each pair of sides is the copy
         if side < domain.sides().len() && side % 2 == 1 && domain.is_periodic(side) {
-            assert!(mesh.facet_nodes(facet).iter().all(|node| original.contains_key(node)));
+            assert!(mesh.facet_nodes(facet).all(|node| copies.contains(&node)));
         }
     }
 }
@@ -233,16 +233,16 @@ fn is_mirror_symmetric(mesh: &Mesh<2>, axis: usize, at: f64) -> bool {
     };
     // + 0.0 makes one zero of the two
     let bits = |x: Point<2>| [x.x, x.y].map(|x| (x + 0.0).to_bits());
-    let nodes: std::collections::HashSet<[u64; 2]> = mesh.nodes.iter().map(|x| bits(*x)).collect();
+    let nodes: HashSet<[u64; 2]> = mesh.nodes.iter().map(|x| bits(*x)).collect();
     let cell_bits = |nodes: [Point<2>; 6]| {
         let mut all = nodes.map(bits);
         all.sort_unstable();
         all
     };
-    let cells: std::collections::HashSet<_> =
-        (0..mesh.n_cells()).map(|cell| cell_bits(mesh.cell_nodes(cell))).collect();
+    let cells: HashSet<_> = mesh.cell_ids().map(|cell| cell_bits(mesh.cell_nodes(cell))).collect();
     let beyond = |x: &Point<2>| x[axis] >= at;
-    let kept: Vec<_> = (0..mesh.n_cells())
+    let kept: Vec<_> = mesh
+        .cell_ids()
         .map(|cell| mesh.cell_nodes(cell))
         .filter(|nodes| nodes.iter().all(beyond))
         .collect();
@@ -295,7 +295,7 @@ fn area_order(body: PlacedShape, exact: f64, curved: bool) -> f64 {
         let sizing = Sizing { curved, ..Sizing::graded(surface, 0.3, 0.5) };
         let mesh = generate(&square(false, false), std::slice::from_ref(&body), &sizing)
             .expect("is meshed");
-        let n = mesh.facets.iter().filter(|f| f.boundary == 4).count() as f64;
+        let n = mesh.facets.iter().filter(|f| f.boundary.index() == 4).count() as f64;
         (n, (mesh.area() - (6.0 * 6.2 - exact)).abs())
     };
     let [(n0, e0), (n1, e1)] = [0.1, 0.025].map(study);
@@ -322,8 +322,8 @@ fn the_area_is_of_fourth_order_with_curved_sides_and_of_second_with_straight_one
 /// Nodes on the boundary with this name.
 fn boundary_nodes(mesh: &Mesh<2>, name: &str) -> Vec<Point<2>> {
     let index = mesh.boundaries.iter().position(|b| b.name == name).expect("exists");
-    let facets = mesh.facets.iter().filter(|f| f.boundary as usize == index);
-    facets.flat_map(|f| mesh.facet_nodes(f).map(|node| mesh.nodes[node as usize])).collect()
+    let facets = mesh.facets.iter().filter(|f| f.boundary.index() == index);
+    facets.flat_map(|f| mesh.facet_nodes(f).map(|node| mesh.nodes[node])).collect()
 }
 
 #[test]
@@ -353,11 +353,10 @@ fn mid_nodes_halve_the_arc_of_the_exact_curve() {
     let body = placed("b", Shape::Disc { radius: 0.7 }, 0.3, 0.1, 0.0);
     let mesh = generate(&square(false, false), &[body], &Sizing::graded(0.2, 0.3, 0.5)).unwrap();
     let center = Point::<2>::new(0.3, 0.1);
-    for facet in mesh.facets.iter().filter(|f| f.boundary == 4) {
-        let [from, to, middle] =
-            mesh.facet_nodes(facet).map(|node| mesh.nodes[node as usize] - center);
-        assert!([from, to, middle].iter().all(|x| (x.norm() - 0.7).abs() < 1e-14));
-        assert!(((middle - from).norm() - (to - middle).norm()).abs() < 1e-14);
+    for facet in mesh.facets.iter().filter(|f| f.boundary.index() == 4) {
+        let nodes: Vec<_> = mesh.facet_nodes(facet).map(|node| mesh.nodes[node] - center).collect();
+        assert!(nodes.iter().all(|x| (x.norm() - 0.7).abs() < 1e-14));
+        assert!(((nodes[2] - nodes[0]).norm() - (nodes[1] - nodes[2]).norm()).abs() < 1e-14);
     }
 }
 
@@ -375,10 +374,9 @@ fn edges_follow_the_size_field_in_boxes_gaps_and_on_named_sides() {
     let sizes = SizeField::new(&domain, std::slice::from_ref(&body), &sizing).unwrap();
     let mesh = generate(&domain, &[body], &sizing).unwrap();
     let mut outside = 0;
-    for cell in 0..mesh.n_cells() {
-        let nodes = mesh.cell_nodes(cell);
-        for side in 0..3 {
-            let (a, b) = (nodes[side], nodes[(side + 1) % 3]);
+    for cell in mesh.cell_ids() {
+        for edge in mesh.cell_edges(cell) {
+            let [a, b] = edge.ends.map(|vertex| mesh.nodes[vertex]);
             let relative = (b - a).norm() / sizes.at((a + b) * 0.5);
             assert!((0.4..2.0).contains(&relative), "{relative}");
             outside += usize::from(!(0.6..1.5).contains(&relative));
@@ -400,12 +398,12 @@ fn gaps_hold_the_layers_asked_for() {
             // A little off the axis, so that the line does not follow its edges
             let height = 0.4 * gap / layers;
             let across = |i: i32| Point::<2>::new(-3.0 + gap * f64::from(i) / 400.0, height);
-            let cells: std::collections::BTreeSet<usize> =
+            let cells: std::collections::BTreeSet<CellId> =
                 (0..400).filter_map(|i| locator.locate(across(i)).map(|found| found.0)).collect();
             assert!(cells.len() as f64 >= layers, "gap {gap}: {} of {layers}", cells.len());
             let axis = mesh.facets.iter().filter(|f| {
-                let middle = mesh.nodes[mesh.facet_nodes(f)[2] as usize];
-                f.boundary == 3 && middle.x < -3.0 + gap
+                let middle = mesh.facet_inner_nodes(f).next().expect("one inner node");
+                f.boundary.index() == 3 && mesh.nodes[middle].x < -3.0 + gap
             });
             let n = axis.count() as f64;
             assert!((layers - 0.5..layers + 1.5).contains(&n), "{n} edges of {layers}");

@@ -4,7 +4,7 @@
 
 mod systems;
 
-use alewife_core::multifrontal::{Analysis, Factors, Ordering, PatternRef};
+use alewife_core::multifrontal::{Analysis, Factors, Ordering};
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::linalg::lu::{LuRef, LuSymbolicParams, NumericLu, factorize_symbolic_lu};
@@ -37,22 +37,21 @@ fn time(criterion: &mut Criterion<CpuTime>, phase: &str, size: usize, mut work: 
 }
 
 fn multifrontal(criterion: &mut Criterion<CpuTime>, size: usize, system: &LinearSystem) {
-    let LinearSystem { pattern, values, rhs, unknowns } = system;
-    let view = PatternRef { columns: &pattern.columns, rows: &pattern.rows };
+    let LinearSystem { matrix, rhs, unknowns } = system;
     for (name, ordering) in [("analyse", Ordering::Best), ("analyse-amd", Ordering::MinimumDegree)]
     {
         time(criterion, name, size, || {
-            let _ = Analysis::new(view, unknowns, ordering);
+            let _ = Analysis::new(matrix.pattern(), unknowns, ordering);
         });
     }
-    let analysis = Analysis::new(view, unknowns, Ordering::Best);
+    let analysis = Analysis::new(matrix.pattern(), unknowns, Ordering::Best);
     time(criterion, "factorise", size, || {
         let mut factors = Factors::new(&analysis);
-        factors.factorise(&analysis, view, values).expect("the matrix is regular");
+        factors.factorise(&analysis, matrix).expect("the matrix is regular");
     });
     let mut factors = Factors::new(&analysis);
     time(criterion, "refactorise", size, || {
-        factors.factorise(&analysis, view, values).expect("the matrix is regular");
+        factors.factorise(&analysis, matrix).expect("the matrix is regular");
     });
     let mut x = rhs.clone();
     time(criterion, "solve", size, || {
@@ -64,8 +63,8 @@ fn multifrontal(criterion: &mut Criterion<CpuTime>, size: usize, system: &Linear
 }
 
 fn by_faer(criterion: &mut Criterion<CpuTime>, size: usize, system: &LinearSystem) {
-    let LinearSystem { pattern, values, rhs, .. } = system;
-    let n = rhs.len();
+    let LinearSystem { matrix, rhs, .. } = system;
+    let (n, pattern) = (matrix.n(), matrix.pattern());
     let shape = SymbolicSparseColMatRef::new_checked(n, n, &pattern.columns, None, &pattern.rows);
     let symbolic = factorize_symbolic_lu(shape, LuSymbolicParams::default())
         .expect("the analysis fits into memory");
@@ -77,7 +76,7 @@ fn by_faer(criterion: &mut Criterion<CpuTime>, size: usize, system: &LinearSyste
     let mut memory = MemBuffer::new(scratch);
     let mut numeric = NumericLu::new();
     time(criterion, "faer-refactorise", size, || {
-        let matrix = SparseColMatRef::new(shape, values);
+        let matrix = SparseColMatRef::new(shape, matrix.values());
         let stack = MemStack::new(&mut memory);
         symbolic
             .factorize_numeric_lu(&mut numeric, matrix, Par::Seq, stack, Default::default())

@@ -9,7 +9,7 @@ use std::fs;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
-use alewife_core::multifrontal::{Analysis, Factors, Ordering, PatternRef};
+use alewife_core::multifrontal::{Analysis, Factors, Ordering};
 use alewife_core::simulation::cpu_seconds;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::linalg::lu::{LuRef, LuSymbolicParams, NumericLu, factorize_symbolic_lu};
@@ -61,12 +61,11 @@ fn memory_of<T>(work: impl FnOnce() -> T) -> (T, f64) {
 }
 
 fn multifrontal(system: &LinearSystem) -> Figures {
-    let LinearSystem { pattern, values, rhs, unknowns } = system;
-    let view = PatternRef { columns: &pattern.columns, rows: &pattern.rows };
+    let LinearSystem { matrix, rhs, unknowns } = system;
     let ((analysis, mut factors, x), memory) = memory_of(|| {
-        let analysis = Analysis::new(view, unknowns, Ordering::Best);
+        let analysis = Analysis::new(matrix.pattern(), unknowns, Ordering::Best);
         let mut factors = Factors::new(&analysis);
-        factors.factorise(&analysis, view, values).expect("the matrix is regular");
+        factors.factorise(&analysis, matrix).expect("the matrix is regular");
         let mut x = rhs.clone();
         factors.solve(&analysis, &mut x);
         (analysis, factors, x)
@@ -74,10 +73,10 @@ fn multifrontal(system: &LinearSystem) -> Figures {
     let mut y = rhs.clone();
     Figures {
         analyse: best(|| {
-            let _ = Analysis::new(view, unknowns, Ordering::Best);
+            let _ = Analysis::new(matrix.pattern(), unknowns, Ordering::Best);
         }),
         refactorise: best(|| {
-            factors.factorise(&analysis, view, values).expect("the matrix is regular");
+            factors.factorise(&analysis, matrix).expect("the matrix is regular");
         }),
         solve: best(|| factors.solve(&analysis, &mut y)),
         factor_entries: analysis.n_factor_entries(),
@@ -87,10 +86,10 @@ fn multifrontal(system: &LinearSystem) -> Figures {
 }
 
 fn by_faer(system: &LinearSystem) -> Figures {
-    let LinearSystem { pattern, values, rhs, .. } = system;
-    let n = rhs.len();
+    let LinearSystem { matrix, rhs, .. } = system;
+    let (n, pattern) = (matrix.n(), matrix.pattern());
     let shape = SymbolicSparseColMatRef::new_checked(n, n, &pattern.columns, None, &pattern.rows);
-    let matrix = SparseColMatRef::new(shape, values);
+    let matrix = SparseColMatRef::new(shape, matrix.values());
     let analyse =
         || factorize_symbolic_lu(shape, LuSymbolicParams::default()).expect("it fits into memory");
     let mut numeric = NumericLu::new();
@@ -140,7 +139,7 @@ fn by_faer(system: &LinearSystem) -> Figures {
 
 fn residual(system: &LinearSystem, x: &[f64]) -> f64 {
     let mut image = vec![0.0; x.len()];
-    system.pattern.multiply_add(&system.values, x, &mut image);
+    system.matrix.multiply_add(x, &mut image);
     let norm = |values: &mut dyn Iterator<Item = f64>| values.map(|v| v * v).sum::<f64>().sqrt();
     let defect = norm(&mut image.iter().zip(&system.rhs).map(|(a, b)| a - b));
     defect / norm(&mut system.rhs.iter().copied())
@@ -169,11 +168,11 @@ fn write_system(folder: &Path, system: &LinearSystem) -> std::io::Result<()> {
     let real = |values: &[f64]| -> Vec<u8> {
         values.iter().flat_map(|value| value.to_le_bytes()).collect()
     };
-    let pattern = &system.pattern;
+    let pattern = system.matrix.pattern();
     for (name, values) in [("columns", &pattern.columns), ("rows", &pattern.rows)] {
         write_array(&folder.join(format!("{name}.npy")), "<u8", values.len(), &whole(values))?;
     }
-    for (name, values) in [("values", &system.values), ("rhs", &system.rhs)] {
+    for (name, values) in [("values", system.matrix.values()), ("rhs", &system.rhs)] {
         write_array(&folder.join(format!("{name}.npy")), "<f8", values.len(), &real(values))?;
     }
     Ok(())
@@ -203,7 +202,7 @@ fn main() -> std::io::Result<()> {
             );
             all[solver][&name] = serde_json::json!({
                 "n": system.rhs.len(),
-                "nnz": system.values.len(),
+                "nnz": system.matrix.pattern().n_entries(),
                 "analyse_s": figures.analyse,
                 "refactorise_s": figures.refactorise,
                 "solve_s": figures.solve,

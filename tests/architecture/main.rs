@@ -6,12 +6,13 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The rooms of the solver, lowest first, and the rooms each may use.
-const ROOMS: [(&str, &[&str]); 17] = [
+const ROOMS: [(&str, &[&str]); 18] = [
     ("case", &[]),
     ("timing", &[]),
     ("space", &[]),
-    ("multifrontal", &[]),
-    ("algebra", &["multifrontal"]),
+    ("sparse", &[]),
+    ("multifrontal", &["sparse"]),
+    ("algebra", &["multifrontal", "sparse"]),
     ("time", &["case"]),
     ("body", &["time"]),
     ("contact", &["body"]),

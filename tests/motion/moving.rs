@@ -6,7 +6,8 @@ use alewife_core::motion::{
 };
 use alewife_core::space::simplex_rule;
 use alewife_mesh::{
-    Boundary, BoundaryKind, Domain, Facet, Mesh, Point, Sizing, check_mesh, generate,
+    Boundary, BoundaryId, BoundaryKind, CellId, Domain, Facet, Mesh, NodeId, Point, Simplex,
+    Sizing, check_mesh, generate,
 };
 use tests::Study;
 
@@ -89,15 +90,15 @@ fn a_disc_moved_by_half_its_radius_keeps_its_mesh_and_its_curve() {
         check_mesh(&moved).unwrap();
         assert!(moved.worst_cell().unwrap().quality > 0.1, "{kind:?}: {:?}", moved.worst_cell());
         let center = Point::<2>::new(0.25, 0.0);
-        for facet in mesh.facets.iter().filter(|facet| facet.boundary == 4) {
-            let [from, to, middle] =
-                mesh.facet_nodes(facet).map(|node| moved.nodes[node as usize] - center);
-            assert!([from, to, middle].iter().all(|x| (x.norm() - 0.5).abs() < 1e-14));
-            assert!(((middle - from).norm() - (to - middle).norm()).abs() < 1e-14);
+        for facet in mesh.facets.iter().filter(|facet| facet.boundary.index() == 4) {
+            let nodes: Vec<_> =
+                mesh.facet_nodes(facet).map(|node| moved.nodes[node] - center).collect();
+            assert!(nodes.iter().all(|x| (x.norm() - 0.5).abs() < 1e-14));
+            assert!(((nodes[2] - nodes[0]).norm() - (nodes[1] - nodes[2]).norm()).abs() < 1e-14);
         }
-        for facet in mesh.facets.iter().filter(|facet| facet.boundary < 4) {
+        for facet in mesh.facets.iter().filter(|facet| facet.boundary.index() < 4) {
             for node in mesh.facet_nodes(facet) {
-                assert_eq!(moved.nodes[node as usize], mesh.nodes[node as usize]);
+                assert_eq!(moved.nodes[node], mesh.nodes[node]);
             }
         }
     }
@@ -128,11 +129,11 @@ fn frame() -> Mesh<2> {
         let center = index(places.iter().sum::<Point<2>>() / 4.0, &mut vertices);
         for (side, (k, l)) in across.into_iter().enumerate() {
             let [a, b] = [side, (side + 1) % 4].map(|k| index(places[k], &mut vertices));
-            let cell = triangles.len() as u32;
+            let cell = CellId::new(triangles.len());
             if is_body(k, l) {
-                facets.push(Facet { cell, side: 0, boundary: 1 });
+                facets.push(Facet { cell, side: 0, boundary: BoundaryId::new(1) });
             } else if !(0..n).contains(&k) || !(0..n).contains(&l) {
-                facets.push(Facet { cell, side: 0, boundary: 0 });
+                facets.push(Facet { cell, side: 0, boundary: BoundaryId::new(0) });
             }
             triangles.push([a, b, center]);
         }
@@ -141,11 +142,11 @@ fn frame() -> Mesh<2> {
     let mut nodes = vertices;
     let mut cells = Vec::new();
     for corners in &triangles {
-        let middles = [0, 1, 2].map(|side| {
-            let [a, b] = [corners[side], corners[(side + 1) % 3]].map(|v| nodes[v as usize]);
+        let middles = [0, 1, 2].map(|edge| {
+            let [a, b] = Simplex::<2>::EDGES[edge].map(|v| nodes[corners[v] as usize]);
             index((a + b) * 0.5, &mut nodes)
         });
-        cells.extend(corners.iter().chain(&middles));
+        cells.extend(corners.iter().chain(&middles).copied().map(NodeId::from));
     }
     let boundary = |name: &str, kind| Boundary { name: name.into(), kind };
     let mesh = Mesh {
@@ -197,10 +198,9 @@ fn smooth_displacements_are_extended_with_second_order() {
             let motion = MeshMotion::new(&mesh, kind, &[Hold::Given; 4]).unwrap();
             let moved = motion.displacements(&|_, x| exact(x)).unwrap();
             let mut error = 0.0;
-            for cell in 0..mesh.n_cells() {
-                let nodes = mesh.cell(cell);
-                let [a, b, c] = [0, 1, 2].map(|i| mesh.nodes[nodes[i] as usize]);
-                let [p, q, r] = [0, 1, 2].map(|i| moved[nodes[i] as usize]);
+            for nodes in mesh.cells() {
+                let [a, b, c] = [0, 1, 2].map(|i| mesh.nodes[nodes[i]]);
+                let [p, q, r] = [0, 1, 2].map(|i| moved[nodes[i]]);
                 let det = (b - a).perp(&(c - a));
                 for (at, weight) in rule.points.iter().zip(&rule.weights) {
                     let place = a + (b - a) * at[0] + (c - a) * at[1];
@@ -222,9 +222,9 @@ fn points_of_the_axis_slide_on_it_and_its_corners_stay() {
         let motion = MeshMotion::new(&mesh, kind, &holds(&mesh, false)).unwrap();
         let moved = motion.displacements(&|_, _| Point::<2>::new(0.25, 0.0)).unwrap();
         let mut farthest = 0.0_f64;
-        for facet in mesh.facets.iter().filter(|facet| facet.boundary == 3) {
+        for facet in mesh.facets.iter().filter(|facet| facet.boundary.index() == 3) {
             for node in mesh.facet_nodes(facet) {
-                let (x, d) = (mesh.nodes[node as usize].x, moved[node as usize]);
+                let (x, d) = (mesh.nodes[node].x, moved[node]);
                 assert_eq!(d.y, 0.0);
                 assert!(d.x >= 0.0 && d.x <= 0.25 + 1e-15);
                 if x.abs() == 2.0 {
@@ -247,13 +247,13 @@ fn walls_let_their_points_slide_when_asked_to() {
     let motion = MeshMotion::new(&mesh, MotionKind::default(), &holds(&mesh, true)).unwrap();
     let moved = motion.displacements(&|_, _| Point::<2>::new(0.5, 0.2)).unwrap();
     let mut slid = [0.0_f64; 4];
-    for facet in mesh.facets.iter().filter(|facet| facet.boundary < 4) {
-        let side = usize::from(facet.boundary);
+    for facet in mesh.facets.iter().filter(|facet| facet.boundary.index() < 4) {
+        let side = facet.boundary.index();
         for node in mesh.facet_nodes(facet) {
-            let d = moved[node as usize];
+            let d = moved[node];
             assert_eq!(d[side / 2], 0.0);
             slid[side] = slid[side].max(d[1 - side / 2].abs());
-            if mesh.nodes[node as usize].abs() == Point::<2>::new(2.0, 2.0) {
+            if mesh.nodes[node].abs() == Point::<2>::new(2.0, 2.0) {
                 assert_eq!(d, Point::<2>::zeros());
             }
         }
@@ -277,8 +277,8 @@ fn periodic_pairs_move_equally_and_lone_meshes_stay() {
             check_mesh(&moved).unwrap();
             let displacements = motion.displacements(&given).unwrap();
             let mut farthest = 0.0_f64;
-            for &(copy, original) in &mesh.periodic {
-                let (d, e) = (displacements[copy as usize], displacements[original as usize]);
+            for pair in &mesh.periodic {
+                let (d, e) = (displacements[pair.copy], displacements[pair.original]);
                 assert!((d - e).norm() < 1e-16, "{kind:?}");
                 farthest = farthest.max(d.norm());
             }

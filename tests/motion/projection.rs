@@ -71,9 +71,8 @@ fn the_projection_is_divergence_free_keeps_boundary_values_and_is_one() {
         println!("{name}: {before:.1e} to {after:.1e}");
         assert!(before > 1e-3 && after < 1e-13, "{name}: {before:.1e} to {after:.1e}");
         for facet in &mesh.facets {
-            for node in mesh.facet_nodes(facet).map(|node| node as usize) {
-                let boundary = usize::from(facet.boundary);
-                match &problem.sides[boundary] {
+            for node in mesh.facet_nodes(facet) {
+                match &problem.sides[facet.boundary] {
                     None | Some(Side::Velocity { .. }) => assert_eq!(once[node], field[node]),
                     Some(Side::Symmetry { normal_axis }) => {
                         assert_eq!(once[node][*normal_axis], field[node][*normal_axis]);
@@ -82,8 +81,8 @@ fn the_projection_is_divergence_free_keeps_boundary_values_and_is_one() {
                 }
             }
         }
-        for &(copy, original) in &mesh.periodic {
-            let [d, e] = [copy, original].map(|node| once[node as usize] - field[node as usize]);
+        for pair in &mesh.periodic {
+            let [d, e] = [pair.copy, pair.original].map(|node| once[node] - field[node]);
             assert!((d - e).norm() < 1e-15);
         }
         let twice = projection.project(&mesh, &once).unwrap();

@@ -16,10 +16,10 @@ fn sample(mesh: &Mesh<2>, field: impl Fn(&Point<2>) -> Point<2>) -> Vec<Point<2>
 pub fn distance(mesh: &Mesh<2>, field: &[Point<2>], exact: impl Fn(&Point<2>) -> Point<2>) -> f64 {
     let (tables, mut workspace) = (Tables::new(Metric::Cartesian), CellValues::default());
     let mut sum = 0.0;
-    for cell in 0..mesh.n_cells() {
+    for cell in mesh.cell_ids() {
         let nodes = mesh.cell(cell);
         workspace.for_each_point(&tables, mesh, cell, |at| {
-            let value = nodes.iter().zip(at.phi).map(|(&node, phi)| field[node as usize] * *phi);
+            let value = nodes.iter().zip(at.phi).map(|(&node, phi)| field[node] * *phi);
             sum += at.dx * (value.sum::<Point<2>>() - exact(&at.position)).norm_squared();
         });
     }

@@ -41,16 +41,13 @@ fn run(
     let problem = fluid_only(mesh, sides(mesh, exact.clone()), 1.0, viscosity, Metric::Cartesian);
     let step = end / n_steps as f64;
     let mut ends = vec![None; mesh.n_nodes()];
-    for cell in 0..mesh.n_cells() {
-        let nodes = mesh.cell(cell);
-        for side in 0..3 {
-            ends[nodes[3 + side] as usize] = Some([nodes[side], nodes[(side + 1) % 3]]);
-        }
+    for edge in mesh.cell_ids().flat_map(|cell| mesh.cell_edges(cell)) {
+        ends[edge.inner[0]] = Some(edge.ends);
     }
     let place = |node: usize, time: f64| match ends[node] {
         None => bent(&mesh.nodes[node], time),
         Some(ends) => {
-            let [a, b] = ends.map(|end| bent(&mesh.nodes[end as usize], time));
+            let [a, b] = ends.map(|end| bent(&mesh.nodes[end], time));
             (a + b) * 0.5
         }
     };

@@ -46,11 +46,11 @@ impl Observer<2> for Momentum {
         let tables = Tables::new(Metric::Cartesian);
         let mut workspace = CellValues::default();
         let mut sum = [0.0; 2];
-        for cell in 0..snapshot.mesh.n_cells() {
+        for cell in snapshot.mesh.cell_ids() {
             let nodes = snapshot.mesh.cell(cell);
             workspace.for_each_point(&tables, snapshot.mesh, cell, |at| {
                 for (&node, phi) in nodes.iter().zip(at.phi) {
-                    let velocity = snapshot.velocity[node as usize];
+                    let velocity = snapshot.velocity[node];
                     sum[0] += phi * velocity.x * at.dx;
                     sum[1] += phi * velocity.y * at.dx;
                 }

@@ -31,20 +31,17 @@ pub fn errors(
     let mut workspace = CellValues::default();
     let (mut velocity_sum, mut gradient_sum) = (0.0, 0.0);
     let (mut volume, mut shift, mut square) = (0.0, 0.0, 0.0);
-    for cell in 0..mesh.n_cells() {
+    for cell in mesh.cell_ids() {
         let nodes = mesh.cell(cell);
         workspace.for_each_point(&tables, mesh, cell, |at| {
             let mut velocity = Point::<2>::zeros();
             let mut gradient = SMatrix::<f64, 2, 2>::zeros();
             for (a, &node) in nodes.iter().enumerate() {
-                velocity += solution.velocity[node as usize] * at.phi[a];
-                gradient += solution.velocity[node as usize] * at.grad_phi[a].transpose();
+                velocity += solution.velocity[node] * at.phi[a];
+                gradient += solution.velocity[node] * at.grad_phi[a].transpose();
             }
-            let pressure: f64 = nodes
-                .iter()
-                .zip(at.psi)
-                .map(|(&node, psi)| solution.pressure[node as usize] * psi)
-                .sum();
+            let pressure: f64 =
+                nodes.iter().zip(at.psi).map(|(&node, psi)| solution.pressure[node] * psi).sum();
             let place = at.position;
             velocity_sum += (velocity - exact.velocity(&place, time)).norm_squared() * at.dx;
             let mut expected = SMatrix::<f64, 2, 2>::zeros();

@@ -69,6 +69,6 @@ pub fn fluid_only(
         groups: Vec::new(),
         frame: None,
         body_force: None,
-        kinks: None,
+        rate_discontinuities: None,
     }
 }

@@ -35,7 +35,7 @@ impl Swim {
             .map(|body| {
                 let mut placed = body.placed(case.mesh.scale);
                 if let Some(motion) = shape_motion(body).expect("the gait fits") {
-                    placed.shape = motion.at(0.0).shape;
+                    placed.shape = motion.at(0.0).expect("the gait has a shape").shape();
                 }
                 placed
             })

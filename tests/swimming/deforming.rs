@@ -1,7 +1,9 @@
 //! Bodies that deform, with inertia: balances, meshes made anew in the middle of a beat, states that
 //! are gone on from.
 
-use alewife_core::simulation::{Outcome, build_mesh, build_problem, simulate_from};
+use alewife_core::simulation::{
+    Outcome, RunError, build_mesh, build_problem, simulate, simulate_from,
+};
 use tests::cases::{case, column, last, run};
 use tests::stopped;
 
@@ -54,15 +56,17 @@ fn force_and_torque_are_the_rates_of_momentum_and_angular_momentum() {
     }
     let torque = column(&outcome, "fish.torque");
     let turn = column(&outcome, "fish.angular_velocity");
+    let inertia = times.iter().map(|time| body.inertia_at(*time).expect("the gait has a shape"));
+    let inertia: Vec<f64> = inertia.collect();
     let momentum: Vec<f64> =
-        times.iter().zip(turn).map(|(time, turn)| body.inertia_at(*time) * turn).collect();
+        inertia.iter().zip(turn).map(|(inertia, turn)| inertia * turn).collect();
     let (mut off, mut most) = (0.0f64, 0.0f64);
     for n in 3..times.len() {
         let rate = (3.0 * momentum[n] - 4.0 * momentum[n - 1] + momentum[n - 2]) / (2.0 * step);
         off = off.max((rate - torque[n]).abs());
         most = most.max(torque[n].abs());
     }
-    let inertia = times.iter().map(|time| body.inertia_at(*time));
+    let inertia = inertia.into_iter();
     let [least, largest] = inertia.fold([f64::INFINITY, 0.0], |[a, b], i| [a.min(i), b.max(i)]);
     let defect = column(&outcome, "flow.mass_defect").iter().fold(0.0f64, |m, d| m.max(d.abs()));
     println!(
@@ -164,4 +168,30 @@ fn a_state_of_another_gait_is_refused() {
     let error = simulate_from(&other, Some(&saved), &mut []).expect_err("another gait");
     let told = error.to_string();
     assert!(told.contains("a run goes on with the gait it began with"), "{told}");
+}
+
+/// Its outline crosses itself between the times at which the gait is evaluated before the run.
+#[test]
+fn a_gait_that_fails_in_a_run_stops_it_with_the_body_and_the_time() {
+    let case = case(
+        r#"
+        title = "a fish that bends too far"
+        geometry = "planar"
+        fluid = { model = "navier-stokes", density = 1.0, viscosity = 5e-3 }
+        domain.box = { min = [-1.5, -1.5], max = [1.5, 1.5] }
+        boundary = { left = "no-slip", right = "do-nothing", bottom = "no-slip", top = "no-slip" }
+        mesh = { growth = 0.3, size = 0.5, surface = 0.1 }
+        time.unsteady = { step = 0.033, end = 0.066, scheme = "bdf1" }
+        [[body]]
+        name = "fish"
+        shape.fish = { length = 1.0, tip_radius = 1e-3 }
+        center = [0.0, 0.0]
+        motion = "free"
+        gait.carangiform = { period = 1.0, ramp = 0.01, bending = 1.683, start_phase = 0.7291666666666666 }
+        "#,
+    );
+    let error = simulate(&case, &mut []).expect_err("the outline crosses itself");
+    assert!(matches!(error, RunError::Shape(_)), "{error:?}");
+    let message = error.to_string();
+    assert!(message.starts_with("body `fish`: at t = 0.033000 the body bends so far"), "{message}");
 }

@@ -12,7 +12,7 @@ mod straighten;
 use std::sync::Arc;
 
 use crate::generate::place_wrapped;
-use crate::{Domain, MeshError, PlacedShape, Point};
+use crate::{BoundaryId, Domain, MeshError, PlacedShape, Point};
 
 pub(crate) use straighten::Path;
 
@@ -30,7 +30,7 @@ type Steps = [i32; 2];
 pub(crate) struct Stretch {
     pub line: Line,
     /// Index of the side it is part of.
-    pub side: u16,
+    pub side: BoundaryId,
     /// The stretch it copies backwards, and the whole periods between them (m).
     pub copy_of: Option<(usize, Point<2>)>,
 }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::clearance::Clearance;
 use super::{Line, Stretch};
-use crate::{Domain, Point};
+use crate::{BoundaryId, Domain, Point};
 
 /// Distance of neighbouring points over the clearance there.
 const SPACING: f64 = 0.25;
@@ -84,7 +84,7 @@ fn theta(
     let down = [path(backwards(&second)), path(backwards(&first))];
     let across = path(across);
     let copy = |path: &Path, shift: Point<2>| Line::Along(Arc::new(path.moved(shift).reversed()));
-    let stretch = |line, side, copy_of| Stretch { line, side, copy_of };
+    let stretch = |line, side, copy_of| Stretch { line, side: BoundaryId::new(side), copy_of };
     vec![
         stretch(Line::Along(Arc::clone(&down[0])), 0, None),
         stretch(Line::Along(Arc::clone(&down[1])), 0, None),
@@ -117,16 +117,19 @@ fn crossing(
     let (start, end) = (line.first(), line.last());
     let straight = |from: Point<2>, to: Point<2>, side| Stretch {
         line: Line::Straight(from, to),
-        side,
+        side: BoundaryId::new(side),
         copy_of: None,
     };
     let path = Path::new(line.points, clearance);
     let (there, back) = (path.clone(), path.reversed());
-    let original =
-        |path: Path, side| Stretch { line: Line::Along(Arc::new(path)), side, copy_of: None };
+    let original = |path: Path, side| Stretch {
+        line: Line::Along(Arc::new(path)),
+        side: BoundaryId::new(side),
+        copy_of: None,
+    };
     let copy = |path: &Path, side, of| Stretch {
         line: Line::Along(Arc::new(path.moved(period))),
-        side,
+        side: BoundaryId::new(side),
         copy_of: Some((of, period)),
     };
     if wall_axis == 1 {

@@ -9,7 +9,7 @@ use std::sync::Arc;
 use crate::cut::{Cut, Line, Path};
 use crate::outline::{Outline, cross};
 use crate::quadrature::integrate;
-use crate::{Boundary, BoundaryKind, Domain, PlacedShape, Point};
+use crate::{Boundary, BoundaryId, BoundaryKind, Domain, PlacedShape, Point};
 
 /// A smooth piece of the boundary with a parameter in [0, 1] in the direction of travel.
 #[derive(Debug, Clone)]
@@ -17,7 +17,7 @@ pub struct Piece {
     /// Its curve.
     pub curve: Curve,
     /// Index of its boundary.
-    pub boundary: u16,
+    pub boundary: BoundaryId,
     /// The piece whose discretisation it copies, moved by a vector (m), backwards.
     pub copy_of: Option<(usize, Point<2>)>,
 }
@@ -62,7 +62,7 @@ impl Border {
     pub fn new(domain: &Domain, bodies: &[PlacedShape], mut outlines: Vec<Outline>) -> Self {
         let boundaries = boundaries(domain, bodies);
         let sides = domain.sides();
-        let first_body = sides.len() as u16;
+        let first_body = sides.len();
         let mut pieces = Vec::new();
         let mut loops = vec![0];
         match domain {
@@ -123,7 +123,7 @@ impl Border {
             pieces.push(Piece { curve, boundary: stretch.side, copy_of: stretch.copy_of });
         }
         let mut loops = vec![0];
-        let first_body = domain.sides().len() as u16;
+        let first_body = domain.sides().len();
         around_bodies(&mut pieces, &mut loops, bodies.len(), first_body);
         let (boundaries, images) = (boundaries(domain, bodies), cut.images().to_vec());
         Self { pieces, loops, outlines, boundaries, images, has_sides: false }
@@ -235,12 +235,12 @@ fn around_bodies(
     pieces: &mut Vec<Piece>,
     loops: &mut Vec<usize>,
     n_bodies: usize,
-    first_body: u16,
+    first_body: usize,
 ) {
     for body in 0..n_bodies {
         loops.push(pieces.len());
         for quarter in [3, 2, 1, 0] {
-            pieces.push(quarter_of(body, quarter, true, first_body + body as u16));
+            pieces.push(quarter_of(body, quarter, true, first_body + body));
         }
     }
 }
@@ -249,23 +249,24 @@ fn around_bodies(
 pub fn segment(
     a: Point<2>,
     b: Point<2>,
-    boundary: u16,
+    boundary: usize,
     copy_of: Option<(usize, Point<2>)>,
 ) -> Piece {
-    Piece { curve: Curve::Segment(a, b), boundary, copy_of }
+    Piece { curve: Curve::Segment(a, b), boundary: BoundaryId::new(boundary), copy_of }
 }
 
 /// A quarter of an outline.
-pub fn quarter_of(outline: usize, quarter: usize, reversed: bool, boundary: u16) -> Piece {
-    Piece { curve: Curve::Quarter { outline, quarter, reversed }, boundary, copy_of: None }
+pub fn quarter_of(outline: usize, quarter: usize, reversed: bool, boundary: usize) -> Piece {
+    let curve = Curve::Quarter { outline, quarter, reversed };
+    Piece { curve, boundary: BoundaryId::new(boundary), copy_of: None }
 }
 
 /// The axis from left to right, interrupted by the upper halves of the bodies in order of x.
 fn along_axis(
     pieces: &mut Vec<Piece>,
     x: [f64; 2],
-    axis: u16,
-    first_body: u16,
+    axis: usize,
+    first_body: usize,
     bodies: &[Outline],
 ) {
     let pole =
@@ -275,8 +276,8 @@ fn along_axis(
     let mut from = Point::<2>::new(x[0], 0.0);
     for body in order {
         pieces.push(segment(from, pole(body, 2), axis, None));
-        pieces.push(quarter_of(body, 1, true, first_body + body as u16));
-        pieces.push(quarter_of(body, 0, true, first_body + body as u16));
+        pieces.push(quarter_of(body, 1, true, first_body + body));
+        pieces.push(quarter_of(body, 0, true, first_body + body));
         from = pole(body, 0);
     }
     pieces.push(segment(from, Point::<2>::new(x[1], 0.0), axis, None));

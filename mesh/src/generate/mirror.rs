@@ -7,7 +7,10 @@ use std::collections::HashMap;
 
 use super::border::{Border, Curve, Piece, quarter_of, segment};
 use crate::outline::Outline;
-use crate::{Boundary, BoundaryKind, Domain, Facet, Mesh, PlacedShape, Point, Sizing};
+use crate::{
+    Boundary, BoundaryId, BoundaryKind, CellId, Domain, Facet, Mesh, NodeId, PeriodicPair,
+    PlacedShape, Point, Sizing,
+};
 
 /// Mirror images agree within this part of the size of the domain: bodies that have moved through a
 /// mirror-symmetric mesh are images of each other to rounding, which adds up on the way.
@@ -36,7 +39,7 @@ pub struct Mirror {
     at: f64,
     roles: Vec<Role>,
     /// The boundary that is the image of each.
-    image_of: Vec<u16>,
+    image_of: Vec<BoundaryId>,
     /// Whether the far side and its image are a periodic pair.
     is_periodic: bool,
 }
@@ -57,7 +60,7 @@ impl Mirror {
             Domain::Disc { center, radius } => (center[axis], *radius, false),
             Domain::HalfDisc { .. } | Domain::Cylinder { .. } => return None,
         };
-        let mut image_of: Vec<u16> = (0..domain.sides().len() as u16).collect();
+        let mut image_of: Vec<_> = (0..domain.sides().len()).map(BoundaryId::new).collect();
         if image_of.len() == 4 {
             image_of.swap(2 * axis, 2 * axis + 1);
         }
@@ -71,7 +74,7 @@ impl Mirror {
             let image = outlines.iter().position(|other| mirror.takes(outline, other, near))?;
             let is_own = std::ptr::eq(outline, &outlines[image]);
             mirror.roles.push(mirror.role(outline, is_own, near)?);
-            mirror.image_of.push((n_sides + image) as u16);
+            mirror.image_of.push(BoundaryId::new(n_sides + image));
         }
         Some(mirror)
     }
@@ -79,7 +82,7 @@ impl Mirror {
     /// Whether bodies that are images of each other ask for the same cells.
     pub fn keeps_sizes_of(&self, bodies: &[PlacedShape]) -> bool {
         let n_sides = self.image_of.len() - bodies.len();
-        let images = self.image_of[n_sides..].iter().map(|image| usize::from(*image) - n_sides);
+        let images = self.image_of[n_sides..].iter().map(|image| image.index() - n_sides);
         bodies.iter().zip(images).all(|(body, image)| body.size == bodies[image].size)
     }
 
@@ -96,7 +99,7 @@ impl Mirror {
             sizes.map(|(_, size)| *size).fold(f64::INFINITY, f64::min)
         };
         let sides_agree =
-            (0..sides.len()).all(|side| size_of(side) == size_of(usize::from(self.image_of[side])));
+            (0..sides.len()).all(|side| size_of(side) == size_of(self.image_of[side].index()));
         sides_agree
             && sizing.boxes.iter().all(|one| {
                 let (mut min, mut max) = (self.reflect(one.min), self.reflect(one.max));
@@ -147,8 +150,8 @@ impl Mirror {
 
     /// Loops around the half that is meshed, the line of symmetry as the last boundary.
     pub fn half(&self, domain: &Domain, border: &Border) -> Border {
-        let line = border.boundaries.len() as u16;
-        let n_sides = domain.sides().len() as u16;
+        let line = border.boundaries.len();
+        let n_sides = domain.sides().len();
         let mut pieces: Vec<Piece> = Vec::new();
         let [start, end] = match domain {
             Domain::Box { min, max, .. } => self.half_box(&mut pieces, domain, *min, *max),
@@ -168,7 +171,7 @@ impl Mirror {
             if *role == Role::Kept {
                 loops.push(pieces.len());
                 for quarter in [3, 2, 1, 0] {
-                    pieces.push(quarter_of(body, quarter, true, n_sides + body as u16));
+                    pieces.push(quarter_of(body, quarter, true, n_sides + body));
                 }
             }
         }
@@ -210,8 +213,8 @@ impl Mirror {
         &self,
         pieces: &mut Vec<Piece>,
         outlines: &[Outline],
-        n_sides: u16,
-        line: u16,
+        n_sides: usize,
+        line: usize,
         [start, end]: [Point<2>; 2],
     ) {
         let on_line = |mut place: Point<2>| {
@@ -231,7 +234,7 @@ impl Mirror {
         let mut from = on_line(start);
         for (_, body, entry) in bodies {
             made.push(segment(from, pole(body, entry), line, None));
-            let boundary = n_sides + body as u16;
+            let boundary = n_sides + body;
             made.push(quarter_of(body, (entry + 3) % 4, true, boundary));
             made.push(quarter_of(body, (entry + 2) % 4, true, boundary));
             from = pole(body, entry + 2);
@@ -253,11 +256,11 @@ impl Mirror {
         let mut is_on_line = vec![false; half.n_nodes()];
         let mut is_far = vec![false; half.n_nodes()];
         for facet in &half.facets {
-            let boundary = usize::from(facet.boundary);
+            let boundary = facet.boundary.index();
             for node in half.facet_nodes(facet) {
-                is_on_line[node as usize] |= boundary == line;
+                is_on_line[node] |= boundary == line;
                 // The side that faces its own image
-                is_far[node as usize] |= boundary == 2 * self.axis + 1;
+                is_far[node] |= boundary == 2 * self.axis + 1;
             }
         }
         for (node, _) in half.nodes.iter_mut().zip(&is_on_line).filter(|(_, on_line)| **on_line) {
@@ -276,30 +279,32 @@ impl Mirror {
         let on_line = is_on_line[..half.n_vertices].iter().filter(|on_line| **on_line).count();
         whole.n_vertices = 2 * half.n_vertices - on_line;
         for (node, place) in half.nodes.iter().enumerate() {
-            whole.nodes[image[node] as usize] = self.reflect(*place);
-            whole.nodes[kept[node] as usize] = *place;
+            whole.nodes[image[node]] = self.reflect(*place);
+            whole.nodes[kept[node]] = *place;
         }
-        whole.cells.extend(half.cells.iter().map(|node| kept[*node as usize]));
-        for cell in 0..half.n_cells() {
-            let nodes = half.cell(cell);
+        whole.cells.extend(half.cells.iter().map(|node| kept[*node]));
+        for nodes in half.cells() {
             // Turned round: the sides are those from 0 to 2, 2 to 1, 1 to 0
-            whole.cells.extend([0, 2, 1, 5, 4, 3].map(|i| image[nodes[i] as usize]));
+            whole.cells.extend([0, 2, 1, 5, 4, 3].map(|i| image[nodes[i]]));
         }
-        for facet in half.facets.iter().filter(|facet| usize::from(facet.boundary) != line) {
+        for facet in half.facets.iter().filter(|facet| facet.boundary.index() != line) {
             whole.facets.push(*facet);
             whole.facets.push(Facet {
-                cell: facet.cell + half.n_cells() as u32,
+                cell: CellId::new(facet.cell.index() + half.n_cells()),
                 side: 2 - facet.side,
-                boundary: self.image_of[usize::from(facet.boundary)],
+                boundary: self.image_of[facet.boundary],
             });
         }
-        let pairs = half.periodic.iter().map(|&(copy, of)| (copy as usize, of as usize));
-        let mut periodic: Vec<(u32, u32)> = pairs
-            .flat_map(|(copy, of)| [(kept[copy], kept[of]), (image[copy], image[of])])
+        let pair = |copy: NodeId, original: NodeId| PeriodicPair { copy, original };
+        let pairs = half.periodic.iter();
+        let mut periodic: Vec<PeriodicPair> = pairs
+            .flat_map(|&PeriodicPair { copy, original: of }| {
+                [pair(kept[copy], kept[of]), pair(image[copy], image[of])]
+            })
             .collect();
         if self.is_periodic {
-            let far = (0..half.n_nodes()).filter(|node| is_far[*node]);
-            periodic.extend(far.map(|node| (kept[node], image[node])));
+            let far = half.node_ids().filter(|node| is_far[*node]);
+            periodic.extend(far.map(|node| pair(kept[node], image[node])));
         }
         whole.periodic = resolve(periodic);
         whole
@@ -308,20 +313,21 @@ impl Mirror {
 
 /// Numbers in the whole mesh of the half's nodes and of their images, vertices first, and how many
 /// nodes it has.
-fn number(half: &Mesh<2>, is_on_line: &[bool]) -> ([Vec<u32>; 2], usize) {
-    let (mut kept, mut image) = (vec![0; half.n_nodes()], vec![0; half.n_nodes()]);
+fn number(half: &Mesh<2>, is_on_line: &[bool]) -> ([Vec<NodeId>; 2], usize) {
+    let (mut kept, mut image) =
+        (vec![NodeId::default(); half.n_nodes()], vec![NodeId::default(); half.n_nodes()]);
     let mut next = 0;
     for range in [0..half.n_vertices, half.n_vertices..half.n_nodes()] {
         for node in range.clone() {
-            (kept[node], image[node]) = (next, next);
+            (kept[node], image[node]) = (NodeId::new(next), NodeId::new(next));
             next += 1;
         }
         for node in range.filter(|node| !is_on_line[*node]) {
-            image[node] = next;
+            image[node] = NodeId::new(next);
             next += 1;
         }
     }
-    ([kept, image], next as usize)
+    ([kept, image], next)
 }
 
 /// Places around an outline, the ends of its quarters among them.
@@ -330,21 +336,22 @@ fn samples(outline: &Outline) -> impl Iterator<Item = Point<2>> + '_ {
         .map(|i| outline.evaluate(i / SAMPLES, (i % SAMPLES) as f64 / SAMPLES as f64)[0])
 }
 
-/// Pairs (copy, original) with chains followed to their ends, each copy once, sorted.
-fn resolve(pairs: Vec<(u32, u32)>) -> Vec<(u32, u32)> {
-    let mut original: HashMap<u32, u32> = HashMap::new();
-    for (copy, of) in pairs {
+/// Pairs with chains followed to their ends, each copy once, sorted.
+fn resolve(pairs: Vec<PeriodicPair>) -> Vec<PeriodicPair> {
+    let mut original: HashMap<NodeId, NodeId> = HashMap::new();
+    for PeriodicPair { copy, original: of } in pairs {
         if copy != of {
             original.entry(copy).or_insert(of);
         }
     }
-    let root = |mut node: u32| {
+    let root = |mut node: NodeId| {
         while let Some(next) = original.get(&node) {
             node = *next;
         }
         node
     };
-    let mut resolved: Vec<(u32, u32)> = original.keys().map(|copy| (*copy, root(*copy))).collect();
+    let pairs = original.keys().map(|&copy| PeriodicPair { copy, original: root(copy) });
+    let mut resolved: Vec<_> = pairs.collect();
     resolved.sort_unstable();
     resolved
 }

@@ -1,6 +1,6 @@
 //! Numbering along a Hilbert curve: what is close in the plane is close in memory.
 
-use crate::{Mesh, Point};
+use crate::{CellId, Mesh, NodeId, PeriodicPair, Point};
 
 /// Bits of a coordinate along the curve.
 const BITS: u32 = 16;
@@ -14,44 +14,44 @@ pub fn renumber(mesh: &Mesh<2>) -> Mesh<2> {
         high = high.sup(node);
     }
     let scale = f64::from((1u32 << BITS) - 1) / (high - low).max();
-    let mut order: Vec<(u64, u32)> = (0..mesh.n_cells())
+    let mut order: Vec<(u64, CellId)> = mesh
+        .cell_ids()
         .map(|cell| {
             let nodes = mesh.cell_nodes(cell);
             let place = ((nodes[0] + nodes[1] + nodes[2]) / 3.0 - low) * scale;
-            (along_curve(place[0] as u32, place[1] as u32), cell as u32)
+            (along_curve(place[0] as u32, place[1] as u32), cell)
         })
         .collect();
     order.sort_unstable();
 
-    let mut new_cell = vec![0; mesh.n_cells()];
-    let mut new_node = vec![u32::MAX; mesh.n_nodes()];
-    let (mut next_vertex, mut next_middle) = (0, mesh.n_vertices as u32);
+    let mut new_cell = vec![CellId::default(); mesh.n_cells()];
+    let unset = NodeId::from(u32::MAX);
+    let mut new_node = vec![unset; mesh.n_nodes()];
+    let (mut next_vertex, mut next_inner) = (0, mesh.n_vertices);
     for (index, &(_, cell)) in order.iter().enumerate() {
-        new_cell[cell as usize] = index as u32;
-        for (local, &node) in mesh.cell(cell as usize).iter().enumerate() {
-            let next = if local < 3 { &mut next_vertex } else { &mut next_middle };
-            if new_node[node as usize] == u32::MAX {
-                new_node[node as usize] = *next;
+        new_cell[cell] = CellId::new(index);
+        for &node in mesh.cell(cell) {
+            let is_vertex = node.index() < mesh.n_vertices;
+            let next = if is_vertex { &mut next_vertex } else { &mut next_inner };
+            if new_node[node] == unset {
+                new_node[node] = NodeId::new(*next);
                 *next += 1;
             }
         }
     }
 
     let mut renumbered = mesh.clone();
-    for (old, &new) in new_node.iter().enumerate() {
-        renumbered.nodes[new as usize] = mesh.nodes[old];
+    for (position, &new) in mesh.nodes.iter().zip(&new_node) {
+        renumbered.nodes[new] = *position;
     }
-    for (cell, nodes) in order.iter().zip(renumbered.cells.chunks_exact_mut(6)) {
-        for (node, &old) in nodes.iter_mut().zip(mesh.cell(cell.1 as usize)) {
-            *node = new_node[old as usize];
-        }
-    }
-    renumbered.curved = order.iter().map(|&(_, cell)| mesh.curved[cell as usize]).collect();
+    renumbered.cells =
+        order.iter().flat_map(|&(_, cell)| mesh.cell(cell)).map(|&old| new_node[old]).collect();
+    renumbered.curved = order.iter().map(|&(_, cell)| mesh.curved[cell]).collect();
     for facet in &mut renumbered.facets {
-        facet.cell = new_cell[facet.cell as usize];
+        facet.cell = new_cell[facet.cell];
     }
     for pair in &mut renumbered.periodic {
-        *pair = (new_node[pair.0 as usize], new_node[pair.1 as usize]);
+        *pair = PeriodicPair { copy: new_node[pair.copy], original: new_node[pair.original] };
     }
     renumbered.periodic.sort_unstable();
     renumbered
@@ -99,11 +99,13 @@ mod tests {
         let domain = Domain::Disc { center: Point::<2>::zeros(), radius: 1.0 };
         let mesh = generate(&domain, &[], &Sizing::graded(0.02, 0.2, 0.02)).expect("a mesh");
         assert_eq!(mesh, renumber(&mesh));
-        let spread = |cell: usize| {
-            let corners = &mesh.cell(cell)[..3];
-            corners.iter().max().expect("three corners") - corners.iter().min().expect("three")
+        let spread = |cell: CellId| {
+            let corners = mesh.cell_vertices(cell);
+            let [first, last] = [corners.iter().min(), corners.iter().max()]
+                .map(|vertex| vertex.expect("three corners").index());
+            last - first
         };
-        let near = (0..mesh.n_cells()).filter(|&cell| spread(cell) < 200).count();
+        let near = mesh.cell_ids().filter(|&cell| spread(cell) < 200).count();
         assert!(near * 10 > mesh.n_cells() * 9, "{near} of {}", mesh.n_cells());
     }
 }

@@ -3,7 +3,7 @@
 use super::border::Border;
 use super::triangulation::{Triangulation, WALL};
 use crate::curved::jacobian_coefficients;
-use crate::{Facet, Mesh, MeshError};
+use crate::{BoundaryId, CellId, Facet, Mesh, MeshError, NodeId, PeriodicPair, Simplex};
 
 /// Mesh with quadratic geometry; `periodic` are the boundary edge pairs (copy, original).
 ///
@@ -18,31 +18,37 @@ pub fn finish(
     let n_vertices = triangles.points.len();
     let n_cells = triangles.triangles.len();
     let mut nodes = triangles.points.clone();
-    let mut cells = Vec::with_capacity(6 * n_cells);
+    let unset = NodeId::from(u32::MAX);
+    let mut cells = Vec::with_capacity(Simplex::<2>::N_NODES * n_cells);
     for corners in &triangles.triangles {
-        cells.extend_from_slice(corners);
-        cells.extend_from_slice(&[u32::MAX; 3]);
+        cells.extend(corners.map(NodeId::from));
+        cells.resize(cells.len() + Simplex::<2>::N_NODES - 3, unset);
     }
+    // Where an inner node of a side stands in `cells`
+    let slot = |cell: usize, side: usize| {
+        Simplex::<2>::N_NODES * cell + Simplex::<2>::edge_nodes(side).start
+    };
     let mut curved = vec![false; n_cells];
-    let mut facets = vec![Facet { cell: 0, side: 0, boundary: 0 }; triangles.edges.len()];
+    let no_facet = Facet { cell: CellId::default(), side: 0, boundary: BoundaryId::default() };
+    let mut facets = vec![no_facet; triangles.edges.len()];
     for cell in 0..n_cells {
         for side in 0..3 {
-            if cells[6 * cell + 3 + side] != u32::MAX {
+            if cells[slot(cell, side)] != unset {
                 continue;
             }
-            let [a, b] = [0, 1]
-                .map(|i| triangles.points[triangles.triangles[cell][(side + i) % 3] as usize]);
+            let [a, b] = Simplex::<2>::EDGES[side]
+                .map(|local| triangles.points[triangles.triangles[cell][local] as usize]);
             let mut middle = (a + b) * 0.5;
-            let node = nodes.len() as u32;
-            cells[6 * cell + 3 + side] = node;
-            if let Some((other, slot)) = triangles.behind((cell, side)) {
-                cells[6 * other + 3 + slot] = node;
+            let node = NodeId::new(nodes.len());
+            cells[slot(cell, side)] = node;
+            if let Some((other, other_side)) = triangles.behind((cell, side)) {
+                cells[slot(other, other_side)] = node;
             } else {
                 let index = (triangles.across[cell][side] & !WALL) as usize;
                 let edge = triangles.edges[index];
                 let piece = edge.piece as usize;
                 facets[index] = Facet {
-                    cell: cell as u32,
+                    cell: CellId::new(cell),
                     side: side as u8,
                     boundary: border.pieces[piece].boundary,
                 };
@@ -65,11 +71,11 @@ pub fn finish(
         periodic: Vec::new(),
     };
     mesh.periodic = pair_nodes(&mesh, &triangles, periodic);
-    for cell in (0..n_cells).filter(|c| mesh.curved[*c]) {
+    for cell in mesh.cell_ids().filter(|cell| mesh.curved[*cell]) {
         let nodes = mesh.cell_nodes(cell);
         let lowest = jacobian_coefficients(&nodes).into_iter().fold(f64::INFINITY, f64::min);
         if lowest <= 0.0 {
-            let center = (nodes[0] + nodes[1] + nodes[2]) / 3.0;
+            let center = mesh.cell_center(cell);
             return Err(MeshError::FoldedCell {
                 cell,
                 det_jacobian: lowest,
@@ -86,30 +92,32 @@ fn pair_nodes(
     mesh: &Mesh<2>,
     triangles: &Triangulation,
     periodic: &[(u32, u32)],
-) -> Vec<(u32, u32)> {
-    let mut original: Vec<u32> = (0..mesh.n_nodes() as u32).collect();
+) -> Vec<PeriodicPair> {
+    let mut original: Vec<NodeId> = mesh.node_ids().collect();
     let mut copies = Vec::new();
-    let middle = |edge: u32| {
-        let facet = mesh.facets[edge as usize];
-        mesh.cell(facet.cell as usize)[3 + facet.side as usize]
+    let nodes = |edge: u32| {
+        let edge = edge as usize;
+        let ends = triangles.edges[edge].vertices.map(NodeId::from);
+        (ends, mesh.facet_inner_nodes(&mesh.facets[edge]))
     };
     for (copy, source) in periodic {
-        let [a, b] = triangles.edges[*copy as usize].vertices;
-        let [c, d] = triangles.edges[*source as usize].vertices;
-        for (to, from) in [(a, d), (middle(*copy), middle(*source)), (b, c)] {
+        let (([a, b], to_inner), ([c, d], from_inner)) = (nodes(*copy), nodes(*source));
+        // The copy is travelled backwards
+        let inner = to_inner.zip(from_inner.rev());
+        for (to, from) in std::iter::once((a, d)).chain(inner).chain([(b, c)]) {
             // A corner of a doubly periodic box is a copy twice
-            if original[to as usize] == to {
-                original[to as usize] = from;
+            if original[to] == to {
+                original[to] = from;
                 copies.push(to);
             }
         }
     }
-    let root = |mut node: u32| {
-        while original[node as usize] != node {
-            node = original[node as usize];
+    let root = |mut node: NodeId| {
+        while original[node] != node {
+            node = original[node];
         }
         node
     };
     copies.sort_unstable();
-    copies.into_iter().map(|copy| (copy, root(copy))).collect()
+    copies.into_iter().map(|copy| PeriodicPair { copy, original: root(copy) }).collect()
 }

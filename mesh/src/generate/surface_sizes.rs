@@ -30,7 +30,7 @@ pub fn surface_sizes(
     let images = &border.images;
     let mut sources = Vec::new();
     for (index, piece) in border.pieces.iter().enumerate() {
-        if border.boundaries[piece.boundary as usize].kind == BoundaryKind::Axis {
+        if border.boundaries[piece.boundary].kind == BoundaryKind::Axis {
             continue;
         }
         let mut samples = Vec::new();
@@ -141,7 +141,7 @@ impl<'a> Surfaces<'a> {
     fn sample(&self, piece: usize, parameter: f64) -> (Point<2>, f64) {
         let point = self.border.point(piece, parameter);
         let (normal, radius) = self.border.frame(piece, parameter);
-        let boundary = self.border.pieces[piece].boundary as usize;
+        let boundary = self.border.pieces[piece].boundary;
         let layers = self.layers;
         let size = match self.border.boundaries[boundary].kind {
             BoundaryKind::Body(body) => {
@@ -163,10 +163,10 @@ impl<'a> Surfaces<'a> {
             }
             BoundaryKind::Side | BoundaryKind::Axis => {
                 let gap = self.gap_to_bodies(point, None);
-                if self.domain.is_periodic(boundary) {
+                if self.domain.is_periodic(boundary.index()) {
                     gap
                 } else {
-                    gap.min(self.domain.facing(boundary)) / layers
+                    gap.min(self.domain.facing(boundary.index())) / layers
                 }
             }
         };

@@ -1,10 +1,9 @@
 //! The flow of the shipped case dfg-2d-2 in the middle of a time step, at a wanted size.
 
-use alewife_core::algebra::{AffineConstraints, Pattern};
+use alewife_core::algebra::{AffineConstraints, Pattern, SparseMatrix, Unknowns};
 use alewife_core::case::Case;
-use alewife_core::coupling::{FluidSystem, Problem, Solution, embed, flatten};
+use alewife_core::coupling::{BodyShapes, FluidSystem, Problem, Solution, embed, flatten};
 use alewife_core::flow::{Assembly, Convection, FlowTerms, assemble, residual};
-use alewife_core::multifrontal::Unknowns;
 use alewife_core::simulation::{build_mesh, build_problem, cpu_seconds};
 use alewife_core::time::Bdf;
 use alewife_mesh::{Mesh, Point};
@@ -34,13 +33,11 @@ pub struct TimeStep {
     unknowns: Unknowns,
 }
 
-/// Pattern, values by compressed columns, and right-hand side of a linear system.
+/// A linear system, with what each unknown is.
 #[allow(dead_code, reason = "not every benchmark solves the system")]
 pub struct LinearSystem {
-    /// Sparsity pattern of the matrix.
-    pub pattern: Pattern,
-    /// Its stored values.
-    pub values: Vec<f64>,
+    /// The matrix.
+    pub matrix: SparseMatrix,
     /// Right-hand side.
     pub rhs: Vec<f64>,
     /// What each unknown is.
@@ -75,7 +72,8 @@ impl TimeStep {
         let problem = build_problem(&case, &mesh).expect("the case can be built");
         let poses: Vec<_> = problem.bodies.iter().map(|body| body.pose).collect();
         let system = FluidSystem::new(&problem, &mesh, &poses, false);
-        let constraints = system.constraints(&problem, &mesh, &poses, 0.0);
+        let shapes = BodyShapes::at(&problem.bodies, 0.0).expect("no body deforms");
+        let constraints = system.constraints(&problem, &mesh, &poses, &shapes);
         let sides = problem.do_nothing_sides();
         let (pattern, assembly) =
             Assembly::new(&mesh, system.layout, &constraints, problem.metric, &sides, None);
@@ -138,10 +136,10 @@ impl TimeStep {
     /// The system to be solved for the change of the free unknowns.
     #[allow(dead_code, reason = "not every benchmark solves the system")]
     pub fn linear_system(&self) -> LinearSystem {
-        let mut values = vec![0.0; self.pattern.rows.len()];
-        self.assemble(&mut values);
+        let mut matrix = SparseMatrix::zeros(self.pattern.clone());
+        self.assemble(matrix.values_mut());
         let rhs = self.constraints.restrict(&self.residual()).iter().map(|value| -value).collect();
-        LinearSystem { pattern: self.pattern.clone(), values, rhs, unknowns: self.unknowns.clone() }
+        LinearSystem { matrix, rhs, unknowns: self.unknowns.clone() }
     }
 }
 

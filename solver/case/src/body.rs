@@ -87,7 +87,7 @@ pub enum Lock {
 /// How a swimmer's surface moves by itself.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
-pub enum Gait {
+pub enum GaitSpec {
     /// Tangential slip of a spherical or circular squirmer.
     Squirmer(SquirmerGait),
     /// A wave of curvature along a fish.
@@ -134,7 +134,7 @@ impl SquirmerGait {
 /// `spring`: force -stiffness (place - anchor) - damping velocity, and the same for the turn.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Spring {
+pub struct SpringSpec {
     /// Stiffness along x and y (N/m; N/m2 planar).
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub stiffness: Vec<f64>,
@@ -178,7 +178,7 @@ pub struct Body {
     pub locked: Vec<Lock>,
     /// Surface motion of a swimmer.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub gait: Option<Gait>,
+    pub gait: Option<GaitSpec>,
     /// External force (N; N/m in planar cases), one number per dimension.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub force: Vec<f64>,
@@ -190,7 +190,7 @@ pub struct Body {
     pub load_factor: Option<TimeFunction>,
     /// Spring and damper that tie it to a place.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub spring: Option<Spring>,
+    pub spring: Option<SpringSpec>,
     /// Cell size on its surface (m); that of `[mesh]` if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub size: Option<f64>,
@@ -199,7 +199,7 @@ pub struct Body {
     pub swimmer: Option<usize>,
 }
 
-impl Gait {
+impl GaitSpec {
     /// The time after which it begins again (s), if it does.
     #[must_use]
     pub fn period(&self) -> Option<f64> {

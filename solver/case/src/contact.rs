@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 /// `[contact.quadratic]` or `[contact.barrier]`.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
-pub enum Contact {
+pub enum ContactSpec {
     /// Force (range - gap)^2 / epsilon where the gap is below the range; finite at contact.
     Quadratic {
         /// Gap at which the force begins (m); about a cell on the surface is usual.

@@ -1,4 +1,4 @@
-//! Typing a `Node`: serde over the tree, with errors that say where and what is accepted.
+//! Typing a `TomlNode`: serde over the tree, with errors that say where and what is accepted.
 
 use std::collections::btree_map;
 use std::fmt::{self, Display};
@@ -10,7 +10,7 @@ use serde::forward_to_deserialize_any;
 
 use super::nearest::nearest;
 use super::source::Origin;
-use super::tree::{Node, Value};
+use super::tree::{TomlNode, TomlValue};
 
 /// What a value cannot be typed for.
 #[derive(Debug)]
@@ -213,20 +213,20 @@ fn plain(wanted: &dyn Expected) -> String {
 /// The alternative that a plain number stands for.
 const CONSTANT: &str = "constant";
 
-impl<'de> de::Deserializer<'de> for &Node {
+impl<'de> de::Deserializer<'de> for &TomlNode {
     type Error = TypeError;
 
     fn deserialize_any<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, TypeError> {
         let result = match &self.value {
-            Value::String(text) => visitor.visit_str(text),
-            Value::Integer(number) => visitor.visit_i64(*number),
-            Value::Float(number) => visitor.visit_f64(*number),
-            Value::Boolean(value) => visitor.visit_bool(*value),
-            Value::Date(date) => Err(TypeError::new(Mismatch::Other(
+            TomlValue::String(text) => visitor.visit_str(text),
+            TomlValue::Integer(number) => visitor.visit_i64(*number),
+            TomlValue::Float(number) => visitor.visit_f64(*number),
+            TomlValue::Boolean(value) => visitor.visit_bool(*value),
+            TomlValue::Date(date) => Err(TypeError::new(Mismatch::Other(
                 format!("it is the date {date}"),
                 "no key of a case takes a date: put text in quotes".to_owned(),
             ))),
-            Value::Array(items) => {
+            TomlValue::Array(items) => {
                 let mut access = ItemAccess { items: items.iter(), index: 0 };
                 let value = visitor.visit_seq(&mut access);
                 match (value, access.index) {
@@ -237,7 +237,7 @@ impl<'de> de::Deserializer<'de> for &Node {
                     (value, _) => value,
                 }
             }
-            Value::Table(entries) => {
+            TomlValue::Table(entries) => {
                 visitor.visit_map(EntryAccess { entries: entries.iter(), value: None })
             }
         };
@@ -266,16 +266,16 @@ impl<'de> de::Deserializer<'de> for &Node {
             TypeError::new(Mismatch::Other(message, help)).at(&self.origin)
         };
         match &self.value {
-            Value::String(text) => {
+            TomlValue::String(text) => {
                 visitor.visit_enum(Alternative { tag: text, at: &self.origin, content: None })
             }
-            Value::Table(entries) if entries.len() == 1 => {
+            TomlValue::Table(entries) if entries.len() == 1 => {
                 let Some((tag, content)) = entries.iter().next() else {
                     return Err(other("empty table".to_owned(), suggestion("", alternatives)));
                 };
                 visitor.visit_enum(Alternative { tag, at: &content.key, content: Some(content) })
             }
-            Value::Table(entries) => {
+            TomlValue::Table(entries) => {
                 let found = match entries.keys().cloned().collect::<Vec<_>>().join("`, `") {
                     keys if keys.is_empty() => "the table is empty".to_owned(),
                     keys => format!("it has `{keys}`"),
@@ -287,7 +287,7 @@ impl<'de> de::Deserializer<'de> for &Node {
                 ))
             }
             // What may change in time may be a plain number, too
-            Value::Integer(_) | Value::Float(_) if alternatives.contains(&CONSTANT) => {
+            TomlValue::Integer(_) | TomlValue::Float(_) if alternatives.contains(&CONSTANT) => {
                 let content = Some(self);
                 visitor.visit_enum(Alternative { tag: CONSTANT, at: &self.origin, content })
             }
@@ -306,7 +306,7 @@ impl<'de> de::Deserializer<'de> for &Node {
 }
 
 struct ItemAccess<'a> {
-    items: slice::Iter<'a, Node>,
+    items: slice::Iter<'a, TomlNode>,
     index: usize,
 }
 
@@ -326,8 +326,8 @@ impl<'de> de::SeqAccess<'de> for ItemAccess<'_> {
 }
 
 struct EntryAccess<'a> {
-    entries: btree_map::Iter<'a, String, Node>,
-    value: Option<(&'a String, &'a Node)>,
+    entries: btree_map::Iter<'a, String, TomlNode>,
+    value: Option<(&'a String, &'a TomlNode)>,
 }
 
 impl<'de> de::MapAccess<'de> for EntryAccess<'_> {
@@ -355,12 +355,12 @@ impl<'de> de::MapAccess<'de> for EntryAccess<'_> {
 struct Alternative<'a> {
     tag: &'a str,
     at: &'a Origin,
-    content: Option<&'a Node>,
+    content: Option<&'a TomlNode>,
 }
 
 impl<'a> Alternative<'a> {
     /// The content; an error that says how to write it if there is none.
-    fn content(&self) -> Result<&'a Node, TypeError> {
+    fn content(&self) -> Result<&'a TomlNode, TypeError> {
         let tag = self.tag;
         self.content.ok_or_else(|| {
             TypeError::new(Mismatch::Other(

@@ -5,10 +5,10 @@ use std::f64::consts::{PI, TAU};
 use alewife_mesh::Point;
 use nalgebra::Rotation2;
 
-use super::body::{Body, Gait, ShapeSpec};
+use super::body::{Body, GaitSpec, ShapeSpec};
 use super::joint::{Joint, JointKind};
 use super::stroke::Stroke;
-use super::swimmer::{Copies, Swimmer, SwimmerKind};
+use super::swimmer::{Copies, SwimmerKind, SwimmerSpec};
 use super::{Case, Geometry, Motion};
 
 /// Trials of a random place for each copy.
@@ -33,7 +33,7 @@ pub type Refusal = (String, String, String);
 /// A body of a swimmer before it is placed: the joint to its parent, both by position in the list.
 struct Part {
     shape: ShapeSpec,
-    gait: Option<Gait>,
+    gait: Option<GaitSpec>,
     hangs: Option<(usize, [f64; 2], [f64; 2], JointKind)>,
 }
 
@@ -112,7 +112,7 @@ pub fn expand(case: &mut Case) -> Result<(), Refusal> {
     for (index, body) in case.body.iter().enumerate() {
         let is_grouped = case.group.iter().any(|group| group.bodies.contains(&index));
         if body.gait.is_some() && !is_grouped {
-            let period = body.gait.as_ref().and_then(Gait::period);
+            let period = body.gait.as_ref().and_then(GaitSpec::period);
             let (name, bodies) = (body.name.clone(), vec![index]);
             case.group.push(Group { name, bodies, period, resistance: None });
         }
@@ -242,9 +242,9 @@ pub fn hang(
 
 fn period(kind: &SwimmerKind) -> Option<f64> {
     match kind {
-        SwimmerKind::Body { gait, .. } => gait.as_ref().and_then(Gait::period),
+        SwimmerKind::Body { gait, .. } => gait.as_ref().and_then(GaitSpec::period),
         SwimmerKind::LinkedSpheres { arms, gaits, .. } => {
-            arms.iter().find_map(Stroke::period).or_else(|| gaits.iter().find_map(Gait::period))
+            arms.iter().find_map(Stroke::period).or_else(|| gaits.iter().find_map(GaitSpec::period))
         }
         SwimmerKind::Star { arms, .. } => arms.iter().find_map(Stroke::period),
         SwimmerKind::Chain { joints, .. } => {
@@ -263,7 +263,7 @@ fn kind_period(kind: &JointKind) -> Option<f64> {
 }
 
 fn bodies_period(case: &Case, bodies: &[usize]) -> Option<f64> {
-    let gait = |body: &usize| case.body[*body].gait.as_ref().and_then(Gait::period);
+    let gait = |body: &usize| case.body[*body].gait.as_ref().and_then(GaitSpec::period);
     let is_ours = |joint: &&Joint| bodies.iter().any(|body| case.body[*body].name == joint.child);
     let joints = case.joint.iter().filter(is_ours);
     bodies.iter().find_map(gait).or_else(|| joints.map(|joint| &joint.kind).find_map(kind_period))
@@ -273,7 +273,7 @@ fn bodies_period(case: &Case, bodies: &[usize]) -> Option<f64> {
 fn places(
     case: &Case,
     key: &str,
-    swimmer: &Swimmer,
+    swimmer: &SwimmerSpec,
     parts: &[Part],
     random: &mut Option<SplitMix>,
 ) -> Result<Vec<(String, Point<2>, f64)>, Refusal> {

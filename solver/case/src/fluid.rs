@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 /// Which equations the fluid obeys.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
-pub enum Model {
+pub enum FlowModel {
     /// Quasi-steady: no inertia of fluid or bodies.
     Stokes,
     /// Inertia without convection.
@@ -20,7 +20,7 @@ pub enum Model {
 #[serde(deny_unknown_fields)]
 pub struct Fluid {
     /// Which equations hold.
-    pub model: Model,
+    pub model: FlowModel,
     /// Dynamic viscosity (Pa s).
     pub viscosity: f64,
     /// Density (kg/m3); needed unless the model is `stokes`.

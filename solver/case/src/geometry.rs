@@ -5,7 +5,7 @@ use std::sync::Arc;
 use alewife_mesh::{Domain, FishForm, FlagellateForm, PlacedShape, Point, Profile, Shape, Spline};
 
 use super::{
-    Body, BoundaryCondition, Case, DomainSpec, Gait, Geometry, Lock, Motion, ShapeSpec,
+    Body, BoundaryCondition, Case, DomainSpec, GaitSpec, Geometry, Lock, Motion, ShapeSpec,
     TimeSettings,
 };
 
@@ -236,12 +236,12 @@ impl Body {
     #[must_use]
     pub fn deforms(&self) -> bool {
         match self.gait {
-            None | Some(Gait::Squirmer(_)) => false,
+            None | Some(GaitSpec::Squirmer(_)) => false,
             Some(
-                Gait::Carangiform(_)
-                | Gait::Anguilliform(_)
-                | Gait::Flagellum(_)
-                | Gait::Pulsating(_),
+                GaitSpec::Carangiform(_)
+                | GaitSpec::Anguilliform(_)
+                | GaitSpec::Flagellum(_)
+                | GaitSpec::Pulsating(_),
             ) => true,
         }
     }

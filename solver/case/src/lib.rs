@@ -4,6 +4,7 @@ mod body;
 mod check;
 mod contact;
 mod deserialize;
+mod diagnostic;
 mod domain;
 mod expand;
 mod fluid;
@@ -15,7 +16,7 @@ mod mesh;
 mod nearest;
 mod numbers;
 mod output;
-mod problem;
+
 mod read;
 mod reference;
 mod schema;
@@ -30,12 +31,13 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize, Serializer};
 
-pub use body::{Body, Gait, ImposedMotion, Lock, Motion, ShapeSpec, Spring, SquirmerGait};
+pub use body::{Body, GaitSpec, ImposedMotion, Lock, Motion, ShapeSpec, SpringSpec, SquirmerGait};
 pub use check::{check, known_quantities};
-pub use contact::Contact;
+pub use contact::ContactSpec;
+pub use diagnostic::{CaseError, Diagnostic, Severity};
 pub use domain::{BoundaryCondition, DomainSpec, Geometry, TimeFunction};
 pub use expand::{Group, hang};
-pub use fluid::{Fluid, Model};
+pub use fluid::{FlowModel, Fluid};
 pub use gait::{
     AnguilliformGait, CarangiformGait, FishShape, FlagellateShape, FlagellumGait, PulsatingGait,
 };
@@ -45,13 +47,12 @@ pub use mesh::{MeshEquation, MeshSettings, MovingMesh, RefinementBox};
 pub use nearest::nearest;
 pub use numbers::{DerivedNumber, derived_numbers, geometry_name, number_table, significant};
 pub use output::{Cadence, Output, Precision, Probe};
-pub use problem::{CaseError, Problem, Severity};
 pub use read::CaseFile;
 pub use reference::{Numbers, Reference, Scales, Statistic, Statistics, Variant};
 pub use schema::schema;
-pub use source::Place;
+pub use source::Location;
 pub use stroke::{Stroke, smooth_ramp};
-pub use swimmer::{Copies, Pivot, Swimmer, SwimmerKind};
+pub use swimmer::{Copies, Pivot, SwimmerKind, SwimmerSpec};
 pub use time::{Adaptive, Convection, Initial, Scheme, Steady, TimeSettings, Unsteady};
 
 /// A problem to solve: what one case file declares, after `extends`, variants and `--set`.
@@ -90,13 +91,13 @@ pub struct Case {
     pub joint: Vec<Joint>,
     /// Swimmers made of bodies and joints by their kind.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub swimmer: Vec<Swimmer>,
+    pub swimmer: Vec<SwimmerSpec>,
     /// Bodies that are told of as one.
     #[serde(skip)]
     pub group: Vec<Group>,
     /// Forces that keep bodies apart from each other and from walls.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub contact: Option<Contact>,
+    pub contact: Option<ContactSpec>,
     /// Cell sizes.
     pub mesh: MeshSettings,
     /// Steady solution or march in time.

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::{Case, Gait, Geometry, Model, ShapeSpec, TimeSettings};
+use super::{Case, FlowModel, GaitSpec, Geometry, ShapeSpec, TimeSettings};
 
 /// Gaps that are told of: of many bodies those of the closest pairs.
 const MOST_GAPS: usize = 3;
@@ -41,7 +41,7 @@ pub fn derived_numbers(case: &Case) -> Vec<DerivedNumber> {
     };
     let density = case.fluid.density;
     let kinematic = case.fluid.viscosity / density;
-    let has_inertia = case.fluid.model != Model::Stokes;
+    let has_inertia = case.fluid.model != FlowModel::Stokes;
     if let (true, Some(value)) = (has_inertia, reynolds(case)) {
         add("Reynolds number", value, "density * scales.velocity * scales.length / viscosity");
     }
@@ -64,7 +64,7 @@ pub fn derived_numbers(case: &Case) -> Vec<DerivedNumber> {
     }
     for body in &case.body {
         let name = &body.name;
-        if let Some(Gait::Squirmer(squirmer)) = &body.gait {
+        if let Some(GaitSpec::Squirmer(squirmer)) = &body.gait {
             let first = squirmer.modes.first().copied().unwrap_or(0.0);
             // Mean slip over the surface: 2/3 B1 on a sphere, 1/2 B1 on a disc.
             let (factor, formula) = match body.shape {

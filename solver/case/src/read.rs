@@ -13,19 +13,19 @@ use std::sync::Arc;
 use serde::Deserialize;
 
 use super::deserialize::{Mismatch, TypeError, suggestion};
+use super::diagnostic::{CaseError, Diagnostic, Severity};
 use super::expand::expand;
 use super::geometry::opposite;
 use super::nearest::nearest;
-use super::problem::{CaseError, Problem, Severity};
-use super::source::{Origin, Place, Source};
-use super::tree::{self, Node, TreeError, Value};
+use super::source::{Location, Origin, Source};
+use super::tree::{self, TomlNode, TomlValue, TreeError};
 use super::{BoundaryCondition, Case, library};
 
 /// Keys of a file that those who extend it do not inherit.
 const OWN_KEYS: [&str; 3] = ["reference", "variant", "quick"];
 
-/// Most problems listed at once.
-const MOST_PROBLEMS: usize = 20;
+/// Most diagnostics listed at once.
+const MOST_DIAGNOSTICS: usize = 20;
 
 /// A case and where everything in it is written.
 #[derive(Debug, Clone)]
@@ -40,18 +40,18 @@ pub struct CaseFile {
     pub variants: Vec<String>,
     /// Name of the file that was read.
     pub file: String,
-    root: Node,
+    root: TomlNode,
 }
 
 impl CaseFile {
     /// Where the value at a dotted path is written, or the table it would stand in.
     #[must_use]
-    pub fn place(&self, path: &str) -> Option<Place> {
+    pub fn location(&self, path: &str) -> Option<Location> {
         let (node, is_exact) = self.root.find(path);
         // A default is nowhere: its table is the next best place, by its header or its key.
         let is_value = is_exact && (node.table().is_none() || node.is_inline());
         let origin = if is_value { &node.origin } else { &node.key };
-        (!origin.span.is_empty()).then(|| origin.place())
+        (!origin.span.is_empty()).then(|| origin.location())
     }
 
     /// Paths of all numbers that are infinite or not a number.
@@ -109,17 +109,17 @@ struct CaseText {
     source: Arc<Source>,
 }
 
-fn collect_not_finite(node: &Node, path: String, paths: &mut Vec<String>) {
+fn collect_not_finite(node: &TomlNode, path: String, paths: &mut Vec<String>) {
     let below =
         |step: &str| if path.is_empty() { step.to_owned() } else { format!("{path}.{step}") };
     match &node.value {
-        Value::Float(number) if !number.is_finite() => paths.push(path),
-        Value::Array(items) => {
+        TomlValue::Float(number) if !number.is_finite() => paths.push(path),
+        TomlValue::Array(items) => {
             for (index, item) in items.iter().enumerate() {
                 collect_not_finite(item, below(&index.to_string()), paths);
             }
         }
-        Value::Table(entries) => {
+        TomlValue::Table(entries) => {
             for (key, entry) in entries {
                 collect_not_finite(entry, below(key), paths);
             }
@@ -226,25 +226,25 @@ fn assemble(
     match refusal {
         None => Ok(file),
         Some((key, message, help)) => {
-            let place = file.place(&key);
+            let location = file.location(&key);
             let severity = Severity::Error;
-            Err(CaseError::Wrong(vec![Problem { severity, key, message, help, place }]))
+            Err(CaseError::Wrong(vec![Diagnostic { severity, key, message, help, location }]))
         }
     }
 }
 
 fn wrong(error: TreeError) -> CaseError {
-    CaseError::Wrong(vec![Problem {
+    CaseError::Wrong(vec![Diagnostic {
         severity: Severity::Error,
         key: String::new(),
         message: error.message,
         help: error.help,
-        place: Some(error.origin.place()),
+        location: Some(error.origin.location()),
     }])
 }
 
 /// The tree of a text, laid over that of the file it extends.
-fn extended(text: &CaseText) -> Result<Node, CaseError> {
+fn extended(text: &CaseText) -> Result<TomlNode, CaseError> {
     let mut root = tree::parse(&text.source).map_err(wrong)?;
     let Some(extends) = root.table_mut().and_then(|entries| entries.remove("extends")) else {
         return Ok(root);
@@ -290,27 +290,27 @@ fn extended(text: &CaseText) -> Result<Node, CaseError> {
     Ok(base)
 }
 
-fn variant_tables(root: &Node) -> impl Iterator<Item = &BTreeMap<String, Node>> {
+fn variant_tables(root: &TomlNode) -> impl Iterator<Item = &BTreeMap<String, TomlNode>> {
     let (variants, is_there) = root.find("variant");
     let items = if is_there { variants.array().unwrap_or_default() } else { &[] };
-    items.iter().filter_map(Node::table)
+    items.iter().filter_map(TomlNode::table)
 }
 
-fn variant_names(root: &Node) -> Vec<String> {
+fn variant_names(root: &TomlNode) -> Vec<String> {
     variant_tables(root)
         .filter_map(|table| table.get("name")?.text().map(ToOwned::to_owned))
         .collect()
 }
 
 /// Sets what a variant sets, adds its references, and forgets all variants.
-fn apply_variant(root: &mut Node, source: &Arc<Source>, name: &str) -> Result<(), TreeError> {
+fn apply_variant(root: &mut TomlNode, source: &Arc<Source>, name: &str) -> Result<(), TreeError> {
     let table = variant_tables(root)
-        .find(|table| table.get("name").and_then(Node::text) == Some(name))
+        .find(|table| table.get("name").and_then(TomlNode::text) == Some(name))
         .cloned();
     let Some(table) = table else {
         let known = variant_names(root);
         let (variants, is_there) = root.find("variant");
-        let first = if is_there { variants.array().and_then(<[Node]>::first) } else { None };
+        let first = if is_there { variants.array().and_then(<[TomlNode]>::first) } else { None };
         let start = Origin { source: Arc::clone(source), span: 0..0 };
         return Err(TreeError {
             origin: first.map_or(start, |node| node.origin.clone()),
@@ -328,23 +328,23 @@ fn apply_variant(root: &mut Node, source: &Arc<Source>, name: &str) -> Result<()
             Some(quick) => entries.insert("quick".to_owned(), quick.clone()),
             None => entries.remove("quick"),
         };
-        if let Some(Value::Array(more)) = table.get("reference").map(|node| &node.value) {
+        if let Some(TomlValue::Array(more)) = table.get("reference").map(|node| &node.value) {
             match entries.get_mut("reference").map(|node| &mut node.value) {
-                Some(Value::Array(references)) => references.extend(more.iter().cloned()),
+                Some(TomlValue::Array(references)) => references.extend(more.iter().cloned()),
                 _ => {
                     entries.insert("reference".to_owned(), table["reference"].clone());
                 }
             }
         }
     }
-    for (path, value) in table.get("set").and_then(Node::table).into_iter().flatten() {
+    for (path, value) in table.get("set").and_then(TomlNode::table).into_iter().flatten() {
         root.set(path, value.clone())?;
     }
     Ok(())
 }
 
 /// Sets one `KEY=VALUE` of the command line.
-fn apply_setting(root: &mut Node, setting: &str) -> Result<(), TreeError> {
+fn apply_setting(root: &mut TomlNode, setting: &str) -> Result<(), TreeError> {
     let source = Arc::new(Source { name: "--set".to_owned(), text: setting.to_owned() });
     let place = |span| Origin { source: Arc::clone(&source), span };
     let whole = place(0..setting.len());
@@ -359,13 +359,15 @@ fn apply_setting(root: &mut Node, setting: &str) -> Result<(), TreeError> {
     let path = path.trim();
     let (known, is_known) = root.find(path);
     let wants_text = is_known && known.text().is_some();
-    let as_text = || Node {
+    let as_text = || TomlNode {
         key: whole.clone(),
         origin: place(start..setting.len()),
-        value: Value::String(raw.trim().to_owned()),
+        value: TomlValue::String(raw.trim().to_owned()),
     };
     let mut value = match tree::parse_value(&source, start) {
-        Ok(node) if wants_text && matches!(node.value, Value::Integer(_) | Value::Float(_)) => {
+        Ok(node)
+            if wants_text && matches!(node.value, TomlValue::Integer(_) | TomlValue::Float(_)) =>
+        {
             as_text()
         }
         Ok(node) => node,
@@ -400,13 +402,13 @@ fn complete_periodic(case: &mut Case) {
 }
 
 /// Types a tree; unknown keys are noted and taken as meant, so that all of them are found at once.
-fn typed(root: &Node) -> Result<Case, CaseError> {
+fn typed(root: &TomlNode) -> Result<Case, CaseError> {
     let mut root = root.clone();
-    let mut problems: Vec<Problem> = Vec::new();
+    let mut diagnostics: Vec<Diagnostic> = Vec::new();
     loop {
         let error = match Case::deserialize(&root) {
-            Ok(case) if problems.is_empty() => return Ok(case),
-            Ok(_) => return Err(CaseError::Wrong(problems)),
+            Ok(case) if diagnostics.is_empty() => return Ok(case),
+            Ok(_) => return Err(CaseError::Wrong(diagnostics)),
             Err(error) => error,
         };
         let path = error.path();
@@ -414,32 +416,32 @@ fn typed(root: &Node) -> Result<Case, CaseError> {
             |key: &str| if path.is_empty() { key.to_owned() } else { format!("{path}.{key}") };
         match error.mismatch() {
             Mismatch::UnknownKey { key, accepted } => {
-                problems.push(problem(&error, inside(key)));
+                diagnostics.push(diagnostic(&error, inside(key)));
                 let is_replaced = replace_key(&mut root, &path, key, nearest(key, accepted));
-                if is_replaced && problems.len() < MOST_PROBLEMS {
+                if is_replaced && diagnostics.len() < MOST_DIAGNOSTICS {
                     continue;
                 }
             }
-            Mismatch::MissingKey(key) => problems.push(problem(&error, inside(key))),
-            _ => problems.push(problem(&error, path)),
+            Mismatch::MissingKey(key) => diagnostics.push(diagnostic(&error, inside(key))),
+            _ => diagnostics.push(diagnostic(&error, path)),
         }
-        return Err(CaseError::Wrong(problems));
+        return Err(CaseError::Wrong(diagnostics));
     }
 }
 
-fn problem(error: &TypeError, key: String) -> Problem {
-    Problem {
+fn diagnostic(error: &TypeError, key: String) -> Diagnostic {
+    Diagnostic {
         severity: Severity::Error,
         key,
         message: error.message(),
         help: error.help(),
-        place: error.origin().map(Origin::place),
+        location: error.origin().map(Origin::location),
     }
 }
 
 /// Gives a key of the table at a path the name that was meant, or takes it out.
-fn replace_key(root: &mut Node, path: &str, key: &str, meant: Option<&str>) -> bool {
-    let Some(entries) = root.find_mut(path).and_then(Node::table_mut) else { return false };
+fn replace_key(root: &mut TomlNode, path: &str, key: &str, meant: Option<&str>) -> bool {
+    let Some(entries) = root.find_mut(path).and_then(TomlNode::table_mut) else { return false };
     let Some(node) = entries.remove(key) else { return false };
     if let Some(meant) = meant {
         entries.entry(meant.to_owned()).or_insert(node);

@@ -25,13 +25,13 @@ pub struct Origin {
 impl Origin {
     /// The same in lines and columns.
     #[must_use]
-    pub fn place(&self) -> Place {
+    pub fn location(&self) -> Location {
         let text = &self.source.text;
         let start = floor_char(text, self.span.start);
         let line_start = text[..start].rfind('\n').map_or(0, |newline| newline + 1);
         let line_end = text[start..].find('\n').map_or(text.len(), |length| start + length);
         let end = floor_char(text, self.span.end.clamp(start, line_end));
-        Place {
+        Location {
             file: self.source.name.clone(),
             line: text[..start].matches('\n').count() + 1,
             column: text[line_start..start].chars().count() + 1,
@@ -47,9 +47,9 @@ fn floor_char(text: &str, byte: usize) -> usize {
     (0..=byte).rev().find(|b| text.is_char_boundary(*b)).unwrap_or(0)
 }
 
-/// A place in a text, as an editor counts.
+/// A location in a text, as an editor counts.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Place {
+pub struct Location {
     /// Name of the file.
     pub file: String,
     /// Line, from 1.
@@ -62,7 +62,7 @@ pub struct Place {
     pub text: String,
 }
 
-impl fmt::Display for Place {
+impl fmt::Display for Location {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}:{}:{}", self.file, self.line, self.column)
     }
@@ -72,14 +72,14 @@ impl fmt::Display for Place {
 mod tests {
     use super::*;
 
-    fn place(text: &str, span: Range<usize>) -> Place {
+    fn location(text: &str, span: Range<usize>) -> Location {
         Origin { source: Arc::new(Source { name: "a.toml".into(), text: text.into() }), span }
-            .place()
+            .location()
     }
 
     #[test]
     fn columns_count_characters_and_lines_start_at_one() {
-        let found = place("a = 1\nβ = 22\n", 11..13);
+        let found = location("a = 1\nβ = 22\n", 11..13);
         assert_eq!((found.line, found.column, found.width), (2, 5, 2));
         assert_eq!(found.text, "β = 22");
         assert_eq!(found.to_string(), "a.toml:2:5");
@@ -87,6 +87,6 @@ mod tests {
 
     #[test]
     fn a_span_past_the_end_is_at_the_end() {
-        assert_eq!(place("a", 7..9).line, 1);
+        assert_eq!(location("a", 7..9).line, 1);
     }
 }

@@ -45,7 +45,7 @@ pub enum Stroke {
 }
 
 impl Stroke {
-    /// Value and rate at a time (s); at a kink the rate after it.
+    /// Value and rate at a time (s); where the rate jumps, that after the jump.
     #[must_use]
     pub fn at(&self, time: f64) -> [f64; 2] {
         match self {
@@ -87,7 +87,7 @@ impl Stroke {
 
     /// Times in (from, to) at which the rate jumps (s), ascending.
     #[must_use]
-    pub fn kinks(&self, from: f64, to: f64) -> Vec<f64> {
+    pub fn rate_discontinuities(&self, from: f64, to: f64) -> Vec<f64> {
         match self {
             Self::Legs { knots, period, smooth: false } => {
                 let cycles = (from / period).floor() as i64..=(to / period).floor() as i64;
@@ -164,10 +164,13 @@ mod tests {
     }
 
     #[test]
-    fn kinks_come_back_with_the_period() {
+    fn discontinuities_come_back_with_the_period() {
         let legs = Stroke::Legs { knots: vec![[0.0, 1.0], [1.0, 0.0]], period: 2.0, smooth: false };
-        assert_eq!(legs.kinks(0.5, 4.5), vec![1.0, 2.0, 3.0, 4.0]);
-        assert_eq!(legs.kinks(1.0, 2.0), Vec::<f64>::new());
-        assert_eq!(Stroke::Table(vec![[1.0, 0.0], [2.0, 1.0]]).kinks(0.0, 2.0), vec![1.0]);
+        assert_eq!(legs.rate_discontinuities(0.5, 4.5), vec![1.0, 2.0, 3.0, 4.0]);
+        assert_eq!(legs.rate_discontinuities(1.0, 2.0), Vec::<f64>::new());
+        assert_eq!(
+            Stroke::Table(vec![[1.0, 0.0], [2.0, 1.0]]).rate_discontinuities(0.0, 2.0),
+            vec![1.0]
+        );
     }
 }

@@ -3,14 +3,14 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::body::{Gait, Motion, ShapeSpec};
+use super::body::{GaitSpec, Motion, ShapeSpec};
 use super::joint::{Hinge, JointKind};
 use super::stroke::Stroke;
 
 /// `[[swimmer]]`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Swimmer {
+pub struct SwimmerSpec {
     /// Name; its bodies are called NAME-1, NAME-2, ..., copies NAME-1, NAME-2 and their bodies
     /// NAME-1-1, NAME-1-2, ....
     pub name: String,
@@ -53,7 +53,7 @@ pub enum SwimmerKind {
         shape: ShapeSpec,
         /// Surface motion.
         #[serde(default, skip_serializing_if = "Option::is_none")]
-        gait: Option<Gait>,
+        gait: Option<GaitSpec>,
     },
     /// Spheres (axisymmetric) or discs (planar) in a line along x, on arms whose lengths are given;
     /// all hang on the middle one.
@@ -64,7 +64,7 @@ pub enum SwimmerKind {
         arms: Vec<Stroke>,
         /// Gait of each, such as one that changes its radius; none if absent.
         #[serde(default, skip_serializing_if = "Vec::is_empty")]
-        gaits: Vec<Gait>,
+        gaits: Vec<GaitSpec>,
     },
     /// Discs on arms from a disc in the middle (planar).
     Star {

@@ -1,4 +1,4 @@
-//! `Node`: a case before it is typed: TOML values that know where they were written.
+//! `TomlNode`: a case before it is typed: TOML values that know where they were written.
 //!
 //! A case is put together from several texts (a parent, the file, a variant, `--set`); each value
 //! keeps the place it came from, so that every later complaint can point at it.
@@ -33,18 +33,18 @@ pub const CHOICES: [&str; 15] = [
 
 /// A value and where it is written.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Node {
+pub struct TomlNode {
     /// Where its key is written; the value itself within an array.
     pub key: Origin,
     /// Where it is written; the header of a table.
     pub origin: Origin,
     /// The value.
-    pub value: Value,
+    pub value: TomlValue,
 }
 
 /// A TOML value.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Value {
+pub enum TomlValue {
     /// Text.
     String(String),
     /// Whole number.
@@ -56,9 +56,9 @@ pub enum Value {
     /// A date, which no key of a case takes.
     Date(String),
     /// Values in order.
-    Array(Vec<Node>),
+    Array(Vec<TomlNode>),
     /// Values by key.
-    Table(BTreeMap<String, Node>),
+    Table(BTreeMap<String, TomlNode>),
 }
 
 /// Why a text or a path could not be followed.
@@ -73,7 +73,7 @@ pub struct TreeError {
 }
 
 /// Reads a TOML text.
-pub fn parse(source: &Arc<Source>) -> Result<Node, TreeError> {
+pub fn parse(source: &Arc<Source>) -> Result<TomlNode, TreeError> {
     let table = DeTable::parse(&source.text).map_err(|error| {
         let span = error.span().unwrap_or(0..0);
         TreeError {
@@ -84,11 +84,11 @@ pub fn parse(source: &Arc<Source>) -> Result<Node, TreeError> {
         }
     })?;
     let start = Origin { source: Arc::clone(source), span: 0..0 };
-    Ok(Node { key: start.clone(), origin: start, value: table_value(source, table.get_ref())? })
+    Ok(TomlNode { key: start.clone(), origin: start, value: table_value(source, table.get_ref())? })
 }
 
 /// Reads one TOML value, such as the right-hand side of `--set`.
-pub fn parse_value(source: &Arc<Source>, start: usize) -> Result<Node, String> {
+pub fn parse_value(source: &Arc<Source>, start: usize) -> Result<TomlNode, String> {
     let text = &source.text[start..];
     let value = DeValue::parse(text).map_err(|error| error.message().to_owned())?;
     // Spans within the value are not needed: the whole setting is one line.
@@ -98,7 +98,7 @@ pub fn parse_value(source: &Arc<Source>, start: usize) -> Result<Node, String> {
     Ok(node)
 }
 
-fn table_value(source: &Arc<Source>, table: &DeTable<'_>) -> Result<Value, TreeError> {
+fn table_value(source: &Arc<Source>, table: &DeTable<'_>) -> Result<TomlValue, TreeError> {
     let mut entries = BTreeMap::new();
     for (key, value) in table {
         let place = |span| Origin { source: Arc::clone(source), span };
@@ -106,30 +106,30 @@ fn table_value(source: &Arc<Source>, table: &DeTable<'_>) -> Result<Value, TreeE
         entry.key = place(key.span());
         entries.insert(key.get_ref().to_string(), entry);
     }
-    Ok(Value::Table(entries))
+    Ok(TomlValue::Table(entries))
 }
 
-fn node(source: &Arc<Source>, origin: &Origin, value: &DeValue<'_>) -> Result<Node, TreeError> {
+fn node(source: &Arc<Source>, origin: &Origin, value: &DeValue<'_>) -> Result<TomlNode, TreeError> {
     let refused = |what: &str| TreeError {
         origin: origin.clone(),
         message: format!("this number cannot be read: {what}"),
         help: "write it as 12, -0.5 or 1e-3".to_owned(),
     };
     let value = match value {
-        DeValue::String(text) => Value::String(text.to_string()),
-        DeValue::Integer(number) => Value::Integer(
+        DeValue::String(text) => TomlValue::String(text.to_string()),
+        DeValue::Integer(number) => TomlValue::Integer(
             i64::from_str_radix(number.as_str(), number.radix())
                 .map_err(|error| refused(&error.to_string()))?,
         ),
-        DeValue::Float(number) => Value::Float(
+        DeValue::Float(number) => TomlValue::Float(
             number
                 .as_str()
                 .parse()
                 .map_err(|error: std::num::ParseFloatError| refused(&error.to_string()))?,
         ),
-        DeValue::Boolean(value) => Value::Boolean(*value),
-        DeValue::Datetime(date) => Value::Date(date.to_string()),
-        DeValue::Array(items) => Value::Array(
+        DeValue::Boolean(value) => TomlValue::Boolean(*value),
+        DeValue::Datetime(date) => TomlValue::Date(date.to_string()),
+        DeValue::Array(items) => TomlValue::Array(
             items
                 .iter()
                 .map(|item| {
@@ -140,39 +140,41 @@ fn node(source: &Arc<Source>, origin: &Origin, value: &DeValue<'_>) -> Result<No
         ),
         DeValue::Table(table) => table_value(source, table)?,
     };
-    Ok(Node { key: origin.clone(), origin: origin.clone(), value })
+    Ok(TomlNode { key: origin.clone(), origin: origin.clone(), value })
 }
 
-impl Node {
+impl TomlNode {
     /// Says of this value and all within that they are written at `origin`.
     fn relocate(&mut self, origin: &Origin) {
         self.key = origin.clone();
         self.origin = origin.clone();
         match &mut self.value {
-            Value::Array(items) => items.iter_mut().for_each(|item| item.relocate(origin)),
-            Value::Table(entries) => entries.values_mut().for_each(|entry| entry.relocate(origin)),
+            TomlValue::Array(items) => items.iter_mut().for_each(|item| item.relocate(origin)),
+            TomlValue::Table(entries) => {
+                entries.values_mut().for_each(|entry| entry.relocate(origin))
+            }
             _ => {}
         }
     }
 
     /// The entries of a table.
-    pub fn table(&self) -> Option<&BTreeMap<String, Node>> {
-        if let Value::Table(entries) = &self.value { Some(entries) } else { None }
+    pub fn table(&self) -> Option<&BTreeMap<String, TomlNode>> {
+        if let TomlValue::Table(entries) = &self.value { Some(entries) } else { None }
     }
 
     /// The entries of a table, to be changed.
-    pub fn table_mut(&mut self) -> Option<&mut BTreeMap<String, Node>> {
-        if let Value::Table(entries) = &mut self.value { Some(entries) } else { None }
+    pub fn table_mut(&mut self) -> Option<&mut BTreeMap<String, TomlNode>> {
+        if let TomlValue::Table(entries) = &mut self.value { Some(entries) } else { None }
     }
 
     /// The items of an array.
-    pub fn array(&self) -> Option<&[Node]> {
-        if let Value::Array(items) = &self.value { Some(items) } else { None }
+    pub fn array(&self) -> Option<&[TomlNode]> {
+        if let TomlValue::Array(items) = &self.value { Some(items) } else { None }
     }
 
     /// The text of a string.
     pub fn text(&self) -> Option<&str> {
-        if let Value::String(text) = &self.value { Some(text) } else { None }
+        if let TomlValue::String(text) = &self.value { Some(text) } else { None }
     }
 
     /// The value at a dotted path, or the nearest table around it that is written.
@@ -180,8 +182,10 @@ impl Node {
         let mut here = self;
         for step in path.split('.').filter(|step| !step.is_empty()) {
             let next = match &here.value {
-                Value::Table(entries) => entries.get(step),
-                Value::Array(items) => step.parse().ok().and_then(|index: usize| items.get(index)),
+                TomlValue::Table(entries) => entries.get(step),
+                TomlValue::Array(items) => {
+                    step.parse().ok().and_then(|index: usize| items.get(index))
+                }
                 _ => None,
             };
             match next {
@@ -197,8 +201,8 @@ impl Node {
         let mut here = self;
         for step in path.split('.').filter(|step| !step.is_empty()) {
             here = match &mut here.value {
-                Value::Table(entries) => entries.get_mut(step)?,
-                Value::Array(items) => items.get_mut(step.parse::<usize>().ok()?)?,
+                TomlValue::Table(entries) => entries.get_mut(step)?,
+                TomlValue::Array(items) => items.get_mut(step.parse::<usize>().ok()?)?,
                 _ => return None,
             };
         }
@@ -236,8 +240,8 @@ impl Node {
                 here.value = empty();
             }
             here = match &mut here.value {
-                Value::Table(entries) => entries.entry((*step).to_owned()).or_insert(fresh),
-                Value::Array(items) => {
+                TomlValue::Table(entries) => entries.entry((*step).to_owned()).or_insert(fresh),
+                TomlValue::Array(items) => {
                     let n = items.len();
                     let item = step.parse().ok().and_then(|index: usize| items.get_mut(index));
                     item.ok_or_else(|| {
@@ -267,7 +271,7 @@ impl Node {
 
     fn merge_at(&mut self, name: &str, path: &str, child: Self) {
         match (&mut self.value, child.value) {
-            (Value::Table(ours), Value::Table(theirs)) => {
+            (TomlValue::Table(ours), TomlValue::Table(theirs)) => {
                 if is_choice(name, path) && theirs.keys().any(|key| !ours.contains_key(key)) {
                     ours.clear();
                 }
@@ -287,8 +291,8 @@ impl Node {
     }
 }
 
-fn empty() -> Value {
-    Value::Table(BTreeMap::new())
+fn empty() -> TomlValue {
+    TomlValue::Table(BTreeMap::new())
 }
 
 /// Whether the table with this key holds one of several alternatives.
@@ -302,12 +306,12 @@ fn is_choice(name: &str, path: &str) -> bool {
 mod tests {
     use super::*;
 
-    fn tree(text: &str) -> Node {
+    fn tree(text: &str) -> TomlNode {
         let source = Arc::new(Source { name: "t.toml".to_owned(), text: text.to_owned() });
         parse(&source).unwrap()
     }
 
-    fn set(root: &mut Node, path: &str, value: &str) -> Result<(), TreeError> {
+    fn set(root: &mut TomlNode, path: &str, value: &str) -> Result<(), TreeError> {
         let source = Arc::new(Source { name: "--set".to_owned(), text: value.to_owned() });
         root.set(path, parse_value(&source, 0).unwrap())
     }
@@ -318,7 +322,7 @@ mod tests {
         let place = |path: &str| {
             let (node, exact) = root.find(path);
             assert!(exact, "{path}");
-            let place = node.origin.place();
+            let place = node.origin.location();
             (place.line, place.column)
         };
         assert_eq!(place("fluid"), (1, 1));
@@ -334,18 +338,18 @@ mod tests {
         set(&mut root, "time.unsteady.step", "0.1").unwrap();
         assert!(!root.find("time.steady").1 && root.find("time.unsteady.step").1);
         set(&mut root, "boundary.left.parabolic.peak", "2").unwrap();
-        assert_eq!(root.find("boundary.left.parabolic.peak").0.value, Value::Integer(2));
+        assert_eq!(root.find("boundary.left.parabolic.peak").0.value, TomlValue::Integer(2));
         let mut parent = tree("[time.steady]\n[mesh]\nsize = 1\ngrowth = 0.1");
         parent.merge(tree("[time.unsteady]\nstep = 1\n[mesh]\nsize = 2"));
         assert!(!parent.find("time.steady").1 && parent.find("mesh.growth").1);
-        assert_eq!(parent.find("mesh.size").0.value, Value::Integer(2));
+        assert_eq!(parent.find("mesh.size").0.value, TomlValue::Integer(2));
     }
 
     #[test]
     fn an_index_past_the_end_is_refused() {
         let mut root = tree("modes = [1, 2]");
         set(&mut root, "modes.1", "3").unwrap();
-        assert_eq!(root.find("modes.1").0.value, Value::Integer(3));
+        assert_eq!(root.find("modes.1").0.value, TomlValue::Integer(3));
         let error = set(&mut root, "modes.2", "3").unwrap_err();
         assert!(error.help.contains("has 2 of them"), "{error:?}");
         assert!(set(&mut root, "modes.1.x", "3").is_err());

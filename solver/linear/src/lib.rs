@@ -2,3 +2,4 @@
 
 pub mod algebra;
 pub mod multifrontal;
+pub mod sparse;

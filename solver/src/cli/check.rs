@@ -8,8 +8,8 @@ use super::exit::{Exit, Failure};
 use super::style::{self, Ink, on_stdout, say};
 use super::{engine, read_and_check};
 use crate::case::{
-    BoundaryCondition, Cadence, Case, CaseFile, DomainSpec, Gait, Group, Joint, JointKind, Model,
-    Motion, Precision, Problem, Scheme, ShapeSpec, Stroke, TimeSettings, geometry_name,
+    BoundaryCondition, Cadence, Case, CaseFile, Diagnostic, DomainSpec, FlowModel, GaitSpec, Group,
+    Joint, JointKind, Motion, Precision, Scheme, ShapeSpec, Stroke, TimeSettings, geometry_name,
     known_quantities, number_table, significant,
 };
 use crate::coupling::memory_estimate;
@@ -59,7 +59,7 @@ fn check_one(argument: &str, settings: &[String], has_mesh: bool) -> Result<(), 
         ));
     }
     for warning in &warnings {
-        style::complain(&format!("\n{}", style::problem(warning)));
+        style::complain(&format!("\n{}", style::diagnostic(warning)));
     }
     check_variants(argument, &file, settings)?;
     say("\nno solve is made");
@@ -129,9 +129,9 @@ pub fn facts(file: &CaseFile) -> String {
 fn fluid(case: &Case) -> String {
     let fluid = &case.fluid;
     let model = match fluid.model {
-        Model::Stokes => "Stokes",
-        Model::UnsteadyStokes => "unsteady Stokes",
-        Model::NavierStokes => "Navier-Stokes",
+        FlowModel::Stokes => "Stokes",
+        FlowModel::UnsteadyStokes => "unsteady Stokes",
+        FlowModel::NavierStokes => "Navier-Stokes",
     };
     let density = if fluid.density > 0.0 {
         format!(", density {}", significant(fluid.density))
@@ -188,11 +188,11 @@ fn body_line(case: &Case, body: &crate::case::Body) -> String {
         Motion::Imposed(_) => "imposed motion",
     };
     let gait = match &body.gait {
-        Some(Gait::Squirmer(_)) => ", squirmer",
-        Some(Gait::Carangiform(_)) => ", carangiform",
-        Some(Gait::Anguilliform(_)) => ", anguilliform",
-        Some(Gait::Flagellum(_)) => ", flagellum",
-        Some(Gait::Pulsating(_)) => ", pulsating",
+        Some(GaitSpec::Squirmer(_)) => ", squirmer",
+        Some(GaitSpec::Carangiform(_)) => ", carangiform",
+        Some(GaitSpec::Anguilliform(_)) => ", anguilliform",
+        Some(GaitSpec::Flagellum(_)) => ", flagellum",
+        Some(GaitSpec::Pulsating(_)) => ", pulsating",
         None => "",
     };
     let size = body.size.or(case.mesh.surface).unwrap_or(case.mesh.size) * case.mesh.scale;
@@ -257,7 +257,7 @@ fn time(case: &Case) -> String {
 /// Linear systems a run solves: exact for steady Stokes flow, a usual number otherwise.
 fn n_systems(case: &Case) -> f64 {
     match (&case.time, case.fluid.model) {
-        (TimeSettings::Steady(_), Model::NavierStokes) => 6.0,
+        (TimeSettings::Steady(_), FlowModel::NavierStokes) => 6.0,
         (TimeSettings::Steady(_), _) => 1.0,
         (TimeSettings::Unsteady(time), _) => {
             let a_step = match time.scheme {
@@ -298,16 +298,16 @@ fn costs(case: &Case, mesh: &Mesh<2>) -> String {
     let _ = writeln!(text, "  {:<16} {cost}", "CPU time");
     let _ = write!(text, "  {:<16} {}", "output", bytes(output));
     if output > LARGE_OUTPUT {
-        let warning = Problem {
+        let warning = Diagnostic {
             severity: crate::case::Severity::Warning,
             key: "output".to_owned(),
             message: format!("the run would write about {}", bytes(output)),
             help: "write fields less often with output.fields = { time = ... }, or \
                    output.precision = \"f32\""
                 .to_owned(),
-            place: None,
+            location: None,
         };
-        style::complain(&style::problem(&warning));
+        style::complain(&style::diagnostic(&warning));
     }
     text
 }

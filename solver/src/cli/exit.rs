@@ -3,7 +3,7 @@
 use std::process::ExitCode;
 
 use super::style;
-use crate::case::{CaseError, Problem};
+use crate::case::{CaseError, Diagnostic};
 use crate::observer::RunDirectoryError;
 use crate::simulation::RunError;
 
@@ -56,9 +56,9 @@ impl Failure {
         Self { exit, message: style::error(message.as_ref()) }
     }
 
-    /// A case with problems, all of them told.
-    pub fn wrong(problems: &[Problem]) -> Self {
-        let told: Vec<String> = problems.iter().map(style::problem).collect();
+    /// A case that is wrong, with all its diagnostics.
+    pub fn wrong(diagnostics: &[Diagnostic]) -> Self {
+        let told: Vec<String> = diagnostics.iter().map(style::diagnostic).collect();
         Self { exit: Exit::BadCase, message: told.join("\n\n") }
     }
 }
@@ -66,7 +66,7 @@ impl Failure {
 impl From<CaseError> for Failure {
     fn from(error: CaseError) -> Self {
         match error {
-            CaseError::Wrong(problems) => Self::wrong(&problems),
+            CaseError::Wrong(diagnostics) => Self::wrong(&diagnostics),
             CaseError::NotFound { .. } => Self::new(Exit::NoInput, error.to_string()),
             CaseError::Unreadable { .. } => Self::new(Exit::InputOutput, error.to_string()),
         }
@@ -81,7 +81,7 @@ pub fn exit_of(error: &RunError) -> Exit {
         | RunError::Contact { .. }
         | RunError::NotFinite { .. }
         | RunError::Singular { .. } => Exit::Diverged,
-        RunError::Unsupported(_) | RunError::TooLarge { .. } => Exit::BadCase,
+        RunError::Unsupported(_) | RunError::Shape(_) | RunError::TooLarge { .. } => Exit::BadCase,
         RunError::Mesh(_) | RunError::Remesh { .. } => Exit::Mesh,
         RunError::Output(_) => Exit::InputOutput,
         RunError::Stopped { .. } => Exit::Stopped,

@@ -19,7 +19,7 @@ use std::process::ExitCode;
 use clap::{Args, CommandFactory, Parser, Subcommand};
 use clap_complete::Shell;
 
-use crate::case::{CaseFile, Problem, Severity};
+use crate::case::{CaseFile, Diagnostic, Severity};
 use exit::{Exit, Failure};
 use style::{complain, say};
 
@@ -150,9 +150,9 @@ fn dispatch(command: Command) -> Result<Exit, Failure> {
 
 /// Reads a case and refuses it if it is wrong; warnings are told and let through.
 fn read_case(argument: &str, settings: &[String]) -> Result<CaseFile, Failure> {
-    let (file, problems) = read_and_check(argument, settings)?;
-    for warning in &problems {
-        complain(&style::problem(warning));
+    let (file, warnings) = read_and_check(argument, settings)?;
+    for warning in &warnings {
+        complain(&style::diagnostic(warning));
     }
     Ok(file)
 }
@@ -161,13 +161,13 @@ fn read_case(argument: &str, settings: &[String]) -> Result<CaseFile, Failure> {
 fn read_and_check(
     argument: &str,
     settings: &[String],
-) -> Result<(CaseFile, Vec<Problem>), Failure> {
+) -> Result<(CaseFile, Vec<Diagnostic>), Failure> {
     let file = crate::case::Case::read(argument, settings)?;
-    let problems = crate::case::check(&file);
-    if problems.iter().any(|problem| problem.severity == Severity::Error) {
-        return Err(Failure::wrong(&problems));
+    let diagnostics = crate::case::check(&file);
+    if diagnostics.iter().any(|one| one.severity == Severity::Error) {
+        return Err(Failure::wrong(&diagnostics));
     }
-    Ok((file, problems))
+    Ok((file, diagnostics))
 }
 
 impl From<io::Error> for Failure {

@@ -2,7 +2,7 @@
 
 use std::io::{self, IsTerminal, Write};
 
-use crate::case::{Problem, Severity};
+use crate::case::{Diagnostic, Severity};
 
 /// A way to write text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -51,13 +51,13 @@ pub fn on_stderr(ink: Ink, text: &str) -> String {
     painted(ink, text, io::stderr().is_terminal())
 }
 
-/// A problem with its severity in colour.
-pub fn problem(problem: &Problem) -> String {
-    let (word, ink) = match problem.severity {
+/// A diagnostic with its severity in colour.
+pub fn diagnostic(diagnostic: &Diagnostic) -> String {
+    let (word, ink) = match diagnostic.severity {
         Severity::Error => ("error", Ink::Red),
         Severity::Warning => ("warning", Ink::Yellow),
     };
-    problem.to_string().replacen(word, &on_stderr(ink, word), 1)
+    diagnostic.to_string().replacen(word, &on_stderr(ink, word), 1)
 }
 
 /// `error: ...`, the first word in colour.

@@ -8,7 +8,7 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use alewife_mesh::{Mesh, Point, write_vtu_as};
+use alewife_mesh::{Mesh, Point, Simplex, write_vtu_as};
 
 use super::schedule::Schedule;
 use super::vorticity::nodal_vorticity;
@@ -18,9 +18,6 @@ use crate::simulation::{Observer, Remains, RunError, Snapshot};
 
 /// The last state of a run that ended before its time, for `--resume`.
 const STATE_FILE: &str = "state.json";
-
-/// Ends of the edges of a triangle, in the order of its mid-edge nodes 3, 4, 5.
-const EDGES: [[usize; 2]; 3] = [[0, 1], [1, 2], [2, 0]];
 
 /// The files written so far.
 #[derive(Debug)]
@@ -123,15 +120,14 @@ impl Observer<2> for FieldFiles {
     }
 }
 
-/// Pressure at all P2 nodes from that at the vertices.
+/// Pressure at all nodes from that at the vertices.
 fn nodal_pressure(mesh: &Mesh<2>, at_vertices: &[f64]) -> Vec<f64> {
     let mut pressure = vec![0.0; mesh.n_nodes()];
     pressure[..mesh.n_vertices].copy_from_slice(&at_vertices[..mesh.n_vertices]);
-    for cell in 0..mesh.n_cells() {
-        let nodes = mesh.cell(cell);
-        for (middle, [start, end]) in nodes[3..].iter().zip(EDGES) {
-            let ends = [start, end].map(|vertex| at_vertices[nodes[vertex] as usize]);
-            pressure[*middle as usize] = 0.5 * (ends[0] + ends[1]);
+    for edge in mesh.cell_ids().flat_map(|cell| mesh.cell_edges(cell)) {
+        let [start, end] = edge.ends.map(|vertex| at_vertices[vertex]);
+        for (&node, parameter) in edge.inner.iter().zip(Simplex::<2>::EDGE_PARAMETERS) {
+            pressure[node] = (1.0 - parameter) * start + parameter * end;
         }
     }
     pressure

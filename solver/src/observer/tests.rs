@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use alewife_mesh::{Boundary, BoundaryKind, Facet, Mesh, Point};
+use alewife_mesh::{Boundary, BoundaryId, BoundaryKind, CellId, Facet, Mesh, NodeId, Point};
 use nalgebra::Vector3;
 
 use super::*;
@@ -52,9 +52,9 @@ pub fn two_triangles() -> Mesh<2> {
     Mesh {
         nodes: nodes.map(Point::<2>::from).to_vec(),
         n_vertices: 4,
-        cells: vec![0, 1, 2, 4, 5, 6, 0, 2, 3, 6, 7, 8],
+        cells: [0, 1, 2, 4, 5, 6, 0, 2, 3, 6, 7, 8].map(NodeId::new).to_vec(),
         curved: vec![false, false],
-        facets: vec![Facet { cell: 0, side: 0, boundary: 0 }],
+        facets: vec![Facet { cell: CellId::new(0), side: 0, boundary: BoundaryId::new(0) }],
         boundaries: vec![Boundary { name: "bottom".to_owned(), kind: BoundaryKind::Side }],
         periodic: Vec::new(),
     }

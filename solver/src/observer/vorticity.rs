@@ -19,10 +19,9 @@ const NODES: [[f64; 2]; 6] =
 pub fn nodal_vorticity(mesh: &Mesh<2>, velocity: &[Point<2>]) -> Vec<f64> {
     let mut sum = vec![0.0; mesh.n_nodes()];
     let mut n_cells = vec![0_u32; mesh.n_nodes()];
-    for cell in 0..mesh.n_cells() {
-        let nodes = mesh.cell(cell);
-        let positions: [_; 6] = std::array::from_fn(|i| mesh.nodes[nodes[i] as usize]);
-        let velocities: [_; 6] = std::array::from_fn(|i| velocity[nodes[i] as usize]);
+    for nodes in mesh.cells() {
+        let positions: [_; 6] = std::array::from_fn(|i| mesh.nodes[nodes[i]]);
+        let velocities: [_; 6] = std::array::from_fn(|i| velocity[nodes[i]]);
         for (&node, place) in nodes.iter().zip(NODES) {
             // Velocity and position are the same kind of field: columns d/dX and d/dY of both.
             let (_, [x_x, x_y]) = map_quadratic(&positions, place);
@@ -30,8 +29,8 @@ pub fn nodal_vorticity(mesh: &Mesh<2>, velocity: &[Point<2>]) -> Vec<f64> {
             let det_jacobian = x_x.perp(&x_y);
             let dv_dx = (x_y.y * u_x.y - x_x.y * u_y.y) / det_jacobian;
             let du_dy = (x_x.x * u_y.x - x_y.x * u_x.x) / det_jacobian;
-            sum[node as usize] += dv_dx - du_dy;
-            n_cells[node as usize] += 1;
+            sum[node] += dv_dx - du_dy;
+            n_cells[node] += 1;
         }
     }
     sum.iter().zip(&n_cells).map(|(sum, &n)| sum / f64::from(n.max(1))).collect()

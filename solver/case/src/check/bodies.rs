@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use super::Findings;
 use super::boundary::check_factor;
 use super::{gait, spring};
-use crate::{Body, Gait, Geometry, Motion, ShapeSpec};
+use crate::{Body, GaitSpec, Geometry, Motion, ShapeSpec};
 
 /// Largest difference between a heading and the axis that is taken for rounding (rad).
 const HEADING_ROUNDING: f64 = 1e-3;
@@ -215,7 +215,7 @@ fn check_on_axis(findings: &mut Findings<'_>, key: &str, body: &Body) {
         zero("spring.torsion_damping", spring.torsion_damping, "the damping of the rotation");
         zero("spring.rest_angle", spring.rest_angle.unwrap_or(0.0), "the angle at rest");
     }
-    if let Some(Gait::Squirmer(squirmer)) = &body.gait {
+    if let Some(GaitSpec::Squirmer(squirmer)) = &body.gait {
         let heading = squirmer.heading;
         if heading != 0.0 && (heading.abs() - PI).abs() > HEADING_ROUNDING {
             findings.error(

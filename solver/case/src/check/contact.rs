@@ -1,7 +1,7 @@
 //! Problems of `[contact]`: numbers that make no law, and cases it has no part in.
 
 use super::Findings;
-use crate::{Contact, Convection, Geometry, Lock, Motion, TimeSettings};
+use crate::{ContactSpec, Convection, Geometry, Lock, Motion, TimeSettings};
 
 /// Range over half the least width of a body above which contact is no short-range force.
 const SHORT_RANGE: f64 = 0.5;
@@ -10,11 +10,11 @@ pub fn check(findings: &mut Findings<'_>) {
     let case = findings.case();
     let (key, range) = match case.contact {
         None => return,
-        Some(Contact::Quadratic { range, epsilon }) => {
+        Some(ContactSpec::Quadratic { range, epsilon }) => {
             findings.positive("contact.quadratic.epsilon", epsilon);
             ("contact.quadratic.range", range)
         }
-        Some(Contact::Barrier { range, stiffness }) => {
+        Some(ContactSpec::Barrier { range, stiffness }) => {
             findings.positive("contact.barrier.stiffness", stiffness);
             ("contact.barrier.range", range)
         }
@@ -80,14 +80,14 @@ fn check_yielding(findings: &mut Findings<'_>) {
 }
 
 /// A law that cannot hold a body against gravity, or only in a film that no mesh resolves.
-fn check_strength(findings: &mut Findings<'_>, contact: &Option<Contact>) {
+fn check_strength(findings: &mut Findings<'_>, contact: &Option<ContactSpec>) {
     let case = findings.case();
     // At a hundredth of the range.
     let (key, greatest) = match *contact {
-        Some(Contact::Quadratic { range, epsilon }) => {
+        Some(ContactSpec::Quadratic { range, epsilon }) => {
             ("contact.quadratic.epsilon", range * range / epsilon)
         }
-        Some(Contact::Barrier { range, stiffness }) => {
+        Some(ContactSpec::Barrier { range, stiffness }) => {
             let (gap, short) = (0.01f64, 0.99f64);
             let force = short * short / gap - 2.0 * short * gap.ln();
             ("contact.barrier.stiffness", stiffness * range * force)
@@ -117,7 +117,7 @@ fn check_strength(findings: &mut Findings<'_>, contact: &Option<Contact>) {
 
 #[cfg(test)]
 mod tests {
-    use crate::{Case, Contact, Problem, Severity, check};
+    use crate::{Case, ContactSpec, Diagnostic, Severity, check};
 
     const CASE: &str = "
 title = 'A disc in a box'
@@ -144,7 +144,7 @@ epsilon = 1e-6
 ";
 
     /// Problems of the case with these settings, and with another contact if one is given.
-    fn problems(settings: &[&str], contact: Option<Contact>) -> Vec<Problem> {
+    fn problems(settings: &[&str], contact: Option<ContactSpec>) -> Vec<Diagnostic> {
         let settings: Vec<String> = settings.iter().map(|&setting| setting.to_owned()).collect();
         let mut file = Case::parse("t.toml", CASE, &settings).unwrap();
         file.case.contact = contact.or(file.case.contact);
@@ -152,7 +152,7 @@ epsilon = 1e-6
     }
 
     /// Keys and messages of the errors of a case with this contact.
-    fn errors(contact: Contact) -> Vec<(String, String)> {
+    fn errors(contact: ContactSpec) -> Vec<(String, String)> {
         let errors =
             problems(&[], Some(contact)).into_iter().filter(|p| p.severity == Severity::Error);
         errors.map(|problem| (problem.key, problem.message)).collect()
@@ -196,16 +196,16 @@ epsilon = 1e-6
 
     #[test]
     fn numbers_that_are_not_positive_are_refused() {
-        assert_eq!(errors(Contact::Quadratic { range: 0.03, epsilon: 1e-6 }), []);
-        assert_eq!(errors(Contact::Barrier { range: 0.03, stiffness: 10.0 }), []);
+        assert_eq!(errors(ContactSpec::Quadratic { range: 0.03, epsilon: 1e-6 }), []);
+        assert_eq!(errors(ContactSpec::Barrier { range: 0.03, stiffness: 10.0 }), []);
         let refused = |contact, key: &str, value: &str| {
             let wanted = (key.to_owned(), format!("`{key}` is {value}, but must be positive"));
             assert_eq!(errors(contact), [wanted]);
         };
-        let quadratic = |range, epsilon| Contact::Quadratic { range, epsilon };
+        let quadratic = |range, epsilon| ContactSpec::Quadratic { range, epsilon };
         refused(quadratic(0.0, 1e-6), "contact.quadratic.range", "0");
         refused(quadratic(0.03, -1.0), "contact.quadratic.epsilon", "-1");
-        let barrier = |range, stiffness| Contact::Barrier { range, stiffness };
+        let barrier = |range, stiffness| ContactSpec::Barrier { range, stiffness };
         refused(barrier(-0.03, 10.0), "contact.barrier.range", "-0.03");
         refused(barrier(0.03, 0.0), "contact.barrier.stiffness", "0");
     }

@@ -2,7 +2,7 @@
 
 use super::Findings;
 use crate::numbers::{density_ratio, reynolds, significant};
-use crate::{Geometry, Model};
+use crate::{FlowModel, Geometry};
 
 /// Largest relative difference between a declared number and the derived one.
 const AGREEMENT: f64 = 1e-6;
@@ -12,9 +12,12 @@ pub fn check(findings: &mut Findings<'_>) {
     let fluid = &case.fluid;
     findings.positive("fluid.viscosity", fluid.viscosity);
     findings.not_negative("fluid.density", fluid.density);
-    if fluid.model != Model::Stokes && fluid.density == 0.0 {
-        let model =
-            if fluid.model == Model::UnsteadyStokes { "unsteady-stokes" } else { "navier-stokes" };
+    if fluid.model != FlowModel::Stokes && fluid.density == 0.0 {
+        let model = if fluid.model == FlowModel::UnsteadyStokes {
+            "unsteady-stokes"
+        } else {
+            "navier-stokes"
+        };
         findings.error(
             "fluid.density",
             format!("the model `{model}` has inertia, but the fluid has no density"),

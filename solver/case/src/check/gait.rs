@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use super::Findings;
 use super::boundary::check_factor;
 use crate::{
-    AnguilliformGait, Body, CarangiformGait, FlagellumGait, Gait, PulsatingGait, ShapeSpec,
+    AnguilliformGait, Body, CarangiformGait, FlagellumGait, GaitSpec, PulsatingGait, ShapeSpec,
     SquirmerGait, TimeSettings,
 };
 
@@ -85,21 +85,21 @@ pub fn check(findings: &mut Findings<'_>, key: &str, body: &Body) {
         );
     }
     match gait {
-        Gait::Squirmer(gait) => squirmer(findings, key, body, gait),
-        Gait::Carangiform(gait) => {
+        GaitSpec::Squirmer(gait) => squirmer(findings, key, body, gait),
+        GaitSpec::Carangiform(gait) => {
             fits(findings, key, body, matches!(body.shape, ShapeSpec::Fish(_)), "fish");
             carangiform(findings, &format!("{key}.gait.carangiform"), gait);
         }
-        Gait::Anguilliform(gait) => {
+        GaitSpec::Anguilliform(gait) => {
             fits(findings, key, body, matches!(body.shape, ShapeSpec::Fish(_)), "fish");
             anguilliform(findings, &format!("{key}.gait.anguilliform"), gait);
         }
-        Gait::Flagellum(gait) => {
+        GaitSpec::Flagellum(gait) => {
             let is_flagellate = matches!(body.shape, ShapeSpec::Flagellate(_));
             fits(findings, key, body, is_flagellate, "flagellate");
             flagellum(findings, &format!("{key}.gait.flagellum"), body, gait);
         }
-        Gait::Pulsating(gait) => {
+        GaitSpec::Pulsating(gait) => {
             let is_round = body.is_round();
             fits(findings, key, body, is_round, "disc or sphere");
             pulsating(findings, &format!("{key}.gait.pulsating"), gait);

@@ -1,4 +1,4 @@
-//! What a case means: all its problems at once, each with its place and a remedy.
+//! What a case means: all its diagnostics at once, each with its location and a remedy.
 //!
 //! Reading has made sure of keys and types. Here every number is held against what it stands for,
 //! and every name against what it names. Nothing is meshed or solved.
@@ -16,7 +16,7 @@ mod strokes;
 mod swimmers;
 mod time;
 
-use super::problem::{Problem, Severity};
+use super::diagnostic::{Diagnostic, Severity};
 use super::read::CaseFile;
 use super::{Case, DomainSpec, Geometry};
 
@@ -25,10 +25,10 @@ pub use references::known_quantities;
 /// Numbers a place or a velocity has; axisymmetric cases are computed in their half plane.
 const DIMENSIONS: usize = 2;
 
-/// All problems of a case: errors, which stop a run, and warnings.
+/// All diagnostics of a case: errors, which stop a run, and warnings.
 #[must_use]
-pub fn check(file: &CaseFile) -> Vec<Problem> {
-    let mut findings = Findings { file, problems: Vec::new() };
+pub fn check(file: &CaseFile) -> Vec<Diagnostic> {
+    let mut findings = Findings { file, diagnostics: Vec::new() };
     for path in file.not_finite() {
         findings.error(
             &path,
@@ -51,7 +51,7 @@ pub fn check(file: &CaseFile) -> Vec<Problem> {
     if findings.has_no_error() {
         strokes::check(&mut findings);
     }
-    findings.problems
+    findings.diagnostics
 }
 
 /// Geometry, domain and frame of reference.
@@ -116,10 +116,10 @@ fn general(findings: &mut Findings<'_>) {
     }
 }
 
-/// The problems found so far.
+/// The diagnostics found so far.
 struct Findings<'a> {
     file: &'a CaseFile,
-    problems: Vec<Problem>,
+    diagnostics: Vec<Diagnostic>,
 }
 
 impl<'a> Findings<'a> {
@@ -128,14 +128,14 @@ impl<'a> Findings<'a> {
     }
 
     fn has_no_error(&self) -> bool {
-        self.problems.iter().all(|problem| problem.severity == Severity::Warning)
+        self.diagnostics.iter().all(|one| one.severity == Severity::Warning)
     }
 
     fn add(&mut self, severity: Severity, key: &str, message: String, help: &str) {
         let key = &self.written(key);
-        let place = self.file.place(key);
+        let location = self.file.location(key);
         let (key, help) = (key.to_owned(), help.to_owned());
-        self.problems.push(Problem { severity, key, message, help, place });
+        self.diagnostics.push(Diagnostic { severity, key, message, help, location });
     }
 
     /// The key of what stands in the file: for one of a body made for a swimmer that of the swimmer.

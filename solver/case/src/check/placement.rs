@@ -3,7 +3,7 @@
 use alewife_mesh::{Domain, MeshError, Outline, PlacedShape, Point, check_wrapped_placement};
 
 use super::{Findings, Severity};
-use crate::Problem;
+use crate::Diagnostic;
 
 /// Distance out of the fluid, over the size of the domain or a body, that is taken for rounding.
 const ROUNDING: f64 = 1e-6;
@@ -42,13 +42,13 @@ pub fn check(findings: &mut Findings<'_>) {
             ),
             other => (other.to_string(), ""),
         };
-        let place = findings.file.place(&key);
-        findings.problems.push(Problem {
+        let location = findings.file.location(&key);
+        findings.diagnostics.push(Diagnostic {
             severity: Severity::Error,
             key,
             message,
             help: help.to_owned(),
-            place,
+            location,
         });
     }
     for (index, probe) in case.probe.iter().enumerate() {

@@ -1,7 +1,7 @@
 //! Problems of `body.spring`: numbers that make no spring, and motions it has no hold on.
 
 use super::Findings;
-use crate::{Body, Lock, Motion, Spring, TimeSettings};
+use crate::{Body, Lock, Motion, SpringSpec, TimeSettings};
 
 pub fn check(findings: &mut Findings<'_>, key: &str, body: &Body) {
     let Some(spring) = &body.spring else { return };
@@ -38,7 +38,7 @@ pub fn check(findings: &mut Findings<'_>, key: &str, body: &Body) {
 }
 
 /// Whether every number of the spring has something to act on.
-fn check_hold(findings: &mut Findings<'_>, key: &str, body: &Body, spring: &Spring) {
+fn check_hold(findings: &mut Findings<'_>, key: &str, body: &Body, spring: &SpringSpec) {
     let name = &body.name;
     let along = |axis: usize| {
         let is_given = |values: &[f64]| values.get(axis).is_some_and(|value| *value != 0.0);

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use super::Findings;
 use crate::{
-    Copies, Geometry, Hinge, JointKind, Model, Motion, Pivot, Scheme, Stroke, SwimmerKind,
+    Copies, FlowModel, Geometry, Hinge, JointKind, Motion, Pivot, Scheme, Stroke, SwimmerKind,
     TimeSettings, hang,
 };
 
@@ -404,7 +404,7 @@ fn explicit_scheme(findings: &mut Findings<'_>) {
         .iter()
         .any(|joint| matches!(&joint.kind, JointKind::Hinge(hinge) if hinge.stiffness > 0.0));
     let hinders = [
-        (case.fluid.model != Model::Stokes, "the model has inertia"),
+        (case.fluid.model != FlowModel::Stokes, "the model has inertia"),
         (case.contact.is_some(), "there is [contact]"),
         (case.body.iter().any(|body| body.spring.is_some()), "there are springs"),
         (is_stiff, "there are hinges with stiffness"),

@@ -1,7 +1,7 @@
 //! Problems of `[time]`.
 
 use super::Findings;
-use crate::{Adaptive, Model, Scheme, TimeSettings, Unsteady};
+use crate::{Adaptive, FlowModel, Scheme, TimeSettings, Unsteady};
 
 /// Distance of end / step from a whole number above which the last step is not a whole one.
 const WHOLE_STEPS: f64 = 1e-6;
@@ -10,7 +10,7 @@ pub fn check(findings: &mut Findings<'_>) {
     let case = findings.case();
     match &case.time {
         TimeSettings::Steady(steady) => {
-            if case.fluid.model == Model::UnsteadyStokes {
+            if case.fluid.model == FlowModel::UnsteadyStokes {
                 findings.error(
                     "time.steady",
                     "the model `unsteady-stokes` has no steady solution of its own".to_owned(),
@@ -32,7 +32,7 @@ pub fn check(findings: &mut Findings<'_>) {
                     "write 1 or more; 25 is usual",
                 );
             }
-            if case.fluid.model == Model::NavierStokes {
+            if case.fluid.model == FlowModel::NavierStokes {
                 steady_frame(findings);
             }
         }

@@ -83,15 +83,10 @@ impl Surfaces {
     }
 
     /// Gives a body another outline, its origin the centre of mass.
-    ///
-    /// # Errors
-    /// [`ContactError::Outline`] for a shape without outline.
-    pub fn deform(&mut self, body: usize, shape: &PlacedShape) -> Result<(), ContactError> {
-        let outline = Outline::new(shape)?;
+    pub fn deform(&mut self, body: usize, outline: Outline) {
         let surface = &mut self.bodies[body];
         (surface.reach, surface.thickness) = (outline.reach(), thickness(&outline));
         (surface.outline, surface.centroid) = (outline, Point::<2>::zeros());
-        Ok(())
     }
 
     /// Leaves the gaps of pairs of bodies that share a pivot out of account.

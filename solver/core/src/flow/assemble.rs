@@ -5,7 +5,7 @@
 
 use std::ops::Range;
 
-use alewife_mesh::{Facet, Mesh, nodes_per_cell};
+use alewife_mesh::{CellId, Facet, Mesh, Simplex};
 use pulp::{Arch, Simd, WithSimd};
 use rayon::prelude::*;
 
@@ -20,7 +20,7 @@ use crate::space::{DofLayout, Metric, Rule, Tables, interval_rule};
 const CELLS_PER_TASK: usize = 64;
 
 /// Nodes of a cell, and nodes rounded up to whole registers.
-const N: usize = nodes_per_cell(2);
+const N: usize = Simplex::<2>::N_NODES;
 const P: usize = N.next_multiple_of(4);
 /// Velocities and pressures of a cell.
 const N_FLUID: usize = LocalLayout::<2, N>::FLUID;
@@ -64,12 +64,11 @@ impl Assembly {
         // In the order of `LocalLayout`.
         let n_local = N_FLUID + if frame.is_some() { 2 } else { 0 };
         let mut raw = Vec::with_capacity(n_local * mesh.n_cells());
-        for cell in 0..mesh.n_cells() {
-            let nodes = mesh.cell(cell);
+        for nodes in mesh.cells() {
             for axis in 0..2 {
-                raw.extend(nodes.iter().map(|&node| layout.velocity(node as usize, axis) as u32));
+                raw.extend(nodes.iter().map(|&node| layout.velocity(node, axis) as u32));
             }
-            raw.extend(nodes[..3].iter().map(|&vertex| layout.pressure(vertex as usize) as u32));
+            raw.extend(nodes[..3].iter().map(|&vertex| layout.pressure(vertex) as u32));
             if let Some(body) = frame {
                 raw.extend((0..2).map(|axis| layout.rigid(body, axis) as u32));
             }
@@ -80,8 +79,8 @@ impl Assembly {
         });
         let mut open = vec![None; mesh.n_cells()];
         for facet in &mesh.facets {
-            if open_boundaries.contains(&usize::from(facet.boundary)) {
-                open[facet.cell as usize] = Some(*facet);
+            if open_boundaries.contains(&facet.boundary.index()) {
+                open[facet.cell] = Some(*facet);
             }
         }
         let tables = Tables::new(metric);
@@ -118,7 +117,7 @@ impl Assembly {
 #[must_use]
 pub fn pressure_unknowns(layout: &DofLayout<2>, constraints: &AffineConstraints) -> Vec<bool> {
     let mut is_pressure = vec![false; constraints.n_unknowns()];
-    for vertex in 0..layout.n_vertices {
+    for vertex in layout.vertices() {
         if let Some(unknown) = constraints.unknown(layout.pressure(vertex)) {
             is_pressure[unknown] = true;
         }
@@ -233,8 +232,9 @@ impl WithSimd for Matrices<'_> {
         let Self { assembly, constraints, input, cells, size, results } = self;
         let n_local = assembly.n_local();
         let mut raw = vec![0.0; n_local * n_local];
-        for (cell, result) in cells.zip(results.chunks_exact_mut(size)) {
-            let is_folded = assembly.maps.is_folded(cell);
+        for (index, result) in cells.zip(results.chunks_exact_mut(size)) {
+            let cell = CellId::new(index);
+            let is_folded = assembly.maps.is_folded(index);
             let matrix = if is_folded { &mut raw[..] } else { &mut result[..n_local * n_local] };
             let with_frame = assembly.with_frame;
             if input.mesh.curved[cell] {
@@ -261,7 +261,7 @@ impl WithSimd for Matrices<'_> {
                 );
             }
             if is_folded {
-                assembly.maps.fold(cell, constraints, &raw, result);
+                assembly.maps.fold(index, constraints, &raw, result);
             }
         }
     }
@@ -281,7 +281,7 @@ impl WithSimd for Residuals<'_> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
         let Self { assembly, input, cells, results } = self;
-        for (cell, local) in cells.zip(results.chunks_exact_mut(N_FLUID)) {
+        for (cell, local) in cells.map(CellId::new).zip(results.chunks_exact_mut(N_FLUID)) {
             if input.mesh.curved[cell] {
                 cell_residual::<S, 2, N, P, 16>(input, cell, &assembly.curved, local);
             } else {
@@ -430,14 +430,14 @@ mod tests {
         fn moved(&mut self, step: f64, in_frame: bool) -> Vec<f64> {
             let mut direction = vec![0.0; self.layout.n_raw()];
             let velocity = field(&self.mesh, 0.9);
-            for (node, change) in velocity.iter().enumerate() {
+            for (node, change) in self.layout.nodes().zip(&velocity) {
                 self.velocity[node] += change * step;
                 for axis in 0..2 {
                     direction[self.layout.velocity(node, axis)] = change[axis];
                 }
             }
-            for (vertex, pressure) in self.pressure.iter_mut().enumerate() {
-                let change = (5.0 * vertex as f64).sin();
+            for (vertex, pressure) in self.layout.vertices().zip(&mut self.pressure) {
+                let change = (5.0 * vertex.index() as f64).sin();
                 *pressure += step * change;
                 direction[self.layout.pressure(vertex)] = change;
             }
@@ -513,7 +513,7 @@ mod tests {
             setting.assembly.open.fill(None);
             let residual = setting.residual(Convection::Oseen);
             let mut power = 0.0;
-            for (node, velocity) in setting.velocity.iter().enumerate() {
+            for (node, velocity) in setting.layout.nodes().zip(&setting.velocity) {
                 for axis in 0..2 {
                     power += residual[setting.layout.velocity(node, axis)] * velocity[axis];
                 }
@@ -534,21 +534,19 @@ mod tests {
     ) -> f64 {
         let mut power = 0.0;
         let mut workspace = CellValues::default();
-        for cell in 0..setting.mesh.n_cells() {
+        for cell in setting.mesh.cell_ids() {
             let nodes = setting.mesh.cell(cell);
             workspace.for_each_point(setting.assembly.tables(), &setting.mesh, cell, |at| {
                 let mut velocity = Point::<2>::zeros();
                 let (mut history, mut crossing) = (velocity, velocity);
                 let mut gradient = SMatrix::<f64, 2, 2>::zeros();
                 for (a, &node) in nodes.iter().enumerate() {
-                    let node = node as usize;
                     velocity += fields.velocity[node] * at.phi[a];
                     history += terms.history[node] * at.phi[a];
                     crossing += terms.crossing[node] * at.phi[a];
                     gradient += fields.velocity[node] * at.grad_phi[a].transpose();
                 }
-                let pressure: f64 =
-                    (0..3).map(|v| fields.pressure[nodes[v] as usize] * at.psi[v]).sum();
+                let pressure: f64 = (0..3).map(|v| fields.pressure[nodes[v]] * at.psi[v]).sum();
                 let stretch = metric.hoop_strain(&velocity, &at.position);
                 let strain = (gradient + gradient.transpose()) / 2.0;
                 let change = velocity * terms.rate + history + gradient * crossing;

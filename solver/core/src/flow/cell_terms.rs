@@ -11,7 +11,7 @@
 //! and -psi_v d_i phi_a for the pressure, with its transpose. Axisymmetric problems, with
 //! axis x and radius y = r, add the hoop stress 2 mu u_r v_r / r^2 and div u = d_x u_x + d_r u_r + u_r / r.
 
-use alewife_mesh::{Mesh, Point};
+use alewife_mesh::{CellId, Mesh, NodeId, Point};
 use pulp::Simd;
 
 use super::points::{
@@ -63,18 +63,18 @@ pub(super) fn cell_residual<
     const Q: usize,
 >(
     input: Input<'_, D>,
-    cell: usize,
+    cell: CellId,
     table: &PointTable<D, N, P, Q>,
     residual: &mut [f64],
 ) {
     let Input { mesh, metric, terms, fields } = input;
-    let nodes: &[u32; N] = nodes_of(mesh, cell);
+    let nodes: &[NodeId; N] = nodes_of(mesh, cell);
     let corners = gather(&mesh.nodes, nodes);
     let points = CellPoints::new::<S, N, P>(table, &corners, mesh.curved[cell], metric);
     let velocity = gather(fields.velocity, nodes);
     let mut pressure = [0.0; N];
     for (value, &vertex) in pressure.iter_mut().zip(&nodes[..=D]) {
-        *value = fields.pressure[vertex as usize];
+        *value = fields.pressure[vertex];
     }
     let pressure = table.linear::<S>(&pressure);
     // gradient[i][j] = d_j u_i.
@@ -194,14 +194,14 @@ pub(super) fn cell_matrix<
     const Q: usize,
 >(
     input: Input<'_, D>,
-    cell: usize,
+    cell: CellId,
     table: &PointTable<D, N, P, Q>,
     with_frame: bool,
     matrix: &mut [f64],
 ) {
     let Input { mesh, metric, terms, fields } = input;
     let size = LocalLayout::<D, N>::FLUID + if with_frame { D } else { 0 };
-    let nodes: &[u32; N] = nodes_of(mesh, cell);
+    let nodes: &[NodeId; N] = nodes_of(mesh, cell);
     let corners = gather(&mesh.nodes, nodes);
     let points = CellPoints::new::<S, N, P>(table, &corners, mesh.curved[cell], metric);
     let gradients = points.gradients::<S, N, P>(table);

@@ -4,7 +4,7 @@
 //! when mu (grad u) n - p n = 0 instead, so the part mu (grad u)^T n is taken off again:
 //! - int_side mu d_i u_j n_j v_i ds.
 
-use alewife_mesh::{Facet, Mesh, Point, nodes_per_cell};
+use alewife_mesh::{Facet, Mesh, Point, Simplex};
 use nalgebra::SMatrix;
 
 use super::cell_terms::LocalLayout;
@@ -37,7 +37,7 @@ pub fn for_each_facet_point(
     let along = triangle_side_point(side, 1.0) - triangle_side_point(side, 0.0);
     for (point, weight) in rule.points.iter().zip(&rule.weights) {
         let xi = triangle_side_point(side, point[0]);
-        let (phi, grad_phi, map, position) = CellValues::at(mesh, facet.cell as usize, &xi);
+        let (phi, grad_phi, map, position) = CellValues::at(mesh, facet.cell, &xi);
         let tangent: Point<2> = map * along;
         // Cells run counter-clockwise, so the outward normal is to the right of the side.
         let normal_ds =
@@ -57,8 +57,8 @@ pub(super) fn add_open_side(
     residual: Option<(&mut [f64], &[Point<2>])>,
 ) {
     const D: usize = 2;
-    let local = LocalLayout::<D, { nodes_per_cell(D) }>::velocity;
-    let nodes = mesh.cell(facet.cell as usize);
+    let local = LocalLayout::<D, { Simplex::<D>::N_NODES }>::velocity;
+    let nodes = mesh.cell(facet.cell);
     let mut matrix = matrix;
     let mut residual = residual;
     for_each_facet_point(mesh, facet, rule, metric, |at| {
@@ -77,7 +77,7 @@ pub(super) fn add_open_side(
         if let Some((residual, velocity)) = residual.as_mut() {
             let gradient: SMatrix<f64, D, D> =
                 nodes.iter().zip(&at.grad_phi).fold(SMatrix::zeros(), |sum, (&node, grad)| {
-                    sum + velocity[node as usize] * grad.transpose()
+                    sum + velocity[node] * grad.transpose()
                 });
             let traction = gradient.transpose() * at.normal_ds * viscosity;
             for a in 0..nodes.len() {

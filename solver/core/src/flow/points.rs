@@ -6,7 +6,7 @@
 
 use std::f64::consts::TAU;
 
-use alewife_mesh::{Mesh, Point};
+use alewife_mesh::{CellId, Mesh, NodeId, Point};
 use pulp::Simd;
 
 use crate::space::{Metric, Rule, p1_values, p2_gradients, p2_values};
@@ -264,11 +264,11 @@ fn invert<const D: usize, const L: usize>(
 #[inline(always)]
 pub(super) fn gather<const D: usize, const N: usize>(
     values: &[Point<D>],
-    nodes: &[u32; N],
+    nodes: &[NodeId; N],
 ) -> [[f64; N]; D] {
     let mut gathered = [[0.0; N]; D];
     for (a, &node) in nodes.iter().enumerate() {
-        let value = &values[node as usize];
+        let value = &values[node];
         for axis in 0..D {
             gathered[axis][a] = value[axis];
         }
@@ -278,8 +278,11 @@ pub(super) fn gather<const D: usize, const N: usize>(
 
 /// The nodes of a cell.
 #[inline(always)]
-pub(super) fn nodes_of<const D: usize, const N: usize>(mesh: &Mesh<D>, cell: usize) -> &[u32; N] {
-    mesh.cells[cell * N..].first_chunk().expect("a cell has as many nodes as its element")
+pub(super) fn nodes_of<const D: usize, const N: usize>(
+    mesh: &Mesh<D>,
+    cell: CellId,
+) -> &[NodeId; N] {
+    mesh.cell(cell).first_chunk().expect("a cell has as many nodes as its element")
 }
 
 #[cfg(test)]

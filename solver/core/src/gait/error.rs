@@ -1,11 +1,21 @@
-//! `GaitError`: why a gait moves no body, with the numbers.
+//! `GaitError`: why a gait makes no body, with the numbers.
 
-/// A gait that cannot be computed.
+use alewife_mesh::MeshError;
+
+/// A gait that cannot be evaluated.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum GaitError {
     /// The outline at rest could not be made.
     #[error("the lengths of the shape make no body")]
     Shape,
+    /// The law of a body that pulsates gives no positive radius at some time.
+    #[error("at t = {time:.6} the radius would be {radius:.3e}: it must be positive and finite")]
+    Radius {
+        /// When (s).
+        time: f64,
+        /// The radius (m).
+        radius: f64,
+    },
     /// At some time there is no such midline.
     #[error(
         "at t = {time:.6} the midline would have to be stretched to follow the gait: make its \
@@ -17,14 +27,32 @@ pub enum GaitError {
     },
     /// The outline crosses itself.
     #[error(
-        "at t = {time:.6} the body bends so far that its outline crosses itself{what}: make \
-         amplitude, curvature or bending smaller"
+        "at t = {time:.6} the body bends so far that its outline crosses itself near \
+         ({:.4}, {:.4}) of the body: make amplitude, curvature or bending smaller",
+        .point[0], .point[1]
     )]
     Crossing {
         /// When (s).
         time: f64,
-        /// Where, or nothing.
-        what: String,
+        /// Where (m), in the frame of the body.
+        point: [f64; 2],
+    },
+    /// The outline encloses no body for another reason.
+    #[error("at t = {time:.6} the outline is not that of a body: {reason}")]
+    Outline {
+        /// When (s).
+        time: f64,
+        /// Why.
+        reason: MeshError,
+    },
+    /// No offset along the normals gives the outline the area at rest.
+    #[error(
+        "at t = {time:.6} the body bends so far that its area cannot be kept: make amplitude, \
+         curvature or bending smaller"
+    )]
+    NoOffset {
+        /// When (s).
+        time: f64,
     },
     /// The area changes by more than a small correction.
     #[error(
@@ -39,4 +67,14 @@ pub enum GaitError {
         /// Largest ratio that is allowed.
         allowed: f64,
     },
+}
+
+impl GaitError {
+    /// The failure to make an outline at a time (s).
+    pub(super) fn of_outline(time: f64, error: MeshError) -> Self {
+        match error {
+            MeshError::SelfIntersection { x, y, .. } => Self::Crossing { time, point: [x, y] },
+            reason => Self::Outline { time, reason },
+        }
+    }
 }

@@ -139,7 +139,7 @@ impl Midline {
     }
 
     /// Places along the midline (m) where it is less than smooth.
-    pub fn breaks(&self) -> Vec<f64> {
+    pub fn discontinuities(&self) -> Vec<f64> {
         match self {
             Self::Carangiform(gait) => {
                 gait.curvature.iter().map(|[place, _]| place * gait.length).collect()

@@ -1,28 +1,28 @@
 //! How a swimmer's surface moves by itself: slip along it, or an outline that deforms.
 
 mod closed_curve;
-mod deformed;
+mod deformed_outline;
 mod error;
 mod grid;
 mod midline;
 mod momentum;
 mod number;
 mod pulse;
+mod recoil;
 mod rule;
 mod sheet;
+mod slender_body;
 mod squirmer;
-mod swimmer;
 #[cfg(test)]
 mod tests;
-mod turning;
 
-pub use deformed::{Deformed, Removed, ShapeMotion};
+pub use deformed_outline::{DeformedOutline, RecoilCorrection, ShapeMotion};
 pub use error::GaitError;
 pub use midline::{Anguilliform, Carangiform, Flagellum, Midline};
 pub use pulse::{Pulse, PulseLaw};
 pub use sheet::WavingSheet;
+pub use slender_body::SlenderBody;
 pub use squirmer::Squirmer;
-pub use swimmer::Swimmer;
 
 use std::fmt;
 

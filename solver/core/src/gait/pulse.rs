@@ -2,10 +2,11 @@
 
 use std::f64::consts::TAU;
 
-use alewife_mesh::{Moments, Point, SecondMoments, Shape};
+use alewife_mesh::SecondMoments;
 use num_dual::{Dual64, DualNum, first_derivative};
 
-use super::deformed::{Deformed, Rates, Removed, ShapeMotion};
+use super::deformed_outline::{DeformedOutline, MaterialCurve, RecoilCorrection, ShapeMotion};
+use super::error::GaitError;
 
 /// A round body that grows and shrinks.
 #[derive(Debug, Clone, PartialEq)]
@@ -40,6 +41,7 @@ pub enum PulseLaw {
 }
 
 impl PulseLaw {
+    /// The ratio at a time (s), not a number for a table without knots.
     fn ratio(&self, time: Dual64) -> Dual64 {
         match self {
             Self::Sine { amplitude, period, phase } => {
@@ -53,7 +55,7 @@ impl PulseLaw {
                 let after = knots.partition_point(|knot| knot[0] <= time.re);
                 if after == 0 || after == knots.len() {
                     let end = if after == 0 { knots.first() } else { knots.last() };
-                    return Dual64::from(end.map_or(1.0, |knot| knot[1]));
+                    return Dual64::from(end.map_or(f64::NAN, |knot| knot[1]));
                 }
                 let ([t0, r0], [t1, r1]) = (knots[after - 1], knots[after]);
                 (time - t0) * ((r1 - r0) / (t1 - t0)) + r0
@@ -63,47 +65,45 @@ impl PulseLaw {
 }
 
 impl ShapeMotion for Pulse {
-    fn at(&self, time: f64) -> Deformed {
+    fn at(&self, time: f64) -> Result<DeformedOutline, GaitError> {
         let dimension = if self.is_sphere { 3.0 } else { 2.0 };
         let ratio = |time| self.law.ratio(time);
         let (radius, speed) =
             first_derivative(|time: Dual64| ratio(time).powf(1.0 / dimension) * self.radius, time);
-        let shape = if self.is_sphere { Shape::Sphere { radius } } else { Shape::Disc { radius } };
-        let fallback = Moments {
-            measure: 0.0,
-            centroid: Point::<2>::zeros(),
-            second: SecondMoments::Planar { polar: 0.0 },
-        };
-        let moments = shape.moments().unwrap_or(fallback);
+        if !(radius > 0.0 && radius.is_finite() && speed.is_finite()) {
+            return Err(GaitError::Radius { time, radius });
+        }
+        let is_sphere = self.is_sphere;
+        let curve = MaterialCurve::Round { radius, radial_speed: speed, is_sphere };
+        let moments = curve.shape().moments().expect("a disc and a sphere have moments");
         // Inertia goes with the power 2 + dimension of the radius
         let inertia = match moments.second {
             SecondMoments::Planar { polar } => polar,
             SecondMoments::Revolved { across, .. } => across,
         };
-        Deformed {
-            shape,
-            rates: Rates::Radial(speed),
+        Ok(DeformedOutline {
+            curve,
             moments,
             inertia_rate: (2.0 + dimension) * inertia * speed / radius,
-            removed: Removed { mean_normal_speed: speed.abs(), ..Removed::NOTHING },
-        }
+            recoil: RecoilCorrection { mean_normal_speed: speed.abs(), ..RecoilCorrection::NONE },
+        })
     }
 
-    fn breaks(&self, from: f64, to: f64) -> Vec<f64> {
+    fn discontinuities(&self, from: f64, to: f64) -> Vec<f64> {
         let PulseLaw::Table { knots, period } = &self.law else { return Vec::new() };
         let cycles = match period {
             Some(period) => (from / period).floor() as i64..=(to / period).ceil() as i64,
             None => 0..=0,
         };
-        let mut breaks: Vec<f64> = cycles
+        let mut times: Vec<f64> = cycles
             .flat_map(|cycle| {
                 let start = period.map_or(0.0, |period| period * cycle as f64);
                 knots.iter().map(move |knot| start + knot[0])
             })
             .filter(|time| *time > from && *time < to)
             .collect();
-        breaks.sort_by(f64::total_cmp);
-        breaks.dedup();
-        breaks
+        times.sort_by(f64::total_cmp);
+        times.dedup();
+        times
     }
 }

@@ -4,7 +4,7 @@
 //! which the matrix lives: it is factorised once, and a move costs a back-substitution. The same
 //! boundary gives the same mesh whatever the way there, so a body that returns brings its mesh back.
 
-use alewife_mesh::{Mesh, Point};
+use alewife_mesh::{BoundaryId, Mesh, NodeId, Point, Simplex};
 
 use super::hold::{HeldVertices, Hold, MotionError};
 use super::stiffness::{MotionKind, Stiffness};
@@ -27,10 +27,19 @@ pub struct MeshMotion {
     held: HeldVertices,
     stiffness: Stiffness,
     systems: Vec<System>,
-    /// Mid nodes with the ends of their edges.
-    middles: Vec<[u32; 3]>,
-    /// Mid nodes on curved boundaries that are carried, with these.
-    carried: Vec<(u32, u16)>,
+    /// Nodes inside straight edges.
+    inner: Vec<InnerNode>,
+    /// Inner nodes on curved boundaries that are carried, with these.
+    carried: Vec<(NodeId, BoundaryId)>,
+}
+
+/// A node inside a straight edge.
+#[derive(Debug, Clone, Copy)]
+struct InnerNode {
+    node: NodeId,
+    ends: [NodeId; 2],
+    /// Its place on the edge: 0 at the first end, 1 at the second.
+    parameter: f64,
 }
 
 impl MeshMotion {
@@ -51,13 +60,12 @@ impl MeshMotion {
         let mut systems = Vec::new();
         for axes in groups {
             let constraints = held.constraints(&axes[..stiffness.n_components.min(axes.len())]);
-            let (pattern, values) = stiffness.reduce::<2>(&constraints);
-            let cholesky = Cholesky::factorise(&pattern, &values)?;
+            let cholesky = Cholesky::factorise(&stiffness.reduce::<2>(&constraints))?;
             systems.push(System { axes, constraints, cholesky });
         }
-        let (middles, carried) = mid_nodes(mesh, holds);
+        let (inner, carried) = inner_nodes(mesh, holds);
         let reference = mesh.nodes.clone();
-        Ok(Self { reference, held, stiffness, systems, middles, carried })
+        Ok(Self { reference, held, stiffness, systems, inner, carried })
     }
 
     /// Displacements (m) of all nodes from the reference configuration.
@@ -79,11 +87,11 @@ impl MeshMotion {
             self.solve(system, &boundary, &mut moved)?;
         }
         moved.resize(self.reference.len(), Point::<2>::zeros());
-        for &[middle, from, to] in &self.middles {
-            moved[middle as usize] = (moved[from as usize] + moved[to as usize]) * 0.5;
+        for &InnerNode { node, ends: [from, to], parameter } in &self.inner {
+            moved[node] = moved[from] * (1.0 - parameter) + moved[to] * parameter;
         }
         for &(node, side) in &self.carried {
-            moved[node as usize] = given(usize::from(side), &self.reference[node as usize]);
+            moved[node] = given(side.index(), &self.reference[node]);
         }
         Ok(moved)
     }
@@ -148,27 +156,25 @@ impl MeshMotion {
     }
 }
 
-/// Mid nodes with the ends of their edges, and those carried by a curved boundary.
-fn mid_nodes(mesh: &Mesh<2>, holds: &[Hold]) -> (Vec<[u32; 3]>, Vec<(u32, u16)>) {
+/// Inner nodes with their edges, and those carried by a curved boundary.
+fn inner_nodes(mesh: &Mesh<2>, holds: &[Hold]) -> (Vec<InnerNode>, Vec<(NodeId, BoundaryId)>) {
     let mut carried = Vec::new();
     let mut is_done = vec![false; mesh.n_nodes()];
     for facet in &mesh.facets {
-        let is_carried = holds[usize::from(facet.boundary)] == Hold::Given;
-        if is_carried && mesh.curved[facet.cell as usize] {
-            let middle = mesh.facet_nodes(facet)[2];
-            carried.push((middle, facet.boundary));
-            is_done[middle as usize] = true;
-        }
-    }
-    let mut middles = Vec::new();
-    for cell in 0..mesh.n_cells() {
-        let nodes = mesh.cell(cell);
-        for side in 0..3 {
-            let middle = nodes[3 + side];
-            if !std::mem::replace(&mut is_done[middle as usize], true) {
-                middles.push([middle, nodes[side], nodes[(side + 1) % 3]]);
+        if holds[facet.boundary] == Hold::Given && mesh.curved[facet.cell] {
+            for node in mesh.facet_inner_nodes(facet) {
+                carried.push((node, facet.boundary));
+                is_done[node] = true;
             }
         }
     }
-    (middles, carried)
+    let mut inner = Vec::new();
+    for edge in mesh.cell_ids().flat_map(|cell| mesh.cell_edges(cell)) {
+        for (&node, &parameter) in edge.inner.iter().zip(Simplex::<2>::EDGE_PARAMETERS) {
+            if !std::mem::replace(&mut is_done[node], true) {
+                inner.push(InnerNode { node, ends: edge.ends, parameter });
+            }
+        }
+    }
+    (inner, carried)
 }

@@ -1,9 +1,9 @@
 //! What holds the boundary of a moving mesh: bodies carry it, walls fix it or let it slide.
 
-use alewife_mesh::{BoundaryKind, Mesh, Point};
+use alewife_mesh::{BoundaryId, BoundaryKind, Mesh, NodeId, PeriodicPair, Point};
 use thiserror::Error;
 
-use crate::algebra::{AffineConstraints, ConstraintBuilder, NotPositiveDefinite};
+use crate::algebra::{AffineConstraints, CholeskyError, ConstraintBuilder};
 
 /// Nodes of a straight side differ by no more than this, relative to the size of the mesh.
 const STRAIGHT: f64 = 1e-12;
@@ -46,7 +46,7 @@ pub enum MotionError {
     },
     /// The matrix of the motion has no inverse, or memory ran out.
     #[error("the motion of the mesh: {0}")]
-    Singular(#[from] NotPositiveDefinite),
+    Singular(#[from] CholeskyError),
 }
 
 /// The holds of a mesh whose bodies move: bodies are given, the axis slides, periodic sides are
@@ -66,16 +66,16 @@ pub fn holds(mesh: &Mesh<2>, slides: bool) -> Vec<Hold> {
     (0..mesh.boundaries.len()).map(hold).collect()
 }
 
-/// Whether the mid node of a facet of each boundary is in a periodic pair.
+/// Whether an inner node of a facet of each boundary is in a periodic pair.
 fn periodic_boundaries(mesh: &Mesh<2>) -> Vec<bool> {
     let mut is_paired = vec![false; mesh.n_nodes()];
-    for &(copy, original) in &mesh.periodic {
-        is_paired[copy as usize] = true;
-        is_paired[original as usize] = true;
+    for pair in &mesh.periodic {
+        is_paired[pair.copy] = true;
+        is_paired[pair.original] = true;
     }
     let mut is_periodic = vec![false; mesh.boundaries.len()];
     for facet in &mesh.facets {
-        is_periodic[usize::from(facet.boundary)] |= is_paired[mesh.facet_nodes(facet)[2] as usize];
+        is_periodic[facet.boundary] |= mesh.facet_inner_nodes(facet).any(|node| is_paired[node]);
     }
     is_periodic
 }
@@ -90,9 +90,9 @@ fn is_straight(mesh: &Mesh<2>, boundary: usize, axis: usize) -> bool {
     let mut places = mesh
         .facets
         .iter()
-        .filter(|facet| usize::from(facet.boundary) == boundary)
+        .filter(|facet| facet.boundary.index() == boundary)
         .flat_map(|facet| mesh.facet_nodes(facet))
-        .map(|node| mesh.nodes[node as usize][axis]);
+        .map(|node| mesh.nodes[node][axis]);
     match places.next() {
         Some(first) => places.all(|place| (place - first).abs() <= STRAIGHT * size),
         None => false,
@@ -103,11 +103,11 @@ fn is_straight(mesh: &Mesh<2>, boundary: usize, axis: usize) -> bool {
 #[derive(Debug)]
 pub(super) struct HeldVertices {
     /// Vertices that are carried, each with the boundary that carries it, sorted.
-    pub given: Vec<(u32, u16)>,
+    pub given: Vec<(NodeId, BoundaryId)>,
     /// Whether x and y of each vertex are given or fixed.
     is_held: Vec<[bool; 2]>,
-    /// Periodic pairs of vertices (copy, original).
-    periodic: Vec<(u32, u32)>,
+    /// Periodic pairs of vertices.
+    periodic: Vec<PeriodicPair>,
 }
 
 impl HeldVertices {
@@ -122,7 +122,7 @@ impl HeldVertices {
         }
         for (boundary, hold) in holds.iter().enumerate() {
             let Hold::Sliding { normal_axis } = hold else { continue };
-            let exists = mesh.facets.iter().any(|f| usize::from(f.boundary) == boundary);
+            let exists = mesh.facets.iter().any(|f| f.boundary.index() == boundary);
             if exists && !(*normal_axis < 2 && is_straight(mesh, boundary, *normal_axis)) {
                 let boundary = mesh.boundaries[boundary].name.clone();
                 return Err(MotionError::NotStraight { boundary });
@@ -131,10 +131,9 @@ impl HeldVertices {
         let mut given = Vec::new();
         let mut is_held = vec![[false; 2]; mesh.n_vertices];
         for facet in &mesh.facets {
-            let [from, to, _] = mesh.facet_nodes(facet);
-            for vertex in [from, to] {
-                let held = &mut is_held[vertex as usize];
-                match holds[usize::from(facet.boundary)] {
+            for vertex in mesh.facet_vertices(facet) {
+                let held = &mut is_held[vertex];
+                match holds[facet.boundary] {
                     Hold::Given => {
                         given.push((vertex, facet.boundary));
                         *held = [true; 2];
@@ -147,12 +146,10 @@ impl HeldVertices {
         }
         given.sort_unstable();
         given.dedup_by_key(|(vertex, _)| *vertex);
-        let n_vertices = mesh.n_vertices as u32;
-        let periodic: Vec<(u32, u32)> =
-            mesh.periodic.iter().copied().filter(|(copy, _)| *copy < n_vertices).collect();
+        let is_vertex = |pair: &PeriodicPair| pair.copy.index() < mesh.n_vertices;
+        let periodic: Vec<_> = mesh.periodic.iter().copied().filter(is_vertex).collect();
         // A corner held on one side of the domain is held on the other
-        for &(copy, original) in periodic.iter().chain(&periodic) {
-            let (copy, original) = (copy as usize, original as usize);
+        for &PeriodicPair { copy, original } in periodic.iter().chain(&periodic) {
             for axis in 0..2 {
                 let held = is_held[copy][axis] || is_held[original][axis];
                 is_held[copy][axis] = held;
@@ -182,8 +179,9 @@ impl HeldVertices {
                     none_is_held = false;
                 }
             }
-            for &(copy, original) in &self.periodic {
-                let (copy, original) = (copy as usize * n + place, original as usize * n + place);
+            for pair in &self.periodic {
+                let [copy, original] =
+                    [pair.copy, pair.original].map(|vertex| vertex.index() * n + place);
                 if !builder.is_constrained(copy) {
                     builder.constrain(copy, vec![(original, 1.0)], 0.0);
                 }
@@ -208,8 +206,7 @@ impl HeldVertices {
     ) -> Vec<Point<2>> {
         let mut moved = vec![Point::<2>::zeros(); self.is_held.len()];
         for &(vertex, boundary) in &self.given {
-            let vertex = vertex as usize;
-            moved[vertex] = given(usize::from(boundary), &places[vertex]);
+            moved[vertex] = given(boundary.index(), &places[vertex]);
         }
         moved
     }

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use alewife_mesh::{Mesh, Point, Surroundings};
+use alewife_mesh::{CellId, Facet, Mesh, Point, Surroundings};
 
 /// A surface must have lost this part of its layers before a new mesh is worth its price: gaps that
 /// were meshed with few layers on purpose do not ask for a mesh at every step.
@@ -38,8 +38,8 @@ pub struct Fresh {
 pub enum Reason {
     /// A cell is inverted or folded, or about to be.
     Quality {
-        /// Index of the cell.
-        cell: usize,
+        /// The cell.
+        cell: CellId,
         /// Its centre (m).
         place: Point<2>,
         /// Its quality, see [`Mesh::cell_quality`]; 0 or less when inverted or folded.
@@ -82,8 +82,10 @@ impl Fresh {
     /// Measures a new mesh among the surfaces it was made for.
     #[must_use]
     pub fn new(mesh: &Mesh<2>, surroundings: &Surroundings, limits: Limits) -> Self {
-        let quality = (0..mesh.n_cells()).map(|cell| mesh.cell_quality(cell)).collect();
-        let layers = (0..mesh.facets.len())
+        let quality = mesh.cell_ids().map(|cell| mesh.cell_quality(cell)).collect();
+        let layers = mesh
+            .facets
+            .iter()
             .map(|facet| {
                 let crowding = crowding(mesh, surroundings, facet, limits.layers / LOST);
                 crowding.map_or(f64::INFINITY, |found| found.layers)
@@ -114,28 +116,27 @@ pub fn needs_remesh(mesh: &Mesh<2>, fresh: &Fresh, surroundings: &Surroundings) 
 }
 
 fn worst_quality(mesh: &Mesh<2>, fresh: &Fresh) -> Option<Reason> {
-    let all = fresh.quality.iter().enumerate().map(|(cell, &when_new)| {
+    let all = mesh.cell_ids().zip(&fresh.quality).map(|(cell, &when_new)| {
         let quality = mesh.cell_quality(cell);
         (cell, quality, when_new)
     });
     let (cell, quality, when_new) =
         all.min_by(|one, other| (one.1 / one.2).total_cmp(&(other.1 / other.2)))?;
-    let [a, b, c, ..] = mesh.cell_nodes(cell);
     (quality < fresh.limits.quality * when_new).then(|| Reason::Quality {
         cell,
-        place: (a + b + c) / 3.0,
+        place: mesh.cell_center(cell),
         quality,
         when_new,
     })
 }
 
 fn narrowest_gap(mesh: &Mesh<2>, fresh: &Fresh, surroundings: &Surroundings) -> Option<Reason> {
-    let narrow = fresh.layers.iter().enumerate().filter_map(|(facet, when_new)| {
+    let narrow = mesh.facets.iter().zip(&fresh.layers).filter_map(|(facet, when_new)| {
         let limit = fresh.limits.layers.min(LOST * when_new);
         crowding(mesh, surroundings, facet, limit).map(|found| (facet, found))
     });
     let (facet, found) = narrow.min_by(|a, b| a.1.layers.total_cmp(&b.1.layers))?;
-    let near = usize::from(mesh.facets[facet].boundary);
+    let near = facet.boundary.index();
     Some(Reason::Gap {
         between: [near, found.facing].map(|boundary| mesh.boundaries[boundary].name.clone()),
         place: found.place,
@@ -156,15 +157,15 @@ struct Crowding {
 fn crowding(
     mesh: &Mesh<2>,
     surroundings: &Surroundings,
-    facet: usize,
+    facet: &Facet,
     limit: f64,
 ) -> Option<Crowding> {
-    let facet = &mesh.facets[facet];
-    let places = mesh.facet_nodes(facet).map(|node| mesh.nodes[node as usize]);
-    let length = (places[1] - places[0]).norm();
-    let boundary = usize::from(facet.boundary);
-    let kind = mesh.boundaries[boundary].kind;
-    let found = places.into_iter().filter_map(|place| {
+    let [start, end] = mesh.facet_vertices(facet).map(|vertex| mesh.nodes[vertex]);
+    let length = (end - start).norm();
+    let boundary = facet.boundary.index();
+    let kind = mesh.boundaries[facet.boundary].kind;
+    let found = mesh.facet_nodes(facet).filter_map(|node| {
+        let place = mesh.nodes[node];
         let (facing, gap) = surroundings.facing(boundary, kind, place, limit * length)?;
         Some(Crowding { facing, place, gap, layers: gap / length })
     });

@@ -1,10 +1,10 @@
 //! The matrix of mesh motion on linear elements, with small cells made stiff.
 
-use alewife_mesh::Mesh;
+use alewife_mesh::{CellId, Mesh, NodeId};
 use nalgebra::SVector;
 
 use super::surface_distance::surface_distances;
-use crate::algebra::{AffineConstraints, CellMaps, ConstraintBuilder, Pattern};
+use crate::algebra::{AffineConstraints, CellMaps, ConstraintBuilder, SparseMatrix};
 use crate::space::simplex_gradients;
 
 /// The equation the displacement of the mesh solves; by default the one that lets a body go
@@ -86,9 +86,8 @@ pub(super) struct Stiffness {
     raw: Vec<u32>,
     /// Matrix of each cell, row by row.
     cells: Vec<f64>,
-    /// Pattern and values of the sum of all cells.
-    pattern: Pattern,
-    values: Vec<f64>,
+    /// The sum of all cells.
+    matrix: SparseMatrix,
 }
 
 impl Stiffness {
@@ -96,24 +95,22 @@ impl Stiffness {
     pub fn new<const D: usize>(
         mesh: &Mesh<D>,
         kind: MotionKind,
-        carrying: impl Iterator<Item = u32>,
+        carrying: impl Iterator<Item = NodeId>,
     ) -> Self {
         let (n_components, stiffening) = match kind {
             MotionKind::Harmonic(stiffening) => (1, stiffening),
             MotionKind::Elastic { stiffening, .. } => (D, stiffening),
         };
-        let geometry: Vec<_> =
-            (0..mesh.n_cells()).map(|cell| simplex_gradients(mesh, cell)).collect();
+        let geometry: Vec<_> = mesh.cell_ids().map(|cell| simplex_gradients(mesh, cell)).collect();
         let measures: Vec<f64> = geometry.iter().map(|(measure, _)| *measure).collect();
         let factors = stiffening.factors(&measures, || surface_distances(mesh, carrying));
         let n_local = (D + 1) * n_components;
         let mut raw = Vec::with_capacity(n_local * mesh.n_cells());
         let mut cells = vec![0.0; n_local * n_local * mesh.n_cells()];
         for (cell, (measure, gradients)) in geometry.iter().enumerate() {
-            for &vertex in &mesh.cell(cell)[..=D] {
-                raw.extend(
-                    (0..n_components).map(|axis| vertex * n_components as u32 + axis as u32),
-                );
+            for &vertex in mesh.cell_vertices(CellId::new(cell)) {
+                let first = vertex.index() * n_components;
+                raw.extend((first..first + n_components).map(|unknown| unknown as u32));
             }
             let matrix = &mut cells[cell * n_local * n_local..(cell + 1) * n_local * n_local];
             let weight = measure * factors[cell];
@@ -126,48 +123,47 @@ impl Stiffness {
             }
         }
         let free = ConstraintBuilder::new(mesh.n_vertices * n_components).build();
-        let mut stiffness = Self {
-            n_components,
-            raw,
-            cells,
-            pattern: Pattern { columns: vec![0], rows: Vec::new() },
-            values: Vec::new(),
-        };
-        (stiffness.pattern, stiffness.values) = stiffness.reduced(&free, n_local);
-        stiffness
+        let matrix = sum_of_cells(&raw, &cells, &free, n_local);
+        Self { n_components, raw, cells, matrix }
     }
 
     /// P^T K P.
-    pub fn reduce<const D: usize>(&self, constraints: &AffineConstraints) -> (Pattern, Vec<f64>) {
-        self.reduced(constraints, (D + 1) * self.n_components)
-    }
-
-    fn reduced(&self, constraints: &AffineConstraints, n_local: usize) -> (Pattern, Vec<f64>) {
-        let (pattern, maps) = CellMaps::new(n_local, self.raw.clone(), constraints, |_, _| true);
-        let mut values = vec![0.0; pattern.rows.len()];
-        let mut folded = vec![0.0; maps.largest_matrix()];
-        // The matrices are symmetric: rows are columns.
-        for (cell, matrix) in self.cells.chunks_exact(n_local * n_local).enumerate() {
-            if maps.is_folded(cell) {
-                maps.fold(cell, constraints, matrix, &mut folded);
-                maps.scatter(cell, &folded, &mut values);
-            } else {
-                maps.scatter(cell, matrix, &mut values);
-            }
-        }
-        (pattern, values)
+    pub fn reduce<const D: usize>(&self, constraints: &AffineConstraints) -> SparseMatrix {
+        sum_of_cells(&self.raw, &self.cells, constraints, (D + 1) * self.n_components)
     }
 
     /// -P^T K g for raw values g, most of which are zero.
     pub fn load(&self, constraints: &AffineConstraints, given: &[f64]) -> Vec<f64> {
         let mut load = vec![0.0; given.len()];
         for (column, &value) in given.iter().enumerate().filter(|(_, value)| **value != 0.0) {
-            for entry in self.pattern.columns[column]..self.pattern.columns[column + 1] {
-                load[self.pattern.rows[entry]] -= self.values[entry] * value;
+            for entry in self.matrix.pattern().entries(column) {
+                load[self.matrix.pattern().rows[entry]] -= self.matrix.values()[entry] * value;
             }
         }
         constraints.restrict(&load)
     }
+}
+
+/// P^T K P, K the sum of the matrices of all cells, by the raw unknowns of each.
+fn sum_of_cells(
+    raw: &[u32],
+    cells: &[f64],
+    constraints: &AffineConstraints,
+    n_local: usize,
+) -> SparseMatrix {
+    let (pattern, maps) = CellMaps::new(n_local, raw.to_vec(), constraints, |_, _| true);
+    let mut values = vec![0.0; pattern.n_entries()];
+    let mut folded = vec![0.0; maps.largest_matrix()];
+    // The matrices are symmetric: rows are columns.
+    for (cell, matrix) in cells.chunks_exact(n_local * n_local).enumerate() {
+        if maps.is_folded(cell) {
+            maps.fold(cell, constraints, matrix, &mut folded);
+            maps.scatter(cell, &folded, &mut values);
+        } else {
+            maps.scatter(cell, matrix, &mut values);
+        }
+    }
+    SparseMatrix::new(pattern, values)
 }
 
 fn harmonic_cell<const D: usize>(gradients: &[SVector<f64, D>], weight: f64, matrix: &mut [f64]) {

@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-use alewife_mesh::{Mesh, Point};
+use alewife_mesh::{Mesh, NodeId, Point};
 
 /// Distance (m) from the centre of each cell to the nearest of some vertices; infinite without any.
 ///
@@ -11,22 +11,22 @@ use alewife_mesh::{Mesh, Point};
 /// in common. The time is about in proportion to the mesh.
 pub(super) fn surface_distances<const D: usize>(
     mesh: &Mesh<D>,
-    surface: impl Iterator<Item = u32>,
+    surface: impl Iterator<Item = NodeId>,
 ) -> Vec<f64> {
     let neighbours = Neighbours::new(mesh);
-    let mut nearest: Vec<Option<u32>> = vec![None; mesh.n_vertices];
+    let mut nearest: Vec<Option<NodeId>> = vec![None; mesh.n_vertices];
     let mut is_surface = vec![false; mesh.n_vertices];
     let mut waiting = VecDeque::new();
     for vertex in surface {
-        nearest[vertex as usize] = Some(vertex);
-        is_surface[vertex as usize] = true;
+        nearest[vertex] = Some(vertex);
+        is_surface[vertex] = true;
         waiting.push_back(vertex);
     }
-    let gap = |place: &Point<D>, source: u32| (place - mesh.nodes[source as usize]).norm();
-    let walk = |place: &Point<D>, mut source: u32| {
+    let gap = |place: &Point<D>, source: NodeId| (place - mesh.nodes[source]).norm();
+    let walk = |place: &Point<D>, mut source: NodeId| {
         let mut least = gap(place, source);
         loop {
-            let along = neighbours.of(source).iter().filter(|next| is_surface[**next as usize]);
+            let along = neighbours.of(source).iter().filter(|next| is_surface[**next]);
             let better = along.map(|&next| (gap(place, next), next)).filter(|next| next.0 < least);
             match better.min_by(|one, other| one.0.total_cmp(&other.0)) {
                 Some(next) => (least, source) = next,
@@ -35,23 +35,21 @@ pub(super) fn surface_distances<const D: usize>(
         }
     };
     while let Some(vertex) = waiting.pop_front() {
-        let Some(source) = nearest[vertex as usize] else { continue };
+        let Some(source) = nearest[vertex] else { continue };
         for &next in neighbours.of(vertex) {
-            let place = &mesh.nodes[next as usize];
-            let known = nearest[next as usize].map_or(f64::INFINITY, |known| gap(place, known));
+            let place = &mesh.nodes[next];
+            let known = nearest[next].map_or(f64::INFINITY, |known| gap(place, known));
             let (found, source) = walk(place, source);
             if found < known {
-                nearest[next as usize] = Some(source);
+                nearest[next] = Some(source);
                 waiting.push_back(next);
             }
         }
     }
-    (0..mesh.n_cells())
+    mesh.cell_ids()
         .map(|cell| {
-            let corners = &mesh.cell(cell)[..=D];
-            let sum: Point<D> = corners.iter().map(|&corner| mesh.nodes[corner as usize]).sum();
-            let center = sum / (D + 1) as f64;
-            let sources = corners.iter().filter_map(|&corner| nearest[corner as usize]);
+            let center = mesh.cell_center(cell);
+            let sources = mesh.cell_vertices(cell).iter().filter_map(|&corner| nearest[corner]);
             sources.map(|source| walk(&center, source).0).fold(f64::INFINITY, f64::min)
         })
         .collect()
@@ -60,35 +58,34 @@ pub(super) fn surface_distances<const D: usize>(
 /// The vertices that share a cell with each vertex; some are listed more than once.
 struct Neighbours {
     offsets: Vec<usize>,
-    vertices: Vec<u32>,
+    vertices: Vec<NodeId>,
 }
 
 impl Neighbours {
     fn new<const D: usize>(mesh: &Mesh<D>) -> Self {
-        let corners = || (0..mesh.n_cells()).map(|cell| &mesh.cell(cell)[..=D]);
+        let corners = || mesh.cell_ids().map(|cell| mesh.cell_vertices(cell));
         let mut offsets = vec![0; mesh.n_vertices + 1];
         for &vertex in corners().flatten() {
-            offsets[vertex as usize + 1] += D;
+            offsets[vertex.index() + 1] += D;
         }
         for vertex in 0..mesh.n_vertices {
             offsets[vertex + 1] += offsets[vertex];
         }
         let mut fill = offsets.clone();
-        let mut vertices = vec![0; offsets[mesh.n_vertices]];
+        let mut vertices = vec![NodeId::default(); offsets[mesh.n_vertices]];
         for cell in corners() {
             for &vertex in cell {
                 for &other in cell.iter().filter(|other| **other != vertex) {
-                    vertices[fill[vertex as usize]] = other;
-                    fill[vertex as usize] += 1;
+                    vertices[fill[vertex]] = other;
+                    fill[vertex] += 1;
                 }
             }
         }
         Self { offsets, vertices }
     }
 
-    fn of(&self, vertex: u32) -> &[u32] {
-        let vertex = vertex as usize;
-        &self.vertices[self.offsets[vertex]..self.offsets[vertex + 1]]
+    fn of(&self, vertex: NodeId) -> &[NodeId] {
+        &self.vertices[self.offsets[vertex]..self.offsets[vertex.index() + 1]]
     }
 }
 
@@ -110,17 +107,16 @@ mod tests {
         };
         let bodies = [body("a", 1.2), body("b", 2.5)];
         let mesh = generate(&domain, &bodies, &Sizing::graded(0.1, 0.2, 0.4)).unwrap();
-        let surface: Vec<u32> = mesh
+        let surface: Vec<NodeId> = mesh
             .facets
             .iter()
-            .filter(|facet| facet.boundary >= 4)
-            .map(|facet| mesh.facet_nodes(facet)[0])
+            .filter(|facet| facet.boundary.index() >= 4)
+            .map(|facet| mesh.facet_vertices(facet)[0])
             .collect();
         let found = surface_distances(&mesh, surface.iter().copied());
-        for (cell, found) in found.iter().enumerate() {
-            let [a, b, c, ..] = mesh.cell_nodes(cell);
-            let center = (a + b + c) / 3.0;
-            let gaps = surface.iter().map(|v| (mesh.nodes[*v as usize] - center).norm());
+        for (cell, found) in mesh.cell_ids().zip(&found) {
+            let center = mesh.cell_center(cell);
+            let gaps = surface.iter().map(|v| (mesh.nodes[*v] - center).norm());
             let nearest = gaps.fold(f64::INFINITY, f64::min);
             assert!((found - nearest).abs() < 1e-14, "cell {cell}: {found} {nearest}");
         }

@@ -1,6 +1,6 @@
 //! Fields of one mesh evaluated at the nodes of another that covers the same region.
 
-use alewife_mesh::{Locator, Mesh, Point, shape_functions};
+use alewife_mesh::{CellId, Locator, Mesh, NodeId, Point, shape_functions};
 use rayon::prelude::*;
 
 use crate::space::{CellValues, Tables};
@@ -26,7 +26,7 @@ pub enum Landing {
 /// Where a node of the new mesh takes its values.
 #[derive(Debug, Clone, Copy)]
 struct Source {
-    cell: u32,
+    cell: CellId,
     at: [f64; 2],
     landing: Landing,
     /// Distance outside the old mesh (m).
@@ -34,7 +34,8 @@ struct Source {
 }
 
 /// What a node has before it is found.
-const NOWHERE: Source = Source { cell: 0, at: [0.0; 2], landing: Landing::Clamped, distance: 0.0 };
+const NOWHERE: Source =
+    Source { cell: CellId::new(0), at: [0.0; 2], landing: Landing::Clamped, distance: 0.0 };
 
 /// Takes fields from one mesh to another.
 #[derive(Debug, Clone)]
@@ -56,7 +57,7 @@ pub struct TransferReport {
     /// Largest distance of a node outside the old mesh (m).
     pub farthest: f64,
     /// Which node that is; none when all are inside.
-    pub farthest_node: Option<usize>,
+    pub farthest_node: Option<NodeId>,
 }
 
 impl<'a> Transfer<'a> {
@@ -79,7 +80,7 @@ impl<'a> Transfer<'a> {
     pub fn with_points(mut self, tables: &Tables<2>, periods: &[Point<2>]) -> Option<Self> {
         let mut points = Vec::new();
         let mut workspace = CellValues::default();
-        for cell in 0..self.new.n_cells() {
+        for cell in self.new.cell_ids() {
             workspace.for_each_point(tables, self.new, cell, |at| points.push(at.position));
         }
         self.points = find(self.old, &points, periods)?;
@@ -100,16 +101,16 @@ impl<'a> Transfer<'a> {
         let mut missed = vec![Point::<2>::zeros(); new.len()];
         let mut workspace = CellValues::default();
         let mut sources = self.points.iter();
-        for cell in 0..mesh.n_cells() {
+        for cell in mesh.cell_ids() {
             let nodes = mesh.cell(cell);
             workspace.for_each_point(tables, mesh, cell, |at| {
                 let Some(source) = sources.next() else { return };
                 let mut off = self.at(source, |node| old[node]);
                 for (&node, phi) in nodes.iter().zip(at.phi) {
-                    off -= new[node as usize] * *phi;
+                    off -= new[node] * *phi;
                 }
                 for (&node, phi) in nodes.iter().zip(at.phi) {
-                    missed[node as usize] += off * (phi * at.dx);
+                    missed[node] += off * (phi * at.dx);
                 }
             });
         }
@@ -129,8 +130,7 @@ impl<'a> Transfer<'a> {
             .iter()
             .map(|source| {
                 let [x, y] = source.at;
-                let [a, b, c] = [0, 1, 2]
-                    .map(|corner| field[self.old.cell(source.cell as usize)[corner] as usize]);
+                let [a, b, c] = [0, 1, 2].map(|corner| field[self.old.cell(source.cell)[corner]]);
                 (1.0 - x - y) * a + x * b + y * c
             })
             .collect()
@@ -151,17 +151,17 @@ impl<'a> Transfer<'a> {
             extrapolated: count(Landing::Extrapolated),
             clamped: count(Landing::Clamped),
             farthest: farthest.map_or(0.0, |(_, source)| source.distance),
-            farthest_node: farthest.map(|(node, _)| node),
+            farthest_node: farthest.map(|(node, _)| NodeId::new(node)),
         }
     }
 
-    fn at(&self, source: &Source, field: impl Fn(usize) -> Point<2>) -> Point<2> {
+    fn at(&self, source: &Source, field: impl Fn(NodeId) -> Point<2>) -> Point<2> {
         let weights = shape_functions(source.at);
-        let nodes = self.old.cell(source.cell as usize);
+        let nodes = self.old.cell(source.cell);
         nodes
             .iter()
             .zip(weights)
-            .fold(Point::<2>::zeros(), |sum, (&node, weight)| sum + field(node as usize) * weight)
+            .fold(Point::<2>::zeros(), |sum, (&node, weight)| sum + field(node) * weight)
     }
 }
 
@@ -190,8 +190,7 @@ fn find(old: &Mesh<2>, places: &[Point<2>], periods: &[Point<2>]) -> Option<Vec<
 }
 
 /// Keeps reference coordinates within the cell, or near it where they are extrapolated.
-fn settle(cell: usize, at: [f64; 2], landing: Landing, distance: f64) -> Source {
-    let cell = cell as u32;
+fn settle(cell: CellId, at: [f64; 2], landing: Landing, distance: f64) -> Source {
     let barycentric = [1.0 - at[0] - at[1], at[0], at[1]];
     let lowest = barycentric.into_iter().fold(f64::INFINITY, f64::min);
     if lowest >= EXTRAPOLATION {
@@ -241,10 +240,10 @@ mod tests {
 
     #[test]
     fn coordinates_far_outside_are_clamped_near_the_cell() {
-        let near = settle(0, [-0.05, 0.5], Landing::Extrapolated, 0.1);
+        let near = settle(CellId::new(0), [-0.05, 0.5], Landing::Extrapolated, 0.1);
         assert_eq!((near.at, near.landing), ([-0.05, 0.5], Landing::Extrapolated));
         for at in [[-3.0, 0.5], [5.0, 5.0], [-2.0, -2.0], [0.2, -0.2]] {
-            let far = settle(0, at, Landing::Extrapolated, 0.1);
+            let far = settle(CellId::new(0), at, Landing::Extrapolated, 0.1);
             assert_eq!(far.landing, Landing::Clamped);
             for l in [1.0 - far.at[0] - far.at[1], far.at[0], far.at[1]] {
                 assert!((EXTRAPOLATION - 1e-14..=1.2 + 1e-14).contains(&l), "{at:?}: {l}");

@@ -1,6 +1,6 @@
 //! The quantities of a run: loads and motions of bodies, probes, integrals of the flow.
 
-use alewife_mesh::{Locator, Mesh, Point};
+use alewife_mesh::{CellId, Locator, Mesh, Point};
 use nalgebra::SMatrix;
 
 use super::snapshot::BodyReport;
@@ -8,14 +8,14 @@ use super::state::{State, Swim};
 use crate::body::{Pose, Twist, Wrench};
 use crate::case::{Case, Geometry, Probe, TimeSettings, known_quantities};
 use crate::coupling::{
-    BodyLoads, BodyStates, Effort, FluidSystem, Group, JointReport, Problem, Solution, group_load,
-    joint_reports, mean_motion, surface_load,
+    BodyLoads, BodyShapes, BodyStates, Effort, FluidSystem, Group, JointReport, Problem,
+    ShapeError, Solution, group_load, joint_reports, mean_motion, surface_load,
 };
 use crate::space::{CellValues, p1_values, p2_values};
 
 /// One value of a probe's point: where it is in the mesh, and with which sign it counts.
 struct ProbePoint {
-    cell: usize,
+    cell: CellId,
     xi: Point<2>,
     sign: f64,
 }
@@ -137,6 +137,9 @@ impl Measure {
     }
 
     /// Reports of all bodies and the values of all quantities.
+    ///
+    /// # Errors
+    /// When a gait fails.
     pub(super) fn measure(
         &mut self,
         system: &FluidSystem,
@@ -144,7 +147,7 @@ impl Measure {
         state: &State,
         loads: &[BodyLoads],
         moving: Option<Moving>,
-    ) -> (Vec<BodyReport>, Vec<f64>) {
+    ) -> Result<(Vec<BodyReport>, Vec<f64>), ShapeError> {
         let Solution { velocity, pressure, twists } = &state.now;
         let (poses, in_mesh) = (state.poses(), state.poses_in_mesh());
         let mut reports = Vec::new();
@@ -180,7 +183,7 @@ impl Measure {
             }
             reports.push(report);
         }
-        let joints = joints(problem, state, loads);
+        let joints = joints(problem, state, loads)?;
         values.extend(
             joints
                 .iter()
@@ -198,11 +201,11 @@ impl Measure {
                 };
                 let nodes = state.mesh.cell(point.cell);
                 for (&node, phi) in nodes.iter().zip(p2_values(&point.xi)) {
-                    sum[0] += point.sign * phi * velocity[node as usize][0];
-                    sum[1] += point.sign * phi * velocity[node as usize][1];
+                    sum[0] += point.sign * phi * velocity[node][0];
+                    sum[1] += point.sign * phi * velocity[node][1];
                 }
                 for (&node, psi) in nodes.iter().zip(p1_values(&point.xi)) {
-                    sum[2] += point.sign * psi * pressure[node as usize];
+                    sum[2] += point.sign * psi * pressure[node];
                 }
             }
             values.extend(sum);
@@ -218,24 +221,31 @@ impl Measure {
             let gap = state.contact.least_gap.map_or(f64::INFINITY, |least| least.gap);
             values.extend([gap, state.mesh.n_cells() as f64, remeshes as f64]);
         }
-        (reports, values)
+        Ok((reports, values))
     }
 }
 
 /// The joints of all bodies.
-fn joints(problem: &Problem, state: &State, loads: &[BodyLoads]) -> Vec<JointReport> {
+fn joints(
+    problem: &Problem,
+    state: &State,
+    loads: &[BodyLoads],
+) -> Result<Vec<JointReport>, ShapeError> {
+    if !problem.has_links() {
+        return Ok(Vec::new());
+    }
     let in_plane = |twists: &[Twist]| twists.iter().map(Twist::in_plane).collect::<Vec<_>>();
     let contact = &state.contact.wrenches;
     let loads =
         loads.iter().zip(contact).map(|(fluid, contact)| (fluid.load + *contact).in_plane());
     let now = BodyStates {
-        time: state.time,
+        shapes: &BodyShapes::at(&problem.bodies, state.time)?,
         places: &state.places,
         velocities: &in_plane(&state.now.twists),
         accelerations: &in_plane(&state.accelerations),
         loads: &loads.collect::<Vec<_>>(),
     };
-    joint_reports(problem, &now)
+    Ok(joint_reports(problem, &now))
 }
 
 /// Values of a group in the order of [`known_quantities`].
@@ -298,13 +308,13 @@ fn body_values(report: &BodyReport, angle: f64, acceleration: &Twist) -> [f64; 1
 fn integrate(system: &FluidSystem, problem: &Problem, state: &State) -> Integrals {
     let mut sums = Integrals::default();
     let mut workspace = CellValues::default();
-    for cell in 0..state.mesh.n_cells() {
+    for cell in state.mesh.cell_ids() {
         let nodes = state.mesh.cell(cell);
         workspace.for_each_point(system.tables(), &state.mesh, cell, |at| {
             let mut velocity = Point::<2>::zeros();
             let mut gradient = SMatrix::<f64, 2, 2>::zeros();
             for (a, &node) in nodes.iter().enumerate() {
-                let nodal = &state.now.velocity[node as usize];
+                let nodal = &state.now.velocity[node];
                 velocity += nodal * at.phi[a];
                 gradient += nodal * at.grad_phi[a].transpose();
             }

@@ -3,16 +3,8 @@
 //! With barycentric coordinates l_0 = 1 - sum xi, l_i = xi_i: P1 is l_i; P2 is l_i (2 l_i - 1) at
 //! the vertices and 4 l_i l_j at the mid node of edge (i, j), edges in VTK's order.
 
+use alewife_mesh::Simplex;
 use nalgebra::SVector;
-
-/// Edges of the triangle in the order of its mid nodes.
-const TRIANGLE_EDGES: [(usize, usize); 3] = [(0, 1), (1, 2), (2, 0)];
-/// Edges of the tetrahedron in the order of its mid nodes.
-const TETRAHEDRON_EDGES: [(usize, usize); 6] = [(0, 1), (1, 2), (0, 2), (0, 3), (1, 3), (2, 3)];
-
-fn edges<const D: usize>() -> &'static [(usize, usize)] {
-    if D == 2 { &TRIANGLE_EDGES } else { &TETRAHEDRON_EDGES }
-}
 
 fn barycentric<const D: usize>(xi: &SVector<f64, D>, vertex: usize) -> f64 {
     if vertex == 0 { 1.0 - xi.sum() } else { xi[vertex - 1] }
@@ -47,7 +39,8 @@ pub fn p2_values<const D: usize>(xi: &SVector<f64, D>) -> Vec<f64> {
         let l = barycentric(xi, i);
         l * (2.0 * l - 1.0)
     });
-    let at_edges = edges::<D>().iter().map(|&(i, j)| 4.0 * barycentric(xi, i) * barycentric(xi, j));
+    let at_edges =
+        Simplex::<D>::EDGES.iter().map(|&[i, j]| 4.0 * barycentric(xi, i) * barycentric(xi, j));
     at_vertices.chain(at_edges).collect()
 }
 
@@ -56,7 +49,7 @@ pub fn p2_values<const D: usize>(xi: &SVector<f64, D>) -> Vec<f64> {
 pub fn p2_gradients<const D: usize>(xi: &SVector<f64, D>) -> Vec<SVector<f64, D>> {
     let at_vertices =
         (0..=D).map(|i| barycentric_gradient::<D>(i) * (4.0 * barycentric(xi, i) - 1.0));
-    let at_edges = edges::<D>().iter().map(|&(i, j)| {
+    let at_edges = Simplex::<D>::EDGES.iter().map(|&[i, j]| {
         (barycentric_gradient::<D>(i) * barycentric(xi, j)
             + barycentric_gradient::<D>(j) * barycentric(xi, i))
             * 4.0
@@ -81,7 +74,7 @@ mod tests {
     fn check_lagrange<const D: usize>() {
         let mut nodes: Vec<SVector<f64, D>> =
             (0..=D).map(|i| SVector::from_fn(|axis, _| f64::from(axis + 1 == i))).collect();
-        for &(i, j) in edges::<D>() {
+        for &[i, j] in Simplex::<D>::EDGES {
             nodes.push((nodes[i] + nodes[j]) / 2.0);
         }
         for (i, node) in nodes.iter().enumerate() {

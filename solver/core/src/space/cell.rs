@@ -4,7 +4,7 @@
 //! axisymmetric problems dx carries the ring's length 2 pi r, so that integrals are those of the whole body
 //! of revolution.
 
-use alewife_mesh::{Mesh, Point};
+use alewife_mesh::{CellId, Mesh, Point};
 use nalgebra::{SMatrix, SVector};
 
 use super::basis::{p1_gradients, p1_values, p2_gradients, p2_values};
@@ -117,13 +117,13 @@ impl<const D: usize> CellValues<D> {
         &mut self,
         tables: &Tables<D>,
         mesh: &Mesh<D>,
-        cell: usize,
+        cell: CellId,
         mut visit: impl FnMut(&PointValues<'_, D>),
     ) {
         let curved = mesh.curved[cell];
         let table = if curved { &tables.curved } else { &tables.affine };
         self.corners.clear();
-        self.corners.extend(mesh.cell(cell).iter().map(|&node| mesh.nodes[node as usize]));
+        self.corners.extend(mesh.cell(cell).iter().map(|&node| mesh.nodes[node]));
         let affine = (!curved).then(|| invert(&jacobian(&self.corners[..=D], &p1_gradients())));
         for q in 0..table.rule.points.len() {
             let (determinant, inverse_transposed) =
@@ -149,11 +149,10 @@ impl<const D: usize> CellValues<D> {
     #[must_use]
     pub fn at(
         mesh: &Mesh<D>,
-        cell: usize,
+        cell: CellId,
         xi: &SVector<f64, D>,
     ) -> (Vec<f64>, Vec<SVector<f64, D>>, SMatrix<f64, D, D>, Point<D>) {
-        let corners: Vec<_> =
-            mesh.cell(cell).iter().map(|&node| mesh.nodes[node as usize]).collect();
+        let corners: Vec<_> = mesh.cell(cell).iter().map(|&node| mesh.nodes[node]).collect();
         let (phi, reference) = (p2_values(xi), p2_gradients(xi));
         let map = jacobian(&corners, &reference);
         let (_, inverse_transposed) = invert(&map);
@@ -167,10 +166,9 @@ impl<const D: usize> CellValues<D> {
 #[must_use]
 pub fn simplex_gradients<const D: usize>(
     mesh: &Mesh<D>,
-    cell: usize,
+    cell: CellId,
 ) -> (f64, Vec<SVector<f64, D>>) {
-    let corners: Vec<_> =
-        mesh.cell(cell)[..=D].iter().map(|&node| mesh.nodes[node as usize]).collect();
+    let corners: Vec<_> = mesh.cell_vertices(cell).iter().map(|&node| mesh.nodes[node]).collect();
     let reference = p1_gradients();
     let (determinant, inverse_transposed) = invert(&jacobian(&corners, &reference));
     let factorial: usize = (1..=D).product();

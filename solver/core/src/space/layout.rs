@@ -1,6 +1,8 @@
 //! Numbering of the raw unknowns: velocity by node, pressure by vertex, rigid motion by body.
 
-use alewife_mesh::Mesh;
+use std::ops::Range;
+
+use alewife_mesh::{Mesh, NodeId};
 
 /// Where each raw unknown sits in a vector: D velocities a P2 node, one pressure a vertex, then
 /// D (D + 1) / 2 rigid velocities a body (U_x, U_y, omega in 2D).
@@ -26,14 +28,30 @@ impl<const D: usize> DofLayout<D> {
 
     /// Velocity component `axis` at a node.
     #[must_use]
-    pub fn velocity(&self, node: usize, axis: usize) -> usize {
-        node * D + axis
+    pub fn velocity(&self, node: NodeId, axis: usize) -> usize {
+        node.index() * D + axis
     }
 
     /// Pressure at a vertex.
     #[must_use]
-    pub fn pressure(&self, vertex: usize) -> usize {
-        self.n_nodes * D + vertex
+    pub fn pressure(&self, vertex: NodeId) -> usize {
+        self.n_nodes * D + vertex.index()
+    }
+
+    /// All pressures.
+    #[must_use]
+    pub fn pressures(&self) -> Range<usize> {
+        self.n_nodes * D..self.n_fluid()
+    }
+
+    /// All nodes, in order.
+    pub fn nodes(&self) -> impl ExactSizeIterator<Item = NodeId> + Clone + use<D> {
+        (0..self.n_nodes).map(NodeId::new)
+    }
+
+    /// All vertices, in order.
+    pub fn vertices(&self) -> impl ExactSizeIterator<Item = NodeId> + Clone + use<D> {
+        (0..self.n_vertices).map(NodeId::new)
     }
 
     /// Rigid velocity `mode` of a body: translations first, then rotations.

@@ -1,7 +1,7 @@
-//! Sparse Cholesky factorisation of symmetric positive definite matrices, made once, used often.
+//! Sparse Cholesky factorisation of symmetric positive definite matrices, factorised once, solved often.
 
 use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::linalg::cholesky::llt::factor::LltRegularization;
+use faer::linalg::cholesky::llt::factor::{LltError, LltRegularization};
 use faer::mat::MatMut;
 use faer::sparse::linalg::cholesky::{
     CholeskySymbolicParams, LltRef, SymbolicCholesky, SymmetricOrdering,
@@ -12,12 +12,21 @@ use faer::{Conj, Par, Side};
 
 use thiserror::Error;
 
-use super::Pattern;
+use crate::sparse::SparseMatrix;
 
-/// Why a matrix has no Cholesky factors.
-#[derive(Debug, Clone, PartialEq, Error)]
-#[error("{0}")]
-pub struct NotPositiveDefinite(String);
+/// Why there are no Cholesky factors, or no solution with them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+pub enum CholeskyError {
+    /// A pivot is zero, negative or not a number.
+    #[error("the matrix is not positive definite: elimination fails at its pivot {pivot}")]
+    NotPositiveDefinite {
+        /// Index in the order of elimination.
+        pivot: usize,
+    },
+    /// Memory ran out.
+    #[error("memory ran out for the Cholesky factors of a matrix")]
+    OutOfMemory,
+}
 
 /// The same bits on any number of threads: kernels run on one.
 const PARALLELISM: Par = Par::Seq;
@@ -39,8 +48,8 @@ impl Cholesky {
     ///
     /// # Errors
     /// When the matrix is not positive definite, or memory runs out.
-    pub fn factorise(pattern: &Pattern, values: &[f64]) -> Result<Self, NotPositiveDefinite> {
-        let n = pattern.n();
+    pub fn factorise(matrix: &SparseMatrix) -> Result<Self, CholeskyError> {
+        let (n, pattern) = (matrix.n(), matrix.pattern());
         let view =
             SymbolicSparseColMatRef::new_checked(n, n, &pattern.columns, None, &pattern.rows);
         let symbolic = factorize_symbolic_cholesky(
@@ -49,23 +58,22 @@ impl Cholesky {
             SymmetricOrdering::Amd,
             CholeskySymbolicParams::default(),
         )
-        .map_err(|error| NotPositiveDefinite(format!("the analysis failed: {error:?}")))?;
+        .map_err(|_| CholeskyError::OutOfMemory)?;
         let mut factor = vec![0.0; symbolic.len_val()];
         let need = symbolic.factorize_numeric_llt_scratch::<f64>(PARALLELISM, Default::default());
-        let mut workspace = MemBuffer::try_new(need)
-            .map_err(|_| NotPositiveDefinite("memory ran out in the factorisation".to_owned()))?;
+        let mut workspace = MemBuffer::try_new(need).map_err(|_| CholeskyError::OutOfMemory)?;
         symbolic
             .factorize_numeric_llt::<f64>(
                 &mut factor,
-                SparseColMatRef::new(view, values),
+                SparseColMatRef::new(view, matrix.values()),
                 Side::Lower,
                 LltRegularization::default(),
                 PARALLELISM,
                 MemStack::new(&mut workspace),
                 Default::default(),
             )
-            .map_err(|error| {
-                NotPositiveDefinite(format!("the matrix is not positive definite: {error:?}"))
+            .map_err(|LltError::NonPositivePivot { index }| CholeskyError::NotPositiveDefinite {
+                pivot: index,
             })?;
         Ok(Self { symbolic, factor })
     }
@@ -82,22 +90,21 @@ impl Cholesky {
         self.factor.len()
     }
 
-    /// Overwrites right-hand sides, one after the other in `sides`, with their solutions.
+    /// Overwrites right-hand sides, one after the other in `rhs`, with their solutions.
     ///
     /// # Errors
     /// When memory runs out.
-    pub fn solve(&self, sides: &mut [f64]) -> Result<(), NotPositiveDefinite> {
+    pub fn solve(&self, rhs: &mut [f64]) -> Result<(), CholeskyError> {
         let n = self.n();
         if n == 0 {
             return Ok(());
         }
-        let count = sides.len() / n;
+        let count = rhs.len() / n;
         let need = self.symbolic.solve_in_place_scratch::<f64>(count, PARALLELISM);
-        let mut workspace = MemBuffer::try_new(need)
-            .map_err(|_| NotPositiveDefinite("memory ran out in a solve".to_owned()))?;
+        let mut workspace = MemBuffer::try_new(need).map_err(|_| CholeskyError::OutOfMemory)?;
         LltRef::new(&self.symbolic, &self.factor).solve_in_place_with_conj(
             Conj::No,
-            MatMut::from_column_major_slice_mut(&mut sides[..n * count], n, count),
+            MatMut::from_column_major_slice_mut(&mut rhs[..n * count], n, count),
             PARALLELISM,
             MemStack::new(&mut workspace),
         );
@@ -108,9 +115,10 @@ impl Cholesky {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::sparse::Pattern;
 
     /// The matrix of -u'' on n points with `shift` on its diagonal.
-    fn chain(n: usize, shift: f64) -> (Pattern, Vec<f64>) {
+    fn chain(n: usize, shift: f64) -> SparseMatrix {
         let mut pattern = Pattern { columns: vec![0], rows: Vec::new() };
         let mut values = Vec::new();
         for column in 0..n {
@@ -120,17 +128,17 @@ mod tests {
             }
             pattern.columns.push(pattern.rows.len());
         }
-        (pattern, values)
+        SparseMatrix::new(pattern, values)
     }
 
     #[test]
     fn several_right_hand_sides_are_solved_at_once() {
-        let (pattern, values) = chain(40, 0.0);
-        let cholesky = Cholesky::factorise(&pattern, &values).unwrap();
+        let matrix = chain(40, 0.0);
+        let cholesky = Cholesky::factorise(&matrix).unwrap();
         let exact: Vec<f64> = (0..80).map(|i| f64::from(i).sin()).collect();
         let mut sides = vec![0.0; 80];
         for (x, b) in exact.chunks(40).zip(sides.chunks_mut(40)) {
-            pattern.multiply_add(&values, x, b);
+            matrix.multiply_add(x, b);
         }
         cholesky.solve(&mut sides).unwrap();
         for (found, wanted) in sides.iter().zip(&exact) {
@@ -140,7 +148,7 @@ mod tests {
 
     #[test]
     fn a_matrix_that_is_not_positive_definite_is_refused() {
-        let (pattern, values) = chain(20, -1.0);
-        assert!(Cholesky::factorise(&pattern, &values).is_err());
+        let error = Cholesky::factorise(&chain(20, -1.0)).err();
+        assert!(matches!(error, Some(CholeskyError::NotPositiveDefinite { .. })), "{error:?}");
     }
 }

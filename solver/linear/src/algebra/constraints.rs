@@ -5,7 +5,12 @@
 //! this form, so a system A x = b is solved as P^T A P y = P^T (b - A g) without forming P: the
 //! idea of AffineConstraints in deal.II (@bangerth2007).
 
-/// A constraint under construction: entries name raw unknowns.
+use crate::sparse::index::to_u32;
+
+/// Constraints that refer to constrained unknowns are followed through so many others at most.
+const MAX_CHAIN: usize = 8;
+
+/// A constraint under construction: weights of raw unknowns, and a value.
 #[derive(Debug, Clone, Default, PartialEq)]
 struct Line {
     entries: Vec<(usize, f64)>,
@@ -31,7 +36,7 @@ impl ConstraintBuilder {
         self.lines[raw].is_some()
     }
 
-    /// Sets x\[raw\] = sum of weight x\[other\] + value; the last call for an unknown counts.
+    /// Sets x\[raw\] = sum of weight x\[other\] + value in place of an earlier constraint, if any.
     pub fn constrain(&mut self, raw: usize, entries: Vec<(usize, f64)>, value: f64) {
         self.lines[raw] = Some(Line { entries, value });
     }
@@ -39,35 +44,34 @@ impl ConstraintBuilder {
     /// Numbers the free unknowns in the order of the raw ones and expands all constraints.
     ///
     /// # Panics
-    /// When constraints refer to each other in a circle, which is a mistake of ours.
+    /// When constraints refer to each other in a cycle: a mistake in the program.
     #[must_use]
     pub fn build(self) -> AffineConstraints {
-        let mut unknown_of = vec![None; self.lines.len()];
         let mut n_unknowns = 0;
-        for (raw, line) in self.lines.iter().enumerate() {
-            if line.is_none() {
-                unknown_of[raw] = Some(n_unknowns);
-                n_unknowns += 1;
-            }
-        }
+        let number = |line: &Option<Line>| {
+            let is_free = line.is_none();
+            n_unknowns += usize::from(is_free);
+            is_free.then(|| to_u32(n_unknowns - 1))
+        };
+        let unknown_of: Vec<Option<u32>> = self.lines.iter().map(number).collect();
         let mut constraints = AffineConstraints {
             offsets: vec![0],
             entries: Vec::with_capacity(self.lines.len()),
             values: Vec::with_capacity(self.lines.len()),
             unknown_of: unknown_of.clone(),
-            n_unknowns: n_unknowns as usize,
+            n_unknowns,
         };
         for raw in 0..self.lines.len() {
             let first = constraints.entries.len();
             let value = self.expand(raw, 1.0, &unknown_of, &mut constraints.entries, 0);
             merge(&mut constraints.entries, first);
             constraints.values.push(value);
-            constraints.offsets.push(constraints.entries.len() as u32);
+            constraints.offsets.push(to_u32(constraints.entries.len()));
         }
         constraints
     }
 
-    /// Appends the free unknowns behind `weight` x\[raw\] to `entries` and returns its value.
+    /// Appends `weight` x\[raw\] in terms of free unknowns to `entries` and returns the value added.
     fn expand(
         &self,
         raw: usize,
@@ -76,7 +80,7 @@ impl ConstraintBuilder {
         entries: &mut Vec<(u32, f64)>,
         depth: usize,
     ) -> f64 {
-        assert!(depth < 8, "constraints of unknown {raw} refer to each other in a circle");
+        assert!(depth < MAX_CHAIN, "constraints of unknown {raw} refer to each other in a cycle");
         match &self.lines[raw] {
             None => {
                 let unknown = unknown_of[raw].expect("an unconstrained raw unknown is free");
@@ -97,7 +101,7 @@ impl ConstraintBuilder {
     }
 }
 
-/// Adds up the weights of an unknown that is met more than once from an entry on.
+/// Adds up the weights of unknowns that stand more than once among the entries from `first` on.
 fn merge(entries: &mut Vec<(u32, f64)>, first: usize) {
     let mut end = first;
     for next in first..entries.len() {
@@ -116,8 +120,11 @@ fn merge(entries: &mut Vec<(u32, f64)>, first: usize) {
 /// x = P y + g: raw unknowns x from free unknowns y.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AffineConstraints {
+    /// Start of each row of P in `entries`, and the end of the last.
     offsets: Vec<u32>,
+    /// Free unknown and weight of each entry of P.
     entries: Vec<(u32, f64)>,
+    /// g.
     values: Vec<f64>,
     unknown_of: Vec<Option<u32>>,
     n_unknowns: usize,
@@ -148,7 +155,7 @@ impl AffineConstraints {
         self.values[raw]
     }
 
-    /// The free unknown a raw one is, if it is free itself.
+    /// The index of a raw unknown among the free ones, if it is one of them.
     #[must_use]
     pub fn unknown(&self, raw: usize) -> Option<usize> {
         self.unknown_of[raw].map(|unknown| unknown as usize)
@@ -178,7 +185,7 @@ impl AffineConstraints {
         restricted
     }
 
-    /// The free unknowns among raw values.
+    /// The values of the free unknowns among those of all raw ones.
     #[must_use]
     pub fn pick(&self, raw_values: &[f64]) -> Vec<f64> {
         raw_values
@@ -194,7 +201,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn an_unknown_met_twice_is_one_entry() {
+    fn weights_of_the_same_unknown_add_up() {
         let mut builder = ConstraintBuilder::new(3);
         builder.constrain(0, vec![(1, 2.0), (2, 1.0)], 0.0);
         builder.constrain(1, vec![(2, 3.0)], 0.0);
@@ -203,7 +210,7 @@ mod tests {
     }
 
     #[test]
-    fn chains_are_resolved_and_values_carried_along() {
+    fn chains_of_constraints_are_resolved_with_their_values() {
         let mut builder = ConstraintBuilder::new(4);
         builder.constrain(0, vec![(1, 2.0)], 1.0);
         builder.constrain(1, vec![(2, 3.0), (3, 1.0)], 0.5);
@@ -213,5 +220,14 @@ mod tests {
         assert_eq!(constraints.expand(&[1.0]), vec![16.0, 7.5, 1.0, 4.0]);
         assert_eq!(constraints.restrict(&[1.0, 1.0, 1.0, 1.0]), vec![10.0]);
         assert_eq!(constraints.pick(&[9.0, 8.0, 7.0, 6.0]), vec![7.0]);
+    }
+
+    #[test]
+    #[should_panic(expected = "refer to each other in a cycle")]
+    fn a_cycle_of_constraints_is_refused() {
+        let mut builder = ConstraintBuilder::new(2);
+        builder.constrain(0, vec![(1, 1.0)], 0.0);
+        builder.constrain(1, vec![(0, 1.0)], 0.0);
+        let _ = builder.build();
     }
 }

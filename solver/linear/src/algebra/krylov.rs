@@ -1,90 +1,143 @@
-//! FGMRES: a linear system solved with the factors of one that is nearly the same (@saad1993).
+//! FGMRES: flexible GMRES, preconditioned from the right (@saad1993).
 
-/// What came of an attempt.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Outcome {
-    /// Multiplications with the matrix and solves with the preconditioner.
+/// When FGMRES ends.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Stopping {
+    /// Euclidean norm of the residual to be reached.
+    pub tolerance: f64,
+    /// Ends as soon as more iterations than that are needed at the rate of convergence so far.
+    pub max_iterations: usize,
+}
+
+/// What FGMRES has found.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct KrylovSolution {
+    /// The approximate solution.
+    pub x: Vec<f64>,
+    /// Products with the matrix, and applications of the preconditioner.
     pub iterations: usize,
-    /// Norm of the residual, by the recurrence.
+    /// Euclidean norm of the residual, by the recurrence.
     pub residual: f64,
 }
 
-/// Solves A x = b from x = 0, preconditioned from the right, until the Euclidean norm of the
-/// residual is at most `goal`; gives up when at the rate so far it would take more than
-/// `max_iterations`.
+/// Solves A x = b from x = 0.
 ///
-/// `multiply` gives A z in its second argument, `precondition` overwrites its argument with an
-/// approximation of A^-1 times it. Sums run in the order of the unknowns.
+/// `multiply` overwrites its second argument with A times the first, `precondition` its argument with
+/// an approximation of A^-1 times it. Sums run in the order of the unknowns.
 pub(super) fn fgmres(
     mut multiply: impl FnMut(&[f64], &mut [f64]),
     mut precondition: impl FnMut(&mut [f64]),
     b: &[f64],
-    goal: f64,
-    max_iterations: usize,
-) -> (Vec<f64>, Outcome) {
+    stopping: Stopping,
+) -> KrylovSolution {
     let n = b.len();
-    let mut residual = norm(b);
-    let mut basis = vec![b.iter().map(|value| value / residual).collect::<Vec<f64>>()];
+    let initial = norm(b);
+    let mut basis = vec![b.iter().map(|value| value / initial).collect::<Vec<f64>>()];
     let mut directions: Vec<Vec<f64>> = Vec::new();
-    // The Hessenberg matrix by columns, made triangular by rotations as it grows.
-    let mut columns: Vec<Vec<f64>> = Vec::new();
-    let mut rotations: Vec<(f64, f64)> = Vec::new();
-    let mut rhs = vec![residual];
-    let digits = (residual / goal).ln();
-    let is_hopeful = |made: usize, residual: f64| {
-        let gained = digits - (residual / goal).ln();
-        made == 0 || made as f64 * digits <= max_iterations as f64 * gained
-    };
-    while residual > goal && is_hopeful(columns.len(), residual) {
-        let j = columns.len();
-        let mut direction = basis[j].clone();
+    let mut hessenberg = Hessenberg::new(initial);
+    while stopping.continues(initial, hessenberg.n_columns(), hessenberg.residual) {
+        let mut direction = basis[hessenberg.n_columns()].clone();
         precondition(&mut direction);
         let mut image = vec![0.0; n];
         multiply(&direction, &mut image);
-        directions.push(direction);
-        let mut column = Vec::with_capacity(j + 2);
+        // Modified Gram-Schmidt
+        let mut column = Vec::with_capacity(basis.len());
         for vector in &basis {
-            let part = dot(vector, &image);
-            subtract(part, vector, &mut image);
-            column.push(part);
+            let component = dot(vector, &image);
+            subtract(component, vector, &mut image);
+            column.push(component);
         }
         let size = norm(&image);
-        for (row, &(cosine, sine)) in rotations.iter().enumerate() {
-            let (upper, lower) = (column[row], column[row + 1]);
-            column[row] = cosine * upper + sine * lower;
-            column[row + 1] = cosine * lower - sine * upper;
-        }
-        let length = column[j].hypot(size);
-        if length == 0.0 || !length.is_finite() {
-            directions.pop();
+        if !hessenberg.push(column, size) {
             break;
         }
-        let (cosine, sine) = (column[j] / length, size / length);
-        column[j] = length;
-        rotations.push((cosine, sine));
-        columns.push(column);
-        let last = rhs[j];
-        rhs[j] = cosine * last;
-        rhs.push(-sine * last);
-        residual = (sine * last).abs();
+        directions.push(direction);
+        // The Krylov space is invariant: it holds the solution
         if size == 0.0 {
             break;
         }
         basis.push(image.iter().map(|value| value / size).collect());
     }
-    let iterations = columns.len();
-    let mut weights = rhs;
-    for row in (0..iterations).rev() {
-        for later in row + 1..iterations {
-            weights[row] -= columns[later][row] * weights[later];
-        }
-        weights[row] /= columns[row][row];
-    }
     let mut x = vec![0.0; n];
-    for (weight, direction) in weights.iter().zip(&directions) {
+    for (weight, direction) in hessenberg.weights().iter().zip(&directions) {
         subtract(-weight, direction, &mut x);
     }
-    (x, Outcome { iterations, residual })
+    KrylovSolution { x, iterations: hessenberg.n_columns(), residual: hessenberg.residual }
+}
+
+impl Stopping {
+    fn continues(self, initial: f64, iterations: usize, residual: f64) -> bool {
+        let digits = (initial / self.tolerance).ln();
+        let gained = digits - (residual / self.tolerance).ln();
+        let is_fast_enough =
+            iterations == 0 || iterations as f64 * digits <= self.max_iterations as f64 * gained;
+        residual > self.tolerance && is_fast_enough
+    }
+}
+
+/// The least-squares problem min |r e1 - H y| for a Hessenberg matrix H that grows by columns, made
+/// triangular by rotations as it grows.
+#[derive(Debug)]
+struct Hessenberg {
+    /// Columns of the triangular factor.
+    columns: Vec<Vec<f64>>,
+    rotations: Vec<Rotation>,
+    /// r e1, rotated.
+    rhs: Vec<f64>,
+    /// The least value of |r e1 - H y|.
+    residual: f64,
+}
+
+#[derive(Debug, Clone, Copy)]
+struct Rotation {
+    cosine: f64,
+    sine: f64,
+}
+
+impl Hessenberg {
+    fn new(residual: f64) -> Self {
+        Self { columns: Vec::new(), rotations: Vec::new(), rhs: vec![residual], residual }
+    }
+
+    fn n_columns(&self) -> usize {
+        self.columns.len()
+    }
+
+    /// Takes the next column, down to the diagonal, and the entry below that. Returns false, and
+    /// takes nothing, when the column adds nothing or is not finite.
+    fn push(&mut self, mut column: Vec<f64>, below: f64) -> bool {
+        let last = column.len() - 1;
+        for (row, rotation) in self.rotations.iter().enumerate() {
+            let (upper, lower) = (column[row], column[row + 1]);
+            column[row] = rotation.cosine * upper + rotation.sine * lower;
+            column[row + 1] = rotation.cosine * lower - rotation.sine * upper;
+        }
+        let length = column[last].hypot(below);
+        if length == 0.0 || !length.is_finite() {
+            return false;
+        }
+        let rotation = Rotation { cosine: column[last] / length, sine: below / length };
+        column[last] = length;
+        let upper = self.rhs[last];
+        self.rhs[last] = rotation.cosine * upper;
+        self.rhs.push(-rotation.sine * upper);
+        self.residual = (rotation.sine * upper).abs();
+        self.rotations.push(rotation);
+        self.columns.push(column);
+        true
+    }
+
+    /// The y of the least residual.
+    fn weights(&self) -> Vec<f64> {
+        let mut weights = self.rhs[..self.n_columns()].to_vec();
+        for row in (0..self.n_columns()).rev() {
+            for later in row + 1..self.n_columns() {
+                weights[row] -= self.columns[later][row] * weights[later];
+            }
+            weights[row] /= self.columns[row][row];
+        }
+        weights
+    }
 }
 
 fn dot(a: &[f64], b: &[f64]) -> f64 {
@@ -124,18 +177,35 @@ mod tests {
             }
         };
         let b = [1.0, 2.0, 3.0];
-        let (x, outcome) = fgmres(multiply, |_| {}, &b, 1e-14, 1000);
+        let stopping = Stopping { tolerance: 1e-14, max_iterations: 1000 };
+        let solution = fgmres(multiply, |_| {}, &b, stopping);
         let mut image = [0.0; 3];
-        multiply(&x, &mut image);
+        multiply(&solution.x, &mut image);
         for (value, expected) in image.iter().zip(b) {
             assert!((value - expected).abs() < 1e-13);
         }
-        assert_eq!(outcome.iterations, 3);
+        assert_eq!(solution.iterations, 3);
         // The preconditioner A^-1 / 2 needs one.
         let exact = |z: &mut [f64]| {
-            let (half, _) = fgmres(multiply, |_| {}, z, 1e-14, 1000);
-            z.copy_from_slice(&half.iter().map(|value| value / 2.0).collect::<Vec<_>>());
+            let twice = fgmres(multiply, |_| {}, z, stopping).x;
+            z.copy_from_slice(&twice.iter().map(|value| value / 2.0).collect::<Vec<_>>());
         };
-        assert_eq!(fgmres(multiply, exact, &b, 1e-12, 10).1.iterations, 1);
+        let stopping = Stopping { tolerance: 1e-12, max_iterations: 10 };
+        assert_eq!(fgmres(multiply, exact, &b, stopping).iterations, 1);
+    }
+
+    #[test]
+    fn too_slow_a_convergence_ends_the_iterations() {
+        // A cyclic shift: the residual does not fall before the last iteration.
+        let multiply = |x: &[f64], y: &mut [f64]| {
+            for (row, y) in y.iter_mut().enumerate() {
+                *y = x[(row + 1) % x.len()];
+            }
+        };
+        let b = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+        let stopping = Stopping { tolerance: 1e-12, max_iterations: 100 };
+        let solution = fgmres(multiply, |_| {}, &b, stopping);
+        assert_eq!(solution.iterations, 1);
+        assert_eq!(solution.residual, 1.0);
     }
 }

@@ -1,13 +1,17 @@
-//! Sparse linear algebra: constraints, patterns, and systems solved with factors new or old.
+//! Linear systems: constraints, cell matrices, and solvers that keep their factors.
 
+mod cell_maps;
 mod cholesky;
 mod constraints;
 mod direct;
 mod krylov;
-mod pattern;
+mod reuse;
+mod solver;
 
-pub use crate::multifrontal::Unknowns;
-pub use cholesky::{Cholesky, NotPositiveDefinite};
+pub use crate::multifrontal::Singular;
+pub use crate::sparse::{Pattern, SparseMatrix, Unknowns};
+pub use cell_maps::CellMaps;
+pub use cholesky::{Cholesky, CholeskyError};
 pub use constraints::{AffineConstraints, ConstraintBuilder};
-pub use direct::{Accuracy, DirectSolver, LinearError};
-pub use pattern::{CellMaps, Pattern};
+pub use direct::DirectSolver;
+pub use solver::{Accuracy, LinearError, LinearSolver};

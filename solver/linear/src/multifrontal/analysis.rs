@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::graph::{Graph, bucket};
 use super::ordering::{Ordering, order};
 use super::tree::{NONE, Supernode, flops, supernodes};
-use super::{PatternRef, Unknowns};
+use crate::sparse::{Pattern, Unknowns};
 
 /// A subtree is cut off when it takes less than this part of all arithmetic.
 const SUBTREE_SHARE: f64 = 1.0 / 24.0;
@@ -97,7 +97,7 @@ impl Analysis {
     /// # Panics
     /// When `unknowns` does not fit the pattern.
     #[must_use]
-    pub fn new(pattern: PatternRef<'_>, unknowns: &Unknowns, ordering: Ordering) -> Self {
+    pub fn new(pattern: &Pattern, unknowns: &Unknowns, ordering: Ordering) -> Self {
         let n = pattern.n();
         assert_eq!(unknowns.node.len(), n, "a node for each unknown");
         assert_eq!(unknowns.is_pressure.len(), n, "a kind for each unknown");
@@ -259,7 +259,7 @@ impl Analysis {
     }
 
     /// For each front, which entries of the matrix it takes, and where they go in its values.
-    fn place_entries(&mut self, pattern: PatternRef<'_>, place_of: &[u32]) {
+    fn place_entries(&mut self, pattern: &Pattern, place_of: &[u32]) {
         let n = self.n;
         let mut front_of = vec![0u32; n];
         for (index, front) in self.fronts.iter().enumerate() {
@@ -361,7 +361,7 @@ impl Analysis {
 }
 
 /// Where the diagonal entry of each place is stored.
-fn diagonal(pattern: PatternRef<'_>, unknown_at: &[u32]) -> Vec<u32> {
+fn diagonal(pattern: &Pattern, unknown_at: &[u32]) -> Vec<u32> {
     let position = |unknown: &u32| {
         let column = *unknown as usize;
         let found = pattern.column(column).iter().position(|&row| row == column);

@@ -5,10 +5,10 @@ use std::sync::Mutex;
 
 use rayon::prelude::*;
 
-use super::PatternRef;
 use super::analysis::{Analysis, Part};
 use super::front::{self, Child, Contribution, Input, Irregular};
 use super::solve::Scratch;
+use crate::sparse::SparseMatrix;
 
 /// Pivots below this part of the scale of their unknown count as zero.
 const SINGULAR: f64 = 1e-13;
@@ -77,7 +77,7 @@ impl Factors {
 
     /// Number of fronts with pivots delayed into them or out of them.
     #[must_use]
-    pub fn n_irregular(&self) -> usize {
+    pub fn n_delayed_fronts(&self) -> usize {
         self.irregular.len()
     }
 
@@ -105,12 +105,12 @@ impl Factors {
     pub fn factorise(
         &mut self,
         analysis: &Analysis,
-        pattern: PatternRef<'_>,
-        values: &[f64],
+        matrix: &SparseMatrix,
     ) -> Result<(), Singular> {
+        let values = matrix.values();
         assert_eq!(values.len(), analysis.n_entries, "the values of the analysed pattern");
         self.irregular.clear();
-        self.pressure_scale = scales(analysis, pattern, values, &mut self.tiny);
+        self.pressure_scale = scales(analysis, matrix, &mut self.tiny);
         let input = Input {
             analysis,
             values,
@@ -260,7 +260,8 @@ fn work_through(
 
 /// Sets the size below which a pivot of each place counts as zero, and returns the factor of the
 /// rows and columns of pressures that makes their entries as large as those of velocities.
-fn scales(analysis: &Analysis, pattern: PatternRef<'_>, values: &[f64], tiny: &mut [f64]) -> f64 {
+fn scales(analysis: &Analysis, matrix: &SparseMatrix, tiny: &mut [f64]) -> f64 {
+    let values = matrix.values();
     let diagonal = |place: usize| {
         values.get(analysis.diagonal[place] as usize).map_or(0.0, |value| value.abs())
     };
@@ -276,8 +277,7 @@ fn scales(analysis: &Analysis, pattern: PatternRef<'_>, values: &[f64], tiny: &m
             }
             velocity = (velocity.0 + own, velocity.1 + 1);
         } else {
-            let column = unknown as usize;
-            let entries = &values[pattern.columns[column]..pattern.columns[column + 1]];
+            let entries = &values[matrix.pattern().entries(unknown as usize)];
             let most = entries.iter().fold(0.0f64, |most, value| most.max(value.abs()));
             tiny[place] = most;
             if analysis.is_pressure_at[place] {

@@ -1,6 +1,6 @@
 //! The graph that is ordered: vertices are mesh nodes with all their unknowns.
 
-use super::PatternRef;
+use crate::sparse::Pattern;
 
 /// Vertices that share an entry of the matrix are neighbours; compressed rows.
 #[derive(Debug, Clone)]
@@ -21,7 +21,7 @@ impl Graph {
     }
 
     /// The graph of `n` vertices of a pattern made symmetric, `vertex` naming that of each unknown.
-    pub fn new(pattern: PatternRef<'_>, vertex: &[u32], n: usize) -> Self {
+    pub fn new(pattern: &Pattern, vertex: &[u32], n: usize) -> Self {
         let mut weights = vec![0u32; n];
         for &vertex in vertex {
             weights[vertex as usize] += 1;

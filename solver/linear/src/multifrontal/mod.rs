@@ -35,33 +35,3 @@ mod tree;
 pub use analysis::Analysis;
 pub use factors::{Factors, Singular};
 pub use ordering::Ordering;
-
-/// Compressed columns of a square matrix.
-#[derive(Debug, Clone, Copy)]
-pub struct PatternRef<'a> {
-    /// Start of each column in `rows`, and the end of the last: n + 1 numbers.
-    pub columns: &'a [usize],
-    /// Row of each stored entry.
-    pub rows: &'a [usize],
-}
-
-impl<'a> PatternRef<'a> {
-    fn n(&self) -> usize {
-        self.columns.len() - 1
-    }
-
-    fn column(&self, column: usize) -> &'a [usize] {
-        &self.rows[self.columns[column]..self.columns[column + 1]]
-    }
-}
-
-/// What each unknown of a matrix is.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct Unknowns {
-    /// Mesh node of each unknown; those of one node are ordered together.
-    pub node: Vec<u32>,
-    /// Whether it is a pressure: its diagonal entry is zero.
-    pub is_pressure: Vec<bool>,
-    /// Unknowns with dense rows or columns, eliminated last; their nodes are not looked at.
-    pub dense: Vec<usize>,
-}

@@ -4,18 +4,17 @@ use faer::Mat;
 use faer::linalg::solvers::Solve;
 use proptest::prelude::*;
 
-use super::{Analysis, Factors, Ordering, PatternRef, Singular, Unknowns};
+use super::{Analysis, Factors, Ordering, Singular};
+use crate::sparse::{Pattern, SparseMatrix, Unknowns};
 
-/// A dense matrix with the pattern of its non-zero entries and of its diagonal.
+/// A matrix with what each unknown is.
 struct System {
-    n: usize,
-    columns: Vec<usize>,
-    rows: Vec<usize>,
-    values: Vec<f64>,
+    matrix: SparseMatrix,
     unknowns: Unknowns,
 }
 
 impl System {
+    /// Stores the entries of a dense matrix that are not zero.
     fn new(dense: &[Vec<f64>], unknowns: Unknowns) -> Self {
         let n = dense.len();
         let (mut columns, mut rows, mut values) = (vec![0], Vec::new(), Vec::new());
@@ -28,34 +27,40 @@ impl System {
             }
             columns.push(rows.len());
         }
-        Self { n, columns, rows, values, unknowns }
+        Self { matrix: SparseMatrix::new(Pattern { columns, rows }, values), unknowns }
     }
 
-    fn pattern(&self) -> PatternRef<'_> {
-        PatternRef { columns: &self.columns, rows: &self.rows }
+    fn n(&self) -> usize {
+        self.matrix.n()
+    }
+
+    fn analyse(&self, ordering: Ordering) -> Analysis {
+        Analysis::new(self.matrix.pattern(), &self.unknowns, ordering)
     }
 
     fn dense(&self) -> Mat<f64> {
-        let mut dense = Mat::zeros(self.n, self.n);
-        for column in 0..self.n {
-            for entry in self.columns[column]..self.columns[column + 1] {
-                dense[(self.rows[entry], column)] = self.values[entry];
+        let pattern = self.matrix.pattern();
+        let mut dense = Mat::zeros(self.n(), self.n());
+        for column in 0..self.n() {
+            for entry in pattern.entries(column) {
+                dense[(pattern.rows[entry], column)] = self.matrix.values()[entry];
             }
         }
         dense
     }
 
-    /// The solutions for `n_sides` right-hand sides, with the number of irregular fronts.
+    /// The solutions for `n_sides` right-hand sides, with the number of delayed fronts.
     fn solve(&self, ordering: Ordering, b: &[f64]) -> Result<(Vec<f64>, usize), Singular> {
-        let analysis = Analysis::new(self.pattern(), &self.unknowns, ordering);
+        let analysis = self.analyse(ordering);
         let mut factors = Factors::new(&analysis);
         // The second factorisation works in used memory.
-        let other: Vec<f64> = self.values.iter().map(|value| value * 3.0).collect();
-        factors.factorise(&analysis, self.pattern(), &other)?;
-        factors.factorise(&analysis, self.pattern(), &self.values)?;
+        let other: Vec<f64> = self.matrix.values().iter().map(|value| value * 3.0).collect();
+        let other = SparseMatrix::new(self.matrix.pattern().clone(), other);
+        factors.factorise(&analysis, &other)?;
+        factors.factorise(&analysis, &self.matrix)?;
         let mut x = b.to_vec();
         factors.solve(&analysis, &mut x);
-        Ok((x, factors.n_irregular()))
+        Ok((x, factors.n_delayed_fronts()))
     }
 }
 
@@ -123,7 +128,7 @@ fn saddle_point(width: usize, height: usize, seed: u64, hard: f64, n_dense: usiz
 
 /// Compares with dense LU where that is accurate; returns whether it was.
 fn agrees_with_dense_lu(system: &System, ordering: Ordering, n_sides: usize) -> Option<bool> {
-    let n = system.n;
+    let n = system.n();
     let b: Vec<f64> = (0..n * n_sides).map(|index| ((index * 7919) % 101) as f64 - 50.0).collect();
     let dense = system.dense();
     let rhs = Mat::from_fn(n, n_sides, |row, side| b[side * n + row]);
@@ -161,7 +166,7 @@ proptest! {
     ) {
         let system = saddle_point(width, height, seed, hard, n_dense);
         let ordering = if minimum_degree { Ordering::MinimumDegree } else { Ordering::Best };
-        prop_assert!(system.n == 0 || agrees_with_dense_lu(&system, ordering, n_sides) != Some(false));
+        prop_assert!(system.n() == 0 || agrees_with_dense_lu(&system, ordering, n_sides) != Some(false));
     }
 
     /// The last fronts alone tell how unknowns with dense rows answer, delayed pivots or not.
@@ -176,13 +181,13 @@ proptest! {
     ) {
         let system = saddle_point(width, height, seed, hard, n_dense);
         let ordering = if minimum_degree { Ordering::MinimumDegree } else { Ordering::Best };
-        let analysis = Analysis::new(system.pattern(), &system.unknowns, ordering);
+        let analysis = system.analyse(ordering);
         let mut factors = Factors::new(&analysis);
-        if factors.factorise(&analysis, system.pattern(), &system.values).is_ok() {
+        if factors.factorise(&analysis, &system.matrix).is_ok() {
             let unknowns: Vec<usize> = system.unknowns.dense.iter().rev().copied().collect();
             let inverse = factors.inverse_of_dense(&analysis, &unknowns);
             for (nth, &column) in unknowns.iter().enumerate() {
-                let mut whole = vec![0.0; system.n];
+                let mut whole = vec![0.0; system.n()];
                 whole[column] = 1.0;
                 factors.solve(&analysis, &mut whole);
                 let size = whole.iter().fold(0.0f64, |most, value| most.max(value.abs()));
@@ -221,8 +226,8 @@ fn columns_without_pivots_of_their_own_are_delayed_to_the_root() {
         }
     }
     let system = System::new(&dense, nodes_of_their_own(n));
-    let (_, irregular) = system.solve(Ordering::MinimumDegree, &vec![1.0; n]).unwrap();
-    assert!(irregular > 2, "{irregular}");
+    let (_, delayed) = system.solve(Ordering::MinimumDegree, &vec![1.0; n]).unwrap();
+    assert!(delayed > 2, "{delayed}");
     for ordering in [Ordering::Best, Ordering::MinimumDegree] {
         assert_eq!(agrees_with_dense_lu(&system, ordering, 2), Some(true));
     }
@@ -317,12 +322,12 @@ fn a_constant_pressure_that_nothing_fixes_is_singular() {
 #[test]
 fn the_number_of_threads_changes_no_bit() {
     let system = saddle_point(44, 40, 7, 0.1, 3);
-    let b: Vec<f64> = (0..system.n).map(|index| (index as f64).sin()).collect();
+    let b: Vec<f64> = (0..system.n()).map(|index| (index as f64).sin()).collect();
     let solve_with = |n_threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(n_threads).build().unwrap();
         pool.install(|| system.solve(Ordering::Best, &b).unwrap().0)
     };
-    let analysis = Analysis::new(system.pattern(), &system.unknowns, Ordering::Best);
+    let analysis = system.analyse(Ordering::Best);
     assert!(analysis.subtrees.len() > 4, "the test needs subtrees: {}", analysis.subtrees.len());
     let one = solve_with(1);
     for n_threads in [2, 5] {

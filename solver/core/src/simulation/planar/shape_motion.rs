@@ -3,9 +3,10 @@
 use std::sync::Arc;
 
 use super::RunError;
-use crate::case::{Body, Gait, ShapeSpec};
+use crate::case::{Body, GaitSpec, ShapeSpec};
+use crate::coupling::ShapeError;
 use crate::gait::{
-    Anguilliform, Carangiform, Flagellum, Midline, Pulse, PulseLaw, ShapeMotion, Swimmer,
+    Anguilliform, Carangiform, Flagellum, Midline, Pulse, PulseLaw, ShapeMotion, SlenderBody,
 };
 
 /// How the outline of a body moves in the body's frame; `None` if it does not.
@@ -15,9 +16,9 @@ use crate::gait::{
 pub fn shape_motion(body: &Body) -> Result<Option<Arc<dyn ShapeMotion>>, RunError> {
     let refuse = |why: &str| RunError::Unsupported(format!("body `{}`: {why}", body.name));
     let midline = match (&body.gait, &body.shape) {
-        (None | Some(Gait::Squirmer(_)), _) => return Ok(None),
+        (None | Some(GaitSpec::Squirmer(_)), _) => return Ok(None),
         (
-            Some(Gait::Pulsating(gait)),
+            Some(GaitSpec::Pulsating(gait)),
             ShapeSpec::Disc { radius } | ShapeSpec::Sphere { radius },
         ) => {
             let law = match gait.amplitude {
@@ -31,7 +32,7 @@ pub fn shape_motion(body: &Body) -> Result<Option<Arc<dyn ShapeMotion>>, RunErro
             let is_sphere = matches!(body.shape, ShapeSpec::Sphere { .. });
             return Ok(Some(Arc::new(Pulse { radius: *radius, is_sphere, law })));
         }
-        (Some(Gait::Carangiform(gait)), ShapeSpec::Fish(fish)) => {
+        (Some(GaitSpec::Carangiform(gait)), ShapeSpec::Fish(fish)) => {
             Midline::Carangiform(Carangiform {
                 length: fish.length,
                 curvature: gait.curvature.clone(),
@@ -41,7 +42,7 @@ pub fn shape_motion(body: &Body) -> Result<Option<Arc<dyn ShapeMotion>>, RunErro
                 ramp: gait.ramp.unwrap_or(gait.period),
             })
         }
-        (Some(Gait::Anguilliform(gait)), ShapeSpec::Fish(fish)) => {
+        (Some(GaitSpec::Anguilliform(gait)), ShapeSpec::Fish(fish)) => {
             Midline::Anguilliform(Anguilliform {
                 length: fish.length,
                 amplitude: gait.amplitude,
@@ -51,7 +52,7 @@ pub fn shape_motion(body: &Body) -> Result<Option<Arc<dyn ShapeMotion>>, RunErro
                 ramp: gait.ramp.unwrap_or(gait.period),
             })
         }
-        (Some(Gait::Flagellum(gait)), ShapeSpec::Flagellate(body)) => {
+        (Some(GaitSpec::Flagellum(gait)), ShapeSpec::Flagellate(body)) => {
             Midline::Flagellum(Flagellum {
                 head: 2.0 * body.head[0],
                 length: body.tail_length,
@@ -67,8 +68,9 @@ pub fn shape_motion(body: &Body) -> Result<Option<Arc<dyn ShapeMotion>>, RunErro
         _ => return Err(refuse("its gait does not fit its shape")),
     };
     let profile = body.shape.profile().ok_or_else(|| refuse("its lengths make no body"))?;
-    let swimmer = Swimmer::new(&profile, midline).map_err(|error| refuse(&error.to_string()))?;
-    Ok(Some(Arc::new(swimmer)))
+    let slender = SlenderBody::new(&profile, midline)
+        .map_err(|reason| ShapeError { body: body.name.clone(), reason })?;
+    Ok(Some(Arc::new(slender)))
 }
 
 #[cfg(test)]
@@ -106,7 +108,7 @@ motion = 'free'
              gait.flagellum = { period = 0.3, wavelength = 2.0, amplitude = 0.4 }",
             "shape.disc.radius = 1.0\ngait.pulsating = { amplitude = 0.5, period = 1.0 }",
         ] {
-            let start = shape_motion(&body(text)).unwrap().unwrap().at(0.0);
+            let start = shape_motion(&body(text)).unwrap().unwrap().at(0.0).unwrap();
             let outline = Outline::new(&body(text).placed(1.0)).unwrap();
             for parameter in [0.0, 0.3, 1.9] {
                 let off = start.position(parameter) - outline.at(parameter)[0];

@@ -1,7 +1,8 @@
-//! `Turning`: the angle that takes away a body's own angular momentum, from a table that grows.
+//! `RecoilAngle`: the angle that removes a body's own angular momentum, from a table that grows.
 
 use std::sync::{Mutex, PoisonError};
 
+use super::error::GaitError;
 use super::rule::Rule;
 
 /// Intervals of the table in a period.
@@ -12,13 +13,13 @@ const POINTS: usize = 8;
 
 /// Integral over time of a rate that is periodic after some time.
 #[derive(Debug)]
-pub struct Turning {
+pub struct RecoilAngle {
     rule: Rule,
     /// Duration after which the rate is periodic (s), and intervals up to there.
     transient: f64,
     before: usize,
     period: f64,
-    /// Made as far as needed; what is in it does not depend on when it was made.
+    /// Filled as far as needed; its entries do not depend on when they were computed.
     table: Mutex<Vec<Interval>>,
 }
 
@@ -29,7 +30,7 @@ struct Interval {
     rates: Vec<f64>,
 }
 
-impl Turning {
+impl RecoilAngle {
     /// For a rate that has this period (s) after a transient (s).
     pub fn new(transient: f64, period: f64) -> Self {
         let before = (transient / period * INTERVALS as f64).ceil() as usize;
@@ -38,22 +39,29 @@ impl Turning {
     }
 
     /// Integral of the rate from 0 to a time (s); before 0 the rate is zero.
-    pub fn at(&self, time: f64, rate: impl Fn(f64) -> f64) -> f64 {
+    ///
+    /// # Errors
+    /// That of the rate.
+    pub fn at(
+        &self,
+        time: f64,
+        rate: impl Fn(f64) -> Result<f64, GaitError>,
+    ) -> Result<f64, GaitError> {
         if time <= 0.0 {
-            return 0.0;
+            return Ok(0.0);
         }
         if time < self.transient {
             return self.within(time, &rate);
         }
         let periods = ((time - self.transient) / self.period).floor();
         let within = (time - self.transient - periods * self.period).clamp(0.0, self.period);
-        let start = self.within(self.transient, &rate);
+        let start = self.within(self.transient, &rate)?;
         let drift = if periods > 0.0 {
-            self.within(self.transient + self.period, &rate) - start
+            self.within(self.transient + self.period, &rate)? - start
         } else {
             0.0
         };
-        self.within(self.transient + within, &rate) + periods * drift
+        Ok(self.within(self.transient + within, &rate)? + periods * drift)
     }
 
     /// Start (s) and duration (s) of an interval.
@@ -68,7 +76,11 @@ impl Turning {
     }
 
     /// The integral up to the end of the first period.
-    fn within(&self, time: f64, rate: &impl Fn(f64) -> f64) -> f64 {
+    fn within(
+        &self,
+        time: f64,
+        rate: &impl Fn(f64) -> Result<f64, GaitError>,
+    ) -> Result<f64, GaitError> {
         let last = self.before + INTERVALS - 1;
         let index = if time < self.transient {
             (time / self.transient * self.before as f64) as usize
@@ -84,12 +96,13 @@ impl Turning {
                 let [_, step] = self.span(table.len() - 1);
                 interval.start + step * dot(&self.rule.weights, &interval.rates)
             });
-            let rates = self.rule.points.iter().map(|x| rate(from + step * x)).collect();
+            let rates = self.rule.points.iter().map(|x| rate(from + step * x));
+            let rates = rates.collect::<Result<_, GaitError>>()?;
             table.push(Interval { start, rates });
         }
         let [from, step] = self.span(index);
         let row = self.rule.up_to(((time - from) / step).clamp(0.0, 1.0));
-        table[index].start + step * dot(&row, &table[index].rates)
+        Ok(table[index].start + step * dot(&row, &table[index].rates))
     }
 }
 
@@ -105,9 +118,9 @@ mod tests {
     fn a_periodic_rate_is_integrated_for_ever() {
         let rate = |t: f64| {
             let periodic = 0.3 + (5.0 * t).sin();
-            if t < 1.7 { periodic * t / 1.7 } else { periodic }
+            Ok(if t < 1.7 { periodic * t / 1.7 } else { periodic })
         };
-        let turning = Turning::new(1.7, std::f64::consts::TAU / 5.0);
+        let angle = RecoilAngle::new(1.7, std::f64::consts::TAU / 5.0);
         let after = |t: f64| 0.3 * t - (5.0 * t).cos() / 5.0;
         let ramped = |t: f64| {
             let wave = (5.0 * t).sin() / 25.0 - t * (5.0 * t).cos() / 5.0;
@@ -116,7 +129,18 @@ mod tests {
         for time in [100.0, 0.4, 1.7, 2.9, 0.0, 17.3] {
             let exact =
                 if time < 1.7 { ramped(time) } else { ramped(1.7) + after(time) - after(1.7) };
-            assert!((turning.at(time, rate) - exact).abs() < 1e-12, "{time}");
+            assert!((angle.at(time, rate).unwrap() - exact).abs() < 1e-12, "{time}");
         }
+    }
+
+    /// The table keeps no interval with a rate that failed.
+    #[test]
+    fn a_rate_that_fails_is_an_error_until_it_no_longer_does() {
+        let angle = RecoilAngle::new(0.0, 1.0);
+        let failing = |t: f64| if t < 0.5 { Ok(t) } else { Err(GaitError::Midline { time: t }) };
+        assert!((angle.at(0.4, failing).unwrap() - 0.08).abs() < 1e-14);
+        let error = angle.at(0.9, failing).unwrap_err();
+        assert!(matches!(error, GaitError::Midline { time } if (0.5..0.6).contains(&time)));
+        assert!((angle.at(0.9, Ok).unwrap() - 0.405).abs() < 1e-14);
     }
 }

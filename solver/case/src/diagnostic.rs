@@ -1,13 +1,13 @@
-//! `Problem`: what is wrong in a case, where, and what to do about it; `CaseError`.
+//! `Diagnostic`: what is wrong in a case, where, and what to do about it; `CaseError`.
 
 use std::fmt;
 use std::path::PathBuf;
 
 use thiserror::Error;
 
-use super::source::Place;
+use super::source::Location;
 
-/// Whether a problem stops a run.
+/// Whether a diagnostic stops a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Severity {
     /// The case cannot be run.
@@ -18,7 +18,7 @@ pub enum Severity {
 
 /// One thing that is wrong in a case.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Problem {
+pub struct Diagnostic {
     /// Whether it stops a run.
     pub severity: Severity,
     /// The key, with its tables: `body.0.shape.disc.radius`.
@@ -28,31 +28,31 @@ pub struct Problem {
     /// What is accepted, or what to do.
     pub help: String,
     /// Where it is written; nowhere if it is a default.
-    pub place: Option<Place>,
+    pub location: Option<Location>,
 }
 
-/// `error: ...`, the place, the line with a caret below, and the help.
-impl fmt::Display for Problem {
+/// `error: ...`, the location, the line with a caret below, and the help.
+impl fmt::Display for Diagnostic {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let severity = match self.severity {
             Severity::Error => "error",
             Severity::Warning => "warning",
         };
         write!(f, "{severity}: {}", self.message)?;
-        let margin = match &self.place {
-            Some(place) => {
-                let number = place.line.to_string();
+        let margin = match &self.location {
+            Some(location) => {
+                let number = location.line.to_string();
                 let margin = " ".repeat(number.len());
-                write!(f, "\n{margin}--> {place}")?;
-                write!(f, "\n{margin} |\n{number} | {}", place.text)?;
+                write!(f, "\n{margin}--> {location}")?;
+                write!(f, "\n{margin} |\n{number} | {}", location.text)?;
                 // Tabs stay tabs, so that the caret stands below what it points at.
-                let indent: String = place
+                let indent: String = location
                     .text
                     .chars()
-                    .take(place.column - 1)
+                    .take(location.column - 1)
                     .map(|c| if c == '\t' { '\t' } else { ' ' })
                     .collect();
-                write!(f, "\n{margin} | {indent}{}", "^".repeat(place.width))?;
+                write!(f, "\n{margin} | {indent}{}", "^".repeat(location.width))?;
                 margin
             }
             None => String::new(),
@@ -82,10 +82,10 @@ pub enum CaseError {
     },
     /// The file is read but wrong.
     #[error("{}", listing(.0))]
-    Wrong(Vec<Problem>),
+    Wrong(Vec<Diagnostic>),
 }
 
-/// All problems, one below the other.
-fn listing(problems: &[Problem]) -> String {
-    problems.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n\n")
+/// All diagnostics, one below the other.
+fn listing(diagnostics: &[Diagnostic]) -> String {
+    diagnostics.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n\n")
 }

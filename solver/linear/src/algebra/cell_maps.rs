@@ -1,70 +1,28 @@
-//! Sparsity pattern of a constrained system, and where each cell's matrix goes in it.
+//! `CellMaps`: the sparsity pattern of a constrained system, and where each cell's matrix goes in it.
 
-use super::AffineConstraints;
+use super::constraints::AffineConstraints;
+use crate::sparse::Pattern;
+use crate::sparse::index::{to_u16, to_u32};
 
-/// Compressed columns of a square sparse matrix; rows sorted within a column.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Pattern {
-    /// Start of each column in `rows`, and the end of the last.
-    pub columns: Vec<usize>,
-    /// Row of each stored entry.
-    pub rows: Vec<usize>,
-}
-
-impl Pattern {
-    /// Number of unknowns.
-    #[must_use]
-    pub fn n(&self) -> usize {
-        self.columns.len() - 1
-    }
-
-    /// Where entry (row, column) is stored, if it is.
-    #[must_use]
-    pub fn position(&self, row: usize, column: usize) -> Option<usize> {
-        let range = self.columns[column]..self.columns[column + 1];
-        self.rows[range.clone()].binary_search(&row).ok().map(|offset| range.start + offset)
-    }
-
-    /// |A| |x|: how large the terms of each row are.
-    #[must_use]
-    pub fn multiply_sizes(&self, values: &[f64], x: &[f64]) -> Vec<f64> {
-        let mut sizes = vec![0.0; self.n()];
-        for (column, &factor) in x.iter().enumerate() {
-            for entry in self.columns[column]..self.columns[column + 1] {
-                sizes[self.rows[entry]] += (values[entry] * factor).abs();
-            }
-        }
-        sizes
-    }
-
-    /// y += A x.
-    pub fn multiply_add(&self, values: &[f64], x: &[f64], y: &mut [f64]) {
-        for (column, &factor) in x.iter().enumerate() {
-            for entry in self.columns[column]..self.columns[column + 1] {
-                y[self.rows[entry]] += values[entry] * factor;
-            }
-        }
-    }
-}
-
-/// Marks an entry of a cell's matrix that is not stored.
+/// Marks an entry of a cell's matrix that belongs to a given value, or couples nothing.
 const NOT_STORED: u32 = u32::MAX;
-/// Stands for the unknown of a given value.
+/// Marks a row or column of a given value.
 const NO_UNKNOWN: u32 = u32::MAX;
 
-/// For each cell, its free unknowns, how its raw unknowns depend on them, and where the entries
-/// of its reduced matrix are stored.
+/// For each cell, its raw unknowns, and where the entries of its matrix are stored.
 ///
-/// Most cells have raw unknowns that are free or given. Their matrix is not reduced: what belongs
-/// to a given value has no place. The others, at bodies that move freely and at periodic sides,
-/// are folded to the unknowns behind.
+/// Most cells have raw unknowns that are either free or given. The rows and columns of the free ones
+/// are scattered as they are, those of given ones are not stored. In the other cells, at bodies that
+/// move freely and at periodic sides, raw unknowns depend on unknowns elsewhere: their matrices are
+/// folded, A -> P^T A P, before they are scattered.
 #[derive(Debug, Clone)]
 pub struct CellMaps {
     n_local_raw: usize,
     raw: Vec<u32>,
-    position_offsets: Vec<usize>,
-    /// Column by column.
-    positions: Vec<u32>,
+    /// Start of each cell in `entries`, and the end of the last.
+    entry_offsets: Vec<usize>,
+    /// Stored entry of each entry of the cells' matrices, column by column.
+    entries: Vec<u32>,
     /// The folded cells, in order.
     folded: Vec<FoldedCell>,
     /// Index in `folded` of each cell, if it is one of them.
@@ -83,6 +41,53 @@ struct FoldedCell {
 /// Marks a cell that is not folded.
 const NOT_FOLDED: u32 = u32::MAX;
 
+/// The unknown of each row and column of the matrix of each cell, `NO_UNKNOWN` for a given value.
+#[derive(Debug)]
+struct CellUnknowns {
+    /// Start of each cell in `unknowns`, and the end of the last.
+    offsets: Vec<usize>,
+    unknowns: Vec<u32>,
+}
+
+impl CellUnknowns {
+    fn cells(&self) -> impl Iterator<Item = &[u32]> {
+        self.offsets.windows(2).map(|range| &self.unknowns[range[0]..range[1]])
+    }
+
+    /// The free unknowns of each cell.
+    fn free_of_cells(&self) -> impl Iterator<Item = impl Iterator<Item = u32> + Clone> {
+        self.cells().map(|cell| cell.iter().copied().filter(|&unknown| unknown != NO_UNKNOWN))
+    }
+
+    /// Appends a cell, which is folded where raw unknowns depend on others.
+    fn push(&mut self, raw: &[u32], constraints: &AffineConstraints) -> Option<FoldedCell> {
+        let start = self.unknowns.len();
+        let is_free = |raw: usize| constraints.unknown(raw).is_some();
+        let is_given = |raw: usize| constraints.row(raw).is_empty();
+        let folded = if raw.iter().all(|&raw| is_free(raw as usize) || is_given(raw as usize)) {
+            self.unknowns.extend(
+                raw.iter().map(|&raw| constraints.unknown(raw as usize).map_or(NO_UNKNOWN, to_u32)),
+            );
+            None
+        } else {
+            let mut local = Vec::new();
+            for &raw in raw {
+                for &(unknown, _) in constraints.row(raw as usize) {
+                    let known = self.unknowns[start..].iter().position(|&other| other == unknown);
+                    let index = known.unwrap_or_else(|| {
+                        self.unknowns.push(unknown);
+                        self.unknowns.len() - 1 - start
+                    });
+                    local.push(to_u16(index));
+                }
+            }
+            Some(FoldedCell { n_local: self.unknowns.len() - start, local })
+        };
+        self.offsets.push(self.unknowns.len());
+        folded
+    }
+}
+
 impl CellMaps {
     /// Pattern and maps for cells with `n_local_raw` raw unknowns each, listed in `raw`.
     ///
@@ -95,62 +100,33 @@ impl CellMaps {
         constraints: &AffineConstraints,
         couples: impl Fn(usize, usize) -> bool,
     ) -> (Pattern, Self) {
-        let n_cells = raw.len() / n_local_raw;
-        // The unknown of each row and column of the cells' matrices, none of a given value.
-        let mut unknowns: Vec<u32> = Vec::with_capacity(raw.len());
-        let mut unknown_offsets = vec![0];
-        let mut maps = Self {
-            n_local_raw,
-            raw,
-            position_offsets: vec![0],
-            positions: Vec::new(),
-            folded: Vec::new(),
-            folded_index: vec![NOT_FOLDED; n_cells],
-            largest: n_local_raw * n_local_raw,
-        };
-        for cell in 0..n_cells {
-            let start = unknowns.len();
-            let raw = &maps.raw[cell * n_local_raw..(cell + 1) * n_local_raw];
-            let is_free = |raw: usize| constraints.unknown(raw).is_some();
-            let is_given = |raw: usize| constraints.row(raw).is_empty();
-            if raw.iter().all(|&raw| is_free(raw as usize) || is_given(raw as usize)) {
-                unknowns.extend(raw.iter().map(|&raw| {
-                    constraints.unknown(raw as usize).map_or(NO_UNKNOWN, |unknown| unknown as u32)
-                }));
-            } else {
-                let mut local = Vec::new();
-                for &raw in raw {
-                    for &(unknown, _) in constraints.row(raw as usize) {
-                        let known = unknowns[start..].iter().position(|&other| other == unknown);
-                        let index = known.unwrap_or(unknowns.len() - start);
-                        if known.is_none() {
-                            unknowns.push(unknown);
-                        }
-                        local.push(index as u16);
-                    }
-                }
-                maps.folded_index[cell] = maps.folded.len() as u32;
-                maps.folded.push(FoldedCell { n_local: unknowns.len() - start, local });
-            }
-            let n_entries = (unknowns.len() - start).pow(2);
-            maps.largest = maps.largest.max(n_entries);
-            unknown_offsets.push(unknowns.len());
-            maps.position_offsets.push(maps.position_offsets[cell] + n_entries);
+        let mut unknowns = CellUnknowns { offsets: vec![0], unknowns: Vec::new() };
+        unknowns.unknowns.reserve(raw.len());
+        let mut folded = Vec::new();
+        let mut folded_index = Vec::with_capacity(raw.len() / n_local_raw);
+        let mut entry_offsets = vec![0];
+        let (mut n_entries, mut largest) = (0, n_local_raw * n_local_raw);
+        for (cell, raw) in raw.chunks_exact(n_local_raw).enumerate() {
+            let cell_folded = unknowns.push(raw, constraints);
+            folded_index.push(cell_folded.as_ref().map_or(NOT_FOLDED, |_| to_u32(folded.len())));
+            folded.extend(cell_folded);
+            let size = (unknowns.offsets[cell + 1] - unknowns.offsets[cell]).pow(2);
+            largest = largest.max(size);
+            n_entries += size;
+            entry_offsets.push(n_entries);
         }
-        let cells = || unknown_offsets.windows(2).map(|range| &unknowns[range[0]..range[1]]);
-        let pattern = build_pattern(constraints.n_unknowns(), cells, &couples);
-        maps.positions.reserve_exact(maps.position_offsets[n_cells]);
-        for local in cells() {
+        let pattern = build_pattern(constraints.n_unknowns(), &unknowns, &couples);
+        let mut entries = Vec::with_capacity(n_entries);
+        for local in unknowns.cells() {
             for &column in local {
-                maps.positions.extend(local.iter().map(|&row| {
+                entries.extend(local.iter().map(|&row| {
                     let is_entry = row != NO_UNKNOWN && column != NO_UNKNOWN;
-                    is_entry
-                        .then(|| pattern.position(row as usize, column as usize))
-                        .flatten()
-                        .map_or(NOT_STORED, |position| position as u32)
+                    let entry = is_entry.then(|| pattern.entry(row as usize, column as usize));
+                    entry.flatten().map_or(NOT_STORED, to_u32)
                 }));
             }
         }
+        let maps = Self { n_local_raw, raw, entry_offsets, entries, folded, folded_index, largest };
         (pattern, maps)
     }
 
@@ -217,26 +193,23 @@ impl CellMaps {
 
     /// Adds a cell's matrix, folded where it has to be, to the stored values.
     pub fn scatter(&self, cell: usize, matrix: &[f64], values: &mut [f64]) {
-        let positions =
-            &self.positions[self.position_offsets[cell]..self.position_offsets[cell + 1]];
-        for (&position, value) in positions.iter().zip(matrix) {
-            if position != NOT_STORED {
-                values[position as usize] += value;
+        let entries = &self.entries[self.entry_offsets[cell]..self.entry_offsets[cell + 1]];
+        for (&entry, value) in entries.iter().zip(matrix) {
+            if entry != NOT_STORED {
+                values[entry as usize] += value;
             }
         }
     }
 }
 
 /// Columns of all pairs of unknowns that share a cell and couple.
-fn build_pattern<'a, C: Iterator<Item = &'a [u32]>>(
+fn build_pattern(
     n: usize,
-    cells: impl Fn() -> C,
+    unknowns: &CellUnknowns,
     couples: &impl Fn(usize, usize) -> bool,
 ) -> Pattern {
-    let cells =
-        || cells().map(|cell| cell.iter().copied().filter(|&unknown| unknown != NO_UNKNOWN));
     let mut counts = vec![0usize; n];
-    for cell in cells() {
+    for cell in unknowns.free_of_cells() {
         for column in cell.clone() {
             counts[column as usize] += cell.clone().count();
         }
@@ -247,7 +220,7 @@ fn build_pattern<'a, C: Iterator<Item = &'a [u32]>>(
     }
     let mut fill = starts.clone();
     let mut all_rows = vec![0u32; starts[n]];
-    for cell in cells() {
+    for cell in unknowns.free_of_cells() {
         for column in cell.clone() {
             for row in cell.clone() {
                 if couples(row as usize, column as usize) {
@@ -261,13 +234,8 @@ fn build_pattern<'a, C: Iterator<Item = &'a [u32]>>(
     for column in 0..n {
         let rows = &mut all_rows[starts[column]..fill[column]];
         rows.sort_unstable();
-        let mut last = None;
-        for &row in rows.iter() {
-            if last != Some(row) {
-                pattern.rows.push(row as usize);
-                last = Some(row);
-            }
-        }
+        let distinct = rows.chunk_by(|row, next| row == next).map(|equal| equal[0] as usize);
+        pattern.rows.extend(distinct);
         pattern.columns.push(pattern.rows.len());
     }
     pattern
@@ -297,14 +265,14 @@ mod tests {
         let expected = [[3.0, -2.5], [-3.5, 6.0]];
         for (row, line) in expected.iter().enumerate() {
             for (column, value) in line.iter().enumerate() {
-                assert_eq!(values[pattern.position(row, column).unwrap()], *value);
+                assert_eq!(values[pattern.entry(row, column).unwrap()], *value);
             }
         }
     }
 
     /// Two cells in a row whose last unknown is given.
     #[test]
-    fn what_belongs_to_a_given_value_is_not_stored() {
+    fn rows_and_columns_of_given_values_are_not_stored() {
         let mut builder = ConstraintBuilder::new(3);
         builder.constrain(2, vec![], 5.0);
         let constraints = builder.build();

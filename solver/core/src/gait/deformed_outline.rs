@@ -1,0 +1,127 @@
+//! `ShapeMotion` and `DeformedOutline`: an outline that moves in the frame of its body.
+
+use std::sync::Arc;
+
+use alewife_mesh::{Moments, Outline, PlacedShape, Point, Shape, Spline};
+
+use super::error::GaitError;
+
+/// How the outline of a body moves in the body's own frame.
+pub trait ShapeMotion: std::fmt::Debug + Send + Sync {
+    /// The outline at a time (s).
+    ///
+    /// # Errors
+    /// [`GaitError`] where the gait makes no outline at this time.
+    fn at(&self, time: f64) -> Result<DeformedOutline, GaitError>;
+
+    /// Times (s) at which rates may jump, ascending, within (from, to); none for smooth gaits.
+    fn discontinuities(&self, from: f64, to: f64) -> Vec<f64>;
+}
+
+/// An outline at one time, in the frame of its body: the origin is the centre of area, and the body
+/// has no angular momentum in it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DeformedOutline {
+    /// Positions and velocities of its material points.
+    pub(super) curve: MaterialCurve,
+    /// Area or volume, centre (the origin) and second moments.
+    pub moments: Moments,
+    /// Rate of the second moment that resists turning in the plane (m⁴/s; m⁵/s of a sphere).
+    pub inertia_rate: f64,
+    /// What was subtracted from the prescribed motion.
+    pub recoil: RecoilCorrection,
+}
+
+/// A closed curve by its material points.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum MaterialCurve {
+    /// Positions (m) and velocities (m/s), linear in the same parameter.
+    Spline { points: Arc<Spline>, rates: Spline },
+    /// A disc or a sphere; the parameter is the angle.
+    Round { radius: f64, radial_speed: f64, is_sphere: bool },
+}
+
+/// What is subtracted from a prescribed motion, so that the body has no momentum of its own.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RecoilCorrection {
+    /// Velocity of the centre of area, as seen from the head at the start (m/s).
+    pub velocity: Point<2>,
+    /// Angular velocity that carries the angular momentum (rad/s).
+    pub angular_velocity: f64,
+    /// Speed along all normals that keeps the area, which is added (m/s).
+    pub normal_speed: f64,
+    /// Mean over the outline of |velocity along the normal|, after all corrections (m/s).
+    pub mean_normal_speed: f64,
+    /// Linear momentum of the interior per mass, which should be zero in this frame (m/s): the
+    /// interior keeps its area everywhere, so this is the error of the outline's spline.
+    pub momentum_defect: f64,
+}
+
+impl RecoilCorrection {
+    pub(super) const NONE: Self = Self {
+        velocity: Point::<2>::new(0.0, 0.0),
+        angular_velocity: 0.0,
+        normal_speed: 0.0,
+        mean_normal_speed: 0.0,
+        momentum_defect: 0.0,
+    };
+}
+
+impl MaterialCurve {
+    /// The curve, whose parameter is a material point.
+    pub(super) fn shape(&self) -> Shape {
+        match *self {
+            Self::Spline { ref points, .. } => Shape::Curve { spline: Arc::clone(points) },
+            Self::Round { radius, is_sphere: true, .. } => Shape::Sphere { radius },
+            Self::Round { radius, is_sphere: false, .. } => Shape::Disc { radius },
+        }
+    }
+}
+
+impl DeformedOutline {
+    /// The outline, whose parameter is a material point.
+    #[must_use]
+    pub fn shape(&self) -> Shape {
+        self.curve.shape()
+    }
+
+    /// The closed curve in the frame of the body: its centre is the origin, its angle zero. `time` (s)
+    /// is that of this outline.
+    ///
+    /// # Errors
+    /// [`GaitError`] when it crosses itself.
+    pub fn outline(&self, time: f64) -> Result<Outline, GaitError> {
+        let placed = PlacedShape {
+            name: "a body that deforms".to_owned(),
+            shape: self.shape(),
+            center: Point::<2>::zeros(),
+            angle: 0.0,
+            size: None,
+        };
+        Outline::new(&placed).map_err(|error| GaitError::of_outline(time, error))
+    }
+
+    /// Position of a material point in the body frame (m), by the parameter of
+    /// [`alewife_mesh::Outline::at`].
+    #[must_use]
+    pub fn position(&self, parameter: f64) -> Point<2> {
+        match &self.curve {
+            MaterialCurve::Spline { points, .. } => points.evaluate(parameter)[0],
+            MaterialCurve::Round { radius, .. } => radial(parameter) * *radius,
+        }
+    }
+
+    /// Velocity of a material point in the body frame (m/s): the rate of [`Self::position`].
+    #[must_use]
+    pub fn rate(&self, parameter: f64) -> Point<2> {
+        match &self.curve {
+            MaterialCurve::Spline { rates, .. } => rates.evaluate(parameter)[0],
+            MaterialCurve::Round { radial_speed, .. } => radial(parameter) * *radial_speed,
+        }
+    }
+}
+
+/// Unit vector at an angle (rad).
+fn radial(angle: f64) -> Point<2> {
+    Point::<2>::new(angle.cos(), angle.sin())
+}

@@ -1,0 +1,201 @@
+//! `SlenderBody`: a body about a midline that bends, in the frame without momentum of its own.
+
+use std::sync::Arc;
+
+use alewife_mesh::{Moments, Point, Profile, SecondMoments, Shape, Spline};
+use num_dual::{Dual64, DualNum};
+
+use super::closed_curve::ClosedCurve;
+use super::deformed_outline::{DeformedOutline, MaterialCurve, RecoilCorrection, ShapeMotion};
+use super::error::GaitError;
+use super::grid::Grid;
+use super::midline::{Frame, Midline};
+use super::momentum::Interior;
+use super::recoil::RecoilAngle;
+use super::rule::Rule;
+
+/// Largest speed of the correction of the area, over the mean normal speed of a cycle.
+const LARGEST_CORRECTION: f64 = 1e-3;
+
+/// Times of a period, and of a ramp, at which a gait is evaluated before a run.
+const TRIALS: u32 = 24;
+
+/// Points of the Gauss rule on each piece of the outline: exact for all its moments.
+const RULE_POINTS: usize = 6;
+
+/// A fish or a flagellate.
+#[derive(Debug)]
+pub struct SlenderBody {
+    grid: Grid,
+    midline: Midline,
+    rest: Arc<Spline>,
+    rest_area: f64,
+    rule: Rule,
+    recoil_angle: RecoilAngle,
+}
+
+/// An outline with the area at rest, and the speed along its normals that keeps the area (m/s).
+struct Kept {
+    points: Vec<[Dual64; 2]>,
+    normal_speed: f64,
+}
+
+impl SlenderBody {
+    /// A body of this profile with this gait.
+    ///
+    /// # Errors
+    /// [`GaitError`] when there is no such body, or when at some time of a cycle its midline cannot
+    /// follow, its outline crosses itself, or its area changes by more than a small correction.
+    pub fn new(profile: &Profile, midline: Midline) -> Result<Self, GaitError> {
+        let rest = Arc::new(profile.spline().ok_or(GaitError::Shape)?);
+        let rest_area = Shape::Curve { spline: Arc::clone(&rest) }
+            .moments()
+            .map(|moments| moments.measure)
+            .ok_or(GaitError::Shape)?;
+        let [transient, period] = midline.cycle();
+        let body = Self {
+            grid: Grid::new(profile, &midline.discontinuities()),
+            midline,
+            rest,
+            rest_area,
+            rule: Rule::new(RULE_POINTS),
+            recoil_angle: RecoilAngle::new(transient, period),
+        };
+        body.validate()?;
+        Ok(body)
+    }
+
+    /// Evaluates the gait at times of its start and of a period, and compares the correction of the
+    /// area with the motion.
+    fn validate(&self) -> Result<(), GaitError> {
+        let [transient, period] = self.midline.cycle();
+        let part = |i: u32| f64::from(i) / f64::from(TRIALS);
+        // Of a long transient only its first period
+        let start = (0..TRIALS).map(|i| part(i) * transient.min(period));
+        let cycle = (0..TRIALS).map(|i| transient + part(i) * period);
+        let (mut largest_speed, mut largest_at) = (0.0, 0.0);
+        let mut speeds = Vec::new();
+        for time in start.chain(cycle) {
+            // The outline does not depend on the angle, which costs all rates before
+            let deformed = self.deformed(time, 0.0)?;
+            deformed.outline(time)?;
+            let recoil = deformed.recoil;
+            if recoil.normal_speed.abs() > largest_speed {
+                (largest_speed, largest_at) = (recoil.normal_speed.abs(), time);
+            }
+            speeds.push(recoil.mean_normal_speed);
+        }
+        let mean = speeds.iter().sum::<f64>() / speeds.len() as f64;
+        if largest_speed > LARGEST_CORRECTION * mean {
+            let (time, ratio) = (largest_at, largest_speed / mean);
+            return Err(GaitError::Area { time, ratio, allowed: LARGEST_CORRECTION });
+        }
+        Ok(())
+    }
+
+    /// The outline at a time (s), turned by an angle (rad) from the frame of the head.
+    fn deformed(&self, time: f64, angle: f64) -> Result<DeformedOutline, GaitError> {
+        let frames = self.midline.frames(&self.grid, Dual64::new(time, 1.0));
+        let interior = Interior::of(&self.grid.nodes, &frames.nodes);
+        let turning = -interior.angular_momentum / interior.inertia;
+        if !turning.is_finite() {
+            return Err(GaitError::Midline { time });
+        }
+        let Kept { points, normal_speed } = self.keep_area(time, &self.points(&frames.stations))?;
+        let knots = self.rest.knots();
+        let through = |points: &[[Dual64; 2]]| {
+            ClosedCurve::through(points, knots).ok_or(GaitError::NoOffset { time })
+        };
+        let enclosed = through(&points)?.enclosed(&self.rule);
+        let (sin, cos) = Dual64::new(angle, turning).sin_cos();
+        let placed: Vec<[Dual64; 2]> = points
+            .iter()
+            .map(|point| {
+                let [x, y] = [0, 1].map(|i| point[i] - enclosed.center[i]);
+                [cos * x - sin * y, sin * x + cos * y]
+            })
+            .collect();
+        let closed = through(&placed)?;
+        let mean_normal_speed = closed.mean_normal_speed();
+        let defect = [0, 1].map(|i| interior.center[i].eps - enclosed.center[i].eps);
+        let curve = MaterialCurve::Spline { points: Arc::new(closed.places), rates: closed.rates };
+        Ok(DeformedOutline {
+            curve,
+            moments: Moments {
+                measure: enclosed.area.re,
+                centroid: Point::<2>::zeros(),
+                second: SecondMoments::Planar { polar: enclosed.polar.re },
+            },
+            inertia_rate: enclosed.polar.eps,
+            recoil: RecoilCorrection {
+                velocity: Point::<2>::new(enclosed.center[0].eps, enclosed.center[1].eps),
+                angular_velocity: -turning,
+                normal_speed,
+                mean_normal_speed,
+                momentum_defect: defect[0].hypot(defect[1]),
+            },
+        })
+    }
+
+    /// The points, moved along the normals of their curve by the same offset, so that it encloses
+    /// the area at rest.
+    fn keep_area(&self, time: f64, raw: &[[Dual64; 2]]) -> Result<Kept, GaitError> {
+        let knots = self.rest.knots();
+        let curve = ClosedCurve::through(raw, knots).ok_or(GaitError::Midline { time })?;
+        let normals = curve.normals();
+        let widening = ClosedCurve::through(&normals, knots).ok_or(GaitError::Midline { time })?;
+        // area + first offset + second offset² = area at rest
+        let [area, first, second] = curve.area_along(&self.rule, &widening);
+        let missing = -area + self.rest_area;
+        let root = (first * first + second * missing * 4.0).sqrt();
+        let offset = missing * 2.0 / (first + root);
+        let points = raw
+            .iter()
+            .zip(&normals)
+            .map(|(point, normal)| [0, 1].map(|i| point[i] + normal[i] * offset))
+            .collect();
+        Ok(Kept { points, normal_speed: offset.eps })
+    }
+
+    /// Material points from the head counter-clockwise.
+    fn points(&self, frames: &[Frame<Dual64>]) -> Vec<[Dual64; 2]> {
+        let stations = self.grid.stations.iter().zip(frames);
+        let side = |sign: f64| {
+            move |(station, frame): (&alewife_mesh::Station, &Frame<Dual64>)| {
+                let normal = frame.normal();
+                let width = frame.stretch.recip() * (sign * station.half_width);
+                [0, 1].map(|i| frame.place[i] + normal[i] * width)
+            }
+        };
+        let last = frames.len() - 1;
+        let upper = stations.clone().map(side(1.0));
+        upper.chain(stations.take(last).skip(1).rev().map(side(-1.0))).collect()
+    }
+
+    /// Angle of the head-fixed frame in that without angular momentum (rad).
+    ///
+    /// # Errors
+    /// [`GaitError::Midline`] when the midline cannot follow the gait up to this time (s).
+    pub fn recoil_angle(&self, time: f64) -> Result<f64, GaitError> {
+        self.recoil_angle.at(time, |time| self.recoil_rate(time))
+    }
+
+    /// Angular velocity that takes away the angular momentum (rad/s).
+    fn recoil_rate(&self, time: f64) -> Result<f64, GaitError> {
+        let frames = self.midline.frames(&self.grid, Dual64::new(time, 1.0));
+        let interior = Interior::of(&self.grid.nodes, &frames.nodes);
+        let rate = -interior.angular_momentum / interior.inertia;
+        if rate.is_finite() { Ok(rate) } else { Err(GaitError::Midline { time }) }
+    }
+}
+
+impl ShapeMotion for SlenderBody {
+    fn at(&self, time: f64) -> Result<DeformedOutline, GaitError> {
+        self.deformed(time, self.recoil_angle(time)?)
+    }
+
+    fn discontinuities(&self, _from: f64, _to: f64) -> Vec<f64> {
+        // Ramps have continuous rates
+        Vec::new()
+    }
+}

@@ -1,0 +1,177 @@
+//! `SparseMatrix`: values on a sparsity pattern, with a revision for each state of them.
+
+use std::sync::Arc;
+
+use super::pattern::Pattern;
+
+/// A state of the values of one matrix: equal revisions mean equal values.
+#[derive(Debug, Clone)]
+pub struct Revision {
+    /// The same for all revisions of one matrix, another one for every other matrix.
+    matrix: Arc<()>,
+    /// How often the values were handed out to be changed.
+    number: u64,
+}
+
+impl PartialEq for Revision {
+    fn eq(&self, other: &Self) -> bool {
+        self.number == other.number && Arc::ptr_eq(&self.matrix, &other.matrix)
+    }
+}
+
+/// A square sparse matrix by compressed columns.
+#[derive(Debug)]
+pub struct SparseMatrix {
+    pattern: Pattern,
+    values: Vec<f64>,
+    revision: Revision,
+}
+
+impl SparseMatrix {
+    /// A matrix with the value of each stored entry, in the order of the pattern.
+    ///
+    /// # Panics
+    /// When the number of values is not that of the pattern's entries.
+    #[must_use]
+    pub fn new(pattern: Pattern, values: Vec<f64>) -> Self {
+        assert_eq!(values.len(), pattern.n_entries(), "a value for each entry of the pattern");
+        Self { pattern, values, revision: Revision { matrix: Arc::new(()), number: 0 } }
+    }
+
+    /// A matrix whose stored entries are all zero.
+    #[must_use]
+    pub fn zeros(pattern: Pattern) -> Self {
+        let values = vec![0.0; pattern.n_entries()];
+        Self::new(pattern, values)
+    }
+
+    /// Which entries are stored.
+    #[must_use]
+    pub fn pattern(&self) -> &Pattern {
+        &self.pattern
+    }
+
+    /// Number of unknowns.
+    #[must_use]
+    pub fn n(&self) -> usize {
+        self.pattern.n()
+    }
+
+    /// The values of the stored entries.
+    #[must_use]
+    pub fn values(&self) -> &[f64] {
+        &self.values
+    }
+
+    /// The values of the stored entries, to be changed: the matrix gets another revision.
+    #[must_use]
+    pub fn values_mut(&mut self) -> &mut [f64] {
+        self.revision.number += 1;
+        &mut self.values
+    }
+
+    /// The state of the values.
+    #[must_use]
+    pub fn revision(&self) -> &Revision {
+        &self.revision
+    }
+
+    /// y += A x.
+    pub fn multiply_add(&self, x: &[f64], y: &mut [f64]) {
+        self.pattern.multiply_add(&self.values, x, y);
+    }
+
+    /// |A| |x|: the sum of the absolute values of the terms of each row of A x.
+    #[must_use]
+    pub fn absolute_product(&self, x: &[f64]) -> Vec<f64> {
+        let mut sums = vec![0.0; self.n()];
+        for (column, &factor) in x.iter().enumerate() {
+            for entry in self.pattern.entries(column) {
+                sums[self.pattern.rows[entry]] += (self.values[entry] * factor).abs();
+            }
+        }
+        sums
+    }
+
+    /// The residual of A x = b.
+    #[must_use]
+    pub fn residual(&self, x: &[f64], b: &[f64]) -> Residual {
+        let mut defect = b.to_vec();
+        let mut size: Vec<f64> = b.iter().map(|value| value.abs()).collect();
+        for (column, &factor) in x.iter().enumerate() {
+            for entry in self.pattern.entries(column) {
+                let row = self.pattern.rows[entry];
+                let product = self.values[entry] * factor;
+                defect[row] -= product;
+                size[row] += product.abs();
+            }
+        }
+        Residual { defect, size }
+    }
+}
+
+/// What a trial solution x of A x = b leaves.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Residual {
+    /// b - A x.
+    pub defect: Vec<f64>,
+    /// |A| |x| + |b|: the sum of the absolute values of the terms of each row.
+    pub size: Vec<f64>,
+}
+
+impl Residual {
+    /// Largest entry of the defect over the largest of the sums of absolute terms; NaN where an entry
+    /// is.
+    #[must_use]
+    pub fn relative(&self) -> f64 {
+        if self.defect.iter().any(|value| value.is_nan()) {
+            return f64::NAN;
+        }
+        let largest =
+            |values: &[f64]| values.iter().fold(0.0f64, |most, value| most.max(value.abs()));
+        let (defect, size) = (largest(&self.defect), largest(&self.size));
+        if size > 0.0 { defect / size } else { defect }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// [[2, 1], [0, 4]].
+    fn matrix() -> SparseMatrix {
+        SparseMatrix::new(
+            Pattern { columns: vec![0, 1, 3], rows: vec![0, 0, 1] },
+            vec![2.0, 1.0, 4.0],
+        )
+    }
+
+    #[test]
+    fn a_change_gives_a_revision_of_its_own() {
+        let mut one = matrix();
+        let first = one.revision().clone();
+        assert_eq!(first, *one.revision());
+        one.values_mut()[0] = 3.0;
+        assert_ne!(first, *one.revision());
+    }
+
+    #[test]
+    fn equal_numbers_of_changes_do_not_make_matrices_equal() {
+        assert_ne!(matrix().revision(), matrix().revision());
+    }
+
+    #[test]
+    fn products_and_residuals_are_those_of_the_dense_matrix() {
+        let matrix = matrix();
+        let x = [1.0, -3.0];
+        let mut y = vec![10.0, 0.0];
+        matrix.multiply_add(&x, &mut y);
+        assert_eq!(y, [9.0, -12.0]);
+        assert_eq!(matrix.absolute_product(&x), [5.0, 12.0]);
+        let residual = matrix.residual(&x, &[0.0, -8.0]);
+        assert_eq!(residual.defect, [1.0, 4.0]);
+        assert_eq!(residual.size, [5.0, 20.0]);
+        assert_eq!(residual.relative(), 0.2);
+        assert!(matrix.residual(&[f64::NAN, 0.0], &[0.0; 2]).relative().is_nan());
+    }
+}

@@ -1,0 +1,10 @@
+//! Sparse matrices: sparsity patterns, values on them, and what each unknown is.
+
+pub(crate) mod index;
+mod matrix;
+mod pattern;
+mod unknowns;
+
+pub use matrix::{Residual, Revision, SparseMatrix};
+pub use pattern::Pattern;
+pub use unknowns::Unknowns;
