@@ -1,110 +1,172 @@
 //! Mesh invariants: positive Jacobians, conforming cells, tagged boundary, no orphan node.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
-use crate::outline::cross;
-use crate::{CellId, Mesh, MeshError, NodeId, jacobian_coefficients};
+use crate::curved::{determinant, jacobian_coefficients};
+use crate::mesh::Edge;
+use crate::{CellId, Mesh, MeshError, NodeId, Simplex};
+
+/// Nodes of a straight edge are this near to it, in lengths of the edge.
+const STRAIGHT: f64 = 1e-12;
+
+/// A facet of a cell.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Side {
+    cell: CellId,
+    side: usize,
+    /// Whether its vertices in the order of the cell are an even permutation of the sorted ones.
+    is_even: bool,
+}
 
 /// Whether a mesh is one: the first broken invariant is named.
 ///
 /// - Every cell is positive everywhere; interior edges are straight.
-/// - Two cells share an edge with both ends and the mid node, or the edge is on the boundary.
-/// - Every boundary edge is a facet once; the boundary is closed; no cell has two facets.
+/// - Cells that share an edge agree about its inner nodes, and see a common facet from both sides.
+/// - Every facet with one cell is a boundary facet, once; no cell has two.
 /// - Every node is used, and periodic pairs hold a copy once, never as an original.
+///
+/// The boundary is closed when these hold, as the boundary of a sum of cells.
 ///
 /// # Errors
 /// [`MeshError::Invariant`].
-pub fn check_mesh(mesh: &Mesh<2>) -> Result<(), MeshError> {
-    let broken = |what, index| Err(MeshError::Invariant { what, index });
-    let mut used = vec![false; mesh.n_nodes()];
-    // Ends of an edge in order, to its mid node and the cell with its side
-    let mut open: HashMap<[NodeId; 2], (NodeId, CellId, u8)> = HashMap::new();
+pub fn check_mesh<const D: usize>(mesh: &Mesh<D>) -> Result<(), MeshError> {
+    check_nodes(mesh)?;
     for cell in mesh.cell_ids() {
-        let local = mesh.cell(cell);
-        if local.iter().any(|node| node.index() >= mesh.n_nodes()) {
-            return broken("a cell has a node that does not exist", cell.index());
-        }
-        if local[..3].iter().any(|node| node.index() >= mesh.n_vertices) {
-            return broken("a corner of a cell is not a vertex", cell.index());
-        }
-        let nodes = mesh.cell_nodes(cell);
-        let is_positive = if mesh.curved[cell] {
-            jacobian_coefficients(&nodes).iter().all(|c| *c > 0.0)
-        } else {
-            cross(nodes[1] - nodes[0], nodes[2] - nodes[0]) > 0.0
-        };
-        if !is_positive {
+        if !is_positive(mesh, cell) {
             return broken("a cell has a Jacobian that is not positive", cell.index());
         }
-        for node in local {
-            used[*node] = true;
-        }
-        for side in 0..3 {
-            let (a, b, middle) = (local[side], local[(side + 1) % 3], local[3 + side]);
-            match open.remove(&[b, a]) {
-                Some((other, ..)) if other != middle => {
-                    return broken(
-                        "two cells disagree about the mid node of their edge",
-                        cell.index(),
-                    );
-                }
-                Some(_) => {
-                    let chord = (nodes[side] + nodes[(side + 1) % 3]) * 0.5;
-                    let length = (nodes[side] - nodes[(side + 1) % 3]).norm();
-                    if (nodes[3 + side] - chord).norm() > 1e-12 * length {
-                        return broken("an interior edge is not straight", cell.index());
-                    }
-                }
-                None => {
-                    if open.insert([a, b], (middle, cell, side as u8)).is_some() {
-                        return broken("an edge is used twice in the same direction", cell.index());
-                    }
-                }
-            }
-        }
     }
-    if let Some(orphan) = used.iter().position(|u| !*u) {
-        return broken("a node belongs to no cell", orphan);
-    }
-    check_facets(mesh, open)?;
+    let is_on_boundary = check_facets(mesh)?;
+    check_edges(mesh, &is_on_boundary)?;
     check_periodic(mesh)
 }
 
-fn check_facets(
-    mesh: &Mesh<2>,
-    mut open: HashMap<[NodeId; 2], (NodeId, CellId, u8)>,
-) -> Result<(), MeshError> {
-    let broken = |what, index| Err(MeshError::Invariant { what, index });
-    let mut balance = vec![0_i32; mesh.n_vertices];
-    let mut facets = vec![0_u8; mesh.n_cells()];
-    for facet in &mesh.facets {
-        let (cell, side) = (facet.cell, facet.side as usize);
-        if facet.boundary.index() >= mesh.boundaries.len() {
-            return broken("a facet has a boundary that does not exist", cell.index());
+fn broken<T>(what: &'static str, index: usize) -> Result<T, MeshError> {
+    Err(MeshError::Invariant { what, index })
+}
+
+fn check_nodes<const D: usize>(mesh: &Mesh<D>) -> Result<(), MeshError> {
+    let mut used = vec![false; mesh.n_nodes()];
+    for cell in mesh.cell_ids() {
+        if mesh.cell(cell).iter().any(|node| node.index() >= mesh.n_nodes()) {
+            return broken("a cell has a node that does not exist", cell.index());
         }
-        let local = mesh.cell(cell);
-        let ends = [local[side], local[(side + 1) % 3]];
-        if open.remove(&ends) != Some((local[3 + side], cell, side as u8)) {
-            return broken("a facet is not on the boundary or is listed twice", cell.index());
+        if mesh.cell_vertices(cell).iter().any(|node| node.index() >= mesh.n_vertices) {
+            return broken("a corner of a cell is not a vertex", cell.index());
         }
-        balance[ends[0]] += 1;
-        balance[ends[1]] -= 1;
-        facets[cell] += 1;
+        for &node in mesh.cell(cell) {
+            used[node] = true;
+        }
     }
-    if let Some((_, cell, _)) = open.into_values().min_by_key(|(_, cell, _)| *cell) {
-        return broken("a boundary edge is no facet", cell.index());
-    }
-    if let Some(vertex) = balance.iter().position(|b| *b != 0) {
-        return broken("the boundary is not closed", vertex);
-    }
-    match facets.iter().position(|n| *n > 1) {
-        Some(cell) => broken("a cell has two boundary facets", cell),
+    match used.iter().position(|used| !*used) {
+        Some(orphan) => broken("a node belongs to no cell", orphan),
         None => Ok(()),
     }
 }
 
-fn check_periodic(mesh: &Mesh<2>) -> Result<(), MeshError> {
-    let broken = |what, index| Err(MeshError::Invariant { what, index });
+fn is_positive<const D: usize>(mesh: &Mesh<D>, cell: CellId) -> bool {
+    let nodes = mesh.cell_nodes(cell);
+    if mesh.curved[cell] {
+        jacobian_coefficients(&nodes).iter().all(|coefficient| *coefficient > 0.0)
+    } else {
+        determinant(&std::array::from_fn::<_, D, _>(|k| nodes[k + 1] - nodes[0])) > 0.0
+    }
+}
+
+/// Checks that facets meet in pairs but for those of the boundary, whose edges are returned.
+fn check_facets<const D: usize>(mesh: &Mesh<D>) -> Result<HashSet<[NodeId; 2]>, MeshError> {
+    let mut open: HashMap<[NodeId; D], Side> = HashMap::new();
+    for cell in mesh.cell_ids() {
+        for side in 0..Simplex::<D>::N_VERTICES {
+            let (vertices, is_even) = sorted(facet_vertices(mesh, cell, side));
+            match open.remove(&vertices) {
+                Some(other) if other.is_even == is_even => {
+                    return broken("a facet has two cells on the same side", cell.index());
+                }
+                Some(_) => {}
+                None => {
+                    open.insert(vertices, Side { cell, side, is_even });
+                }
+            }
+        }
+    }
+    let mut n_facets = vec![0; mesh.n_cells()];
+    let mut edges = HashSet::new();
+    for facet in &mesh.facets {
+        if facet.boundary.index() >= mesh.boundaries.len() {
+            return broken("a facet has a boundary that does not exist", facet.cell.index());
+        }
+        let (vertices, _) = sorted(mesh.facet_vertices(facet));
+        let side = open.remove(&vertices);
+        if side.is_none_or(|at| (at.cell, at.side) != (facet.cell, usize::from(facet.side))) {
+            return broken("a facet is not on the boundary or is listed twice", facet.cell.index());
+        }
+        n_facets[facet.cell] += 1;
+        for (i, &a) in vertices.iter().enumerate() {
+            edges.extend(vertices[i + 1..].iter().map(|&b| [a, b]));
+        }
+    }
+    if let Some(at) = open.into_values().min_by_key(|at| at.cell) {
+        return broken("a facet on the boundary is not listed", at.cell.index());
+    }
+    match n_facets.iter().position(|n| *n > 1) {
+        Some(cell) => broken("a cell has two boundary facets", cell),
+        None => Ok(edges),
+    }
+}
+
+fn facet_vertices<const D: usize>(mesh: &Mesh<D>, cell: CellId, side: usize) -> [NodeId; D] {
+    Simplex::<D>::facet_vertices(side).map(|local| mesh.cell(cell)[local])
+}
+
+/// Vertices in order, and whether an even number of exchanges takes them there.
+fn sorted<const D: usize>(mut vertices: [NodeId; D]) -> ([NodeId; D], bool) {
+    let mut is_even = true;
+    for i in 1..D {
+        for j in (0..i).rev() {
+            if vertices[j] > vertices[j + 1] {
+                vertices.swap(j, j + 1);
+                is_even = !is_even;
+            }
+        }
+    }
+    (vertices, is_even)
+}
+
+/// Checks that cells agree about the inner nodes of their edges, and that edges are straight but on
+/// the boundary.
+fn check_edges<const D: usize>(
+    mesh: &Mesh<D>,
+    on_boundary: &HashSet<[NodeId; 2]>,
+) -> Result<(), MeshError> {
+    let mut inner_nodes: HashMap<[NodeId; 2], Vec<NodeId>> = HashMap::new();
+    for cell in mesh.cell_ids() {
+        for edge in mesh.cell_edges(cell) {
+            let (ends, is_forward) = sorted(edge.ends);
+            let mut inner = edge.inner.to_vec();
+            if !is_forward {
+                inner.reverse();
+            }
+            if inner_nodes.entry(ends).or_insert_with(|| inner.clone()) != &inner {
+                return broken("two cells disagree about the inner nodes of an edge", cell.index());
+            }
+            if !on_boundary.contains(&ends) && !is_straight(mesh, &edge) {
+                return broken("an interior edge is not straight", cell.index());
+            }
+        }
+    }
+    Ok(())
+}
+
+fn is_straight<const D: usize>(mesh: &Mesh<D>, edge: &Edge<'_>) -> bool {
+    let [from, to] = edge.ends.map(|vertex| mesh.nodes[vertex]);
+    edge.inner.iter().zip(Simplex::<D>::EDGE_PARAMETERS).all(|(&node, &parameter)| {
+        let expected = from * (1.0 - parameter) + to * parameter;
+        (mesh.nodes[node] - expected).norm() <= STRAIGHT * (to - from).norm()
+    })
+}
+
+fn check_periodic<const D: usize>(mesh: &Mesh<D>) -> Result<(), MeshError> {
     let mut is_copy = vec![false; mesh.n_nodes()];
     for pair in &mesh.periodic {
         if std::mem::replace(&mut is_copy[pair.copy], true) {
@@ -114,5 +176,77 @@ fn check_periodic(mesh: &Mesh<2>) -> Result<(), MeshError> {
     match mesh.periodic.iter().find(|pair| is_copy[pair.original]) {
         Some(pair) => broken("a periodic original is a copy", pair.original.index()),
         None => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Boundary, BoundaryId, BoundaryKind, Facet, Point};
+
+    /// Two tetrahedra with a common face, their boundary in one piece.
+    pub fn two_tetrahedra() -> Mesh<3> {
+        let corners = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0; 3]];
+        let tetrahedra = [[0, 1, 2, 3], [4, 2, 1, 3]];
+        let mut nodes: Vec<Point<3>> = corners.map(Point::from).to_vec();
+        let mut middles: HashMap<[usize; 2], NodeId> = HashMap::new();
+        let mut cells = Vec::new();
+        for vertices in tetrahedra {
+            cells.extend(vertices.map(NodeId::new));
+            for edge in Simplex::<3>::EDGES {
+                let [a, b] = edge.map(|local| vertices[local]);
+                cells.push(*middles.entry([a.min(b), a.max(b)]).or_insert_with(|| {
+                    nodes.push((nodes[a] + nodes[b]) * 0.5);
+                    NodeId::new(nodes.len() - 1)
+                }));
+            }
+        }
+        let all = (0..2).flat_map(|cell| (0..4).map(move |side| (cell, side)));
+        let is_inner = |cell: usize, side: usize| {
+            Simplex::<3>::facet_vertices(side)
+                .iter()
+                .all(|v| (1..4).contains(&tetrahedra[cell][*v]))
+        };
+        let facet = |(cell, side)| Facet {
+            cell: CellId::new(cell),
+            side: side as u8,
+            boundary: BoundaryId::new(0),
+        };
+        Mesh {
+            nodes,
+            n_vertices: 5,
+            cells,
+            curved: vec![false; 2],
+            facets: all.filter(|(cell, side)| !is_inner(*cell, *side)).map(facet).collect(),
+            boundaries: vec![Boundary { name: "all".into(), kind: BoundaryKind::Side }],
+            periodic: Vec::new(),
+        }
+    }
+
+    fn what(mesh: &Mesh<3>) -> &'static str {
+        match check_mesh(mesh) {
+            Err(MeshError::Invariant { what, .. }) => what,
+            other => panic!("{other:?}"),
+        }
+    }
+
+    /// Every tetrahedron of so small a mesh has more than one boundary facet, which is checked last.
+    const FINE: &str = "a cell has two boundary facets";
+
+    #[test]
+    fn broken_tetrahedral_meshes_are_refused() {
+        let mesh = two_tetrahedra();
+        assert_eq!(what(&mesh), FINE);
+        let spoil = |change: &dyn Fn(&mut Mesh<3>)| {
+            let mut spoilt = mesh.clone();
+            change(&mut spoilt);
+            what(&spoilt)
+        };
+        let inverted = spoil(&|mesh| mesh.nodes[4] = Point::<3>::repeat(-1.0));
+        assert_eq!(inverted, "a cell has a Jacobian that is not positive");
+        assert_eq!(spoil(&|mesh| mesh.facets.truncate(1)), "a facet on the boundary is not listed");
+        let twice = spoil(&|mesh| mesh.facets.push(mesh.facets[0]));
+        assert_eq!(twice, "a facet is not on the boundary or is listed twice");
+        assert_eq!(spoil(&|mesh| mesh.cells[0] = mesh.cells[1]), "a node belongs to no cell");
     }
 }

@@ -4,6 +4,7 @@
 //! half plane y >= 0 with x along the axis and y the distance from it. Every mesh carries P2
 //! (quadratic) geometry: vertices first, then one node per edge.
 
+mod box_tree;
 mod check;
 mod closest;
 mod curved;
@@ -30,9 +31,7 @@ pub use closest::{
     Closest, Wall, closest, closest_features, closest_to_wall, on_meridian, overlap, thickness,
     wall_features,
 };
-pub use curved::{
-    det_jacobian, jacobian_coefficients, map_quadratic, shape_functions, shape_gradients,
-};
+pub use curved::{CellMap, CellNodes, jacobian_coefficients, map_quadratic, shape_functions};
 pub use cut::Cut;
 pub use domain::Domain;
 pub use error::MeshError;
@@ -44,7 +43,7 @@ pub use outline::{Nearest, Outline};
 pub use profile::{FishForm, FlagellateForm, Profile, Station};
 pub use quality::{CellQuality, Quality, WorstCell};
 pub use shape::{Moments, PlacedShape, SecondMoments, Shape};
-pub use simplex::Simplex;
+pub use simplex::{NodeArray, Simplex};
 pub use sizing::{SizeBox, SizeField, Sizing};
 pub use spline::Spline;
 pub use surroundings::Surroundings;

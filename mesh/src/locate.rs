@@ -3,23 +3,22 @@
 //! A tree of cell boxes finds the candidates; the map of a straight cell is inverted exactly, that
 //! of a curved one by Newton's method.
 
-use crate::outline::cross;
-use crate::{CellId, Mesh, Point, map_quadratic};
+use crate::box_tree::{Bounds, BoxTree};
+use crate::curved::{determinant, map_quadratic};
+use crate::{CellId, Mesh, Point, Simplex};
 
 /// A point this far outside (in sizes of the mesh) still counts as on its boundary.
 const TOLERANCE: f64 = 1e-9;
-
-/// Levels of the tree of 2^32 cells.
-const MOST_LEVELS: usize = 33;
-
-/// Cells in one leaf.
-const LEAF: usize = 4;
 
 /// Marks a cell without curved sides.
 const STRAIGHT: u32 = u32::MAX;
 
 /// Newton's method has found a point when it misses by this part of the cell's size at most.
 const FOUND: f64 = 1e-10;
+
+/// Barycentric coordinates of a point inside may be negative by this, so that no point falls
+/// between two cells.
+const ROUNDING: f64 = 1e-12;
 
 /// Where a point is in a mesh.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -36,34 +35,40 @@ pub struct Located<const D: usize> {
 #[derive(Debug, Clone)]
 pub struct Locator<const D: usize> {
     tree: BoxTree<D>,
-    /// Places of the corners of all cells, D + 1 for each.
-    corners: Vec<Point<D>>,
+    /// Positions of the vertices of all cells, D + 1 for each (m).
+    vertices: Vec<Point<D>>,
     /// Where the nodes of each curved cell start in `quadratic`; [`STRAIGHT`] for the others.
     curved: Vec<u32>,
-    /// Places of the P2 nodes of the curved cells.
+    /// Positions of the nodes of the curved cells (m).
     quadratic: Vec<Point<D>>,
     tolerance: f64,
 }
 
-impl Locator<2> {
+/// A point of a cell.
+#[derive(Debug, Clone, Copy)]
+struct CellPoint<const D: usize> {
+    reference: [f64; D],
+    position: Point<D>,
+}
+
+impl<const D: usize> Locator<D> {
     /// Prepares the search in a mesh.
     #[must_use]
-    pub fn new(mesh: &Mesh<2>) -> Self {
+    pub fn new(mesh: &Mesh<D>) -> Self {
         let mut boxes = Vec::with_capacity(mesh.n_cells());
-        let mut corners = Vec::with_capacity(3 * mesh.n_cells());
+        let mut vertices = Vec::with_capacity((D + 1) * mesh.n_cells());
         let mut curved = vec![STRAIGHT; mesh.n_cells()];
         let mut quadratic = Vec::new();
         for cell in mesh.cell_ids() {
             let nodes = mesh.cell_nodes(cell);
-            let mut bounds =
-                (nodes[0].inf(&nodes[1]).inf(&nodes[2]), nodes[0].sup(&nodes[1]).sup(&nodes[2]));
-            corners.extend_from_slice(&nodes[..3]);
+            let mut bounds = Bounds::around(&nodes[..=D]);
+            vertices.extend_from_slice(&nodes[..=D]);
             if mesh.curved[cell] {
                 // A quadratic curve lies within the hull of its control points
-                for side in 0..3 {
-                    let control =
-                        nodes[3 + side] * 2.0 - (nodes[side] + nodes[(side + 1) % 3]) * 0.5;
-                    bounds = (bounds.0.inf(&control), bounds.1.sup(&control));
+                for (edge, &[i, j]) in Simplex::<D>::EDGES.iter().enumerate() {
+                    for middle in &nodes[Simplex::<D>::edge_nodes(edge)] {
+                        bounds.include(&(middle * 2.0 - (nodes[i] + nodes[j]) * 0.5));
+                    }
                 }
                 curved[cell] = quadratic.len() as u32;
                 quadratic.extend_from_slice(&nodes);
@@ -72,31 +77,31 @@ impl Locator<2> {
         }
         let tree = BoxTree::new(&boxes);
         let tolerance = TOLERANCE * tree.extent();
-        Self { tree, corners, curved, quadratic, tolerance }
+        Self { tree, vertices, curved, quadratic, tolerance }
     }
 
-    /// The cell that holds a point, and the reference coordinates there; `None` outside.
+    /// The cell that holds a point (m), and the reference coordinates there; `None` outside.
     ///
     /// A point outside by rounding (1e-9 of the size of the mesh) is found in the nearest cell.
     #[must_use]
-    pub fn locate(&self, point: Point<2>) -> Option<(CellId, [f64; 2])> {
-        self.search(point, self.tolerance).map(|found| (found.cell, found.reference))
+    pub fn locate(&self, point: Point<D>) -> Option<Located<D>> {
+        self.search(point, self.tolerance)
     }
 
-    /// The cell nearest to a point, however far outside; `None` only for a point that is not
+    /// The cell nearest to a point (m), however far outside; `None` only for a point that is not
     /// finite or a mesh without cells.
     ///
     /// Points on an exact curve may be outside the quadratic geometry by its fourth-order error:
     /// this finds where fields are to be extrapolated from.
     #[must_use]
-    pub fn nearest(&self, point: Point<2>) -> Option<Located<2>> {
+    pub fn nearest(&self, point: Point<D>) -> Option<Located<D>> {
         self.search(point, f64::INFINITY)
     }
 
-    fn search(&self, point: Point<2>, reach: f64) -> Option<Located<2>> {
-        let mut best: Option<Located<2>> = None;
+    fn search(&self, point: Point<D>, reach: f64) -> Option<Located<D>> {
+        let mut best: Option<Located<D>> = None;
         self.tree.visit_near(point, reach, |cell, reach| {
-            let found = self.place_in(CellId::new(cell), point);
+            let found = self.locate_in(CellId::new(cell), point);
             if found.distance <= *reach && best.is_none_or(|b| found.distance < b.distance) {
                 best = Some(found);
                 *reach = found.distance;
@@ -107,220 +112,150 @@ impl Locator<2> {
     }
 
     /// Where a point is with respect to one cell.
-    fn place_in(&self, cell: CellId, point: Point<2>) -> Located<2> {
-        let [a, b, c] = std::array::from_fn(|i| self.corners[3 * cell.index() + i]);
-        let (u, v, w) = (b - a, c - a, point - a);
-        let det = cross(u, v);
-        let straight = [cross(w, v) / det, cross(u, w) / det];
-        let six: Option<[Point<2>; 6]> = (self.curved[cell] != STRAIGHT)
-            .then(|| std::array::from_fn(|i| self.quadratic[self.curved[cell] as usize + i]));
-        let found = match &six {
-            Some(six) => invert_quadratic(six, point, straight, FOUND * (u.norm() + v.norm())),
+    fn locate_in(&self, cell: CellId, point: Point<D>) -> Located<D> {
+        let vertices = &self.vertices[(D + 1) * cell.index()..(D + 1) * (cell.index() + 1)];
+        let columns: [Point<D>; D] = std::array::from_fn(|k| vertices[k + 1] - vertices[0]);
+        let straight = solve(&columns, point - vertices[0], determinant(&columns));
+        let start = self.curved[cell];
+        let nodes = (start != STRAIGHT)
+            .then(|| &self.quadratic[start as usize..start as usize + Simplex::<D>::N_NODES]);
+        let size: f64 = columns.iter().map(Point::norm).sum();
+        let found = match nodes {
+            Some(nodes) => invert_quadratic(nodes, point, straight, FOUND * size),
             None => Some(straight),
         };
-        // The simplex itself with a little rounding, so that no point falls between two cells
-        const ROUNDING: f64 = 1e-12;
         let reference = found.unwrap_or(straight);
-        let [x, y] = reference;
-        if found.is_some() && x >= -ROUNDING && y >= -ROUNDING && x + y <= 1.0 + ROUNDING {
+        let is_inside = reference.iter().all(|x| *x >= -ROUNDING)
+            && reference.iter().sum::<f64>() <= 1.0 + ROUNDING;
+        if found.is_some() && is_inside {
             return Located { cell, reference, distance: 0.0 };
         }
-        let metric = [u.dot(&u), u.dot(&v), v.dot(&v)];
-        let (inside, place) = match &six {
-            Some(six) => nearest_in_quadratic(six, point, reference, metric),
+        let nearest = match nodes {
+            Some(nodes) => nearest_in_quadratic(nodes, point, reference, &columns),
             None => {
-                let inside = nearest_in_simplex(reference, metric);
-                (inside, a + u * inside[0] + v * inside[1])
+                let inside = nearest_in_simplex(reference, &columns);
+                let along = columns.iter().zip(inside);
+                let position = along.fold(vertices[0], |sum, (column, x)| sum + column * x);
+                CellPoint { reference: inside, position }
             }
         };
-        let reference = if found.is_some() { reference } else { inside };
-        Located { cell, reference, distance: (point - place).norm() }
+        let reference = if found.is_some() { reference } else { nearest.reference };
+        Located { cell, reference, distance: (point - nearest.position).norm() }
     }
+}
+
+/// Solution of Σ x_k column_k = right, by Cramer's rule.
+fn solve<const D: usize>(columns: &[Point<D>; D], right: Point<D>, det: f64) -> [f64; D] {
+    std::array::from_fn(|k| {
+        let mut replaced = *columns;
+        replaced[k] = right;
+        determinant(&replaced) / det
+    })
 }
 
 /// Reference coordinates of a point in a curved cell, by Newton's method from those of the
 /// straight one; `None` when the map degenerates on the way, as it may far outside the cell.
-fn invert_quadratic(
-    nodes: &[Point<2>; 6],
-    point: Point<2>,
-    start: [f64; 2],
+fn invert_quadratic<const D: usize>(
+    nodes: &[Point<D>],
+    point: Point<D>,
+    start: [f64; D],
     tolerance: f64,
-) -> Option<[f64; 2]> {
+) -> Option<[f64; D]> {
     let mut at = start.map(|x| x.clamp(-0.5, 1.5));
     for _ in 0..30 {
-        let (place, [first, second]) = map_quadratic(nodes, at);
-        let (miss, det) = (point - place, cross(first, second));
+        let map = map_quadratic(nodes, at);
+        let det = map.det_jacobian();
         if det <= 0.0 {
             return None;
         }
-        let step = [cross(miss, second) / det, cross(first, miss) / det];
-        let length = step[0].hypot(step[1]);
+        let step = solve(&map.columns, point - map.position, det);
+        let length = step.iter().fold(0.0_f64, |length, x| length.hypot(*x));
         let damping = (0.5 / length).min(1.0);
-        at = [at[0] + damping * step[0], at[1] + damping * step[1]];
+        for (x, step) in at.iter_mut().zip(step) {
+            *x += damping * step;
+        }
         if length < 1e-15 {
             break;
         }
     }
-    let miss = (point - map_quadratic(nodes, at).0).norm();
+    let miss = (point - map_quadratic(nodes, at).position).norm();
     (miss <= tolerance).then_some(at)
 }
 
-/// Nearest point of a curved cell to a point outside: reference coordinates and place.
+/// Nearest point of a curved cell to a point outside.
 ///
 /// Steps along the sides in the metric of the Jacobian there, from the nearest point of the
-/// straight cell; a few suffice, as a side turns little.
-fn nearest_in_quadratic(
-    nodes: &[Point<2>; 6],
-    point: Point<2>,
-    start: [f64; 2],
-    metric: [f64; 3],
-) -> ([f64; 2], Point<2>) {
-    let mut best = nearest_in_simplex(start, metric);
-    let mut place = map_quadratic(nodes, best).0;
+/// straight cell, whose Jacobian has these columns; a few suffice, as a side turns little.
+fn nearest_in_quadratic<const D: usize>(
+    nodes: &[Point<D>],
+    point: Point<D>,
+    start: [f64; D],
+    columns: &[Point<D>; D],
+) -> CellPoint<D> {
+    let at =
+        |reference| CellPoint { reference, position: map_quadratic(nodes, reference).position };
+    let mut best = at(nearest_in_simplex(start, columns));
     for _ in 0..4 {
-        let (at, [u, v]) = map_quadratic(nodes, best);
-        let (det, miss) = (cross(u, v), point - at);
+        let map = map_quadratic(nodes, best.reference);
+        let det = map.det_jacobian();
         if det <= 0.0 {
             break;
         }
-        let wanted = [best[0] + cross(miss, v) / det, best[1] + cross(u, miss) / det];
-        let next = nearest_in_simplex(wanted, [u.dot(&u), u.dot(&v), v.dot(&v)]);
-        let there = map_quadratic(nodes, next).0;
-        if (point - there).norm() >= (point - place).norm() {
+        let step = solve(&map.columns, point - map.position, det);
+        let wanted = std::array::from_fn(|k| best.reference[k] + step[k]);
+        let next = at(nearest_in_simplex(wanted, &map.columns));
+        if (point - next.position).norm() >= (point - best.position).norm() {
             break;
         }
-        (best, place) = (next, there);
+        best = next;
     }
-    (best, place)
+    best
 }
 
-/// Nearest point of the reference triangle in the metric [uu, uv, vv] of the physical one.
-fn nearest_in_simplex([x, y]: [f64; 2], [uu, uv, vv]: [f64; 3]) -> [f64; 2] {
-    let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
-    let dot = |a: [f64; 2], b: [f64; 2]| {
-        uu * a[0] * b[0] + uv * (a[0] * b[1] + a[1] * b[0]) + vv * a[1] * b[1]
+/// Nearest point on the boundary of the reference simplex in the metric of a Jacobian with these
+/// columns.
+fn nearest_in_simplex<const D: usize>(point: [f64; D], columns: &[Point<D>; D]) -> [f64; D] {
+    let vertex = |i: usize| std::array::from_fn(|axis| f64::from(u8::from(axis + 1 == i)));
+    let minus = |a: [f64; D], b: [f64; D]| std::array::from_fn(|k| a[k] - b[k]);
+    let dot = |a: [f64; D], b: [f64; D]| {
+        let mut sum = 0.0;
+        for i in 0..D {
+            sum += columns[i].dot(&columns[i]) * a[i] * b[i];
+            for j in i + 1..D {
+                sum += columns[i].dot(&columns[j]) * (a[i] * b[j] + a[j] * b[i]);
+            }
+        }
+        sum
     };
-    let mut best = (f64::INFINITY, [0.0; 2]);
-    for side in 0..3 {
-        let (a, b) = (corners[side], corners[(side + 1) % 3]);
-        let along = [b[0] - a[0], b[1] - a[1]];
-        let t = (dot([x - a[0], y - a[1]], along) / dot(along, along)).clamp(0.0, 1.0);
-        let place = [a[0] + t * along[0], a[1] + t * along[1]];
-        let miss = [x - place[0], y - place[1]];
+    let mut best = (f64::INFINITY, [0.0; D]);
+    let mut offer = |at: [f64; D]| {
+        let miss = minus(point, at);
         let gap = dot(miss, miss);
         if gap < best.0 {
-            best = (gap, place);
+            best = (gap, at);
+        }
+    };
+    for &[i, j] in Simplex::<D>::EDGES {
+        let (a, b): ([f64; D], [f64; D]) = (vertex(i), vertex(j));
+        let along = minus(b, a);
+        let t = (dot(minus(point, a), along) / dot(along, along)).clamp(0.0, 1.0);
+        offer(std::array::from_fn(|k| a[k] + t * along[k]));
+    }
+    if D == 3 {
+        for face in Simplex::<D>::FACETS {
+            let [a, b, c]: [[f64; D]; 3] = [0, 1, 2].map(|i| vertex(face[i]));
+            let (u, v, w) = (minus(b, a), minus(c, a), minus(point, a));
+            // The foot of the perpendicular in the plane of the face, where it is in the face
+            let (uu, uv, vv) = (dot(u, u), dot(u, v), dot(v, v));
+            let (uw, vw) = (dot(u, w), dot(v, w));
+            let det = uu * vv - uv * uv;
+            let (s, t) = ((vv * uw - uv * vw) / det, (uu * vw - uv * uw) / det);
+            if s >= 0.0 && t >= 0.0 && s + t <= 1.0 {
+                offer(std::array::from_fn(|k| a[k] + s * u[k] + t * v[k]));
+            }
         }
     }
     best.1
-}
-
-/// A tree of axis-parallel boxes.
-#[derive(Debug, Clone)]
-struct BoxTree<const D: usize> {
-    nodes: Vec<BoxNode<D>>,
-    /// Indices of the boxes in the order of the leaves.
-    order: Vec<u32>,
-}
-
-#[derive(Debug, Clone, Copy)]
-struct BoxNode<const D: usize> {
-    min: Point<D>,
-    max: Point<D>,
-    from: u32,
-    to: u32,
-    /// Right child, the left one follows its parent; zero in a leaf.
-    right: u32,
-}
-
-impl<const D: usize> BoxTree<D> {
-    fn new(boxes: &[(Point<D>, Point<D>)]) -> Self {
-        let mut tree = Self { nodes: Vec::new(), order: (0..boxes.len() as u32).collect() };
-        if !boxes.is_empty() {
-            tree.split(boxes, 0, boxes.len());
-        }
-        tree
-    }
-
-    fn split(&mut self, boxes: &[(Point<D>, Point<D>)], from: usize, to: usize) {
-        let part = &mut self.order[from..to];
-        let (mut min, mut max) = boxes[part[0] as usize];
-        for i in part.iter() {
-            min = min.inf(&boxes[*i as usize].0);
-            max = max.sup(&boxes[*i as usize].1);
-        }
-        let index = self.nodes.len();
-        self.nodes.push(BoxNode { min, max, from: from as u32, to: to as u32, right: 0 });
-        if part.len() <= LEAF {
-            return;
-        }
-        let axis = (max - min).imax();
-        let middle = part.len() / 2;
-        let key = |i: &u32| boxes[*i as usize].0[axis] + boxes[*i as usize].1[axis];
-        part.select_nth_unstable_by(middle, |a, b| key(a).total_cmp(&key(b)).then(a.cmp(b)));
-        self.split(boxes, from, from + middle);
-        self.nodes[index].right = self.nodes.len() as u32;
-        self.split(boxes, from + middle, to);
-    }
-
-    /// Longest side of the box around all.
-    fn extent(&self) -> f64 {
-        self.nodes.first().map_or(0.0, |root| (root.max - root.min).max())
-    }
-
-    /// Square of the distance from a point to a box.
-    fn gap(&self, node: u32, point: &Point<D>) -> f64 {
-        let node = &self.nodes[node as usize];
-        (0..D).fold(0.0, |sum, axis| {
-            let below = node.min[axis] - point[axis];
-            let above = point[axis] - node.max[axis];
-            // Unlike f64::max, the comparison keeps what is not a number
-            let outside = if below > 0.0 { below } else { above };
-            if outside <= 0.0 { sum } else { sum + outside * outside }
-        })
-    }
-
-    /// Visits boxes within reach of a point, near ones first, until `visit` returns true; `visit`
-    /// may shorten the reach.
-    fn visit_near(
-        &self,
-        point: Point<D>,
-        mut reach: f64,
-        mut visit: impl FnMut(usize, &mut f64) -> bool,
-    ) {
-        // Halving leaves at most one box a level waiting, and two at the last
-        let mut stack = [(0, 0.0); MOST_LEVELS + 1];
-        let mut waiting = usize::from(!self.nodes.is_empty());
-        if waiting > 0 {
-            stack[0].1 = self.gap(0, &point);
-        }
-        while waiting > 0 {
-            waiting -= 1;
-            let (index, gap) = stack[waiting];
-            // Also refuses a gap that is not a number
-            if gap.is_nan() || gap > reach * reach {
-                continue;
-            }
-            let node = &self.nodes[index as usize];
-            if node.right == 0 {
-                for cell in &self.order[node.from as usize..node.to as usize] {
-                    if visit(*cell as usize, &mut reach) {
-                        return;
-                    }
-                }
-                continue;
-            }
-            let left = (index + 1, self.gap(index + 1, &point));
-            let right = (node.right, self.gap(node.right, &point));
-            let (near, far) = if left.1 <= right.1 { (left, right) } else { (right, left) };
-            for child in [far, near] {
-                if child.1 <= reach * reach {
-                    stack[waiting] = child;
-                    waiting += 1;
-                }
-            }
-        }
-    }
 }
 
 #[cfg(test)]
@@ -352,10 +287,10 @@ mod tests {
         for cell in mesh.cell_ids() {
             let nodes = mesh.cell_nodes(cell);
             for at in [[0.3, 0.3], [0.05, 0.9], [0.5, 0.02], [0.02, 0.02]] {
-                let (place, _) = map_quadratic(&nodes, at);
-                let (found, reference) = locator.locate(place).unwrap();
-                assert_eq!(found, cell);
-                assert!((reference[0] - at[0]).hypot(reference[1] - at[1]) < 1e-12);
+                let found = locator.locate(map_quadratic(&nodes, at).position).unwrap();
+                assert_eq!(found.cell, cell);
+                let [x, y] = found.reference;
+                assert!((x - at[0]).hypot(y - at[1]) < 1e-12);
             }
         }
     }
@@ -365,9 +300,9 @@ mod tests {
         let mesh = channel();
         let locator = Locator::new(&mesh);
         for node in &mesh.nodes {
-            let (cell, at) = locator.locate(*node).expect("nodes are in the mesh");
-            let (place, _) = map_quadratic(&mesh.cell_nodes(cell), at);
-            assert!((place - node).norm() < 1e-13);
+            let found = locator.locate(*node).expect("nodes are in the mesh");
+            let map = map_quadratic(&mesh.cell_nodes(found.cell), found.reference);
+            assert!((map.position - node).norm() < 1e-13);
         }
         for (x, y) in [(0.2, 0.2), (0.2, 0.2 + 0.0499), (-1e-6, 0.2), (1.0, 0.42), (f64::NAN, 0.0)]
         {

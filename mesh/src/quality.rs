@@ -2,32 +2,33 @@
 
 use std::fmt;
 
-use crate::outline::cross;
-use crate::{CellId, Mesh, Point, jacobian_coefficients};
+use crate::curved::{determinant, jacobian_coefficients};
+use crate::{CellId, Mesh, Point, Simplex};
 
 /// Worst cells listed.
 const LISTED: usize = 5;
 
-/// Numbers that describe a planar mesh.
+/// Numbers that describe a mesh.
 ///
-/// Angles and mean ratios are those of the straight triangles.
+/// Angles and mean ratios are those of the straight simplices; the angles of a tetrahedron are
+/// those between its faces.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Quality {
+pub struct Quality<const D: usize = 2> {
     /// Cells.
     pub n_cells: usize,
     /// Vertices.
     pub n_vertices: usize,
     /// P2 nodes.
     pub n_nodes: usize,
-    /// Unknowns of the Taylor-Hood element: two velocities per node, one pressure per vertex.
+    /// Unknowns of the Taylor-Hood element: D velocities per node, one pressure per vertex.
     pub n_dofs: usize,
     /// Smallest angle (degrees).
     pub min_angle: f64,
     /// Where it is: centre of its cell (m).
-    pub min_angle_at: Point<2>,
+    pub min_angle_at: Point<D>,
     /// Mean over the cells of their smallest angle (degrees).
     pub mean_angle: f64,
-    /// Smallest mean ratio: 4 √3 area / (sum of squared edges), 1 when equilateral.
+    /// Smallest mean ratio, see [`Mesh::cell_quality`].
     pub min_ratio: f64,
     /// Mean of the mean ratios.
     pub mean_ratio: f64,
@@ -37,16 +38,16 @@ pub struct Quality {
     pub longest_edge: f64,
     /// Cells with a curved side.
     pub n_curved: usize,
-    /// Smallest Bezier coefficient of det J of a curved cell over twice its straight area; 1
+    /// Smallest Bezier coefficient of det J of a curved cell over det J of the straight one; 1
     /// without curved cells.
     pub min_curved_jacobian: f64,
     /// The cells with the smallest mean ratio, worst first.
-    pub worst: Vec<WorstCell>,
+    pub worst: Vec<WorstCell<D>>,
 }
 
 /// One of the worst cells.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct WorstCell {
+pub struct WorstCell<const D: usize = 2> {
     /// Index of the cell.
     pub cell: CellId,
     /// Its mean ratio.
@@ -54,21 +55,21 @@ pub struct WorstCell {
     /// Its smallest angle (degrees).
     pub angle: f64,
     /// Its centre (m).
-    pub center: Point<2>,
+    pub center: Point<D>,
 }
 
 /// Quality of one cell, and where it is.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct CellQuality {
+pub struct CellQuality<const D: usize> {
     /// Index of the cell.
     pub cell: CellId,
     /// See [`Mesh::cell_quality`].
     pub quality: f64,
     /// Centre of the cell (m).
-    pub center: Point<2>,
+    pub center: Point<D>,
 }
 
-impl CellQuality {
+impl<const D: usize> CellQuality<D> {
     /// Whether the cell is neither inverted nor folded.
     #[must_use]
     pub fn is_valid(&self) -> bool {
@@ -76,28 +77,62 @@ impl CellQuality {
     }
 }
 
-impl Mesh<2> {
-    /// Quality of a cell: 1 when equilateral, 0 or less when inverted or folded, never NaN.
+/// det J of the straight simplex with these vertices (m^D), and the sum of its squared edges (m²).
+fn straight_measures<const D: usize>(vertices: &[Point<D>]) -> (f64, f64) {
+    let det = determinant(&std::array::from_fn::<_, D, _>(|k| vertices[k + 1] - vertices[0]));
+    let edges = Simplex::<D>::EDGES.iter();
+    (det, edges.map(|&[i, j]| (vertices[j] - vertices[i]).norm_squared()).sum())
+}
+
+/// Mean ratio of a simplex from det J and the sum of its squared edges: 1 when regular, 0 when
+/// flat, negative when inverted.
+fn mean_ratio<const D: usize>(det: f64, squares: f64) -> f64 {
+    if D == 2 {
+        2.0 * 3.0_f64.sqrt() * det / squares
+    } else {
+        12.0 * det.signum() * (0.5 * det.abs()).powf(2.0 / 3.0) / squares
+    }
+}
+
+/// Smallest angle of a straight simplex (rad): at the vertices of a triangle, negative when it is
+/// inverted; between the faces of a tetrahedron.
+fn smallest_angle<const D: usize>(vertices: &[Point<D>]) -> f64 {
+    let angle = |&[i, j]: &[usize; 2]| {
+        let along = vertices[j] - vertices[i];
+        let mut others = (0..=D).filter(|k| *k != i && *k != j).map(|k| vertices[k] - vertices[i]);
+        let mut next = || others.next().unwrap_or(along);
+        if D == 2 {
+            let back = next();
+            return (along[0] * back[1] - along[1] * back[0]).atan2(along.dot(&back));
+        }
+        let [p, q] = [next(), next()]
+            .map(|side| side - along * (side.dot(&along) / along.norm_squared()))
+            .map(|upright| upright.normalize());
+        2.0 * (p - q).norm().atan2((p + q).norm())
+    };
+    Simplex::<D>::EDGES.iter().map(angle).fold(f64::INFINITY, f64::min)
+}
+
+impl<const D: usize> Mesh<D> {
+    /// Quality of a cell: 1 when regular, 0 or less when inverted or folded, never NaN.
     ///
-    /// The mean ratio 4 √3 area / (sum of squared edges) of the straight triangle; for a curved
-    /// cell times the smallest Bezier coefficient of det J over twice the straight area, where
-    /// that is below one.
+    /// The mean ratio of the straight simplex, 4 √3 area / (sum of squared edges) of a triangle and
+    /// 12 (3 volume)^(2/3) / (sum of squared edges) of a tetrahedron; for a curved cell times the
+    /// smallest Bezier coefficient of det J over that of the straight cell, where that is below one.
     ///
     /// # Source
     /// @liu1994 for the mean ratio, @johnen2013 for curved cells.
     #[must_use]
     pub fn cell_quality(&self, cell: CellId) -> f64 {
         let nodes = self.cell_nodes(cell);
-        let [a, b, c] = [nodes[0], nodes[1], nodes[2]];
-        let twice_area = cross(b - a, c - a);
-        let squares = (b - a).norm_squared() + (c - b).norm_squared() + (a - c).norm_squared();
-        let ratio = 2.0 * 3.0_f64.sqrt() * twice_area / squares;
-        let quality = if self.curved[cell] && twice_area > 0.0 {
+        let (det, squares) = straight_measures(&nodes[..=D]);
+        let ratio = mean_ratio::<D>(det, squares);
+        let quality = if self.curved[cell] && det > 0.0 {
             // Unlike f64::min, the comparison keeps what is not a number
             let lowest = jacobian_coefficients(&nodes)
                 .into_iter()
-                .fold(twice_area, |low, c| if c >= low { low } else { c });
-            ratio * lowest / twice_area
+                .fold(det, |low, c| if c >= low { low } else { c });
+            ratio * lowest / det
         } else {
             ratio
         };
@@ -106,47 +141,42 @@ impl Mesh<2> {
 
     /// The cell with the lowest quality; `None` for a mesh without cells.
     #[must_use]
-    pub fn worst_cell(&self) -> Option<CellQuality> {
+    pub fn worst_cell(&self) -> Option<CellQuality<D>> {
         let all = self.cell_ids().map(|cell| (cell, self.cell_quality(cell)));
         let (cell, quality) = all.min_by(|a, b| a.1.total_cmp(&b.1))?;
-        let [a, b, c, ..] = self.cell_nodes(cell);
-        Some(CellQuality { cell, quality, center: (a + b + c) / 3.0 })
+        Some(CellQuality { cell, quality, center: self.cell_center(cell) })
     }
 }
 
-impl Quality {
+impl<const D: usize> Quality<D> {
     /// Measures a mesh.
     #[must_use]
-    pub fn of(mesh: &Mesh<2>) -> Self {
+    pub fn of(mesh: &Mesh<D>) -> Self {
         let n = mesh.n_cells();
-        let mut all: Vec<WorstCell> = Vec::with_capacity(n);
+        let mut all: Vec<WorstCell<D>> = Vec::with_capacity(n);
         let (mut shortest, mut longest) = (f64::INFINITY, 0.0_f64);
         let mut min_curved_jacobian = 1.0_f64;
         for cell in mesh.cell_ids() {
             let nodes = mesh.cell_nodes(cell);
-            let [a, b, c] = [nodes[0], nodes[1], nodes[2]];
-            let sides = [b - a, c - b, a - c];
-            for side in &sides {
-                shortest = shortest.min(side.norm());
-                longest = longest.max(side.norm());
+            for &[i, j] in Simplex::<D>::EDGES {
+                let length = (nodes[j] - nodes[i]).norm();
+                shortest = shortest.min(length);
+                longest = longest.max(length);
             }
-            let twice_area = cross(b - a, c - a);
-            let squares: f64 = sides.iter().map(Point::<2>::norm_squared).sum();
-            let ratio = 2.0 * 3.0_f64.sqrt() * twice_area / squares;
-            let angle = (0..3)
-                .map(|i| {
-                    let (out, back) = (sides[i], -sides[(i + 2) % 3]);
-                    cross(out, back).atan2(out.dot(&back)).to_degrees()
-                })
-                .fold(f64::INFINITY, f64::min);
+            let (det, squares) = straight_measures(&nodes[..=D]);
             if mesh.curved[cell] {
                 let lowest =
                     jacobian_coefficients(&nodes).into_iter().fold(f64::INFINITY, f64::min);
-                min_curved_jacobian = min_curved_jacobian.min(lowest / twice_area);
+                min_curved_jacobian = min_curved_jacobian.min(lowest / det);
             }
-            all.push(WorstCell { cell, ratio, angle, center: (a + b + c) / 3.0 });
+            all.push(WorstCell {
+                cell,
+                ratio: mean_ratio::<D>(det, squares),
+                angle: smallest_angle(&nodes[..=D]).to_degrees(),
+                center: mesh.cell_center(cell),
+            });
         }
-        let mean = |f: fn(&WorstCell) -> f64| all.iter().map(f).sum::<f64>() / n.max(1) as f64;
+        let mean = |f: fn(&WorstCell<D>) -> f64| all.iter().map(f).sum::<f64>() / n.max(1) as f64;
         let (mean_angle, mean_ratio) = (mean(|c| c.angle), mean(|c| c.ratio));
         let sharpest = all.iter().copied().min_by(|a, b| a.angle.total_cmp(&b.angle));
         all.sort_by(|a, b| a.ratio.total_cmp(&b.ratio));
@@ -155,9 +185,9 @@ impl Quality {
             n_cells: n,
             n_vertices: mesh.n_vertices,
             n_nodes: mesh.n_nodes(),
-            n_dofs: 2 * mesh.n_nodes() + mesh.n_vertices,
+            n_dofs: D * mesh.n_nodes() + mesh.n_vertices,
             min_angle: sharpest.map_or(0.0, |c| c.angle),
-            min_angle_at: sharpest.map_or(Point::<2>::zeros(), |c| c.center),
+            min_angle_at: sharpest.map_or(Point::zeros(), |c| c.center),
             mean_angle,
             min_ratio: all.first().map_or(0.0, |c| c.ratio),
             mean_ratio,
@@ -170,7 +200,13 @@ impl Quality {
     }
 }
 
-impl fmt::Display for Quality {
+/// Coordinates in brackets.
+fn coordinates<const D: usize>(point: &Point<D>) -> String {
+    let parts: Vec<String> = point.iter().map(|x| format!("{x:.4e}")).collect();
+    format!("({})", parts.join(", "))
+}
+
+impl<const D: usize> fmt::Display for Quality<D> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "cells            {:>12}  ({} curved)", self.n_cells, self.n_curved)?;
         writeln!(f, "vertices         {:>12}", self.n_vertices)?;
@@ -183,8 +219,10 @@ impl fmt::Display for Quality {
         )?;
         writeln!(
             f,
-            "smallest angle   {:>12.2}  degrees at ({:.4e}, {:.4e}); mean {:.2}",
-            self.min_angle, self.min_angle_at.x, self.min_angle_at.y, self.mean_angle
+            "smallest angle   {:>12.2}  degrees at {}; mean {:.2}",
+            self.min_angle,
+            coordinates(&self.min_angle_at),
+            self.mean_angle
         )?;
         writeln!(
             f,
@@ -196,10 +234,44 @@ impl fmt::Display for Quality {
         for worst in &self.worst {
             writeln!(
                 f,
-                "{:>10}  {:.4}  {:>6.2}   ({:.4e}, {:.4e})",
-                worst.cell, worst.ratio, worst.angle, worst.center.x, worst.center.y
+                "{:>10}  {:.4}  {:>6.2}   {}",
+                worst.cell,
+                worst.ratio,
+                worst.angle,
+                coordinates(&worst.center)
             )?;
         }
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_regular_tetrahedron_is_perfect_and_a_flat_one_is_not() {
+        let corners = [[1.0, 1.0, 1.0], [1.0, -1.0, -1.0], [-1.0, -1.0, 1.0], [-1.0, 1.0, -1.0]];
+        let mut vertices = corners.map(Point::<3>::from);
+        let ratio = |vertices: &[Point<3>]| {
+            let (det, squares) = straight_measures(vertices);
+            mean_ratio::<3>(det, squares)
+        };
+        assert!((ratio(&vertices) - 1.0).abs() < 1e-15, "{}", ratio(&vertices));
+        let angle = smallest_angle(&vertices);
+        assert!((angle - (1.0_f64 / 3.0).acos()).abs() < 1e-15, "{angle}");
+        vertices.swap(0, 1);
+        assert!((ratio(&vertices) + 1.0).abs() < 1e-15);
+        vertices[3] = (vertices[0] + vertices[1] + vertices[2]) / 3.0;
+        assert!(ratio(&vertices).abs() < 1e-6 && smallest_angle(&vertices).abs() < 1e-7);
+    }
+
+    #[test]
+    fn the_angles_of_a_triangle_are_those_of_its_corners() {
+        let at = |x: f64, y: f64| Point::<2>::new(x, y);
+        let half = smallest_angle(&[at(0.0, 0.0), at(1.0, 0.0), at(1.0, 0.5_f64.tan())]);
+        assert!((half - 0.5).abs() < 1e-15);
+        let (det, squares) = straight_measures(&[at(0.0, 0.0), at(2.0, 0.0), at(1.0, 3f64.sqrt())]);
+        assert!((mean_ratio::<2>(det, squares) - 1.0).abs() < 1e-15);
     }
 }

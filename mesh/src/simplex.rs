@@ -4,7 +4,7 @@
 //! Vertices, edges and facets are in VTK's order (types 22 and 24), so that a positive cell has its
 //! facets seen from outside counter-clockwise: the triangle on the left of its sides.
 
-use std::ops::Range;
+use std::ops::{Deref, Range};
 
 /// The simplex of dimension D, 2 or 3, with the nodes of the quadratic element.
 #[derive(Debug, Clone, Copy)]
@@ -66,6 +66,34 @@ impl<const D: usize> Simplex<D> {
     #[must_use]
     pub fn facet_inner_nodes(side: usize) -> &'static [usize] {
         &Self::FACETS[side][D..]
+    }
+}
+
+/// Nodes of the element with the most of them, the quadratic tetrahedron.
+const MAX_NODES: usize = 10;
+
+/// One value for each node of a simplex, in the order of its nodes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct NodeArray<const D: usize, T>([T; MAX_NODES]);
+
+impl<const D: usize, T: Copy> NodeArray<D, T> {
+    /// The values `value` gives for the local nodes.
+    #[must_use]
+    pub fn from_fn(mut value: impl FnMut(usize) -> T) -> Self {
+        let mut values = [value(0); MAX_NODES];
+        for (node, entry) in values[..Simplex::<D>::N_NODES].iter_mut().enumerate().skip(1) {
+            *entry = value(node);
+        }
+        Self(values)
+    }
+}
+
+impl<const D: usize, T> Deref for NodeArray<D, T> {
+    type Target = [T];
+
+    #[inline]
+    fn deref(&self) -> &[T] {
+        &self.0[..Simplex::<D>::N_NODES]
     }
 }
 

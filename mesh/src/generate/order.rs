@@ -17,8 +17,7 @@ pub fn renumber(mesh: &Mesh<2>) -> Mesh<2> {
     let mut order: Vec<(u64, CellId)> = mesh
         .cell_ids()
         .map(|cell| {
-            let nodes = mesh.cell_nodes(cell);
-            let place = ((nodes[0] + nodes[1] + nodes[2]) / 3.0 - low) * scale;
+            let place = (mesh.cell_center(cell) - low) * scale;
             (along_curve(place[0] as u32, place[1] as u32), cell)
         })
         .collect();

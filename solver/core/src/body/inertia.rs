@@ -213,9 +213,8 @@ mod tests {
         let carried = carried_velocity(&then, &next, &velocity, Modes::SPATIAL);
         assert!((next * carried - top.momentum(1)).norm() < 1e-14);
         assert_eq!(carried_velocity(&then, &then, &velocity, Modes::SPATIAL), velocity);
-        let [disc, smaller] = [0.5, 0.25].map(|polar| {
-            Inertia::planar(2.0, polar).matrix(&Pose::planar(0.0, 0.0, 1.0))
-        });
+        let [disc, smaller] = [0.5, 0.25]
+            .map(|polar| Inertia::planar(2.0, polar).matrix(&Pose::planar(0.0, 0.0, 1.0)));
         let velocity = RigidVector::from_column_slice(&[2.0, 4.0, 0.0, 0.0, 0.0, 3.0]);
         let carried = carried_velocity(&disc, &smaller, &velocity, Modes::PLANAR);
         assert_eq!(carried.as_slice(), [2.0, 4.0, 0.0, 0.0, 0.0, 6.0]);

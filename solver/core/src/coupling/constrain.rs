@@ -3,7 +3,7 @@
 //! A node on a body: u = U + omega x (x - G) + slip, with U and omega raw unknowns themselves.
 //! Where boundaries meet, bodies come first, then walls, then inflows, then symmetry planes.
 
-use alewife_mesh::{BoundaryKind, Mesh, NodeId, Point};
+use alewife_mesh::{BoundaryId, BoundaryKind, Mesh, NodeId, Point};
 
 use super::boundaries::{Boundaries, BoundaryNode};
 use super::kinematics::{RigidRow, turned_component};
@@ -156,7 +156,7 @@ impl<const D: usize> Constrainer<'_, D> {
 
 /// The first vertex of each facet on a side of the domain.
 fn vertices_on_sides<const D: usize>(mesh: &Mesh<D>) -> impl Iterator<Item = NodeId> {
-    let is_side = |boundary| mesh.boundaries[boundary].kind == BoundaryKind::Side;
+    let is_side = |boundary: BoundaryId| mesh.boundaries[boundary].kind == BoundaryKind::Side;
     let facets = mesh.facets.iter().filter(move |facet| is_side(facet.boundary));
     facets.map(|facet| mesh.facet_vertices(facet)[0])
 }

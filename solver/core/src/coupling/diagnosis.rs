@@ -1,7 +1,7 @@
 //! What an error of the linear algebra means: which unknown, where, and what may be missing.
 
-use super::problem::Problem;
 use super::error::{SolveError, coordinates};
+use super::problem::Problem;
 use super::system::{Configuration, FluidSystem};
 use crate::algebra::LinearError;
 use crate::body::Mode;
@@ -46,10 +46,16 @@ impl<const D: usize> FluidSystem<D> {
         let pressures = self.layout.pressures();
         if raw < pressures.start {
             let axis = problem.metric.axis_name(raw % D);
-            return format!("the {axis} velocity at {}", coordinates(mesh.nodes[raw / D].as_slice()));
+            return format!(
+                "the {axis} velocity at {}",
+                coordinates(mesh.nodes[raw / D].as_slice())
+            );
         }
         if pressures.contains(&raw) {
-            return format!("the pressure at {}", coordinates(mesh.nodes[raw - pressures.start].as_slice()));
+            return format!(
+                "the pressure at {}",
+                coordinates(mesh.nodes[raw - pressures.start].as_slice())
+            );
         }
         let modes = problem.modes();
         let rigid = raw - self.layout.n_fluid();

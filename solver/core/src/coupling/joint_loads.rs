@@ -92,11 +92,7 @@ fn report(joint: &Joint, child: usize, load: &Wrench, now: &BodyStates<'_>) -> J
 }
 
 /// What a body needs to move as it does besides fluid, contact and all that acts on it from outside.
-fn missing_load<const D: usize>(
-    problem: &Problem<D>,
-    now: &BodyStates<'_>,
-    body: usize,
-) -> Wrench {
+fn missing_load<const D: usize>(problem: &Problem<D>, now: &BodyStates<'_>, body: usize) -> Wrench {
     let rigid = &problem.bodies[body];
     let (pose, twist) = (&now.poses[body], now.twists[body].to_vector());
     let mut load = RigidVector::zeros();

@@ -45,7 +45,8 @@ pub fn body_loads<const D: usize>(
         let center = on_mesh::<D>(&pose.center);
         let mut loads = BodyLoads::default();
         for &node in flow.boundaries.nodes_on(body.boundary) {
-            let force = -Point::<D>::from_fn(|axis, _| flow.residual[flow.layout.velocity(node, axis)]);
+            let force =
+                -Point::<D>::from_fn(|axis, _| flow.residual[flow.layout.velocity(node, axis)]);
             let lever = flow.mesh.nodes[node] - center;
             loads.power -= force.dot(&flow.velocity[node]);
             loads.load.force += problem.metric.total_force(&force);

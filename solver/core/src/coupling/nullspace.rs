@@ -85,7 +85,7 @@ fn weights<const D: usize>(mesh: &Mesh<D>) -> Vec<(NodeId, SMatrix<f64, D, D>)> 
     }
     let [at_vertices, at_inner] = basis_means::<D>();
     let mut volume = Point::<D>::zeros();
-    let mut weights = Vec::new();
+    let mut weights: Vec<(NodeId, SMatrix<f64, D, D>)> = Vec::new();
     for facet in &mesh.facets {
         // Vertices may be copies of another pair of sides, inner nodes are not
         let mut inner = mesh.facet_inner_nodes(facet);

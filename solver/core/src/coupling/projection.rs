@@ -9,7 +9,9 @@ use super::boundaries::{Boundaries, BoundaryNode};
 use super::constrain::Constrainer;
 use super::problem::{Problem, Side};
 use super::system::{make_compatible, pressure_weights, unknowns};
-use crate::algebra::{AffineConstraints, ConstraintBuilder, DirectSolver, LinearError, Pattern};
+use crate::algebra::{
+    AffineConstraints, ConstraintBuilder, DirectSolver, LinearError, LinearSolver, SparseMatrix,
+};
 use crate::flow::{Assembly, Convection, Fields, FlowTerms, assemble, residual};
 use crate::space::DofLayout;
 
@@ -24,8 +26,7 @@ pub struct DivergenceFreeProjection<const D: usize> {
     layout: DofLayout<D>,
     constraints: AffineConstraints,
     assembly: Assembly<D>,
-    pattern: Pattern,
-    values: Vec<f64>,
+    matrix: SparseMatrix,
     solver: DirectSolver,
     /// int psi dx of each vertex when the flow is enclosed, to distribute a net flux.
     enclosed_weights: Option<Vec<f64>>,
@@ -54,10 +55,10 @@ impl<const D: usize> DivergenceFreeProjection<D> {
         let constraints = hold_given_velocities(problem, mesh, &layout);
         let (pattern, assembly) =
             Assembly::new(mesh, layout, &constraints, problem.metric, &[], None);
-        let solver = DirectSolver::analyse(&pattern, &unknowns(&layout, &constraints));
-        let values = vec![0.0; pattern.rows.len()];
+        let solver = DirectSolver::new(&pattern, &unknowns(&layout, &constraints));
+        let matrix = SparseMatrix::zeros(pattern);
         let mut projection =
-            Self { layout, constraints, assembly, pattern, values, solver, enclosed_weights: None };
+            Self { layout, constraints, assembly, matrix, solver, enclosed_weights: None };
         projection.move_to(problem, mesh)?;
         Ok(projection)
     }
@@ -70,9 +71,9 @@ impl<const D: usize> DivergenceFreeProjection<D> {
         let velocity = vec![Point::<D>::zeros(); self.layout.n_nodes];
         let pressure = vec![0.0; self.layout.n_vertices];
         let fields = Fields { velocity: &velocity, pressure: &pressure };
-        let (constraints, values) = (&self.constraints, &mut self.values);
+        let (constraints, values) = (&self.constraints, self.matrix.values_mut());
         assemble(&self.assembly, mesh, constraints, &terms(1.0), &fields, values);
-        self.solver.factorise(&self.pattern, &self.values)?;
+        self.solver.set_up(&self.matrix)?;
         self.enclosed_weights =
             problem.is_enclosed().then(|| pressure_weights(mesh, self.assembly.tables()));
         Ok(())
@@ -135,7 +136,7 @@ impl<const D: usize> DivergenceFreeProjection<D> {
         if free.iter().all(|value| *value == 0.0) {
             return Ok(velocity.to_vec());
         }
-        self.solver.solve(&self.pattern, &self.values, &mut free)?;
+        self.solver.solve(&self.matrix, &mut free)?;
         let correction = self.constraints.expand(&free);
         let corrected = self.layout.nodes().zip(velocity).map(|(node, velocity)| {
             velocity + Point::<D>::from_fn(|axis, _| correction[self.layout.velocity(node, axis)])

@@ -75,8 +75,10 @@ pub fn mean_motion<const D: usize>(
     for &body in &group.bodies {
         let own = poses[body].tensor_to_world(&inertia(body).tensor);
         let (mass, lever) = (inertia(body).mass, poses[body].center - center);
-        momentum += lever.cross(&(twists[body].linear - linear)) * mass + own * twists[body].angular;
-        let offset = Matrix3::from_diagonal_element(lever.norm_squared()) - lever * lever.transpose();
+        momentum +=
+            lever.cross(&(twists[body].linear - linear)) * mass + own * twists[body].angular;
+        let offset =
+            Matrix3::from_diagonal_element(lever.norm_squared()) - lever * lever.transpose();
         tensor += offset * mass + own;
     }
     let angular = angular_velocity(&tensor, &momentum, problem.modes());

@@ -130,7 +130,8 @@ impl RigidBodyEquations {
                 torque: pivot.axis.scale(motor) - bend * pivot.stiffness,
             });
         }
-        for ((equation, rigid), unmoved) in self.bodies.iter_mut().zip(&problem.bodies).zip(unmoved) {
+        for ((equation, rigid), unmoved) in self.bodies.iter_mut().zip(&problem.bodies).zip(unmoved)
+        {
             equation.external = rigid.external(time);
             let Some(spring) = &rigid.spring else { continue };
             equation.resistance = spring.damping + spring.stiffness * coefficient;

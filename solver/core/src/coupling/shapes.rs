@@ -39,7 +39,6 @@ impl RigidBody {
         let deformed = self.shape.as_ref().map(|motion| motion.at(time)).transpose();
         deformed.map_err(|reason| ShapeError { body: self.name.clone(), reason })
     }
-
 }
 
 impl BodyShapes {
@@ -59,7 +58,8 @@ impl BodyShapes {
     }
 
     /// At time zero, as if no body deformed.
-    pub(super) fn rigid(n_bodies: usize) -> Self {
+    #[must_use]
+    pub fn rigid(n_bodies: usize) -> Self {
         Self { time: 0.0, shapes: vec![None; n_bodies] }
     }
 

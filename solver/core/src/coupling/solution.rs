@@ -31,7 +31,7 @@ impl<const D: usize> Solution<D> {
     /// From a vector of raw unknowns, with the rigid motions `modes` of the bodies.
     #[must_use]
     pub fn from_raw(layout: &DofLayout<D>, modes: Modes, raw: &[f64]) -> Self {
-        let velocities = raw[..layout.pressure(0)].chunks_exact(D);
+        let velocities = raw[..layout.pressures().start].chunks_exact(D);
         let twist = |body: usize| {
             let mut vector = RigidVector::zeros();
             for (position, mode) in modes.iter().enumerate() {
@@ -41,7 +41,7 @@ impl<const D: usize> Solution<D> {
         };
         Self {
             velocity: velocities.map(Point::<D>::from_column_slice).collect(),
-            pressure: raw[layout.pressure(0)..layout.n_fluid()].to_vec(),
+            pressure: raw[layout.pressures()].to_vec(),
             twists: (0..layout.n_bodies).map(twist).collect(),
         }
     }
@@ -70,6 +70,8 @@ impl<const D: usize> Solution<D> {
 
 #[cfg(test)]
 mod tests {
+    use alewife_mesh::NodeId;
+
     use super::*;
 
     fn check<const D: usize>(modes: Modes) {
@@ -78,7 +80,7 @@ mod tests {
         let raw: Vec<f64> = (0..layout.n_raw()).map(|i| 0.5 + i as f64).collect();
         let solution = Solution::from_raw(&layout, modes, &raw);
         assert_eq!(solution.to_raw(modes), raw);
-        assert_eq!(solution.velocity[2][D - 1], raw[layout.velocity(2, D - 1)]);
+        assert_eq!(solution.velocity[2][D - 1], raw[layout.velocity(NodeId::new(2), D - 1)]);
         let last = modes.iter().next_back().unwrap();
         assert_eq!(solution.twists[1].component(last), raw[layout.rigid(1, modes.len() - 1)]);
     }

@@ -18,14 +18,16 @@ use super::rigid_equations::{RigidBodyEquations, rotations};
 use super::shapes::BodyShapes;
 use super::solution::Solution;
 use super::surface_load::SurfaceStress;
-use crate::algebra::{Accuracy, AffineConstraints, DirectSolver, LinearError, Pattern, Unknowns};
-use crate::body::{Modes, Pose, RigidVector, Twist};
+use crate::algebra::{
+    Accuracy, AffineConstraints, DirectSolver, LinearError, LinearSolver, SparseMatrix, Unknowns,
+};
+use crate::body::{Modes, Pose, RigidVector};
 use crate::flow::{Assembly, FlowTerms, assemble, pressure_unknowns, residual};
 use crate::space::{CellValues, DofLayout, FacetRule, Tables};
 use crate::timing::{Stage, Timing};
 
 /// Everything that defines the system on one configuration of the mesh.
-#[derive(Debug)]
+#[derive(Clone, Copy)]
 pub struct Configuration<'a, const D: usize> {
     /// What is solved.
     pub problem: &'a Problem<D>,
@@ -47,10 +49,9 @@ pub struct FluidSystem<const D: usize> {
     pub n_unknowns: usize,
     modes: Modes,
     facet_rule: FacetRule<D>,
-    pub(super) assembly: Assembly<D>,
-    pub(super) pattern: Pattern,
-    pub(super) values: Vec<f64>,
-    pub(super) solver: Option<DirectSolver>,
+    assembly: Assembly<D>,
+    matrix: SparseMatrix,
+    solver: Option<Box<dyn LinearSolver>>,
     accuracy: Accuracy,
     /// What each unknown is.
     pub(super) unknowns: Unknowns,
@@ -64,12 +65,7 @@ impl<const D: usize> FluidSystem<D> {
     /// Analyses a problem on a mesh. `unknown_frame` makes the frame's velocity an unknown of the
     /// convection.
     #[must_use]
-    pub fn new(
-        problem: &Problem<D>,
-        mesh: &Mesh<D>,
-        poses: &[Pose],
-        unknown_frame: bool,
-    ) -> Self {
+    pub fn new(problem: &Problem<D>, mesh: &Mesh<D>, poses: &[Pose], unknown_frame: bool) -> Self {
         let modes = problem.modes();
         let layout = DofLayout::new(mesh, problem.bodies.len(), modes.len());
         let boundaries = Boundaries::new(mesh);
@@ -87,7 +83,6 @@ impl<const D: usize> FluidSystem<D> {
             frame,
         );
         let pressure_weights = pressure_weights(mesh, assembly.tables());
-        let values = vec![0.0; pattern.rows.len()];
         let unknowns = unknowns(&layout, &constraints);
         Self {
             layout,
@@ -96,8 +91,7 @@ impl<const D: usize> FluidSystem<D> {
             modes,
             facet_rule: FacetRule::new(problem.metric),
             assembly,
-            pattern,
-            values,
+            matrix: SparseMatrix::zeros(pattern),
             solver: None,
             accuracy: Accuracy::default(),
             unknowns,
@@ -109,7 +103,7 @@ impl<const D: usize> FluidSystem<D> {
     /// Entries of the matrix.
     #[must_use]
     pub fn n_entries(&self) -> usize {
-        self.pattern.rows.len()
+        self.matrix.pattern().n_entries()
     }
 
     /// What the linear solver is given of each free unknown.
@@ -228,7 +222,7 @@ impl<const D: usize> FluidSystem<D> {
         timing: &mut Timing,
     ) -> Result<Solution<D>, SolveError> {
         timing.measure(Stage::Assembly, || {
-            let (fields, values) = (solution.fields(), &mut self.values);
+            let (fields, values) = (solution.fields(), self.matrix.values_mut());
             assemble(&self.assembly, at.mesh, at.constraints, terms, &fields, values);
             self.add_rigid_matrix(at);
         });
@@ -274,15 +268,15 @@ impl<const D: usize> FluidSystem<D> {
         rhs: &mut [f64],
         timing: &mut Timing,
     ) -> Result<(), LinearError> {
-        let (pattern, values) = (&self.pattern, &self.values);
+        let (matrix, unknowns) = (&self.matrix, &self.unknowns);
         let solver = timing.measure(Stage::Factorisation, || {
-            self.solver.get_or_insert_with(|| DirectSolver::analyse(pattern, &self.unknowns))
+            self.solver.get_or_insert_with(|| analyse(matrix, unknowns))
         });
-        let is_solved = timing
-            .measure(Stage::Solve, || solver.solve_with_old_factors(pattern, values, rhs, free))?;
+        let is_solved =
+            timing.measure(Stage::Solve, || solver.solve_with_earlier_set_up(matrix, rhs, free))?;
         if !is_solved {
-            timing.measure(Stage::Factorisation, || solver.factorise(pattern, values))?;
-            self.accuracy = timing.measure(Stage::Solve, || solver.solve(pattern, values, rhs))?;
+            timing.measure(Stage::Factorisation, || solver.set_up(matrix))?;
+            self.accuracy = timing.measure(Stage::Solve, || solver.solve(matrix, rhs))?;
         }
         Ok(())
     }
@@ -321,9 +315,9 @@ impl<const D: usize> FluidSystem<D> {
         }
         for &(first, one) in v {
             for &(second, other) in w {
-                let position = self.pattern.position(first as usize, second as usize);
-                if let Some(position) = position {
-                    self.values[position] += one * other * factor;
+                let entry = self.matrix.pattern().entry(first as usize, second as usize);
+                if let Some(entry) = entry {
+                    self.matrix.values_mut()[entry] += one * other * factor;
                 }
             }
         }
@@ -363,8 +357,8 @@ impl<const D: usize> FluidSystem<D> {
             rows.iter().flat_map(|row| row.iter().map(|(unknown, _)| *unknown as usize)).collect();
         masters.sort_unstable();
         masters.dedup();
-        let solver = self.factorised(timing)?;
-        let inverse = timing.measure(Stage::Solve, || solver.inverse_of_dense(&masters));
+        let Factorised { matrix, solver } = self.factorised(timing)?;
+        let inverse = timing.measure(Stage::Solve, || solver.inverse_of_dense(matrix, &masters))?;
         // Velocities by loads on the masters, one column each
         let inverse = DMatrix::from_column_slice(masters.len(), masters.len(), &inverse);
         let mut weights: DMatrix<f64> = DMatrix::zeros(rows.len(), masters.len());
@@ -398,11 +392,8 @@ impl<const D: usize> FluidSystem<D> {
                 }
             }
         }
-        self.factorised(timing)?;
-        let (pattern, values) = (&self.pattern, &self.values);
-        if let Some(solver) = &mut self.solver {
-            timing.measure(Stage::Solve, || solver.solve(pattern, values, &mut change))?;
-        }
+        let Factorised { matrix, solver } = self.factorised(timing)?;
+        timing.measure(Stage::Solve, || solver.solve(matrix, &mut change))?;
         let mut free = constraints.pick(&self.pinned(solution).to_raw(self.modes));
         free.iter_mut().zip(&change).for_each(|(value, change)| *value += change);
         let raw = constraints.expand(&free);
@@ -411,12 +402,12 @@ impl<const D: usize> FluidSystem<D> {
     }
 
     /// The solver with factors of the matrix last assembled.
-    fn factorised(&mut self, timing: &mut Timing) -> Result<&mut DirectSolver, LinearError> {
-        let (pattern, values) = (&self.pattern, &self.values);
+    fn factorised(&mut self, timing: &mut Timing) -> Result<Factorised<'_>, LinearError> {
+        let (matrix, unknowns) = (&self.matrix, &self.unknowns);
         timing.measure(Stage::Factorisation, || {
-            let solver =
-                self.solver.get_or_insert_with(|| DirectSolver::analyse(pattern, &self.unknowns));
-            solver.factorise(pattern, values).map(|()| solver)
+            let solver = self.solver.get_or_insert_with(|| analyse(matrix, unknowns));
+            solver.set_up(matrix)?;
+            Ok(Factorised { matrix, solver: solver.as_mut() })
         })
     }
 
@@ -432,6 +423,17 @@ impl<const D: usize> FluidSystem<D> {
             *pressure -= mean;
         }
     }
+}
+
+/// A matrix with a solver that is set up for it.
+struct Factorised<'a> {
+    matrix: &'a SparseMatrix,
+    solver: &'a mut dyn LinearSolver,
+}
+
+/// A solver for matrices with the pattern of this one.
+fn analyse(matrix: &SparseMatrix, unknowns: &Unknowns) -> Box<dyn LinearSolver> {
+    Box::new(DirectSolver::new(matrix.pattern(), unknowns))
 }
 
 /// A load on a body.
@@ -483,7 +485,7 @@ pub(super) fn pressure_weights<const D: usize>(mesh: &Mesh<D>, tables: &Tables<D
     for cell in mesh.cell_ids() {
         let nodes = mesh.cell(cell);
         workspace.for_each_point(tables, mesh, cell, |at| {
-            for (&vertex, psi) in boundaries.nodes().zip(at.psi) {
+            for (&vertex, psi) in nodes.iter().zip(at.psi) {
                 weights[vertex] += psi * at.dx;
             }
         });

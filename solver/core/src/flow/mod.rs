@@ -1,11 +1,13 @@
 //! The incompressible Navier-Stokes equations on a (moving) mesh: element terms and their assembly.
 
 mod assemble;
-mod cell_terms;
+mod kernel;
 mod open_side;
-mod points;
+mod parallel;
+mod taylor_hood;
 mod terms;
+#[cfg(test)]
+mod tests;
 
 pub use assemble::{Assembly, assemble, pressure_unknowns, residual};
-pub use open_side::{FacetPoint, for_each_facet_point};
 pub use terms::{BodyForce, Convection, Fields, FlowTerms};

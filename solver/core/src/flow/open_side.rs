@@ -4,87 +4,82 @@
 //! when mu (grad u) n - p n = 0 instead, so the part mu (grad u)^T n is taken off again:
 //! - int_side mu d_i u_j n_j v_i ds.
 
-use alewife_mesh::{Facet, Mesh, Point, Simplex};
+use std::ops::Range;
+
+use alewife_mesh::{Facet, Mesh};
 use nalgebra::SMatrix;
 
-use super::cell_terms::LocalLayout;
-use crate::space::{CellValues, Metric, Rule, triangle_side_point};
+use super::kernel::{CellInput, LocalLayout};
+use crate::space::{FacetRule, Metric};
 
-/// Values at one quadrature point of a boundary facet.
+/// Facets of open sides.
 #[derive(Debug, Clone)]
-pub struct FacetPoint<const D: usize> {
-    /// Quadratic basis of the cell.
-    pub phi: Vec<f64>,
-    /// Its gradients (1/m).
-    pub grad_phi: Vec<Point<D>>,
-    /// Outward normal of the fluid times the length of the facet's piece (m; m2 revolved).
-    pub normal_ds: Point<D>,
-    /// Position (m).
-    pub position: Point<D>,
-    /// Parameter along the side, from 0 to 1.
-    pub s: f64,
+pub(super) struct OpenSides<const D: usize> {
+    /// In the order of their cells.
+    facets: Vec<Facet>,
+    rule: FacetRule<D>,
 }
 
-/// Visits the quadrature points of a boundary facet of a planar mesh.
-pub fn for_each_facet_point(
-    mesh: &Mesh<2>,
-    facet: &Facet,
-    rule: &Rule<1>,
-    metric: Metric,
-    mut visit: impl FnMut(&FacetPoint<2>),
-) {
-    let side = usize::from(facet.side);
-    let along = triangle_side_point(side, 1.0) - triangle_side_point(side, 0.0);
-    for (point, weight) in rule.points.iter().zip(&rule.weights) {
-        let xi = triangle_side_point(side, point[0]);
-        let (phi, grad_phi, map, position) = CellValues::at(mesh, facet.cell, &xi);
-        let tangent: Point<2> = map * along;
-        // Cells run counter-clockwise, so the outward normal is to the right of the side.
-        let normal_ds =
-            Point::<2>::new(tangent[1], -tangent[0]) * (weight * metric.ring(&position));
-        visit(&FacetPoint { phi, grad_phi, normal_ds, position, s: point[0] });
+impl<const D: usize> OpenSides<D> {
+    /// The facets of these boundaries.
+    pub fn new(mesh: &Mesh<D>, boundaries: &[usize], metric: Metric) -> Self {
+        let is_open = |facet: &&Facet| boundaries.contains(&facet.boundary.index());
+        let mut facets: Vec<_> = mesh.facets.iter().filter(is_open).copied().collect();
+        facets.sort_by_key(|facet| facet.cell);
+        Self { facets, rule: FacetRule::new(metric) }
     }
-}
 
-/// Adds the term to a cell's raw matrix (column length `size`) or, given velocities, its residual.
-pub(super) fn add_open_side(
-    mesh: &Mesh<2>,
-    facet: &Facet,
-    rule: &Rule<1>,
-    metric: Metric,
-    viscosity: f64,
-    matrix: Option<(&mut [f64], usize)>,
-    residual: Option<(&mut [f64], &[Point<2>])>,
-) {
-    const D: usize = 2;
-    let local = LocalLayout::<D, { Simplex::<D>::N_NODES }>::velocity;
-    let nodes = mesh.cell(facet.cell);
-    let mut matrix = matrix;
-    let mut residual = residual;
-    for_each_facet_point(mesh, facet, rule, metric, |at| {
-        if let Some((matrix, size)) = matrix.as_mut() {
-            for a in 0..nodes.len() {
-                for b in 0..nodes.len() {
+    /// Facets of a range of cells.
+    pub fn of_cells(&self, cells: &Range<usize>) -> &[Facet] {
+        let first_from = |cell: usize| self.facets.partition_point(|at| at.cell.index() < cell);
+        &self.facets[first_from(cells.start)..first_from(cells.end)]
+    }
+
+    /// Adds the term of a facet to the raw matrix of its cell, which is stored by columns.
+    pub fn add_to_matrix(
+        &self,
+        facet: &Facet,
+        input: CellInput<'_, D>,
+        local: LocalLayout<D>,
+        matrix: &mut [f64],
+    ) {
+        let size = local.n_local();
+        self.rule.for_each_point(input.mesh, facet, |at| {
+            for a in 0..at.phi.len() {
+                for b in 0..at.phi.len() {
                     for i in 0..D {
-                        let weight = viscosity * at.phi[a] * at.grad_phi[b][i];
+                        let weight = input.terms.viscosity * at.phi[a] * at.grad_phi[b][i];
                         for j in 0..D {
-                            matrix[local(b, j) * *size + local(a, i)] -= weight * at.normal_ds[j];
+                            matrix[local.velocity(b, j) * size + local.velocity(a, i)] -=
+                                weight * at.normal_ds[j];
                         }
                     }
                 }
             }
-        }
-        if let Some((residual, velocity)) = residual.as_mut() {
+        });
+    }
+
+    /// Adds the term of a facet to the raw residual of its cell.
+    pub fn add_to_residual(
+        &self,
+        facet: &Facet,
+        input: CellInput<'_, D>,
+        local: LocalLayout<D>,
+        residual: &mut [f64],
+    ) {
+        let CellInput { mesh, terms, fields } = input;
+        let nodes = mesh.cell(facet.cell);
+        self.rule.for_each_point(mesh, facet, |at| {
             let gradient: SMatrix<f64, D, D> =
-                nodes.iter().zip(&at.grad_phi).fold(SMatrix::zeros(), |sum, (&node, grad)| {
-                    sum + velocity[node] * grad.transpose()
+                nodes.iter().zip(at.grad_phi).fold(SMatrix::zeros(), |sum, (&node, grad)| {
+                    sum + fields.velocity[node] * grad.transpose()
                 });
-            let traction = gradient.transpose() * at.normal_ds * viscosity;
-            for a in 0..nodes.len() {
+            let traction = gradient.transpose() * at.normal_ds * terms.viscosity;
+            for (a, phi) in at.phi.iter().enumerate() {
                 for i in 0..D {
-                    residual[local(a, i)] -= traction[i] * at.phi[a];
+                    residual[local.velocity(a, i)] -= traction[i] * phi;
                 }
             }
-        }
-    });
+        });
+    }
 }

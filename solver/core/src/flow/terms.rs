@@ -34,7 +34,7 @@ pub struct FlowTerms<'a, const D: usize> {
     /// The older levels' part h of the time derivative at the nodes (m/s2); empty when steady.
     pub history: &'a [Point<D>],
     /// Convecting velocity c at the nodes (m/s); empty without convection.
-    pub crossing: &'a [Point<D>],
+    pub convecting_velocity: &'a [Point<D>],
     /// How the convection enters the matrix.
     pub convection: Convection,
     /// Force per unit volume.

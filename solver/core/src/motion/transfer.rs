@@ -160,8 +160,8 @@ impl<'a> Transfer<'a> {
         let nodes = self.old.cell(source.cell);
         nodes
             .iter()
-            .zip(weights)
-            .fold(Point::<2>::zeros(), |sum, (&node, weight)| sum + field(node) * weight)
+            .zip(weights.iter())
+            .fold(Point::<2>::zeros(), |sum, (&node, &weight)| sum + field(node) * weight)
     }
 }
 
@@ -169,8 +169,8 @@ impl<'a> Transfer<'a> {
 fn find(old: &Mesh<2>, places: &[Point<2>], periods: &[Point<2>]) -> Option<Vec<Source>> {
     let locator = Locator::new(old);
     let find = |place: &Point<2>| {
-        if let Some((cell, at)) = locator.locate(*place) {
-            return Some(settle(cell, at, Landing::Inside, 0.0));
+        if let Some(found) = locator.locate(*place) {
+            return Some(settle(found.cell, found.reference, Landing::Inside, 0.0));
         }
         let images = std::iter::once(Point::<2>::zeros()).chain(periods.iter().copied());
         let found = images.filter_map(|shift| locator.nearest(place + shift));

@@ -52,7 +52,7 @@ pub enum Attempt {
     Rejected(StepError),
 }
 
-impl<const D: usize> Simulation<D> {
+impl Simulation<2> {
     /// Time spent so far.
     #[must_use]
     pub fn timing(&self) -> &Timing {
@@ -106,9 +106,7 @@ impl<const D: usize> Simulation<D> {
             Scheme::Bdf2 if state.last_step > 0.0 => {
                 stepper.advance(work, state, Bdf::second_order(size, state.last_step))?
             }
-            Scheme::Bdf2 | Scheme::Bdf1 => {
-                stepper.advance(work, state, Bdf::first_order(size))?
-            }
+            Scheme::Bdf2 | Scheme::Bdf1 => stepper.advance(work, state, Bdf::first_order(size))?,
         };
         let StepReport { error, .. } = report;
         if error > REJECTED * tolerance {
@@ -174,7 +172,7 @@ impl<const D: usize> Simulation<D> {
         let state = &self.state;
         let frame = state.origin_at(&self.problem, &state.poses)
             - state.origin_at(&self.problem, &state.previous_poses);
-        let frame = crate::body::on_mesh::<D>(&frame);
+        let frame = crate::body::on_mesh::<2>(&frame);
         let mut most = f64::MIN_POSITIVE;
         for cell in state.mesh.cell_ids() {
             let length = |edge: alewife_mesh::Edge<'_>| {

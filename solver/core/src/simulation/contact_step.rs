@@ -29,7 +29,11 @@ impl<const D: usize> PassContact<'_, D> {
     ///
     /// # Errors
     /// When contact forces are not found, or the linear system cannot be solved.
-    pub fn apply(&self, work: &mut Workspace<D>, flow: &mut Flow<D>) -> Result<ContactLoads, StepError> {
+    pub fn apply(
+        &self,
+        work: &mut Workspace<D>,
+        flow: &mut Flow<D>,
+    ) -> Result<ContactLoads, StepError> {
         let none = ContactLoads::none(self.state.poses.len());
         let (Some(law), Some(gaps)) = (self.stepper.contact, self.gaps) else { return Ok(none) };
         let candidates = self.candidate_bodies(gaps, law, &flow.solution.twists);
@@ -41,8 +45,7 @@ impl<const D: usize> PassContact<'_, D> {
         let fail = |error: SolveError| RunError::from_solve(error, step.number, step.time);
         let constraints = &self.equations.pass.constraints;
         let mobility = system.mobility(constraints, &candidates, timing).map_err(fail)?;
-        let loads =
-            self.solve(gaps, law, &candidates, &flow.solution.twists, &mobility)?.loads;
+        let loads = self.solve(gaps, law, &candidates, &flow.solution.twists, &mobility)?.loads;
         let on_bodies: Vec<BodyLoad> = candidates
             .iter()
             .map(|&body| BodyLoad { body, load: loads.wrenches[body].to_vector() })
@@ -52,9 +55,8 @@ impl<const D: usize> PassContact<'_, D> {
             system.apply_body_loads(constraints, &on_bodies, solution, timing).map_err(fail)?;
         }
         let at = self.equations.pass.at(self.stepper.problem, mesh);
-        flow.residual = timing.measure(Stage::Loads, || {
-            flow_residual(system, &at, self.equations, &flow.solution)
-        });
+        flow.residual = timing
+            .measure(Stage::Loads, || flow_residual(system, &at, self.equations, &flow.solution));
         Ok(loads)
     }
 

@@ -39,8 +39,8 @@ impl EnergyBalance {
             let change = kinetic_energy - before.kinetic_energy;
             self.defect +=
                 half * (power - dissipation + before.power - before.dissipation) - change;
-            self.turnover += half
-                * (power.abs().max(dissipation) + before.power.abs().max(before.dissipation));
+            self.turnover +=
+                half * (power.abs().max(dissipation) + before.power.abs().max(before.dissipation));
         }
         if self.turnover > 0.0 { self.defect / self.turnover } else { 0.0 }
     }

@@ -3,9 +3,9 @@
 use alewife_mesh::MeshError;
 use thiserror::Error;
 
-use crate::contact::ContactError;
 use super::resume::ResumeError;
 use super::scene::RemeshError;
+use crate::contact::ContactError;
 use crate::coupling::{ShapeError, SolveError, coordinates};
 use crate::motion::MotionError;
 

@@ -152,7 +152,8 @@ impl<const D: usize> TimeStepper<'_, D> {
         size: f64,
     ) -> Vec<Pose> {
         let pose = |(body, from): (usize, &Pose)| {
-            let weighted = rates.iter().zip(stage.weights).map(|(rate, weight)| rate[body] * *weight);
+            let weighted =
+                rates.iter().zip(stage.weights).map(|(rate, weight)| rate[body] * *weight);
             let displacement = weighted.fold(RigidVector::zeros(), |sum, part| sum + part) * size;
             from.displaced(&self.restricted(body, &displacement))
         };
@@ -200,9 +201,8 @@ impl<const D: usize> TimeStepper<'_, D> {
             contact.minimum_gap = gaps.minimum_gap(&state.in_own_frame(self.problem, &poses));
         }
         let twists = flow.solution.twists.iter().zip(&state.now.twists);
-        let accelerations = twists.map(|(new, old)| {
-            Twist::from_vector(&((new.to_vector() - old.to_vector()) / size))
-        });
+        let accelerations = twists
+            .map(|(new, old)| Twist::from_vector(&((new.to_vector() - old.to_vector()) / size)));
         let propulsion = (0..state.propulsion.len()).map(|group| {
             let stages = powers.iter().zip(STAGES[2].weights);
             let shares =
@@ -228,7 +228,8 @@ impl<const D: usize> TimeStepper<'_, D> {
         for body in 0..self.problem.bodies.len() {
             for mode in self.problem.modes().iter() {
                 let length = self.path.length_of(body, mode);
-                let weighted = rates.iter().zip(ERROR).map(|(rate, weight)| weight * rate[body][mode]);
+                let weighted =
+                    rates.iter().zip(ERROR).map(|(rate, weight)| weight * rate[body][mode]);
                 error = error.max(length * weighted.sum::<f64>().abs());
                 scale =
                     rates.iter().map(|rate| length * rate[body][mode].abs()).fold(scale, f64::max);

@@ -7,8 +7,8 @@ use super::predict::unmoved_poses;
 use super::state::State;
 use super::step::{Step, TimeStepper};
 use crate::body::{Inertia, Pose, RigidVector, Twist, carried_velocity};
-use crate::time::Bdf;
 use crate::coupling::{BodyShapes, PosesByVelocity, Problem, RigidBodyEquations, Solution};
+use crate::time::Bdf;
 
 /// Part of a step by which rates at its ends are evaluated inside it: those that jump there have two.
 pub(super) const INSIDE: f64 = 1e-9;
@@ -41,8 +41,14 @@ struct OlderBodies {
 }
 
 impl OlderBodies {
-    fn new<const D: usize>(problem: &Problem<D>, time: f64, poses: &[Pose], twists: &[Twist]) -> Result<Self, StepError> {
-        let deforms = problem.bodies.iter().any(|body| body.shape.is_some() && !body.inertia.is_zero());
+    fn new<const D: usize>(
+        problem: &Problem<D>,
+        time: f64,
+        poses: &[Pose],
+        twists: &[Twist],
+    ) -> Result<Self, StepError> {
+        let deforms =
+            problem.bodies.iter().any(|body| body.shape.is_some() && !body.inertia.is_zero());
         let shapes = if deforms {
             BodyShapes::at(&problem.bodies, time)?
         } else {
@@ -59,7 +65,11 @@ impl<const D: usize> StepHistory<D> {
     ///
     /// # Errors
     /// When a gait gives its body no shape.
-    pub fn new(stepper: &TimeStepper<'_, D>, state: &State<D>, step: Step) -> Result<Self, StepError> {
+    pub fn new(
+        stepper: &TimeStepper<'_, D>,
+        state: &State<D>,
+        step: Step,
+    ) -> Result<Self, StepError> {
         let problem = stepper.problem;
         let Step { time, bdf, .. } = step;
         let levels = || state.now.velocity.iter().zip(&state.previous.velocity);
@@ -106,7 +116,11 @@ impl<const D: usize> StepHistory<D> {
             shapes: BodyShapes::at(&problem.bodies, time)?,
             before_jump: Some(BodyShapes::at(&problem.bodies, rates_at)?),
             derivative: Vec::new(),
-            extrapolated: Solution { velocity: Vec::new(), pressure: Vec::new(), twists: Vec::new() },
+            extrapolated: Solution {
+                velocity: Vec::new(),
+                pressure: Vec::new(),
+                twists: Vec::new(),
+            },
             frame_velocity: Point::<D>::zeros(),
             unmoved: poses.to_vec(),
             older: None,

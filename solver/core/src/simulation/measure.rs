@@ -3,15 +3,19 @@
 use alewife_mesh::{CellId, Locator, Mesh, Point};
 use nalgebra::SMatrix;
 
+use super::advance::Simulation;
+use super::energy::EnergyRecord;
+use super::propulsion_history::PropulsionHistory;
 use super::snapshot::BodyReport;
-use super::state::{State, Swim};
-use crate::body::{Pose, Twist, Wrench};
+use super::state::State;
+use super::{RunError, Stage};
+use crate::body::{Twist, Wrench, on_mesh};
 use crate::case::{Case, Geometry, Probe, TimeSettings, known_quantities};
 use crate::coupling::{
-    BodyLoads, BodyShapes, BodyStates, Effort, FluidSystem, Group, JointReport, Problem,
-    ShapeError, Solution, group_load, joint_reports, mean_motion, surface_load,
+    BodyLoads, BodyShapes, BodyStates, Group, JointReport, Problem, PropulsionPower, group_load,
+    joint_reports, mean_motion,
 };
-use crate::space::{CellValues, p1_values, p2_values};
+use crate::space::{CellValues, Tables, p1_values, p2_values};
 
 /// One value of a probe's point: where it is in the mesh, and with which sign it counts.
 struct ProbePoint {
@@ -28,45 +32,16 @@ pub(super) struct Measure {
     /// Force coefficient per force, moment coefficient per torque; none without `[scales]`.
     coefficients: Option<[f64; 2]>,
     has_contact: bool,
-    energy: Option<Energy>,
-    is_march: bool,
+    balances_energy: bool,
+    is_unsteady: bool,
 }
 
-/// Where the work of the bodies goes, since the first measurement.
-#[derive(Debug, Clone, Copy, Default)]
-struct Energy {
-    /// Time (s), power of the bodies, dissipation (W) and kinetic energy (J) of the last measurement.
-    last: Option<[f64; 4]>,
-    /// Work without dissipation and change of kinetic energy so far (J).
-    defect: f64,
-    /// Work, or dissipation where that is larger, so far (J).
-    turnover: f64,
-}
-
-impl Energy {
-    /// The defect over the turnover; where the flow has no memory, of the rates of the present.
-    fn defect(&mut self, has_memory: bool, now: [f64; 4]) -> f64 {
-        let [time, power, dissipation, kinetic] = now;
-        let before = self.last.replace(now);
-        if !has_memory {
-            return (power - dissipation) / power.abs().max(dissipation);
-        }
-        if let Some([then, old_power, old_dissipation, old_kinetic]) = before {
-            let half = 0.5 * (time - then);
-            let change = kinetic - old_kinetic;
-            self.defect += half * (power - dissipation + old_power - old_dissipation) - change;
-            self.turnover +=
-                half * (power.abs().max(dissipation) + old_power.abs().max(old_dissipation));
-        }
-        if self.turnover > 0.0 { self.defect / self.turnover } else { 0.0 }
-    }
-}
-
-/// What is told of a mesh that moves.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Moving {
-    /// Meshes made since the first.
-    pub remeshes: usize,
+/// What is reported of a state.
+pub(super) struct Measured {
+    /// All bodies.
+    pub bodies: Vec<BodyReport>,
+    /// The values of all quantities, in the order of their names.
+    pub values: Vec<f64>,
 }
 
 /// The points of all probes in a mesh.
@@ -75,7 +50,7 @@ fn find_probes(case: &Case, mesh: &Mesh<2>) -> Vec<Vec<Option<ProbePoint>>> {
         return Vec::new();
     }
     let locator = Locator::new(mesh);
-    // A point on an exact curve may lie outside the quadratic geometry by a trifle.
+    // A point on an exact curve may lie outside the quadratic geometry.
     let reach = 0.01 * case.mesh.surface.unwrap_or(case.mesh.size);
     // The sides of a periodic mesh may be elsewhere than those of the domain
     let images = case.mesh_domain().images_around(mesh.nodes.iter().copied());
@@ -103,12 +78,15 @@ struct Integrals {
 
 impl Measure {
     /// Finds the probes in the mesh and names the quantities.
-    pub(super) fn new(case: &Case, mesh: &Mesh<2>) -> Result<Self, String> {
+    pub(super) fn new(case: &Case, mesh: &Mesh<2>) -> Result<Self, RunError> {
         let probes = find_probes(case, mesh);
         for (probe, points) in case.probe.iter().zip(&probes) {
             if let Some(missing) = points.iter().position(Option::is_none) {
                 let point = if missing == 0 { &probe.point } else { &probe.minus };
-                return Err(format!("probe `{}`: point {point:?} is not in the fluid", probe.name));
+                return Err(RunError::Unsupported(format!(
+                    "probe `{}`: point {point:?} is not in the fluid",
+                    probe.name
+                )));
             }
         }
         let scales = case.scales.filter(|_| case.has_coefficients());
@@ -121,14 +99,14 @@ impl Measure {
             [force, force / scales.length]
         });
         let has_contact = case.contact.is_some();
-        let energy = case.balances_energy().then(Energy::default);
-        let is_march = matches!(case.time, TimeSettings::Unsteady(_));
+        let balances_energy = case.balances_energy();
+        let is_unsteady = matches!(case.time, TimeSettings::Unsteady(_));
         let names = known_quantities(case);
-        Ok(Self { names, probes, coefficients, has_contact, energy, is_march })
+        Ok(Self { names, probes, coefficients, has_contact, balances_energy, is_unsteady })
     }
 
     /// Finds the probes in a mesh that has moved, seen from the frame.
-    pub(super) fn follow(&mut self, case: &Case, mesh: &Mesh<2>) {
+    pub(super) fn find_probes(&mut self, case: &Case, mesh: &Mesh<2>) {
         self.probes = find_probes(case, mesh);
     }
 
@@ -142,37 +120,31 @@ impl Measure {
     /// When a gait fails.
     pub(super) fn measure(
         &mut self,
-        system: &FluidSystem,
-        problem: &Problem,
-        state: &State,
+        case: &Case,
+        simulation: &mut Simulation<2>,
         loads: &[BodyLoads],
-        moving: Option<Moving>,
-    ) -> Result<(Vec<BodyReport>, Vec<f64>), ShapeError> {
-        let Solution { velocity, pressure, twists } = &state.now;
-        let (poses, in_mesh) = (state.poses(), state.poses_in_mesh());
-        let mut reports = Vec::new();
+    ) -> Result<Measured, RunError> {
+        if simulation.moving_mesh.is_some() && !self.probes.is_empty() {
+            let seen = simulation.state.mesh_in_frame();
+            simulation.work.timing.measure(Stage::Loads, || self.find_probes(case, &seen));
+        }
+        let mut timing = simulation.work.timing;
+        let measured = timing.measure(Stage::Loads, || self.values(simulation, loads));
+        simulation.work.timing = timing;
+        measured
+    }
+
+    fn values(
+        &self,
+        simulation: &mut Simulation<2>,
+        loads: &[BodyLoads],
+    ) -> Result<Measured, RunError> {
+        let bodies = body_reports(simulation, loads);
+        let Simulation { problem, state, work, moving_mesh, .. } = simulation;
         let mut values = Vec::with_capacity(self.names.len());
-        for (body, rigid) in problem.bodies.iter().enumerate() {
-            let center = &in_mesh[body].center;
-            let surface = surface_load(
-                &state.mesh,
-                rigid.boundary,
-                &state.now.fields(),
-                problem.viscosity,
-                problem.metric,
-                Point::<2>::new(center.x, center.y),
-            );
-            let report = BodyReport {
-                name: rigid.name.clone(),
-                pose: poses[body],
-                twist: twists[body],
-                load: loads[body].load,
-                surface_load: surface,
-                contact: state.contact.wrenches[body],
-                power: loads[body].power,
-            };
-            let acceleration = &state.accelerations[body];
-            values.extend(body_values(&report, state.places[body][2], acceleration));
+        for (body, report) in bodies.iter().enumerate() {
+            let (angle, acceleration) = (state.poses[body].angle(), &state.accelerations[body]);
+            values.extend(body_values(report, angle, acceleration));
             if let Some([force, moment]) = self.coefficients {
                 let Wrench { force: load, torque } = report.load;
                 values.extend([load.x * force, load.y * force, torque.z * moment]);
@@ -181,7 +153,6 @@ impl Measure {
                 let Wrench { force, torque } = report.contact;
                 values.extend([force.x, force.y, torque.z]);
             }
-            reports.push(report);
         }
         let joints = joints(problem, state, loads)?;
         values.extend(
@@ -189,87 +160,109 @@ impl Measure {
                 .iter()
                 .flat_map(|joint| [joint.coordinate, joint.rate, joint.load, joint.power()]),
         );
-        for (group, swim) in problem.groups.iter().zip(&state.swims) {
-            values.extend(group_values(problem, state, group, swim, (&poses, loads)));
+        for (group, history) in problem.groups.iter().zip(&state.propulsion) {
+            values.extend(group_values(problem, state, group, history, loads));
         }
         for points in &self.probes {
-            let mut sum = [0.0; 3];
-            for point in points {
-                let Some(point) = point else {
-                    sum = [f64::NAN; 3];
-                    break;
-                };
-                let nodes = state.mesh.cell(point.cell);
-                for (&node, phi) in nodes.iter().zip(p2_values(&point.xi)) {
-                    sum[0] += point.sign * phi * velocity[node][0];
-                    sum[1] += point.sign * phi * velocity[node][1];
-                }
-                for (&node, psi) in nodes.iter().zip(p1_values(&point.xi)) {
-                    sum[2] += point.sign * psi * pressure[node];
-                }
-            }
-            values.extend(sum);
+            values.extend(probe_values(state, points));
         }
-        let integrals = integrate(system, problem, state);
+        let integrals = integrate(work.system.tables(), problem, state);
         values.extend([integrals.dissipation, integrals.kinetic_energy, integrals.mass_defect]);
-        if let Some(energy) = &mut self.energy {
-            let power: f64 = loads.iter().map(|load| load.power).sum();
-            let now = [state.time, power, integrals.dissipation, integrals.kinetic_energy];
-            values.push(energy.defect(self.is_march && problem.has_inertia, now));
+        if self.balances_energy {
+            let now = EnergyRecord {
+                time: state.time,
+                power: loads.iter().map(|load| load.power).sum(),
+                dissipation: integrals.dissipation,
+                kinetic_energy: integrals.kinetic_energy,
+            };
+            values.push(state.energy.add(self.is_unsteady && problem.has_inertia, now));
         }
-        if let Some(Moving { remeshes }) = moving {
-            let gap = state.contact.least_gap.map_or(f64::INFINITY, |least| least.gap);
-            values.extend([gap, state.mesh.n_cells() as f64, remeshes as f64]);
+        if moving_mesh.is_some() {
+            let gap = state.contact.minimum_gap.map_or(f64::INFINITY, |minimum| minimum.gap);
+            values.extend([gap, state.mesh.n_cells() as f64, state.remeshes as f64]);
         }
-        Ok((reports, values))
+        Ok(Measured { bodies, values })
     }
+}
+
+/// Reports of all bodies.
+fn body_reports(simulation: &Simulation<2>, loads: &[BodyLoads]) -> Vec<BodyReport> {
+    let Simulation { problem, state, work, .. } = simulation;
+    let stress = work.system.surface_stress(problem, &state.mesh, &state.now);
+    let in_mesh = state.in_mesh(&state.poses);
+    let report = |(body, rigid): (usize, &crate::coupling::RigidBody)| BodyReport {
+        name: rigid.name.clone(),
+        pose: state.poses[body],
+        twist: state.now.twists[body],
+        load: loads[body].load,
+        surface_load: stress.load(rigid.boundary, problem.metric, &on_mesh(&in_mesh[body].center)),
+        contact: state.contact.wrenches[body],
+        power: loads[body].power,
+    };
+    problem.bodies.iter().enumerate().map(report).collect()
+}
+
+/// Velocity and pressure of a probe; not a number where there is no fluid.
+fn probe_values(state: &State<2>, points: &[Option<ProbePoint>]) -> [f64; 3] {
+    let mut sum = [0.0; 3];
+    for point in points {
+        let Some(point) = point else { return [f64::NAN; 3] };
+        let nodes = state.mesh.cell(point.cell);
+        for (&node, phi) in nodes.iter().zip(p2_values(&point.xi)) {
+            sum[0] += point.sign * phi * state.now.velocity[node][0];
+            sum[1] += point.sign * phi * state.now.velocity[node][1];
+        }
+        for (&node, psi) in nodes.iter().zip(p1_values(&point.xi)) {
+            sum[2] += point.sign * psi * state.now.pressure[node];
+        }
+    }
+    sum
 }
 
 /// The joints of all bodies.
 fn joints(
-    problem: &Problem,
-    state: &State,
+    problem: &Problem<2>,
+    state: &State<2>,
     loads: &[BodyLoads],
-) -> Result<Vec<JointReport>, ShapeError> {
-    if !problem.has_links() {
+) -> Result<Vec<JointReport>, RunError> {
+    if !problem.has_joints() {
         return Ok(Vec::new());
     }
-    let in_plane = |twists: &[Twist]| twists.iter().map(Twist::in_plane).collect::<Vec<_>>();
     let contact = &state.contact.wrenches;
-    let loads =
-        loads.iter().zip(contact).map(|(fluid, contact)| (fluid.load + *contact).in_plane());
+    let loads: Vec<Wrench> =
+        loads.iter().zip(contact).map(|(fluid, contact)| fluid.load + *contact).collect();
     let now = BodyStates {
         shapes: &BodyShapes::at(&problem.bodies, state.time)?,
-        places: &state.places,
-        velocities: &in_plane(&state.now.twists),
-        accelerations: &in_plane(&state.accelerations),
-        loads: &loads.collect::<Vec<_>>(),
+        poses: &state.poses,
+        twists: &state.now.twists,
+        accelerations: &state.accelerations,
+        loads: &loads,
     };
     Ok(joint_reports(problem, &now))
 }
 
 /// Values of a group in the order of [`known_quantities`].
 fn group_values(
-    problem: &Problem,
-    state: &State,
+    problem: &Problem<2>,
+    state: &State<2>,
     group: &Group,
-    swim: &Swim,
-    (poses, loads): (&[Pose], &[BodyLoads]),
+    history: &PropulsionHistory,
+    loads: &[BodyLoads],
 ) -> Vec<f64> {
-    let mean = mean_motion(problem, group, poses, &state.now.twists);
-    let Effort { power, shape_power, spent_power, thrust, drag, .. } = swim.effort();
+    let mean = mean_motion(problem, group, &state.poses, &state.now.twists);
+    let PropulsionPower { power, shape_power, expended_power, thrust, drag, .. } = history.power();
     let linear = mean.twist.linear;
     let mut values = Vec::new();
     if group.bodies.len() > 1 {
-        let load = group_load(group, &mean.center, poses, loads);
-        let angle = state.places[group.bodies[0]][2];
+        let load = group_load(group, &mean.center, &state.poses, loads);
+        let angle = state.poses[group.bodies[0]].angle();
         values.extend([mean.center.x, mean.center.y, angle, linear.x, linear.y]);
         values.extend([mean.twist.angular.z, load.force.x, load.force.y, load.torque.z, power]);
     }
-    values.extend([shape_power, spent_power, thrust, drag]);
+    values.extend([shape_power, expended_power, thrust, drag]);
     match group.period {
         Some(period) => {
-            let means = swim.cycles.means(period, group.resistance);
+            let means = history.cycles.means(period, group.resistance);
             values.extend(means.displacement);
             values.extend([means.speed, means.power, means.cost_of_transport]);
             values.extend([means.efficiency, means.drift]);
@@ -305,12 +298,12 @@ fn body_values(report: &BodyReport, angle: f64, acceleration: &Twist) -> [f64; 1
 }
 
 /// Dissipation int 2 mu D : D, kinetic energy int rho u^2 / 2, and int div u.
-fn integrate(system: &FluidSystem, problem: &Problem, state: &State) -> Integrals {
+fn integrate(tables: &Tables<2>, problem: &Problem<2>, state: &State<2>) -> Integrals {
     let mut sums = Integrals::default();
     let mut workspace = CellValues::default();
     for cell in state.mesh.cell_ids() {
         let nodes = state.mesh.cell(cell);
-        workspace.for_each_point(system.tables(), &state.mesh, cell, |at| {
+        workspace.for_each_point(tables, &state.mesh, cell, |at| {
             let mut velocity = Point::<2>::zeros();
             let mut gradient = SMatrix::<f64, 2, 2>::zeros();
             for (a, &node) in nodes.iter().enumerate() {

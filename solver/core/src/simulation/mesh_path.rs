@@ -2,13 +2,13 @@
 
 use alewife_mesh::{NodeId, Point};
 
+use super::Stage;
 use super::error::StepError;
 use super::moving_mesh::{GapsAt, MovingMesh};
 use super::state::State;
 use super::step::Workspace;
-use super::Stage;
 use crate::body::{Pose, on_mesh};
-use crate::coupling::{BodyShapes, Problem};
+use crate::coupling::{BodyShapes, Problem, RigidBody};
 
 /// Position (m) of a node at a time (s).
 pub type NodePath<'a, const D: usize> = &'a (dyn Fn(NodeId, f64) -> Point<D> + Sync);
@@ -43,6 +43,18 @@ impl<'a, const D: usize> MeshPath<'a, D> {
     /// The gaps between bodies of these shapes and walls, where the mesh follows bodies.
     pub(super) fn gaps(&self, shapes: &BodyShapes) -> Option<GapsAt<'a>> {
         self.moving_mesh().map(|moving| moving.gaps_at(shapes))
+    }
+
+    /// The gaps between bodies at a time (s), where the mesh follows bodies.
+    ///
+    /// # Errors
+    /// When a gait gives its body no shape.
+    pub(super) fn gaps_at_time(
+        &self,
+        bodies: &[RigidBody],
+        time: f64,
+    ) -> Result<Option<GapsAt<'a>>, StepError> {
+        Ok(self.gaps(&BodyShapes::at(bodies, time)?))
     }
 
     /// Moves the mesh of a pass with bodies of these shapes to poses; returns the positions of its nodes

@@ -2,13 +2,13 @@
 
 use std::ops::Deref;
 
-use alewife_mesh::{BoundaryId, BoundaryKind, Mesh, NodeId, Point, WorstCell};
+use alewife_mesh::{BoundaryId, BoundaryKind, CellQuality, Mesh, NodeId, Point};
 
 use super::scene::{Meshed, RemeshError, Scene};
 use super::state::State;
 use crate::body::{Pose, in_space, on_mesh};
 use crate::contact::Gaps;
-use crate::coupling::{BodyShapes, Problem};
+use crate::coupling::BodyShapes;
 use crate::motion::{
     MeshBoundaryCondition, MeshMotion, MotionError, MotionKind, RigidMove, mesh_boundary_conditions,
 };
@@ -26,8 +26,7 @@ pub struct MovingMesh<const D: usize> {
     reference_poses: Vec<Pose>,
     /// Time of the reference mesh (s).
     reference_time: f64,
-    /// Whether the mesh turns with each body.
-    turns: Vec<bool>,
+    settings: MotionSettings,
     /// Shortest edge on each body (m).
     edges: Vec<f64>,
     /// Body of each boundary.
@@ -78,7 +77,7 @@ impl<const D: usize> MovingMesh<D> {
     pub fn new(
         mesh: &Mesh<D>,
         scene: Box<dyn Scene<D>>,
-        settings: &MotionSettings,
+        settings: MotionSettings,
         reference_poses: Vec<Pose>,
         reference_time: f64,
     ) -> Result<Self, MotionError> {
@@ -87,7 +86,7 @@ impl<const D: usize> MovingMesh<D> {
             let origin = Point::<D>::zeros();
             let boundary = BoundaryId::new(boundary);
             if scene.side_displacement(boundary, &origin, reference_time).is_some() {
-                *condition = MeshBoundaryCondition::Given;
+                *condition = MeshBoundaryCondition::Prescribed;
             }
         }
         let bodies: Vec<Option<usize>> = mesh
@@ -107,8 +106,7 @@ impl<const D: usize> MovingMesh<D> {
             }
         }
         let motion = MeshMotion::new(mesh, settings.kind, &conditions)?;
-        let turns = settings.turns.clone();
-        Ok(Self { motion, reference_poses, reference_time, turns, edges, bodies, scene })
+        Ok(Self { motion, reference_poses, reference_time, settings, edges, bodies, scene })
     }
 
     /// How each body has carried its nodes from the reference mesh to these poses.
@@ -116,7 +114,7 @@ impl<const D: usize> MovingMesh<D> {
         let map = |(body, pose): (usize, &Pose)| {
             let reference = &self.reference_poses[body];
             let orientation =
-                if self.turns[body] { pose.orientation } else { reference.orientation };
+                if self.settings.turns[body] { pose.orientation } else { reference.orientation };
             let to = Pose { orientation, ..*pose };
             match shapes.deformed(body) {
                 Some(_) => SurfaceMap::Deformed(to),
@@ -152,7 +150,7 @@ impl<const D: usize> MovingMesh<D> {
 
     /// A cell of a moved mesh on which no flow can be solved.
     #[must_use]
-    pub fn degenerate_cell(&self, mesh: &Mesh<D>) -> Option<WorstCell<D>> {
+    pub fn degenerate_cell(&self, mesh: &Mesh<D>) -> Option<CellQuality<D>> {
         let lowest = DEGENERATE * self.scene.lowest_quality();
         mesh.worst_cell().filter(|worst| worst.quality <= lowest)
     }
@@ -164,7 +162,7 @@ impl<const D: usize> MovingMesh<D> {
         pairs.into_iter().any(|(body, (solved, pose))| {
             let off = pose.displacement_from(solved);
             let [way, turn] = [0, 3].map(|first| off.fixed_rows::<3>(first).norm());
-            let turn = if self.turns[body] { turn } else { 0.0 };
+            let turn = if self.settings.turns[body] { turn } else { 0.0 };
             way + turn * self.gaps().reach(body) > MISPLACED * self.edges[body]
         })
     }
@@ -204,8 +202,7 @@ impl<const D: usize> MovingMesh<D> {
         poses: Vec<Pose>,
         time: f64,
     ) -> Result<Self, MotionError> {
-        let settings = MotionSettings { kind: self.motion.kind(), turns: self.turns.clone() };
-        Self::new(mesh, scene, &settings, poses, time)
+        Self::new(mesh, scene, self.settings.clone(), poses, time)
     }
 
     /// Gaps between bodies of these shapes, and walls.

@@ -144,7 +144,8 @@ pub(super) fn newton<const D: usize>(
         if progress.is_converged(relative) {
             return Ok(Flow { solution, residual, iterations, scale });
         }
-        let end = |solution, iterations| Iterate { solution, residual: relative, iterations, scale };
+        let end =
+            |solution, iterations| Iterate { solution, residual: relative, iterations, scale };
         if progress.is_hopeless(relative) {
             return Err(NewtonFailure { error: None, end: end(solution, iterations) });
         }

@@ -56,7 +56,11 @@ impl<const D: usize> Pass<D> {
         } else {
             let older = state.nodes.iter().zip(&state.nodes_before);
             let bdf = &history.step.bdf;
-            nodes.iter().zip(older).map(|(next, (now, before))| bdf.rate(*next, *now, *before)).collect()
+            nodes
+                .iter()
+                .zip(older)
+                .map(|(next, (now, before))| bdf.rate(*next, *now, *before))
+                .collect()
         };
         Self {
             constraints: work.system.constraints(problem, &work.mesh, bodies),

@@ -89,7 +89,7 @@ pub(super) fn limit_by_gaps<const D: usize>(
 ) -> Vec<Pose> {
     let Some(gaps) = gaps else { return to };
     let gap = |poses: &[Pose]| {
-        let minimum = gaps.minimum_gap(&state.seen_from_own_frame(problem, poses));
+        let minimum = gaps.minimum_gap(&state.in_own_frame(problem, poses));
         minimum.map_or(f64::INFINITY, |minimum| minimum.gap)
     };
     let kept = KEPT_GAP * gap(from);
@@ -98,7 +98,8 @@ pub(super) fn limit_by_gaps<const D: usize>(
     while gap(&trial) < kept && part > SMALLEST_PART {
         part *= 0.5;
         let pairs = from.iter().zip(&to);
-        trial = pairs.map(|(from, to)| from.displaced(&(to.displacement_from(from) * part))).collect();
+        trial =
+            pairs.map(|(from, to)| from.displaced(&(to.displacement_from(from) * part))).collect();
     }
     trial
 }

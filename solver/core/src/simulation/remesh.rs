@@ -15,13 +15,13 @@ use crate::motion::Transfer;
 use crate::space::Tables;
 
 /// One level of a flow, on the old mesh and where the new one is to be then.
-struct Level<'a, const D: usize> {
+struct Level<'a> {
     name: &'static str,
-    solution: &'a Solution<D>,
+    solution: &'a Solution<2>,
     /// The old mesh then, seen from the frame.
-    old: &'a Mesh<D>,
+    old: &'a Mesh<2>,
     /// The new mesh then, seen from the frame.
-    new: &'a Mesh<D>,
+    new: &'a Mesh<2>,
     /// Bodies then, seen from the frame.
     bodies: BodiesAt<'a>,
     /// Position of the frame then (m).
@@ -33,11 +33,11 @@ struct Level<'a, const D: usize> {
 ///
 /// # Errors
 /// When the mesh cannot be generated, or the flow not be made divergence-free on it.
-pub(super) fn remesh<const D: usize>(
-    problem: &Problem<D>,
-    state: &mut State<D>,
-    moving: &MovingMesh<D>,
-) -> Result<MovingMesh<D>, RemeshError> {
+pub(super) fn remesh(
+    problem: &Problem<2>,
+    state: &mut State<2>,
+    moving: &MovingMesh<2>,
+) -> Result<MovingMesh<2>, RemeshError> {
     let shapes = BodyShapes::at(&problem.bodies, state.time)?;
     let Meshed { mesh: new, scene, poses, shifts } = moving.remesh(state, &shapes)?;
     let image_shifts: Vec<Vector3<f64>> =
@@ -81,20 +81,20 @@ pub(super) fn remesh<const D: usize>(
 }
 
 /// Takes levels of a flow from one mesh to another.
-struct Takeover<'a, const D: usize> {
-    problem: &'a Problem<D>,
-    moving: &'a MovingMesh<D>,
+struct Takeover<'a> {
+    problem: &'a Problem<2>,
+    moving: &'a MovingMesh<2>,
     boundaries: Boundaries,
-    tables: Tables<D>,
+    tables: Tables<2>,
     /// None where nothing has inertia: the older velocities are first guesses only.
-    projection: Option<DivergenceFreeProjection<D>>,
+    projection: Option<DivergenceFreeProjection<2>>,
 }
 
-impl<'a, const D: usize> Takeover<'a, D> {
+impl<'a> Takeover<'a> {
     fn new(
-        problem: &'a Problem<D>,
-        new: &Mesh<D>,
-        moving: &'a MovingMesh<D>,
+        problem: &'a Problem<2>,
+        new: &Mesh<2>,
+        moving: &'a MovingMesh<2>,
     ) -> Result<Self, RemeshError> {
         let projection =
             problem.has_inertia.then(|| DivergenceFreeProjection::new(problem, new)).transpose()?;
@@ -105,13 +105,12 @@ impl<'a, const D: usize> Takeover<'a, D> {
     /// A level on the new mesh, and other velocities (m/s2 at the nodes) with it.
     fn level(
         &mut self,
-        level: &Level<'_, D>,
-        others: &[Point<D>],
-    ) -> Result<(Solution<D>, Vec<Point<D>>), RemeshError> {
+        level: &Level<'_>,
+        others: &[Point<2>],
+    ) -> Result<(Solution<2>, Vec<Point<2>>), RemeshError> {
         let images = self.moving.scene().images([level.old, level.new]);
         let not_found = || RemeshError::NotFound { level: level.name };
-        let transfer =
-            Transfer::new(level.old, level.new, &images).ok_or_else(not_found)?;
+        let transfer = Transfer::new(level.old, level.new, &images).ok_or_else(not_found)?;
         let others = if others.is_empty() { Vec::new() } else { transfer.quadratic(others) };
         let mut solution = Solution {
             velocity: transfer.quadratic(&level.solution.velocity),
@@ -131,15 +130,12 @@ impl<'a, const D: usize> Takeover<'a, D> {
             &mut solution.velocity,
         );
         if let Some(projection) = &mut self.projection {
-            let transfer =
-                transfer.with_points(&self.tables, &images).ok_or_else(not_found)?;
-            let residual = transfer.projection_residual(
-                &self.tables,
-                &level.solution.velocity,
-                &solution.velocity,
-            );
+            let transfer = transfer.with_points(&self.tables, &images).ok_or_else(not_found)?;
+            let residual =
+                transfer.missed(&self.tables, &level.solution.velocity, &solution.velocity);
             projection.move_to(self.problem, level.new)?;
-            solution.velocity = projection.project_with(level.new, &solution.velocity, &residual)?;
+            solution.velocity =
+                projection.project_with(level.new, &solution.velocity, &residual)?;
         }
         Ok((solution, others))
     }

@@ -9,6 +9,7 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
+use super::RunError;
 use super::advance::Simulation;
 use super::energy::EnergyBalance;
 use super::moving_mesh::MovingMesh;
@@ -17,7 +18,6 @@ use super::propulsion_history::PropulsionHistory;
 use super::scene::RemeshError;
 use super::start::motion_settings;
 use super::state::State;
-use super::RunError;
 use crate::body::{Pose, Twist, Wrench, on_mesh};
 use crate::case::Case;
 use crate::contact::{ContactLoads, MinimumGap, Partner};
@@ -238,10 +238,7 @@ impl SavedContact {
             };
             SavedGap { body: minimum.body, other, wall, gap: minimum.gap }
         };
-        Self {
-            wrenches: contact.wrenches.clone(),
-            minimum_gap: contact.minimum_gap.map(gap),
-        }
+        Self { wrenches: contact.wrenches.clone(), minimum_gap: contact.minimum_gap.map(gap) }
     }
 
     fn loads(&self) -> ContactLoads {
@@ -415,7 +412,7 @@ impl SavedState {
         let (start, poses) = (&reference.domain_start, reference.poses.clone());
         let scene = PlanarScene::restored(planar, &mesh, start, poses.clone(), &shapes)
             .map_err(ResumeError::from)?;
-        Ok(MovingMesh::new(&mesh, Box::new(scene), &settings, poses, reference.time)?)
+        Ok(MovingMesh::new(&mesh, Box::new(scene), settings, poses, reference.time)?)
     }
 }
 

@@ -124,17 +124,16 @@ impl Run<'_, 2> {
     }
 }
 
-impl<const D: usize> Run<'_, D> {
+impl Run<'_, 2> {
     /// Solves for the flow at time zero without a time derivative.
     fn solve_at_start(
         &mut self,
         settings: &Steady,
         equations: &RigidBodyEquations,
         has_convection: bool,
-    ) -> Result<SteadyFlow<D>, RunError> {
+    ) -> Result<SteadyFlow<2>, RunError> {
         let Simulation { problem, state, work, .. } = &mut self.simulation;
-        let (poses, shapes) =
-            (state.in_mesh(&state.poses), BodyShapes::at(&problem.bodies, 0.0)?);
+        let (poses, shapes) = (state.in_mesh(&state.poses), BodyShapes::at(&problem.bodies, 0.0)?);
         let bodies = BodiesAt { poses: &poses, shapes: &shapes };
         let task = SteadyTask { bodies, equations, settings, has_convection };
         solve_steady(work, problem, &task).map_err(|failure| {
@@ -154,8 +153,7 @@ impl<const D: usize> Run<'_, D> {
         let flow = self.solve_at_start(settings, &self.steady_equations(), has_convection)?;
         self.simulation.state.now = flow.solution;
         let loads = self.simulation.loads(&flow.residual);
-        let summary =
-            StepSummary { iterations: flow.iterations, time_step: 0.0, is_last: true };
+        let summary = StepSummary { iterations: flow.iterations, time_step: 0.0, is_last: true };
         self.report(&loads, summary)?;
         Ok(0)
     }

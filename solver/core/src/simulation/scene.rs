@@ -65,8 +65,12 @@ pub trait Scene<const D: usize>: Debug + Send + Sync {
 
     /// Position of a node on a body that deforms, in the frame of the body (m); `None` for a node that
     /// is on none.
-    fn material_position(&self, node: NodeId, body: usize, shapes: &BodyShapes)
-    -> Option<Vector3<f64>>;
+    fn material_position(
+        &self,
+        node: NodeId,
+        body: usize,
+        shapes: &BodyShapes,
+    ) -> Option<Vector3<f64>>;
 
     /// Displacement (m) at a time (s) of a point of a side that moves; `None` for other sides.
     fn side_displacement(

@@ -47,7 +47,7 @@ pub(super) fn prepare(
             let mesh = &state.mesh;
             let scene = PlanarScene::new(Arc::clone(&planar), mesh, domain, shapes, poses.clone())?;
             let settings = motion_settings(case, &planar);
-            Ok(MovingMesh::new(mesh, Box::new(scene), &settings, poses, 0.0)?)
+            Ok(MovingMesh::new(mesh, Box::new(scene), settings, poses, 0.0)?)
         });
         moving_mesh = Some(moving.map_err(RunError::from_remesh)?);
     }

@@ -87,8 +87,7 @@ impl<const D: usize> State<D> {
     #[must_use]
     pub fn at_rest(problem: &Problem<D>, mesh: Mesh<D>) -> Self {
         let n_bodies = problem.bodies.len();
-        let at_rest =
-            Solution::at_rest(&DofLayout::new(&mesh, n_bodies, problem.modes().len()));
+        let at_rest = Solution::at_rest(&DofLayout::new(&mesh, n_bodies, problem.modes().len()));
         let poses: Vec<Pose> = problem.bodies.iter().map(|body| body.pose).collect();
         Self {
             step: 0,
@@ -205,9 +204,9 @@ impl<const D: usize> State<D> {
     /// Where the frame is with bodies at these poses (m).
     #[must_use]
     pub fn origin_at(&self, problem: &Problem<D>, poses: &[Pose]) -> Vector3<f64> {
-        problem.frame.map_or(Vector3::zeros(), |body| {
-            poses[body].center - problem.bodies[body].pose.center
-        })
+        problem
+            .frame
+            .map_or(Vector3::zeros(), |body| poses[body].center - problem.bodies[body].pose.center)
     }
 }
 

@@ -6,11 +6,11 @@
 
 use alewife_mesh::Point;
 
+use super::RunError;
 use super::newton::{
     Criterion, Flow, FlowEquations, Iterate, NewtonFailure, flow_residual, newton,
 };
 use super::step::Workspace;
-use super::RunError;
 use crate::case::Steady;
 use crate::coupling::{BodiesAt, Configuration, Problem, RigidBodyEquations, Solution, SolveError};
 use crate::flow::{Convection, FlowTerms};
@@ -103,7 +103,8 @@ pub fn solve_steady<const D: usize>(
     let constraints = work.system.constraints(problem, &work.mesh, task.bodies);
     let mut continuation = Continuation { problem, task, scale: None, iterations: 0 };
     let mesh = work.mesh.clone();
-    let at = Configuration { problem, mesh: &mesh, constraints: &constraints, bodies: task.equations };
+    let at =
+        Configuration { problem, mesh: &mesh, constraints: &constraints, bodies: task.equations };
     let mut flow = continuation.solve(work, &at)?;
     work.system.center_pressure(problem, &mut flow.solution);
     if problem.power_depends_on_pressure_level() {

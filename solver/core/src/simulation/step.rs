@@ -12,6 +12,7 @@
 
 use alewife_mesh::Mesh;
 
+use super::Timing;
 use super::contact_step::PassContact;
 use super::error::StepError;
 use super::error_estimate::local_error;
@@ -23,7 +24,6 @@ use super::newton::{Criterion, Flow, newton};
 use super::pass::{Pass, PassEquations, Placement};
 use super::predict::{integrate_poses, limit_by_gaps, predict_poses};
 use super::state::{NewLevel, State};
-use super::Timing;
 use crate::case::Convection;
 use crate::contact::Law;
 use crate::coupling::{BodyLoads, FluidSystem, Problem, Solution};

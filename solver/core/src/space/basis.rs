@@ -57,16 +57,6 @@ pub fn p2_gradients<const D: usize>(xi: &SVector<f64, D>) -> Vec<SVector<f64, D>
     at_vertices.chain(at_edges).collect()
 }
 
-/// Reference coordinates of the point at parameter `s` in \[0, 1\] along a side of the triangle.
-#[must_use]
-pub fn triangle_side_point(side: usize, s: f64) -> SVector<f64, 2> {
-    match side {
-        0 => SVector::<f64, 2>::new(s, 0.0),
-        1 => SVector::<f64, 2>::new(1.0 - s, s),
-        _ => SVector::<f64, 2>::new(0.0, 1.0 - s),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

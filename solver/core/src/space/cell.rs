@@ -1,13 +1,15 @@
 //! Basis values, physical gradients and weights at the quadrature points of one cell.
 //!
 //! x(X) = sum_a x_a phi_a(X) on curved cells, the affine map of the vertices on the others. In
-//! axisymmetric problems dx carries the ring's length 2 pi r, so that integrals are those of the whole body
-//! of revolution.
+//! axisymmetric problems dx carries the ring's length 2 pi r, so that integrals are those of the
+//! whole body of revolution.
 
 use alewife_mesh::{CellId, Mesh, Point};
 use nalgebra::{SMatrix, SVector};
 
-use super::basis::{p1_gradients, p1_values, p2_gradients, p2_values};
+use super::adjugate::adjugate;
+use super::basis::{p1_gradients, p1_values};
+use super::element::Element;
 use super::metric::Metric;
 use super::quadrature::{Rule, simplex_rule};
 
@@ -18,15 +20,17 @@ struct BasisTable<const D: usize> {
     phi: Vec<Vec<f64>>,
     grad_phi: Vec<Vec<SVector<f64, D>>>,
     psi: Vec<Vec<f64>>,
+    barycentric: Vec<Vec<f64>>,
 }
 
 impl<const D: usize> BasisTable<D> {
-    fn new(degree: usize) -> Self {
+    fn new(element: &Element<D>, degree: usize) -> Self {
         let rule = simplex_rule(degree);
-        let phi = rule.points.iter().map(p2_values).collect();
-        let grad_phi = rule.points.iter().map(p2_gradients).collect();
-        let psi = rule.points.iter().map(p1_values).collect();
-        Self { rule, phi, grad_phi, psi }
+        let phi = rule.points.iter().map(element.phi).collect();
+        let grad_phi = rule.points.iter().map(element.grad_phi).collect();
+        let psi = rule.points.iter().map(element.psi).collect();
+        let barycentric = rule.points.iter().map(p1_values).collect();
+        Self { rule, phi, grad_phi, psi, barycentric }
     }
 }
 
@@ -35,22 +39,34 @@ impl<const D: usize> BasisTable<D> {
 pub struct Tables<const D: usize> {
     affine: BasisTable<D>,
     curved: BasisTable<D>,
+    element: Element<D>,
     metric: Metric,
 }
 
 impl<const D: usize> Tables<D> {
-    /// Tables exact for the convection term on affine cells (degree 5; 6 with the factor r), and
-    /// of degree 8 on curved cells, where the integrands are rational.
+    /// Tables of the P2-P1 element: exact for the convection term on affine cells, and of higher
+    /// degree on curved cells, where the integrands are rational.
     #[must_use]
     pub fn new(metric: Metric) -> Self {
-        let affine = BasisTable::new(5 + metric.ring_degree());
-        Self { affine, curved: BasisTable::new(8), metric }
+        let element = Element::QUADRATIC;
+        Self {
+            affine: BasisTable::new(&element, element.affine_degree() + metric.ring_degree()),
+            curved: BasisTable::new(&element, element.curved_degree()),
+            element,
+            metric,
+        }
     }
 
     /// The quadrature rule of curved or of straight cells.
     #[must_use]
     pub fn rule(&self, curved: bool) -> &Rule<D> {
         if curved { &self.curved.rule } else { &self.affine.rule }
+    }
+
+    /// The bases.
+    #[must_use]
+    pub fn element(&self) -> &Element<D> {
+        &self.element
     }
 
     /// The metric that dx belongs to.
@@ -63,11 +79,11 @@ impl<const D: usize> Tables<D> {
 /// All that a term needs at one quadrature point.
 #[derive(Debug, Clone)]
 pub struct PointValues<'a, const D: usize> {
-    /// Quadratic basis (velocity), one value a node.
+    /// Basis of the velocity, one value a node of the cell.
     pub phi: &'a [f64],
-    /// Linear basis (pressure), one value a vertex.
+    /// Basis of the pressure, one value a pressure node of the cell.
     pub psi: &'a [f64],
-    /// Gradients of the quadratic basis (1/m).
+    /// Gradients of the velocity's basis (1/m).
     pub grad_phi: &'a [SVector<f64, D>],
     /// Quadrature weight mapped to the cell (m^D; m^3 in axisymmetric problems).
     pub dx: f64,
@@ -82,33 +98,36 @@ pub struct CellValues<const D: usize> {
     corners: Vec<Point<D>>,
 }
 
-/// Jacobian dx_i/dX_j of the map given by node positions and reference gradients.
-fn jacobian<const D: usize>(
-    nodes: &[Point<D>],
-    gradients: &[SVector<f64, D>],
-) -> SMatrix<f64, D, D> {
-    nodes
-        .iter()
-        .zip(gradients)
-        .fold(SMatrix::zeros(), |sum, (node, gradient)| sum + node * gradient.transpose())
+/// The map x(X) of a cell at one point.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct CellMap<const D: usize> {
+    /// dx_i / dX_j (m).
+    pub jacobian: SMatrix<f64, D, D>,
+    /// Its determinant (m^D).
+    pub determinant: f64,
+    /// Transpose of its inverse (1/m).
+    inverse_transposed: SMatrix<f64, D, D>,
 }
 
-/// Determinant and transposed inverse of a 2x2 or 3x3 matrix.
-fn invert<const D: usize>(matrix: &SMatrix<f64, D, D>) -> (f64, SMatrix<f64, D, D>) {
-    let mut cofactor = SMatrix::<f64, D, D>::zeros();
-    let m = |i: usize, j: usize| matrix[(i % D, j % D)];
-    for i in 0..D {
-        for j in 0..D {
-            cofactor[(i, j)] = if D == 2 {
-                let sign = if i == j { 1.0 } else { -1.0 };
-                sign * m(i + 1, j + 1)
-            } else {
-                m(i + 1, j + 1) * m(i + 2, j + 2) - m(i + 1, j + 2) * m(i + 2, j + 1)
-            };
-        }
+impl<const D: usize> CellMap<D> {
+    /// The map given by positions of nodes and the gradients of their basis at the point.
+    pub fn new(nodes: &[Point<D>], gradients: &[SVector<f64, D>]) -> Self {
+        let jacobian = nodes
+            .iter()
+            .zip(gradients)
+            .fold(SMatrix::zeros(), |sum, (node, gradient)| sum + node * gradient.transpose());
+        let rows = std::array::from_fn(|i| std::array::from_fn(|j| [jacobian[(i, j)]]));
+        let (mut cofactors, mut determinant) = ([[[0.0]; D]; D], [0.0]);
+        adjugate(&rows, &mut cofactors, &mut determinant);
+        let [determinant] = determinant;
+        let inverse_transposed = SMatrix::from_fn(|i, j| cofactors[j][i][0] / determinant);
+        Self { jacobian, determinant, inverse_transposed }
     }
-    let determinant = (0..D).map(|j| matrix[(0, j)] * cofactor[(0, j)]).sum();
-    (determinant, cofactor / determinant)
+
+    /// The gradient (1/m) of a function from that in reference coordinates.
+    pub fn gradient(&self, reference: &SVector<f64, D>) -> SVector<f64, D> {
+        self.inverse_transposed * reference
+    }
 }
 
 impl<const D: usize> CellValues<D> {
@@ -124,40 +143,24 @@ impl<const D: usize> CellValues<D> {
         let table = if curved { &tables.curved } else { &tables.affine };
         self.corners.clear();
         self.corners.extend(mesh.cell(cell).iter().map(|&node| mesh.nodes[node]));
-        let affine = (!curved).then(|| invert(&jacobian(&self.corners[..=D], &p1_gradients())));
+        let affine = (!curved).then(|| CellMap::new(&self.corners[..=D], &p1_gradients()));
         for q in 0..table.rule.points.len() {
-            let (determinant, inverse_transposed) =
-                affine.unwrap_or_else(|| invert(&jacobian(&self.corners, &table.grad_phi[q])));
+            let map = affine.unwrap_or_else(|| CellMap::new(&self.corners, &table.grad_phi[q]));
             self.grad_phi.clear();
-            self.grad_phi.extend(table.grad_phi[q].iter().map(|grad| inverse_transposed * grad));
+            self.grad_phi.extend(table.grad_phi[q].iter().map(|gradient| map.gradient(gradient)));
             let position = if curved {
                 weighted_sum(&self.corners, &table.phi[q])
             } else {
-                weighted_sum(&self.corners[..=D], &table.psi[q])
+                weighted_sum(&self.corners[..=D], &table.barycentric[q])
             };
             visit(&PointValues {
                 phi: &table.phi[q],
                 psi: &table.psi[q],
                 grad_phi: &self.grad_phi,
-                dx: table.rule.weights[q] * determinant * tables.metric.ring(&position),
+                dx: table.rule.weights[q] * map.determinant * tables.metric.ring(&position),
                 position,
             });
         }
-    }
-
-    /// Physical gradients of the quadratic basis and the Jacobian at a reference point of a cell.
-    #[must_use]
-    pub fn at(
-        mesh: &Mesh<D>,
-        cell: CellId,
-        xi: &SVector<f64, D>,
-    ) -> (Vec<f64>, Vec<SVector<f64, D>>, SMatrix<f64, D, D>, Point<D>) {
-        let corners: Vec<_> = mesh.cell(cell).iter().map(|&node| mesh.nodes[node]).collect();
-        let (phi, reference) = (p2_values(xi), p2_gradients(xi));
-        let map = jacobian(&corners, &reference);
-        let (_, inverse_transposed) = invert(&map);
-        let position = weighted_sum(&corners, &phi);
-        (phi, reference.iter().map(|grad| inverse_transposed * grad).collect(), map, position)
     }
 }
 
@@ -170,14 +173,14 @@ pub fn simplex_gradients<const D: usize>(
 ) -> (f64, Vec<SVector<f64, D>>) {
     let corners: Vec<_> = mesh.cell_vertices(cell).iter().map(|&node| mesh.nodes[node]).collect();
     let reference = p1_gradients();
-    let (determinant, inverse_transposed) = invert(&jacobian(&corners, &reference));
+    let map = CellMap::new(&corners, &reference);
     let factorial: usize = (1..=D).product();
-    let gradients = reference.iter().map(|gradient| inverse_transposed * gradient).collect();
-    (determinant / factorial as f64, gradients)
+    let gradients = reference.iter().map(|gradient| map.gradient(gradient)).collect();
+    (map.determinant / factorial as f64, gradients)
 }
 
 /// sum_i weight_i point_i.
-fn weighted_sum<const D: usize>(points: &[Point<D>], weights: &[f64]) -> Point<D> {
+pub(super) fn weighted_sum<const D: usize>(points: &[Point<D>], weights: &[f64]) -> Point<D> {
     points.iter().zip(weights).fold(Point::zeros(), |sum, (point, weight)| sum + point * *weight)
 }
 
@@ -186,14 +189,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_inverse_is_the_inverse() {
-        let two = SMatrix::<f64, 2, 2>::new(2.0, 1.0, -0.5, 3.0);
-        let (determinant, inverse_transposed) = invert(&two);
-        assert!((determinant - 6.5).abs() < 1e-14);
-        assert!((two.transpose() * inverse_transposed - SMatrix::identity()).norm() < 1e-14);
-        let three = SMatrix::<f64, 3, 3>::new(2.0, 1.0, 0.3, -0.5, 3.0, 0.2, 0.1, -0.4, 1.5);
-        let (determinant, inverse_transposed) = invert(&three);
-        assert!((determinant - three.determinant()).abs() < 1e-13);
-        assert!((three.transpose() * inverse_transposed - SMatrix::identity()).norm() < 1e-13);
+    fn a_gradient_in_space_gives_the_derivative_along_each_reference_axis() {
+        let nodes = [[2.0, 1.0, 0.3], [-0.5, 3.0, 0.2], [0.1, -0.4, 1.5], [0.0, 0.0, 0.0]]
+            .map(Point::<3>::from);
+        let gradients = p1_gradients::<3>();
+        let map = CellMap::new(&nodes, &gradients);
+        assert!((map.determinant - map.jacobian.determinant()).abs() < 1e-13);
+        for (gradient, reference) in gradients.iter().map(|at| (map.gradient(at), at)) {
+            assert!((map.jacobian.transpose() * gradient - reference).norm() < 1e-13);
+        }
     }
 }

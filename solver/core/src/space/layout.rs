@@ -2,10 +2,10 @@
 
 use std::ops::Range;
 
-use alewife_mesh::{Mesh, NodeId};
+use alewife_mesh::{CellId, Mesh, NodeId};
 
 /// Where each raw unknown sits in a vector: D velocities a P2 node, one pressure a vertex, then
-/// D (D + 1) / 2 rigid velocities a body (U_x, U_y, omega in 2D).
+/// the rigid velocities of each body in the motions its geometry has (x, y and the rotation in the plane).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct DofLayout<const D: usize> {
     /// P2 nodes.
@@ -14,16 +14,15 @@ pub struct DofLayout<const D: usize> {
     pub n_vertices: usize,
     /// Bodies.
     pub n_bodies: usize,
+    /// Rigid motions of one body.
+    pub n_modes: usize,
 }
 
 impl<const D: usize> DofLayout<D> {
-    /// Rigid velocities of one body.
-    pub const RIGID: usize = D * (D + 1) / 2;
-
-    /// The layout of a mesh with a number of bodies.
+    /// The layout of a mesh with a number of bodies that have some rigid motions each.
     #[must_use]
-    pub fn new(mesh: &Mesh<D>, n_bodies: usize) -> Self {
-        Self { n_nodes: mesh.n_nodes(), n_vertices: mesh.n_vertices, n_bodies }
+    pub fn new(mesh: &Mesh<D>, n_bodies: usize, n_modes: usize) -> Self {
+        Self { n_nodes: mesh.n_nodes(), n_vertices: mesh.n_vertices, n_bodies, n_modes }
     }
 
     /// Velocity component `axis` at a node.
@@ -36,6 +35,13 @@ impl<const D: usize> DofLayout<D> {
     #[must_use]
     pub fn pressure(&self, vertex: NodeId) -> usize {
         self.n_nodes * D + vertex.index()
+    }
+
+    /// Nodes of the pressure in a cell: its vertices.
+    #[inline(always)]
+    #[must_use]
+    pub fn pressure_nodes(mesh: &Mesh<D>, cell: CellId) -> &[NodeId] {
+        mesh.cell_vertices(cell)
     }
 
     /// All pressures.
@@ -54,10 +60,11 @@ impl<const D: usize> DofLayout<D> {
         (0..self.n_vertices).map(NodeId::new)
     }
 
-    /// Rigid velocity `mode` of a body: translations first, then rotations.
+    /// Rigid velocity of a body by the position of a motion among those it has: translations first, then
+    /// rotations.
     #[must_use]
-    pub fn rigid(&self, body: usize, mode: usize) -> usize {
-        self.n_nodes * D + self.n_vertices + body * Self::RIGID + mode
+    pub fn rigid(&self, body: usize, position: usize) -> usize {
+        self.n_nodes * D + self.n_vertices + body * self.n_modes + position
     }
 
     /// Number of velocities and pressures.
@@ -69,6 +76,6 @@ impl<const D: usize> DofLayout<D> {
     /// Number of all raw unknowns.
     #[must_use]
     pub fn n_raw(&self) -> usize {
-        self.n_fluid() + self.n_bodies * Self::RIGID
+        self.n_fluid() + self.n_bodies * self.n_modes
     }
 }

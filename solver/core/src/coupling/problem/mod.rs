@@ -70,7 +70,8 @@ impl<const D: usize> Problem<D> {
         let is_loose = |body: &RigidBody, axis: usize| {
             let mode = Mode::along(axis);
             let spring = body.spring.as_ref();
-            let is_held = spring.is_some_and(|s| s.stiffness[mode] != 0.0 || s.damping[mode] != 0.0);
+            let is_held =
+                spring.is_some_and(|s| s.stiffness[mode] != 0.0 || s.damping[mode] != 0.0);
             !matches!(body.drive(mode), Drive::Given(_) | Drive::Held) && !is_held
         };
         let sides = || self.sides.iter().flatten();
@@ -120,10 +121,10 @@ impl<const D: usize> Problem<D> {
 
     /// Boundaries with the do-nothing condition.
     #[must_use]
-    pub fn do_nothing_sides(&self) -> Vec<BoundaryId> {
+    pub fn do_nothing_sides(&self) -> Vec<usize> {
         let is_open = |side: &Option<Side<D>>| matches!(side, Some(Side::DoNothing));
         let boundaries = self.sides.iter().enumerate().filter(|(_, side)| is_open(side));
-        boundaries.map(|(boundary, _)| BoundaryId::new(boundary)).collect()
+        boundaries.map(|(boundary, _)| boundary).collect()
     }
 
     /// Velocity of the frame with these velocities of the bodies (m/s); none in the laboratory.

@@ -6,7 +6,9 @@ use alewife_mesh::BoundaryId;
 use nalgebra::Vector3;
 
 use crate::body::{Inertia, Mode, Pose, RigidVector, Wrench};
-use crate::case::{Body, Case, GaitSpec, FlowModel, Lock, Motion, ShapeSpec, SpringSpec, TimeFunction};
+use crate::case::{
+    Body, Case, FlowModel, GaitSpec, Lock, Motion, ShapeSpec, SpringSpec, TimeFunction,
+};
 use crate::coupling::{Drive, RigidBody, Spring, TimeValue, second_moments};
 use crate::gait::{Gait, InTime, Squirmer};
 use crate::simulation::RunError;
@@ -98,11 +100,7 @@ fn rigid_spring(spring: &SpringSpec, pose: &Pose) -> Spring {
     Spring {
         stiffness: vector(&spring.stiffness, spring.torsion),
         damping: vector(&spring.damping, spring.torsion_damping),
-        rest: Pose::planar(
-            anchor(0),
-            anchor(1),
-            spring.rest_angle.unwrap_or_else(|| pose.angle()),
-        ),
+        rest: Pose::planar(anchor(0), anchor(1), spring.rest_angle.unwrap_or_else(|| pose.angle())),
     }
 }
 

@@ -11,7 +11,9 @@ use self::joints::add_joint;
 use self::sides::side;
 use super::RunError;
 use crate::body::Pose;
-use crate::case::{Case, ContactSpec, FlowModel, Geometry, Group as GroupSpec, Stroke, TimeSettings};
+use crate::case::{
+    Case, ContactSpec, FlowModel, Geometry, Group as GroupSpec, Stroke, TimeSettings,
+};
 use crate::contact::{Law, LawKind};
 use crate::coupling::{BodyShapes, Group, Problem, RateDiscontinuities, Side};
 use crate::space::Metric;

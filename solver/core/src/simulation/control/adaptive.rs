@@ -30,7 +30,7 @@ fn step_size_factor(error: f64) -> f64 {
     if error > 0.0 { (0.85 * error.powf(-1.0 / 3.0)).clamp(0.3, 1.5) } else { 1.5 }
 }
 
-impl<const D: usize> Run<'_, D> {
+impl Run<'_, 2> {
     /// Makes all steps; their number.
     pub(in crate::simulation) fn adaptive_steps(
         &mut self,

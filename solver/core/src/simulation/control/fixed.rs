@@ -26,7 +26,7 @@ impl StepTally {
     }
 }
 
-impl<const D: usize> Run<'_, D> {
+impl Run<'_, 2> {
     /// Makes all steps; their number.
     pub(in crate::simulation) fn fixed_steps(
         &mut self,

@@ -1,7 +1,7 @@
 //! The pieces of a first step, and of steps in which rates jump.
 
-use crate::case::{Scheme, Unsteady};
 use super::NEAR;
+use crate::case::{Scheme, Unsteady};
 use crate::simulation::advance::Simulation;
 
 /// The first step is made in pieces of 1/128, 1/128, 1/64, ... 1/2 of it: the only first-order
@@ -23,11 +23,7 @@ pub(super) fn count_steps(settings: &Unsteady) -> usize {
 }
 
 /// The pieces of a step to a time (s), cut where rates of gaits jump.
-pub(super) fn pieces<const D: usize>(
-    settings: &Unsteady,
-    simulation: &Simulation<D>,
-    target: f64,
-) -> Vec<Piece> {
+pub(super) fn pieces(settings: &Unsteady, simulation: &Simulation<2>, target: f64) -> Vec<Piece> {
     let state = &simulation.state;
     let near = NEAR * settings.step;
     let jumps = simulation.problem.rate_discontinuities.as_ref();

@@ -46,7 +46,8 @@ impl PlanarCase {
             Some([joint.parent, child])
         });
         let turns = case.body.iter().map(|body| !problem.metric.is_revolved() && !body.is_round());
-        let sheets = case.boundary.keys().filter_map(|side| Some((side.clone(), waving_sheet(case, side)?)));
+        let sheets =
+            case.boundary.keys().filter_map(|side| Some((side.clone(), waving_sheet(case, side)?)));
         Ok(Self {
             home: case.mesh_domain(),
             sizing: sizing(case),

@@ -5,7 +5,7 @@ mod periodic_cell;
 mod scene;
 mod shape_motion;
 
+pub(super) use case::{InitialMesh, PlanarCase, initial_mesh};
 pub use case::{build_mesh, sizing};
-pub(super) use case::{PlanarCase, initial_mesh};
-pub use shape_motion::shape_motion;
 pub(super) use scene::PlanarScene;
+pub use shape_motion::shape_motion;

@@ -16,7 +16,7 @@ const MOST_OFF: f64 = 1.5;
 
 /// A domain ready to be meshed.
 #[derive(Debug, Clone)]
-pub(super) struct PeriodicCell {
+pub(in crate::simulation) struct PeriodicCell {
     /// The domain, where its straight sides are.
     pub domain: Domain,
     /// Whole periods by which each body has been moved (m).

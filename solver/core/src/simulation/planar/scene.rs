@@ -4,7 +4,8 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 use alewife_mesh::{
-    BoundaryId, BoundaryKind, Domain, Mesh, NodeId, Outline, PlacedShape, Point, Shape, Surroundings,
+    BoundaryId, BoundaryKind, Domain, Mesh, NodeId, Outline, PlacedShape, Point, Shape,
+    Surroundings,
 };
 use nalgebra::Vector3;
 
@@ -54,8 +55,8 @@ impl PlanarScene {
         let fresh = Fresh::new(mesh, &surroundings, case.limits);
         let walls: Vec<usize> =
             (0..domain.sides().len()).filter(|&side| domain.wall(side).is_some()).collect();
-        let gaps = PlanarGaps::new(&domain, &walls, &shapes)?
-            .with_joined(case.pivots.iter().copied());
+        let gaps =
+            PlanarGaps::new(&domain, &walls, &shapes)?.with_joined(case.pivots.iter().copied());
         let materials = materials(&case, mesh, &shapes, &poses)?;
         Ok(Self { case, domain, shapes, poses, materials, sheets, fresh, surroundings, gaps })
     }
@@ -110,7 +111,8 @@ fn materials(
     poses: &[Pose],
 ) -> Result<HashMap<NodeId, f64>, RemeshError> {
     let outline = |body: usize| {
-        let outline = || Outline::new(&placed(&shapes[body], shapes[body].shape.clone(), &poses[body]));
+        let outline =
+            || Outline::new(&placed(&shapes[body], shapes[body].shape.clone(), &poses[body]));
         case.deforms[body].then(outline).transpose()
     };
     let outlines: Vec<Option<Outline>> =

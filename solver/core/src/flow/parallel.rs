@@ -1,0 +1,52 @@
+//! Loop over cells in parallel, with sums in the order of the cells.
+
+use std::ops::Range;
+
+use rayon::prelude::*;
+
+/// Cells a thread takes at a time: their matrices stay in its cache.
+const CELLS_PER_TASK: usize = 64;
+
+/// Lets `compute` fill `size` numbers for each cell, in parallel, and hands those of one cell
+/// after the other to `add`, in the order of the cells, so that sums have the same bits on any number
+/// of threads.
+///
+/// While one thread adds what a block of cells gave, the others work on the next block.
+pub(super) fn for_each_cell(
+    n_cells: usize,
+    size: usize,
+    compute: impl Fn(Range<usize>, &mut [f64]) + Sync,
+    mut add: impl FnMut(usize, &[f64]) + Send,
+) {
+    let block_size = CELLS_PER_TASK * rayon::current_num_threads();
+    let block = |index: usize| {
+        let start = (index * block_size).min(n_cells);
+        start..(start + block_size).min(n_cells)
+    };
+    let compute_block = |index: usize, results: &mut [f64]| {
+        let cells = block(index);
+        results[..cells.len() * size].par_chunks_mut(CELLS_PER_TASK * size).enumerate().for_each(
+            |(task, results)| {
+                let start = cells.start + task * CELLS_PER_TASK;
+                compute(start..start + results.len() / size, results);
+            },
+        );
+    };
+    let mut next = vec![0.0; block_size.min(n_cells) * size];
+    let mut done = next.clone();
+    // Inside the pool, so that no block has to be handed over to it.
+    rayon::scope(|_| {
+        compute_block(0, &mut next);
+        for index in 0..n_cells.div_ceil(block_size) {
+            std::mem::swap(&mut next, &mut done);
+            rayon::join(
+                || {
+                    for (cell, result) in block(index).zip(done.chunks_exact(size)) {
+                        add(cell, result);
+                    }
+                },
+                || compute_block(index + 1, &mut next),
+            );
+        }
+    });
+}

@@ -1,0 +1,203 @@
+//! Residual of one cell: momentum tested with the velocity's basis, divergence with the pressure's.
+//!
+//! ```text
+//! int (rho (a0 u + h + (c . grad) u) - f) . v + (2 mu D(u) - p I) : grad v - q div u
+//! ```
+//!
+//! Axisymmetric problems add the hoop stress times its strain, (2 mu u_r / r - p) v_r / r.
+
+use alewife_mesh::{CellId, NodeId, Point};
+use pulp::Simd;
+
+use super::lanes::{add_product, add_scaled, multiply_add, product, scaled_rows};
+use super::points::{CellPoints, PointTable, gather, nodes_of};
+use crate::flow::kernel::{CellInput, LocalLayout};
+use crate::flow::terms::{BodyForce, FlowTerms};
+use crate::space::{DofLayout, Metric};
+
+/// Overwrites `residual` with the cell's raw residual.
+#[inline(always)]
+pub fn cell_residual<S: Simd, const D: usize, const N: usize, const P: usize, const Q: usize>(
+    input: CellInput<'_, D>,
+    metric: Metric,
+    cell: CellId,
+    batches: &[PointTable<D, N, P, Q>],
+    local: LocalLayout<D>,
+    residual: &mut [f64],
+) {
+    let CellInput { mesh, terms, .. } = input;
+    let nodal = NodalValues::new(input, cell);
+    let mut momentum = [[0.0; P]; D];
+    let mut continuity = [0.0; N];
+    for table in batches {
+        let points = CellPoints::new::<S, N, P>(table, &nodal.corners, mesh.curved[cell], metric);
+        let pressure = table.pressure::<S>(&nodal.pressure);
+        // gradient[i][j] = d_j u_i.
+        let mut gradient = [[[0.0; Q]; D]; D];
+        for i in 0..D {
+            gradient[i] = points.gradient::<S, N, P>(table, &nodal.velocity[i]);
+        }
+        let mut force = nodal.inertia::<S, P, Q>(table, terms, &gradient);
+        if let Some(body_force) = terms.body_force {
+            subtract_body_force(&mut force, &points, body_force);
+        }
+        let mut divergence = [0.0; Q];
+        for i in 0..D {
+            for q in 0..Q {
+                divergence[q] += gradient[i][i][q];
+            }
+        }
+        if metric.is_revolved() {
+            let radial = table.velocity::<S>(&nodal.velocity[Metric::RADIAL]);
+            for q in 0..Q {
+                let radius = points.position[Metric::RADIAL][q];
+                let stretch = radial[q] / radius;
+                divergence[q] += stretch;
+                force[Metric::RADIAL][q] +=
+                    (2.0 * terms.viscosity * stretch - pressure[q]) / radius;
+            }
+        }
+        let stress = Stress { viscosity: terms.viscosity, gradient, pressure };
+        for i in 0..D {
+            let flux = stress.reference_flux::<S>(&points, i);
+            let force = product(&force[i], &points.dx);
+            for q in 0..Q {
+                add_product::<S, P>(&mut momentum[i], &table.phi[q], force[q]);
+                for k in 0..D {
+                    add_product::<S, P>(&mut momentum[i], &table.gradients[q][k], flux[k][q]);
+                }
+            }
+        }
+        let divergence = product(&divergence, &points.dx);
+        for node in 0..PointTable::<D, N, P, Q>::N_PRESSURES {
+            let psi = &table.psi_of_node[node];
+            for q in 0..Q {
+                continuity[node] = multiply_add::<S>(psi[q], divergence[q], continuity[node]);
+            }
+        }
+    }
+    for i in 0..D {
+        let start = local.velocity(0, i);
+        residual[start..start + N].copy_from_slice(&momentum[i][..N]);
+    }
+    for node in 0..PointTable::<D, N, P, Q>::N_PRESSURES {
+        residual[local.pressure(node)] = -continuity[node];
+    }
+}
+
+/// What a cell's residual needs at its nodes, by axis.
+struct NodalValues<const D: usize, const N: usize> {
+    corners: [[f64; N]; D],
+    velocity: [[f64; N]; D],
+    /// At the pressure nodes, which come first.
+    pressure: [f64; N],
+    /// Time derivative a0 u + h (m/s2), if any.
+    change: Option<[[f64; N]; D]>,
+    /// Convecting velocity, if any.
+    convecting: Option<[[f64; N]; D]>,
+}
+
+impl<const D: usize, const N: usize> NodalValues<D, N> {
+    #[inline(always)]
+    fn new(input: CellInput<'_, D>, cell: CellId) -> Self {
+        let CellInput { mesh, terms, fields } = input;
+        let nodes: &[NodeId; N] = nodes_of(mesh, cell);
+        let velocity = gather(fields.velocity, nodes);
+        let mut pressure = [0.0; N];
+        for (value, &node) in pressure.iter_mut().zip(DofLayout::pressure_nodes(mesh, cell)) {
+            *value = fields.pressure[node];
+        }
+        let (mut change, mut convecting) = (None, None);
+        if terms.density != 0.0 {
+            // The time derivative is summed at the nodes.
+            if terms.rate != 0.0 || !terms.history.is_empty() {
+                let mut sum = scaled_rows(&velocity, terms.rate);
+                if !terms.history.is_empty() {
+                    let history = gather(terms.history, nodes);
+                    for i in 0..D {
+                        for a in 0..N {
+                            sum[i][a] += history[i][a];
+                        }
+                    }
+                }
+                change = Some(sum);
+            }
+            if !terms.convecting_velocity.is_empty() {
+                convecting = Some(gather(terms.convecting_velocity, nodes));
+            }
+        }
+        Self { corners: gather(&mesh.nodes, nodes), velocity, pressure, change, convecting }
+    }
+
+    /// rho (a0 u + h + (c . grad) u) at the points, by axis.
+    #[inline(always)]
+    fn inertia<S: Simd, const P: usize, const Q: usize>(
+        &self,
+        table: &PointTable<D, N, P, Q>,
+        terms: &FlowTerms<'_, D>,
+        gradient: &[[[f64; Q]; D]; D],
+    ) -> [[f64; Q]; D] {
+        let mut force = [[0.0; Q]; D];
+        if let Some(change) = &self.change {
+            for i in 0..D {
+                force[i] = table.velocity::<S>(&change[i]);
+            }
+        }
+        if let Some(convecting) = &self.convecting {
+            for j in 0..D {
+                let convecting = table.velocity::<S>(&convecting[j]);
+                for i in 0..D {
+                    add_scaled::<S, Q>(&mut force[i], &gradient[i][j], &convecting);
+                }
+            }
+        }
+        if self.change.is_some() || self.convecting.is_some() {
+            force = scaled_rows(&force, terms.density);
+        }
+        force
+    }
+}
+
+/// Subtracts a given force per unit volume at the points.
+#[inline(always)]
+fn subtract_body_force<const D: usize, const Q: usize>(
+    force: &mut [[f64; Q]; D],
+    points: &CellPoints<D, Q>,
+    body_force: BodyForce<'_, D>,
+) {
+    for q in 0..Q {
+        let position = Point::<D>::from_fn(|axis, _| points.position[axis][q]);
+        let given = body_force(&position);
+        for i in 0..D {
+            force[i][q] -= given[i];
+        }
+    }
+}
+
+/// The stress 2 mu D(u) - p I at the points.
+struct Stress<const D: usize, const Q: usize> {
+    viscosity: f64,
+    /// gradient\[i\]\[j\] = d_j u_i.
+    gradient: [[[f64; Q]; D]; D],
+    pressure: [f64; Q],
+}
+
+impl<const D: usize, const Q: usize> Stress<D, Q> {
+    /// Row `i` of the stress, weighted and turned to the reference axes.
+    #[inline(always)]
+    fn reference_flux<S: Simd>(&self, points: &CellPoints<D, Q>, i: usize) -> [[f64; Q]; D] {
+        let mut flux = [[0.0; Q]; D];
+        for j in 0..D {
+            let mut stress = [0.0; Q];
+            for q in 0..Q {
+                let rate = self.gradient[i][j][q] + self.gradient[j][i][q];
+                let level = if i == j { self.pressure[q] } else { 0.0 };
+                stress[q] = multiply_add::<S>(self.viscosity, rate, -level) * points.dx[q];
+            }
+            for k in 0..D {
+                add_scaled::<S, Q>(&mut flux[k], &stress, &points.inverse[k][j]);
+            }
+        }
+        flux
+    }
+}

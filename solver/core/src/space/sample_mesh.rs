@@ -1,0 +1,81 @@
+//! Meshes of one or two cells for tests, in the plane and in space.
+
+use std::collections::BTreeMap;
+
+use alewife_mesh::{
+    Boundary, BoundaryId, BoundaryKind, CellId, Facet, Mesh, NodeId, Point, Simplex,
+};
+
+/// A cell away from the origin, and above the axis.
+pub(crate) fn one_simplex<const D: usize>() -> Mesh<D> {
+    let cell: Vec<_> = (0..=D).collect();
+    mesh_of(&vertices::<D>()[..=D], &[&cell])
+}
+
+/// Two cells that share a facet.
+pub(crate) fn two_simplices<const D: usize>() -> Mesh<D> {
+    let first: Vec<_> = (0..=D).collect();
+    // The opposite vertex in place of the first, and two others exchanged to stay positive
+    let mut second = first.clone();
+    second[0] = D + 1;
+    second.swap(1, 2);
+    mesh_of(&vertices::<D>(), &[&first, &second])
+}
+
+/// The mesh with all nodes that are no vertices moved by up to `bend` (m) along each axis, and all cells
+/// curved if that is not zero.
+pub(crate) fn bent<const D: usize>(mut mesh: Mesh<D>, bend: f64) -> Mesh<D> {
+    let n_vertices = mesh.n_vertices;
+    for (index, node) in mesh.nodes.iter_mut().enumerate().skip(n_vertices) {
+        *node += Point::from_fn(|axis, _| bend * (3.0 * index as f64 + 5.0 * axis as f64).sin());
+    }
+    mesh.curved.fill(bend != 0.0);
+    mesh
+}
+
+/// D + 2 vertices: a simplex, and one behind the facet opposite to its first vertex.
+fn vertices<const D: usize>() -> Vec<Point<D>> {
+    let unit = |axis: usize| Point::<D>::from_fn(|i, _| if i == axis { 1.2 } else { 0.1 });
+    let mut vertices = vec![Point::zeros()];
+    vertices.extend((0..D).map(unit));
+    vertices.push(Point::from_fn(|axis, _| 1.0 + 0.1 * axis as f64));
+    let origin = Point::from_fn(|axis, _| 0.3 + 0.2 * axis as f64);
+    vertices.iter().map(|vertex| vertex + origin).collect()
+}
+
+fn mesh_of<const D: usize>(vertices: &[Point<D>], cells: &[&[usize]]) -> Mesh<D> {
+    let mut nodes = vertices.to_vec();
+    let mut inner = BTreeMap::new();
+    let mut all = Vec::new();
+    for cell in cells {
+        all.extend(cell.iter().map(|&vertex| NodeId::new(vertex)));
+        for ends in Simplex::<D>::EDGES {
+            let [a, b] = ends.map(|local| cell[local]);
+            all.push(*inner.entry([a.min(b), a.max(b)]).or_insert_with(|| {
+                nodes.push((nodes[a] + nodes[b]) / 2.0);
+                NodeId::new(nodes.len() - 1)
+            }));
+        }
+    }
+    let mut sides: BTreeMap<Vec<usize>, Vec<Facet>> = BTreeMap::new();
+    for (index, cell) in cells.iter().enumerate() {
+        for side in 0..=D {
+            let mut key = Simplex::<D>::facet_vertices(side).map(|local| cell[local]).to_vec();
+            key.sort_unstable();
+            sides.entry(key).or_default().push(Facet {
+                cell: CellId::new(index),
+                side: u8::try_from(side).expect("a cell has few facets"),
+                boundary: BoundaryId::new(0),
+            });
+        }
+    }
+    Mesh {
+        nodes,
+        n_vertices: vertices.len(),
+        cells: all,
+        curved: vec![false; cells.len()],
+        facets: sides.into_values().filter(|sides| sides.len() == 1).flatten().collect(),
+        boundaries: vec![Boundary { name: "wall".to_owned(), kind: BoundaryKind::Side }],
+        periodic: Vec::new(),
+    }
+}
