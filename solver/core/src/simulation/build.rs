@@ -11,7 +11,8 @@ use super::shape_motion::shape_motion;
 use crate::body::{Pose, Wrench};
 use crate::case::{
     Body, BoundaryCondition, Case, ContactSpec, DomainSpec, FlowModel, GaitSpec, Geometry, Hinge,
-    Joint, JointKind, Lock, Motion, ShapeSpec, Stroke, TimeFunction, TimeSettings,
+    Joint, JointKind, Lock, Model, Motion, ShapeSpec, Stroke, SwimmerModel, TimeFunction,
+    TimeSettings,
 };
 use crate::contact::{Law, LawKind};
 use crate::coupling::{
@@ -26,13 +27,14 @@ use crate::time::factor_at;
 ///
 /// # Errors
 /// When a body does not fit, or the mesh cannot be made.
-pub fn build_mesh(case: &Case) -> Result<Mesh<2>, RunError> {
-    Ok(first_mesh(case)?.0)
+pub fn build_mesh(model: &Model) -> Result<Mesh<2>, RunError> {
+    Ok(first_mesh(model)?.0)
 }
 
 /// The mesh of a case, with its domain and bodies as they are meshed.
-pub(super) fn first_mesh(case: &Case) -> Result<(Mesh<2>, Opened), RunError> {
-    let opened = open_first(&case.mesh_domain(), placed_bodies(case)?).map_err(RunError::Mesh)?;
+pub(super) fn first_mesh(model: &Model) -> Result<(Mesh<2>, Opened), RunError> {
+    let case = &model.case;
+    let opened = open_first(&case.mesh_domain(), placed_bodies(model)?).map_err(RunError::Mesh)?;
     let mut mesh = opened.mesh(&sizing(case)).map_err(|error| RunError::Mesh(error.to_string()))?;
     // The side of a sheet is made straight, but will not stay so.
     for facet in &mesh.facets {
@@ -54,9 +56,9 @@ pub(super) fn waving_sheet(case: &Case, side: &str) -> Option<WavingSheet> {
 }
 
 /// The bodies of a case as they are meshed at time zero.
-pub(super) fn placed_bodies(case: &Case) -> Result<Vec<PlacedShape>, RunError> {
+pub(super) fn placed_bodies(model: &Model) -> Result<Vec<PlacedShape>, RunError> {
     let placed = |body: &Body| {
-        let mut placed = body.placed(case.mesh.scale);
+        let mut placed = body.placed(model.case.mesh.scale);
         if let Some(motion) = shape_motion(body)? {
             let start = motion.at(0.0);
             let start = start.map_err(|reason| ShapeError { body: body.name.clone(), reason })?;
@@ -64,7 +66,7 @@ pub(super) fn placed_bodies(case: &Case) -> Result<Vec<PlacedShape>, RunError> {
         }
         Ok(placed)
     };
-    case.body.iter().map(placed).collect()
+    model.bodies.iter().map(placed).collect()
 }
 
 /// The law of contact a case asks for.
@@ -105,7 +107,8 @@ pub fn sizing(case: &Case) -> Sizing {
 ///
 /// # Errors
 /// When the case asks for something that is not there yet.
-pub fn build_problem(case: &Case, mesh: &Mesh<2>) -> Result<Problem, RunError> {
+pub fn build_problem(model: &Model, mesh: &Mesh<2>) -> Result<Problem, RunError> {
+    let case = &model.case;
     let metric = match case.geometry {
         Geometry::Planar => Metric::Cartesian,
         Geometry::Axisymmetric => Metric::Revolved,
@@ -115,19 +118,19 @@ pub fn build_problem(case: &Case, mesh: &Mesh<2>) -> Result<Problem, RunError> {
     for (boundary, known) in mesh.boundaries.iter().enumerate() {
         sides.push(match known.kind {
             BoundaryKind::Body(body) => {
-                bodies.push(rigid_body(case, &case.body[body], boundary, metric)?);
+                bodies.push(rigid_body(case, &model.bodies[body], boundary, metric)?);
                 None
             }
             BoundaryKind::Axis => Some(Side::Symmetry { normal_axis: Metric::RADIAL }),
             BoundaryKind::Side => Some(side(case, &known.name)?),
         });
     }
-    let frame = case.frame_body();
+    let frame = model.frame_body();
     if let (None, Some(name)) = (frame, &case.frame) {
         return Err(RunError::Unsupported(format!("frame = \"{name}\" names no body")));
     }
-    for joint in &case.joint {
-        link(case, joint, &mut bodies)?;
+    for joint in &model.joints {
+        link(model, joint, &mut bodies)?;
     }
     let has_inertia = case.fluid.model != FlowModel::Stokes;
     let mut problem = Problem {
@@ -138,12 +141,12 @@ pub fn build_problem(case: &Case, mesh: &Mesh<2>) -> Result<Problem, RunError> {
         has_convection: case.fluid.model == FlowModel::NavierStokes,
         sides,
         bodies,
-        groups: case.group.iter().map(|one| group(case, one)).collect(),
+        groups: model.swimmers.iter().map(|swimmer| group(case, swimmer)).collect(),
         frame,
         body_force: None,
         rate_discontinuities: None,
     };
-    problem.rate_discontinuities = rate_discontinuities(case, &problem);
+    problem.rate_discontinuities = rate_discontinuities(model, &problem);
     check_volumes(case, &problem)?;
     let mut places: Vec<[f64; 3]> = problem.bodies.iter().map(RigidBody::start).collect();
     problem.hang(&mut places, 0.0);
@@ -155,26 +158,26 @@ pub fn build_problem(case: &Case, mesh: &Mesh<2>) -> Result<Problem, RunError> {
     Ok(problem)
 }
 
-fn group(case: &Case, group: &crate::case::Group) -> Group {
-    let crate::case::Group { name, bodies, period, resistance } = group.clone();
+fn group(case: &Case, swimmer: &SwimmerModel) -> Group {
+    let SwimmerModel { name, bodies, period, resistance } = swimmer.clone();
     // A steady solution knows no cycle
     let period = period.filter(|_| matches!(case.time, TimeSettings::Unsteady(_)));
     Group { name, bodies, period, resistance }
 }
 
 /// Hangs a child on its parent.
-fn link(case: &Case, joint: &Joint, bodies: &mut [RigidBody]) -> Result<(), RunError> {
+fn link(model: &Model, joint: &Joint, bodies: &mut [RigidBody]) -> Result<(), RunError> {
     let find = |name: &str| {
-        case.body.iter().position(|body| body.name == name).ok_or_else(|| {
+        model.body_index(name).ok_or_else(|| {
             RunError::Unsupported(format!("a joint names \"{name}\", which is no body"))
         })
     };
     let (parent, child) = (find(&joint.parent)?, find(&joint.child)?);
     let from_center = |body: usize, point: [f64; 2]| {
-        let centroid = case.body[body].shape.outline().moments().map(|moments| moments.centroid);
+        let centroid = model.bodies[body].shape.outline().moments().map(|moments| moments.centroid);
         Point::<2>::from(point) - centroid.unwrap_or_default()
     };
-    let bend = case.body[child].angle - case.body[parent].angle;
+    let bend = model.bodies[child].angle - model.bodies[parent].angle;
     let mut arm = None;
     let turn = match joint.kind.clone() {
         JointKind::Arm { length, direction } => {
@@ -193,12 +196,13 @@ fn link(case: &Case, joint: &Joint, bodies: &mut [RigidBody]) -> Result<(), RunE
             Turn::Free(Pivot { stiffness, damping, rest, motor })
         }
     };
-    let is_free = matches!(turn, Turn::Free(_)) && case.geometry == Geometry::Planar;
+    let is_planar = model.case.geometry == Geometry::Planar;
+    let is_free = matches!(turn, Turn::Free(_)) && is_planar;
     let on_parent = from_center(parent, joint.on_parent);
     let on_child = from_center(child, joint.on_child);
     let body = &mut bodies[child];
     body.drives[0] = Drive::Linked;
-    if case.geometry == Geometry::Planar {
+    if is_planar {
         body.drives[1] = Drive::Linked;
         body.drives[2] = if is_free { Drive::Free } else { Drive::Linked };
     }
@@ -207,10 +211,10 @@ fn link(case: &Case, joint: &Joint, bodies: &mut [RigidBody]) -> Result<(), RunE
 }
 
 /// Times at which rates of strokes and shapes jump.
-fn rate_discontinuities(case: &Case, problem: &Problem) -> Option<RateDiscontinuities> {
+fn rate_discontinuities(model: &Model, problem: &Problem) -> Option<RateDiscontinuities> {
     // Torques of hinges may jump: nothing moves by them at once
     let strokes: Vec<Stroke> =
-        case.joint.iter().filter_map(|joint| joint.kind.stroke().cloned()).collect();
+        model.joints.iter().filter_map(|joint| joint.kind.stroke().cloned()).collect();
     let shapes: Vec<_> = problem.bodies.iter().filter_map(|body| body.shape.clone()).collect();
     if strokes.is_empty() && shapes.is_empty() {
         return None;

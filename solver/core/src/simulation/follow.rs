@@ -9,7 +9,7 @@ use nalgebra::Vector3;
 use super::build::waving_sheet;
 use super::state::pose_at;
 use crate::body::Pose;
-use crate::case::{Case, MeshEquation};
+use crate::case::{MeshEquation, Model};
 use crate::contact::{Place, Surfaces};
 use crate::coupling::{BodyShapes, Problem, RigidBody};
 use crate::gait::{DeformedOutline, WavingSheet};
@@ -70,19 +70,19 @@ impl Follower {
     /// # Errors
     /// When the equation of the mesh motion cannot be solved, in words.
     pub fn new(
-        case: &Case,
+        model: &Model,
         problem: &Problem,
         mesh: &Mesh<2>,
         domain: Domain,
         shapes: Vec<PlacedShape>,
         (made_at, made_time): (Vec<Place>, f64),
     ) -> Result<Self, String> {
-        let moving = &case.mesh.moving;
+        let moving = &model.case.mesh.moving;
         let kind = match moving.equation {
             MeshEquation::Elastic => MotionKind::default(),
             MeshEquation::Harmonic => MotionKind::Harmonic(Stiffening::MasudHughes),
         };
-        let sheet = |boundary: &alewife_mesh::Boundary| waving_sheet(case, &boundary.name);
+        let sheet = |boundary: &alewife_mesh::Boundary| waving_sheet(&model.case, &boundary.name);
         let sheets: Vec<Option<WavingSheet>> = mesh.boundaries.iter().map(sheet).collect();
         let mut holds = holds(mesh, true);
         for (hold, sheet) in holds.iter_mut().zip(&sheets) {
@@ -131,7 +131,8 @@ impl Follower {
                 }
             }
         }
-        let turns = case.body.iter().map(|body| problem.metric.has_rotation() && !body.is_round());
+        let turns =
+            model.bodies.iter().map(|body| problem.metric.has_rotation() && !body.is_round());
         let turns = turns.collect();
         Ok(Self {
             motion,

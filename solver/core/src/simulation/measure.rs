@@ -6,7 +6,7 @@ use nalgebra::SMatrix;
 use super::snapshot::BodyReport;
 use super::state::{State, Swim};
 use crate::body::{Pose, Twist, Wrench};
-use crate::case::{Case, Geometry, Probe, TimeSettings, known_quantities};
+use crate::case::{Case, Geometry, Model, Probe, TimeSettings, known_quantities};
 use crate::coupling::{
     BodyLoads, BodyShapes, BodyStates, Effort, FluidSystem, Group, JointReport, Problem,
     ShapeError, Solution, group_load, joint_reports, mean_motion, surface_load,
@@ -103,7 +103,8 @@ struct Integrals {
 
 impl Measure {
     /// Finds the probes in the mesh and names the quantities.
-    pub(super) fn new(case: &Case, mesh: &Mesh<2>) -> Result<Self, String> {
+    pub(super) fn new(model: &Model, mesh: &Mesh<2>) -> Result<Self, String> {
+        let case = &model.case;
         let probes = find_probes(case, mesh);
         for (probe, points) in case.probe.iter().zip(&probes) {
             if let Some(missing) = points.iter().position(Option::is_none) {
@@ -121,9 +122,9 @@ impl Measure {
             [force, force / scales.length]
         });
         let has_contact = case.contact.is_some();
-        let energy = case.balances_energy().then(Energy::default);
+        let energy = model.balances_energy().then(Energy::default);
         let is_march = matches!(case.time, TimeSettings::Unsteady(_));
-        let names = known_quantities(case);
+        let names = known_quantities(model);
         Ok(Self { names, probes, coefficients, has_contact, energy, is_march })
     }
 

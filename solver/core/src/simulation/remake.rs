@@ -8,7 +8,7 @@ use super::follow::Follower;
 use super::opened::{Opened, open};
 use super::state::{State, pose_at, seen_from};
 use crate::body::Pose;
-use crate::case::Case;
+use crate::case::Model;
 use crate::contact::Place;
 use crate::coupling::{BodyShapes, DivergenceFree, NodeSides, Problem, Solution};
 use crate::motion::Transfer;
@@ -20,7 +20,7 @@ use crate::space::Tables;
 /// # Errors
 /// When the mesh cannot be made, or the flow not be made divergence-free on it, in words.
 pub(super) fn remake(
-    case: &Case,
+    model: &Model,
     problem: &Problem,
     state: &mut State,
     follower: &Follower,
@@ -34,7 +34,7 @@ pub(super) fn remake(
         |time: f64| BodyShapes::at(&problem.bodies, time).map_err(|error| error.to_string());
     let (now, before) = (shapes_at(state.time)?, shapes_at(state.time_before())?);
     let shapes = follower.shapes_at(&old_places, &now);
-    let opened = open(follower.domain(), &case.mesh_domain(), shapes)?;
+    let opened = open(follower.domain(), &model.case.mesh_domain(), shapes)?;
     let shifts = opened.shifts.iter();
     let wraps: Vec<Point<2>> =
         state.wraps.iter().zip(shifts).map(|(wrap, shift)| wrap + shift).collect();
@@ -42,10 +42,10 @@ pub(super) fn remake(
     // The frame was elsewhere, too
     let origin_before = state.origin_at(problem, &state.previous_places);
     let previous_places = seen_from(&origin_before, &state.previous_places, &wraps);
-    let new = opened.mesh(&sizing(case)).map_err(|error| error.to_string())?;
+    let new = opened.mesh(&sizing(&model.case)).map_err(|error| error.to_string())?;
     let Opened { domain, shapes, .. } = opened;
     let made_at = (places.clone(), state.time);
-    let made = Follower::new(case, problem, &new, domain.clone(), shapes, made_at)?;
+    let made = Follower::new(model, problem, &new, domain.clone(), shapes, made_at)?;
 
     let old = state.mesh_in_frame();
     let tables = Tables::new(problem.metric);

@@ -13,7 +13,7 @@ use super::snapshot::{Observer, Remains, Snapshot};
 use super::state::State;
 use super::steady::{SteadyFlow, solve_steady};
 use super::{RunError, Series, Stage, StepError, StepResult, Timing, build_problem};
-use crate::case::{Adaptive, Case, Convection, Initial, Scheme, Steady, TimeSettings, Unsteady};
+use crate::case::{Adaptive, Convection, Initial, Model, Scheme, Steady, TimeSettings, Unsteady};
 use crate::contact::{ContactError, Law};
 use crate::coupling::{
     BodyLoads, BodyShapes, FluidSystem, Levels, Problem, body_loads, mean_motion, memory_estimate,
@@ -50,8 +50,11 @@ const REJECTED: f64 = 2.0;
 ///
 /// # Errors
 /// Whatever stops the run; observers are told before it is returned.
-pub fn simulate(case: &Case, observers: &mut [Box<dyn Observer<2>>]) -> Result<Outcome, RunError> {
-    simulate_from(case, None, observers)
+pub fn simulate(
+    model: &Model,
+    observers: &mut [Box<dyn Observer<2>>],
+) -> Result<Outcome, RunError> {
+    simulate_from(model, None, observers)
 }
 
 /// Runs a case to its end, from a saved state if there is one.
@@ -59,15 +62,15 @@ pub fn simulate(case: &Case, observers: &mut [Box<dyn Observer<2>>]) -> Result<O
 /// # Errors
 /// Whatever stops the run; observers are told before it is returned.
 pub fn simulate_from(
-    case: &Case,
+    model: &Model,
     saved: Option<&SavedState>,
     observers: &mut [Box<dyn Observer<2>>],
 ) -> Result<Outcome, RunError> {
-    let mut run = Run { case, observers, timing: Timing::default(), series: Series::default() };
+    let mut run = Run { model, observers, timing: Timing::default(), series: Series::default() };
     let mut parts = None;
     let result = run.start(saved, &mut parts);
     if let Err(error) = &result {
-        let is_march = matches!(case.time, TimeSettings::Unsteady(_));
+        let is_march = matches!(model.case.time, TimeSettings::Unsteady(_));
         let saved = parts.as_ref().filter(|_| is_march).map(Parts::saved);
         let remains = parts.as_ref().map(|parts| Remains {
             saved: saved.as_ref(),
@@ -88,7 +91,7 @@ pub fn simulate_from(
 }
 
 struct Run<'a> {
-    case: &'a Case,
+    model: &'a Model,
     observers: &'a mut [Box<dyn Observer<2>>],
     timing: Timing,
     series: Series,
@@ -117,13 +120,13 @@ impl Parts {
     }
 
     /// Takes a saved state in place of the one at time zero.
-    fn go_on_from(&mut self, case: &Case, saved: &SavedState) -> Result<(), String> {
+    fn go_on_from(&mut self, model: &Model, saved: &SavedState) -> Result<(), String> {
         let boundaries = &self.state.mesh.boundaries;
-        let (state, follower) = saved.restore(case, &self.problem, boundaries)?;
+        let (state, follower) = saved.restore(model, &self.problem, boundaries)?;
         let poses = state.poses_in_mesh();
         self.system = FluidSystem::new(&self.problem, &state.mesh, &poses, self.unknown_frame);
         if follower.is_none() {
-            self.measure.follow(case, &state.mesh_in_frame());
+            self.measure.follow(&model.case, &state.mesh_in_frame());
         }
         (self.state, self.follower) = (state, follower);
         (self.remeshes, self.is_fresh) = (saved.remeshes(), false);
@@ -228,11 +231,11 @@ impl Run<'_> {
         saved: Option<&SavedState>,
         parts: &mut Option<Parts>,
     ) -> Result<(usize, usize), RunError> {
-        let case = self.case;
-        let (mesh, opened) = self.timing.measure(Stage::Mesh, || first_mesh(case))?;
+        let (model, case) = (self.model, &self.model.case);
+        let (mesh, opened) = self.timing.measure(Stage::Mesh, || first_mesh(model))?;
         tracing::info!(cells = mesh.n_cells(), nodes = mesh.n_nodes(), "mesh made");
         check_memory(&mesh)?;
-        let problem = build_problem(case, &mesh)?;
+        let problem = build_problem(model, &mesh)?;
         // A frame whose velocity is itself sought enters the convection of every cell.
         let is_linear = match &case.time {
             TimeSettings::Steady(_) => false,
@@ -241,7 +244,7 @@ impl Run<'_> {
         let unknown_frame = problem.frame.is_some() && problem.has_convection && !is_linear;
         let parts = parts.insert(self.parts(problem, mesh, opened, unknown_frame)?);
         if let Some(saved) = saved {
-            parts.go_on_from(self.case, saved).map_err(|reason| {
+            parts.go_on_from(model, saved).map_err(|reason| {
                 RunError::Unsupported(format!("the state cannot be gone on from: {reason}"))
             })?;
         }
@@ -267,13 +270,13 @@ impl Run<'_> {
             .timing
             .measure(Stage::Assembly, || FluidSystem::new(&problem, mesh, &poses, unknown_frame));
         tracing::info!(unknowns = system.n_unknowns, entries = system.n_entries(), "system built");
-        let measure = Measure::new(self.case, mesh).map_err(RunError::Unsupported)?;
+        let measure = Measure::new(self.model, mesh).map_err(RunError::Unsupported)?;
         self.series.names = measure.names().to_vec();
-        let follower = if self.case.mesh_moves() {
+        let follower = if self.model.mesh_moves() {
             let (domain, shapes) = (opened.domain, opened.shapes);
             let places = state.wrapped(&state.places);
             let made = self.timing.measure(Stage::MeshMotion, || {
-                Follower::new(self.case, &problem, &state.mesh, domain, shapes, (places, 0.0))
+                Follower::new(self.model, &problem, &state.mesh, domain, shapes, (places, 0.0))
             });
             Some(made.map_err(RunError::Mesh)?)
         } else {
@@ -290,7 +293,7 @@ impl Run<'_> {
         if let Some(follower) = &follower {
             state.contact.least_gap = follower.surfaces().least_gap(&state.places);
         }
-        let law = self.case.contact.as_ref().map(contact_law).transpose()?;
+        let law = self.model.case.contact.as_ref().map(contact_law).transpose()?;
         Ok(Parts {
             problem,
             system,
@@ -579,7 +582,7 @@ impl Run<'_> {
         let (step, time) = (state.step, state.time);
         *follower = self
             .timing
-            .measure(Stage::Mesh, || remake(self.case, problem, state, follower))
+            .measure(Stage::Mesh, || remake(self.model, problem, state, follower))
             .map_err(|reason| RunError::Remesh { step, time, reason })?;
         tracing::info!(step, time, cells = state.mesh.n_cells(), reason, "mesh made anew");
         let poses = state.poses_in_mesh();
@@ -606,9 +609,9 @@ impl Run<'_> {
         is_last: bool,
     ) -> Result<(), RunError> {
         parts.take_record(loads);
-        if parts.follower.is_some() && !self.case.probe.is_empty() {
+        if parts.follower.is_some() && !self.model.case.probe.is_empty() {
             let seen = parts.state.mesh_in_frame();
-            self.timing.measure(Stage::Loads, || parts.measure.follow(self.case, &seen));
+            self.timing.measure(Stage::Loads, || parts.measure.follow(&self.model.case, &seen));
         }
         let Parts { problem, system, measure, state, remeshes, follower, .. } = &mut *parts;
         let moving = follower.as_ref().map(|_| Moving { remeshes: *remeshes });
@@ -618,7 +621,7 @@ impl Run<'_> {
         self.series.times.push(state.time);
         let timing = self.timing;
         let snapshot = Snapshot {
-            case: self.case,
+            case: &self.model.case,
             step: state.step,
             time: state.time,
             time_step,

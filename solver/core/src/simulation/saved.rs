@@ -10,7 +10,7 @@ use super::follow::Follower;
 use super::opened::{start_of, started_at};
 use super::state::{State, Swim, place_of, pose_at};
 use crate::body::Twist;
-use crate::case::Case;
+use crate::case::Model;
 use crate::contact::{ContactLoads, Place};
 use crate::coupling::{BodyShapes, Problem, Solution};
 use crate::motion::RigidMove;
@@ -150,7 +150,7 @@ impl SavedState {
     /// When the state is not one of such a case, in words.
     pub(super) fn restore(
         &self,
-        case: &Case,
+        model: &Model,
         problem: &Problem,
         boundaries: &[Boundary],
     ) -> Result<(State, Option<Follower>), String> {
@@ -224,13 +224,13 @@ impl SavedState {
             pressure: level.pressure.clone(),
             twists: twists(&level.twists),
         };
-        let follower = match (&self.following, case.mesh_moves()) {
+        let follower = match (&self.following, model.mesh_moves()) {
             (Some(following), true) => {
                 let mut made = mesh.clone();
                 made.nodes = points(&following.nodes);
-                let domain = started_at(&case.mesh_domain(), following.domain_start);
+                let domain = started_at(&model.case.mesh_domain(), following.domain_start);
                 let pairs = problem.bodies.iter().zip(&following.made_at);
-                let shapes = placed_bodies(case).map_err(|error| error.to_string())?;
+                let shapes = placed_bodies(model).map_err(|error| error.to_string())?;
                 let then = BodyShapes::at(&problem.bodies, following.made_time)
                     .map_err(|error| error.to_string())?;
                 let pairs = pairs.enumerate();
@@ -245,7 +245,7 @@ impl SavedState {
                 let made_at = (following.made_at.clone(), following.made_time);
                 let shapes: Vec<PlacedShape> = shapes.collect();
                 goes_on(problem, &made, &shapes)?;
-                Some(Follower::new(case, problem, &made, domain, shapes, made_at)?)
+                Some(Follower::new(model, problem, &made, domain, shapes, made_at)?)
             }
             (None, false) => None,
             _ => return Err("its mesh moves and that of the case does not, or vice versa".into()),

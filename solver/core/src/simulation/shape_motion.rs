@@ -95,7 +95,7 @@ motion = 'free'
 {body}
 "
         );
-        Case::parse("t.toml", &text, &[]).unwrap().case.body[0].clone()
+        Case::parse("t.toml", &text, &[]).unwrap().model.bodies[0].clone()
     }
 
     /// At the start the outline is that of the shape, which is what is meshed.
