@@ -58,8 +58,8 @@ fn a_run_leaves_its_files_and_is_not_replaced_unasked() {
     // What is known before a run is what the run measures.
     let series = std::fs::read_to_string(out.join("series.csv")).unwrap();
     let columns: Vec<&str> = series.lines().next().unwrap().split(',').skip(1).collect();
-    let case = alewife::case::Case::read("squirmer-alone", &[]).unwrap().case;
-    assert_eq!(columns, alewife::case::known_quantities(&case));
+    let model = alewife::case::Case::read("squirmer-alone", &[]).unwrap().model;
+    assert_eq!(columns, alewife::case::known_quantities(&model));
 
     // The case as it was run is a case, and the same one.
     let again = done(directory.path(), &["check", "--no-mesh", "runs/squirmer-alone/case.toml"]);

@@ -99,8 +99,8 @@ fn every_key_and_word_of_a_case_file_is_on_its_page() {
 #[test]
 fn every_quantity_is_on_the_page_of_case_files() {
     let told = terms(&text("docs/case-file.md"));
-    let case = Case::parse("all.toml", ALL_QUANTITIES, &[]).unwrap_or_else(|e| panic!("{e}")).case;
-    let known = known_quantities(&case);
+    let file = Case::parse("all.toml", ALL_QUANTITIES, &[]).unwrap_or_else(|e| panic!("{e}"));
+    let known = known_quantities(&file.model);
     assert!(known.len() > 20, "{known:?}");
     let suffixes = known.iter().filter_map(|name| Some(name.split_once('.')?.1));
     let missing: Vec<&str> = suffixes.filter(|suffix| !told.contains(*suffix)).collect();
@@ -175,7 +175,8 @@ fn the_table_of_cases_is_that_of_the_folders() {
         };
         assert!([physics, source, cost].iter().all(|cell| !cell.is_empty()), "{name}");
         let path = root().join("cases").join(&name);
-        let case = read_and_check(&path.display().to_string(), &name).case;
+        let file = read_and_check(&path.display().to_string(), &name);
+        let case = file.case();
         let mut references: Vec<&Reference> = case.reference.iter().collect();
         references.extend(case.variant.iter().flat_map(|variant| &variant.reference));
 

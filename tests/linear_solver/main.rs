@@ -1,6 +1,6 @@
 //! The matrices of all shipped cases are solved to rounding, with one refinement at most.
 
-use alewife_core::case::{Case, Steady, library};
+use alewife_core::case::{Case, Model, Steady, library};
 use alewife_core::coupling::{FluidSystem, Levels};
 use alewife_core::simulation::{Timing, build_mesh, build_problem, solve_steady};
 use rayon::prelude::*;
@@ -9,9 +9,9 @@ use rayon::prelude::*;
 const RESIDUAL: f64 = 1e-12;
 
 /// Residual and refinements of the Stokes flow that every run of a case begins with.
-fn accuracy(case: &Case) -> (f64, usize) {
-    let mesh = build_mesh(case).expect("the mesh can be made");
-    let mut problem = build_problem(case, &mesh).expect("the problem can be built");
+fn accuracy(model: &Model) -> (f64, usize) {
+    let mesh = build_mesh(model).expect("the mesh can be made");
+    let mut problem = build_problem(model, &mesh).expect("the problem can be built");
     problem.has_convection = false;
     let poses: Vec<_> = problem.bodies.iter().map(|body| body.pose).collect();
     let mut system = FluidSystem::new(&problem, &mesh, &poses, false);
@@ -19,7 +19,7 @@ fn accuracy(case: &Case) -> (f64, usize) {
     let timing = &mut Timing::default();
     let levels = Levels::steady(&problem, 0.0);
     solve_steady(&mut system, &problem, &mesh, &poses, (0.0, &levels), &settings, timing)
-        .unwrap_or_else(|failure| panic!("{:?}: {}", case.title, failure.error));
+        .unwrap_or_else(|failure| panic!("{:?}: {}", model.case.title, failure.error));
     (system.accuracy().residual, system.accuracy().refinements)
 }
 
@@ -42,8 +42,8 @@ fn shipped_cases_are_solved_to_rounding() {
     let wrong: Vec<String> = members
         .par_iter()
         .filter_map(|name| {
-            let case = Case::read(name, &[]).expect("shipped cases are valid").case;
-            let (residual, refinements) = accuracy(&case);
+            let model = Case::read(name, &[]).expect("shipped cases are valid").model;
+            let (residual, refinements) = accuracy(&model);
             let is_right = residual <= RESIDUAL && refinements <= 1;
             (!is_right).then(|| format!("{name}: {residual:.1e} after {refinements} refinements"))
         })

@@ -1,11 +1,11 @@
 //! Runs that go on from the state another one left.
 
-use alewife_core::case::Case;
+use alewife_core::case::Model;
 use alewife_core::simulation::{Outcome, simulate_from};
 use tests::cases::{case, last, run};
 use tests::stopped;
 
-fn two_bodies(adaptive: &str) -> Case {
+fn two_bodies(adaptive: &str) -> Model {
     case(&format!(
         r#"
         title = "an ellipse and a disc in a periodic channel"
@@ -64,7 +64,7 @@ fn a_run_that_goes_on_ends_where_it_would_have_ended() {
 fn a_state_of_other_bodies_is_refused() {
     let saved = stopped(&two_bodies(""), 2);
     let mut other = two_bodies("");
-    other.body[1].name = "ball".to_owned();
+    other.bodies[1].name = "ball".to_owned();
     let error = simulate_from(&other, Some(&saved), &mut []).expect_err("other bodies");
     assert!(error.to_string().contains("its bodies are [\"ellipse\", \"disc\"]"), "{error}");
 }

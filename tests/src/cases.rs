@@ -1,15 +1,15 @@
 //! Cases given as text, for tests that need a whole run.
 
-use alewife_core::case::Case;
+use alewife_core::case::{Case, Model};
 use alewife_core::simulation::{Outcome, simulate};
 
-/// A case from its text.
+/// A case from its text, with what follows from it.
 ///
 /// # Panics
 /// When the text is not a valid case.
 #[must_use]
-pub fn case(text: &str) -> Case {
-    Case::parse("test", text, &[]).unwrap_or_else(|error| panic!("{error}")).case
+pub fn case(text: &str) -> Model {
+    Case::parse("test", text, &[]).unwrap_or_else(|error| panic!("{error}")).model
 }
 
 /// Runs a case without writing anything.
@@ -17,8 +17,8 @@ pub fn case(text: &str) -> Case {
 /// # Panics
 /// When the run fails.
 #[must_use]
-pub fn run(case: &Case) -> Outcome {
-    simulate(case, &mut []).expect("the case runs")
+pub fn run(model: &Model) -> Outcome {
+    simulate(model, &mut []).expect("the case runs")
 }
 
 /// All values of a quantity.

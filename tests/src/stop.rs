@@ -2,7 +2,7 @@
 
 use std::sync::{Arc, Mutex};
 
-use alewife_core::case::Case;
+use alewife_core::case::Model;
 use alewife_core::simulation::{Observer, Remains, RunError, SavedState, Snapshot, simulate};
 
 /// Stops a run after some steps and keeps the state it leaves.
@@ -38,10 +38,10 @@ impl Observer<2> for Stopper {
 /// # Panics
 /// When the run fails before, or the text is not the state.
 #[must_use]
-pub fn stopped(case: &Case, after: usize) -> SavedState {
+pub fn stopped(model: &Model, after: usize) -> SavedState {
     let left = Arc::new(Mutex::new(None));
     let stopper = Stopper { after, steps: 0, left: Arc::clone(&left) };
-    let error = simulate(case, &mut [Box::new(stopper)]).expect_err("it is stopped");
+    let error = simulate(model, &mut [Box::new(stopper)]).expect_err("it is stopped");
     assert!(matches!(error, RunError::Stopped { .. }), "{error}");
     let saved = left.lock().expect("the run is over").take().expect("there is a state");
     let text = serde_json::to_string(&saved).expect("it is written");

@@ -1,7 +1,7 @@
 //! A case marched step by step on a mesh that is given.
 
 use alewife_core::body::Twist;
-use alewife_core::case::{Case, Convection, Steady};
+use alewife_core::case::{Convection, Model, Steady};
 use alewife_core::coupling::{BodyLoads, FluidSystem, Levels, Problem, body_loads};
 use alewife_core::simulation::{
     Follower, March, MeshPath, State, Timing, build_problem, shape_motion, solve_steady,
@@ -27,13 +27,13 @@ impl Swim {
     /// # Panics
     /// When the case makes no problem on this mesh.
     #[must_use]
-    pub fn new(case: &Case, mesh: Mesh<2>) -> Self {
-        let problem = build_problem(case, &mesh).expect("the case is a problem");
-        let shapes: Vec<PlacedShape> = case
-            .body
+    pub fn new(model: &Model, mesh: Mesh<2>) -> Self {
+        let problem = build_problem(model, &mesh).expect("the case is a problem");
+        let shapes: Vec<PlacedShape> = model
+            .bodies
             .iter()
             .map(|body| {
-                let mut placed = body.placed(case.mesh.scale);
+                let mut placed = body.placed(model.case.mesh.scale);
                 if let Some(motion) = shape_motion(body).expect("the gait fits") {
                     placed.shape = motion.at(0.0).expect("the gait has a shape").shape();
                 }
@@ -43,9 +43,9 @@ impl Swim {
         let poses: Vec<_> = problem.bodies.iter().map(|body| body.pose).collect();
         let system = FluidSystem::new(&problem, &mesh, &poses, false);
         let state = State::at_rest(&problem, mesh);
-        let domain = case.mesh_domain();
+        let domain = model.case.mesh_domain();
         let made_at = (state.places.clone(), 0.0);
-        let follower = Follower::new(case, &problem, &state.mesh, domain, shapes, made_at)
+        let follower = Follower::new(model, &problem, &state.mesh, domain, shapes, made_at)
             .expect("the mesh follows");
         let loads = vec![BodyLoads::default(); problem.bodies.len()];
         Self { problem, state, loads, system, follower }

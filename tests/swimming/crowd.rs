@@ -1,10 +1,10 @@
 //! Many swimmers: where copies are put, and what keeps them apart.
 
-use alewife_core::case::Case;
+use alewife_core::case::Model;
 use tests::cases::{case, last, run};
 
 /// Swimmers of three discs in a box, so many and so placed.
-fn crowd(copies: &str) -> Case {
+fn crowd(copies: &str) -> Model {
     case(&format!(
         r#"
         title = "a crowd"
@@ -30,17 +30,17 @@ fn crowd(copies: &str) -> Case {
     ))
 }
 
-fn places(case: &Case) -> Vec<[f64; 3]> {
-    case.body.iter().map(|body| [body.center[0], body.center[1], body.angle]).collect()
+fn places(model: &Model) -> Vec<[f64; 3]> {
+    model.bodies.iter().map(|body| [body.center[0], body.center[1], body.angle]).collect()
 }
 
 #[test]
 fn copies_in_a_lattice_stand_in_rows_and_columns() {
     let case = crowd("lattice]\ncounts = [3, 2]\nspacing = [4.0, 4.0]\n#");
-    let names: Vec<&str> = case.body.iter().map(|body| body.name.as_str()).collect();
+    let names: Vec<&str> = case.bodies.iter().map(|body| body.name.as_str()).collect();
     assert_eq!(names.len(), 19);
     assert_eq!(&names[1..5], ["swimmer-1-1", "swimmer-1-2", "swimmer-1-3", "swimmer-2-1"]);
-    let middle = |nth: usize| case.body[2 + 3 * nth].center.clone();
+    let middle = |nth: usize| case.bodies[2 + 3 * nth].center.clone();
     assert_eq!(middle(0), [-4.0, -2.0]);
     assert_eq!(middle(2), [4.0, -2.0]);
     assert_eq!(middle(3), [-4.0, 2.0]);
@@ -55,7 +55,7 @@ fn copies_at_random_are_where_their_seed_puts_them_and_keep_their_gap() {
     assert_eq!(places(&case), places(&at(7)));
     assert_ne!(places(&case), places(&at(8)));
     let discs: Vec<(usize, [f64; 2], f64)> = case
-        .body
+        .bodies
         .iter()
         .enumerate()
         .map(|(nth, body)| {
@@ -76,7 +76,7 @@ fn copies_at_random_are_where_their_seed_puts_them_and_keep_their_gap() {
         }
     }
     // The same on every machine.
-    let first = &case.body[2].center;
+    let first = &case.bodies[2].center;
     assert!((first[0] - 4.809_128_167).abs() < 1e-9 && (first[1] - 0.663_442_344).abs() < 1e-9);
 }
 

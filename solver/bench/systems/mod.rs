@@ -1,7 +1,7 @@
 //! The flow of the shipped case dfg-2d-2 in the middle of a time step, at a wanted size.
 
 use alewife_core::algebra::{AffineConstraints, Pattern, SparseMatrix, Unknowns};
-use alewife_core::case::Case;
+use alewife_core::case::{Case, Model};
 use alewife_core::coupling::{BodyShapes, FluidSystem, Problem, Solution, embed, flatten};
 use alewife_core::flow::{Assembly, Convection, FlowTerms, assemble, residual};
 use alewife_core::simulation::{build_mesh, build_problem, cpu_seconds};
@@ -44,11 +44,11 @@ pub struct LinearSystem {
     pub unknowns: Unknowns,
 }
 
-fn mesh_at_scale(scale: f64) -> (Case, Mesh<2>) {
-    let mut case = Case::read("dfg-2d-2", &[]).expect("the case is shipped").case;
-    case.mesh.scale = scale;
-    let mesh = build_mesh(&case).expect("the mesh can be made at any size");
-    (case, mesh)
+fn mesh_at_scale(scale: f64) -> (Model, Mesh<2>) {
+    let setting = format!("mesh.scale={scale:e}");
+    let model = Case::read("dfg-2d-2", &[setting]).expect("the case is shipped").model;
+    let mesh = build_mesh(&model).expect("the mesh can be made at any size");
+    (model, mesh)
 }
 
 impl TimeStep {
@@ -68,8 +68,8 @@ impl TimeStep {
     }
 
     fn at_scale(scale: f64) -> Self {
-        let (case, mesh) = mesh_at_scale(scale);
-        let problem = build_problem(&case, &mesh).expect("the case can be built");
+        let (model, mesh) = mesh_at_scale(scale);
+        let problem = build_problem(&model, &mesh).expect("the case can be built");
         let poses: Vec<_> = problem.bodies.iter().map(|body| body.pose).collect();
         let system = FluidSystem::new(&problem, &mesh, &poses, false);
         let shapes = BodyShapes::at(&problem.bodies, 0.0).expect("no body deforms");

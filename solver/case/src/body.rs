@@ -194,9 +194,6 @@ pub struct Body {
     /// Cell size on its surface (m); that of `[mesh]` if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub size: Option<f64>,
-    /// The `[[swimmer]]` it was made for.
-    #[serde(skip)]
-    pub swimmer: Option<usize>,
 }
 
 impl GaitSpec {

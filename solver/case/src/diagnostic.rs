@@ -31,6 +31,15 @@ pub struct Diagnostic {
     pub location: Option<Location>,
 }
 
+impl Diagnostic {
+    /// An error at a key of the case.
+    #[must_use]
+    pub(crate) fn error(key: &str, message: String, help: &str) -> Self {
+        let (key, help) = (key.to_owned(), help.to_owned());
+        Self { severity: Severity::Error, key, message, help, location: None }
+    }
+}
+
 /// `error: ...`, the location, the line with a caret below, and the help.
 impl fmt::Display for Diagnostic {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -83,6 +92,13 @@ pub enum CaseError {
     /// The file is read but wrong.
     #[error("{}", listing(.0))]
     Wrong(Vec<Diagnostic>),
+}
+
+impl CaseError {
+    /// One error at a key of the case, without its location.
+    pub(crate) fn at(key: &str, message: String, help: &str) -> Self {
+        Self::Wrong(vec![Diagnostic::error(key, message, help)])
+    }
 }
 
 /// All diagnostics, one below the other.

@@ -4,10 +4,7 @@ use std::sync::Arc;
 
 use alewife_mesh::{Domain, FishForm, FlagellateForm, PlacedShape, Point, Profile, Shape, Spline};
 
-use super::{
-    Body, BoundaryCondition, Case, DomainSpec, GaitSpec, Geometry, Lock, Motion, ShapeSpec,
-    TimeSettings,
-};
+use super::{Body, BoundaryCondition, Case, DomainSpec, GaitSpec, Lock, Motion, ShapeSpec};
 
 /// Directions in which the width of a spline is measured.
 const DIRECTIONS: u32 = 90;
@@ -254,47 +251,6 @@ impl Body {
 }
 
 impl Case {
-    /// Whether a march in time deforms the mesh: a body moves as seen from the frame, turns and
-    /// looks different then, or deforms; or a side of the domain waves.
-    #[must_use]
-    pub fn mesh_moves(&self) -> bool {
-        let frame = self.frame_body().map(|body| self.body[body].name.as_str());
-        let is_frame = |body: &Body| frame == Some(body.name.as_str());
-        let frame_moves = self.body.iter().any(|body| is_frame(body) && body.translates());
-        let moves = |body: &Body| {
-            let travels = !is_frame(body) && (body.translates() || frame_moves);
-            let turns = self.geometry == Geometry::Planar && body.turns() && !body.is_round();
-            travels || turns || body.deforms()
-        };
-        let any = !self.joint.is_empty() || self.body.iter().any(moves) || self.has_waving_sheet();
-        matches!(self.time, TimeSettings::Unsteady(_)) && any
-    }
-
-    /// Whether all work on the fluid is that of the bodies, so that it can be held against
-    /// dissipation and kinetic energy.
-    #[must_use]
-    pub fn balances_energy(&self) -> bool {
-        let is_idle = |condition: &BoundaryCondition| {
-            matches!(
-                condition,
-                BoundaryCondition::NoSlip
-                    | BoundaryCondition::Symmetry
-                    | BoundaryCondition::Axis
-                    | BoundaryCondition::Periodic(_)
-            )
-        };
-        !self.body.is_empty() && self.boundary.values().all(is_idle)
-    }
-
-    /// The body the frame travels with: that of the name, or the one the others of a swimmer hang on.
-    #[must_use]
-    pub fn frame_body(&self) -> Option<usize> {
-        let name = self.frame.as_deref()?;
-        let of_group = self.group.iter().find(|group| group.name == name);
-        let body = self.body.iter().position(|body| body.name == name);
-        body.or_else(|| of_group?.bodies.first().copied())
-    }
-
     /// Whether a side of the domain waves.
     #[must_use]
     pub fn has_waving_sheet(&self) -> bool {
@@ -358,9 +314,10 @@ body = [{ name = 'b', shape = { sphere = { radius = 1.0 } }, center = [0, 0], mo
 ";
         let moves = |settings: &[&str]| {
             let settings: Vec<String> = settings.iter().map(|&s| s.to_owned()).collect();
-            let case = Case::parse("t.toml", text, &settings).unwrap().case;
-            assert_eq!(case.mesh_moves(), case.body[0].translates() && case.frame.is_none());
-            case.mesh_moves()
+            let model = Case::parse("t.toml", text, &settings).unwrap().model;
+            let is_carried = model.case.frame.is_some();
+            assert_eq!(model.mesh_moves(), model.bodies[0].translates() && !is_carried);
+            model.mesh_moves()
         };
         assert!(moves(&[]));
         assert!(moves(&["body.0.locked=['y']"]));

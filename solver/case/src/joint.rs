@@ -1,5 +1,7 @@
-//! `[[joint]]`: how a body hangs on another.
+//! `[[joint]]`: how a body is attached to another, and the pose it has then.
 
+use alewife_mesh::Point;
+use nalgebra::Rotation2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -21,9 +23,6 @@ pub struct Joint {
     pub on_child: [f64; 2],
     /// What it lets the child do.
     pub kind: JointKind,
-    /// Whether it was made for a `[[swimmer]]`.
-    #[serde(skip)]
-    pub is_made: bool,
 }
 
 /// What a joint lets its child do.
@@ -59,6 +58,52 @@ impl JointKind {
             Self::Hinge(_) => None,
         }
     }
+
+    /// Period of its stroke, or of the motor of a free pivot (s).
+    pub(crate) fn period(&self) -> Option<f64> {
+        match self {
+            Self::Hinge(hinge) => hinge.torque.as_ref(),
+            Self::Arm { .. } | Self::Bent { .. } => self.stroke(),
+        }
+        .and_then(Stroke::period)
+    }
+}
+
+/// Position and orientation of a body in the plane.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(crate) struct PlanarPose {
+    /// Origin of the body frame (m).
+    pub center: Point<2>,
+    /// Rotation of the body frame, counter-clockwise (rad).
+    pub angle: f64,
+}
+
+/// Pose at a time (s) of a child whose parent has a given pose; a free pivot is at rest.
+///
+/// `on_parent` and `on_child` are the ends of the joint in the frames of the bodies (m).
+pub(crate) fn child_pose(
+    parent: PlanarPose,
+    on_parent: [f64; 2],
+    on_child: [f64; 2],
+    kind: &JointKind,
+    time: f64,
+) -> PlanarPose {
+    let (arm, bend) = match kind {
+        JointKind::Arm { length, direction } => {
+            (Rotation2::new(*direction) * Point::<2>::new(length.at(time)[0], 0.0), 0.0)
+        }
+        JointKind::Bent { angle } => (Point::<2>::zeros(), angle.at(time)[0]),
+        JointKind::Hinge(hinge) => (Point::<2>::zeros(), hinge.rest),
+    };
+    let angle = parent.angle + bend;
+    let joint = Rotation2::new(parent.angle) * (Point::<2>::from(on_parent) + arm);
+    let back = Rotation2::new(angle) * Point::<2>::from(on_child);
+    // An arm on the axis stays on it to the last bit.
+    let is_along_x = parent.angle == 0.0 && joint.y.abs() < 1e-15 * joint.x.abs();
+    let across = if is_along_x { 0.0 } else { joint.y };
+    let center =
+        Point::<2>::new(parent.center.x + joint.x - back.x, parent.center.y + across - back.y);
+    PlanarPose { center, angle }
 }
 
 /// `hinge`.

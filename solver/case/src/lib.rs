@@ -1,21 +1,24 @@
-//! `Case`: the typed contents of a case file.
+//! `Case`: the typed contents of a case file; `Model`: what follows from them.
 
 mod body;
 mod check;
 mod contact;
+mod copies;
 mod deserialize;
 mod diagnostic;
+mod discs;
 mod domain;
-mod expand;
 mod fluid;
 mod gait;
 mod geometry;
 mod joint;
 pub mod library;
 mod mesh;
+mod model;
 mod nearest;
 mod numbers;
 mod output;
+mod parts;
 
 mod read;
 mod reference;
@@ -29,14 +32,13 @@ mod tree;
 use std::collections::BTreeMap;
 
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize, Serializer};
+use serde::{Deserialize, Serialize};
 
 pub use body::{Body, GaitSpec, ImposedMotion, Lock, Motion, ShapeSpec, SpringSpec, SquirmerGait};
 pub use check::{check, known_quantities};
 pub use contact::ContactSpec;
 pub use diagnostic::{CaseError, Diagnostic, Severity};
 pub use domain::{BoundaryCondition, DomainSpec, Geometry, TimeFunction};
-pub use expand::{Group, hang};
 pub use fluid::{FlowModel, Fluid};
 pub use gait::{
     AnguilliformGait, CarangiformGait, FishShape, FlagellateShape, FlagellumGait, PulsatingGait,
@@ -44,6 +46,7 @@ pub use gait::{
 pub use geometry::opposite;
 pub use joint::{Hinge, Joint, JointKind};
 pub use mesh::{MeshEquation, MeshSettings, MovingMesh, RefinementBox};
+pub use model::{Model, SwimmerModel};
 pub use nearest::nearest;
 pub use numbers::{DerivedNumber, derived_numbers, geometry_name, number_table, significant};
 pub use output::{Cadence, Output, Precision, Probe};
@@ -79,22 +82,15 @@ pub struct Case {
     /// What holds on each side of the domain, by the side's name.
     #[serde(default)]
     pub boundary: BTreeMap<String, BoundaryCondition>,
-    /// The bodies in the fluid; those made for swimmers follow those of the file.
-    #[serde(default, skip_serializing_if = "none_is_written", serialize_with = "written_bodies")]
+    /// The bodies in the fluid, but for those of swimmers.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub body: Vec<Body>,
-    /// How bodies hang on each other; those made for swimmers follow those of the file.
-    #[serde(
-        default,
-        skip_serializing_if = "no_joint_is_written",
-        serialize_with = "written_joints"
-    )]
+    /// How bodies are attached to each other.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub joint: Vec<Joint>,
     /// Swimmers made of bodies and joints by their kind.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub swimmer: Vec<SwimmerSpec>,
-    /// Bodies that are told of as one.
-    #[serde(skip)]
-    pub group: Vec<Group>,
     /// Forces that keep bodies apart from each other and from walls.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub contact: Option<ContactSpec>,
@@ -130,21 +126,4 @@ pub struct Case {
 
 fn dimensionless() -> String {
     "dimensionless".to_owned()
-}
-
-fn none_is_written(bodies: &[Body]) -> bool {
-    bodies.iter().all(|body| body.swimmer.is_some())
-}
-
-fn no_joint_is_written(joints: &[Joint]) -> bool {
-    joints.iter().all(|joint| joint.is_made)
-}
-
-/// What is made for swimmers is made anew when the case is read again.
-fn written_bodies<S: Serializer>(bodies: &[Body], serializer: S) -> Result<S::Ok, S::Error> {
-    serializer.collect_seq(bodies.iter().filter(|body| body.swimmer.is_none()))
-}
-
-fn written_joints<S: Serializer>(joints: &[Joint], serializer: S) -> Result<S::Ok, S::Error> {
-    serializer.collect_seq(joints.iter().filter(|joint| !joint.is_made))
 }

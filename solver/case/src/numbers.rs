@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::{Case, FlowModel, GaitSpec, Geometry, ShapeSpec, TimeSettings};
+use super::{Case, FlowModel, GaitSpec, Geometry, Model, ShapeSpec, TimeSettings};
 
 /// Gaps that are told of: of many bodies those of the closest pairs.
 const MOST_GAPS: usize = 3;
@@ -16,8 +16,8 @@ pub fn reynolds(case: &Case) -> Option<f64> {
 
 /// Density of the first body over that of the fluid.
 #[must_use]
-pub fn density_ratio(case: &Case) -> Option<f64> {
-    let body = case.body.first()?;
+pub fn density_ratio(model: &Model) -> Option<f64> {
+    let (case, body) = (&model.case, model.bodies.first()?);
     (case.fluid.density > 0.0).then(|| body.density.map_or(1.0, |own| own / case.fluid.density))
 }
 
@@ -34,7 +34,8 @@ pub struct DerivedNumber {
 
 /// All numbers that can be derived from a case, in the order in which they are printed.
 #[must_use]
-pub fn derived_numbers(case: &Case) -> Vec<DerivedNumber> {
+pub fn derived_numbers(model: &Model) -> Vec<DerivedNumber> {
+    let case = &model.case;
     let mut table = Vec::new();
     let mut add = |name: &str, value: f64, formula: &str| {
         table.push(DerivedNumber { name: name.to_owned(), value, formula: formula.to_owned() });
@@ -45,11 +46,13 @@ pub fn derived_numbers(case: &Case) -> Vec<DerivedNumber> {
     if let (true, Some(value)) = (has_inertia, reynolds(case)) {
         add("Reynolds number", value, "density * scales.velocity * scales.length / viscosity");
     }
-    if let (true, Some(value)) = (has_inertia, density_ratio(case)) {
+    if let (true, Some(value)) = (has_inertia, density_ratio(model)) {
         add("density ratio", value, "density of the first body / density of the fluid");
     }
-    let length =
-        case.scales.map(|scales| scales.length).or_else(|| Some(case.body.first()?.shape.reach()));
+    let length = case
+        .scales
+        .map(|scales| scales.length)
+        .or_else(|| Some(model.bodies.first()?.shape.reach()));
     if let (true, Some(length)) = (density > 0.0, length) {
         add("Stokes time", length * length / kinematic, "length^2 * density / viscosity");
         if let (true, TimeSettings::Unsteady(time)) = (has_inertia, &case.time) {
@@ -62,7 +65,7 @@ pub fn derived_numbers(case: &Case) -> Vec<DerivedNumber> {
         add("turnover time", turnover, "scales.length / scales.velocity");
         add("duration in turnovers", time.end / turnover, "time.unsteady.end / turnover time");
     }
-    for body in &case.body {
+    for body in &model.bodies {
         let name = &body.name;
         if let Some(GaitSpec::Squirmer(squirmer)) = &body.gait {
             let first = squirmer.modes.first().copied().unwrap_or(0.0);
@@ -84,9 +87,9 @@ pub fn derived_numbers(case: &Case) -> Vec<DerivedNumber> {
             }
         }
     }
-    for group in &case.group {
-        let Some(period) = group.period else { continue };
-        let name = &group.name;
+    for swimmer in &model.swimmers {
+        let Some(period) = swimmer.period else { continue };
+        let name = &swimmer.name;
         if let TimeSettings::Unsteady(time) = &case.time {
             add(
                 &format!("{name}: steps per cycle"),
@@ -95,13 +98,13 @@ pub fn derived_numbers(case: &Case) -> Vec<DerivedNumber> {
             );
         }
         if has_inertia {
-            let length = extent(case, &group.bodies);
+            let length = extent(model, &swimmer.bodies);
             let value = length * length / (kinematic * period);
             let formula = "density * length^2 / (viscosity * period), from end to end at the start";
             add(&format!("{name}: oscillatory Reynolds number"), value, formula);
         }
     }
-    for (name, gap, formula) in gaps(case) {
+    for (name, gap, formula) in gaps(model) {
         add(&name, gap, &formula);
     }
     table
@@ -109,16 +112,16 @@ pub fn derived_numbers(case: &Case) -> Vec<DerivedNumber> {
 
 /// Largest distance of two points of bodies at the start (m): of one body its length, of several by
 /// their surrounding circles.
-fn extent(case: &Case, bodies: &[usize]) -> f64 {
+fn extent(model: &Model, bodies: &[usize]) -> f64 {
     if let [body] = bodies {
-        return match &case.body[*body].shape {
+        return match &model.bodies[*body].shape {
             ShapeSpec::Fish(fish) => fish.length,
             ShapeSpec::Flagellate(shape) => 2.0 * shape.head[0] + shape.tail_length,
             shape => 2.0 * shape.reach(),
         };
     }
     let circle = |body: usize| {
-        let body = &case.body[body];
+        let body = &model.bodies[body];
         let at = |axis: usize| body.center.get(axis).copied().unwrap_or(0.0);
         (at(0), at(1), body.shape.reach())
     };
@@ -134,10 +137,10 @@ fn extent(case: &Case, bodies: &[usize]) -> f64 {
 
 /// Gaps between bodies over the size of the smaller one, by their surrounding circles: the smallest
 /// ones.
-fn gaps(case: &Case) -> Vec<(String, f64, String)> {
+fn gaps(model: &Model) -> Vec<(String, f64, String)> {
     let mut found = Vec::new();
-    for (i, first) in case.body.iter().enumerate() {
-        for second in &case.body[i + 1..] {
+    for (i, first) in model.bodies.iter().enumerate() {
+        for second in &model.bodies[i + 1..] {
             let (&[x1, y1], &[x2, y2]) = (first.center.as_slice(), second.center.as_slice()) else {
                 continue;
             };
@@ -157,8 +160,8 @@ fn gaps(case: &Case) -> Vec<(String, f64, String)> {
 
 /// The derived numbers as lines `name  value  formula`.
 #[must_use]
-pub fn number_table(case: &Case) -> String {
-    let numbers = derived_numbers(case);
+pub fn number_table(model: &Model) -> String {
+    let numbers = derived_numbers(model);
     let width = numbers.iter().map(|number| number.name.chars().count()).max().unwrap_or(0);
     let mut text = String::new();
     for DerivedNumber { name, value, formula } in numbers {

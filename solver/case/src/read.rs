@@ -14,12 +14,11 @@ use serde::Deserialize;
 
 use super::deserialize::{Mismatch, TypeError, suggestion};
 use super::diagnostic::{CaseError, Diagnostic, Severity};
-use super::expand::expand;
 use super::geometry::opposite;
 use super::nearest::nearest;
 use super::source::{Location, Origin, Source};
 use super::tree::{self, TomlNode, TomlValue, TreeError};
-use super::{BoundaryCondition, Case, library};
+use super::{BoundaryCondition, Case, Model, library};
 
 /// Keys of a file that those who extend it do not inherit.
 const OWN_KEYS: [&str; 3] = ["reference", "variant", "quick"];
@@ -30,8 +29,8 @@ const MOST_DIAGNOSTICS: usize = 20;
 /// A case and where everything in it is written.
 #[derive(Debug, Clone)]
 pub struct CaseFile {
-    /// The case, with `extends`, variant and settings applied.
-    pub case: Case,
+    /// What follows from the case, with `extends`, variant and settings applied.
+    pub model: Model,
     /// Name: that of the file, or of its directory if the file is `case.toml`.
     pub name: String,
     /// The variant that was applied.
@@ -44,14 +43,16 @@ pub struct CaseFile {
 }
 
 impl CaseFile {
+    /// The case as it is written, with `extends`, variant and settings applied.
+    #[must_use]
+    pub fn case(&self) -> &Case {
+        &self.model.case
+    }
+
     /// Where the value at a dotted path is written, or the table it would stand in.
     #[must_use]
     pub fn location(&self, path: &str) -> Option<Location> {
-        let (node, is_exact) = self.root.find(path);
-        // A default is nowhere: its table is the next best place, by its header or its key.
-        let is_value = is_exact && (node.table().is_none() || node.is_inline());
-        let origin = if is_value { &node.origin } else { &node.key };
-        (!origin.span.is_empty()).then(|| origin.location())
+        location(&self.root, path)
     }
 
     /// Paths of all numbers that are infinite or not a number.
@@ -214,23 +215,33 @@ fn assemble(
     }
     let mut case = typed(&root)?;
     complete_periodic(&mut case);
-    let refusal = expand(&mut case).err();
-    let file = CaseFile {
-        case,
+    let model = Model::new(case).map_err(|error| located(&root, error))?;
+    Ok(CaseFile {
+        model,
         name: text.name.clone(),
         variant: variant.map(ToOwned::to_owned),
         variants,
         file: text.source.name.clone(),
         root,
-    };
-    match refusal {
-        None => Ok(file),
-        Some((key, message, help)) => {
-            let location = file.location(&key);
-            let severity = Severity::Error;
-            Err(CaseError::Wrong(vec![Diagnostic { severity, key, message, help, location }]))
-        }
+    })
+}
+
+/// Where the value at a dotted path is written, or the table it would stand in.
+fn location(root: &TomlNode, path: &str) -> Option<Location> {
+    let (node, is_exact) = root.find(path);
+    // A default is nowhere: its table is the next best location, by its header or its key.
+    let is_value = is_exact && (node.table().is_none() || node.is_inline());
+    let origin = if is_value { &node.origin } else { &node.key };
+    (!origin.span.is_empty()).then(|| origin.location())
+}
+
+/// An error with the locations of the keys it names.
+fn located(root: &TomlNode, error: CaseError) -> CaseError {
+    let CaseError::Wrong(mut diagnostics) = error else { return error };
+    for diagnostic in &mut diagnostics {
+        diagnostic.location = location(root, &diagnostic.key);
     }
+    CaseError::Wrong(diagnostics)
 }
 
 fn wrong(error: TreeError) -> CaseError {

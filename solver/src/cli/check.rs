@@ -8,9 +8,9 @@ use super::exit::{Exit, Failure};
 use super::style::{self, Ink, on_stdout, say};
 use super::{engine, read_and_check};
 use crate::case::{
-    BoundaryCondition, Cadence, Case, CaseFile, Diagnostic, DomainSpec, FlowModel, GaitSpec, Group,
-    Joint, JointKind, Motion, Precision, Scheme, ShapeSpec, Stroke, TimeSettings, geometry_name,
-    known_quantities, number_table, significant,
+    BoundaryCondition, Cadence, Case, CaseFile, Diagnostic, DomainSpec, FlowModel, GaitSpec, Joint,
+    JointKind, Model, Motion, Precision, Scheme, ShapeSpec, Stroke, SwimmerModel, TimeSettings,
+    geometry_name, known_quantities, number_table, significant,
 };
 use crate::coupling::memory_estimate;
 
@@ -39,15 +39,15 @@ pub fn check(cases: &[String], settings: &[String], has_mesh: bool) -> Result<Ex
 
 fn check_one(argument: &str, settings: &[String], has_mesh: bool) -> Result<(), Failure> {
     let (file, warnings) = read_and_check(argument, settings)?;
-    let mut text = format!("{}  {}\n", on_stdout(Ink::Bold, &file.full_name()), file.case.title);
+    let mut text = format!("{}  {}\n", on_stdout(Ink::Bold, &file.full_name()), file.case().title);
     text += &facts(&file);
-    let numbers = number_table(&file.case);
+    let numbers = number_table(&file.model);
     if !numbers.is_empty() {
         let _ = write!(text, "\n{}\n{numbers}", on_stdout(Ink::Bold, "derived numbers"));
     }
     say(text.trim_end());
     if has_mesh {
-        let mesh = engine::build_mesh(&file.case)?;
+        let mesh = engine::build_mesh(&file.model)?;
         say(&format!("\n{}", on_stdout(Ink::Bold, "mesh")));
         for line in Quality::of(&mesh).to_string().lines() {
             say(&format!("  {line}"));
@@ -55,7 +55,7 @@ fn check_one(argument: &str, settings: &[String], has_mesh: bool) -> Result<(), 
         say(&format!(
             "\n{}\n{}",
             on_stdout(Ink::Bold, "cost (a rough guess)"),
-            costs(&file.case, &mesh)
+            costs(&file.model, &mesh)
         ));
     }
     for warning in &warnings {
@@ -68,22 +68,22 @@ fn check_one(argument: &str, settings: &[String], has_mesh: bool) -> Result<(), 
 
 /// Every variant has to be right, too.
 fn check_variants(argument: &str, file: &CaseFile, settings: &[String]) -> Result<(), Failure> {
-    for variant in &file.case.variant {
+    for variant in &file.case().variant {
         let name = format!("{argument}/{}", variant.name);
         read_and_check(&name, settings).map_err(|failure| Failure {
             message: format!("in variant {name}\n{}", failure.message),
             ..failure
         })?;
     }
-    if !file.case.variant.is_empty() {
-        say(&format!("\n{} variants are right, too", file.case.variant.len()));
+    if !file.case().variant.is_empty() {
+        say(&format!("\n{} variants are right, too", file.case().variant.len()));
     }
     Ok(())
 }
 
 /// What a case consists of, as lines `what  value`.
 pub fn facts(file: &CaseFile) -> String {
-    let case = &file.case;
+    let (case, model) = (file.case(), &file.model);
     let mut text = String::new();
     let mut line = |what: &str, value: String| {
         // Writing to a String cannot fail.
@@ -99,14 +99,14 @@ pub fn facts(file: &CaseFile) -> String {
         format!("{side} {condition}")
     });
     line("boundary", sides.collect::<Vec<_>>().join(", "));
-    for body in &case.body {
+    for body in &model.bodies {
         line("body", body_line(case, body));
     }
-    for joint in &case.joint {
+    for joint in &model.joints {
         line("joint", joint_line(joint));
     }
-    for group in &case.group {
-        line("swimmer", swimmer_line(case, group));
+    for swimmer in &model.swimmers {
+        line("swimmer", swimmer_line(model, swimmer));
     }
     line("time", time(case));
     if let Some(frame) = &case.frame {
@@ -226,17 +226,18 @@ fn joint_line(joint: &Joint) -> String {
     format!("{} hangs on {}: {what}", joint.child, joint.parent)
 }
 
-fn swimmer_line(case: &Case, group: &Group) -> String {
-    let bodies = match group.bodies.len() {
+fn swimmer_line(model: &Model, swimmer: &SwimmerModel) -> String {
+    let bodies = match swimmer.bodies.len() {
         1 => "1 body".to_owned(),
         n => format!("{n} bodies, told of as one"),
     };
-    let period = group.period.map(|period| format!(", period {}", significant(period)));
-    let motion = match group.bodies.iter().all(|body| case.body[*body].motion == Motion::Free) {
+    let period = swimmer.period.map(|period| format!(", period {}", significant(period)));
+    let motion = match swimmer.bodies.iter().all(|body| model.bodies[*body].motion == Motion::Free)
+    {
         true => ", swims freely",
         false => "",
     };
-    format!("{}: {bodies}{}{motion}", group.name, period.unwrap_or_default())
+    format!("{}: {bodies}{}{motion}", swimmer.name, period.unwrap_or_default())
 }
 
 fn time(case: &Case) -> String {
@@ -255,7 +256,8 @@ fn time(case: &Case) -> String {
 }
 
 /// Linear systems a run solves: exact for steady Stokes flow, a usual number otherwise.
-fn n_systems(case: &Case) -> f64 {
+fn n_systems(model: &Model) -> f64 {
+    let case = &model.case;
     match (&case.time, case.fluid.model) {
         (TimeSettings::Steady(_), FlowModel::NavierStokes) => 6.0,
         (TimeSettings::Steady(_), _) => 1.0,
@@ -264,7 +266,7 @@ fn n_systems(case: &Case) -> f64 {
                 // One for each stage
                 Scheme::Rk3 => 3.0,
                 // Bodies and mesh agree after another pass
-                _ if case.mesh_moves() => 2.0,
+                _ if model.mesh_moves() => 2.0,
                 _ => 1.0,
             };
             a_step * (time.end / time.step).ceil()
@@ -273,22 +275,23 @@ fn n_systems(case: &Case) -> f64 {
 }
 
 /// Unknowns, memory, time and files of a run.
-fn costs(case: &Case, mesh: &Mesh<2>) -> String {
+fn costs(model: &Model, mesh: &Mesh<2>) -> String {
     let n_dofs = (2 * mesh.n_nodes() + mesh.n_vertices) as f64;
     let memory = memory_estimate(2 * mesh.n_nodes() + mesh.n_vertices);
     // Measured on planar runs with 1.1 10^4 to 2 10^5 unknowns, on one core, every system factorised.
     let factorisation = 0.0095 * (n_dofs / 1e4).powf(1.4);
     // What follows the bodies: the mesh, its quality, contact, measurements, new meshes.
-    let following = if case.mesh_moves() { 0.5 } else { 0.0 };
+    let following = if model.mesh_moves() { 0.5 } else { 0.0 };
     let assembly = 6e-7 * n_dofs;
-    let systems = n_systems(case);
-    let output = output_size(case, mesh);
+    let systems = n_systems(model);
+    let output = output_size(model, mesh);
     let mut text = String::new();
     let _ = writeln!(text, "  {:<16} {n_dofs}", "unknowns");
     let _ =
         writeln!(text, "  {:<16} {}, most of it for the factorisation", "memory", bytes(memory));
     let seconds = (factorisation + assembly) * (1.0 + following);
-    let is_adaptive = matches!(&case.time, TimeSettings::Unsteady(time) if time.adaptive.is_some());
+    let is_adaptive =
+        matches!(&model.case.time, TimeSettings::Unsteady(time) if time.adaptive.is_some());
     let cost = if is_adaptive {
         format!("{} for each linear system; how many, the steps will tell", duration(seconds))
     } else {
@@ -313,7 +316,8 @@ fn costs(case: &Case, mesh: &Mesh<2>) -> String {
 }
 
 /// Files of a run (bytes).
-fn output_size(case: &Case, mesh: &Mesh<2>) -> f64 {
+fn output_size(model: &Model, mesh: &Mesh<2>) -> f64 {
+    let case = &model.case;
     let times = |cadence: Cadence| match (cadence, &case.time) {
         (Cadence::Never, _) => 0.0,
         (Cadence::End, _) | (_, TimeSettings::Steady(_)) => 1.0,
@@ -332,7 +336,7 @@ fn output_size(case: &Case, mesh: &Mesh<2>) -> f64 {
     let frame = 0.5
         * (mesh.n_nodes() as f64 * (3.0 * 8.0 + 5.0 * number) + mesh.n_cells() as f64 * 6.0 * 8.0);
     // A row of text, and a message a body.
-    let row = 20.0 * known_quantities(case).len() as f64 + 300.0 * case.body.len() as f64;
+    let row = 20.0 * known_quantities(model).len() as f64 + 300.0 * model.bodies.len() as f64;
     times(case.output.fields) * frame + times(case.output.series) * row
 }
 

@@ -5,34 +5,34 @@ use std::path::Path;
 use alewife_mesh::Mesh;
 
 use super::signal::SignalWatch;
-use crate::case::{Case, TimeSettings};
+use crate::case::{Model, TimeSettings};
 use crate::observer::{self, RunDirectory};
 use crate::simulation::{self, Outcome, RunError, SavedState};
 
 /// The mesh of a case.
-pub fn build_mesh(case: &Case) -> Result<Mesh<2>, RunError> {
-    simulation::build_mesh(case)
+pub fn build_mesh(model: &Model) -> Result<Mesh<2>, RunError> {
+    simulation::build_mesh(model)
 }
 
 /// Runs a case with nobody looking on.
-pub fn simulate(case: &Case) -> Result<Outcome, RunError> {
-    simulation::simulate(case, &mut [])
+pub fn simulate(model: &Model) -> Result<Outcome, RunError> {
+    simulation::simulate(model, &mut [])
 }
 
 /// Runs a case, from a saved state if there is one, with its files in `directory`; with `quiet`,
 /// without progress on the terminal.
 pub fn simulate_into(
-    case: &Case,
+    model: &Model,
     saved: Option<&SavedState>,
     directory: &RunDirectory,
     quiet: bool,
 ) -> Result<Outcome, RunError> {
-    let mut observers = observer::observers(case, directory, quiet)?;
+    let mut observers = observer::observers(model, directory, quiet)?;
     // Newton's method is not left halfway: a steady run ends by the signal itself.
-    if matches!(case.time, TimeSettings::Unsteady(_)) {
+    if matches!(model.case.time, TimeSettings::Unsteady(_)) {
         observers.push(Box::new(SignalWatch::start()?));
     }
-    simulation::simulate_from(case, saved, &mut observers)
+    simulation::simulate_from(model, saved, &mut observers)
 }
 
 /// Starts the log: to standard error, and to `log.jsonl` of a run.

@@ -12,7 +12,7 @@ pub fn list(is_long: bool) -> Result<Exit, Failure> {
     let width = shipped.iter().map(|case| case.name.len()).max().unwrap_or(0);
     for entry in shipped {
         let file = Case::read(entry.name, &[])?;
-        let case = &file.case;
+        let case = file.case();
         let name = on_stdout(Ink::Bold, &format!("{:<width$}", entry.name));
         let variants = match case.variant.len() {
             0 => String::new(),
@@ -53,7 +53,7 @@ pub fn show(argument: &str, is_source: bool) -> Result<Exit, Failure> {
 
 /// Everything there is to tell about a case without solving or meshing it.
 fn summary(file: &CaseFile) -> String {
-    let case = &file.case;
+    let case = file.case();
     let mut text = format!("{}\n", on_stdout(Ink::Bold, &file.full_name()));
     // Writing to a String cannot fail.
     let _ = writeln!(text, "{}\n", case.title);
@@ -61,7 +61,7 @@ fn summary(file: &CaseFile) -> String {
         let _ = writeln!(text, "{}\n", case.description.trim());
     }
     text += &super::check::facts(file);
-    let numbers = number_table(case);
+    let numbers = number_table(&file.model);
     if !numbers.is_empty() {
         let _ = write!(text, "\n{}\n{numbers}", on_stdout(Ink::Bold, "derived numbers"));
     }

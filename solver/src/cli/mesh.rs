@@ -14,7 +14,7 @@ use super::style::say;
 /// Makes the mesh of a case, writes it as VTU, and tells its quality.
 pub fn mesh(argument: &str, settings: &[String], out: Option<PathBuf>) -> Result<Exit, Failure> {
     let file = read_case(argument, settings)?;
-    let mesh = engine::build_mesh(&file.case)?;
+    let mesh = engine::build_mesh(&file.model)?;
     let path =
         out.unwrap_or_else(|| PathBuf::from(format!("{}.vtu", file.full_name().replace('/', "-"))));
     let failed = |error: std::io::Error| {

@@ -7,7 +7,7 @@ use clap::Args;
 use super::exit::{Exit, Failure};
 use super::style::{Ink, on_stdout, say};
 use super::{Settings, engine, read_case, threads};
-use crate::case::{Case, TimeSettings, significant};
+use crate::case::{Case, Model, TimeSettings, significant};
 use crate::observer::{RunDirectory, write_atomic};
 use crate::simulation::{Outcome, SavedState};
 use crate::validation::{Comparison, Verdict, compare, comparison_table, comparisons_to_json};
@@ -53,23 +53,23 @@ pub struct Options {
 /// Runs a case.
 pub fn run(options: &Options) -> Result<Exit, Failure> {
     let file = read_case(&options.case, &options.settings.set)?;
-    let saved = options.resume.as_deref().map(|path| read_state(path, &file.case)).transpose()?;
+    let saved = options.resume.as_deref().map(|path| read_state(path, file.case())).transpose()?;
     let n_threads = threads::start(options.threads)?;
     let name = file.full_name();
     let out = options.out.clone().unwrap_or_else(|| Path::new("runs").join(name.replace('/', "-")));
-    let directory = RunDirectory::create(&out, &file.case, n_threads, options.overwrite)?;
+    let directory = RunDirectory::create(&out, file.case(), n_threads, options.overwrite)?;
     let verbosity = i8::try_from(options.verbose).unwrap_or(i8::MAX) - i8::from(options.quiet);
     engine::start_log(Some(&out), verbosity)?;
 
-    let outcome = engine::simulate_into(&file.case, saved.as_ref(), &directory, options.quiet)?;
-    let comparisons = compare(&name, &file.case, &outcome);
+    let outcome = engine::simulate_into(&file.model, saved.as_ref(), &directory, options.quiet)?;
+    let comparisons = compare(&name, file.case(), &outcome);
     if !comparisons.is_empty() {
         let text = format!("{:#}\n", comparisons_to_json(&comparisons));
         write_atomic(&out.join(COMPARISON_FILE), text.as_bytes())?;
     }
     tell(&comparisons);
     if comparisons.is_empty() {
-        tell_last_values(&file.case, &outcome);
+        tell_last_values(&file.model, &outcome);
     }
     let seconds: f64 = outcome.timing.cpu.iter().sum();
     let remeshes = outcome.series.column("flow.remeshes").and_then(|all| all.last().copied());
@@ -111,16 +111,16 @@ fn read_state(path: &Path, case: &Case) -> Result<SavedState, Failure> {
 }
 
 /// Prints how the bodies ended, for a case without published values.
-fn tell_last_values(case: &Case, outcome: &Outcome) {
+fn tell_last_values(model: &Model, outcome: &Outcome) {
     let Some(last) = outcome.series.rows.last() else { return };
     // Of many bodies that are told of as one only what they do together.
     let is_alone = |body: usize| {
-        !case.group.iter().any(|group| group.bodies.len() > 1 && group.bodies.contains(&body))
+        !model.swimmers.iter().any(|one| one.bodies.len() > 1 && one.bodies.contains(&body))
     };
-    let bodies = case.body.iter().enumerate().filter(|(index, _)| is_alone(*index));
+    let bodies = model.bodies.iter().enumerate().filter(|(index, _)| is_alone(*index));
     let told: Vec<&str> = bodies
         .map(|(_, body)| body.name.as_str())
-        .chain(case.group.iter().map(|group| group.name.as_str()))
+        .chain(model.swimmers.iter().map(|swimmer| swimmer.name.as_str()))
         .collect();
     let body_of = |name: &str| told.iter().any(|told| name.starts_with(&format!("{told}.")));
     for (name, value) in outcome.series.names.iter().zip(last) {

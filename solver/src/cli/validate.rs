@@ -84,11 +84,11 @@ pub fn validate(options: &Options) -> Result<Exit, Failure> {
 fn members_of(name: &str, only_quick: bool) -> Result<Vec<String>, Failure> {
     let file = Case::read(name, &[])?;
     let mut members = Vec::new();
-    if !file.case.reference.is_empty() && (file.case.quick || !only_quick) {
+    if !file.case().reference.is_empty() && (file.case().quick || !only_quick) {
         members.push(name.to_owned());
     }
-    for variant in &file.case.variant {
-        let has_reference = !(variant.reference.is_empty() && file.case.reference.is_empty());
+    for variant in &file.case().variant {
+        let has_reference = !(variant.reference.is_empty() && file.case().reference.is_empty());
         if has_reference && (variant.quick || !only_quick) {
             members.push(format!("{name}/{}", variant.name));
         }
@@ -108,17 +108,17 @@ fn validate_one(
     let of_run = name.replace('/', "-");
     let outcome = match (&options.out, &options.from) {
         (Some(out), _) => {
-            let directory = RunDirectory::create(&out.join(of_run), &file.case, n_threads, false)?;
-            engine::simulate_into(&file.case, None, &directory, true)
+            let directory = RunDirectory::create(&out.join(of_run), file.case(), n_threads, false)?;
+            engine::simulate_into(&file.model, None, &directory, true)
         }
-        (None, Some(from)) => Ok(kept(&from.join(of_run), &file.case)?),
-        (None, None) => engine::simulate(&file.case),
+        (None, Some(from)) => Ok(kept(&from.join(of_run), file.case())?),
+        (None, None) => engine::simulate(&file.model),
     };
     Ok(match outcome {
-        Ok(outcome) => compare(&name, &file.case, &outcome),
+        Ok(outcome) => compare(&name, file.case(), &outcome),
         // Asked to stop: that is no verdict
         Err(error @ RunError::Stopped { .. }) => return Err(error.into()),
-        Err(error) => not_computed(&name, &file.case, &error.to_string()),
+        Err(error) => not_computed(&name, file.case(), &error.to_string()),
     })
 }
 
@@ -130,7 +130,7 @@ fn kept(directory: &Path, case: &Case) -> Result<Outcome, Failure> {
     let path = directory.join("case.toml");
     let text = std::fs::read_to_string(&path)
         .map_err(|error| refuse(Exit::NoInput, format!("its case.toml: {error}")))?;
-    let was = Case::parse(&path.display().to_string(), &text, &[])?.case;
+    let was = Case::parse(&path.display().to_string(), &text, &[])?.model.case;
     if computed(&was) != computed(case) {
         let reason = "the case has changed since, not only its references; run it again";
         return Err(refuse(Exit::BadCase, reason.to_owned()));

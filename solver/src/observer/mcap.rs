@@ -16,7 +16,7 @@ use serde_json::Value;
 use super::RunDirectory;
 use super::foxglove::{self, Kind, Severity};
 use super::schedule::Schedule;
-use crate::case::{Body, Case, Geometry};
+use crate::case::{Body, Geometry, Model};
 use crate::simulation::{Observer, Remains, RunError, Snapshot};
 
 /// Size of a chunk, the unit of compression (bytes).
@@ -44,7 +44,7 @@ impl MessageFile {
     ///
     /// # Errors
     /// When it cannot be written.
-    pub fn create(directory: &RunDirectory, case: &Case) -> io::Result<Self> {
+    pub fn create(directory: &RunDirectory, model: &Model) -> io::Result<Self> {
         let file = BufWriter::new(File::create(directory.path().join("run.mcap"))?);
         let mut writer = WriteOptions::new()
             .library(concat!("alewife ", env!("CARGO_PKG_VERSION")))
@@ -72,12 +72,12 @@ impl MessageFile {
         writer.flush().map_err(to_io)?;
         Ok(Self {
             writer: Some(writer),
-            schedule: Schedule::new(case.output.series),
+            schedule: Schedule::new(model.case.output.series),
             channels: BTreeMap::new(),
             sequence: 0,
-            title: case.title.clone(),
-            bodies: case.body.clone(),
-            geometry: case.geometry,
+            title: model.case.title.clone(),
+            bodies: model.bodies.clone(),
+            geometry: model.case.geometry,
             time: 0.0,
         })
     }

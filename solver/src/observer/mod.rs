@@ -31,7 +31,7 @@ mod terminal;
 mod tests;
 mod vorticity;
 
-use crate::case::Case;
+use crate::case::Model;
 use crate::simulation::Observer;
 
 pub use csv::SeriesFile;
@@ -52,13 +52,14 @@ pub use status::{RunState, Status, StatusFile};
 /// # Errors
 /// When a file cannot be made.
 pub fn observers(
-    case: &Case,
+    model: &Model,
     directory: &RunDirectory,
     quiet: bool,
 ) -> std::io::Result<Vec<Box<dyn Observer<2>>>> {
+    let case = &model.case;
     let mut everyone: Vec<Box<dyn Observer<2>>> = vec![
         Box::new(SeriesFile::create(directory.path(), case)?),
-        Box::new(MessageFile::create(directory, case)?),
+        Box::new(MessageFile::create(directory, model)?),
         Box::new(FieldFiles::new(directory.path(), case)),
     ];
     if !quiet {

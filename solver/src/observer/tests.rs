@@ -8,7 +8,7 @@ use nalgebra::Vector3;
 
 use super::*;
 use crate::body::{Pose, Twist, Wrench};
-use crate::case::Case;
+use crate::case::{Case, Model};
 use crate::simulation::{BodyReport, RunError, Snapshot, Timing};
 
 const CASE: &str = r#"
@@ -62,7 +62,7 @@ pub fn two_triangles() -> Mesh<2> {
 
 /// A run that is only looked at, never computed.
 struct Run {
-    case: Case,
+    model: Model,
     mesh: Mesh<2>,
     velocity: Vec<Point<2>>,
     pressure: Vec<f64>,
@@ -76,7 +76,7 @@ impl Run {
     fn new() -> Self {
         let mesh = two_triangles();
         Self {
-            case: toml::from_str(CASE).unwrap(),
+            model: Model::new(toml::from_str(CASE).unwrap()).unwrap(),
             // Vorticity of (-y^2 / 2 + x y, x^2) is 2 x - (x - y) = x + y.
             velocity: mesh
                 .nodes
@@ -107,7 +107,7 @@ impl Run {
             power: 0.25,
         }];
         let snapshot = Snapshot {
-            case: &self.case,
+            case: &self.model.case,
             step,
             time,
             time_step: 0.1,
@@ -129,8 +129,8 @@ impl Run {
 
     /// A complete run in `path`.
     fn complete(&self, path: &Path) {
-        let directory = RunDirectory::create(path, &self.case, 1, false).unwrap();
-        let mut everyone = observers(&self.case, &directory, true).unwrap();
+        let directory = RunDirectory::create(path, &self.model.case, 1, false).unwrap();
+        let mut everyone = observers(&self.model, &directory, true).unwrap();
         (0..=STEPS).for_each(|step| self.step(&mut everyone, step));
     }
 }
@@ -191,7 +191,7 @@ fn the_resolved_case_reads_back_as_the_same_case() {
     let run = Run::new();
     run.complete(place.path());
     let text = std::fs::read_to_string(place.path().join("case.toml")).unwrap();
-    assert_eq!(toml::from_str::<Case>(&text).unwrap(), run.case);
+    assert_eq!(toml::from_str::<Case>(&text).unwrap(), run.model.case);
 }
 
 #[test]
@@ -214,8 +214,8 @@ fn the_series_reads_back_to_the_last_bit() {
 fn the_status_tells_state_and_cost() {
     let place = tempfile::tempdir().unwrap();
     let run = Run::new();
-    let directory = RunDirectory::create(place.path(), &run.case, 1, false).unwrap();
-    let mut everyone = observers(&run.case, &directory, true).unwrap();
+    let directory = RunDirectory::create(place.path(), &run.model.case, 1, false).unwrap();
+    let mut everyone = observers(&run.model, &directory, true).unwrap();
     let before = Status::read(place.path()).unwrap();
     assert_eq!((before.state, before.step, before.steps), (RunState::Running, 0, Some(40)));
 
@@ -232,8 +232,8 @@ fn the_status_tells_state_and_cost() {
 fn a_failure_is_told_with_its_reason() {
     let place = tempfile::tempdir().unwrap();
     let run = Run::new();
-    let directory = RunDirectory::create(place.path(), &run.case, 1, false).unwrap();
-    let mut everyone = observers(&run.case, &directory, true).unwrap();
+    let directory = RunDirectory::create(place.path(), &run.model.case, 1, false).unwrap();
+    let mut everyone = observers(&run.model, &directory, true).unwrap();
     run.step(&mut everyone, 0);
     let error = RunError::Mesh("no room between the bodies".to_owned());
     everyone.iter_mut().for_each(|observer| observer.on_failure(&error, None).unwrap());
@@ -255,8 +255,8 @@ fn a_failure_is_told_with_its_reason() {
 fn a_killed_run_leaves_whole_files_and_readable_messages() {
     let place = tempfile::tempdir().unwrap();
     let run = Run::new();
-    let directory = RunDirectory::create(place.path(), &run.case, 1, false).unwrap();
-    let mut everyone = observers(&run.case, &directory, true).unwrap();
+    let directory = RunDirectory::create(place.path(), &run.model.case, 1, false).unwrap();
+    let mut everyone = observers(&run.model, &directory, true).unwrap();
     (0..20).for_each(|step| run.step(&mut everyone, step));
 
     // What is on the disk now is what a kill would leave: nothing of this process is written any
@@ -335,7 +335,7 @@ fn the_list_of_frames_names_every_frame_and_is_closed() {
 fn a_finished_run_is_refused_and_an_unfinished_one_replaced() {
     let place = tempfile::tempdir().unwrap();
     let run = Run::new();
-    let create = |overwrite| RunDirectory::create(place.path(), &run.case, 1, overwrite);
+    let create = |overwrite| RunDirectory::create(place.path(), &run.model.case, 1, overwrite);
     let held = create(false).unwrap();
     assert!(matches!(create(true), Err(RunDirectoryError::InUse { .. })));
     drop(held);
@@ -350,7 +350,7 @@ fn a_finished_run_is_refused_and_an_unfinished_one_replaced() {
 fn files_of_others_are_never_touched() {
     let place = tempfile::tempdir().unwrap();
     std::fs::write(place.path().join("thesis.tex"), "text").unwrap();
-    let refused = RunDirectory::create(place.path(), &Run::new().case, 1, true);
+    let refused = RunDirectory::create(place.path(), &Run::new().model.case, 1, true);
     assert!(matches!(refused, Err(RunDirectoryError::NotARun { .. })));
     assert_eq!(files(place.path()).len(), 1);
 }

@@ -446,7 +446,7 @@ mod tests {
         statistic: Statistic,
         window: Option<[f64; 2]>,
     ) -> Result<f64, StatisticError> {
-        let mut case = Case::parse("t.toml", CASE, &[]).unwrap().case;
+        let mut case = Case::parse("t.toml", CASE, &[]).unwrap().model.case;
         case.statistics.window = window;
         measured_value(series, &case, &reference(quantity, statistic))
     }
@@ -485,7 +485,7 @@ mod tests {
         level: f64,
         window: Option<[f64; 2]>,
     ) -> Result<f64, StatisticError> {
-        let mut case = Case::parse("t.toml", CASE, &[]).unwrap().case;
+        let mut case = Case::parse("t.toml", CASE, &[]).unwrap().model.case;
         case.statistics.window = window;
         let minus = (!minus.is_empty()).then(|| minus.to_owned());
         let plain = reference(quantity, Statistic::Crossing);
@@ -594,7 +594,7 @@ mod tests {
     #[test]
     fn a_quantity_is_taken_when_another_reaches_a_level() {
         let run = uneven(2.0, 23, &[("y", &|t| 3.0 - t * t), ("x", &|t| 4.0 * t)]);
-        let case = Case::parse("t.toml", CASE, &[]).unwrap().case;
+        let case = Case::parse("t.toml", CASE, &[]).unwrap().model.case;
         let plain = Reference { level: Some(1.0), ..reference("x", Statistic::When) };
         assert!(measured_value(&run, &case, &plain).is_err());
         let when = Reference { of: Some("y".to_owned()), ..plain };
@@ -626,7 +626,7 @@ mod tests {
             100,
             &[("a", &|t| 5.0 * t), ("b", &|t| 5.0 * t - 1.0 + (t - 0.4) * (t - 0.4))],
         );
-        let case = Case::parse("t.toml", CASE, &[]).unwrap().case;
+        let case = Case::parse("t.toml", CASE, &[]).unwrap().model.case;
         let minus = Some("b".to_owned());
         let largest = Reference { minus, ..reference("a", Statistic::Max) };
         assert!((measured_value(&run, &case, &largest).unwrap() - 1.0).abs() < 1e-12);
@@ -653,7 +653,7 @@ mod tests {
                 ("b.acceleration.x", &|_| 0.0),
             ],
         );
-        let mut case = Case::parse("t.toml", CASE, &[]).unwrap().case;
+        let mut case = Case::parse("t.toml", CASE, &[]).unwrap().model.case;
         case.fluid.density = 2.0;
         case.statistics.window = Some([1.0, 3.0]);
         let of = |quantity, statistic| measured_value(&run, &case, &reference(quantity, statistic));

@@ -16,7 +16,7 @@ const RESERVED: [&str; 2] = ["flow", "time"];
 pub fn check(findings: &mut Findings<'_>) {
     let case = findings.case();
     let mut taken: Vec<&str> = Vec::new();
-    for (index, body) in case.body.iter().enumerate() {
+    for (index, body) in findings.model().bodies.iter().enumerate() {
         let key = format!("body.{index}");
         check_name(findings, &format!("{key}.name"), &body.name, &taken);
         taken.push(&body.name);

@@ -159,7 +159,7 @@ fn check_sheet(findings: &mut Findings<'_>, key: &str, side: &str, condition: &B
             "march in time with [time.unsteady]",
         );
     }
-    if !case.body.is_empty() {
+    if !findings.model().bodies.is_empty() {
         findings.error(
             key,
             "bodies above a waving sheet are not supported: a new mesh would have a straight side"

@@ -43,7 +43,7 @@ pub fn check(findings: &mut Findings<'_>) {
 
 /// A range is small beside the bodies, or they feel each other from afar.
 fn check_range(findings: &mut Findings<'_>, key: &str, range: f64) {
-    let widths = findings.case().body.iter().map(|body| (body.shape.half_width(), &body.name));
+    let widths = findings.model().bodies.iter().map(|body| (body.shape.half_width(), &body.name));
     let Some((width, name)) = widths.min_by(|one, other| one.0.total_cmp(&other.0)) else { return };
     if width > 0.0 && range > SHORT_RANGE * width {
         findings.warning(
@@ -61,7 +61,7 @@ fn check_yielding(findings: &mut Findings<'_>) {
         Geometry::Planar => &[Lock::X, Lock::Y, Lock::Rotation],
         Geometry::Axisymmetric => &[Lock::X],
     };
-    let yields = case.body.iter().any(|body| {
+    let yields = findings.model().bodies.iter().any(|body| {
         body.motion == Motion::Free && motions.iter().any(|lock| !body.locked.contains(lock))
     });
     if !yields {
@@ -70,7 +70,7 @@ fn check_yielding(findings: &mut Findings<'_>) {
             "contact has no effect: no body is free to give way".to_owned(),
             "leave [contact] out, or write motion = \"free\"",
         );
-    } else if !case.mesh_moves() {
+    } else if !findings.model().mesh_moves() {
         findings.warning(
             "contact",
             "contact has no effect: nothing moves as seen from the frame".to_owned(),
@@ -95,7 +95,7 @@ fn check_strength(findings: &mut Findings<'_>, contact: &Option<ContactSpec>) {
         None => return,
     };
     let gravity = case.fluid.gravity.iter().map(|part| part * part).sum::<f64>().sqrt();
-    for body in &case.body {
+    for body in &findings.model().bodies {
         let Some(moments) = body.shape.outline().moments() else { continue };
         let excess = body.density.unwrap_or(case.fluid.density) - case.fluid.density;
         let weight = excess.abs() * moments.measure * gravity;
@@ -147,7 +147,7 @@ epsilon = 1e-6
     fn problems(settings: &[&str], contact: Option<ContactSpec>) -> Vec<Diagnostic> {
         let settings: Vec<String> = settings.iter().map(|&setting| setting.to_owned()).collect();
         let mut file = Case::parse("t.toml", CASE, &settings).unwrap();
-        file.case.contact = contact.or(file.case.contact);
+        file.model.case.contact = contact.or(file.model.case.contact);
         check(&file)
     }
 

@@ -56,7 +56,7 @@ fn declared_numbers(findings: &mut Findings<'_>) {
             "numbers.density_ratio",
             "density ratio",
             case.numbers.density_ratio,
-            density_ratio(case),
+            density_ratio(findings.model()),
             ratio,
         ),
     ];

@@ -48,7 +48,7 @@ pub fn check(findings: &mut Findings<'_>) {
         }
     }
     check_moving(findings);
-    for (index, body) in case.body.iter().enumerate() {
+    for (index, body) in findings.model().bodies.iter().enumerate() {
         let (key, declared) = match (body.size, mesh.surface) {
             (Some(size), _) => (format!("body.{index}.size"), size),
             (None, Some(surface)) => ("mesh.surface".to_owned(), surface),
@@ -112,7 +112,7 @@ fn check_moving(findings: &mut Findings<'_>) {
             &format!("write at most mesh.gap_layers = {gap_layers}, or raise that"),
         );
     }
-    if moving != MovingMesh::default() && !case.mesh_moves() {
+    if moving != MovingMesh::default() && !findings.model().mesh_moves() {
         findings.warning(
             "mesh.moving",
             "`mesh.moving` has no effect: nothing moves through the mesh".to_owned(),

@@ -18,7 +18,7 @@ mod time;
 
 use super::diagnostic::{Diagnostic, Severity};
 use super::read::CaseFile;
-use super::{Case, DomainSpec, Geometry};
+use super::{Case, DomainSpec, Geometry, Model};
 
 pub use references::known_quantities;
 
@@ -104,10 +104,11 @@ fn general(findings: &mut Findings<'_>) {
             }
         }
     }
-    if let (Some(name), None) = (&case.frame, case.frame_body()) {
-        let bodies = case.body.iter().map(|body| body.name.as_str());
-        let groups = case.group.iter().map(|group| group.name.as_str());
-        let names: Vec<&str> = bodies.chain(groups).collect();
+    let model = findings.model();
+    if let (Some(name), None) = (&case.frame, model.frame_body()) {
+        let bodies = model.bodies.iter().map(|body| body.name.as_str());
+        let swimmers = model.swimmers.iter().map(|swimmer| swimmer.name.as_str());
+        let names: Vec<&str> = bodies.chain(swimmers).collect();
         findings.error(
             "frame",
             format!("`frame` is \"{name}\", but no body or swimmer has that name"),
@@ -124,7 +125,11 @@ struct Findings<'a> {
 
 impl<'a> Findings<'a> {
     fn case(&self) -> &'a Case {
-        &self.file.case
+        &self.file.model.case
+    }
+
+    fn model(&self) -> &'a Model {
+        &self.file.model
     }
 
     fn has_no_error(&self) -> bool {
@@ -144,12 +149,8 @@ impl<'a> Findings<'a> {
             let rest = key.strip_prefix(list)?;
             rest.split('.').next()?.parse::<usize>().ok()
         };
-        let of_body = number("body.").and_then(|body| self.case().body.get(body)?.swimmer);
-        let of_joint = number("joint.").and_then(|joint| {
-            let joint = self.case().joint.get(joint).filter(|joint| joint.is_made)?;
-            let child = self.case().body.iter().find(|body| body.name == joint.child)?;
-            child.swimmer
-        });
+        let of_body = number("body.").and_then(|body| self.model().swimmer_of_body(body));
+        let of_joint = number("joint.").and_then(|joint| self.model().swimmer_of_joint(joint));
         of_body
             .or(of_joint)
             .map_or_else(|| key.to_owned(), |swimmer| format!("swimmer.{swimmer}.kind"))

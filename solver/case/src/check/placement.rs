@@ -9,13 +9,13 @@ use crate::Diagnostic;
 const ROUNDING: f64 = 1e-6;
 
 pub fn check(findings: &mut Findings<'_>) {
-    let case = findings.case();
+    let (case, model) = (findings.case(), findings.model());
     let domain = case.mesh_domain();
     let mut bodies: Vec<PlacedShape> =
-        case.body.iter().map(|body| body.placed(case.mesh.scale)).collect();
+        model.bodies.iter().map(|body| body.placed(case.mesh.scale)).collect();
     // What hangs on another body may reach beyond a periodic side
-    for (placed, body) in bodies.iter_mut().zip(&case.body) {
-        if case.joint.iter().any(|joint| joint.child == body.name) {
+    for (index, placed) in bodies.iter_mut().enumerate() {
+        if model.joint_above(index).is_some() {
             let center = placed.center;
             let images = domain.images().into_iter().map(|shift| center + shift);
             let inside = |place: &Point<2>| domain.clearance(*place);
@@ -128,7 +128,7 @@ fn probe_point(
     if !are_bodies_placed {
         return;
     }
-    for (body, placed) in findings.case().body.iter().zip(bodies) {
+    for (body, placed) in findings.model().bodies.iter().zip(bodies) {
         let Ok(outline) = Outline::new(placed) else { continue };
         let gaps = domain.images().into_iter().map(|shift| outline.nearest(place + shift).gap);
         if gaps.fold(f64::INFINITY, f64::min) < -ROUNDING * body.shape.reach() {

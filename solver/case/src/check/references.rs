@@ -2,7 +2,7 @@
 
 use super::Findings;
 use crate::deserialize::suggestion;
-use crate::{Case, Geometry, JointKind, Reference, Statistic, TimeSettings};
+use crate::{Geometry, JointKind, Model, Reference, Statistic, TimeSettings};
 
 /// What is measured on every body.
 const OF_A_BODY: [&str; 15] = [
@@ -75,12 +75,13 @@ const OF_A_MOVING_MESH: [&str; 3] = ["least_gap", "cells", "remeshes"];
 
 /// Names of all quantities of a run: the columns of `series.csv` after `time`.
 #[must_use]
-pub fn known_quantities(case: &Case) -> Vec<String> {
+pub fn known_quantities(model: &Model) -> Vec<String> {
+    let case = &model.case;
     let mut names = Vec::new();
     let mut add = |owner: &str, what: &[&str]| {
         names.extend(what.iter().map(|quantity| format!("{owner}.{quantity}")));
     };
-    for body in &case.body {
+    for body in &model.bodies {
         add(&body.name, &OF_A_BODY);
         if case.has_coefficients() {
             add(&body.name, &COEFFICIENTS);
@@ -89,15 +90,14 @@ pub fn known_quantities(case: &Case) -> Vec<String> {
             add(&body.name, &OF_CONTACT);
         }
     }
-    for body in &case.body {
-        let joint = case.joint.iter().find(|joint| joint.child == body.name);
-        match joint.map(|joint| &joint.kind) {
+    for (index, body) in model.bodies.iter().enumerate() {
+        match model.joint_above(index).map(|joint| &model.joints[joint].kind) {
             Some(JointKind::Arm { .. }) => add(&body.name, &OF_AN_ARM),
             Some(_) => add(&body.name, &OF_A_PIVOT),
             None => {}
         }
     }
-    for group in &case.group {
+    for group in &model.swimmers {
         if group.bodies.len() > 1 {
             add(&group.name, &OF_A_GROUP);
         }
@@ -116,10 +116,10 @@ pub fn known_quantities(case: &Case) -> Vec<String> {
         add(&probe.name, &OF_A_PROBE);
     }
     add("flow", &OF_THE_FLOW);
-    if case.balances_energy() {
+    if model.balances_energy() {
         add("flow", &["energy_defect"]);
     }
-    if case.mesh_moves() {
+    if model.mesh_moves() {
         add("flow", &OF_A_MOVING_MESH);
     }
     names
@@ -127,7 +127,7 @@ pub fn known_quantities(case: &Case) -> Vec<String> {
 
 pub fn check(findings: &mut Findings<'_>) {
     let case = findings.case();
-    let known = known_quantities(case);
+    let known = known_quantities(findings.model());
     let end = match &case.time {
         TimeSettings::Steady(_) => None,
         TimeSettings::Unsteady(time) => Some(time.end),

@@ -3,7 +3,8 @@
 use alewife_mesh::{Domain, MeshError, PlacedShape, Point, check_placement};
 
 use super::Findings;
-use crate::{Case, Geometry, Joint, Stroke, TimeSettings, hang};
+use crate::joint::{PlanarPose, child_pose};
+use crate::{Geometry, Joint, Model, Stroke, TimeSettings};
 
 /// Times of a cycle at which bodies are looked at.
 const TIMES: u32 = 96;
@@ -12,25 +13,24 @@ const TIMES: u32 = 96;
 const ROOM: f64 = 10.0;
 
 pub fn check(findings: &mut Findings<'_>) {
-    let case = findings.case();
-    let TimeSettings::Unsteady(unsteady) = &case.time else { return };
-    let index_of = |name: &str| case.body.iter().position(|body| body.name == name);
-    let is_child = |body: usize| case.joint.iter().any(|joint| joint.child == case.body[body].name);
-    let mut seen: Vec<usize> = Vec::new();
-    for root in (0..case.body.len()).filter(|body| !is_child(*body)) {
+    let model = findings.model();
+    let TimeSettings::Unsteady(unsteady) = &model.case.time else { return };
+    let children = model.children();
+    let mut seen = vec![false; model.case.swimmer.len()];
+    for root in (0..model.bodies.len()).filter(|body| model.joint_above(*body).is_none()) {
         // Copies of a swimmer all make the same strokes
-        let swimmer = case.body[root].swimmer;
-        if swimmer.is_some_and(|swimmer| seen.contains(&swimmer)) {
+        if let Some(swimmer) = model.swimmer_of_body(root)
+            && std::mem::replace(&mut seen[swimmer], true)
+        {
             continue;
         }
-        seen.extend(swimmer);
         let mut tree = vec![root];
         let mut joints: Vec<(usize, usize, &Joint)> = Vec::new();
         let mut next = 0;
         while let Some(&parent) = tree.get(next) {
-            for joint in case.joint.iter().filter(|j| j.parent == case.body[parent].name) {
-                let Some(child) = index_of(&joint.child) else { continue };
-                joints.push((next, tree.len(), joint));
+            for &child in &children[parent] {
+                let Some(joint) = model.joint_above(child) else { continue };
+                joints.push((next, tree.len(), &model.joints[joint]));
                 tree.push(child);
             }
             next += 1;
@@ -45,11 +45,11 @@ pub fn check(findings: &mut Findings<'_>) {
         }
         let meeting = (1..=TIMES).find_map(|nth| {
             let time = end * f64::from(nth) / f64::from(TIMES);
-            meet(case, &tree, &joints, time).map(|error| (time, error))
+            meet(model, &tree, &joints, time).map(|error| (time, error))
         });
         if let Some((time, MeshError::Overlap { first, second, .. })) = meeting {
             let joint =
-                case.joint.iter().position(|joint| joint.child == second || joint.child == first);
+                model.joints.iter().position(|joint| joint.child == second || joint.child == first);
             findings.error(
                 &format!("joint.{}", joint.unwrap_or(0)),
                 format!("in their strokes \"{first}\" and \"{second}\" meet at time {time:.4}"),
@@ -71,32 +71,31 @@ fn cycle(stroke: &Stroke) -> f64 {
 
 /// The bodies of a tree, its root where it starts, if two of them overlap at a time (s).
 fn meet(
-    case: &Case,
+    model: &Model,
     tree: &[usize],
     joints: &[(usize, usize, &Joint)],
     time: f64,
 ) -> Option<MeshError> {
-    let start = &case.body[tree[0]];
-    let mut places = vec![[0.0; 3]; tree.len()];
-    places[0] = [0.0, 0.0, start.angle];
+    let mut poses = vec![PlanarPose::default(); tree.len()];
+    poses[0].angle = model.bodies[tree[0]].angle;
     for &(parent, child, joint) in joints {
-        let put = hang(places[parent], joint.on_parent, joint.on_child, &joint.kind, time);
-        places[child] = put;
+        let Joint { on_parent, on_child, kind, .. } = joint;
+        poses[child] = child_pose(poses[parent], *on_parent, *on_child, kind, time);
     }
     let bodies: Vec<PlacedShape> = tree
         .iter()
-        .zip(&places)
-        .map(|(body, place)| PlacedShape {
-            center: Point::<2>::new(place[0], place[1]),
-            angle: place[2],
-            ..case.body[*body].placed(case.mesh.scale)
+        .zip(&poses)
+        .map(|(body, pose)| PlacedShape {
+            center: pose.center,
+            angle: pose.angle,
+            ..model.bodies[*body].placed(model.case.mesh.scale)
         })
         .collect();
     let far = bodies.iter().zip(tree).fold(0.0f64, |far, (placed, body)| {
-        far.max(placed.center.norm() + case.body[*body].shape.reach())
+        far.max(placed.center.norm() + model.bodies[*body].shape.reach())
     });
     let room = ROOM * far;
-    let domain = match case.geometry {
+    let domain = match model.case.geometry {
         Geometry::Planar => Domain::Box {
             min: Point::<2>::new(-room, -room),
             max: Point::<2>::new(room, room),

@@ -3,9 +3,10 @@
 use std::f64::consts::TAU;
 
 use super::Findings;
+use crate::joint::{PlanarPose, child_pose};
 use crate::{
     Copies, FlowModel, Geometry, Hinge, JointKind, Motion, Pivot, Scheme, Stroke, SwimmerKind,
-    TimeSettings, hang,
+    TimeSettings,
 };
 
 /// Distance between a child and where its joint puts it, over the size of the joint, that is taken
@@ -19,21 +20,21 @@ pub fn check(findings: &mut Findings<'_>) {
 }
 
 fn joints(findings: &mut Findings<'_>) {
-    let case = findings.case();
-    let index_of = |name: &str| case.body.iter().position(|body| body.name == name);
-    let mut parents: Vec<Option<usize>> = vec![None; case.body.len()];
-    for (index, joint) in case.joint.iter().enumerate() {
+    let (case, model) = (findings.case(), findings.model());
+    let mut parents: Vec<Option<usize>> = vec![None; model.bodies.len()];
+    for (index, joint) in model.joints.iter().enumerate() {
         let key = format!("joint.{index}");
-        if !joint.is_made {
+        let is_made = model.swimmer_of_joint(index).is_some();
+        if !is_made {
             stroke_of_joint(findings, &key, &joint.kind);
         }
         let mut ends = [None; 2];
         for (end, (what, name)) in
             ends.iter_mut().zip([("parent", &joint.parent), ("child", &joint.child)])
         {
-            *end = index_of(name);
+            *end = model.body_index(name);
             if end.is_none() {
-                let names: Vec<&str> = case.body.iter().map(|body| body.name.as_str()).collect();
+                let names: Vec<&str> = model.bodies.iter().map(|body| body.name.as_str()).collect();
                 findings.error(
                     &format!("{key}.{what}"),
                     format!("`{what}` is \"{name}\", but no body has that name"),
@@ -51,10 +52,10 @@ fn joints(findings: &mut Findings<'_>) {
             continue;
         }
         parents[child] = Some(parent);
-        if joint.is_made {
+        if is_made {
             continue;
         }
-        if case.body[child].motion != Motion::Free {
+        if model.bodies[child].motion != Motion::Free {
             findings.error(
                 &format!("{key}.child"),
                 format!(
@@ -64,41 +65,41 @@ fn joints(findings: &mut Findings<'_>) {
                 "write motion = \"free\" for it; the body all others hang on may be held or moved",
             );
         }
-        let place = |body: usize| {
-            let body = &case.body[body];
+        let pose = |body: usize| {
+            let body = &model.bodies[body];
             let at = |axis: usize| body.center.get(axis).copied().unwrap_or(0.0);
-            [at(0), at(1), body.angle]
+            PlanarPose { center: [at(0), at(1)].into(), angle: body.angle }
         };
-        let found = place(child);
+        let found = pose(child);
         // A free pivot may start at any angle: that of the bodies
-        let bend = found[2] - place(parent)[2];
+        let bend = found.angle - pose(parent).angle;
         let kind = match &joint.kind {
             JointKind::Hinge(hinge) => JointKind::Hinge(Hinge { rest: bend, ..hinge.clone() }),
             kind => kind.clone(),
         };
-        let wanted = hang(place(parent), joint.on_parent, joint.on_child, &kind, 0.0);
-        let size = (wanted[0] - place(parent)[0]).hypot(wanted[1] - place(parent)[1]);
+        let wanted = child_pose(pose(parent), joint.on_parent, joint.on_child, &kind, 0.0);
+        let size = (wanted.center - pose(parent).center).norm();
         let is_arm = matches!(joint.kind, JointKind::Arm { .. });
-        let off = (wanted[0] - found[0]).hypot(wanted[1] - found[1]);
+        let off = (wanted.center - found.center).norm();
         if off > ROUNDING * size {
             findings.error(
                 &format!("{key}.child"),
                 format!(
                     "the joint puts \"{}\" at [{}, {}] at time 0, not at [{}, {}]",
-                    joint.child, wanted[0], wanted[1], found[0], found[1]
+                    joint.child, wanted.center.x, wanted.center.y, found.center.x, found.center.y
                 ),
-                &format!("write center = [{}, {}] for it", wanted[0], wanted[1]),
+                &format!("write center = [{}, {}] for it", wanted.center.x, wanted.center.y),
             );
         }
-        let turned = (wanted[2] - found[2] + TAU / 2.0).rem_euclid(TAU) - TAU / 2.0;
+        let turned = (wanted.angle - found.angle + TAU / 2.0).rem_euclid(TAU) - TAU / 2.0;
         if !is_arm && turned.abs() > ROUNDING && !matches!(joint.kind, JointKind::Hinge(_)) {
             findings.error(
                 &format!("{key}.child"),
                 format!(
                     "the joint turns \"{}\" to {} at time 0, not to {}",
-                    joint.child, wanted[2], found[2]
+                    joint.child, wanted.angle, found.angle
                 ),
-                &format!("write angle = {} for it", wanted[2]),
+                &format!("write angle = {} for it", wanted.angle),
             );
         }
     }
@@ -118,7 +119,7 @@ fn joints(findings: &mut Findings<'_>) {
         );
     }
     if case.geometry == Geometry::Axisymmetric {
-        for (index, joint) in case.joint.iter().enumerate() {
+        for (index, joint) in model.joints.iter().enumerate() {
             let is_along = match &joint.kind {
                 JointKind::Arm { direction, .. } => direction.sin().abs() < 1e-9,
                 JointKind::Bent { .. } | JointKind::Hinge(_) => false,
@@ -310,9 +311,10 @@ fn swimmers(findings: &mut Findings<'_>) {
         }
     }
     short_steps(findings);
-    let mut names: Vec<&str> = case.body.iter().map(|body| body.name.as_str()).collect();
-    for group in &case.group {
-        let is_body = matches!(group.bodies[..], [body] if case.body[body].name == group.name);
+    let model = findings.model();
+    let mut names: Vec<&str> = model.bodies.iter().map(|body| body.name.as_str()).collect();
+    for group in &model.swimmers {
+        let is_body = matches!(group.bodies[..], [body] if model.bodies[body].name == group.name);
         let is_side = case.domain.sides().contains(&group.name.as_str());
         if !is_body && (names.contains(&group.name.as_str()) || is_side) {
             findings.error(
@@ -378,7 +380,7 @@ fn short_steps(findings: &mut Findings<'_>) {
     if unsteady.adaptive.is_some() {
         return;
     }
-    let periods = case.group.iter().filter_map(|group| group.period);
+    let periods = findings.model().swimmers.iter().filter_map(|group| group.period);
     let shortest = periods.fold(f64::INFINITY, f64::min);
     if unsteady.step * FEWEST_STEPS > shortest {
         findings.warning(
@@ -399,14 +401,15 @@ fn explicit_scheme(findings: &mut Findings<'_>) {
     if unsteady.scheme != Scheme::Rk3 {
         return;
     }
-    let is_stiff = case
-        .joint
+    let model = findings.model();
+    let is_stiff = model
+        .joints
         .iter()
         .any(|joint| matches!(&joint.kind, JointKind::Hinge(hinge) if hinge.stiffness > 0.0));
     let hinders = [
         (case.fluid.model != FlowModel::Stokes, "the model has inertia"),
         (case.contact.is_some(), "there is [contact]"),
-        (case.body.iter().any(|body| body.spring.is_some()), "there are springs"),
+        (model.bodies.iter().any(|body| body.spring.is_some()), "there are springs"),
         (is_stiff, "there are hinges with stiffness"),
     ];
     for (_, why) in hinders.iter().filter(|(hinders, _)| *hinders) {

@@ -115,9 +115,10 @@ fn adaptive_steps(findings: &mut Findings<'_>, unsteady: &Unsteady, adaptive: &A
 
 /// A flow around a travelling body is steady only as seen from the body.
 fn steady_frame(findings: &mut Findings<'_>) {
-    let case = findings.case();
-    for (index, body) in case.body.iter().enumerate() {
-        if body.translates() && case.frame_body() != Some(index) {
+    let model = findings.model();
+    let frame = model.frame_body();
+    for (index, body) in model.bodies.iter().enumerate() {
+        if body.translates() && frame != Some(index) {
             findings.warning(
                 &format!("body.{index}.motion"),
                 format!("a flow with inertia around the travelling body \"{}\" is steady only as seen from it", body.name),

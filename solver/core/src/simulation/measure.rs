@@ -10,7 +10,7 @@ use super::snapshot::BodyReport;
 use super::state::State;
 use super::{RunError, Stage};
 use crate::body::{Twist, Wrench, on_mesh};
-use crate::case::{Case, Geometry, Probe, TimeSettings, known_quantities};
+use crate::case::{Case, Geometry, Probe, Model, TimeSettings, known_quantities};
 use crate::coupling::{
     BodyLoads, BodyShapes, BodyStates, Group, JointReport, Problem, PropulsionPower, group_load,
     joint_reports, mean_motion,
@@ -78,7 +78,8 @@ struct Integrals {
 
 impl Measure {
     /// Finds the probes in the mesh and names the quantities.
-    pub(super) fn new(case: &Case, mesh: &Mesh<2>) -> Result<Self, RunError> {
+    pub(super) fn new(model: &Model, mesh: &Mesh<2>) -> Result<Self, RunError> {
+        let case = &model.case;
         let probes = find_probes(case, mesh);
         for (probe, points) in case.probe.iter().zip(&probes) {
             if let Some(missing) = points.iter().position(Option::is_none) {
@@ -99,9 +100,9 @@ impl Measure {
             [force, force / scales.length]
         });
         let has_contact = case.contact.is_some();
-        let balances_energy = case.balances_energy();
+        let balances_energy = model.balances_energy();
         let is_unsteady = matches!(case.time, TimeSettings::Unsteady(_));
-        let names = known_quantities(case);
+        let names = known_quantities(model);
         Ok(Self { names, probes, coefficients, has_contact, balances_energy, is_unsteady })
     }
 

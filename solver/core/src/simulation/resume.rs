@@ -19,7 +19,7 @@ use super::scene::RemeshError;
 use super::start::motion_settings;
 use super::state::State;
 use crate::body::{Pose, Twist, Wrench, on_mesh};
-use crate::case::Case;
+use crate::case::Model;
 use crate::contact::{ContactLoads, MinimumGap, Partner};
 use crate::coupling::{BodyShapes, FluidSystem, Problem, ShapeError, Solution};
 
@@ -301,16 +301,16 @@ impl SavedState {
     /// When the state is not one of such a case.
     pub(super) fn restore_into(
         &self,
-        case: &Case,
+        model: &Model,
         simulation: &mut Simulation<2>,
     ) -> Result<(), RunError> {
         let problem = &simulation.problem;
         let boundaries = simulation.state.mesh.boundaries.clone();
         self.check(problem, boundaries.len())?;
         let state = self.state(&boundaries);
-        simulation.moving_mesh = match (&self.reference, case.mesh_moves()) {
+        simulation.moving_mesh = match (&self.reference, model.mesh_moves()) {
             (Some(reference), true) => {
-                Some(self.moving_mesh(reference, case, problem, &boundaries)?)
+                Some(self.moving_mesh(reference, model, problem, &boundaries)?)
             }
             (None, false) => None,
             _ => return Err(ResumeError::MeshMotion.into()),
@@ -400,15 +400,15 @@ impl SavedState {
     fn moving_mesh(
         &self,
         reference: &SavedReference,
-        case: &Case,
+        model: &Model,
         problem: &Problem<2>,
         boundaries: &[Boundary],
     ) -> Result<MovingMesh<2>, RunError> {
         let mesh = self.mesh.with_nodes(reference.nodes.clone(), boundaries);
         let shapes = BodyShapes::at(&problem.bodies, reference.time)?;
         check_outlines(problem, &mesh, reference, &shapes)?;
-        let planar = Arc::new(PlanarCase::new(case, problem)?);
-        let settings = motion_settings(case, &planar);
+        let planar = Arc::new(PlanarCase::new(model, problem)?);
+        let settings = motion_settings(&model.case, &planar);
         let (start, poses) = (&reference.domain_start, reference.poses.clone());
         let scene = PlanarScene::restored(planar, &mesh, start, poses.clone(), &shapes)
             .map_err(ResumeError::from)?;

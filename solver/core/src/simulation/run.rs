@@ -7,7 +7,7 @@ use super::snapshot::{LastState, Observer, Snapshot};
 use super::start::prepare;
 use super::steady::{SteadyFlow, SteadyTask, solve_steady};
 use super::{RunError, Series, Stage, Timing};
-use crate::case::{Case, Initial, Steady, TimeSettings, Unsteady};
+use crate::case::{Case, Initial, Model, Steady, TimeSettings, Unsteady};
 use crate::coupling::{BodiesAt, BodyLoads, BodyShapes, RigidBodyEquations};
 
 /// What a finished run leaves in memory.
@@ -28,10 +28,10 @@ pub struct RunSummary {
 /// # Errors
 /// Whatever stops the run; observers are notified before it is returned.
 pub fn simulate(
-    case: &Case,
+    model: &Model,
     observers: &mut [Box<dyn Observer<2>>],
 ) -> Result<RunSummary, RunError> {
-    simulate_from(case, None, observers)
+    simulate_from(model, None, observers)
 }
 
 /// Runs a case to its end, from a saved state if there is one.
@@ -39,11 +39,11 @@ pub fn simulate(
 /// # Errors
 /// Whatever stops the run; observers are notified before it is returned.
 pub fn simulate_from(
-    case: &Case,
+    model: &Model,
     saved: Option<&SavedState>,
     observers: &mut [Box<dyn Observer<2>>],
 ) -> Result<RunSummary, RunError> {
-    let (simulation, measure) = match prepare(case, saved) {
+    let (simulation, measure) = match prepare(model, saved) {
         Ok(prepared) => prepared,
         Err(error) => {
             for observer in observers.iter_mut() {
@@ -53,6 +53,7 @@ pub fn simulate_from(
         }
     };
     let series = Series { names: measure.names().to_vec(), ..Series::default() };
+    let case = &model.case;
     let mut run = Run { case, observers, series, simulation, measure };
     let result = run.make(saved.is_some());
     if let Err(error) = &result {

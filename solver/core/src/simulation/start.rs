@@ -15,20 +15,21 @@ use super::scene::RemeshError;
 use super::state::State;
 use super::step::Workspace;
 use super::{RunError, Stage, Timing};
-use crate::case::{Case, Convection, MeshEquation, Scheme, TimeSettings};
+use crate::case::{Case, Convection, MeshEquation, Model, Scheme, TimeSettings};
 use crate::coupling::{BodyShapes, FluidSystem, Problem, memory_estimate};
 use crate::motion::{MotionKind, Stiffening};
 
 /// Builds the simulation of a case with its measurements, as it was saved if there is such a state.
 pub(super) fn prepare(
-    case: &Case,
+    model: &Model,
     saved: Option<&SavedState>,
 ) -> Result<(Simulation<2>, Measure), RunError> {
+    let case = &model.case;
     let mut timing = Timing::default();
-    let InitialMesh { mesh, cell } = timing.measure(Stage::Mesh, || initial_mesh(case))?;
+    let InitialMesh { mesh, cell } = timing.measure(Stage::Mesh, || initial_mesh(model))?;
     tracing::info!(cells = mesh.n_cells(), nodes = mesh.n_nodes(), "mesh generated");
     check_memory(&mesh)?;
-    let problem = build_problem(case, &mesh)?;
+    let problem = build_problem(model, &mesh)?;
     let scheme = step_scheme(case, &problem);
     let mut state = State::at_rest(&problem, mesh);
     state.image_shifts =
@@ -38,10 +39,10 @@ pub(super) fn prepare(
         FluidSystem::new(&problem, &state.mesh, &poses, scheme.unknown_frame)
     });
     tracing::info!(unknowns = system.n_unknowns, entries = system.n_entries(), "system built");
-    let mut measure = Measure::new(case, &state.mesh)?;
+    let mut measure = Measure::new(model, &state.mesh)?;
     let mut moving_mesh = None;
-    if case.mesh_moves() {
-        let planar = Arc::new(PlanarCase::new(case, &problem)?);
+    if model.mesh_moves() {
+        let planar = Arc::new(PlanarCase::new(model, &problem)?);
         let moving = timing.measure(Stage::MeshMotion, || -> Result<_, RemeshError> {
             let (domain, shapes) = (cell.domain, cell.shapes);
             let mesh = &state.mesh;
@@ -57,7 +58,7 @@ pub(super) fn prepare(
         Simulation { problem, state, work, moving_mesh, law, scheme, is_fresh: true };
     simulation.settle_moving_walls()?;
     if let Some(saved) = saved {
-        saved.restore_into(case, &mut simulation)?;
+        saved.restore_into(model, &mut simulation)?;
         if simulation.moving_mesh.is_none() {
             measure.find_probes(case, &simulation.state.mesh_in_frame());
         }

@@ -3,28 +3,28 @@
 use nalgebra::{UnitVector3, Vector3};
 
 use crate::body::Mode;
-use crate::case::{Case, Geometry, Hinge, Joint as JointSpec, JointKind};
+use crate::case::{Geometry, Hinge, Joint as JointSpec, JointKind, Model};
 use crate::coupling::{Arm, Drive, Joint, Pivot, RigidBody, TimeValue, Turn};
 use crate::simulation::RunError;
 
 /// Hangs a child on its parent.
 pub(super) fn add_joint(
-    case: &Case,
+    model: &Model,
     joint: &JointSpec,
     bodies: &mut [RigidBody],
 ) -> Result<(), RunError> {
     let find = |name: &str| {
-        case.body.iter().position(|body| body.name == name).ok_or_else(|| {
+        model.body_index(name).ok_or_else(|| {
             RunError::Unsupported(format!("a joint names \"{name}\", which is no body"))
         })
     };
     let (parent, child) = (find(&joint.parent)?, find(&joint.child)?);
     let from_center = |body: usize, point: [f64; 2]| {
-        let moments = case.body[body].shape.outline().moments();
+        let moments = model.bodies[body].shape.outline().moments();
         let centroid = moments.map(|moments| moments.centroid).unwrap_or_default();
         Vector3::new(point[0] - centroid.x, point[1] - centroid.y, 0.0)
     };
-    let bend = case.body[child].angle - case.body[parent].angle;
+    let bend = model.bodies[child].angle - model.bodies[parent].angle;
     let axis = Vector3::z_axis();
     let mut arm = None;
     let turn = match joint.kind.clone() {
@@ -52,7 +52,7 @@ pub(super) fn add_joint(
     let body = &mut bodies[child];
     let is_free = matches!(turn, Turn::Free(_));
     body.drives[Mode::X] = Drive::Linked;
-    if case.geometry == Geometry::Planar {
+    if model.case.geometry == Geometry::Planar {
         body.drives[Mode::Y] = Drive::Linked;
         body.drives[Mode::AboutZ] = if is_free { Drive::Free } else { Drive::Linked };
     }

@@ -31,7 +31,8 @@ pub(super) fn contact_law(contact: &ContactSpec) -> Result<Law, RunError> {
 ///
 /// # Errors
 /// When the case asks for something that is not there yet.
-pub fn build_problem(case: &Case, mesh: &Mesh<2>) -> Result<Problem<2>, RunError> {
+pub fn build_problem(model: &Model, mesh: &Mesh<2>) -> Result<Problem<2>, RunError> {
+    let case = &model.case;
     let metric = match case.geometry {
         Geometry::Planar => Metric::Cartesian,
         Geometry::Axisymmetric => Metric::Revolved,
@@ -42,19 +43,19 @@ pub fn build_problem(case: &Case, mesh: &Mesh<2>) -> Result<Problem<2>, RunError
         sides.push(match known.kind {
             BoundaryKind::Body(body) => {
                 let boundary = BoundaryId::new(boundary);
-                bodies.push(rigid_body(case, &case.body[body], boundary, metric)?);
+                bodies.push(rigid_body(case, &model.bodies[body], boundary, metric)?);
                 None
             }
             BoundaryKind::Axis => Some(Side::Symmetry { normal_axis: Metric::RADIAL }),
             BoundaryKind::Side => Some(side(case, &known.name)?),
         });
     }
-    let frame = case.frame_body();
+    let frame = model.frame_body();
     if let (None, Some(name)) = (frame, &case.frame) {
         return Err(RunError::Unsupported(format!("frame = \"{name}\" names no body")));
     }
-    for joint in &case.joint {
-        add_joint(case, joint, &mut bodies)?;
+    for joint in &model.joints {
+        add_joint(model, joint, &mut bodies)?;
     }
     let has_inertia = case.fluid.model != FlowModel::Stokes;
     let mut problem = Problem {
@@ -65,12 +66,12 @@ pub fn build_problem(case: &Case, mesh: &Mesh<2>) -> Result<Problem<2>, RunError
         has_convection: case.fluid.model == FlowModel::NavierStokes,
         sides,
         bodies,
-        groups: case.group.iter().map(|one| group(case, one)).collect(),
+        groups: model.swimmers.iter().map(|swimmer| group(case, swimmer)).collect(),
         frame,
         body_force: None,
         rate_discontinuities: None,
     };
-    problem.rate_discontinuities = rate_discontinuities(case, &problem);
+    problem.rate_discontinuities = rate_discontinuities(model, &problem);
     check_volumes(case, &problem)?;
     let mut poses: Vec<Pose> = problem.bodies.iter().map(|body| body.pose).collect();
     problem.apply_joints(&mut poses, 0.0);
@@ -82,18 +83,18 @@ pub fn build_problem(case: &Case, mesh: &Mesh<2>) -> Result<Problem<2>, RunError
     Ok(problem)
 }
 
-fn group(case: &Case, group: &GroupSpec) -> Group {
-    let GroupSpec { name, bodies, period, resistance } = group.clone();
+fn group(case: &Case, swimmer: &SwimmerModel) -> Group {
+    let SwimmerModel { name, bodies, period, resistance } = swimmer.clone();
     // A steady solution knows no cycle
     let period = period.filter(|_| matches!(case.time, TimeSettings::Unsteady(_)));
     Group { name, bodies, period, resistance }
 }
 
 /// Times at which rates of strokes and shapes jump.
-fn rate_discontinuities(case: &Case, problem: &Problem<2>) -> Option<RateDiscontinuities> {
+fn rate_discontinuities(model: &Model, problem: &Problem<2>) -> Option<RateDiscontinuities> {
     // Torques of hinges may jump: nothing moves by them at once
     let strokes: Vec<Stroke> =
-        case.joint.iter().filter_map(|joint| joint.kind.stroke().cloned()).collect();
+        model.joints.iter().filter_map(|joint| joint.kind.stroke().cloned()).collect();
     let shapes: Vec<_> = problem.bodies.iter().filter_map(|body| body.shape.clone()).collect();
     if strokes.is_empty() && shapes.is_empty() {
         return None;

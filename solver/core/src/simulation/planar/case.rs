@@ -5,7 +5,7 @@ use alewife_mesh::{Domain, Mesh, PlacedShape, SizeBox, Sizing};
 use super::periodic_cell::{PeriodicCell, initial_cell};
 use super::shape_motion::shape_motion;
 use crate::body::Pose;
-use crate::case::{Body, BoundaryCondition, Case};
+use crate::case::{Body, BoundaryCondition, Case, Model};
 use crate::coupling::{Problem, ShapeError};
 use crate::gait::WavingSheet;
 use crate::motion::Limits;
@@ -39,13 +39,14 @@ pub(in crate::simulation) struct PlanarCase {
 
 impl PlanarCase {
     /// That of a case and its problem.
-    pub fn new(case: &Case, problem: &Problem<2>) -> Result<Self, RunError> {
+    pub fn new(model: &Model, problem: &Problem<2>) -> Result<Self, RunError> {
+        let case = &model.case;
         let moving = &case.mesh.moving;
         let pivots = problem.bodies.iter().enumerate().filter_map(|(child, body)| {
             let joint = body.joint.as_ref().filter(|joint| joint.arm.is_none())?;
             Some([joint.parent, child])
         });
-        let turns = case.body.iter().map(|body| !problem.metric.is_revolved() && !body.is_round());
+        let turns = model.bodies.iter().map(|body| !problem.metric.is_revolved() && !body.is_round());
         let sheets =
             case.boundary.keys().filter_map(|side| Some((side.clone(), waving_sheet(case, side)?)));
         Ok(Self {
@@ -55,7 +56,7 @@ impl PlanarCase {
             turns: turns.collect(),
             deforms: problem.bodies.iter().map(|body| body.shape.is_some()).collect(),
             pivots: pivots.collect(),
-            start_shapes: placed_bodies(case)?,
+            start_shapes: placed_bodies(model)?,
             start_poses: problem.bodies.iter().map(|body| body.pose).collect(),
             sheets: sheets.collect(),
         })
@@ -71,8 +72,8 @@ impl PlanarCase {
 ///
 /// # Errors
 /// When a body does not fit, or the mesh cannot be generated.
-pub fn build_mesh(case: &Case) -> Result<Mesh<2>, RunError> {
-    Ok(initial_mesh(case)?.mesh)
+pub fn build_mesh(model: &Model) -> Result<Mesh<2>, RunError> {
+    Ok(initial_mesh(model)?.mesh)
 }
 
 /// The mesh of a case at time zero, with its domain and bodies as they are meshed.
@@ -84,8 +85,9 @@ pub(in crate::simulation) struct InitialMesh {
 }
 
 /// Generates the mesh of a case at time zero.
-pub(in crate::simulation) fn initial_mesh(case: &Case) -> Result<InitialMesh, RunError> {
-    let cell = initial_cell(&case.mesh_domain(), placed_bodies(case)?)?;
+pub(in crate::simulation) fn initial_mesh(model: &Model) -> Result<InitialMesh, RunError> {
+    let case = &model.case;
+    let cell = initial_cell(&case.mesh_domain(), placed_bodies(model)?)?;
     let mut mesh = cell.mesh(&sizing(case))?;
     // The side of a sheet is straight at first, but will not stay so
     for facet in &mesh.facets {
@@ -107,9 +109,9 @@ fn waving_sheet(case: &Case, side: &str) -> Option<WavingSheet> {
 }
 
 /// The bodies of a case as they are meshed at time zero.
-fn placed_bodies(case: &Case) -> Result<Vec<PlacedShape>, RunError> {
+fn placed_bodies(model: &Model) -> Result<Vec<PlacedShape>, RunError> {
     let placed = |body: &Body| {
-        let mut placed = body.placed(case.mesh.scale);
+        let mut placed = body.placed(model.case.mesh.scale);
         if let Some(motion) = shape_motion(body)? {
             let start = motion.at(0.0);
             let start = start.map_err(|reason| ShapeError { body: body.name.clone(), reason })?;
@@ -117,7 +119,7 @@ fn placed_bodies(case: &Case) -> Result<Vec<PlacedShape>, RunError> {
         }
         Ok(placed)
     };
-    case.body.iter().map(placed).collect()
+    model.bodies.iter().map(placed).collect()
 }
 
 /// The wanted cell sizes of a case.

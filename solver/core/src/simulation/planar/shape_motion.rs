@@ -2,12 +2,12 @@
 
 use std::sync::Arc;
 
+use crate::simulation::RunError;
 use crate::case::{Body, GaitSpec, ShapeSpec};
 use crate::coupling::ShapeError;
 use crate::gait::{
     Anguilliform, Carangiform, Flagellum, Midline, Pulse, PulseLaw, ShapeMotion, SlenderBody,
 };
-use crate::simulation::RunError;
 
 /// How the outline of a body moves in the body's frame; `None` if it does not.
 ///
@@ -95,7 +95,7 @@ motion = 'free'
 {body}
 "
         );
-        Case::parse("t.toml", &text, &[]).unwrap().case.body[0].clone()
+        Case::parse("t.toml", &text, &[]).unwrap().model.bodies[0].clone()
     }
 
     /// At the start the outline is that of the shape, which is what is meshed.

@@ -1,0 +1,110 @@
+//! `DiscGrid`: which discs may meet, by the cells of a grid they lie in.
+
+use alewife_mesh::Point;
+
+/// Most cells along an axis.
+const MOST_CELLS: usize = 1024;
+
+/// Part of a radius by which discs are taken larger, so that rounding loses none.
+const ROUNDING: f64 = 1e-9;
+
+/// Numbered discs in the cells of a rectangle; what lies outside counts to the nearest cells.
+pub struct DiscGrid {
+    min: [f64; 2],
+    /// Cells per length along x and y (1/m).
+    density: [f64; 2],
+    counts: [usize; 2],
+    cells: Vec<Vec<usize>>,
+}
+
+impl DiscGrid {
+    /// An empty grid between two corners (m), with about as many cells as discs are expected.
+    pub fn new(min: [f64; 2], max: [f64; 2], expected: usize) -> Self {
+        let size = [0, 1].map(|axis| max[axis] - min[axis]);
+        let spacing = (size[0] * size[1] / expected.max(1) as f64).sqrt();
+        let counts = size.map(|length| 1 + rounded_down(length / spacing, MOST_CELLS - 1));
+        let density = [0, 1].map(|axis| counts[axis] as f64 / size[axis]);
+        Self { min, density, counts, cells: vec![Vec::new(); counts[0] * counts[1]] }
+    }
+
+    /// Adds a disc.
+    pub fn insert(&mut self, number: usize, center: Point<2>, radius: f64) {
+        let [columns, rows] = self.ranges(center, radius);
+        for row in rows {
+            for column in columns.clone() {
+                self.cells[row * self.counts[0] + column].push(number);
+            }
+        }
+    }
+
+    /// All discs that may meet a disc, some of them more than once, and others near it.
+    pub fn near(&self, center: Point<2>, radius: f64) -> impl Iterator<Item = usize> {
+        let [columns, rows] = self.ranges(center, radius);
+        rows.flat_map(move |row| columns.clone().map(move |column| (row, column)))
+            .flat_map(|(row, column)| self.cells[row * self.counts[0] + column].iter().copied())
+    }
+
+    /// Columns and rows of the cells around a disc.
+    fn ranges(&self, center: Point<2>, radius: f64) -> [std::ops::RangeInclusive<usize>; 2] {
+        let radius = radius * (1.0 + ROUNDING);
+        [0, 1].map(|axis| {
+            let cell = |x: f64| {
+                rounded_down((x - self.min[axis]) * self.density[axis], self.counts[axis] - 1)
+            };
+            cell(center[axis] - radius)..=cell(center[axis] + radius)
+        })
+    }
+}
+
+/// The largest whole number that is not above a value, from 0 to `most`; 0 for what is no number.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "the value is clamped to the range first"
+)]
+fn rounded_down(value: f64, most: usize) -> usize {
+    if value.is_nan() { 0 } else { value.clamp(0.0, most as f64) as usize }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Numbers in [0, 1) without a pattern, by the golden ratio.
+    fn scattered(nth: usize) -> f64 {
+        (nth as f64 * 0.618_033_988_749).fract()
+    }
+
+    #[test]
+    fn no_disc_that_meets_another_is_missed() {
+        let discs: Vec<(Point<2>, f64)> = (0..300)
+            .map(|nth| {
+                let (x, y) = (scattered(nth), scattered(7 * nth + 3));
+                // Some outside the grid, and a few that are large
+                let radius = if nth % 50 == 0 { 3.0 } else { 0.2 * scattered(3 * nth) };
+                (Point::<2>::new(12.0 * x - 1.0, 6.0 * y - 1.0), radius)
+            })
+            .collect();
+        let mut grid = DiscGrid::new([0.0, 0.0], [10.0, 4.0], discs.len());
+        for (nth, (center, radius)) in discs.iter().enumerate() {
+            grid.insert(nth, *center, *radius);
+        }
+        let mut looked_at = 0;
+        for (one, radius) in &discs {
+            let near: Vec<usize> = grid.near(*one, *radius).collect();
+            looked_at += near.len();
+            for (nth, (other, other_radius)) in discs.iter().enumerate() {
+                let meet = (one - other).norm() <= radius + other_radius;
+                assert!(!meet || near.contains(&nth), "{one} {other}");
+            }
+        }
+        assert!(looked_at < discs.len() * discs.len() / 3, "{looked_at} of all pairs");
+    }
+
+    #[test]
+    fn a_rectangle_of_no_size_has_one_cell() {
+        let mut grid = DiscGrid::new([0.0, 1.0], [5.0, 1.0], 10);
+        grid.insert(4, Point::<2>::new(2.0, 1.0), 0.1);
+        assert!(grid.near(Point::<2>::new(2.1, 1.0), 0.1).any(|found| found == 4));
+    }
+}

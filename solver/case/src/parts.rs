@@ -1,0 +1,231 @@
+//! Kinds of swimmers: the bodies each is made of, and how they are attached to each other.
+
+use std::cmp::Ordering;
+use std::f64::consts::{PI, TAU};
+
+use super::Geometry;
+use super::body::{GaitSpec, ShapeSpec};
+use super::diagnostic::CaseError;
+use super::joint::{Joint, JointKind, PlanarPose, child_pose};
+use super::stroke::Stroke;
+use super::swimmer::{Pivot, SwimmerKind};
+
+/// One body of a swimmer before it is placed.
+pub struct Part {
+    pub shape: ShapeSpec,
+    pub gait: Option<GaitSpec>,
+    /// How it is attached to another part; the part all others are attached to is not.
+    pub attachment: Option<Attachment>,
+}
+
+/// How a part is attached to another one.
+pub struct Attachment {
+    /// The part it is attached to, by its position in the list.
+    pub parent: usize,
+    pub on_parent: [f64; 2],
+    pub on_child: [f64; 2],
+    pub kind: JointKind,
+}
+
+impl Attachment {
+    /// An arm from origin to origin.
+    fn arm(parent: usize, length: &Stroke, direction: f64) -> Self {
+        let kind = JointKind::Arm { length: length.clone(), direction };
+        Self { parent, on_parent: [0.0; 2], on_child: [0.0; 2], kind }
+    }
+
+    /// The same between bodies with names.
+    pub fn joint(&self, parent: String, child: String) -> Joint {
+        let Self { on_parent, on_child, kind, .. } = self;
+        Joint { parent, child, on_parent: *on_parent, on_child: *on_child, kind: kind.clone() }
+    }
+}
+
+/// The parts of a swimmer.
+///
+/// # Errors
+/// When the numbers of radii, arms, gaits or joints do not fit together.
+pub fn parts(key: &str, kind: &SwimmerKind, geometry: Geometry) -> Result<Vec<Part>, CaseError> {
+    let fits = |what: &str, found: usize, wanted: usize| {
+        if found == wanted {
+            return Ok(());
+        }
+        let message = format!("{found} {what} are given, and {wanted} are wanted");
+        Err(CaseError::at(&format!("{key}.kind"), message, "give one for each"))
+    };
+    match kind {
+        SwimmerKind::Body { shape, gait } => {
+            Ok(vec![Part { shape: shape.clone(), gait: gait.clone(), attachment: None }])
+        }
+        SwimmerKind::LinkedSpheres { radii, arms, gaits } => {
+            fits("arms", arms.len(), radii.len().saturating_sub(1))?;
+            if !gaits.is_empty() {
+                fits("gaits", gaits.len(), radii.len())?;
+            }
+            Ok(linked_spheres(radii, arms, gaits, geometry))
+        }
+        SwimmerKind::Star { radius, radii, arms, directions } => {
+            fits("arms", arms.len(), radii.len())?;
+            if !directions.is_empty() {
+                fits("directions", directions.len(), radii.len())?;
+            }
+            Ok(star(*radius, radii, arms, directions))
+        }
+        SwimmerKind::Chain { links, gap, joints } => {
+            fits("joints", joints.len(), links.len().saturating_sub(1))?;
+            Ok(chain(links, *gap, joints))
+        }
+        SwimmerKind::Bodies(_) => Ok(Vec::new()),
+    }
+}
+
+/// Spheres or discs in a line along x, on arms from neighbour to neighbour.
+fn linked_spheres(
+    radii: &[f64],
+    arms: &[Stroke],
+    gaits: &[GaitSpec],
+    geometry: Geometry,
+) -> Vec<Part> {
+    let shape = |radius: f64| match geometry {
+        Geometry::Planar => ShapeSpec::Disc { radius },
+        Geometry::Axisymmetric => ShapeSpec::Sphere { radius },
+    };
+    let attachment = |nth: usize| {
+        let Neighbour { parent, between, is_after } = neighbour(nth, radii.len())?;
+        Some(Attachment::arm(parent, &arms[between], if is_after { 0.0 } else { PI }))
+    };
+    let part = |(nth, radius): (usize, &f64)| Part {
+        shape: shape(*radius),
+        gait: gaits.get(nth).cloned(),
+        attachment: attachment(nth),
+    };
+    radii.iter().enumerate().map(part).collect()
+}
+
+/// Discs on arms from a disc in the middle.
+fn star(radius: f64, radii: &[f64], arms: &[Stroke], directions: &[f64]) -> Vec<Part> {
+    let disc = |radius: f64, attachment: Option<Attachment>| Part {
+        shape: ShapeSpec::Disc { radius },
+        gait: None,
+        attachment,
+    };
+    let mut parts = vec![disc(radius, None)];
+    for (nth, (radius, arm)) in radii.iter().zip(arms).enumerate() {
+        let even = TAU * nth as f64 / radii.len() as f64;
+        let direction = directions.get(nth).copied().unwrap_or(even);
+        parts.push(disc(*radius, Some(Attachment::arm(0, arm, direction))));
+    }
+    parts
+}
+
+/// Elliptic links along x with pivots between them, the first one towards +x.
+fn chain(links: &[[f64; 2]], gap: f64, joints: &[Pivot]) -> Vec<Part> {
+    let pivot = |nth: usize| links[nth][0] + 0.5 * gap;
+    let attachment = |nth: usize| {
+        let Neighbour { parent, between, is_after } = neighbour(nth, links.len())?;
+        let side = if is_after { -1.0 } else { 1.0 };
+        Some(Attachment {
+            parent,
+            on_parent: [side * pivot(parent), 0.0],
+            on_child: [-side * pivot(nth), 0.0],
+            kind: JointKind::from(joints[between].clone()),
+        })
+    };
+    let part = |(nth, semi_axes): (usize, &[f64; 2])| Part {
+        shape: ShapeSpec::Ellipse { semi_axes: *semi_axes },
+        gait: None,
+        attachment: attachment(nth),
+    };
+    links.iter().enumerate().map(part).collect()
+}
+
+/// Which neighbour in a row a part is attached to.
+struct Neighbour {
+    parent: usize,
+    /// Number of the joint between the two.
+    between: usize,
+    /// Whether the part comes after its parent.
+    is_after: bool,
+}
+
+/// The neighbour towards the middle of a row of `n` parts; none of the middle one.
+fn neighbour(nth: usize, n: usize) -> Option<Neighbour> {
+    let middle = n.saturating_sub(1) / 2;
+    match nth.cmp(&middle) {
+        Ordering::Equal => None,
+        Ordering::Greater => Some(Neighbour { parent: nth - 1, between: nth - 1, is_after: true }),
+        Ordering::Less => Some(Neighbour { parent: nth + 1, between: nth, is_after: false }),
+    }
+}
+
+/// Poses of parts at time zero, in their order, where the one all others are attached to has the
+/// pose `root`.
+pub fn poses(parts: &[Part], root: PlanarPose) -> Vec<PlanarPose> {
+    let mut poses: Vec<Option<PlanarPose>> = vec![None; parts.len()];
+    for start in 0..parts.len() {
+        // From the part up to the first one whose pose is known, and down again
+        let mut path = Vec::new();
+        let mut above = Some(start);
+        while let Some(nth) = above.filter(|&nth| poses[nth].is_none()) {
+            path.push(nth);
+            above = parts[nth].attachment.as_ref().map(|attachment| attachment.parent);
+        }
+        for nth in path.into_iter().rev() {
+            let pose = parts[nth].attachment.as_ref().and_then(|attachment| {
+                let Attachment { parent, on_parent, on_child, kind } = attachment;
+                Some(child_pose(poses[*parent]?, *on_parent, *on_child, kind, 0.0))
+            });
+            poses[nth] = Some(pose.unwrap_or(root));
+        }
+    }
+    poses.into_iter().flatten().collect()
+}
+
+impl SwimmerKind {
+    /// Period of its gait or of the first of its strokes that has one (s).
+    pub(crate) fn period(&self) -> Option<f64> {
+        match self {
+            Self::Body { gait, .. } => gait.as_ref().and_then(GaitSpec::period),
+            Self::LinkedSpheres { arms, gaits, .. } => arms
+                .iter()
+                .find_map(Stroke::period)
+                .or_else(|| gaits.iter().find_map(GaitSpec::period)),
+            Self::Star { arms, .. } => arms.iter().find_map(Stroke::period),
+            Self::Chain { joints, .. } => {
+                joints.iter().find_map(|pivot| JointKind::from(pivot.clone()).period())
+            }
+            Self::Bodies(_) => None,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use alewife_mesh::Point;
+
+    use super::*;
+
+    #[test]
+    fn a_chain_hangs_together_at_its_pivots() {
+        let bent = |angle: f64| Pivot::Bent { angle: Stroke::Constant(angle) };
+        let kind = SwimmerKind::Chain {
+            links: vec![[0.4, 0.1], [0.5, 0.1], [0.3, 0.1], [0.2, 0.1]],
+            gap: 0.2,
+            joints: vec![bent(0.3), bent(-0.2), bent(0.5)],
+        };
+        let parts = parts("swimmer.0", &kind, Geometry::Planar).unwrap();
+        let root = PlanarPose { center: Point::<2>::new(1.0, 2.0), angle: 0.1 };
+        let poses = poses(&parts, root);
+        assert_eq!(poses[1], root);
+        let end = |nth: usize, x: f64| {
+            let PlanarPose { center, angle } = poses[nth];
+            center + Point::<2>::new(angle.cos(), angle.sin()) * x
+        };
+        // Pivots half a gap off the tips, the first link in front.
+        for (nth, [front, back]) in [[0.4, 0.5], [0.5, 0.3], [0.3, 0.2]].into_iter().enumerate() {
+            let off = end(nth, -(front + 0.1)) - end(nth + 1, back + 0.1);
+            assert!(off.norm() < 1e-14, "pivot {nth}: {off}");
+        }
+        assert!((poses[3].angle - (0.1 - 0.2 + 0.5)).abs() < 1e-14);
+    }
+}
