@@ -12,7 +12,7 @@ use self::sides::side;
 use super::RunError;
 use crate::body::Pose;
 use crate::case::{
-    Case, ContactSpec, FlowModel, Geometry, Group as GroupSpec, Stroke, TimeSettings,
+    Case, ContactSpec, FlowModel, Geometry, Model, Stroke, SwimmerModel, TimeSettings,
 };
 use crate::contact::{Law, LawKind};
 use crate::coupling::{BodyShapes, Group, Problem, RateDiscontinuities, Side};
