@@ -7,7 +7,7 @@ use alewife_mesh::Mesh;
 use super::signal::SignalWatch;
 use crate::case::{Model, TimeSettings};
 use crate::observer::{self, RunDirectory};
-use crate::simulation::{self, Outcome, RunError, SavedState};
+use crate::simulation::{self, RunError, RunSummary, SavedState};
 
 /// The mesh of a case.
 pub fn build_mesh(model: &Model) -> Result<Mesh<2>, RunError> {
@@ -15,7 +15,7 @@ pub fn build_mesh(model: &Model) -> Result<Mesh<2>, RunError> {
 }
 
 /// Runs a case with nobody looking on.
-pub fn simulate(model: &Model) -> Result<Outcome, RunError> {
+pub fn simulate(model: &Model) -> Result<RunSummary, RunError> {
     simulation::simulate(model, &mut [])
 }
 
@@ -26,7 +26,7 @@ pub fn simulate_into(
     saved: Option<&SavedState>,
     directory: &RunDirectory,
     quiet: bool,
-) -> Result<Outcome, RunError> {
+) -> Result<RunSummary, RunError> {
     let mut observers = observer::observers(model, directory, quiet)?;
     // Newton's method is not left halfway: a steady run ends by the signal itself.
     if matches!(model.case.time, TimeSettings::Unsteady(_)) {

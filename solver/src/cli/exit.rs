@@ -77,12 +77,15 @@ impl From<CaseError> for Failure {
 pub fn exit_of(error: &RunError) -> Exit {
     match error {
         RunError::NewtonStalled { .. }
-        | RunError::Stuck { .. }
+        | RunError::StepSizeUnderflow { .. }
         | RunError::Contact { .. }
         | RunError::NotFinite { .. }
         | RunError::Singular { .. } => Exit::Diverged,
-        RunError::Unsupported(_) | RunError::Shape(_) | RunError::TooLarge { .. } => Exit::BadCase,
-        RunError::Mesh(_) | RunError::Remesh { .. } => Exit::Mesh,
+        RunError::Unsupported(_)
+        | RunError::Resume(_)
+        | RunError::Shape(_)
+        | RunError::TooLarge { .. } => Exit::BadCase,
+        RunError::Mesh(_) | RunError::MeshMotion(_) | RunError::Remesh { .. } => Exit::Mesh,
         RunError::Output(_) => Exit::InputOutput,
         RunError::Stopped { .. } => Exit::Stopped,
     }

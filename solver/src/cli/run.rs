@@ -9,7 +9,7 @@ use super::style::{Ink, on_stdout, say};
 use super::{Settings, engine, read_case, threads};
 use crate::case::{Case, Model, TimeSettings, significant};
 use crate::observer::{RunDirectory, write_atomic};
-use crate::simulation::{Outcome, SavedState};
+use crate::simulation::{RunSummary, SavedState};
 use crate::validation::{Comparison, Verdict, compare, comparison_table, comparisons_to_json};
 
 /// File of a run that holds its comparison with published values.
@@ -111,7 +111,7 @@ fn read_state(path: &Path, case: &Case) -> Result<SavedState, Failure> {
 }
 
 /// Prints how the bodies ended, for a case without published values.
-fn tell_last_values(model: &Model, outcome: &Outcome) {
+fn tell_last_values(model: &Model, outcome: &RunSummary) {
     let Some(last) = outcome.series.rows.last() else { return };
     // Of many bodies that are told of as one only what they do together.
     let is_alone = |body: usize| {

@@ -9,7 +9,7 @@ use super::style::{Ink, complain, on_stdout, say};
 use super::{engine, read_and_check, run, threads};
 use crate::case::{Cadence, Case, Numbers, Statistics, library};
 use crate::observer::{RunDirectory, read_outcome};
-use crate::simulation::{Outcome, RunError};
+use crate::simulation::{RunError, RunSummary};
 use crate::validation::{
     Comparison, Verdict, compare, comparison_page, comparisons_to_json, not_computed,
 };
@@ -123,7 +123,7 @@ fn validate_one(
 }
 
 /// A run that was kept, of this very case but for what it is held against.
-fn kept(directory: &Path, case: &Case) -> Result<Outcome, Failure> {
+fn kept(directory: &Path, case: &Case) -> Result<RunSummary, Failure> {
     let refuse = |exit, reason: String| {
         Failure::new(exit, format!("--from: {}: {reason}", directory.display()))
     };

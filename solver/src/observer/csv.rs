@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 
 use super::schedule::Schedule;
 use crate::case::Case;
-use crate::simulation::{Observer, Remains, RunError, Snapshot};
+use crate::simulation::{LastState, Observer, RunError, Snapshot};
 
 /// Longest time a row waits in memory.
 const INTERVAL: Duration = Duration::from_secs(1);
@@ -77,7 +77,7 @@ impl<const D: usize> Observer<D> for SeriesFile {
     fn on_failure(
         &mut self,
         _error: &RunError,
-        _remains: Option<&Remains<'_, D>>,
+        _last: Option<&LastState<'_, D>>,
     ) -> io::Result<()> {
         self.flush()?;
         self.file.sync_all()

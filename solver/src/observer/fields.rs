@@ -14,7 +14,7 @@ use super::schedule::Schedule;
 use super::vorticity::nodal_vorticity;
 use super::write_atomic;
 use crate::case::{Case, Precision};
-use crate::simulation::{Observer, Remains, RunError, Snapshot};
+use crate::simulation::{LastState, Observer, RunError, Snapshot};
 
 /// The last state of a run that ended before its time, for `--resume`.
 const STATE_FILE: &str = "state.json";
@@ -97,10 +97,10 @@ impl Observer<2> for FieldFiles {
         write_atomic(&self.directory.join("fields.pvd"), self.collection().as_bytes())
     }
 
-    fn on_failure(&mut self, error: &RunError, remains: Option<&Remains<'_, 2>>) -> io::Result<()> {
-        let Some(remains) = remains else { return Ok(()) };
-        let bytes = self.frame(remains.time, remains.mesh, remains.velocity, remains.pressure)?;
-        let state = remains.saved.map(serde_json::to_vec).transpose()?;
+    fn on_failure(&mut self, error: &RunError, last: Option<&LastState<'_, 2>>) -> io::Result<()> {
+        let Some(last) = last else { return Ok(()) };
+        let bytes = self.frame(last.time, last.mesh, last.velocity, last.pressure)?;
+        let state = last.saved.map(serde_json::to_vec).transpose()?;
         if matches!(error, RunError::Stopped { .. }) {
             if let Some(state) = state {
                 write_atomic(&self.directory.join(STATE_FILE), &state)?;
@@ -108,7 +108,7 @@ impl Observer<2> for FieldFiles {
             let name = "fields/stopped.vtu".to_owned();
             fs::create_dir_all(self.directory.join("fields"))?;
             write_atomic(&self.directory.join(&name), &bytes)?;
-            self.frames.push((remains.time, name));
+            self.frames.push((last.time, name));
             return write_atomic(&self.directory.join("fields.pvd"), self.collection().as_bytes());
         }
         let folder = self.directory.join("failure");

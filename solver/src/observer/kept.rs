@@ -4,13 +4,13 @@ use std::io;
 use std::path::Path;
 
 use super::status::{RunState, Status};
-use crate::simulation::{Outcome, Series, Stage, Timing};
+use crate::simulation::{RunSummary, Series, Stage, Timing};
 
 /// What the run in `directory` left: its series, its time and its size.
 ///
 /// # Errors
 /// When it has not come to its end, or its files cannot be read.
-pub fn read_outcome(directory: &Path) -> io::Result<Outcome> {
+pub fn read_outcome(directory: &Path) -> io::Result<RunSummary> {
     let status = Status::read(directory)?;
     if status.state != RunState::Finished {
         return Err(io::Error::other(format!("it is {:?} and not finished", status.state)));
@@ -25,7 +25,7 @@ pub fn read_outcome(directory: &Path) -> io::Result<Outcome> {
     }
     let series = read_series(&std::fs::read_to_string(directory.join("series.csv"))?)
         .map_err(|line| io::Error::other(format!("line {line} of series.csv is damaged")))?;
-    Ok(Outcome { series, timing, n_dofs: status.dofs, steps: status.step })
+    Ok(RunSummary { series, timing, n_dofs: status.dofs, steps: status.step })
 }
 
 /// The series in a text; the number of the first bad line otherwise.

@@ -17,7 +17,7 @@ use super::RunDirectory;
 use super::foxglove::{self, Kind, Severity};
 use super::schedule::Schedule;
 use crate::case::{Body, Geometry, Model};
-use crate::simulation::{Observer, Remains, RunError, Snapshot};
+use crate::simulation::{LastState, Observer, RunError, Snapshot};
 
 /// Size of a chunk, the unit of compression (bytes).
 const CHUNK: u64 = 256 * 1024;
@@ -149,11 +149,7 @@ impl<const D: usize> Observer<D> for MessageFile {
         }
     }
 
-    fn on_failure(
-        &mut self,
-        error: &RunError,
-        _remains: Option<&Remains<'_, D>>,
-    ) -> io::Result<()> {
+    fn on_failure(&mut self, error: &RunError, _last: Option<&LastState<'_, D>>) -> io::Result<()> {
         self.log(Severity::Error, &error.to_string())?;
         self.finish()
     }

@@ -7,7 +7,7 @@ use indicatif::{HumanDuration, ProgressBar, ProgressStyle};
 
 use super::terminal::{LINE_INTERVAL, TERMINAL};
 use crate::case::{Case, TimeSettings};
-use crate::simulation::{Observer, Remains, RunError, Snapshot};
+use crate::simulation::{LastState, Observer, RunError, Snapshot};
 
 /// Parts of a full bar.
 const FULL: u64 = 10_000;
@@ -106,7 +106,7 @@ impl<const D: usize> Observer<D> for Progress {
     fn on_failure(
         &mut self,
         _error: &RunError,
-        _remains: Option<&Remains<'_, D>>,
+        _last: Option<&LastState<'_, D>>,
     ) -> io::Result<()> {
         self.stop();
         Ok(())

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{process, write_atomic};
 use crate::case::{Case, TimeSettings};
-use crate::simulation::{Observer, Remains, RunError, Snapshot, Stage, Timing, cpu_seconds};
+use crate::simulation::{LastState, Observer, RunError, Snapshot, Stage, Timing, cpu_seconds};
 
 /// Longest time a status on the disk may be behind.
 const INTERVAL: Duration = Duration::from_secs(1);
@@ -145,11 +145,7 @@ impl<const D: usize> Observer<D> for StatusFile {
         self.write()
     }
 
-    fn on_failure(
-        &mut self,
-        error: &RunError,
-        _remains: Option<&Remains<'_, D>>,
-    ) -> io::Result<()> {
+    fn on_failure(&mut self, error: &RunError, _last: Option<&LastState<'_, D>>) -> io::Result<()> {
         self.status.state = match error {
             RunError::Stopped { .. } => RunState::Stopped,
             _ => RunState::Failed,

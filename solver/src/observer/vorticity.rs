@@ -24,8 +24,8 @@ pub fn nodal_vorticity(mesh: &Mesh<2>, velocity: &[Point<2>]) -> Vec<f64> {
         let velocities: [_; 6] = std::array::from_fn(|i| velocity[nodes[i]]);
         for (&node, place) in nodes.iter().zip(NODES) {
             // Velocity and position are the same kind of field: columns d/dX and d/dY of both.
-            let (_, [x_x, x_y]) = map_quadratic(&positions, place);
-            let (_, [u_x, u_y]) = map_quadratic(&velocities, place);
+            let [x_x, x_y] = map_quadratic(&positions, place).columns;
+            let [u_x, u_y] = map_quadratic(&velocities, place).columns;
             let det_jacobian = x_x.perp(&x_y);
             let dv_dx = (x_y.y * u_x.y - x_x.y * u_y.y) / det_jacobian;
             let du_dy = (x_x.x * u_y.x - x_y.x * u_x.x) / det_jacobian;

@@ -4,7 +4,7 @@ use serde_json::{Value, json};
 
 use super::statistic::measured_value;
 use crate::case::{Case, Reference, significant};
-use crate::simulation::Outcome;
+use crate::simulation::RunSummary;
 
 /// What a comparison came to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -50,7 +50,7 @@ pub struct Comparison {
 
 /// Holds a run against all references of its case.
 #[must_use]
-pub fn compare(name: &str, case: &Case, outcome: &Outcome) -> Vec<Comparison> {
+pub fn compare(name: &str, case: &Case, outcome: &RunSummary) -> Vec<Comparison> {
     let cpu_seconds = outcome.timing.cpu.iter().sum();
     case.reference
         .iter()

@@ -10,7 +10,7 @@ use super::snapshot::BodyReport;
 use super::state::State;
 use super::{RunError, Stage};
 use crate::body::{Twist, Wrench, on_mesh};
-use crate::case::{Case, Geometry, Probe, Model, TimeSettings, known_quantities};
+use crate::case::{Case, Geometry, Model, Probe, TimeSettings, known_quantities};
 use crate::coupling::{
     BodyLoads, BodyShapes, BodyStates, Group, JointReport, Problem, PropulsionPower, group_load,
     joint_reports, mean_motion,

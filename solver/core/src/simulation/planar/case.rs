@@ -46,7 +46,8 @@ impl PlanarCase {
             let joint = body.joint.as_ref().filter(|joint| joint.arm.is_none())?;
             Some([joint.parent, child])
         });
-        let turns = model.bodies.iter().map(|body| !problem.metric.is_revolved() && !body.is_round());
+        let turns =
+            model.bodies.iter().map(|body| !problem.metric.is_revolved() && !body.is_round());
         let sheets =
             case.boundary.keys().filter_map(|side| Some((side.clone(), waving_sheet(case, side)?)));
         Ok(Self {

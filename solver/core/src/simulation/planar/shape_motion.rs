@@ -2,12 +2,12 @@
 
 use std::sync::Arc;
 
-use crate::simulation::RunError;
 use crate::case::{Body, GaitSpec, ShapeSpec};
 use crate::coupling::ShapeError;
 use crate::gait::{
     Anguilliform, Carangiform, Flagellum, Midline, Pulse, PulseLaw, ShapeMotion, SlenderBody,
 };
+use crate::simulation::RunError;
 
 /// How the outline of a body moves in the body's frame; `None` if it does not.
 ///
