@@ -1,12 +1,14 @@
-//! `MeshMotion`: displacements of all nodes from those of the bodies, by an elliptic equation.
+//! `MeshMotion`: displacements of all nodes from those of the boundary, by an elliptic equation.
 //!
 //! Displacements are measured from a reference configuration, the mesh at its last remesh, on
-//! which the matrix lives: it is factorised once, and a move costs a back-substitution. The same
-//! boundary gives the same mesh whatever the way there, so a body that returns brings its mesh back.
+//! which the matrix lives: it is factorised once, and a move costs a back-substitution. The mesh
+//! depends on where its boundary is and not on its path, so a body that returns brings it back.
 
 use alewife_mesh::{BoundaryId, Mesh, NodeId, Point, Simplex};
 
-use super::hold::{HeldVertices, Hold, MotionError};
+use super::boundary_condition::{
+    ConstrainedVertices, MeshBoundaryCondition, MotionError, PrescribedDisplacement,
+};
 use super::stiffness::{MotionKind, Stiffness};
 use crate::algebra::{AffineConstraints, Cholesky};
 
@@ -19,102 +21,110 @@ struct System {
     cholesky: Cholesky,
 }
 
-/// Moves a mesh after its boundary.
+/// Moves the nodes of a mesh with its boundary.
 #[derive(Debug)]
-pub struct MeshMotion {
-    /// Places of all nodes in the reference configuration (m).
-    reference: Vec<Point<2>>,
-    held: HeldVertices,
+pub struct MeshMotion<const D: usize> {
+    /// Positions of all nodes in the reference configuration (m).
+    reference: Vec<Point<D>>,
+    vertices: ConstrainedVertices<D>,
     stiffness: Stiffness,
     systems: Vec<System>,
-    /// Nodes inside straight edges.
-    inner: Vec<InnerNode>,
-    /// Inner nodes on curved boundaries that are carried, with these.
-    carried: Vec<(NodeId, BoundaryId)>,
+    /// Inner nodes of edges that are interpolated between the ends.
+    interpolated: Vec<EdgeNode>,
+    /// Inner nodes of curved facets with a prescribed displacement, and their boundary.
+    prescribed: Vec<(NodeId, BoundaryId)>,
 }
 
-/// A node inside a straight edge.
+/// An inner node of an edge.
 #[derive(Debug, Clone, Copy)]
-struct InnerNode {
+struct EdgeNode {
     node: NodeId,
     ends: [NodeId; 2],
-    /// Its place on the edge: 0 at the first end, 1 at the second.
+    /// Where it is on the edge: 0 at the first end, 1 at the second.
     parameter: f64,
 }
 
-impl MeshMotion {
+impl<const D: usize> MeshMotion<D> {
     /// Takes a mesh as the reference configuration and factorises the matrix of its motion.
     ///
-    /// `holds` has one entry a boundary; [`super::holds`] gives the usual ones.
+    /// `conditions` has one entry for each boundary; [`super::mesh_boundary_conditions`] gives the
+    /// usual ones.
     ///
     /// # Errors
-    /// When `holds` does not fit the mesh, or the matrix cannot be factorised.
-    pub fn new(mesh: &Mesh<2>, kind: MotionKind, holds: &[Hold]) -> Result<Self, MotionError> {
-        let held = HeldVertices::new(mesh, holds)?;
-        let stiffness = Stiffness::new(mesh, kind, held.given.iter().map(|(vertex, _)| *vertex));
-        let groups: Vec<Vec<usize>> = if stiffness.n_components == 2 || held.holds_both_alike() {
-            vec![vec![0, 1]]
+    /// When `conditions` does not fit the mesh, or the matrix cannot be factorised.
+    pub fn new(
+        mesh: &Mesh<D>,
+        kind: MotionKind,
+        conditions: &[MeshBoundaryCondition],
+    ) -> Result<Self, MotionError> {
+        let vertices = ConstrainedVertices::new(mesh, conditions)?;
+        let surface = vertices.prescribed.iter().map(|(vertex, _)| *vertex);
+        let stiffness = Stiffness::new(mesh, kind, surface);
+        let groups = if stiffness.n_components == D {
+            vec![(0..D).collect()]
         } else {
-            vec![vec![0], vec![1]]
+            vertices.equal_components()
         };
         let mut systems = Vec::new();
         for axes in groups {
-            let constraints = held.constraints(&axes[..stiffness.n_components.min(axes.len())]);
-            let cholesky = Cholesky::factorise(&stiffness.reduce::<2>(&constraints))?;
+            let constraints = vertices.constraints(&axes[..stiffness.n_components.min(axes.len())]);
+            let cholesky = Cholesky::factorise(&stiffness.reduce::<D>(&constraints))?;
             systems.push(System { axes, constraints, cholesky });
         }
-        let (inner, carried) = inner_nodes(mesh, holds);
+        let prescribed = curved_facet_nodes(mesh, conditions);
+        let interpolated = edge_nodes(mesh, &prescribed);
         let reference = mesh.nodes.clone();
-        Ok(Self { reference, held, stiffness, systems, inner, carried })
+        Ok(Self { reference, vertices, stiffness, systems, interpolated, prescribed })
     }
 
     /// Displacements (m) of all nodes from the reference configuration.
     ///
-    /// `given(boundary, place)` is the displacement of the point of a carried boundary that was at
-    /// `place` in the reference configuration. Mid nodes of straight edges stay in the middle of
-    /// their ends; those of curved edges are carried themselves, so that rigid bodies keep their
-    /// exact shape.
+    /// Inner nodes of edges keep their part of the way between the ends; those of curved facets of
+    /// boundaries with a prescribed displacement take it, so that rigid bodies keep their exact
+    /// shape.
     ///
     /// # Errors
     /// When memory runs out.
     pub fn displacements(
         &self,
-        given: &dyn Fn(usize, &Point<2>) -> Point<2>,
-    ) -> Result<Vec<Point<2>>, MotionError> {
-        let mut moved = self.held.displacements(&self.reference, given);
-        let boundary = moved.clone();
+        prescribed: &PrescribedDisplacement<'_, D>,
+    ) -> Result<Vec<Point<D>>, MotionError> {
+        let boundary = self.vertices.displacements(&self.reference, prescribed);
+        let mut displacements = boundary.clone();
         for system in &self.systems {
-            self.solve(system, &boundary, &mut moved)?;
+            self.solve(system, &boundary, &mut displacements)?;
         }
-        moved.resize(self.reference.len(), Point::<2>::zeros());
-        for &InnerNode { node, ends: [from, to], parameter } in &self.inner {
-            moved[node] = moved[from] * (1.0 - parameter) + moved[to] * parameter;
+        displacements.resize(self.reference.len(), Point::zeros());
+        for &EdgeNode { node, ends: [from, to], parameter } in &self.interpolated {
+            displacements[node] =
+                displacements[from] * (1.0 - parameter) + displacements[to] * parameter;
         }
-        for &(node, side) in &self.carried {
-            moved[node] = given(side.index(), &self.reference[node]);
+        for &(node, boundary) in &self.prescribed {
+            displacements[node] = prescribed(boundary, node, &self.reference[node]);
         }
-        Ok(moved)
+        Ok(displacements)
     }
 
-    /// Overwrites the places of the nodes of a mesh with the same cells (m).
+    /// Moves the nodes of a mesh with the cells of the reference configuration.
     ///
     /// # Errors
     /// Those of [`Self::displacements`]; the mesh is then as it was.
-    pub fn place(
+    pub fn move_nodes(
         &self,
-        mesh: &mut Mesh<2>,
-        given: &dyn Fn(usize, &Point<2>) -> Point<2>,
+        mesh: &mut Mesh<D>,
+        prescribed: &PrescribedDisplacement<'_, D>,
     ) -> Result<(), MotionError> {
-        let moved = self.displacements(given)?;
-        for ((node, reference), moved) in mesh.nodes.iter_mut().zip(&self.reference).zip(&moved) {
-            *node = reference + moved;
+        let displacements = self.displacements(prescribed)?;
+        let moved = self.reference.iter().zip(&displacements);
+        for (node, (reference, displacement)) in mesh.nodes.iter_mut().zip(moved) {
+            *node = reference + displacement;
         }
         Ok(())
     }
 
-    /// Places of the nodes in the reference configuration (m).
+    /// Positions of the nodes in the reference configuration (m).
     #[must_use]
-    pub fn reference(&self) -> &[Point<2>] {
+    pub fn reference(&self) -> &[Point<D>] {
         &self.reference
     }
 
@@ -127,28 +137,28 @@ impl MeshMotion {
     fn solve(
         &self,
         system: &System,
-        boundary: &[Point<2>],
-        moved: &mut [Point<2>],
+        boundary: &[Point<D>],
+        displacements: &mut [Point<D>],
     ) -> Result<(), MotionError> {
         let n = self.stiffness.n_components;
-        // The right-hand sides of one factor: both components as one vector, or one each
+        // The right-hand sides of one factor: all components as one vector, or one each
         let sides: Vec<&[usize]> = system.axes.chunks(n).collect();
         let raw = |axes: &[usize]| -> Vec<f64> {
-            boundary.iter().flat_map(|place| axes.iter().map(|&axis| place[axis])).collect()
+            boundary.iter().flat_map(|known| axes.iter().map(|&axis| known[axis])).collect()
         };
-        let mut load = Vec::with_capacity(system.constraints.n_unknowns() * sides.len());
+        let n_unknowns = system.constraints.n_unknowns();
+        let mut load = Vec::with_capacity(n_unknowns * sides.len());
         for axes in &sides {
             load.extend(self.stiffness.load(&system.constraints, &raw(axes)));
         }
         system.cholesky.solve(&mut load)?;
-        let n_unknowns = system.constraints.n_unknowns();
         for (nth, axes) in sides.iter().enumerate() {
             let free = &load[nth * n_unknowns..(nth + 1) * n_unknowns];
             let inside = system.constraints.expand(free);
-            for (vertex, place) in moved.iter_mut().enumerate() {
+            for (vertex, displacement) in displacements.iter_mut().enumerate() {
                 for (position, &axis) in axes.iter().enumerate() {
-                    // Held values are not among the unknowns: one of the two terms is zero
-                    place[axis] = boundary[vertex][axis] + inside[vertex * n + position];
+                    // Known values are not among the unknowns: one of the two terms is zero
+                    displacement[axis] = boundary[vertex][axis] + inside[vertex * n + position];
                 }
             }
         }
@@ -156,25 +166,42 @@ impl MeshMotion {
     }
 }
 
-/// Inner nodes with their edges, and those carried by a curved boundary.
-fn inner_nodes(mesh: &Mesh<2>, holds: &[Hold]) -> (Vec<InnerNode>, Vec<(NodeId, BoundaryId)>) {
-    let mut carried = Vec::new();
-    let mut is_done = vec![false; mesh.n_nodes()];
-    for facet in &mesh.facets {
-        if holds[facet.boundary] == Hold::Given && mesh.curved[facet.cell] {
-            for node in mesh.facet_inner_nodes(facet) {
-                carried.push((node, facet.boundary));
-                is_done[node] = true;
-            }
-        }
+/// Inner nodes of curved facets with a prescribed displacement and the boundary that prescribes
+/// it, sorted.
+fn curved_facet_nodes<const D: usize>(
+    mesh: &Mesh<D>,
+    conditions: &[MeshBoundaryCondition],
+) -> Vec<(NodeId, BoundaryId)> {
+    let mut nodes: Vec<_> = mesh
+        .facets
+        .iter()
+        .filter(|facet| {
+            let condition = conditions[facet.boundary];
+            condition == MeshBoundaryCondition::Prescribed && mesh.curved[facet.cell]
+        })
+        .flat_map(|facet| mesh.facet_inner_nodes(facet).map(|node| (node, facet.boundary)))
+        .collect();
+    nodes.sort_unstable();
+    nodes.dedup_by_key(|(node, _)| *node);
+    nodes
+}
+
+/// Inner nodes of all edges but those whose displacement is prescribed.
+fn edge_nodes<const D: usize>(
+    mesh: &Mesh<D>,
+    prescribed: &[(NodeId, BoundaryId)],
+) -> Vec<EdgeNode> {
+    let mut is_known = vec![false; mesh.n_nodes()];
+    for &(node, _) in prescribed {
+        is_known[node] = true;
     }
-    let mut inner = Vec::new();
+    let mut nodes = Vec::new();
     for edge in mesh.cell_ids().flat_map(|cell| mesh.cell_edges(cell)) {
-        for (&node, &parameter) in edge.inner.iter().zip(Simplex::<2>::EDGE_PARAMETERS) {
-            if !std::mem::replace(&mut is_done[node], true) {
-                inner.push(InnerNode { node, ends: edge.ends, parameter });
+        for (&node, &parameter) in edge.inner.iter().zip(Simplex::<D>::EDGE_PARAMETERS) {
+            if !std::mem::replace(&mut is_known[node], true) {
+                nodes.push(EdgeNode { node, ends: edge.ends, parameter });
             }
         }
     }
-    (inner, carried)
+    nodes
 }

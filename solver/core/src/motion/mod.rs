@@ -1,15 +1,17 @@
-//! The mesh follows the bodies: elliptic motion, when to mesh anew, and fields from mesh to mesh.
+//! The mesh follows the bodies: elliptic motion, when to remesh, and transfer of fields to another mesh.
 
+mod boundary_condition;
 mod elliptic;
-mod hold;
 mod remesh;
 mod rigid;
 mod stiffness;
 mod surface_distance;
 mod transfer;
 
+pub use boundary_condition::{
+    MeshBoundaryCondition, MotionError, PrescribedDisplacement, mesh_boundary_conditions,
+};
 pub use elliptic::MeshMotion;
-pub use hold::{Hold, MotionError, holds};
 pub use remesh::{Fresh, Limits, Reason, needs_remesh};
 pub use rigid::RigidMove;
 pub use stiffness::{MotionKind, Stiffening};

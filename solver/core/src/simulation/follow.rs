@@ -3,7 +3,10 @@
 use std::borrow::Cow;
 use std::collections::HashMap;
 
-use alewife_mesh::{BoundaryKind, Domain, Mesh, Outline, PlacedShape, Point, Shape, Surroundings};
+use alewife_mesh::{
+    BoundaryId, BoundaryKind, Domain, Mesh, NodeId, Outline, PlacedShape, Point, Shape,
+    Surroundings,
+};
 use nalgebra::Vector3;
 
 use super::build::waving_sheet;
@@ -14,8 +17,8 @@ use crate::contact::{Place, Surfaces};
 use crate::coupling::{BodyShapes, Problem, RigidBody};
 use crate::gait::{DeformedOutline, WavingSheet};
 use crate::motion::{
-    Fresh, Hold, Limits, MeshMotion, MotionError, MotionKind, Reason, RigidMove, Stiffening, holds,
-    needs_remesh,
+    Fresh, Limits, MeshBoundaryCondition, MeshMotion, MotionError, MotionKind, Reason, RigidMove,
+    Stiffening, mesh_boundary_conditions, needs_remesh,
 };
 
 /// Part of an edge by which a body may be elsewhere than where the flow was solved.
@@ -26,15 +29,15 @@ const HOPELESS: f64 = 0.02;
 /// A mesh with all that moves it, from one making to the next. Places are seen from the frame.
 #[derive(Debug)]
 pub struct Follower {
-    motion: MeshMotion,
+    motion: MeshMotion<2>,
     /// Places of the bodies in the mesh when it was made.
     made_at: Vec<Place>,
     /// When it was made (s).
     made_time: f64,
     /// Bodies as they were then.
     shapes: Vec<PlacedShape>,
-    /// Material points of the nodes on bodies that deform, by the bits of their places when made.
-    materials: HashMap<[u64; 2], f64>,
+    /// Material points of the nodes on bodies that deform.
+    materials: HashMap<NodeId, f64>,
     /// Whether the mesh turns with each body.
     turns: Vec<bool>,
     /// Shortest edge on each body (m).
@@ -47,10 +50,6 @@ pub struct Follower {
     surroundings: Surroundings,
     domain: Domain,
     surfaces: Surfaces,
-}
-
-fn bits(place: &Point<2>) -> [u64; 2] {
-    [place.x.to_bits(), place.y.to_bits()]
 }
 
 /// A body of this shape at a place.
@@ -84,13 +83,13 @@ impl Follower {
         };
         let sheet = |boundary: &alewife_mesh::Boundary| waving_sheet(&model.case, &boundary.name);
         let sheets: Vec<Option<WavingSheet>> = mesh.boundaries.iter().map(sheet).collect();
-        let mut holds = holds(mesh, true);
-        for (hold, sheet) in holds.iter_mut().zip(&sheets) {
+        let mut conditions = mesh_boundary_conditions(mesh, true);
+        for (condition, sheet) in conditions.iter_mut().zip(&sheets) {
             if sheet.is_some() {
-                *hold = Hold::Given;
+                *condition = MeshBoundaryCondition::Prescribed;
             }
         }
-        let motion = MeshMotion::new(mesh, kind, &holds).map_err(|e| e.to_string())?;
+        let motion = MeshMotion::new(mesh, kind, &conditions).map_err(|e| e.to_string())?;
         let surroundings = Surroundings::new(&domain, &shapes).map_err(|e| e.to_string())?;
         let limits = Limits { quality: moving.quality, layers: moving.layers };
         let fresh = Fresh::new(mesh, &surroundings, limits);
@@ -123,10 +122,9 @@ impl Follower {
                 let [start, end] = mesh.facet_vertices(facet).map(|vertex| mesh.nodes[vertex]);
                 edges[body] = edges[body].min((end - start).norm());
                 if let Some(outline) = &outlines[body] {
-                    for place in mesh.facet_nodes(facet).map(|node| mesh.nodes[node]) {
-                        materials
-                            .entry(bits(&place))
-                            .or_insert_with(|| outline.parameter_of(place));
+                    for node in mesh.facet_nodes(facet) {
+                        let parameter = || outline.parameter_of(mesh.nodes[node]);
+                        materials.entry(node).or_insert_with(parameter);
                     }
                 }
             }
@@ -167,11 +165,11 @@ impl Follower {
     }
 
     /// Displacement of a node on a body from its place when the mesh was made (m).
-    fn displacement(&self, carrier: &Carrier<'_>, place: &Point<2>) -> Point<2> {
+    fn displacement(&self, carrier: &Carrier<'_>, node: NodeId, place: &Point<2>) -> Point<2> {
         match carrier {
             Carrier::Rigid(moved) => moved.displacement(place),
             Carrier::Deformed(deformed, pose) => {
-                let parameter = self.materials.get(&bits(place));
+                let parameter = self.materials.get(&node);
                 let parameter = parameter.expect("every node of a facet on the body has one");
                 let at = deformed.position(*parameter);
                 let world = pose.rotation() * Vector3::new(at.x, at.y, 0.0) + pose.center;
@@ -190,15 +188,15 @@ impl Follower {
         shapes: &BodyShapes,
     ) -> Result<Vec<Point<2>>, MotionError> {
         let carriers = self.carriers(places, shapes);
-        let given = |boundary: usize, place: &Point<2>| {
+        let prescribed = |boundary: BoundaryId, node: NodeId, place: &Point<2>| {
             match (self.bodies[boundary], &self.sheets[boundary]) {
-                (Some(body), _) => self.displacement(&carriers[body], place),
+                (Some(body), _) => self.displacement(&carriers[body], node, place),
                 // Up and down: where the nodes are along the curve makes no difference.
                 (None, Some(sheet)) => Point::<2>::new(0.0, sheet.height(place[0], shapes.time())),
                 (None, None) => Point::<2>::zeros(),
             }
         };
-        let moved = self.motion.displacements(&given)?;
+        let moved = self.motion.displacements(&prescribed)?;
         Ok(self.motion.reference().iter().zip(&moved).map(|(x, d)| x + d).collect())
     }
 
