@@ -1,13 +1,13 @@
 //! `ContactLoads`: force and torque of contact on each body, with every contact and its gap.
 
-use super::{Feature, Law, LeastGap, Partner, Place, Surfaces};
-use crate::body::Wrench;
+use super::{ContactPair, Gaps, Law, MinimumGap, Partner};
+use crate::body::{Pose, Wrench};
 
-/// A contact with its force.
+/// A pair of points with its force.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Contact {
+pub struct ContactForce {
     /// Where, between what, and the gap.
-    pub feature: Feature,
+    pub pair: ContactPair,
     /// Repulsive force along the normal (N; N/m planar). On a ring in axisymmetric problems only
     /// its part along the axis is a load.
     pub force: f64,
@@ -19,9 +19,9 @@ pub struct ContactLoads {
     /// Force and torque about the centre of mass of each body.
     pub wrenches: Vec<Wrench>,
     /// All contacts within the range.
-    pub contacts: Vec<Contact>,
+    pub contacts: Vec<ContactForce>,
     /// The smallest gap, within the range or not; `None` for one body without walls.
-    pub least_gap: Option<LeastGap>,
+    pub minimum_gap: Option<MinimumGap>,
 }
 
 impl ContactLoads {
@@ -31,31 +31,31 @@ impl ContactLoads {
         Self { wrenches: vec![Wrench::default(); n_bodies], ..Self::default() }
     }
 
-    /// Loads of a law with bodies at `places`.
+    /// Loads of a law with bodies in these poses.
     #[must_use]
-    pub fn new(surfaces: &Surfaces, law: &Law, places: &[Place]) -> Self {
-        let features = surfaces.features(places, law.range());
-        let contacts = features
+    pub fn new(gaps: &dyn Gaps, law: &Law, poses: &[Pose]) -> Self {
+        let pairs = gaps.pairs(poses, law.range());
+        let contacts = pairs
             .into_iter()
-            .map(|feature| Contact { feature, force: feature.weight * law.force(feature.at.gap) });
-        Self::gather(surfaces.n_bodies(), contacts.collect(), surfaces.least_gap(places))
+            .map(|pair| ContactForce { pair, force: pair.weight * law.force(pair.gap) });
+        Self::gather(gaps.n_bodies(), contacts.collect(), gaps.minimum_gap(poses))
     }
 
     /// Sums the loads of contacts.
     pub(super) fn gather(
         n_bodies: usize,
-        contacts: Vec<Contact>,
-        least_gap: Option<LeastGap>,
+        contacts: Vec<ContactForce>,
+        minimum_gap: Option<MinimumGap>,
     ) -> Self {
         let mut wrenches = vec![Wrench::default(); n_bodies];
         for contact in &contacts {
-            let [on_body, on_partner] = contact.feature.loads(contact.force);
-            let body = contact.feature.body;
+            let [on_body, on_partner] = contact.pair.loads(contact.force);
+            let body = contact.pair.body;
             wrenches[body] = wrenches[body] + on_body;
-            if let Partner::Body(other) = contact.feature.partner {
+            if let Partner::Body(other) = contact.pair.partner {
                 wrenches[other] = wrenches[other] + on_partner;
             }
         }
-        Self { wrenches, contacts, least_gap }
+        Self { wrenches, contacts, minimum_gap }
     }
 }

@@ -1,22 +1,27 @@
 //! Short-range forces that keep bodies apart from each other and from walls, taken implicitly.
 //!
-//! Gaps are those of the exact outlines ([`alewife_mesh::closest_features`]); every close pair of
-//! features counts. The fluid enters through the mobility of the bodies only.
+//! [`Gaps`] gives the close pairs of points of all surfaces with their exact gaps and derivatives,
+//! in the plane those of the outlines ([`PlanarGaps`]). The law of the force, the time step with
+//! contact and its correction know bodies by pose and rigid motions only, whatever the dimension.
+//! The fluid enters through the mobility of the bodies.
 
+mod correction;
+mod curvature;
+mod direction;
 mod error;
-mod feature;
+mod gaps;
 mod implicit;
 mod law;
 mod loads;
-mod retract;
-mod surfaces;
+mod pair;
+mod planar;
+mod unknowns;
 
+pub use curvature::Curvatures;
 pub use error::ContactError;
-pub use feature::{Feature, Partner};
+pub use gaps::{Gaps, MinimumGap};
 pub use implicit::{ContactSolution, ContactStep};
 pub use law::{Law, LawKind};
-pub use loads::{Contact, ContactLoads};
-pub use surfaces::{LeastGap, Surfaces};
-
-/// Where a body is: x, y of its centre of mass (m), and its angle (rad), not reduced to one turn.
-pub type Place = [f64; 3];
+pub use loads::{ContactForce, ContactLoads};
+pub use pair::{ContactPair, PairMatrix, PairVector, Partner};
+pub use planar::PlanarGaps;

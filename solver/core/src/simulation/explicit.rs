@@ -7,9 +7,9 @@
 use super::Timing;
 use super::error::StepError;
 use super::march::{March, MeshPath, Past, StepResult};
-use super::state::{State, Swim, pose_at};
+use super::state::{Place, State, Swim, pose_at, poses_at};
 use crate::body::Twist;
-use crate::contact::{ContactLoads, Place};
+use crate::contact::{ContactLoads, Gaps};
 use crate::coupling::{BodyLoads, BodyShapes, Effort, FluidSystem, Levels, Solution, flatten};
 use crate::time::Bdf;
 
@@ -98,7 +98,7 @@ impl March<'_> {
         }
         let mut contact = ContactLoads::none(places.len());
         if let Some(surfaces) = self.surfaces(&shapes) {
-            contact.least_gap = surfaces.least_gap(&self.in_frame(state, &places));
+            contact.minimum_gap = surfaces.minimum_gap(&poses_at(&self.in_frame(state, &places)));
         }
         state.contact = contact;
         for (body, twist) in solution.twists.iter().enumerate() {

@@ -10,10 +10,10 @@ use alewife_mesh::{
 use nalgebra::Vector3;
 
 use super::build::waving_sheet;
-use super::state::pose_at;
+use super::state::{Place, pose_at};
 use crate::body::Pose;
 use crate::case::{MeshEquation, Model};
-use crate::contact::{Place, Surfaces};
+use crate::contact::{Gaps, PlanarGaps};
 use crate::coupling::{BodyShapes, Problem, RigidBody};
 use crate::gait::{DeformedOutline, WavingSheet};
 use crate::motion::{
@@ -49,7 +49,7 @@ pub struct Follower {
     fresh: Fresh,
     surroundings: Surroundings,
     domain: Domain,
-    surfaces: Surfaces,
+    surfaces: PlanarGaps,
 }
 
 /// A body of this shape at a place.
@@ -96,10 +96,11 @@ impl Follower {
         let walls: Vec<usize> =
             (0..domain.sides().len()).filter(|&side| domain.wall(side).is_some()).collect();
         let pivots = problem.bodies.iter().enumerate().filter_map(|(child, body)| {
-            body.link.as_ref().filter(|link| link.arm.is_none()).map(|link| (link.parent, child))
+            body.link.as_ref().filter(|link| link.arm.is_none()).map(|link| [link.parent, child])
         });
-        let surfaces =
-            Surfaces::new(&domain, &walls, &shapes).map_err(|e| e.to_string())?.with_joined(pivots);
+        let surfaces = PlanarGaps::new(&domain, &walls, &shapes)
+            .map_err(|e| e.to_string())?
+            .with_joined(pivots);
         let bodies: Vec<Option<usize>> = mesh
             .boundaries
             .iter()
@@ -264,7 +265,7 @@ impl Follower {
 
     /// Outlines, as bodies of these shapes have them, and walls.
     #[must_use]
-    pub fn surfaces_at(&self, shapes: &BodyShapes) -> Cow<'_, Surfaces> {
+    pub fn surfaces_at(&self, shapes: &BodyShapes) -> Cow<'_, PlanarGaps> {
         let mut surfaces = Cow::Borrowed(&self.surfaces);
         for body in 0..self.shapes.len() {
             if let Some(outline) = shapes.outline(body) {
@@ -300,7 +301,7 @@ impl Follower {
 
     /// Outlines and walls when the mesh was made.
     #[must_use]
-    pub fn surfaces(&self) -> &Surfaces {
+    pub fn surfaces(&self) -> &PlanarGaps {
         &self.surfaces
     }
 }

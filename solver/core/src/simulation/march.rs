@@ -16,12 +16,12 @@ use alewife_mesh::Point;
 
 use super::explicit::INSIDE;
 use super::follow::Follower;
-use super::state::{State, pose_at};
+use super::state::{Place, State, pose_at, poses_at};
 use super::{RunError, Stage, StepError, Timing};
 use crate::algebra::AffineConstraints;
-use crate::body::Twist;
+use crate::body::{Modes, Twist};
 use crate::case::Convection as ConvectionChoice;
-use crate::contact::{ContactLoads, ContactStep, Law, Place, Surfaces};
+use crate::contact::{ContactLoads, ContactStep, Gaps, Law, PlanarGaps};
 use crate::coupling::{
     BodyLoads, BodyShapes, Drive, Effort, FluidSystem, Levels, Problem, ShapeError, Solution,
     SolveError, body_loads, flatten, newton_convection,
@@ -221,7 +221,8 @@ impl March<'_> {
                 );
                 let error = self.error(state, bdf, &flow.solution);
                 if let Some(surfaces) = &surfaces {
-                    contact.least_gap = surfaces.least_gap(&self.in_frame(state, &reached));
+                    let reached = poses_at(&self.in_frame(state, &reached));
+                    contact.minimum_gap = surfaces.minimum_gap(&reached);
                 }
                 self.accept(state, bdf, &past, (flow.solution, reached, contact), timing)?;
                 for (swim, end) in state.swims.iter_mut().zip(&efforts) {
@@ -352,7 +353,7 @@ impl March<'_> {
     }
 
     /// Outlines of bodies of these shapes, and walls, where the mesh follows bodies.
-    pub(super) fn surfaces(&self, shapes: &BodyShapes) -> Option<Cow<'_, Surfaces>> {
+    pub(super) fn surfaces(&self, shapes: &BodyShapes) -> Option<Cow<'_, PlanarGaps>> {
         match self.path {
             MeshPath::Bodies(follower) => Some(follower.surfaces_at(shapes)),
             _ => None,
@@ -369,13 +370,13 @@ impl March<'_> {
     fn guarded(
         &self,
         state: &State,
-        surfaces: Option<&Surfaces>,
+        surfaces: Option<&PlanarGaps>,
         from: &[Place],
         to: Vec<Place>,
     ) -> Vec<Place> {
         let Some(surfaces) = surfaces else { return to };
         let gap = |places: &[Place]| {
-            let least = surfaces.least_gap(&self.in_frame(state, places));
+            let least = surfaces.minimum_gap(&poses_at(&self.in_frame(state, places)));
             least.map_or(f64::INFINITY, |least| least.gap)
         };
         let kept = KEPT_GAP * gap(from);
@@ -630,7 +631,7 @@ impl March<'_> {
 /// Contact forces of one pass.
 struct Contact<'a, 'b> {
     march: &'a March<'b>,
-    surfaces: &'a Surfaces,
+    surfaces: &'a PlanarGaps,
     law: &'a Law,
     bdf: &'a Bdf,
 }
@@ -653,34 +654,36 @@ impl Contact<'_, '_> {
         let without = self.march.reached(state, self.bdf, |body, mode| free(body)[mode]);
         // Seen from where the frame is in this pass: its way is no part of the unknowns.
         let origin = state.origin_at(self.march.problem, places);
-        let seen = |places: &[Place]| state.in_frame(&origin, places);
+        let seen = |places: &[Place]| poses_at(&state.in_frame(&origin, places));
         let (apart, predicted) = (seen(&state.places), seen(places));
-        let bodies = surfaces.involved(&apart, &seen(&without), CONTACT_MARGIN, range);
+        let bodies = surfaces.candidate_bodies(&apart, &seen(&without), CONTACT_MARGIN, range);
         if bodies.is_empty() {
             return Ok(None);
         }
         let fail = |error| RunError::from_solve(error, state.step + 1, state.time + self.bdf.step);
         let mobility = system.mobility(constraints, &bodies, timing).map_err(fail)?;
-        let free_velocities: Vec<[f64; 3]> = bodies.iter().map(|&body| free(body)).collect();
-        let predicted_velocities: Vec<[f64; 3]> = bodies
+        let free_velocities: Vec<Twist> =
+            bodies.iter().map(|&body| Twist::planar(free(body))).collect();
+        let predicted_velocities: Vec<Twist> = bodies
             .iter()
             .map(|&body| {
-                [0, 1, 2].map(|mode| {
+                Twist::planar([0, 1, 2].map(|mode| {
                     let (now, before) = (state.places[body], state.previous_places[body]);
                     self.bdf.rate(places[body][mode], now[mode], before[mode])
-                })
+                }))
             })
             .collect();
         let step = ContactStep {
-            surfaces,
+            gaps: surfaces,
             law: self.law,
+            modes: Modes::PLANAR,
             bodies: &bodies,
             free_velocities: &free_velocities,
             mobility: &mobility,
             predicted: &predicted,
             predicted_velocities: &predicted_velocities,
             coefficient: 1.0 / self.bdf.next,
-            apart: &apart,
+            start: &apart,
         };
         let found = step.solve()?;
         let loads: Vec<(usize, [f64; 3])> =

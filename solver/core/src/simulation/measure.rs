@@ -219,7 +219,7 @@ impl Measure {
             values.push(energy.defect(self.is_march && problem.has_inertia, now));
         }
         if let Some(Moving { remeshes }) = moving {
-            let gap = state.contact.least_gap.map_or(f64::INFINITY, |least| least.gap);
+            let gap = state.contact.minimum_gap.map_or(f64::INFINITY, |least| least.gap);
             values.extend([gap, state.mesh.n_cells() as f64, remeshes as f64]);
         }
         Ok((reports, values))

@@ -10,11 +10,11 @@ use super::opened::Opened;
 use super::remake::remake;
 use super::saved::SavedState;
 use super::snapshot::{Observer, Remains, Snapshot};
-use super::state::State;
+use super::state::{State, poses_at};
 use super::steady::{SteadyFlow, solve_steady};
 use super::{RunError, Series, Stage, StepError, StepResult, Timing, build_problem};
 use crate::case::{Adaptive, Convection, Initial, Model, Scheme, Steady, TimeSettings, Unsteady};
-use crate::contact::{ContactError, Law};
+use crate::contact::{ContactError, Gaps, Law};
 use crate::coupling::{
     BodyLoads, BodyShapes, FluidSystem, Levels, Problem, body_loads, mean_motion, memory_estimate,
 };
@@ -215,11 +215,12 @@ fn growth(error: f64) -> f64 {
 fn stuck(parts: &Parts, smallest: f64, error: &StepError) -> RunError {
     let state = &parts.state;
     let (step, time) = (state.step + 1, state.time);
-    let nearest = parts.follower.as_ref().zip(state.contact.least_gap).map(|(follower, least)| {
-        let surfaces = follower.surfaces();
-        let names = [surfaces.body_name(least.body), surfaces.partner_name(least.partner)];
-        format!("; nearest are `{}` and `{}`, {:.3e} apart", names[0], names[1], least.gap)
-    });
+    let nearest =
+        parts.follower.as_ref().zip(state.contact.minimum_gap).map(|(follower, least)| {
+            let surfaces = follower.surfaces();
+            let names = [surfaces.body_name(least.body), surfaces.partner_name(least.partner)];
+            format!("; nearest are `{}` and `{}`, {:.3e} apart", names[0], names[1], least.gap)
+        });
     let reason = format!("{error}{}", nearest.unwrap_or_default());
     RunError::Stuck { step, time, smallest, reason }
 }
@@ -291,7 +292,7 @@ impl Run<'_> {
             system.move_to(&problem, &state.mesh);
         }
         if let Some(follower) = &follower {
-            state.contact.least_gap = follower.surfaces().least_gap(&state.places);
+            state.contact.minimum_gap = follower.surfaces().minimum_gap(&poses_at(&state.places));
         }
         let law = self.model.case.contact.as_ref().map(contact_law).transpose()?;
         Ok(Parts {
@@ -455,7 +456,7 @@ impl Run<'_> {
             if left < 2.0 * size {
                 size = if left <= size * (1.0 + 1e-9) { left } else { 0.5 * left };
             }
-            let gap = parts.state.contact.least_gap.map(|least| least.gap);
+            let gap = parts.state.contact.minimum_gap.map(|least| least.gap);
             // Pieces of the first step are smaller than any that is asked for.
             let floor = if is_start { smallest.min(SMALLEST_PART * size) } else { smallest };
             let step = loop {
@@ -474,7 +475,7 @@ impl Run<'_> {
             index += 1;
             let factor = if is_start { 2.0 } else { growth(step.error / adaptive.tolerance) };
             proposed = (size * factor).min(adaptive.cfl / parts.crossings());
-            if let (Some(before), Some(now)) = (gap, parts.state.contact.least_gap) {
+            if let (Some(before), Some(now)) = (gap, parts.state.contact.minimum_gap) {
                 let rate = (now.gap - before).abs() / size;
                 proposed = proposed.min(adaptive.gap * now.gap / rate);
             }

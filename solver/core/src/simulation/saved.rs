@@ -8,10 +8,10 @@ use serde::{Deserialize, Serialize};
 use super::build::placed_bodies;
 use super::follow::Follower;
 use super::opened::{start_of, started_at};
-use super::state::{State, Swim, place_of, pose_at};
+use super::state::{Place, State, Swim, place_of, pose_at};
 use crate::body::Twist;
 use crate::case::Model;
-use crate::contact::{ContactLoads, Place};
+use crate::contact::ContactLoads;
 use crate::coupling::{BodyShapes, Problem, Solution};
 use crate::motion::RigidMove;
 

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::cycles::{Cycles, Record};
 use crate::body::{Pose, Twist};
-use crate::contact::{ContactLoads, Place};
+use crate::contact::ContactLoads;
 use crate::coupling::{BodyLoads, Effort, Problem, Solution, effort};
 use crate::space::DofLayout;
 
@@ -185,6 +185,15 @@ pub(super) fn seen_from(origin: &Point<2>, places: &[Place], wraps: &[Point<2>])
     pairs
         .map(|([x, y, angle], wrap)| [x + wrap.x - origin.x, y + wrap.y - origin.y, *angle])
         .collect()
+}
+
+/// Where a body is: x, y of its centre of mass (m), and its angle (rad), not reduced to one turn.
+pub type Place = [f64; 3];
+
+/// The poses with these centres and angles.
+#[must_use]
+pub(super) fn poses_at(places: &[Place]) -> Vec<Pose> {
+    places.iter().map(pose_at).collect()
 }
 
 /// Centre and angle of a pose (m, rad).

@@ -1,0 +1,72 @@
+//! `Gaps`: what contact asks of the surfaces of bodies and walls, whatever their dimension.
+
+use std::fmt::Debug;
+
+use super::{ContactPair, Partner};
+use crate::body::{Modes, Pose};
+
+/// The smallest of all gaps.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MinimumGap {
+    /// A body.
+    pub body: usize,
+    /// What it faces.
+    pub partner: Partner,
+    /// The gap (m), negative where they overlap.
+    pub gap: f64,
+}
+
+/// Surfaces of bodies and walls, and where they are close with bodies in given poses.
+pub trait Gaps: Debug + Send + Sync {
+    /// Number of bodies.
+    fn n_bodies(&self) -> usize;
+
+    /// The motions that bodies have.
+    fn modes(&self) -> Modes;
+
+    /// Name of a body.
+    fn body_name(&self, body: usize) -> &str;
+
+    /// Name of a body or wall.
+    fn partner_name(&self, partner: Partner) -> &str;
+
+    /// No point of a body is farther from its centre of mass (m).
+    fn reach(&self, body: usize) -> f64;
+
+    /// All close pairs of points with gaps below `range` (m); surfaces that overlap always have one
+    /// with a gap of zero or less.
+    fn pairs(&self, poses: &[Pose], range: f64) -> Vec<ContactPair>;
+
+    /// The smallest gap of all bodies and walls, however large; `None` where nothing can meet, as
+    /// for one body without walls.
+    fn minimum_gap(&self, poses: &[Pose]) -> Option<MinimumGap>;
+
+    /// The fraction, at most 1, of the displacements between poses within which no body can get to
+    /// the far side of another.
+    fn max_step_fraction(&self, from: &[Pose], to: &[Pose]) -> f64;
+
+    /// How far a point of a body moves at most between two poses (m).
+    fn displacement_bound(&self, body: usize, from: &Pose, to: &Pose) -> f64 {
+        let displacement = to.displacement_from(from);
+        let [way, turn] = [0, 3].map(|first| displacement.fixed_rows::<3>(first).norm());
+        way + turn * self.reach(body)
+    }
+
+    /// The bodies that may come nearer than `range` (m) to anything when each moves from its pose
+    /// in `from` no farther than `margin` times the displacement to that in `to`, ascending.
+    fn candidate_bodies(&self, from: &[Pose], to: &[Pose], margin: f64, range: f64) -> Vec<usize> {
+        let bounds = (0..self.n_bodies())
+            .map(|body| margin * self.displacement_bound(body, &from[body], &to[body]));
+        let farthest = bounds.fold(0.0, f64::max);
+        let mut candidates = Vec::new();
+        for pair in self.pairs(from, range + 2.0 * farthest) {
+            candidates.push(pair.body);
+            if let Partner::Body(other) = pair.partner {
+                candidates.push(other);
+            }
+        }
+        candidates.sort_unstable();
+        candidates.dedup();
+        candidates
+    }
+}

@@ -1,0 +1,121 @@
+//! `ContactPair`: a close pair of points, and how its gap changes as the bodies move.
+
+use nalgebra::{SMatrix, SVector, Vector3};
+
+use super::Curvatures;
+use crate::body::{Modes, RigidVector, Wrench};
+
+/// What a body faces.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Partner {
+    /// Another body, or an image of one across a periodic side.
+    Body(usize),
+    /// A side of the domain, by its number.
+    Wall(usize),
+}
+
+/// The six components of a body's rigid motion, then those of its partner.
+pub type PairVector = SVector<f64, 12>;
+
+/// A matrix over the components of a [`PairVector`].
+pub type PairMatrix = SMatrix<f64, 12, 12>;
+
+/// A point of a body and the point of its partner that it is nearest to.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ContactPair {
+    /// The body.
+    pub body: usize,
+    /// What it faces.
+    pub partner: Partner,
+    /// Distance along the normal (m); where the surfaces overlap, minus the depth.
+    pub gap: f64,
+    /// Unit normal out of the partner, into the body.
+    pub normal: Vector3<f64>,
+    /// From the centres of mass of body and partner to their points (m); zero for a wall.
+    pub levers: [Vector3<f64>; 2],
+    /// Curvatures of body and partner at their points.
+    pub curvatures: Curvatures,
+    /// Share of the law's force, from 0 to 1.
+    pub weight: f64,
+    /// The motions that bodies have; others change no gap and take no load.
+    pub modes: Modes,
+}
+
+/// Regularity of a pair times the reach of the smaller body above which it has its full weight.
+const REGULAR: f64 = 0.5;
+
+/// Gives the pairs of points of one pair of surfaces their weights.
+///
+/// A pair ends where the minimum of the distance meets a maximum, as a hollow fills up that a body
+/// rolls through. Its force must have faded before, or there may be no balance of forces at all.
+/// The weight goes to zero there with the square of the regularity; the nearest pair, and all that
+/// are as regular as that, have the weight one whatever their own regularity. `size` is the reach
+/// of the smaller body (m).
+pub(super) fn blend_weights(pairs: &mut [ContactPair], size: f64, range: f64) {
+    let raw = |pair: &ContactPair| {
+        let s = (pair.regularity() * size / REGULAR).clamp(0.0, 1.0);
+        s * s * (3.0 - 2.0 * s)
+    };
+    let nearest = pairs.iter().map(|pair| pair.gap).fold(f64::INFINITY, f64::min);
+    // A pair at the range has no force, and does not count
+    let closeness = |pair: &ContactPair| (range - pair.gap) / (range - nearest);
+    let largest = pairs.iter().map(|pair| raw(pair) * closeness(pair)).fold(0.0, f64::max);
+    for pair in pairs {
+        pair.weight = if largest > 0.0 { (raw(pair) / largest).min(1.0) } else { 1.0 };
+    }
+}
+
+impl ContactPair {
+    /// Derivatives of the gap by the displacements of the body and of its partner.
+    ///
+    /// They are also the directions of the load: the force times them acts on both.
+    #[must_use]
+    pub fn gradient(&self) -> [RigidVector; 2] {
+        let normal = self.normal;
+        let [on_body, on_partner] = self.levers.map(|lever| lever.cross(&normal));
+        [join(&normal, &on_body), join(&-normal, &-on_partner)]
+            .map(|gradient| self.modes.project(&gradient))
+    }
+
+    /// Both sides of [`Self::gradient`] in one vector.
+    pub(super) fn gradient_of_both(&self) -> PairVector {
+        let [body, partner] = self.gradient();
+        PairVector::from_fn(|i, _| if i < 6 { body[i] } else { partner[i - 6] })
+    }
+
+    /// Derivative of [`Self::gradient`]: column j is its change by a displacement
+    /// ([`crate::body::Pose::displaced`]) of component j.
+    ///
+    /// In the plane these are the second derivatives of the gap. In space displacements about
+    /// different axes do not commute, and the matrix is not symmetric: its symmetric part is the
+    /// second derivative along displacements. Zero for parallel surfaces, which have no definite
+    /// points.
+    #[must_use]
+    pub fn gradient_derivative(&self) -> PairMatrix {
+        let mut matrix = self.curvatures.gradient_derivative(&self.normal, self.gap, &self.levers);
+        let counts = |i: usize| self.modes.iter().any(|mode| mode.index() == i % 6);
+        for i in (0..12).filter(|i| !counts(*i)) {
+            matrix.row_mut(i).fill(0.0);
+            matrix.column_mut(i).fill(0.0);
+        }
+        matrix
+    }
+
+    /// How far the pair is from one where minimum and maximum of the distance annihilate each other
+    /// (1/m): zero there and positive at every minimum.
+    #[must_use]
+    pub fn regularity(&self) -> f64 {
+        self.curvatures.regularity(self.gap)
+    }
+
+    /// Loads on the body and on its partner by a repulsive force (N; N/m planar).
+    #[must_use]
+    pub fn loads(&self, force: f64) -> [Wrench; 2] {
+        // Projected last, since no motion means no load even by an infinite force
+        self.gradient().map(|side| Wrench::from_vector(&self.modes.project(&(side * force))))
+    }
+}
+
+fn join(linear: &Vector3<f64>, angular: &Vector3<f64>) -> RigidVector {
+    RigidVector::from_fn(|i, _| if i < 3 { linear[i] } else { angular[i - 3] })
+}

@@ -1,0 +1,298 @@
+//! `PlanarGaps`: outlines of all bodies and walls, and where they are close.
+
+use std::collections::HashSet;
+
+use alewife_mesh::{
+    Closest, Domain, Outline, PlacedShape, Point, Wall, closest, closest_features, closest_to_wall,
+    on_meridian, thickness, wall_features,
+};
+use nalgebra::{Rotation2, Vector3};
+
+use super::pair::blend_weights;
+use super::{ContactError, ContactPair, Curvatures, Gaps, MinimumGap, Partner};
+use crate::body::{Modes, Pose};
+
+/// A body's outline in its own frame.
+#[derive(Debug, Clone)]
+struct BodyOutline {
+    name: String,
+    outline: Outline,
+    /// Centre of mass in the body's own frame (m).
+    centroid: Point<2>,
+    /// No point is farther from the centre of mass (m).
+    reach: f64,
+    thickness: f64,
+}
+
+/// A side of the domain that is a wall.
+#[derive(Debug, Clone)]
+struct WallSide {
+    side: usize,
+    name: &'static str,
+    wall: Wall,
+}
+
+/// Outlines and walls that may come into contact; the exact curves, in the plane or on the axis.
+#[derive(Debug, Clone)]
+pub struct PlanarGaps {
+    bodies: Vec<BodyOutline>,
+    walls: Vec<WallSide>,
+    /// Periods along x and y (m).
+    periods: [Option<f64>; 2],
+    is_axisymmetric: bool,
+    /// Pairs of bodies on one pivot, the smaller number first: they are always close.
+    joined: HashSet<[usize; 2]>,
+}
+
+impl PlanarGaps {
+    /// Outlines of bodies and the sides of a domain that are walls; the poses of the shapes do not
+    /// count.
+    ///
+    /// # Errors
+    /// [`ContactError::Outline`] for a shape without outline, [`ContactError::NoWall`] for a side
+    /// that is the axis or periodic.
+    pub fn new(
+        domain: &Domain,
+        walls: &[usize],
+        bodies: &[PlacedShape],
+    ) -> Result<Self, ContactError> {
+        let walls = walls.iter().map(|&side| {
+            let name = domain.sides().get(side).copied();
+            let wall = name.and_then(|_| domain.wall(side));
+            name.zip(wall)
+                .map(|(name, wall)| WallSide { side, name, wall })
+                .ok_or(ContactError::NoWall { side })
+        });
+        let bodies = bodies.iter().map(|body| {
+            let outline = Outline::new(body)?;
+            let centroid = body.shape.moments().map_or(Point::<2>::zeros(), |m| m.centroid);
+            let (reach, thickness) = (outline.reach() + centroid.norm(), thickness(&outline));
+            Ok(BodyOutline { name: body.name.clone(), outline, centroid, reach, thickness })
+        });
+        let longest = |axis: usize| {
+            let lengths = domain.images().into_iter().map(|image| image[axis]);
+            Some(lengths.fold(0.0, f64::max)).filter(|length| *length > 0.0)
+        };
+        Ok(Self {
+            bodies: bodies.collect::<Result<_, ContactError>>()?,
+            walls: walls.collect::<Result<_, _>>()?,
+            periods: [longest(0), longest(1)],
+            is_axisymmetric: domain.is_axisymmetric(),
+            joined: HashSet::new(),
+        })
+    }
+
+    /// Gives a body another outline, its origin the centre of mass.
+    pub fn deform(&mut self, body: usize, outline: Outline) {
+        let surface = &mut self.bodies[body];
+        (surface.reach, surface.thickness) = (outline.reach(), thickness(&outline));
+        (surface.outline, surface.centroid) = (outline, Point::<2>::zeros());
+    }
+
+    /// Leaves the gaps of pairs of bodies that share a pivot out of account.
+    #[must_use]
+    pub fn with_joined(mut self, pairs: impl Iterator<Item = [usize; 2]>) -> Self {
+        self.joined = pairs.map(|[one, other]| [one.min(other), one.max(other)]).collect();
+        self
+    }
+
+    /// The outlines of all bodies in their poses.
+    fn outlines(&self, poses: &[Pose]) -> Vec<Outline> {
+        let unmoved = Point::<2>::zeros();
+        self.bodies.iter().zip(poses).map(|(body, pose)| body.outline_at(pose, unmoved)).collect()
+    }
+
+    /// Vectors by which the second body stands beside itself where the first may meet it (m).
+    fn images(&self, poses: &[Pose], body: usize, other: usize) -> Vec<Point<2>> {
+        let between = center(&poses[body]) - center(&poses[other]);
+        let steps = |axis: usize| match self.periods[axis] {
+            None => vec![0.0],
+            Some(length) => {
+                let near = (between[axis] / length).round();
+                [near, near + 1.0, near - 1.0].map(|k| k * length).to_vec()
+            }
+        };
+        let mut images = Vec::new();
+        for y in steps(1) {
+            images.extend(steps(0).iter().map(|x| Point::<2>::new(*x, y)));
+        }
+        // A body meets its own images on one side only: the other side is the same contact
+        images.retain(|away| body != other || away.y > 0.0 || (away.y == 0.0 && away.x > 0.0));
+        images
+    }
+
+    fn are_joined(&self, body: usize, other: usize) -> bool {
+        self.joined.contains(&[body, other])
+    }
+
+    /// Appends the pairs of points of a body and its partner; `away` leads from the partner to the
+    /// image of it that was met (m).
+    fn append(
+        &self,
+        pairs: &mut Vec<ContactPair>,
+        poses: &[Pose],
+        found: &Encounter,
+        points: Vec<Closest>,
+        range: f64,
+    ) {
+        let Encounter { body, partner, away } = *found;
+        let points = if self.is_axisymmetric { on_meridian(points) } else { points };
+        let mut size = self.bodies[body].outline.reach();
+        if let Partner::Body(other) = partner {
+            size = size.min(self.bodies[other].outline.reach());
+        }
+        let first = pairs.len();
+        pairs.extend(points.into_iter().map(|at| {
+            let lever = at.first - center(&poses[body]);
+            let other = match partner {
+                Partner::Body(other) => at.second - away - center(&poses[other]),
+                Partner::Wall(_) => Point::<2>::zeros(),
+            };
+            ContactPair {
+                body,
+                partner,
+                gap: at.gap,
+                normal: in_space(at.normal),
+                levers: [lever, other].map(in_space),
+                curvatures: Curvatures::Curves(at.curvatures),
+                weight: 1.0,
+                modes: self.modes(),
+            }
+        }));
+        blend_weights(&mut pairs[first..], size, range);
+    }
+}
+
+/// A body and what it may meet.
+struct Encounter {
+    body: usize,
+    partner: Partner,
+    /// From the partner to the image of it that is met (m).
+    away: Point<2>,
+}
+
+impl Gaps for PlanarGaps {
+    fn n_bodies(&self) -> usize {
+        self.bodies.len()
+    }
+
+    fn modes(&self) -> Modes {
+        if self.is_axisymmetric { Modes::AXISYMMETRIC } else { Modes::PLANAR }
+    }
+
+    fn body_name(&self, body: usize) -> &str {
+        &self.bodies[body].name
+    }
+
+    fn partner_name(&self, partner: Partner) -> &str {
+        match partner {
+            Partner::Body(body) => self.body_name(body),
+            Partner::Wall(side) => {
+                let wall = self.walls.iter().find(|wall| wall.side == side);
+                wall.map_or("", |wall| wall.name)
+            }
+        }
+    }
+
+    fn reach(&self, body: usize) -> f64 {
+        self.bodies[body].reach
+    }
+
+    /// Order: bodies, then images, then the first outline's parameter; walls of a body last.
+    fn pairs(&self, poses: &[Pose], range: f64) -> Vec<ContactPair> {
+        let outlines = self.outlines(poses);
+        let mut pairs = Vec::new();
+        for (body, outline) in outlines.iter().enumerate() {
+            for other in body..outlines.len() {
+                if self.are_joined(body, other) {
+                    continue;
+                }
+                for away in self.images(poses, body, other) {
+                    let image = self.bodies[other].outline_at(&poses[other], away);
+                    let points = closest_features(outline, &image, range);
+                    let met = Encounter { body, partner: Partner::Body(other), away };
+                    self.append(&mut pairs, poses, &met, points, range);
+                }
+            }
+            for WallSide { side, wall, .. } in &self.walls {
+                let points = wall_features(outline, wall, range);
+                let away = Point::<2>::zeros();
+                let met = Encounter { body, partner: Partner::Wall(*side), away };
+                self.append(&mut pairs, poses, &met, points, range);
+            }
+        }
+        pairs
+    }
+
+    fn minimum_gap(&self, poses: &[Pose]) -> Option<MinimumGap> {
+        let outlines = self.outlines(poses);
+        let mut least: Option<MinimumGap> = None;
+        let mut offer = |body: usize, partner: Partner, bound: f64, gap: &dyn Fn() -> f64| {
+            if least.is_some_and(|least| least.gap <= bound) {
+                return;
+            }
+            let gap = gap();
+            if least.is_none_or(|least| gap < least.gap) {
+                least = Some(MinimumGap { body, partner, gap });
+            }
+        };
+        for (body, outline) in outlines.iter().enumerate() {
+            for other in body..outlines.len() {
+                if self.are_joined(body, other) {
+                    continue;
+                }
+                for away in self.images(poses, body, other) {
+                    let image = self.bodies[other].outline_at(&poses[other], away);
+                    let bound = outline.least_gap(image.center()) - image.reach();
+                    let gap = || closest(outline, &image).gap;
+                    offer(body, Partner::Body(other), bound, &gap);
+                }
+            }
+            for WallSide { side, wall, .. } in &self.walls {
+                let bound = wall.gap(outline.center()) - outline.reach();
+                let gap = || closest_to_wall(outline, wall).gap;
+                offer(body, Partner::Wall(*side), bound, &gap);
+            }
+        }
+        least
+    }
+
+    /// Half the thickness of the thinner body; walls are half planes, which cannot be crossed.
+    fn max_step_fraction(&self, from: &[Pose], to: &[Pose]) -> f64 {
+        let bounds: Vec<f64> = (0..self.n_bodies())
+            .map(|body| self.displacement_bound(body, &from[body], &to[body]))
+            .collect();
+        let mut fraction = 1.0f64;
+        for body in 0..self.n_bodies() {
+            for other in body..self.n_bodies() {
+                let (one, two) = (&self.bodies[body], &self.bodies[other]);
+                let both = bounds[body] + bounds[other];
+                let near = self.images(from, body, other).into_iter().any(|away| {
+                    let between = center(&from[body]) - center(&from[other]) - away;
+                    between.norm() < one.reach + two.reach + both
+                });
+                if near && both > 0.0 {
+                    fraction = fraction.min(0.5 * one.thickness.min(two.thickness) / both);
+                }
+            }
+        }
+        fraction
+    }
+}
+
+impl BodyOutline {
+    /// The outline of the body in a pose, moved away by a vector (m).
+    fn outline_at(&self, pose: &Pose, away: Point<2>) -> Outline {
+        let angle = pose.angle();
+        let offset = Rotation2::new(angle) * self.centroid;
+        self.outline.placed_at(center(pose) - offset + away, angle)
+    }
+}
+
+fn center(pose: &Pose) -> Point<2> {
+    Point::<2>::new(pose.center.x, pose.center.y)
+}
+
+fn in_space(vector: Point<2>) -> Vector3<f64> {
+    Vector3::new(vector.x, vector.y, 0.0)
+}

@@ -1,0 +1,188 @@
+//! The unknowns of a step with contact: velocities of bodies by row, and the poses they lead to.
+//!
+//! In the plane a pose is linear in the velocity. In space a body turns by the rotation vector
+//! t = t_p + c (w - w_p), R = exp([t]) R_0, from the rotation R_0 before the step, as its backward
+//! difference has it ([`Pose::advanced`]); R changes by the displacement J(t) dt with the left
+//! Jacobian J of the rotations (@sola2018).
+
+use nalgebra::{DMatrix, DVector, Matrix3, UnitQuaternion, Vector3};
+
+use super::implicit::ContactStep;
+use super::{ContactPair, PairVector, Partner};
+use crate::body::{Mode, Pose, RigidVector, Twist};
+
+/// Angle below which the left Jacobian is taken from its series (rad).
+const SMALL_ANGLE: f64 = 1e-2;
+
+impl ContactStep<'_> {
+    pub(super) fn n_rows(&self) -> usize {
+        self.modes.len() * self.bodies.len()
+    }
+
+    /// For each row the position of its body among those of the step, and its motion.
+    pub(super) fn rows(&self) -> impl Iterator<Item = (usize, Mode)> {
+        (0..self.bodies.len()).flat_map(|index| self.modes.iter().map(move |mode| (index, mode)))
+    }
+
+    /// A number for each row, by the position of the body among those of the step and the motion.
+    pub(super) fn by_row(&self, value: impl Fn(usize, Mode) -> f64) -> DVector<f64> {
+        DVector::from_iterator(self.n_rows(), self.rows().map(|(index, mode)| value(index, mode)))
+    }
+
+    /// Components of one of the bodies, zero in motions that have no row.
+    fn components(&self, vector: &DVector<f64>, index: usize) -> RigidVector {
+        let mut components = RigidVector::zeros();
+        for (position, mode) in self.modes.iter().enumerate() {
+            components[mode] = vector[self.modes.len() * index + position];
+        }
+        components
+    }
+
+    pub(super) fn twists(&self, velocity: &DVector<f64>) -> Vec<Twist> {
+        let of = |index| Twist::from_vector(&self.components(velocity, index));
+        (0..self.bodies.len()).map(of).collect()
+    }
+
+    /// Poses of all bodies.
+    pub(super) fn poses(&self, velocity: &DVector<f64>) -> Vec<Pose> {
+        let mut poses = self.predicted.to_vec();
+        for (index, &body) in self.bodies.iter().enumerate() {
+            let mut change = self.change(velocity, index);
+            let turn: Vector3<f64> = change.fixed_rows::<3>(3).into_owned();
+            let turn = beyond(&self.predicted_turn(index), &turn);
+            change.fixed_rows_mut::<3>(3).copy_from(&turn);
+            poses[body] = self.predicted[body].displaced(&change);
+        }
+        poses
+    }
+
+    /// c (U - U_p) of one of the bodies.
+    fn change(&self, velocity: &DVector<f64>, index: usize) -> RigidVector {
+        let mut change = RigidVector::zeros();
+        for (position, mode) in self.modes.iter().enumerate() {
+            let velocity = velocity[self.modes.len() * index + position];
+            let predicted = self.predicted_velocities[index].component(mode);
+            change[mode] = self.coefficient * (velocity - predicted);
+        }
+        change
+    }
+
+    /// Rotation vector by which one of the bodies is predicted to turn in the step.
+    fn predicted_turn(&self, index: usize) -> Vector3<f64> {
+        let body = self.bodies[index];
+        let displacement = self.predicted[body].displacement_from(&self.start[body]);
+        displacement.fixed_rows::<3>(3).into_owned()
+    }
+
+    /// Derivative of displacements over c by velocities; `None` where it is the identity.
+    pub(super) fn rotation_jacobian(&self, velocity: &DVector<f64>) -> Option<DMatrix<f64>> {
+        if self.modes.rotations().count() < 2 {
+            return None;
+        }
+        let mut jacobian = DMatrix::identity(self.n_rows(), self.n_rows());
+        for index in 0..self.bodies.len() {
+            let change = self.change(velocity, index);
+            let turn = self.predicted_turn(index) + change.fixed_rows::<3>(3);
+            let block = left_jacobian(&turn);
+            let first = self.modes.len() * index;
+            let rotations = || self.modes.iter().enumerate().filter(|(_, mode)| mode.is_rotation());
+            for (i, row) in rotations() {
+                for (j, column) in rotations() {
+                    jacobian[(first + i, first + j)] = block[(row.axis(), column.axis())];
+                }
+            }
+        }
+        Some(jacobian)
+    }
+
+    /// Displacement over c by a change of velocities, to first order.
+    pub(super) fn displacement_rate(
+        &self,
+        velocity: &DVector<f64>,
+        change: &DVector<f64>,
+    ) -> DVector<f64> {
+        match self.rotation_jacobian(velocity) {
+            Some(jacobian) => jacobian * change,
+            None => change.clone(),
+        }
+    }
+
+    /// Rows of the motions of both sides of a pair.
+    pub(super) fn rows_of(&self, pair: &ContactPair) -> [Option<usize>; 12] {
+        let index = |body: usize| self.bodies.iter().position(|known| *known == body);
+        let second = match pair.partner {
+            Partner::Body(other) => index(other),
+            Partner::Wall(_) => None,
+        };
+        let sides = [index(pair.body), second];
+        std::array::from_fn(|entry| {
+            let position = self.modes.position(Mode::ALL[entry % 6]);
+            sides[entry / 6].zip(position).map(|(index, row)| self.modes.len() * index + row)
+        })
+    }
+
+    /// Gives the entries of a vector over both sides of a pair to the rows they belong to.
+    pub(super) fn scatter(
+        &self,
+        pair: &ContactPair,
+        entries: &PairVector,
+        mut add: impl FnMut(usize, f64),
+    ) {
+        for (row, entry) in self.rows_of(pair).into_iter().zip(entries) {
+            if let Some(row) = row {
+                add(row, *entry);
+            }
+        }
+    }
+
+    /// Change of the gap of a pair by displacements, to first order.
+    pub(super) fn gap_change(&self, pair: &ContactPair, displacement: &DVector<f64>) -> f64 {
+        let mut change = 0.0;
+        self.scatter(pair, &pair.gradient_of_both(), |row, g| change += g * displacement[row]);
+        change
+    }
+
+    /// Length by which a component counts as a displacement: the reach (m) for rotations, one for
+    /// translations.
+    pub(super) fn length(&self, index: usize, mode: Mode) -> f64 {
+        if mode.is_rotation() { self.gaps.reach(self.bodies[index]) } else { 1.0 }
+    }
+
+    /// Lengths of all rows.
+    pub(super) fn lengths(&self) -> DVector<f64> {
+        self.by_row(|index, mode| self.length(index, mode))
+    }
+
+    /// Largest displacement of a point of a body by a change of velocities (m), by component.
+    pub(super) fn size(&self, step: &DVector<f64>) -> f64 {
+        let lengths = self.lengths();
+        let displacements = step
+            .iter()
+            .zip(&lengths)
+            .map(|(change, length)| (change * length * self.coefficient).abs());
+        displacements.fold(0.0, |most, one| if one > most || one.is_nan() { one } else { most })
+    }
+}
+
+/// The rotation vector that leads on from exp(turn) to exp(turn + change).
+fn beyond(turn: &Vector3<f64>, change: &Vector3<f64>) -> Vector3<f64> {
+    // Rotations about one axis commute, in the plane always
+    if turn.cross(change) == Vector3::zeros() {
+        return *change;
+    }
+    let [end, begin] = [turn + change, *turn].map(UnitQuaternion::from_scaled_axis);
+    (end * begin.inverse()).scaled_axis()
+}
+
+/// J with exp([t + dt]) = exp([J dt]) exp([t]) to first order.
+fn left_jacobian(turn: &Vector3<f64>) -> Matrix3<f64> {
+    let angle = turn.norm();
+    let [first, second] = if angle < SMALL_ANGLE {
+        [0.5 - angle * angle / 24.0, 1.0 / 6.0 - angle * angle / 120.0]
+    } else {
+        let half = (0.5 * angle).sin() / angle;
+        [2.0 * half * half, (angle - angle.sin()) / angle.powi(3)]
+    };
+    let cross = turn.cross_matrix();
+    Matrix3::identity() + cross * first + cross * cross * second
+}
