@@ -4,7 +4,8 @@
 
 use alewife_core::body::Pose;
 use alewife_core::motion::{
-    Fresh, Limits, MeshMotion, MotionKind, RigidMove, Stiffening, Transfer, holds, needs_remesh,
+    Fresh, Limits, MeshMotion, MotionKind, RigidMove, Stiffening, Transfer,
+    mesh_boundary_conditions, needs_remesh,
 };
 use alewife_core::timing::cpu_seconds;
 use alewife_mesh::{Domain, Locator, PlacedShape, Point, Shape, Sizing, Surroundings, generate};
@@ -35,11 +36,11 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         ("harmonic", MotionKind::Harmonic(Stiffening::Distance { exponent: 0.5 })),
         ("elastic", MotionKind::default()),
     ] {
-        let held = holds(&mesh, false);
+        let held = mesh_boundary_conditions(&mesh, false);
         let motion = timed(&format!("{name}: factorise"), || MeshMotion::new(&mesh, kind, &held))?;
         println!("{:>36} {:>8}", "entries of the factor", motion.n_entries());
         timed(&format!("{name}: move"), || {
-            motion.place(&mut moved, &|_, x| rigid.displacement(x))
+            motion.move_nodes(&mut moved, &|_, _, x| rigid.displacement(x))
         })?;
     }
     let mut around = Surroundings::new(&domain, std::slice::from_ref(&disc))?;

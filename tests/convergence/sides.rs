@@ -1,14 +1,14 @@
 //! Sides of the domain against flows they must let through unchanged.
 
 use alewife_core::case::{Convection, Steady};
-use alewife_core::coupling::{FluidSystem, Levels, Side};
-use alewife_core::simulation::{March, MeshPath, State, Timing, solve_steady};
+use alewife_core::coupling::Side;
+use alewife_core::simulation::MeshPath;
 use alewife_core::space::Metric;
 use alewife_core::time::Bdf;
 use alewife_mesh::{Domain, Point, Sizing, generate};
 use tests::cases::{case, last, run};
 use tests::exact::{Exact, TaylorGreen};
-use tests::{Study, errors, fluid_only, sides};
+use tests::{Stepping, Study, errors, fluid_only, sides, steady};
 
 fn uniform(size: f64) -> Sizing {
     Sizing { gap_layers: 1.0, ..Sizing::graded(size, 0.3, size) }
@@ -25,20 +25,17 @@ fn decaying_vortices_in_a_doubly_periodic_box_converge_at_third_order() {
         let mesh = generate(&domain, &[], &uniform(size)).expect("a rectangle is meshed");
         let sides = mesh.boundaries.iter().map(|_| Some(Side::Periodic)).collect();
         let problem = fluid_only(&mesh, sides, 1.0, exact.viscosity, Metric::Cartesian);
-        let mut system = FluidSystem::new(&problem, &mesh, &[], false);
-        let mut state = State::at_rest(&problem, mesh.clone());
+        let choice = Convection::Extrapolated;
+        let mut run = Stepping::new(&problem, &mesh, choice, MeshPath::Fixed);
         let step = 1e-3;
         let at = |time: f64| mesh.nodes.iter().map(|place| exact.velocity(place, time)).collect();
-        state.now.velocity = at(0.0);
-        state.previous.velocity = at(-step);
+        run.state.now.velocity = at(0.0);
+        run.state.previous.velocity = at(-step);
         let bdf = Bdf::second_order(step, step);
-        let mut timing = Timing::default();
-        let choice = Convection::Extrapolated;
-        let march = March { problem: &problem, choice, path: MeshPath::Still, contact: None };
         for _ in 0..10 {
-            march.advance(&mut system, &mut state, &bdf, &mut timing).expect("the step is solved");
+            run.advance(bdf);
         }
-        errors(&mesh, &state.now, &exact, state.time, Metric::Cartesian).velocity
+        errors(&mesh, &run.state.now, &exact, run.state.time, Metric::Cartesian).velocity
     });
     // Proven are three; on mirror-symmetric meshes it is a little more.
     assert!(study.order() > 2.85, "vortices in a periodic box: {study:?}");
@@ -55,13 +52,8 @@ fn a_uniform_stream_passes_between_symmetry_planes_unchanged() {
     sides[2] = Some(Side::Symmetry { normal_axis: 1 });
     sides[3] = Some(Side::Symmetry { normal_axis: 1 });
     let problem = fluid_only(&mesh, sides, 1.0, 0.01, Metric::Cartesian);
-    let mut system = FluidSystem::new(&problem, &mesh, &[], false);
     let settings = Steady { tolerance: 1e-11, max_iterations: 10 };
-    let mut timing = Timing::default();
-    let levels = Levels::steady(&problem, 0.0);
-    let flow =
-        solve_steady(&mut system, &problem, &mesh, &[], (0.0, &levels), &settings, &mut timing)
-            .expect("the flow converges");
+    let flow = steady(&problem, &mesh, &settings);
     for velocity in &flow.solution.velocity {
         assert!((velocity - stream).norm() < 1e-12);
     }

@@ -1,12 +1,11 @@
 //! Orders in space, on straight and curved domains, planar and axisymmetric.
 
 use alewife_core::case::Steady;
-use alewife_core::coupling::{FluidSystem, Levels, Problem, Side, Solution};
-use alewife_core::simulation::{Timing, solve_steady};
+use alewife_core::coupling::{Problem, Side, Solution};
 use alewife_core::space::Metric;
 use alewife_mesh::{Domain, Mesh, PlacedShape, Point, Shape, Sizing, generate};
 use tests::exact::{Exact, Kovasznay, StokesSphere, SwirlingCells};
-use tests::{Errors, Study, errors, fluid_only, rest, sides};
+use tests::{Errors, Study, errors, fluid_only, rest, sides, steady};
 
 /// Orders of Taylor-Hood elements hold to this on unstructured meshes, whose cell sizes do not
 /// halve exactly.
@@ -18,14 +17,8 @@ fn uniform(size: f64) -> Sizing {
     Sizing { gap_layers: 1.0, ..Sizing::graded(size, 0.3, size) }
 }
 
-fn solve(problem: &Problem, mesh: &Mesh<2>) -> Solution {
-    let poses: Vec<_> = problem.bodies.iter().map(|body| body.pose).collect();
-    let mut system = FluidSystem::new(problem, mesh, &poses, false);
-    let mut timing = Timing::default();
-    let levels = Levels::steady(problem, 0.0);
-    solve_steady(&mut system, problem, mesh, &poses, (0.0, &levels), &SETTINGS, &mut timing)
-        .expect("the flow converges")
-        .solution
+fn solve(problem: &Problem<2>, mesh: &Mesh<2>) -> Solution<2> {
+    steady(problem, mesh, &SETTINGS).solution
 }
 
 fn assert_orders(name: &str, sizes: &[f64], mut solve: impl FnMut(f64) -> Errors) {
@@ -136,7 +129,7 @@ fn a_traction_free_outlet_bends_poiseuille_flow_and_a_do_nothing_outlet_does_not
     let (min, max) = (Point::<2>::new(0.0, -1.0), Point::<2>::new(1.0, 1.0));
     let domain = Domain::Box { min, max, periodic_x: false, periodic_y: false };
     let mesh = generate(&domain, &[], &uniform(0.2)).expect("a rectangle is meshed");
-    let crossflow = |outlet: Side| {
+    let crossflow = |outlet: Side<2>| {
         let mut sides = sides(&mesh, |_, _| Point::<2>::zeros());
         let parabola =
             Box::new(|place: &Point<2>, _| Point::<2>::new(1.0 - place[1] * place[1], 0.0));

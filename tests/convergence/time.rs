@@ -1,13 +1,12 @@
 //! Orders in time.
 
 use alewife_core::case::Convection;
-use alewife_core::coupling::FluidSystem;
-use alewife_core::simulation::{March, MeshPath, State, Timing};
+use alewife_core::simulation::MeshPath;
 use alewife_core::space::Metric;
 use alewife_core::time::Bdf;
 use alewife_mesh::{Domain, Mesh, Point, Sizing, generate};
 use tests::exact::{Exact, TaylorGreen};
-use tests::{Study, fluid_only, sides};
+use tests::{Stepping, Study, fluid_only, sides};
 
 const EXACT: TaylorGreen = TaylorGreen { viscosity: 0.1 };
 /// End of all runs.
@@ -25,19 +24,16 @@ fn mesh() -> Mesh<2> {
 fn run(mesh: &Mesh<2>, n_steps: usize, second_order: bool, choice: Convection) -> Vec<Point<2>> {
     let sides = sides(mesh, |place, time| EXACT.velocity(place, time));
     let problem = fluid_only(mesh, sides, 1.0, EXACT.viscosity, Metric::Cartesian);
-    let mut system = FluidSystem::new(&problem, mesh, &[], false);
-    let mut state = State::at_rest(&problem, mesh.clone());
+    let mut run = Stepping::new(&problem, mesh, choice, MeshPath::Fixed);
     let step = END / n_steps as f64;
     let at = |time: f64| mesh.nodes.iter().map(|place| EXACT.velocity(place, time)).collect();
-    state.now.velocity = at(0.0);
-    state.previous.velocity = at(-step);
+    run.state.now.velocity = at(0.0);
+    run.state.previous.velocity = at(-step);
     let bdf = if second_order { Bdf::second_order(step, step) } else { Bdf::first_order(step) };
-    let mut timing = Timing::default();
-    let march = March { problem: &problem, choice, path: MeshPath::Still, contact: None };
     for _ in 0..n_steps {
-        march.advance(&mut system, &mut state, &bdf, &mut timing).expect("the step is solved");
+        run.advance(bdf);
     }
-    state.now.velocity
+    run.state.now.velocity.clone()
 }
 
 fn largest_difference(one: &[Point<2>], other: &[Point<2>]) -> f64 {

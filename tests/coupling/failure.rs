@@ -2,7 +2,7 @@
 
 use std::sync::{Arc, Mutex};
 
-use alewife_core::simulation::{Observer, Remains, RunError, Snapshot, simulate};
+use alewife_core::simulation::{LastState, Observer, RunError, Snapshot, simulate};
 use tests::cases::case;
 
 /// Remembers the largest speed and the reason of a failure.
@@ -16,7 +16,7 @@ impl Observer<2> for Witness {
     fn on_failure(
         &mut self,
         error: &RunError,
-        remains: Option<&Remains<'_, 2>>,
+        remains: Option<&LastState<'_, 2>>,
     ) -> std::io::Result<()> {
         let fields = remains.expect("the mesh was made before the failure");
         let speed = fields.velocity.iter().map(|velocity| velocity.norm()).fold(0.0, f64::max);

@@ -1,6 +1,6 @@
 //! The same input gives the same bits, on any number of threads and in every run.
 
-use alewife_core::simulation::Outcome;
+use alewife_core::simulation::RunSummary;
 use tests::cases::{case, run};
 
 const CASE: &str = r#"
@@ -20,7 +20,7 @@ const CASE: &str = r#"
     density = 1.0
 "#;
 
-fn on_threads(n: usize) -> Outcome {
+fn on_threads(n: usize) -> RunSummary {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(n).build().expect("threads start");
     pool.install(|| run(&case(CASE)))
 }

@@ -1,9 +1,9 @@
 //! The matrices of all shipped cases are solved to rounding, with one refinement at most.
 
 use alewife_core::case::{Case, Model, Steady, library};
-use alewife_core::coupling::{FluidSystem, Levels};
-use alewife_core::simulation::{Timing, build_mesh, build_problem, solve_steady};
+use alewife_core::simulation::{build_mesh, build_problem};
 use rayon::prelude::*;
+use tests::{steady_with, workspace};
 
 /// Relative residual that every system has to reach.
 const RESIDUAL: f64 = 1e-12;
@@ -13,14 +13,10 @@ fn accuracy(model: &Model) -> (f64, usize) {
     let mesh = build_mesh(model).expect("the mesh can be made");
     let mut problem = build_problem(model, &mesh).expect("the problem can be built");
     problem.has_convection = false;
-    let poses: Vec<_> = problem.bodies.iter().map(|body| body.pose).collect();
-    let mut system = FluidSystem::new(&problem, &mesh, &poses, false);
+    let mut work = workspace(&problem, &mesh);
     let settings = Steady { tolerance: 1e-9, max_iterations: 3 };
-    let timing = &mut Timing::default();
-    let levels = Levels::steady(&problem, 0.0);
-    solve_steady(&mut system, &problem, &mesh, &poses, (0.0, &levels), &settings, timing)
-        .unwrap_or_else(|failure| panic!("{:?}: {}", model.case.title, failure.error));
-    (system.accuracy().residual, system.accuracy().refinements)
+    let _flow = steady_with(&mut work, &problem, &settings, false);
+    (work.system.accuracy().residual, work.system.accuracy().refinements)
 }
 
 /// A shipped case with the first and the last of its variants, by the names the command line takes.

@@ -2,7 +2,8 @@
 
 use alewife_core::body::Pose;
 use alewife_core::motion::{
-    Hold, MeshMotion, MotionError, MotionKind, RigidMove, Stiffening, holds,
+    MeshBoundaryCondition, MeshMotion, MotionError, MotionKind, RigidMove, Stiffening,
+    mesh_boundary_conditions,
 };
 use alewife_core::space::simplex_rule;
 use alewife_mesh::{
@@ -40,11 +41,12 @@ fn a_mesh_at_rest_keeps_every_bit() {
     let axisymmetric = generate(&domain, &[sphere], &Sizing::graded(0.1, 0.2, 0.4)).unwrap();
     for mesh in [disc_in_square(0.1, 0.4), axisymmetric] {
         for kind in kinds() {
-            let motion = MeshMotion::new(&mesh, kind, &holds(&mesh, true)).unwrap();
+            let motion =
+                MeshMotion::new(&mesh, kind, &mesh_boundary_conditions(&mesh, true)).unwrap();
             let pose = Pose::planar(0.3, 0.1, 0.7);
             let still = RigidMove::between(&pose, &pose);
             let mut moved = mesh.clone();
-            motion.place(&mut moved, &|_, x| still.displacement(x)).unwrap();
+            motion.move_nodes(&mut moved, &|_, _, x| still.displacement(x)).unwrap();
             let bits = |mesh: &Mesh<2>| -> Vec<u64> {
                 mesh.nodes.iter().flat_map(|x| [x.x.to_bits(), x.y.to_bits()]).collect()
             };
@@ -58,13 +60,13 @@ fn a_mesh_at_rest_keeps_every_bit() {
 #[test]
 fn a_rigid_motion_of_the_whole_boundary_is_one_of_the_whole_mesh() {
     let mesh = disc_in_square(0.1, 0.4);
-    let all_given = vec![Hold::Given; mesh.boundaries.len()];
+    let all_prescribed = vec![MeshBoundaryCondition::Prescribed; mesh.boundaries.len()];
     let (shift, turn) = (from_origin(0.7, -0.4, 0.0), from_origin(0.2, 0.1, 2.0));
     let skew = |x: &Point<2>| Point::<2>::new(-0.3 * x.y, 0.3 * x.x);
     for kind in kinds() {
-        let motion = MeshMotion::new(&mesh, kind, &all_given).unwrap();
+        let motion = MeshMotion::new(&mesh, kind, &all_prescribed).unwrap();
         let error = |given: &dyn Fn(&Point<2>) -> Point<2>| {
-            let moved = motion.displacements(&|_, x| given(x)).unwrap();
+            let moved = motion.displacements(&|_, _, x| given(x)).unwrap();
             largest(mesh.nodes.iter().zip(&moved).map(|(x, d)| (d - given(x)).norm()))
         };
         assert!(error(&|x| shift.displacement(x)) < 1e-13, "{kind:?}");
@@ -83,10 +85,10 @@ fn a_rigid_motion_of_the_whole_boundary_is_one_of_the_whole_mesh() {
 fn a_disc_moved_by_half_its_radius_keeps_its_mesh_and_its_curve() {
     let mesh = disc_in_square(0.1, 0.4);
     for kind in kinds() {
-        let motion = MeshMotion::new(&mesh, kind, &holds(&mesh, false)).unwrap();
+        let motion = MeshMotion::new(&mesh, kind, &mesh_boundary_conditions(&mesh, false)).unwrap();
         let rigid = from_origin(0.25, 0.0, 0.4);
         let mut moved = mesh.clone();
-        motion.place(&mut moved, &|_, x| rigid.displacement(x)).unwrap();
+        motion.move_nodes(&mut moved, &|_, _, x| rigid.displacement(x)).unwrap();
         check_mesh(&moved).unwrap();
         assert!(moved.worst_cell().unwrap().quality > 0.1, "{kind:?}: {:?}", moved.worst_cell());
         let center = Point::<2>::new(0.25, 0.0);
@@ -174,8 +176,8 @@ fn a_mirror_symmetric_motion_moves_a_symmetric_mesh_symmetrically() {
         .map(|x| mesh.nodes.iter().position(|y| y.x == x.x && y.y == -x.y).unwrap())
         .collect();
     for kind in kinds() {
-        let motion = MeshMotion::new(&mesh, kind, &holds(&mesh, false)).unwrap();
-        let moved = motion.displacements(&|_, _| Point::<2>::new(0.3, 0.0)).unwrap();
+        let motion = MeshMotion::new(&mesh, kind, &mesh_boundary_conditions(&mesh, false)).unwrap();
+        let moved = motion.displacements(&|_, _, _| Point::<2>::new(0.3, 0.0)).unwrap();
         let error = largest(mirrored.iter().enumerate().map(|(node, &other)| {
             let (d, m) = (moved[node], moved[other]);
             (d.x - m.x).abs().max((d.y + m.y).abs())
@@ -195,8 +197,9 @@ fn smooth_displacements_are_extended_with_second_order() {
     ] {
         let study = Study::run(&[0.4, 0.2, 0.1], |h| {
             let mesh = generate(&square(false, false), &[], &Sizing::graded(h, 0.2, h)).unwrap();
-            let motion = MeshMotion::new(&mesh, kind, &[Hold::Given; 4]).unwrap();
-            let moved = motion.displacements(&|_, x| exact(x)).unwrap();
+            let motion =
+                MeshMotion::new(&mesh, kind, &[MeshBoundaryCondition::Prescribed; 4]).unwrap();
+            let moved = motion.displacements(&|_, _, x| exact(x)).unwrap();
             let mut error = 0.0;
             for nodes in mesh.cells() {
                 let [a, b, c] = [0, 1, 2].map(|i| mesh.nodes[nodes[i]]);
@@ -219,8 +222,8 @@ fn points_of_the_axis_slide_on_it_and_its_corners_stay() {
     let (domain, sphere) = tube(0.0);
     let mesh = generate(&domain, &[sphere], &Sizing::graded(0.1, 0.2, 0.3)).unwrap();
     for kind in kinds() {
-        let motion = MeshMotion::new(&mesh, kind, &holds(&mesh, false)).unwrap();
-        let moved = motion.displacements(&|_, _| Point::<2>::new(0.25, 0.0)).unwrap();
+        let motion = MeshMotion::new(&mesh, kind, &mesh_boundary_conditions(&mesh, false)).unwrap();
+        let moved = motion.displacements(&|_, _, _| Point::<2>::new(0.25, 0.0)).unwrap();
         let mut farthest = 0.0_f64;
         for facet in mesh.facets.iter().filter(|facet| facet.boundary.index() == 3) {
             for node in mesh.facet_nodes(facet) {
@@ -236,7 +239,7 @@ fn points_of_the_axis_slide_on_it_and_its_corners_stay() {
         }
         assert!(farthest > 0.15, "{kind:?}: {farthest}");
         let mut mesh = mesh.clone();
-        motion.place(&mut mesh, &|_, _| Point::<2>::new(0.25, 0.0)).unwrap();
+        motion.move_nodes(&mut mesh, &|_, _, _| Point::<2>::new(0.25, 0.0)).unwrap();
         check_mesh(&mesh).unwrap();
     }
 }
@@ -244,8 +247,10 @@ fn points_of_the_axis_slide_on_it_and_its_corners_stay() {
 #[test]
 fn walls_let_their_points_slide_when_asked_to() {
     let mesh = disc_in_square(0.1, 0.4);
-    let motion = MeshMotion::new(&mesh, MotionKind::default(), &holds(&mesh, true)).unwrap();
-    let moved = motion.displacements(&|_, _| Point::<2>::new(0.5, 0.2)).unwrap();
+    let motion =
+        MeshMotion::new(&mesh, MotionKind::default(), &mesh_boundary_conditions(&mesh, true))
+            .unwrap();
+    let moved = motion.displacements(&|_, _, _| Point::<2>::new(0.5, 0.2)).unwrap();
     let mut slid = [0.0_f64; 4];
     for facet in mesh.facets.iter().filter(|facet| facet.boundary.index() < 4) {
         let side = facet.boundary.index();
@@ -268,12 +273,13 @@ fn periodic_pairs_move_equally_and_lone_meshes_stay() {
         let sizing = Sizing::graded(0.15, 0.2, 0.4);
         let mesh = generate(&square(x, y), &bodies, &sizing).unwrap();
         for kind in kinds() {
-            let motion = MeshMotion::new(&mesh, kind, &holds(&mesh, false)).unwrap();
-            let given = |boundary: usize, _: &Point<2>| {
-                Point::<2>::new(0.2, if boundary == 4 { 0.1 } else { -0.1 })
+            let motion =
+                MeshMotion::new(&mesh, kind, &mesh_boundary_conditions(&mesh, false)).unwrap();
+            let given = |boundary: BoundaryId, _: NodeId, _: &Point<2>| {
+                Point::<2>::new(0.2, if boundary == BoundaryId::new(4) { 0.1 } else { -0.1 })
             };
             let mut moved = mesh.clone();
-            motion.place(&mut moved, &given).unwrap();
+            motion.move_nodes(&mut moved, &given).unwrap();
             check_mesh(&moved).unwrap();
             let displacements = motion.displacements(&given).unwrap();
             let mut farthest = 0.0_f64;
@@ -285,8 +291,13 @@ fn periodic_pairs_move_equally_and_lone_meshes_stay() {
             assert!(farthest > 0.1, "{kind:?}: {farthest}");
         }
         let empty = generate(&square(x, y), &[], &sizing).unwrap();
-        let motion = MeshMotion::new(&empty, MotionKind::default(), &holds(&empty, false)).unwrap();
-        let moved = motion.displacements(&|_, _| Point::<2>::zeros()).unwrap();
+        let motion = MeshMotion::new(
+            &empty,
+            MotionKind::default(),
+            &mesh_boundary_conditions(&empty, false),
+        )
+        .unwrap();
+        let moved = motion.displacements(&|_, _, _| Point::<2>::zeros()).unwrap();
         assert!(moved.iter().all(|d| *d == Point::<2>::zeros()));
     }
 }
@@ -295,21 +306,23 @@ fn periodic_pairs_move_equally_and_lone_meshes_stay() {
 fn holds_that_do_not_fit_are_refused() {
     let domain = Domain::Disc { center: Point::<2>::zeros(), radius: 2.0 };
     let mesh = generate(&domain, &[], &Sizing::graded(0.3, 0.2, 0.5)).unwrap();
-    let sliding = [Hold::Sliding { normal_axis: 0 }];
+    let sliding = [MeshBoundaryCondition::Sliding { normal_axis: 0 }];
     let refused = MeshMotion::new(&mesh, MotionKind::default(), &sliding).unwrap_err();
-    assert_eq!(refused, MotionError::NotStraight { boundary: "wall".into() });
+    assert_eq!(refused, MotionError::NotAxisAligned { boundary: "wall".into() });
     let refused = MeshMotion::new(&mesh, MotionKind::default(), &[]).unwrap_err();
-    assert_eq!(refused, MotionError::HoldsMissing { wanted: 1, given: 0 });
+    assert_eq!(refused, MotionError::ConditionCount { expected: 1, found: 0 });
 }
 
 /// An inverted cell is reported, not a panic.
 #[test]
 fn a_mesh_moved_too_far_says_where_it_broke() {
     let mesh = disc_in_square(0.1, 0.4);
-    let motion = MeshMotion::new(&mesh, MotionKind::default(), &holds(&mesh, false)).unwrap();
+    let motion =
+        MeshMotion::new(&mesh, MotionKind::default(), &mesh_boundary_conditions(&mesh, false))
+            .unwrap();
     for (far, quality) in [(1.6, 0.0), (f64::NAN, f64::NEG_INFINITY)] {
         let mut moved = mesh.clone();
-        motion.place(&mut moved, &|_, _| Point::<2>::new(far, 0.0)).unwrap();
+        motion.move_nodes(&mut moved, &|_, _, _| Point::<2>::new(far, 0.0)).unwrap();
         let worst = moved.worst_cell().unwrap();
         assert!(!worst.is_valid() && worst.quality <= quality, "{worst:?}");
     }

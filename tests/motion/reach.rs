@@ -1,7 +1,9 @@
 //! How far a disc may go before its mesh is spoilt, for each kind of motion.
 
 use alewife_core::body::Pose;
-use alewife_core::motion::{MeshMotion, MotionKind, RigidMove, Stiffening, holds};
+use alewife_core::motion::{
+    MeshMotion, MotionKind, RigidMove, Stiffening, mesh_boundary_conditions,
+};
 use alewife_mesh::{Mesh, Sizing, generate};
 
 use super::{disc, square};
@@ -10,14 +12,14 @@ use super::{disc, square};
 const FLOOR: f64 = 0.3;
 
 /// Largest parameter, in hundredths, up to which all cells keep the quality.
-fn reach(mesh: &Mesh<2>, motion: &MeshMotion, to: impl Fn(f64) -> Pose) -> f64 {
+fn reach(mesh: &Mesh<2>, motion: &MeshMotion<2>, to: impl Fn(f64) -> Pose) -> f64 {
     let start = Pose::planar(0.0, 0.0, 0.0);
     let mut moved = mesh.clone();
     let mut far = 0.0;
     for step in 1..=314 {
         let parameter = 0.01 * f64::from(step);
         let rigid = RigidMove::between(&start, &to(parameter));
-        motion.place(&mut moved, &|_, x| rigid.displacement(x)).expect("is solved");
+        motion.move_nodes(&mut moved, &|_, _, x| rigid.displacement(x)).expect("is solved");
         if moved.worst_cell().expect("has cells").quality < FLOOR {
             break;
         }
@@ -35,7 +37,8 @@ fn mesh(surface: f64, size: f64) -> Mesh<2> {
 /// Ways (m) along x and along the diagonal, and angle (degrees), of a disc of diameter 1 in the
 /// middle of a box of side 4.
 fn reaches(mesh: &Mesh<2>, kind: MotionKind, slides: bool) -> [f64; 3] {
-    let motion = MeshMotion::new(mesh, kind, &holds(mesh, slides)).expect("is factorised");
+    let motion = MeshMotion::new(mesh, kind, &mesh_boundary_conditions(mesh, slides))
+        .expect("is factorised");
     let half = 0.5_f64.sqrt();
     [
         reach(mesh, &motion, |s| Pose::planar(s, 0.0, 0.0)),

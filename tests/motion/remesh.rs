@@ -2,7 +2,8 @@
 
 use alewife_core::body::Pose;
 use alewife_core::motion::{
-    Fresh, Limits, MeshMotion, MotionKind, Reason, RigidMove, holds, needs_remesh,
+    Fresh, Limits, MeshMotion, MotionKind, Reason, RigidMove, mesh_boundary_conditions,
+    needs_remesh,
 };
 use alewife_mesh::{Mesh, Sizing, Surroundings, generate};
 
@@ -15,10 +16,12 @@ fn reason_after(sizing: &Sizing, start: [f64; 2], to: Pose) -> (Mesh<2>, Option<
     let mut surroundings = Surroundings::new(&domain, std::slice::from_ref(&body)).unwrap();
     let fresh = Fresh::new(&mesh, &surroundings, Limits::default());
     assert_eq!(needs_remesh(&mesh, &fresh, &surroundings), None, "a new mesh is good");
-    let motion = MeshMotion::new(&mesh, MotionKind::default(), &holds(&mesh, false)).unwrap();
+    let motion =
+        MeshMotion::new(&mesh, MotionKind::default(), &mesh_boundary_conditions(&mesh, false))
+            .unwrap();
     let rigid = RigidMove::between(&Pose::planar(start[0], start[1], 0.0), &to);
     let mut moved = mesh;
-    motion.place(&mut moved, &|_, x| rigid.displacement(x)).unwrap();
+    motion.move_nodes(&mut moved, &|_, _, x| rigid.displacement(x)).unwrap();
     let carried = rigid.carry(&body);
     surroundings.place_body(0, carried.center, carried.angle);
     let reason = needs_remesh(&moved, &fresh, &surroundings);
@@ -41,7 +44,7 @@ fn a_spoilt_cell_is_named_with_its_place_and_quality() {
     };
     assert!(*quality < 0.4 * when_new && *when_new > 0.5);
     assert_eq!(moved.cell_quality(*cell), *quality);
-    let [a, b, c, ..] = moved.cell_nodes(*cell);
+    let [a, b, c] = [0, 1, 2].map(|i| moved.nodes[moved.cell(*cell)[i]]);
     assert_eq!((a + b + c) / 3.0, *place);
 }
 

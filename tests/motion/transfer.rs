@@ -1,7 +1,9 @@
 //! Fields from mesh to mesh: exact where they can be, of third order where not.
 
 use alewife_core::body::Pose;
-use alewife_core::motion::{Landing, MeshMotion, MotionKind, RigidMove, Transfer, holds};
+use alewife_core::motion::{
+    Landing, MeshMotion, MotionKind, RigidMove, Transfer, mesh_boundary_conditions,
+};
 use alewife_core::space::{CellValues, Metric, Tables};
 use alewife_mesh::{Domain, Mesh, Point, Sizing, generate};
 use tests::Study;
@@ -33,10 +35,12 @@ fn smooth(x: &Point<2>) -> Point<2> {
 /// The mesh around a disc that has moved to (0.3, 0.1), and a new one for it there.
 pub fn moved_and_new(h: f64) -> (Mesh<2>, Mesh<2>) {
     let mesh = disc_in_square(h, 2.0 * h);
-    let motion = MeshMotion::new(&mesh, MotionKind::default(), &holds(&mesh, false)).unwrap();
+    let motion =
+        MeshMotion::new(&mesh, MotionKind::default(), &mesh_boundary_conditions(&mesh, false))
+            .unwrap();
     let rigid = RigidMove::between(&Pose::planar(0.0, 0.0, 0.0), &Pose::planar(0.3, 0.1, 0.37));
     let mut moved = mesh;
-    motion.place(&mut moved, &|_, x| rigid.displacement(x)).unwrap();
+    motion.move_nodes(&mut moved, &|_, _, x| rigid.displacement(x)).unwrap();
     let sizing = Sizing::graded(h, 0.2, 2.0 * h);
     let new = generate(&square(false, false), &[disc("disc", 0.3, 0.1)], &sizing).unwrap();
     (moved, new)
@@ -133,9 +137,11 @@ fn nodes_beyond_a_periodic_side_are_found_at_their_image() {
         Point::<2>::new(phase.sin(), phase.cos() * x.y)
     };
     let old = generate(&domain, &[disc("disc", 0.0, 0.2)], &sizing).unwrap();
-    let motion = MeshMotion::new(&old, MotionKind::default(), &holds(&old, false)).unwrap();
+    let motion =
+        MeshMotion::new(&old, MotionKind::default(), &mesh_boundary_conditions(&old, false))
+            .unwrap();
     let mut moved = old.clone();
-    motion.place(&mut moved, &|_, _| Point::<2>::new(0.6, 0.0)).unwrap();
+    motion.move_nodes(&mut moved, &|_, _, _| Point::<2>::new(0.6, 0.0)).unwrap();
     let new = generate(&domain, &[disc("disc", 0.6, 0.2)], &sizing).unwrap();
     let without = Transfer::new(&moved, &new, &[]).unwrap().report();
     assert!(without.farthest > 0.1, "{without:?}");

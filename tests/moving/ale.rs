@@ -3,13 +3,12 @@
 use std::f64::consts::PI;
 
 use alewife_core::case::Convection;
-use alewife_core::coupling::FluidSystem;
-use alewife_core::simulation::{March, MeshPath, State, Timing};
+use alewife_core::simulation::{MeshPath, State};
 use alewife_core::space::Metric;
 use alewife_core::time::Bdf;
-use alewife_mesh::{Domain, Mesh, Point, Sizing, generate};
+use alewife_mesh::{Domain, Mesh, NodeId, Point, Sizing, generate};
 use tests::exact::{Exact, TaylorGreen};
-use tests::{Study, errors, fluid_only, sides};
+use tests::{Stepping, Study, errors, fluid_only, sides};
 
 fn mesh(size: f64) -> Mesh<2> {
     let (min, max) = (Point::<2>::new(0.1, -0.3), Point::<2>::new(1.1, 0.7));
@@ -37,39 +36,34 @@ fn run(
     choice: Convection,
     exact: impl Fn(&Point<2>, f64) -> Point<2> + Send + Sync + Clone + 'static,
     viscosity: f64,
-) -> State {
+) -> State<2> {
     let problem = fluid_only(mesh, sides(mesh, exact.clone()), 1.0, viscosity, Metric::Cartesian);
     let step = end / n_steps as f64;
     let mut ends = vec![None; mesh.n_nodes()];
     for edge in mesh.cell_ids().flat_map(|cell| mesh.cell_edges(cell)) {
         ends[edge.inner[0]] = Some(edge.ends);
     }
-    let place = |node: usize, time: f64| match ends[node] {
+    let place = |node: NodeId, time: f64| match ends[node] {
         None => bent(&mesh.nodes[node], time),
         Some(ends) => {
             let [a, b] = ends.map(|end| bent(&mesh.nodes[end], time));
             (a + b) * 0.5
         }
     };
-    let places = |time: f64| -> Vec<Point<2>> {
-        (0..mesh.n_nodes()).map(|node| place(node, time)).collect()
-    };
+    let places =
+        |time: f64| -> Vec<Point<2>> { mesh.node_ids().map(|node| place(node, time)).collect() };
     let mut start = mesh.clone();
     start.nodes = places(0.0);
-    let mut system = FluidSystem::new(&problem, &start, &[], false);
-    let mut state = State::at_rest(&problem, start);
+    let mut run = Stepping::new(&problem, &start, choice, MeshPath::Given(&place));
+    let state = &mut run.state;
     state.nodes_before = places(-step);
     let at = |nodes: &[Point<2>], time: f64| nodes.iter().map(|x| exact(x, time)).collect();
     state.now.velocity = at(&state.nodes, 0.0);
     state.previous.velocity = at(&state.nodes_before, -step);
-    let mut timing = Timing::default();
-    let path = MeshPath::Given(&place);
-    let march = March { problem: &problem, choice, path, contact: None };
     for _ in 0..n_steps {
-        let bdf = Bdf::second_order(step, step);
-        march.advance(&mut system, &mut state, &bdf, &mut timing).expect("the step is solved");
+        run.advance(Bdf::second_order(step, step));
     }
-    state
+    run.state.clone()
 }
 
 fn largest_difference(one: &[Point<2>], other: &[Point<2>]) -> f64 {

@@ -1,7 +1,7 @@
 //! Free and driven bodies in a mesh that follows them.
 
 use super::tank;
-use alewife_core::simulation::Outcome;
+use alewife_core::simulation::RunSummary;
 use tests::Study;
 use tests::cases::{case, last, run};
 
@@ -18,7 +18,7 @@ torque = 0.05
 load_factor.smooth-ramp = { duration = 0.3 }
 "#;
 
-fn pose(outcome: &Outcome, name: &str) -> [f64; 3] {
+fn pose(outcome: &RunSummary, name: &str) -> [f64; 3] {
     ["x", "y", "angle"].map(|part| last(outcome, &format!("{name}.{part}")))
 }
 
@@ -51,7 +51,7 @@ fn the_pose_of_a_free_body_is_of_second_order_in_time() {
 }
 
 /// A disc in a periodic channel, seen from the disc and from the laboratory.
-fn with_and_without_frame(rest: &str) -> [Outcome; 2] {
+fn with_and_without_frame(rest: &str) -> [RunSummary; 2] {
     ["frame = \"disc\"", ""].map(|frame| {
         let head = "title = \"a disc in a periodic channel\"\ngeometry = \"planar\"";
         run(&case(&format!("{head}\n{frame}\n{rest}")))

@@ -1,7 +1,7 @@
 //! Runs that go on from the state another one left.
 
 use alewife_core::case::Model;
-use alewife_core::simulation::{Outcome, simulate_from};
+use alewife_core::simulation::{RunSummary, simulate_from};
 use tests::cases::{case, last, run};
 use tests::stopped;
 
@@ -33,7 +33,7 @@ fn two_bodies(adaptive: &str) -> Model {
     ))
 }
 
-fn poses(outcome: &Outcome) -> Vec<f64> {
+fn poses(outcome: &RunSummary) -> Vec<f64> {
     let names = ["ellipse.x", "ellipse.y", "ellipse.angle", "disc.x", "disc.y", "disc.force.y"];
     names.map(|name| last(outcome, name)).to_vec()
 }

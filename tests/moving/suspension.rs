@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 use std::fmt::Write as _;
 
-use alewife_core::simulation::{Outcome, simulate};
+use alewife_core::simulation::{RunSummary, simulate};
 use tests::cases::{case, last, run};
 
 /// Place and heading of swimmers in a cell of this length, which leave no straight strip free.
@@ -44,7 +44,7 @@ fn cell(time: &str, by: [f64; 2], more: &str) -> String {
     text
 }
 
-fn velocities(outcome: &Outcome) -> Vec<f64> {
+fn velocities(outcome: &RunSummary) -> Vec<f64> {
     let quantities = ["velocity.x", "velocity.y", "angular_velocity"];
     let names = (0..SWIMMERS.len()).flat_map(|i| quantities.map(|q| format!("s{i}.{q}")));
     names.map(|name| last(outcome, &name)).collect()

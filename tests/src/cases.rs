@@ -1,7 +1,7 @@
 //! Cases given as text, for tests that need a whole run.
 
 use alewife_core::case::{Case, Model};
-use alewife_core::simulation::{Outcome, simulate};
+use alewife_core::simulation::{RunSummary, simulate};
 
 /// A case from its text, with what follows from it.
 ///
@@ -17,7 +17,7 @@ pub fn case(text: &str) -> Model {
 /// # Panics
 /// When the run fails.
 #[must_use]
-pub fn run(model: &Model) -> Outcome {
+pub fn run(model: &Model) -> RunSummary {
     simulate(model, &mut []).expect("the case runs")
 }
 
@@ -26,7 +26,7 @@ pub fn run(model: &Model) -> Outcome {
 /// # Panics
 /// When there is no such quantity.
 #[must_use]
-pub fn column(outcome: &Outcome, quantity: &str) -> Vec<f64> {
+pub fn column(outcome: &RunSummary, quantity: &str) -> Vec<f64> {
     outcome.series.column(quantity).expect("the quantity exists")
 }
 
@@ -35,6 +35,6 @@ pub fn column(outcome: &Outcome, quantity: &str) -> Vec<f64> {
 /// # Panics
 /// When there is no such quantity.
 #[must_use]
-pub fn last(outcome: &Outcome, quantity: &str) -> f64 {
+pub fn last(outcome: &RunSummary, quantity: &str) -> f64 {
     *column(outcome, quantity).last().expect("the run has a row")
 }

@@ -22,7 +22,7 @@ pub struct Errors {
 #[must_use]
 pub fn errors(
     mesh: &Mesh<2>,
-    solution: &Solution,
+    solution: &Solution<2>,
     exact: &dyn Exact,
     time: f64,
     metric: Metric,

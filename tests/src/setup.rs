@@ -1,13 +1,13 @@
 //! Problems made by hand, without a case file.
 
-use alewife_core::body::{Pose, Wrench};
-use alewife_core::coupling::{Drive, Problem, RigidBody, Side, VelocityProfile};
+use alewife_core::body::Pose;
+use alewife_core::coupling::{Problem, RigidBody, Side, VelocityProfile};
 use alewife_core::space::Metric;
-use alewife_mesh::{BoundaryKind, Mesh, Point};
+use alewife_mesh::{BoundaryId, BoundaryKind, Mesh, Point};
 
 /// A profile that is zero.
 #[must_use]
-pub fn rest() -> VelocityProfile {
+pub fn rest() -> VelocityProfile<2> {
     Box::new(|_, _| Point::<2>::zeros())
 }
 
@@ -16,7 +16,7 @@ pub fn rest() -> VelocityProfile {
 pub fn sides(
     mesh: &Mesh<2>,
     profile: impl Fn(&Point<2>, f64) -> Point<2> + Send + Sync + Clone + 'static,
-) -> Vec<Option<Side>> {
+) -> Vec<Option<Side<2>>> {
     mesh.boundaries
         .iter()
         .map(|boundary| match boundary.kind {
@@ -33,30 +33,15 @@ pub fn sides(
 #[must_use]
 pub fn fluid_only(
     mesh: &Mesh<2>,
-    sides: Vec<Option<Side>>,
+    sides: Vec<Option<Side<2>>>,
     density: f64,
     viscosity: f64,
     metric: Metric,
-) -> Problem {
+) -> Problem<2> {
     let bodies = mesh.boundaries.iter().enumerate().filter_map(|(index, boundary)| {
         let BoundaryKind::Body(_) = boundary.kind else { return None };
-        Some(RigidBody {
-            name: boundary.name.clone(),
-            boundary: index,
-            pose: Pose::planar(0.0, 0.0, 0.0),
-            drives: [0, 1, 2].map(|_| Drive::Given(Box::new(|_| 0.0))),
-            volume: 0.0,
-            second_moment: 0.0,
-            mass: 0.0,
-            inertia: 0.0,
-            weight: Wrench::default(),
-            load: Wrench::default(),
-            load_factor: None,
-            spring: None,
-            gait: None,
-            shape: None,
-            link: None,
-        })
+        let pose = Pose::planar(0.0, 0.0, 0.0);
+        Some(RigidBody::held(boundary.name.clone(), BoundaryId::new(index), pose))
     });
     Problem {
         metric,

@@ -3,7 +3,7 @@
 use std::sync::{Arc, Mutex};
 
 use alewife_core::case::Model;
-use alewife_core::simulation::{Observer, Remains, RunError, SavedState, Snapshot, simulate};
+use alewife_core::simulation::{LastState, Observer, RunError, SavedState, Snapshot, simulate};
 
 /// Stops a run after some steps and keeps the state it leaves.
 struct Stopper {
@@ -25,7 +25,7 @@ impl Observer<2> for Stopper {
     fn on_failure(
         &mut self,
         _error: &RunError,
-        remains: Option<&Remains<'_, 2>>,
+        remains: Option<&LastState<'_, 2>>,
     ) -> std::io::Result<()> {
         *self.left.lock().expect("nobody else holds it") =
             remains.and_then(|remains| remains.saved.cloned());

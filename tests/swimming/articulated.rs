@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use alewife_core::simulation::Outcome;
+use alewife_core::simulation::RunSummary;
 use tests::cases::{case, column, last, run};
 
 /// Semi-axes of a link, and from its centre to the pivot.
@@ -11,7 +11,7 @@ const GAP: f64 = 0.3;
 const LEVER: f64 = LINK[0] + 0.5 * GAP;
 
 /// Two links in the thinnest of fluids, driven by a motor in their pivot.
-fn pendulum(step: f64) -> Outcome {
+fn pendulum(step: f64) -> RunSummary {
     run(&case(&format!(
         r#"
         title = "two links and a motor"
@@ -162,7 +162,7 @@ fn a_stiff_hinge_makes_one_body_of_two() {
 }
 
 /// Two discs of different weights that are held together, by a text for each and one for their joint.
-fn sinking(first: &str, second: &str, joint: &str, time: &str, model: &str) -> Outcome {
+fn sinking(first: &str, second: &str, joint: &str, time: &str, model: &str) -> RunSummary {
     run(&case(&format!(
         r#"
         title = "two discs held together"
@@ -225,7 +225,7 @@ fn discs_held_together_sink_the_same_way_whatever_holds_them() {
 fn the_motion_of_a_linked_pair_balances_its_weight() {
     let joint = format!("{HANGS}kind.arm.length.constant = 0.9");
     let together = sinking(FREE, FREE, &joint, "steady = {}", "stokes");
-    let at = |outcome: &Outcome, name: &str| last(outcome, name);
+    let at = |outcome: &RunSummary, name: &str| last(outcome, name);
     let velocity = |name: &str| {
         let parts = ["velocity.x", "velocity.y", "angular_velocity"];
         parts.map(|part| at(&together, &format!("{name}.{part}")))

@@ -1,8 +1,9 @@
 //! Bodies that deform, with inertia: balances, meshes made anew in the middle of a beat, states that
 //! are gone on from.
 
+use alewife_core::coupling::BodyShapes;
 use alewife_core::simulation::{
-    Outcome, RunError, build_mesh, build_problem, simulate, simulate_from,
+    RunError, RunSummary, build_mesh, build_problem, simulate, simulate_from,
 };
 use tests::cases::{case, column, last, run};
 use tests::stopped;
@@ -50,13 +51,16 @@ fn force_and_torque_are_the_rates_of_momentum_and_angular_momentum() {
         let velocity = column(&outcome, &format!("fish.velocity.{axis}"));
         for n in 3..times.len() {
             let rate = (3.0 * velocity[n] - 4.0 * velocity[n - 1] + velocity[n - 2]) / (2.0 * step);
-            worst = worst.max((body.mass * rate - force[n]).abs());
+            worst = worst.max((body.inertia.mass * rate - force[n]).abs());
             size = size.max(force[n].abs());
         }
     }
     let torque = column(&outcome, "fish.torque");
     let turn = column(&outcome, "fish.angular_velocity");
-    let inertia = times.iter().map(|time| body.inertia_at(*time).expect("the gait has a shape"));
+    let inertia = times.iter().map(|time| {
+        let shapes = BodyShapes::at(&problem.bodies, *time).expect("the gait has a shape");
+        body.inertia_with(shapes.deformed(0)).about_z()
+    });
     let inertia: Vec<f64> = inertia.collect();
     let momentum: Vec<f64> =
         inertia.iter().zip(turn).map(|(inertia, turn)| inertia * turn).collect();
@@ -150,7 +154,7 @@ fn a_swimmer_that_goes_on_from_a_state_ends_where_it_would_have_ended() {
     let whole = run(&case);
     assert!(last(&whole, "flow.remeshes") >= 1.0);
     let names = ["fish.x", "fish.y", "fish.angle", "fish.velocity.x", "fish.force.y"];
-    let ends = |outcome: &Outcome| names.map(|name| last(outcome, name));
+    let ends = |outcome: &RunSummary| names.map(|name| last(outcome, name));
     for after in [5, 24] {
         let saved = stopped(&case, after);
         let rest = simulate_from(&case, Some(&saved), &mut []).expect("it goes on");

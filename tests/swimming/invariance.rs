@@ -194,12 +194,12 @@ fn seen_back(swim: &Swim, moved: &Moved, stream: Point<2>) -> Vec<[f64; 6]> {
         let vector = nalgebra::Rotation2::new(-moved.turn) * vector;
         Point::<2>::new(vector.x, moved.sign() * vector.y)
     };
-    let way = stream * swim.state.time + Point::<2>::from(moved.shift);
-    let pairs = swim.state.places.iter().zip(&swim.state.now.twists);
+    let way = stream * swim.state().time + Point::<2>::from(moved.shift);
+    let pairs = swim.state().poses.iter().zip(&swim.state().now.twists);
     pairs
-        .map(|(place, twist)| {
-            let at = back(Point::<2>::new(place[0], place[1]) - way);
-            let angle = moved.sign() * (place[2] - moved.turn);
+        .map(|(pose, twist)| {
+            let at = back(pose.center.xy() - way);
+            let angle = moved.sign() * (pose.angle() - moved.turn);
             let velocity = back(twist.linear.xy() - stream);
             [at.x, at.y, angle, velocity.x, velocity.y, moved.sign() * twist.angular.z]
         })
@@ -244,7 +244,7 @@ fn gaits_without_inertia_are_the_same_turned_shifted_and_mirrored() {
             (
                 start,
                 (seen_back(&swim, moved, Point::<2>::zeros()), swim.power()),
-                swim.state.mesh.n_cells(),
+                swim.state().mesh.n_cells(),
             )
         };
         let (start, end, cells) = at(&Moved::default());

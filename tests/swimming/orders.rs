@@ -1,13 +1,13 @@
 //! Orders in time of swimmers without inertia, on one mesh, with smooth strokes and with strokes whose
 //! rates jump.
 
-use alewife_core::simulation::Outcome;
+use alewife_core::simulation::RunSummary;
 use tests::Study;
 use tests::cases::{case, last, run};
 
 /// Three discs of different sizes, off the middle of a box and turned, so that they move and turn in
 /// every way there is.
-fn three_discs(scheme: &str, step: f64, arms: [&str; 2]) -> Outcome {
+fn three_discs(scheme: &str, step: f64, arms: [&str; 2]) -> RunSummary {
     let text = format!(
         r#"
         title = "three discs"
@@ -32,7 +32,7 @@ fn three_discs(scheme: &str, step: f64, arms: [&str; 2]) -> Outcome {
     outcome
 }
 
-fn pose(outcome: &Outcome) -> [f64; 3] {
+fn pose(outcome: &RunSummary) -> [f64; 3] {
     ["x", "y", "angle"].map(|part| last(outcome, &format!("swimmer-2.{part}")))
 }
 

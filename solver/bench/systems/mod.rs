@@ -2,7 +2,7 @@
 
 use alewife_core::algebra::{AffineConstraints, Pattern, SparseMatrix, Unknowns};
 use alewife_core::case::{Case, Model};
-use alewife_core::coupling::{BodyShapes, FluidSystem, Problem, Solution, embed, flatten};
+use alewife_core::coupling::{BodiesAt, BodyShapes, FluidSystem, Problem, Solution};
 use alewife_core::flow::{Assembly, Convection, FlowTerms, assemble, residual};
 use alewife_core::simulation::{build_mesh, build_problem, cpu_seconds};
 use alewife_core::time::Bdf;
@@ -23,9 +23,9 @@ pub struct TimeStep {
     pub constraints: AffineConstraints,
     /// Sparsity pattern of the matrix.
     pub pattern: Pattern,
-    problem: Problem,
-    assembly: Assembly,
-    solution: Solution,
+    problem: Problem<2>,
+    assembly: Assembly<2>,
+    solution: Solution<2>,
     /// The inflow's parabola everywhere, which convects.
     crossing: Vec<Point<2>>,
     history: Vec<Point<2>>,
@@ -73,7 +73,8 @@ impl TimeStep {
         let poses: Vec<_> = problem.bodies.iter().map(|body| body.pose).collect();
         let system = FluidSystem::new(&problem, &mesh, &poses, false);
         let shapes = BodyShapes::at(&problem.bodies, 0.0).expect("no body deforms");
-        let constraints = system.constraints(&problem, &mesh, &poses, &shapes);
+        let constraints =
+            system.constraints(&problem, &mesh, BodiesAt { poses: &poses, shapes: &shapes });
         let sides = problem.do_nothing_sides();
         let (pattern, assembly) =
             Assembly::new(&mesh, system.layout, &constraints, problem.metric, &sides, None);
@@ -87,8 +88,7 @@ impl TimeStep {
         let history = crossing.iter().map(|&velocity| bdf.history(velocity, velocity)).collect();
         let mut solution = Solution::at_rest(&system.layout);
         solution.velocity.clone_from(&crossing);
-        let raw = constraints.expand(&constraints.pick(&flatten(&solution)));
-        let solution = embed(&system.layout, &raw);
+        let solution = system.constrained(&constraints, &solution);
         Self {
             mesh,
             constraints,
@@ -109,7 +109,7 @@ impl TimeStep {
             density: self.problem.density,
             rate: self.rate,
             history: &self.history,
-            crossing: &self.crossing,
+            convecting_velocity: &self.crossing,
             convection: Convection::Oseen,
             body_force: None,
         }

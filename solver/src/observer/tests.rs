@@ -235,7 +235,7 @@ fn a_failure_is_told_with_its_reason() {
     let directory = RunDirectory::create(place.path(), &run.model.case, 1, false).unwrap();
     let mut everyone = observers(&run.model, &directory, true).unwrap();
     run.step(&mut everyone, 0);
-    let error = RunError::Mesh("no room between the bodies".to_owned());
+    let error = RunError::Unsupported("mesh: no room between the bodies".to_owned());
     everyone.iter_mut().for_each(|observer| observer.on_failure(&error, None).unwrap());
 
     let status = Status::read(place.path()).unwrap();

@@ -9,7 +9,7 @@ use super::rule::Rule;
 /// A spline with the spline of its velocities: the curve is linear in its points.
 #[derive(Debug, Clone)]
 pub struct ClosedCurve {
-    pub places: Spline,
+    pub points: Spline,
     pub rates: Spline,
 }
 
@@ -27,21 +27,21 @@ pub struct Enclosed {
 impl ClosedCurve {
     /// Through points at given parameters; `None` if there is no such curve.
     pub fn through(points: &[[Dual64; 2]], knots: &[f64]) -> Option<Self> {
-        let places: Vec<[f64; 2]> = points.iter().map(|p| p.map(|part| part.re)).collect();
+        let positions: Vec<[f64; 2]> = points.iter().map(|p| p.map(|part| part.re)).collect();
         let rates: Vec<[f64; 2]> = points.iter().map(|p| p.map(|part| part.eps)).collect();
         Some(Self {
-            places: Spline::with_knots(&places, knots)?,
+            points: Spline::with_knots(&positions, knots)?,
             rates: Spline::with_knots(&rates, knots)?,
         })
     }
 
-    /// Place, and derivative by the parameter.
+    /// Position, and derivative by the parameter.
     ///
     /// On one of its pieces, from its start, 0, to its end, 1.
     fn at(&self, piece: usize, part: f64) -> [[Dual64; 2]; 2] {
-        let place = self.places.evaluate_on(piece, part);
+        let position = self.points.evaluate_on(piece, part);
         let rate = self.rates.evaluate_on(piece, part);
-        [0, 1].map(|order| [0, 1].map(|axis| Dual64::new(place[order][axis], rate[order][axis])))
+        [0, 1].map(|order| [0, 1].map(|axis| Dual64::new(position[order][axis], rate[order][axis])))
     }
 
     /// Unit normals at the knots, out of the body.
@@ -51,7 +51,7 @@ impl ClosedCurve {
             let length = (x * x + y * y).sqrt();
             [y / length, -x / length]
         };
-        (0..self.places.knots().len() - 1).map(normal).collect()
+        (0..self.points.knots().len() - 1).map(normal).collect()
     }
 
     /// Area enclosed by this curve plus a small number times another one: its value and both
@@ -85,7 +85,7 @@ impl ClosedCurve {
     }
 
     fn each_point(&self, rule: &Rule, mut visit: impl FnMut(usize, f64, f64)) {
-        for (piece, ends) in self.places.knots().windows(2).enumerate() {
+        for (piece, ends) in self.points.knots().windows(2).enumerate() {
             let span = ends[1] - ends[0];
             for (x, weight) in rule.points.iter().zip(&rule.weights) {
                 visit(piece, *x, span * weight);
@@ -96,11 +96,11 @@ impl ClosedCurve {
     /// Mean of |velocity along the normal| over the curve (m/s), by the trapezoidal rule.
     pub fn mean_normal_speed(&self) -> f64 {
         let (mut sum, mut length) = (0.0, 0.0);
-        let knots = self.places.knots();
+        let knots = self.points.knots();
         for (i, ends) in knots.windows(2).enumerate() {
             let before = if i == 0 { knots.len() - 2 } else { i - 1 };
             let weight = 0.5 * (ends[1] - ends[0] + knots[before + 1] - knots[before]);
-            let [_, along, _] = self.places.evaluate_on(i, 0.0);
+            let [_, along, _] = self.points.evaluate_on(i, 0.0);
             let [rate, ..] = self.rates.evaluate_on(i, 0.0);
             sum += weight * (rate.x * along.y - rate.y * along.x).abs();
             length += weight * along.norm();

@@ -8,6 +8,12 @@ pub enum GaitError {
     /// The outline at rest could not be made.
     #[error("the lengths of the shape make no body")]
     Shape,
+    /// A wave of curvature needs two points or more.
+    #[error("the curvature is given at {points} points of the midline: at least 2 are needed")]
+    Curvature {
+        /// How many are given.
+        points: usize,
+    },
     /// The law of a body that pulsates gives no positive radius at some time.
     #[error("at t = {time:.6} the radius would be {radius:.3e}: it must be positive and finite")]
     Radius {

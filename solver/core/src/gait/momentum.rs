@@ -40,17 +40,17 @@ impl Interior {
         let (mut area, mut turning) = (0.0, 0.0);
         let zero = Dual64::from(0.0);
         let (mut first, mut second) = ([zero; 2], 0.0);
-        // About a place inside, so that no digits are lost
-        let middle = frames[frames.len() / 2].place.map(|part| Dual64::from(part.re));
+        // About a point inside, so that no digits are lost
+        let middle = frames[frames.len() / 2].position.map(|part| Dual64::from(part.re));
         for (node, frame) in nodes.iter().zip(frames) {
             let normal = frame.normal();
             for (x, weight) in rule.points.iter().zip(&rule.weights) {
                 let part = 2.0 * weight * node.weight * node.half_width;
                 let y = offset(frame, node.half_width, 2.0 * x - 1.0);
-                let place = [0, 1].map(|i| frame.place[i] + normal[i] * y - middle[i]);
-                let [at, rate] = [place.map(|p| p.re), place.map(|p| p.eps)];
+                let position = [0, 1].map(|i| frame.position[i] + normal[i] * y - middle[i]);
+                let [at, rate] = [position.map(|p| p.re), position.map(|p| p.eps)];
                 area += part;
-                first = [0, 1].map(|i| first[i] + place[i] * part);
+                first = [0, 1].map(|i| first[i] + position[i] * part);
                 second += part * (at[0] * at[0] + at[1] * at[1]);
                 turning += part * cross(at, rate);
             }

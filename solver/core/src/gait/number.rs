@@ -3,7 +3,7 @@
 use num_dual::DualNum;
 
 /// Reals and dual numbers over them: what midlines and outlines are computed with, so that
-/// velocities are the exact derivatives of places.
+/// velocities are the exact derivatives of positions.
 pub trait Number: DualNum<Primitive = f64> + Copy {}
 
 impl<D: DualNum<Primitive = f64> + Copy> Number for D {}

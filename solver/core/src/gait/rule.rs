@@ -1,4 +1,4 @@
-//! `Rule`: Gauss-Legendre points on [0, 1], and integrals up to any place between them.
+//! `Rule`: Gauss-Legendre points on [0, 1], and integrals from 0 to any number between.
 
 use std::f64::consts::PI;
 

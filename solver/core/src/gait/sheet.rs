@@ -79,8 +79,8 @@ mod tests {
             let sheet = WavingSheet::new(0.3, 2.0, 0.5, is_extensible);
             let steps = 4000;
             let step = 2.0 / f64::from(steps);
-            let mut places = [0.1_f64, 0.5].map(|x| Vector2::new(x, sheet.height(x, 0.0)));
-            let start = places;
+            let mut points = [0.1_f64, 0.5].map(|x| Vector2::new(x, sheet.height(x, 0.0)));
+            let start = points;
             let arc = |from: f64, to: f64, time: f64| -> f64 {
                 let n = 2000;
                 let at = |i: u32| {
@@ -89,19 +89,19 @@ mod tests {
                 };
                 (0..n).map(|i| (at(i + 1) - at(i)).norm()).sum()
             };
-            let length = arc(places[0].x, places[1].x, 0.0);
+            let length = arc(points[0].x, points[1].x, 0.0);
             for index in 0..steps {
                 let time = f64::from(index) * step;
-                for place in &mut places {
-                    let half = *place + sheet.velocity(place.x, time) * (0.5 * step);
-                    *place += sheet.velocity(half.x, time + 0.5 * step) * step;
+                for point in &mut points {
+                    let half = *point + sheet.velocity(point.x, time) * (0.5 * step);
+                    *point += sheet.velocity(half.x, time + 0.5 * step) * step;
                 }
                 let now = time + step;
-                assert!((places[0].y - sheet.height(places[0].x, now)).abs() < 1e-6);
-                let change = arc(places[0].x, places[1].x, now) - length;
+                assert!((points[0].y - sheet.height(points[0].x, now)).abs() < 1e-6);
+                let change = arc(points[0].x, points[1].x, now) - length;
                 assert!(is_extensible || index % 500 != 0 || change.abs() < 1e-6, "{change}");
             }
-            assert!((places[0] - start[0]).norm() < 1e-5, "{places:?}");
+            assert!((points[0] - start[0]).norm() < 1e-5, "{points:?}");
         }
     }
 }

@@ -47,6 +47,11 @@ impl SlenderBody {
     /// [`GaitError`] when there is no such body, or when at some time of a cycle its midline cannot
     /// follow, its outline crosses itself, or its area changes by more than a small correction.
     pub fn new(profile: &Profile, midline: Midline) -> Result<Self, GaitError> {
+        if let Midline::Carangiform(gait) = &midline
+            && gait.curvature.len() < 2
+        {
+            return Err(GaitError::Curvature { points: gait.curvature.len() });
+        }
         let rest = Arc::new(profile.spline().ok_or(GaitError::Shape)?);
         let rest_area = Shape::Curve { spline: Arc::clone(&rest) }
             .moments()
@@ -118,7 +123,7 @@ impl SlenderBody {
         let closed = through(&placed)?;
         let mean_normal_speed = closed.mean_normal_speed();
         let defect = [0, 1].map(|i| interior.center[i].eps - enclosed.center[i].eps);
-        let curve = MaterialCurve::Spline { points: Arc::new(closed.places), rates: closed.rates };
+        let curve = MaterialCurve::Spline { points: Arc::new(closed.points), rates: closed.rates };
         Ok(DeformedOutline {
             curve,
             moments: Moments {
@@ -164,7 +169,7 @@ impl SlenderBody {
             move |(station, frame): (&alewife_mesh::Station, &Frame<Dual64>)| {
                 let normal = frame.normal();
                 let width = frame.stretch.recip() * (sign * station.half_width);
-                [0, 1].map(|i| frame.place[i] + normal[i] * width)
+                [0, 1].map(|i| frame.position[i] + normal[i] * width)
             }
         };
         let last = frames.len() - 1;

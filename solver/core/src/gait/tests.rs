@@ -29,9 +29,9 @@ fn fish_with_tip(tip_radius: f64) -> Profile {
 }
 
 fn carangiform() -> Midline {
-    let places = [0.0, 0.15, 0.4, 0.65, 0.9, 1.0];
+    let points = [0.0, 0.15, 0.4, 0.65, 0.9, 1.0];
     let curvatures = [0.82014, 1.46515, 2.57136, 3.75425, 5.09147, 5.70449];
-    let curvature = places.into_iter().zip(curvatures).map(|(s, k)| [s, k]).collect();
+    let curvature = points.into_iter().zip(curvatures).map(|(s, k)| [s, k]).collect();
     Midline::Carangiform(Carangiform {
         length: 1.0,
         curvature,
@@ -102,7 +102,7 @@ fn difference<
 }
 
 #[test]
-fn area_and_centre_stay_and_rates_are_those_of_the_places() {
+fn area_and_centre_stay_and_rates_are_the_derivatives_of_positions() {
     for (name, profile, midline, times) in all() {
         let [_, period] = midline.cycle();
         let length = profile.length();
@@ -135,18 +135,19 @@ fn area_and_centre_stay_and_rates_are_those_of_the_places() {
     }
 }
 
-/// Places in the interior on a grid of its own, before the gauge.
+/// Points of the interior on a grid of its own, in the frame of the head.
 fn interior(grid: &Grid, midline: &Midline, time: f64, across: &[f64]) -> Vec<Point<2>> {
     let frames: Frames<f64> = midline.frames(grid, time);
-    let mut places = Vec::new();
+    let mut points = Vec::new();
     for (node, frame) in grid.nodes.iter().zip(&frames.nodes) {
         let normal = Point::<2>::from(frame.normal());
         for m in across {
-            places
-                .push(Point::<2>::from(frame.place) + normal * offset(frame, node.half_width, *m));
+            points.push(
+                Point::<2>::from(frame.position) + normal * offset(frame, node.half_width, *m),
+            );
         }
     }
-    places
+    points
 }
 
 /// Angular momentum over another grid, with other points across, and velocities by
@@ -157,10 +158,10 @@ fn no_angular_momentum_is_left() {
         let [_, period] = midline.cycle();
         let swimmer = SlenderBody::new(&profile, midline.clone()).unwrap();
         let length = profile.length();
-        let mut breaks = midline.discontinuities();
-        breaks.extend((1..101).map(|i| length * f64::from(i) / 101.0));
-        breaks.sort_by(f64::total_cmp);
-        let grid = Grid::new(&profile, &breaks);
+        let mut joints = midline.discontinuities();
+        joints.extend((1..101).map(|i| length * f64::from(i) / 101.0));
+        joints.sort_by(f64::total_cmp);
+        let grid = Grid::new(&profile, &joints);
         let rule = Rule::new(11);
         let across: Vec<f64> = rule.points.iter().map(|x| 2.0 * x - 1.0).collect();
         let weights: Vec<f64> = grid
@@ -176,18 +177,18 @@ fn no_angular_momentum_is_left() {
                     .into_iter()
                     .map(|(weight, steps)| (weight / (60.0 * step), at(time + steps * step)))
                     .collect();
-            let places = at(time);
+            let points = at(time);
             let rate = |i: usize| -> Point<2> { stencil.iter().map(|(w, p)| p[i] * *w).sum() };
             let area: f64 = weights.iter().sum();
             let mean = |f: &dyn Fn(usize) -> Point<2>| -> Point<2> {
                 weights.iter().enumerate().map(|(i, w)| f(i) * *w).sum::<Point<2>>() / area
             };
-            let center = mean(&|i| places[i]);
+            let center = mean(&|i| points[i]);
             let drift = mean(&|i| rate(i));
             let recoil = swimmer.at(time).unwrap().recoil;
             let (mut total, mut size) = (0.0, 0.0);
             for (i, weight) in weights.iter().enumerate() {
-                let arm = places[i] - center;
+                let arm = points[i] - center;
                 let turning = Point::<2>::new(-arm.y, arm.x) * recoil.angular_velocity;
                 let velocity = rate(i) - drift - turning;
                 let part = weight * cross([arm.x, arm.y], [velocity.x, velocity.y]);
@@ -201,7 +202,7 @@ fn no_angular_momentum_is_left() {
     }
 }
 
-/// Tangent, stretch and curvature are those of the places, the interior keeps its areas, and the
+/// Tangent, stretch and curvature are those of the positions, the interior keeps its areas, and the
 /// midline its length where it is inextensible.
 #[test]
 fn midlines_agree_with_their_derivatives() {
@@ -215,8 +216,8 @@ fn midlines_agree_with_their_derivatives() {
             let (first, last) = (&frames.stations[0], &frames.stations[frames.stations.len() - 1]);
             for axis in 0..2 {
                 let whole = integral(&|i| frames.nodes[i].stretch * frames.nodes[i].tangent[axis]);
-                let off = (whole - (last.place[axis] - first.place[axis])).abs();
-                assert!(off < 1e-10 * profile.length(), "{name}: places off by {off:.1e}");
+                let off = (whole - (last.position[axis] - first.position[axis])).abs();
+                assert!(off < 1e-10 * profile.length(), "{name}: points off by {off:.1e}");
             }
             let turned: f64 = frames
                 .stations
@@ -231,7 +232,7 @@ fn midlines_agree_with_their_derivatives() {
                     .stations
                     .windows(2)
                     .map(|pair| {
-                        let [a, b] = [pair[0].place, pair[1].place];
+                        let [a, b] = [pair[0].position, pair[1].position];
                         let chord = (b[0] - a[0]).hypot(b[1] - a[1]);
                         let turn = cross(pair[0].tangent, pair[1].tangent).asin();
                         chord * (1.0 + turn * turn / 24.0)
@@ -255,14 +256,14 @@ fn midlines_agree_with_their_derivatives() {
 /// Range of head and end of the tail across the mean direction of the body, over a period.
 fn swing(swimmer: &SlenderBody, tip: f64) -> [f64; 2] {
     let n = 400;
-    let places: Vec<[Point<2>; 2]> = (0..n)
+    let points: Vec<[Point<2>; 2]> = (0..n)
         .map(|i| swimmer.at(3.0 + f64::from(i) / f64::from(n)).unwrap())
         .map(|deformed| [0.0, tip].map(|parameter| deformed.position(parameter)))
         .collect();
-    let axis: Point<2> = places.iter().map(|[head, tail]| head - tail).sum();
+    let axis: Point<2> = points.iter().map(|[head, tail]| head - tail).sum();
     let axis = axis.normalize();
     [0, 1].map(|k| {
-        let heights = places.iter().map(|at| cross(axis.into(), at[k].into()));
+        let heights = points.iter().map(|at| cross(axis.into(), at[k].into()));
         let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
         for height in heights {
             (low, high) = (low.min(height), high.max(height));
@@ -292,7 +293,7 @@ fn fish_have_their_published_shapes() {
         .map(|i| {
             let frames: Frames<f64> =
                 anguilliform(4.0 / 33.0).frames(&grid, 2.0 + f64::from(i) / 100.0);
-            frames.stations[frames.stations.len() - 1].place[1]
+            frames.stations[frames.stations.len() - 1].position[1]
         })
         .fold(0.0, f64::max);
     assert!((amplitude - 0.125).abs() < 1e-3, "{amplitude}");
@@ -334,13 +335,16 @@ fn gaits_that_cannot_be_made_are_refused() {
     let refused = SlenderBody::new(&fish(), anguilliform(0.3)).unwrap_err();
     assert!(matches!(refused, GaitError::Midline { .. }), "{refused}");
     let Midline::Carangiform(gait) = carangiform() else { panic!("is carangiform") };
-    let bent = Midline::Carangiform(Carangiform { bending: 6.0, ..gait });
+    let bent = Midline::Carangiform(Carangiform { bending: 6.0, ..gait.clone() });
+    let straight = Midline::Carangiform(Carangiform { curvature: Vec::new(), ..gait });
+    let refused = SlenderBody::new(&fish(), straight).unwrap_err();
+    assert_eq!(refused, GaitError::Curvature { points: 0 });
     let refused = SlenderBody::new(&fish(), bent).unwrap_err();
     assert!(matches!(refused, GaitError::Crossing { .. }), "{refused}");
 }
 
 #[test]
-fn pulses_have_the_rates_of_their_places() {
+fn the_rates_of_pulses_are_the_derivatives_of_positions() {
     let table = vec![[0.0, 1.0], [1.0, 2.0], [2.0, 1.0]];
     let laws = [
         PulseLaw::Sine { amplitude: 0.5, period: 2.0, phase: 0.1 },

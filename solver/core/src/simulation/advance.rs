@@ -89,6 +89,14 @@ impl Simulation<2> {
         }
     }
 
+    /// Makes a step of a size (s) on the present mesh, or leaves the state where it is.
+    ///
+    /// # Errors
+    /// Why no step was made.
+    pub fn step_on_this_mesh(&mut self, size: f64) -> Result<StepReport, StepError> {
+        self.attempt(size, f64::INFINITY)
+    }
+
     /// Makes a step, or leaves the state where it is.
     fn attempt(&mut self, size: f64, tolerance: f64) -> Result<StepReport, StepError> {
         let Self { problem, state, work, moving_mesh, law, scheme, .. } = self;

@@ -43,6 +43,7 @@ pub use run::{RunSummary, simulate, simulate_from};
 pub use scene::{RemeshError, Scene};
 pub use series::Series;
 pub use snapshot::{BodyReport, LastState, Observer, Snapshot};
+pub use start::simulation_on;
 pub use state::{NewLevel, State};
 pub use steady::{SteadyFailure, SteadyFlow, SteadyTask, solve_steady};
 pub use step::{Step, StepReport, TimeStepper, Workspace};

@@ -24,11 +24,37 @@ pub(super) fn prepare(
     model: &Model,
     saved: Option<&SavedState>,
 ) -> Result<(Simulation<2>, Measure), RunError> {
-    let case = &model.case;
     let mut timing = Timing::default();
-    let InitialMesh { mesh, cell } = timing.measure(Stage::Mesh, || initial_mesh(model))?;
+    let initial = timing.measure(Stage::Mesh, || initial_mesh(model))?;
+    let mesh = &initial.mesh;
     tracing::info!(cells = mesh.n_cells(), nodes = mesh.n_nodes(), "mesh generated");
-    check_memory(&mesh)?;
+    check_memory(mesh)?;
+    let mut measure = Measure::new(model, mesh)?;
+    let mut simulation = at_rest(model, initial, timing)?;
+    if let Some(saved) = saved {
+        saved.restore_into(model, &mut simulation)?;
+        if simulation.moving_mesh.is_none() {
+            measure.find_probes(&model.case, &simulation.state.mesh_in_frame());
+        }
+    }
+    Ok((simulation, measure))
+}
+
+/// A simulation of a case at rest, on a mesh of it from elsewhere.
+///
+/// # Errors
+/// When the case makes no problem on this mesh.
+pub fn simulation_on(model: &Model, mesh: Mesh<2>) -> Result<Simulation<2>, RunError> {
+    at_rest(model, InitialMesh::of(model, mesh)?, Timing::default())
+}
+
+fn at_rest(
+    model: &Model,
+    initial: InitialMesh,
+    mut timing: Timing,
+) -> Result<Simulation<2>, RunError> {
+    let case = &model.case;
+    let InitialMesh { mesh, cell } = initial;
     let problem = build_problem(model, &mesh)?;
     let scheme = step_scheme(case, &problem);
     let mut state = State::at_rest(&problem, mesh);
@@ -39,7 +65,6 @@ pub(super) fn prepare(
         FluidSystem::new(&problem, &state.mesh, &poses, scheme.unknown_frame)
     });
     tracing::info!(unknowns = system.n_unknowns, entries = system.n_entries(), "system built");
-    let mut measure = Measure::new(model, &state.mesh)?;
     let mut moving_mesh = None;
     if model.mesh_moves() {
         let planar = Arc::new(PlanarCase::new(model, &problem)?);
@@ -57,13 +82,7 @@ pub(super) fn prepare(
     let mut simulation =
         Simulation { problem, state, work, moving_mesh, law, scheme, is_fresh: true };
     simulation.settle_moving_walls()?;
-    if let Some(saved) = saved {
-        saved.restore_into(model, &mut simulation)?;
-        if simulation.moving_mesh.is_none() {
-            measure.find_probes(case, &simulation.state.mesh_in_frame());
-        }
-    }
-    Ok((simulation, measure))
+    Ok(simulation)
 }
 
 impl Simulation<2> {

@@ -85,6 +85,14 @@ pub(in crate::simulation) struct InitialMesh {
     pub cell: PeriodicCell,
 }
 
+impl InitialMesh {
+    /// A mesh of a case from elsewhere, its domain not cut open.
+    pub fn of(model: &Model, mesh: Mesh<2>) -> Result<Self, RunError> {
+        let shapes = placed_bodies(model)?;
+        Ok(Self { mesh, cell: PeriodicCell::whole(&model.case.mesh_domain(), shapes) })
+    }
+}
+
 /// Generates the mesh of a case at time zero.
 pub(in crate::simulation) fn initial_mesh(model: &Model) -> Result<InitialMesh, RunError> {
     let case = &model.case;

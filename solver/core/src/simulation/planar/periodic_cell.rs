@@ -28,6 +28,12 @@ pub(in crate::simulation) struct PeriodicCell {
 }
 
 impl PeriodicCell {
+    /// A domain as it is, with bodies where they are.
+    pub fn whole(domain: &Domain, shapes: Vec<PlacedShape>) -> Self {
+        let shifts = vec![Point::<2>::zeros(); shapes.len()];
+        Self { domain: domain.clone(), shifts, shapes, cut: None }
+    }
+
     /// The mesh.
     ///
     /// # Errors
@@ -73,8 +79,7 @@ pub(super) fn initial_cell(
     shapes: Vec<PlacedShape>,
 ) -> Result<PeriodicCell, MeshError> {
     if domain.images().len() == 1 || check_placement(domain, &shapes).is_ok() {
-        let shifts = vec![Point::<2>::zeros(); shapes.len()];
-        return Ok(PeriodicCell { domain: domain.clone(), shifts, shapes, cut: None });
+        return Ok(PeriodicCell::whole(domain, shapes));
     }
     choose_periodic_cell(domain, domain, shapes)
 }

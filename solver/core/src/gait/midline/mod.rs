@@ -1,0 +1,70 @@
+//! `Midline`: how the midlines of fish and flagellates bend in time.
+//!
+//! The head is in the origin and points along +x; the midline is followed from there, tangent to
+//! tail. Waves run from head to tail, so swimmers swim towards +x.
+
+mod anguilliform;
+mod carangiform;
+mod flagellum;
+mod frame;
+mod natural_spline;
+
+pub use anguilliform::Anguilliform;
+pub use carangiform::Carangiform;
+pub use flagellum::Flagellum;
+pub use frame::{Frame, Frames};
+
+use super::grid::Grid;
+use super::number::Number;
+
+/// Ramps of the form 1 - exp(-t / ramp) have ended after this many times `ramp`: exp(-37) < 1e-16.
+const RAMP_TIMES: f64 = 37.0;
+
+/// How a midline bends.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Midline {
+    /// A wave of curvature.
+    Carangiform(Carangiform),
+    /// A wave of displacements as a function of arc length.
+    Anguilliform(Anguilliform),
+    /// A wave in the tail of a body with a rigid head.
+    Flagellum(Flagellum),
+}
+
+impl Midline {
+    /// Duration after which the gait is periodic (s), and the period (s).
+    pub fn cycle(&self) -> [f64; 2] {
+        match self {
+            Self::Carangiform(gait) => [gait.ramp, gait.period],
+            Self::Anguilliform(gait) => [gait.ramp, gait.period],
+            Self::Flagellum(gait) => [RAMP_TIMES * gait.ramp, gait.period],
+        }
+    }
+
+    /// Distances along the midline (m) at which a derivative of it jumps.
+    pub fn discontinuities(&self) -> Vec<f64> {
+        match self {
+            Self::Carangiform(gait) => {
+                gait.curvature.iter().map(|[position, _]| position * gait.length).collect()
+            }
+            Self::Anguilliform(_) => Vec::new(),
+            Self::Flagellum(gait) => vec![gait.head],
+        }
+    }
+
+    /// The midline at a time (s).
+    pub fn frames<D: Number>(&self, grid: &Grid, time: D) -> Frames<D> {
+        match self {
+            Self::Carangiform(gait) => gait.frames(grid, time),
+            Self::Anguilliform(gait) => gait.frames(grid, time),
+            Self::Flagellum(gait) if gait.inextensible => gait.inextensible_frames(grid, time),
+            Self::Flagellum(gait) => {
+                let frame = |along: f64| gait.displaced(along, time);
+                Frames {
+                    nodes: grid.nodes.iter().map(|node| frame(node.along)).collect(),
+                    stations: grid.stations.iter().map(|at| frame(at.along)).collect(),
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,88 @@
+//! Flows of problems made by hand, steady and step by step.
+
+use alewife_core::body::Pose;
+use alewife_core::case::{Convection, Steady};
+use alewife_core::coupling::{BodiesAt, BodyShapes, FluidSystem, Problem, RigidBodyEquations};
+use alewife_core::simulation::{
+    MeshPath, State, SteadyFlow, SteadyTask, StepReport, TimeStepper, Timing, Workspace,
+    solve_steady,
+};
+use alewife_core::time::Bdf;
+use alewife_mesh::Mesh;
+
+/// What steps of a problem on a mesh work with, its bodies at their poses at time zero.
+#[must_use]
+pub fn workspace(problem: &Problem<2>, mesh: &Mesh<2>) -> Workspace<2> {
+    let poses = start_poses(problem);
+    let system = FluidSystem::new(problem, mesh, &poses, false);
+    Workspace { system, mesh: mesh.clone(), timing: Timing::default() }
+}
+
+fn start_poses(problem: &Problem<2>) -> Vec<Pose> {
+    problem.bodies.iter().map(|body| body.pose).collect()
+}
+
+/// The steady flow at time zero, with convection if the problem has it.
+///
+/// # Panics
+/// When it is not found.
+#[must_use]
+pub fn steady(problem: &Problem<2>, mesh: &Mesh<2>, settings: &Steady) -> SteadyFlow<2> {
+    let mut work = workspace(problem, mesh);
+    let has_convection = problem.has_convection;
+    steady_with(&mut work, problem, settings, has_convection)
+}
+
+/// The steady flow at time zero on the mesh of a workspace.
+///
+/// # Panics
+/// When it is not found.
+#[must_use]
+pub fn steady_with(
+    work: &mut Workspace<2>,
+    problem: &Problem<2>,
+    settings: &Steady,
+    has_convection: bool,
+) -> SteadyFlow<2> {
+    let poses = start_poses(problem);
+    let shapes = BodyShapes::at(&problem.bodies, 0.0).expect("gaits have shapes");
+    let equations = RigidBodyEquations::steady(problem, &poses, 0.0);
+    let bodies = BodiesAt { poses: &poses, shapes: &shapes };
+    let task = SteadyTask { bodies, equations: &equations, settings, has_convection };
+    solve_steady(work, problem, &task).map_err(|failure| failure.error).expect("the flow converges")
+}
+
+/// A problem without contact that is stepped in time.
+pub struct Stepping<'a> {
+    /// How it is stepped.
+    pub stepper: TimeStepper<'a, 2>,
+    /// What evolves.
+    pub state: State<2>,
+    work: Workspace<2>,
+}
+
+impl<'a> Stepping<'a> {
+    /// At rest at time zero on a mesh.
+    #[must_use]
+    pub fn new(
+        problem: &'a Problem<2>,
+        mesh: &Mesh<2>,
+        convection: Convection,
+        path: MeshPath<'a, 2>,
+    ) -> Self {
+        let stepper = TimeStepper { problem, convection, path, contact: None };
+        let state = State::at_rest(problem, mesh.clone());
+        Self { stepper, state, work: workspace(problem, mesh) }
+    }
+
+    /// One step.
+    ///
+    /// # Panics
+    /// When it cannot be made.
+    pub fn advance(&mut self, bdf: Bdf) -> StepReport {
+        let made = self.stepper.advance(&mut self.work, &self.state, bdf);
+        let (level, report) = made.expect("the step is solved");
+        self.state.accept(self.stepper.problem, level);
+        report
+    }
+}
