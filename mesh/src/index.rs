@@ -104,7 +104,7 @@ mod tests {
 
     #[test]
     fn vectors_slices_and_arrays_are_indexed() {
-        let mut values = vec![1.0, 2.0, 3.0];
+        let mut values = Vec::from([1.0, 2.0, 3.0]);
         values[NodeId::new(1)] += 0.5;
         assert_eq!(values[NodeId::new(1)], 2.5);
         assert_eq!(values[1..][CellId::new(1)], 3.0);

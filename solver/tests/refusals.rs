@@ -879,7 +879,7 @@ fn swimmers_have_names_of_their_own_and_parts_that_fit() {
     refused_swimming(
         "name = \"chain\"",
         "name = \"chain\"\ncopies.random = { count = 40, seed = 1, gap = 0.5 }",
-        &["no room was found for copy", "fewer copies, a smaller gap"],
+        &["no space was found for copy", "fewer copies, a smaller gap"],
     );
     let none = "[[swimmer]]\nname = \"all\"\nkind.bodies = [\"root\", \"twig\"]\n[[swimmer]]";
     refused_swimming("[[swimmer]]", none, &["there is no body \"twig\" before it"]);

@@ -171,7 +171,7 @@ fn a_state_of_another_gait_is_refused() {
     let other = with(&BEAT.replace("period = 1.0", "period = 11.0"));
     let error = simulate_from(&other, Some(&saved), &mut []).expect_err("another gait");
     let told = error.to_string();
-    assert!(told.contains("a run goes on with the gait it began with"), "{told}");
+    assert!(told.contains("a run resumes with the gait it began with"), "{told}");
 }
 
 /// Its outline crosses itself between the times at which the gait is evaluated before the run.

@@ -175,5 +175,5 @@ fn a_state_of_other_strokes_is_refused() {
     let error = simulate_from(&with(0.2), Some(&saved), &mut []).expect_err("other strokes");
     let told = error.to_string();
     assert!(told.contains("body `three-3` was left at"), "{told}");
-    assert!(told.contains("a run goes on with the strokes it began with"), "{told}");
+    assert!(told.contains("a run resumes with the strokes it began with"), "{told}");
 }

@@ -143,7 +143,7 @@ pub(super) fn turned_component(rotation: Mode, lever: &Vector3<f64>, axis: usize
     let about = rotation.axis();
     // The cyclic order x, y, z
     if (about + 1) % 3 == axis {
-        lever[(about + 2) % 3] * -1.0
+        -lever[(about + 2) % 3]
     } else if (about + 2) % 3 == axis {
         lever[(about + 1) % 3]
     } else {

@@ -100,14 +100,14 @@ pub(super) struct NewtonFailure<const D: usize> {
     /// The linear system that could not be solved; `None` where the residual did not get small.
     pub error: Option<SolveError>,
     /// The last iterate.
-    pub end: Iterate<D>,
+    pub end: Box<Iterate<D>>,
 }
 
 impl<const D: usize> NewtonFailure<D> {
     /// The error of a run that ends with it in a step.
     pub fn in_step(self, step: &Step) -> RunError {
         let Step { number, time, .. } = *step;
-        let Iterate { residual, iterations, .. } = self.end;
+        let Iterate { residual, iterations, .. } = *self.end;
         match self.error {
             Some(error) => RunError::from_solve(error, number, time),
             None => RunError::NewtonStalled { step: number, time, residual, iterations },
@@ -144,8 +144,9 @@ pub(super) fn newton<const D: usize>(
         if progress.is_converged(relative) {
             return Ok(Flow { solution, residual, iterations, scale });
         }
-        let end =
-            |solution, iterations| Iterate { solution, residual: relative, iterations, scale };
+        let end = |solution, iterations| {
+            Box::new(Iterate { solution, residual: relative, iterations, scale })
+        };
         if progress.is_hopeless(relative) {
             return Err(NewtonFailure { error: None, end: end(solution, iterations) });
         }

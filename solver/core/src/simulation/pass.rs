@@ -25,8 +25,6 @@ pub struct Placement<const D: usize> {
 pub struct Pass<const D: usize> {
     /// Poses of the bodies, in the laboratory.
     pub poses: Vec<Pose>,
-    /// Positions of the nodes seen from the frame (m).
-    pub nodes: Vec<Point<D>>,
     /// Velocity of the nodes seen from the frame (m/s); none where it makes no difference.
     pub mesh_velocity: Vec<Point<D>>,
     /// Boundary conditions and bodies.
@@ -66,7 +64,6 @@ impl<const D: usize> Pass<D> {
             constraints: work.system.constraints(problem, &work.mesh, bodies),
             bodies: history.body_equations(problem, &poses),
             poses,
-            nodes,
             mesh_velocity,
         }
     }

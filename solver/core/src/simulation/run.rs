@@ -139,7 +139,7 @@ impl Run<'_, 2> {
         let task = SteadyTask { bodies, equations, settings, has_convection };
         solve_steady(work, problem, &task).map_err(|failure| {
             state.now = failure.last;
-            failure.error
+            *failure.error
         })
     }
 

@@ -50,7 +50,7 @@ pub struct SteadyFlow<const D: usize> {
 #[derive(Debug)]
 pub struct SteadyFailure<const D: usize> {
     /// Why.
-    pub error: RunError,
+    pub error: Box<RunError>,
     /// The last iterate.
     pub last: Solution<D>,
 }
@@ -129,7 +129,7 @@ struct Continuation<'a, const D: usize> {
 enum Attempt<const D: usize> {
     Converged(Flow<D>),
     /// A smaller part may be found.
-    Stalled(Iterate<D>),
+    Stalled(Box<Iterate<D>>),
 }
 
 impl<const D: usize> Continuation<'_, D> {
@@ -141,7 +141,7 @@ impl<const D: usize> Continuation<'_, D> {
         let at_rest = work.system.at_rest(at.constraints);
         let mut flow = match self.attempt(work, at, at_rest, 0.0)? {
             Attempt::Converged(flow) => flow,
-            Attempt::Stalled(end) => return Err(self.undetermined(end)),
+            Attempt::Stalled(end) => return Err(self.undetermined(*end)),
         };
         if !self.task.has_convection {
             return Ok(flow);
@@ -156,7 +156,7 @@ impl<const D: usize> Continuation<'_, D> {
                     increment *= 2.0;
                 }
                 Attempt::Stalled(end) if increment <= SMALLEST_STEP => {
-                    return Err(self.stalled(end));
+                    return Err(self.stalled(*end));
                 }
                 Attempt::Stalled(_) => increment /= 2.0,
             }
@@ -196,7 +196,7 @@ impl<const D: usize> Continuation<'_, D> {
                     Some(SolveError::NotFinite { .. }) if part > 0.0 => Ok(Attempt::Stalled(end)),
                     Some(error) => {
                         let error = RunError::from_solve(error, 0, self.task.bodies.shapes.time());
-                        Err(SteadyFailure { error, last: end.solution })
+                        Err(SteadyFailure { error: Box::new(error), last: end.solution })
                     }
                 }
             }
@@ -217,7 +217,7 @@ impl<const D: usize> Continuation<'_, D> {
         );
         let time = self.task.bodies.shapes.time();
         let error = RunError::Singular { step: 0, time, reason };
-        SteadyFailure { error, last: end.solution }
+        SteadyFailure { error: Box::new(error), last: end.solution }
     }
 
     fn stalled(&self, end: Iterate<D>) -> SteadyFailure<D> {
@@ -227,6 +227,6 @@ impl<const D: usize> Continuation<'_, D> {
             residual: end.residual,
             iterations: self.iterations,
         };
-        SteadyFailure { error, last: end.solution }
+        SteadyFailure { error: Box::new(error), last: end.solution }
     }
 }

@@ -191,9 +191,10 @@ mod tests {
 
     #[test]
     fn the_divergence_theorem_holds_on_triangles_and_tetrahedra() {
+        // Revolved, a cubic field on a curved side is of degree 9, beyond the rule
+        check_divergence_theorem(&one_simplex::<2>(), Metric::Revolved);
         for bend in [0.0, 0.15] {
             check_divergence_theorem(&bent(one_simplex::<2>(), bend), Metric::Cartesian);
-            check_divergence_theorem(&bent(one_simplex::<2>(), bend), Metric::Revolved);
             check_divergence_theorem(&bent(one_simplex::<3>(), bend), Metric::Cartesian);
         }
     }

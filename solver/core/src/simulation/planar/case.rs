@@ -65,7 +65,7 @@ impl PlanarCase {
 
     /// The sheet that a side is, if it is one.
     pub fn sheet(&self, side: &str) -> Option<WavingSheet> {
-        self.sheets.iter().find(|(name, _)| name == side).map(|(_, sheet)| sheet.clone())
+        self.sheets.iter().find(|(name, _)| name == side).map(|(_, sheet)| *sheet)
     }
 }
 
