@@ -20,18 +20,27 @@
 //! of threads, so the factors have the same bits on any number.
 
 mod analysis;
+mod buckets;
 mod dense;
+mod elimination;
+mod entries;
 mod factors;
 mod front;
 mod graph;
 #[cfg(feature = "metis")]
 mod metis;
 mod ordering;
+mod scaling;
 mod solve;
+mod stacks;
+mod substitution;
+mod subtrees;
 #[cfg(test)]
 mod tests;
+mod traversal;
 mod tree;
 
 pub use analysis::Analysis;
-pub use factors::{Factors, Singular};
+pub use factors::Factors;
 pub use ordering::Ordering;
+pub use traversal::Singular;
