@@ -215,7 +215,7 @@ impl Layout {
     }
 }
 
-/// The children of all fronts, one front after the other.
+/// The children of all fronts, one front after the other, then the roots.
 fn list_children(fronts: &mut [Front]) -> Vec<u32> {
     let n_fronts = fronts.len();
     let parents: Vec<u32> =

@@ -81,14 +81,14 @@ pub(super) struct DelayedPivotFactors {
     pub n_pivots: usize,
 }
 
-/// What elimination with delayed pivots makes of a front.
+/// A front eliminated with delayed pivots.
 #[derive(Debug)]
 pub(super) struct DelayedElimination {
     pub factors: DelayedPivotFactors,
     pub contribution: DelayedContribution,
 }
 
-/// Where elimination without delayed pivots writes.
+/// Memory that elimination without delayed pivots writes to.
 pub(super) struct FrontTarget<'a> {
     /// The factors.
     pub panel: &'a mut [f64],

@@ -143,7 +143,7 @@ fn factorise_subtrees(
 ) -> Vec<SubtreeResult> {
     let nothing = BTreeMap::new();
     let incoming = Incoming { roots: &[], delayed: &nothing };
-    // A thread that panicked has left no workspace that could be half written.
+    // The lock is never held while a workspace is written, so a panic leaves none half written.
     let free = || workspaces.lock().unwrap_or_else(PoisonError::into_inner);
     let factorise = |Task { subtree, factors, outgoing }: Task<'_>| {
         let mut workspace = free().pop().unwrap_or_default();

@@ -65,7 +65,7 @@ pub(super) struct Incoming<'a> {
     pub delayed: &'a BTreeMap<usize, DelayedContribution>,
 }
 
-/// What comes of a subtree besides its factors in place.
+/// What elimination of a subtree gives besides the factors of fronts without delayed pivots.
 #[derive(Debug, Default)]
 pub(super) struct SubtreeResult {
     /// Factors of fronts with delayed pivots.
