@@ -27,9 +27,9 @@ pub struct DirectSolver {
     analysis: Analysis,
     factors: Factors,
     policy: ReusePolicy,
-    /// Hash of the values that were factorised.
+    /// Hash of the values that were factorised, if there are factors.
     factorised: Option<u64>,
-    /// Hash of the values last asked about.
+    /// The revision last hashed.
     latest: Option<Fingerprint>,
 }
 
@@ -55,8 +55,8 @@ impl DirectSolver {
 
     /// Hash of the values of a matrix, taken once for each revision.
     ///
-    /// A revision alone cannot tell whether the factors at hand are those of a matrix: matrices are
-    /// often assembled from the same terms once more, and then have equal values at another revision.
+    /// A revision alone does not tell whether the factors at hand are those of a matrix: assembled again
+    /// from the same terms it has equal values at another revision.
     fn hash_of(&mut self, matrix: &SparseMatrix) -> u64 {
         let known = self.latest.as_ref().filter(|latest| latest.revision == *matrix.revision());
         let hash = known.map_or_else(|| hash(matrix.values()), |known| known.hash);
@@ -181,7 +181,7 @@ impl LinearSolver for DirectSolver {
         _: &SparseMatrix,
         unknowns: &[usize],
     ) -> Result<Vec<f64>, LinearError> {
-        // Without refinement: the last fronts alone cannot tell the residual.
+        // Without refinement: only the last fronts take part, which do not give the residual.
         let inverse = self.factors.inverse_of_dense(&self.analysis, unknowns);
         if all_finite(&inverse) { Ok(inverse) } else { Err(LinearError::NotFinite) }
     }
@@ -191,7 +191,7 @@ fn all_finite(values: &[f64]) -> bool {
     values.iter().all(|value| value.is_finite())
 }
 
-/// A number that tells matrices apart: all bits of all values, mixed.
+/// A hash of all bits of all values.
 fn hash(values: &[f64]) -> u64 {
     const MIX: u64 = 0x9E37_79B9_7F4A_7C15;
     let mut lanes = [1u64, 2, 3, 4];

@@ -1,15 +1,17 @@
 //! Dense kernels of a front: LU of a tall panel with pivots from its upper rows, and updates.
 //!
-//! Matrices are column-major slices. Products and triangular solves are faer's; what is narrower
-//! than a panel is done here, because calls would cost more than the arithmetic.
+//! Matrices are column-major slices. Products and triangular solves are faer's; narrow
+//! panels are eliminated here, because calls would cost more than the arithmetic.
 
 use faer::linalg::matmul::matmul;
 use faer::linalg::triangular_solve::solve_unit_lower_triangular_in_place;
 use faer::{Accum, MatMut, MatRef, Par};
 
-/// Columns eliminated one by one.
+use crate::sparse::index::to_u32;
+
+/// Panels of so many columns are eliminated column by column.
 const NARROW: usize = 8;
-/// A pivot is at least this part of the largest entry of its column: multipliers stay below 1e4.
+/// A pivot is at least this fraction of the largest entry of its column: multipliers stay below 1e4.
 /// Solutions of the shipped cases have the same accuracy with 1e-8 and with 1e-3.
 pub(super) const THRESHOLD: f64 = 1e-4;
 
@@ -32,22 +34,22 @@ pub(super) struct NoPivot;
 
 /// A rows x columns matrix inside a slice, its columns `stride` apart.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Shape {
+pub(super) struct PanelShape {
     pub rows: usize,
     pub columns: usize,
     pub stride: usize,
 }
 
-/// LU of a panel with partial pivoting among its first `pivot_rows` rows; `swaps[j]` tells how far
-/// below row j the pivot was found.
+/// LU of a panel with partial pivoting among its first `pivot_rows` rows; `swaps[j]` is how far below
+/// row j the pivot was found.
 pub(super) fn lu(
     arch: pulp::Arch,
     a: &mut [f64],
-    shape: Shape,
+    shape: PanelShape,
     pivot_rows: usize,
     swaps: &mut [u32],
 ) -> Result<(), NoPivot> {
-    let Shape { rows, columns, stride } = shape;
+    let PanelShape { rows, columns, stride } = shape;
     if columns <= NARROW {
         return arch.dispatch(Narrow { a, shape, pivot_rows, swaps });
     }
@@ -55,7 +57,7 @@ pub(super) fn lu(
     let others = columns - half;
     let (left, right) = a.split_at_mut(half * stride);
     let (left_swaps, right_swaps) = swaps.split_at_mut(half);
-    lu(arch, left, Shape { columns: half, ..shape }, pivot_rows, left_swaps)?;
+    lu(arch, left, PanelShape { columns: half, ..shape }, pivot_rows, left_swaps)?;
     swap_rows(right, others, stride, left_swaps);
     {
         // Columns of the upper and the lower part are interleaved in memory.
@@ -69,7 +71,7 @@ pub(super) fn lu(
         let multipliers = view(&left[half..], rows - half, half, stride);
         matmul(lower, Accum::Add, multipliers, upper.as_ref(), -1.0, Par::Seq);
     }
-    let below = Shape { rows: rows - half, columns: others, stride };
+    let below = PanelShape { rows: rows - half, columns: others, stride };
     lu(arch, &mut right[half..], below, pivot_rows - half, right_swaps)?;
     swap_rows(&mut left[half..], half, stride, right_swaps);
     Ok(())
@@ -87,7 +89,7 @@ pub(super) fn swap_rows(a: &mut [f64], columns: usize, stride: usize, swaps: &[u
 /// The arguments of `lu_narrow`: only a type of our own is compiled for the processor's vectors.
 struct Narrow<'a> {
     a: &'a mut [f64],
-    shape: Shape,
+    shape: PanelShape,
     pivot_rows: usize,
     swaps: &'a mut [u32],
 }
@@ -104,23 +106,20 @@ impl pulp::WithSimd for Narrow<'_> {
 #[inline(always)]
 fn lu_narrow(
     a: &mut [f64],
-    shape: Shape,
+    shape: PanelShape,
     pivot_rows: usize,
     swaps: &mut [u32],
 ) -> Result<(), NoPivot> {
-    let Shape { rows, columns, stride } = shape;
+    let PanelShape { rows, columns, stride } = shape;
     for j in 0..columns {
         let end = a.len().min((j + 1) * stride);
         let (done, later) = a.split_at_mut(end);
         let column = &mut done[j * stride..j * stride + rows];
-        let (below, size) = largest(&column[j..pivot_rows]);
-        if size == 0.0
-            || !size.is_finite()
-            || largest_size(&column[pivot_rows..]) * THRESHOLD > size
-        {
+        let Largest { index: below, size } = largest(&column[j..pivot_rows]).ok_or(NoPivot)?;
+        if largest_size(&column[pivot_rows..]) * THRESHOLD > size {
             return Err(NoPivot);
         }
-        swaps[j] = below as u32;
+        swaps[j] = to_u32(below);
         let inverse = 1.0 / column[j + below];
         column.swap(j, j + below);
         for value in &mut column[j + 1..] {
@@ -143,14 +142,25 @@ fn lu_narrow(
     Ok(())
 }
 
-/// Index and size of the largest entry.
-#[inline(always)]
-fn largest(values: &[f64]) -> (usize, f64) {
-    let size = largest_size(values);
-    let index = values.iter().position(|value| value.abs() == size);
-    (index.unwrap_or(0), size)
+/// The largest entry of a column.
+struct Largest {
+    index: usize,
+    /// Absolute value.
+    size: f64,
 }
 
+/// The largest entry, unless it is zero or not finite.
+#[inline(always)]
+fn largest(values: &[f64]) -> Option<Largest> {
+    let size = largest_size(values);
+    if size == 0.0 || !size.is_finite() {
+        return None;
+    }
+    let index = values.iter().position(|value| value.abs() == size)?;
+    Some(Largest { index, size })
+}
+
+/// Absolute value of the largest entry; 0 of none.
 #[inline(always)]
 fn largest_size(values: &[f64]) -> f64 {
     const LANES: usize = 8;
@@ -191,9 +201,9 @@ pub(super) fn update(
     }
 }
 
-/// What is left of a front whose columns could not all be eliminated.
+/// The pivots of a front whose columns could not all be eliminated.
 #[derive(Debug)]
-pub(super) struct Partial {
+pub(super) struct PartialLu {
     /// Number of pivots found.
     pub pivots: usize,
     /// Original index of each row and column of the fully summed block, pivots first.
@@ -202,19 +212,18 @@ pub(super) struct Partial {
 }
 
 /// LU with a free choice of pivot columns: as many of the k fully summed columns of the m x k panel
-/// as have an acceptable pivot; entries below `tiny[column]` are none.
-pub(super) fn lu_delaying(l: &mut [f64], m: usize, k: usize, tiny: &[f64]) -> Partial {
-    let mut rows: Vec<u32> = (0..k as u32).collect();
-    let mut columns: Vec<u32> = (0..k as u32).collect();
+/// as have a pivot above `pivot_floors[column]` and large enough against the rest of its column.
+pub(super) fn lu_delaying(l: &mut [f64], m: usize, k: usize, pivot_floors: &[f64]) -> PartialLu {
+    let mut rows: Vec<u32> = (0..to_u32(k)).collect();
+    let mut columns = rows.clone();
     let mut pivots = 0;
     while pivots < k {
         let candidate = (pivots..k).find_map(|column| {
             let values = &l[column * m..(column + 1) * m];
-            let (below, size) = largest(&values[pivots..k]);
-            let acceptable = size > tiny[columns[column] as usize]
-                && size.is_finite()
+            let Largest { index: below, size } = largest(&values[pivots..k])?;
+            let is_acceptable = size > pivot_floors[columns[column] as usize]
                 && size >= THRESHOLD * largest_size(&values[k..]);
-            acceptable.then_some((column, pivots + below))
+            is_acceptable.then_some((column, pivots + below))
         });
         let Some((column, row)) = candidate else { break };
         columns.swap(pivots, column);
@@ -241,5 +250,5 @@ pub(super) fn lu_delaying(l: &mut [f64], m: usize, k: usize, tiny: &[f64]) -> Pa
         }
         pivots += 1;
     }
-    Partial { pivots, rows, columns }
+    PartialLu { pivots, rows, columns }
 }

@@ -1,13 +1,53 @@
 //! The graph that is ordered: vertices are mesh nodes with all their unknowns.
 
-use crate::sparse::Pattern;
+use super::buckets::Buckets;
+use crate::sparse::index::to_u32;
+use crate::sparse::{Pattern, Unknowns};
+
+/// The vertex of each unknown: those of mesh nodes first, then one for each unknown with a dense row.
+#[derive(Debug, Clone)]
+pub(super) struct Vertices {
+    pub of_unknown: Vec<u32>,
+    /// Number of vertices that are mesh nodes.
+    pub n_nodes: usize,
+    /// Number of all vertices.
+    pub n: usize,
+}
+
+impl Vertices {
+    pub fn new(unknowns: &Unknowns) -> Self {
+        let n = unknowns.node.len();
+        let mut is_dense = vec![false; n];
+        for &unknown in &unknowns.dense {
+            is_dense[unknown] = true;
+        }
+        let sparse = || (0..n).filter(|&unknown| !is_dense[unknown]);
+        let end = sparse().map(|unknown| unknowns.node[unknown] as usize + 1).max().unwrap_or(0);
+        let mut vertex_of_node = vec![None; end];
+        let mut n_vertices = 0;
+        let mut of_unknown = vec![0; n];
+        for unknown in sparse() {
+            let vertex = vertex_of_node[unknowns.node[unknown] as usize].get_or_insert_with(|| {
+                n_vertices += 1;
+                n_vertices - 1
+            });
+            of_unknown[unknown] = *vertex;
+        }
+        let n_nodes = n_vertices as usize;
+        for unknown in (0..n).filter(|&unknown| is_dense[unknown]) {
+            of_unknown[unknown] = n_vertices;
+            n_vertices += 1;
+        }
+        Self { of_unknown, n_nodes, n: n_vertices as usize }
+    }
+}
 
 /// Vertices that share an entry of the matrix are neighbours; compressed rows.
 #[derive(Debug, Clone)]
 pub(super) struct Graph {
     pub starts: Vec<u32>,
     pub neighbours: Vec<u32>,
-    /// Unknowns of each vertex.
+    /// Number of unknowns of each vertex.
     pub weights: Vec<u32>,
 }
 
@@ -20,49 +60,47 @@ impl Graph {
         &self.neighbours[self.starts[vertex] as usize..self.starts[vertex + 1] as usize]
     }
 
-    /// The graph of `n` vertices of a pattern made symmetric, `vertex` naming that of each unknown.
-    pub fn new(pattern: &Pattern, vertex: &[u32], n: usize) -> Self {
-        let mut weights = vec![0u32; n];
-        for &vertex in vertex {
-            weights[vertex as usize] += 1;
-        }
-        let (unknown_starts, unknowns) = bucket(vertex, n);
-        let columns = |of: usize| &unknowns[unknown_starts[of]..unknown_starts[of + 1]];
-        // Each pair a column names, once.
-        let mut seen = vec![u32::MAX; n];
-        let (mut owners, mut named) = (Vec::new(), Vec::new());
-        let mut named_starts = vec![0];
-        for from in 0..n as u32 {
-            seen[from as usize] = from;
-            for &column in columns(from as usize) {
+    /// The graph of the union of a pattern and its transpose.
+    pub fn new(pattern: &Pattern, vertices: &Vertices) -> Self {
+        let n = vertices.n;
+        let vertex = &vertices.of_unknown;
+        let unknowns = Buckets::new(vertex, n);
+        // Each pair (column, row) of vertices with an entry, once.
+        let mut seen = vec![None; n];
+        let (mut columns, mut rows) = (Vec::new(), Vec::new());
+        let mut pair_starts = vec![0];
+        for from in 0..to_u32(n) {
+            seen[from as usize] = Some(from);
+            for &column in unknowns.of(from as usize) {
                 for &row in pattern.column(column as usize) {
                     let to = vertex[row];
-                    if seen[to as usize] != from {
-                        seen[to as usize] = from;
-                        owners.push(from);
-                        named.push(to);
+                    if seen[to as usize] != Some(from) {
+                        seen[to as usize] = Some(from);
+                        columns.push(from);
+                        rows.push(to);
                     }
                 }
             }
-            named_starts.push(named.len());
+            pair_starts.push(rows.len());
         }
-        // And its mirror image, where that is another one.
-        let (mirror_starts, mirror) = bucket(&named, n);
+        // And its transpose, where that is another one.
+        let pairs_of_row = Buckets::new(&rows, n);
+        let weights = (0..n).map(|vertex| to_u32(unknowns.of(vertex).len())).collect();
         let mut graph = Self { starts: vec![0], neighbours: Vec::new(), weights };
-        seen.fill(u32::MAX);
-        for from in 0..n {
-            let back = mirror[mirror_starts[from]..mirror_starts[from + 1]].iter();
-            let back = back.map(|&pair| owners[pair as usize]);
+        seen.fill(None);
+        for from in 0..to_u32(n) {
+            let vertex = from as usize;
+            let below = &rows[pair_starts[vertex]..pair_starts[vertex + 1]];
+            let across = pairs_of_row.of(vertex).iter().map(|&pair| columns[pair as usize]);
             let start = graph.neighbours.len();
-            for to in named[named_starts[from]..named_starts[from + 1]].iter().copied().chain(back)
-            {
-                if seen[to as usize] != from as u32 {
-                    seen[to as usize] = from as u32;
+            for to in below.iter().copied().chain(across) {
+                if seen[to as usize] != Some(from) {
+                    seen[to as usize] = Some(from);
                     graph.neighbours.push(to);
                 }
             }
             graph.neighbours[start..].sort_unstable();
-            graph.starts.push(graph.neighbours.len() as u32);
+            graph.starts.push(to_u32(graph.neighbours.len()));
         }
         graph
     }
@@ -77,26 +115,8 @@ impl Graph {
         for vertex in 0..n {
             let kept = self.neighbours(vertex).iter().filter(|&&to| (to as usize) < n);
             graph.neighbours.extend(kept);
-            graph.starts.push(graph.neighbours.len() as u32);
+            graph.starts.push(to_u32(graph.neighbours.len()));
         }
         graph
     }
-}
-
-/// Members of each of `n` buckets in ascending order: starts and members.
-pub(super) fn bucket(bucket_of: &[u32], n: usize) -> (Vec<usize>, Vec<u32>) {
-    let mut starts = vec![0usize; n + 1];
-    for &bucket in bucket_of {
-        starts[bucket as usize + 1] += 1;
-    }
-    for bucket in 0..n {
-        starts[bucket + 1] += starts[bucket];
-    }
-    let mut fill = starts.clone();
-    let mut members = vec![0u32; bucket_of.len()];
-    for (member, &bucket) in bucket_of.iter().enumerate() {
-        members[fill[bucket as usize]] = member as u32;
-        fill[bucket as usize] += 1;
-    }
-    (starts, members)
 }

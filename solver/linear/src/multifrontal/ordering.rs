@@ -40,12 +40,12 @@ fn minimum_degree(graph: &Graph) -> Vec<u32> {
     let n = graph.n();
     let matrix = SymbolicSparseColMatRef::new_checked(n, n, &graph.starts, None, &graph.neighbours);
     let mut order = vec![0u32; n];
-    let mut place = vec![0u32; n];
+    let mut rank = vec![0u32; n];
     let n_entries = graph.neighbours.len();
     let mut memory = MemBuffer::new(amd::order_maybe_unsorted_scratch::<u32>(n, n_entries));
     amd::order_maybe_unsorted(
         &mut order,
-        &mut place,
+        &mut rank,
         matrix,
         amd::Control::default(),
         MemStack::new(&mut memory),

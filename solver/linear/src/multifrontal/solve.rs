@@ -1,66 +1,18 @@
-//! Forward and backward substitution.
+//! Solutions with factors: forward and backward substitution through all fronts.
 
-use faer::linalg::matmul::matmul;
-use faer::linalg::triangular_solve::{
-    solve_unit_lower_triangular_in_place, solve_upper_triangular_in_place,
-};
-use faer::{Accum, Par};
+use std::ops::Range;
 
-use super::analysis::{Analysis, Front};
-use super::dense::{view, view_mut};
+use super::analysis::Analysis;
 use super::factors::Factors;
+use super::front::Front;
+use super::substitution::{
+    FrontFactors, Scratch, backward, backward_block, forward, forward_block,
+};
 
 /// Right-hand sides worked on together: the factors are read once for all of them.
 const BLOCK: usize = 32;
 
-/// Vectors of the substitutions, kept from one solve to the next.
-#[derive(Debug, Default)]
-pub(super) struct Scratch {
-    b: Vec<f64>,
-    solution: Vec<f64>,
-    local: Vec<f64>,
-    others: Vec<f64>,
-}
-
-/// A front as the substitutions see it: p pivots and q others.
-struct View<'a> {
-    l: &'a [f64],
-    u: &'a [f64],
-    pivot_rows: &'a [u32],
-    rest_rows: &'a [u32],
-    pivot_columns: &'a [u32],
-    rest_columns: &'a [u32],
-}
-
 impl Factors {
-    fn view<'a>(&'a self, analysis: &'a Analysis, index: usize) -> View<'a> {
-        if let Some(own) = self.irregular.get(&index) {
-            let (pivot_rows, rest_rows) = own.rows.split_at(own.pivots);
-            let (pivot_columns, rest_columns) = own.columns.split_at(own.pivots);
-            return View {
-                l: &own.l,
-                u: &own.u,
-                pivot_rows,
-                rest_rows,
-                pivot_columns,
-                rest_columns,
-            };
-        }
-        let front = &analysis.fronts[index];
-        let values = &self.values[front.values..front.values + front.n_values()];
-        let (l, u) = values.split_at(front.m() * front.k);
-        let rest = analysis.rest_of(front);
-        let own = front.start..front.start + front.k;
-        View {
-            l,
-            u,
-            pivot_rows: &self.pivot_rows[own.clone()],
-            rest_rows: rest,
-            pivot_columns: &analysis.places[own],
-            rest_columns: rest,
-        }
-    }
-
     /// Solves A x = b in place for one or several right-hand sides, one after the other in `x`,
     /// each in the order of the unknowns.
     ///
@@ -68,17 +20,17 @@ impl Factors {
     /// When the length of `x` is no multiple of the number of unknowns.
     pub fn solve(&mut self, analysis: &Analysis, x: &mut [f64]) {
         let n = analysis.n();
-        assert_eq!(x.len() % n.max(1), 0, "whole right-hand sides");
-        let largest = analysis.fronts.iter().map(Front::m).max().unwrap_or(0);
-        let largest = self.irregular.values().map(|own| own.rows.len()).fold(largest, usize::max);
+        if n == 0 {
+            assert!(x.is_empty(), "a right-hand side without unknowns is empty");
+            return;
+        }
+        assert_eq!(x.len() % n, 0, "whole right-hand sides");
         let mut scratch = std::mem::take(&mut self.scratch);
-        for block in x.chunks_mut(n.max(1) * BLOCK) {
+        let fronts = 0..analysis.fronts.len();
+        for block in x.chunks_mut(n * BLOCK) {
             let n_sides = block.len() / n;
-            let Scratch { b, solution, local, others } = &mut scratch;
-            b.resize(n * n_sides, 0.0);
-            solution.resize(n * n_sides, 0.0);
-            local.resize(largest * n_sides, 0.0);
-            for (side, b) in block.chunks(n).zip(b.chunks_mut(n)) {
+            scratch.fit(n, self.largest_front(analysis, 0), n_sides);
+            for (side, b) in block.chunks(n).zip(scratch.b.chunks_mut(n)) {
                 for ((value, &unknown), &is_pressure) in
                     b.iter_mut().zip(&analysis.unknown_at).zip(&analysis.is_pressure_at)
                 {
@@ -86,21 +38,13 @@ impl Factors {
                 }
             }
             if n_sides == 1 {
-                let one = One { factors: self, analysis, b, solution, local };
-                self.arch.dispatch(one);
+                self.arch.dispatch(OneSide { factors: self, analysis, scratch: &mut scratch });
             } else {
-                others.resize(largest * n_sides, 0.0);
-                for index in 0..analysis.fronts.len() {
-                    forward_block(&self.view(analysis, index), b, local, n_sides);
-                }
-                for index in (0..analysis.fronts.len()).rev() {
-                    let view = self.view(analysis, index);
-                    backward_block(&view, b, solution, local, others, n_sides);
-                }
+                self.substitute_block(analysis, fronts.clone(), &mut scratch, n_sides);
             }
-            for (side, solution) in block.chunks_mut(n).zip(solution.chunks(n)) {
+            for (side, x) in block.chunks_mut(n).zip(scratch.x.chunks(n)) {
                 for ((value, &unknown), &is_pressure) in
-                    solution.iter().zip(&analysis.unknown_at).zip(&analysis.is_pressure_at)
+                    x.iter().zip(&analysis.unknown_at).zip(&analysis.is_pressure_at)
                 {
                     side[unknown as usize] = *value * self.scale(is_pressure);
                 }
@@ -109,51 +53,90 @@ impl Factors {
         self.scratch = scratch;
     }
 
-    /// The block of the inverse in the rows and columns of some of the unknowns with dense rows,
-    /// column by column: how they answer unit right-hand sides of their own equations.
+    /// The block of the inverse in the rows and columns of some of the unknowns with dense rows, column
+    /// by column: their values for unit right-hand sides in their own equations.
     ///
     /// They are eliminated last, so only the last fronts take part.
     ///
     /// # Panics
     /// When one of them is not among the unknowns with dense rows.
     pub fn inverse_of_dense(&mut self, analysis: &Analysis, unknowns: &[usize]) -> Vec<f64> {
-        let (n, n_dense) = (analysis.n(), unknowns.len());
-        let place = |unknown: &usize| {
-            assert!(analysis.dense.contains(&(*unknown as u32)), "an unknown with a dense row");
-            let mut places = analysis.unknown_at.iter();
-            places.rposition(|at| *at as usize == *unknown).unwrap_or(0)
+        let n = analysis.n();
+        let position = |unknown: &usize| {
+            let is_it = |at: &u32| *at as usize == *unknown;
+            assert!(analysis.dense.iter().any(is_it), "an unknown with a dense row");
+            let position = analysis.unknown_at.iter().rposition(is_it);
+            position.expect("every unknown has a position in the order of elimination")
         };
-        let places: Vec<usize> = unknowns.iter().map(place).collect();
-        let Some(&earliest) = places.iter().min() else { return Vec::new() };
+        let positions: Vec<usize> = unknowns.iter().map(position).collect();
+        let Some(&earliest) = positions.iter().min() else { return Vec::new() };
         let first = analysis.fronts.partition_point(|front| front.start <= earliest) - 1;
-        let largest = analysis.fronts[first..].iter().map(Front::m).max().unwrap_or(0);
-        let largest = self.irregular.values().map(|own| own.rows.len()).fold(largest, usize::max);
         let mut scratch = std::mem::take(&mut self.scratch);
-        let mut inverse = Vec::with_capacity(n_dense * n_dense);
-        for block in places.chunks(BLOCK) {
-            let n_sides = block.len();
-            let Scratch { b, solution, local, others } = &mut scratch;
-            b.resize(n * n_sides, 0.0);
-            b.fill(0.0);
-            solution.resize(n * n_sides, 0.0);
-            local.resize(largest * n_sides, 0.0);
-            others.resize(largest * n_sides, 0.0);
-            for (side, &place) in block.iter().enumerate() {
-                b[side * n + place] = 1.0;
+        let mut inverse = Vec::with_capacity(positions.len().pow(2));
+        for block in positions.chunks(BLOCK) {
+            scratch.fit(n, self.largest_front(analysis, first), block.len());
+            scratch.b.fill(0.0);
+            for (b, &position) in scratch.b.chunks_mut(n).zip(block) {
+                b[position] = 1.0;
             }
-            for index in first..analysis.fronts.len() {
-                forward_block(&self.view(analysis, index), b, local, n_sides);
-            }
-            for index in (first..analysis.fronts.len()).rev() {
-                let view = self.view(analysis, index);
-                backward_block(&view, b, solution, local, others, n_sides);
-            }
-            for side in solution.chunks(n).take(n_sides) {
-                inverse.extend(places.iter().map(|&place| side[place]));
+            let fronts = first..analysis.fronts.len();
+            self.substitute_block(analysis, fronts, &mut scratch, block.len());
+            for x in scratch.x.chunks(n).take(block.len()) {
+                inverse.extend(positions.iter().map(|&position| x[position]));
             }
         }
         self.scratch = scratch;
         inverse
+    }
+
+    /// The substitutions in the last fronts for several right-hand sides.
+    fn substitute_block(
+        &self,
+        analysis: &Analysis,
+        fronts: Range<usize>,
+        scratch: &mut Scratch,
+        n_sides: usize,
+    ) {
+        let Scratch { b, x, local, border } = scratch;
+        for index in fronts.clone() {
+            forward_block(&self.of_front(analysis, index), b, local, n_sides);
+        }
+        for index in fronts.rev() {
+            backward_block(&self.of_front(analysis, index), b, x, local, border, n_sides);
+        }
+    }
+
+    fn of_front<'a>(&'a self, analysis: &'a Analysis, index: usize) -> FrontFactors<'a> {
+        if let Some(own) = self.delayed.get(&index) {
+            let (pivot_rows, border_rows) = own.rows.split_at(own.n_pivots);
+            let (pivot_columns, border_columns) = own.columns.split_at(own.n_pivots);
+            return FrontFactors {
+                l: &own.l,
+                u: &own.u,
+                pivot_rows,
+                border_rows,
+                pivot_columns,
+                border_columns,
+            };
+        }
+        let front = &analysis.fronts[index];
+        let values = &self.values[front.values..front.values + front.n_values()];
+        let (l, u) = values.split_at(front.m() * front.k);
+        let border = analysis.border_of(front);
+        FrontFactors {
+            l,
+            u,
+            pivot_rows: &self.pivot_rows[front.positions()],
+            border_rows: border,
+            pivot_columns: &analysis.pivot_positions[front.positions()],
+            border_columns: border,
+        }
+    }
+
+    /// Largest order of the fronts from `first` on, and of those with delayed pivots.
+    fn largest_front(&self, analysis: &Analysis, first: usize) -> usize {
+        let regular = analysis.fronts[first..].iter().map(Front::m);
+        regular.chain(self.delayed.values().map(|own| own.rows.len())).fold(0, usize::max)
     }
 
     fn scale(&self, is_pressure: bool) -> f64 {
@@ -163,195 +146,24 @@ impl Factors {
 
 /// The substitutions for one right-hand side: a type of our own, so that they are compiled for the
 /// processor's vectors.
-struct One<'a> {
+struct OneSide<'a> {
     factors: &'a Factors,
     analysis: &'a Analysis,
-    b: &'a mut [f64],
-    solution: &'a mut [f64],
-    local: &'a mut [f64],
+    scratch: &'a mut Scratch,
 }
 
-impl pulp::WithSimd for One<'_> {
+impl pulp::WithSimd for OneSide<'_> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: pulp::Simd>(self, _simd: S) {
-        let Self { factors, analysis, b, solution, local } = self;
+        let Self { factors, analysis, scratch } = self;
+        let Scratch { b, x, local, .. } = scratch;
         for index in 0..analysis.fronts.len() {
-            forward(&factors.view(analysis, index), b, local);
+            forward(&factors.of_front(analysis, index), b, local);
         }
         for index in (0..analysis.fronts.len()).rev() {
-            backward(&factors.view(analysis, index), b, solution, local);
+            backward(&factors.of_front(analysis, index), b, x, local);
         }
-    }
-}
-
-/// y += sum of four columns times factors.
-#[inline(always)]
-fn add_four(y: &mut [f64], columns: [&[f64]; 4], factors: [f64; 4]) {
-    let n = y.len();
-    let [a, b, c, d] = columns;
-    let (a, b, c, d) = (&a[..n], &b[..n], &c[..n], &d[..n]);
-    for i in 0..n {
-        let left = a[i].mul_add(factors[0], b[i].mul_add(factors[1], y[i]));
-        y[i] = c[i].mul_add(factors[2], d[i].mul_add(factors[3], left));
-    }
-}
-
-#[inline(always)]
-fn add_one(y: &mut [f64], column: &[f64], factor: f64) {
-    for (y, value) in y.iter_mut().zip(column) {
-        *y = value.mul_add(factor, *y);
-    }
-}
-
-/// The values at some places, as many as there are places.
-#[inline(always)]
-fn gather(values: &mut [f64], from: &[f64], places: &[u32]) {
-    for (value, &place) in values.iter_mut().zip(places) {
-        *value = from[place as usize];
-    }
-}
-
-/// Writes values to their places.
-#[inline(always)]
-fn put(values: &[f64], places: &[u32], target: &mut [f64]) {
-    for (value, &place) in values.iter().zip(places) {
-        target[place as usize] = *value;
-    }
-}
-
-/// b of the pivot rows becomes L^-1 b, and the other rows lose what the pivots explain.
-#[inline(always)]
-fn forward(view: &View<'_>, b: &mut [f64], local: &mut [f64]) {
-    let p = view.pivot_rows.len();
-    let m = p + view.rest_rows.len();
-    let local = &mut local[..m];
-    gather(local, b, view.pivot_rows);
-    local[p..].fill(0.0);
-    let mut j = 0;
-    while j + 4 <= p {
-        let columns: [&[f64]; 4] = std::array::from_fn(|c| &view.l[(j + c) * m..(j + c + 1) * m]);
-        let mut factors = [0.0; 4];
-        for c in 0..4 {
-            factors[c] = -local[j + c];
-            for later in c + 1..4 {
-                local[j + later] += columns[c][j + later] * factors[c];
-            }
-        }
-        let below = columns.map(|column| &column[j + 4..]);
-        add_four(&mut local[j + 4..], below, factors);
-        j += 4;
-    }
-    for j in j..p {
-        let factor = -local[j];
-        add_one(&mut local[j + 1..], &view.l[j * m + j + 1..(j + 1) * m], factor);
-    }
-    put(local, view.pivot_rows, b);
-    for (&row, value) in view.rest_rows.iter().zip(&local[p..]) {
-        b[row as usize] += value;
-    }
-}
-
-/// x of the pivot columns from b of the pivot rows and x of the others.
-#[inline(always)]
-fn backward(view: &View<'_>, b: &[f64], x: &mut [f64], local: &mut [f64]) {
-    let p = view.pivot_rows.len();
-    let m = p + view.rest_rows.len();
-    let local = &mut local[..p];
-    gather(local, b, view.pivot_rows);
-    let mut columns = view.u.chunks_exact(p.max(1) * 4);
-    let mut rest = view.rest_columns.chunks_exact(4);
-    for (four, places) in (&mut columns).zip(&mut rest) {
-        let factors = std::array::from_fn(|c| -x[places[c] as usize]);
-        add_four(local, std::array::from_fn(|c| &four[c * p..(c + 1) * p]), factors);
-    }
-    if p > 0 {
-        for (column, &place) in columns.remainder().chunks_exact(p).zip(rest.remainder()) {
-            add_one(local, column, -x[place as usize]);
-        }
-    }
-    let mut j = p;
-    while j >= 4 {
-        j -= 4;
-        let columns: [&[f64]; 4] =
-            std::array::from_fn(|c| &view.l[(j + c) * m..(j + c) * m + j + 4]);
-        let mut factors = [0.0; 4];
-        for c in (0..4).rev() {
-            let value = local[j + c] / columns[c][j + c];
-            local[j + c] = value;
-            factors[c] = -value;
-            for earlier in 0..c {
-                local[j + earlier] -= columns[c][j + earlier] * value;
-            }
-        }
-        let above = columns.map(|column| &column[..j]);
-        add_four(&mut local[..j], above, factors);
-    }
-    for j in (0..j).rev() {
-        let value = local[j] / view.l[j * m + j];
-        local[j] = value;
-        add_one(&mut local[..j], &view.l[j * m..j * m + j], -value);
-    }
-    put(local, view.pivot_columns, x);
-}
-
-/// `forward` for several right-hand sides.
-fn forward_block(view_of: &View<'_>, b: &mut [f64], local: &mut [f64], n_sides: usize) {
-    let (p, q) = (view_of.pivot_rows.len(), view_of.rest_rows.len());
-    let (m, n) = (p + q, b.len() / n_sides);
-    if p == 0 {
-        return;
-    }
-    let local = &mut local[..m * n_sides];
-    for (side, local) in b.chunks(n).zip(local.chunks_mut(m)) {
-        gather(local, side, view_of.pivot_rows);
-    }
-    let (mut upper, lower) = view_mut(local, m, n_sides, m).split_at_row_mut(p);
-    let unit_lower = view(view_of.l, p, p, m);
-    solve_unit_lower_triangular_in_place(unit_lower, upper.as_mut(), Par::Seq);
-    if q > 0 {
-        let multipliers = view(&view_of.l[p..], q, p, m);
-        matmul(lower, Accum::Replace, multipliers, upper.as_ref(), -1.0, Par::Seq);
-    }
-    for (side, local) in b.chunks_mut(n).zip(local.chunks(m)) {
-        put(local, view_of.pivot_rows, side);
-        for (&row, value) in view_of.rest_rows.iter().zip(&local[p..]) {
-            side[row as usize] += value;
-        }
-    }
-}
-
-/// `backward` for several right-hand sides.
-fn backward_block(
-    view_of: &View<'_>,
-    b: &[f64],
-    x: &mut [f64],
-    local: &mut [f64],
-    others: &mut [f64],
-    n_sides: usize,
-) {
-    let (p, q) = (view_of.pivot_rows.len(), view_of.rest_columns.len());
-    let (m, n) = (p + q, b.len() / n_sides);
-    if p == 0 {
-        return;
-    }
-    let local = &mut local[..p * n_sides];
-    for (side, local) in b.chunks(n).zip(local.chunks_mut(p)) {
-        gather(local, side, view_of.pivot_rows);
-    }
-    if q > 0 {
-        let others = &mut others[..q * n_sides];
-        for (side, others) in x.chunks(n).zip(others.chunks_mut(q)) {
-            gather(others, side, view_of.rest_columns);
-        }
-        let known = view(others, q, n_sides, q);
-        let target = view_mut(local, p, n_sides, p);
-        matmul(target, Accum::Add, view(view_of.u, p, q, p), known, -1.0, Par::Seq);
-    }
-    let upper = view(view_of.l, p, p, m);
-    solve_upper_triangular_in_place(upper, view_mut(local, p, n_sides, p), Par::Seq);
-    for (side, local) in x.chunks_mut(n).zip(local.chunks(p)) {
-        put(local, view_of.pivot_columns, side);
     }
 }

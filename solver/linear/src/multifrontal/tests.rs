@@ -5,6 +5,7 @@ use faer::linalg::solvers::Solve;
 use proptest::prelude::*;
 
 use super::{Analysis, Factors, Ordering, Singular};
+use crate::sparse::index::to_u32;
 use crate::sparse::{Pattern, SparseMatrix, Unknowns};
 
 /// A matrix with what each unknown is.
@@ -65,7 +66,7 @@ impl System {
 }
 
 fn nodes_of_their_own(n: usize) -> Unknowns {
-    Unknowns { node: (0..n as u32).collect(), is_pressure: vec![false; n], dense: Vec::new() }
+    Unknowns { node: (0..to_u32(n)).collect(), is_pressure: vec![false; n], dense: Vec::new() }
 }
 
 /// Numbers in [-1, 1] that depend on a seed alone.
@@ -89,11 +90,11 @@ fn saddle_point(width: usize, height: usize, seed: u64, hard: f64, n_dense: usiz
         // Nodes on the boundary may have lost their velocities to boundary values.
         let has_velocity = random.next() > hard - 1.0;
         if has_velocity {
-            node.extend([index as u32; 2]);
+            node.extend([to_u32(index); 2]);
             is_pressure.extend([false; 2]);
         }
         if (index % width + index / width).is_multiple_of(3) {
-            node.push(index as u32);
+            node.push(to_u32(index));
             is_pressure.push(true);
         }
     }
@@ -169,9 +170,9 @@ proptest! {
         prop_assert!(system.n() == 0 || agrees_with_dense_lu(&system, ordering, n_sides) != Some(false));
     }
 
-    /// The last fronts alone tell how unknowns with dense rows answer, delayed pivots or not.
+    /// The last fronts alone give the values of unknowns with dense rows, with delayed pivots or without.
     #[test]
-    fn the_inverse_in_dense_rows_is_that_of_whole_solves(
+    fn the_inverse_in_dense_rows_is_that_of_complete_solves(
         width in 1usize..9,
         height in 1usize..9,
         seed in any::<u64>(),
@@ -301,7 +302,7 @@ fn a_constant_pressure_that_nothing_fixes_is_singular() {
             }
         }
         let unknowns = Unknowns {
-            node: (0..n).map(|index| (index % n_cells) as u32).collect(),
+            node: (0..n).map(|index| to_u32(index % n_cells)).collect(),
             is_pressure: (0..n).map(|index| index >= n_cells).collect(),
             dense: Vec::new(),
         };
