@@ -1,6 +1,6 @@
 //! What it costs to move, judge and replace a mesh with 10^5 nodes: CPU seconds as a table.
 //!
-//! `cargo run --release -p alewife --example motion_cost`
+//! `cargo bench --bench motion_cost`
 
 use alewife_core::body::Pose;
 use alewife_core::motion::{

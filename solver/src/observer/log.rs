@@ -8,9 +8,10 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use tracing::field::{Field, Visit};
 use tracing::{Event, Level, Subscriber};
+use tracing_subscriber::filter::{LevelFilter, Targets};
+use tracing_subscriber::fmt;
 use tracing_subscriber::layer::{Context, Layer, SubscriberExt};
 use tracing_subscriber::util::SubscriberInitExt;
-use tracing_subscriber::{EnvFilter, fmt};
 
 use super::terminal::{AboveBars, TERMINAL};
 
@@ -21,17 +22,19 @@ static FILE: Mutex<Option<File>> = Mutex::new(None);
 ///
 /// `verbosity` is the number of `-v` on the command line: warnings, then 1 for what the program
 /// does, 2 for details, 3 for everything; negative for errors only. The variable `ALEWIFE_LOG`
-/// overrides it, with the same syntax as `RUST_LOG`. `log.jsonl` in `directory` always tells what
+/// overrides it: a level, or pairs `target=level` separated by commas. `log.jsonl` in `directory` always tells what
 /// the program does, and more if `verbosity` asks for more.
 ///
 /// # Errors
 /// When `log.jsonl` cannot be made, or `ALEWIFE_LOG` cannot be understood.
 pub fn start_log(directory: Option<&Path>, verbosity: i8) -> io::Result<()> {
     let filter = |least: i8| match std::env::var("ALEWIFE_LOG") {
-        Ok(directives) => EnvFilter::try_new(&directives).map_err(|error| {
-            io::Error::new(io::ErrorKind::InvalidInput, format!("ALEWIFE_LOG: {error}"))
+        Ok(directives) => directives.parse::<Targets>().map_err(|error| {
+            let accepted = "a level such as `debug`, or pairs such as `alewife_core=debug`";
+            let message = format!("ALEWIFE_LOG = `{directives}`: {error}; accepted: {accepted}");
+            io::Error::new(io::ErrorKind::InvalidInput, message)
         }),
-        Err(_) => Ok(EnvFilter::new(level_name(verbosity.max(least)))),
+        Err(_) => Ok(Targets::new().with_default(level(verbosity.max(least)))),
     };
     let colour = TERMINAL.is_terminal() && std::env::var_os("NO_COLOR").is_none();
     let text = fmt::layer()
@@ -66,13 +69,13 @@ fn the_file() -> MutexGuard<'static, Option<File>> {
     FILE.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-fn level_name(verbosity: i8) -> &'static str {
+fn level(verbosity: i8) -> LevelFilter {
     match verbosity {
-        ..=-1 => "error",
-        0 => "warn",
-        1 => "info",
-        2 => "debug",
-        3.. => "trace",
+        ..=-1 => LevelFilter::ERROR,
+        0 => LevelFilter::WARN,
+        1 => LevelFilter::INFO,
+        2 => LevelFilter::DEBUG,
+        3.. => LevelFilter::TRACE,
     }
 }
 

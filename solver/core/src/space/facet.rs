@@ -121,7 +121,7 @@ fn barycentric_rule<const D: usize>() -> Vec<BarycentricPoint<D>> {
         BarycentricPoint { coordinates, weight }
     }
     if D == 2 {
-        let rule = interval_rule(4);
+        let rule = interval_rule();
         rule.points.iter().zip(rule.weights).map(|(at, w)| from(at.as_slice(), w)).collect()
     } else {
         let rule = simplex_rule::<2>(8);
