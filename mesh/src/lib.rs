@@ -26,6 +26,7 @@ mod spline;
 mod surroundings;
 mod vtu;
 
+pub use box_tree::{Bounds, BoxTree};
 pub use check::check_mesh;
 pub use closest::{
     Closest, Wall, closest, closest_features, closest_to_wall, on_meridian, overlap, thickness,
