@@ -1,6 +1,7 @@
 //! `Case`: the typed contents of a case file; `Model`: what follows from them.
 
 mod body;
+mod case_text;
 mod check;
 mod contact;
 mod copies;
@@ -19,7 +20,6 @@ mod nearest;
 mod numbers;
 mod output;
 mod parts;
-
 mod read;
 mod reference;
 mod schema;
@@ -28,6 +28,7 @@ mod stroke;
 mod swimmer;
 mod time;
 mod tree;
+mod type_error;
 
 use std::collections::BTreeMap;
 

@@ -1,7 +1,7 @@
 //! Problems of `[[reference]]` and `[statistics]`: quantities, statistics and tolerances.
 
 use super::Findings;
-use crate::deserialize::suggestion;
+use crate::type_error::suggestion;
 use crate::{Geometry, JointKind, Model, Reference, Statistic, TimeSettings};
 
 /// What is measured on every body.
