@@ -72,7 +72,7 @@ impl DiscGrid {
     clippy::cast_sign_loss,
     reason = "the value is clamped to the range first"
 )]
-fn rounded_down(value: f64, most: usize) -> usize {
+pub fn rounded_down(value: f64, most: usize) -> usize {
     if value.is_nan() { 0 } else { value.clamp(0.0, most as f64) as usize }
 }
 

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use alewife_mesh::Point;
 
-use super::discs::{Disc, DiscGrid};
+use super::discs::{Disc, DiscGrid, rounded_down};
 use super::{
     Body, Case, FlowModel, GaitSpec, Geometry, Model, ShapeSpec, SquirmerGait, SwimmerModel,
     TimeSettings,
@@ -239,8 +239,8 @@ pub fn number_table(model: &Model) -> String {
 pub fn significant(value: f64) -> String {
     let size = value.abs();
     if value == 0.0 || (1e-3..1e6).contains(&size) {
-        let digits = if value == 0.0 { 1 } else { (5 - size.log10().floor() as i32).clamp(0, 9) };
-        let text = format!("{value:.*}", digits as usize);
+        let digits = if value == 0.0 { 1 } else { rounded_down(5.0 - size.log10().floor(), 9) };
+        let text = format!("{value:.digits$}");
         if text.contains('.') {
             text.trim_end_matches('0').trim_end_matches('.').to_owned()
         } else {

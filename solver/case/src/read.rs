@@ -15,7 +15,7 @@ use super::diagnostic::{CaseError, Diagnostic, Severity};
 use super::geometry::opposite;
 use super::nearest::nearest;
 use super::source::{Location, Origin, Source};
-use super::tree::{self, TomlNode, TomlValue, TreeError};
+use super::tree::{self, Found, TomlNode, TomlValue, TreeError};
 use super::type_error::{Mismatch, TypeError, suggestion};
 use super::{BoundaryCondition, Case, Model, library};
 
@@ -149,7 +149,7 @@ fn assemble(
 
 /// Where the value at a dotted path is written, or the table it would stand in.
 fn location(root: &TomlNode, path: &str) -> Option<Location> {
-    let (node, is_exact) = root.find(path);
+    let Found { node, is_exact } = root.find(path);
     // A default is nowhere: its table is the next best location, by its header or its key.
     let is_value = is_exact && (node.table().is_none() || node.is_inline());
     let origin = if is_value { &node.origin } else { &node.key };
@@ -223,8 +223,7 @@ fn extended(text: &CaseText) -> Result<TomlNode, CaseError> {
 }
 
 fn variant_tables(root: &TomlNode) -> impl Iterator<Item = &BTreeMap<String, TomlNode>> {
-    let (variants, is_there) = root.find("variant");
-    let items = if is_there { variants.array().unwrap_or_default() } else { &[] };
+    let items = root.get("variant").and_then(TomlNode::array).unwrap_or_default();
     items.iter().filter_map(TomlNode::table)
 }
 
@@ -241,8 +240,7 @@ fn apply_variant(root: &mut TomlNode, source: &Arc<Source>, name: &str) -> Resul
         .cloned();
     let Some(table) = table else {
         let known = variant_names(root);
-        let (variants, is_there) = root.find("variant");
-        let first = if is_there { variants.array().and_then(<[TomlNode]>::first) } else { None };
+        let first = root.get("variant").and_then(TomlNode::array).and_then(<[TomlNode]>::first);
         let start = Origin { source: Arc::clone(source), span: 0..0 };
         return Err(TreeError {
             origin: first.map_or(start, |node| node.origin.clone()),
@@ -289,8 +287,7 @@ fn apply_setting(root: &mut TomlNode, setting: &str) -> Result<(), TreeError> {
     };
     let start = path.len() + 1;
     let path = path.trim();
-    let (known, is_known) = root.find(path);
-    let wants_text = is_known && known.text().is_some();
+    let wants_text = root.get(path).and_then(TomlNode::text).is_some();
     let as_text = || TomlNode {
         key: whole.clone(),
         origin: place(start..setting.len()),

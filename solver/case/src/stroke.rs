@@ -1,6 +1,7 @@
 //! `Stroke`: a length, an angle or a torque that is given in time, with its exact rate.
 
 use std::f64::consts::{PI, TAU};
+use std::iter::successors;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -90,10 +91,11 @@ impl Stroke {
     pub fn rate_discontinuities(&self, from: f64, to: f64) -> Vec<f64> {
         match self {
             Self::Legs { knots, period, smooth: false } => {
-                let cycles = (from / period).floor() as i64..=(to / period).floor() as i64;
-                let all = cycles.flat_map(|cycle| {
-                    knots.iter().map(move |knot| cycle as f64 * period + knot[0])
-                });
+                let last = (to / period).floor();
+                let cycles = successors(Some((from / period).floor()), |cycle| Some(cycle + 1.0));
+                let all = cycles
+                    .take_while(|cycle| *cycle <= last)
+                    .flat_map(|cycle| knots.iter().map(move |knot| cycle * period + knot[0]));
                 all.filter(|time| *time > from && *time < to).collect()
             }
             Self::Table(knots) => {

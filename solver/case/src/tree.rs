@@ -1,7 +1,7 @@
 //! `TomlNode`: a case before it is typed: TOML values that know where they were written.
 //!
 //! A case is put together from several texts (a parent, the file, a variant, `--set`); each value
-//! keeps the place it came from, so that every later complaint can point at it.
+//! keeps where it came from, so that every later message can point at it.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -59,6 +59,15 @@ pub enum TomlValue {
     Array(Vec<TomlNode>),
     /// Values by key.
     Table(BTreeMap<String, TomlNode>),
+}
+
+/// What a path leads to.
+#[derive(Debug, Clone, Copy)]
+pub struct Found<'a> {
+    /// The value, or the nearest table around it.
+    pub node: &'a TomlNode,
+    /// Whether it is the value itself.
+    pub is_exact: bool,
 }
 
 /// Why a text or a path could not be followed.
@@ -177,8 +186,14 @@ impl TomlNode {
         if let TomlValue::String(text) = &self.value { Some(text) } else { None }
     }
 
+    /// The value at a dotted path, if it is written.
+    pub fn get(&self, path: &str) -> Option<&Self> {
+        let found = self.find(path);
+        found.is_exact.then_some(found.node)
+    }
+
     /// The value at a dotted path, or the nearest table around it that is written.
-    pub fn find(&self, path: &str) -> (&Self, bool) {
+    pub fn find(&self, path: &str) -> Found<'_> {
         let mut here = self;
         for step in path.split('.').filter(|step| !step.is_empty()) {
             let next = match &here.value {
@@ -190,10 +205,10 @@ impl TomlNode {
             };
             match next {
                 Some(node) => here = node,
-                None => return (here, false),
+                None => return Found { node: here, is_exact: false },
             }
         }
-        (here, true)
+        Found { node: here, is_exact: true }
     }
 
     /// The value at a dotted path, to be changed.
@@ -319,37 +334,35 @@ mod tests {
     #[test]
     fn every_value_knows_its_line_and_column() {
         let root = tree("[fluid]\nviscosity = 1.0\n[[body]]\nname = \"a\"\n[[body]]\nx = [1, 2]\n");
-        let place = |path: &str| {
-            let (node, exact) = root.find(path);
-            assert!(exact, "{path}");
-            let place = node.origin.location();
-            (place.line, place.column)
+        let written_at = |path: &str| {
+            let location = root.get(path).unwrap().origin.location();
+            (location.line, location.column)
         };
-        assert_eq!(place("fluid"), (1, 1));
-        assert_eq!(place("fluid.viscosity"), (2, 13));
-        assert_eq!(place("body.0"), (3, 1));
-        assert_eq!(place("body.1"), (5, 1));
-        assert_eq!(place("body.1.x.1"), (6, 9));
+        assert_eq!(written_at("fluid"), (1, 1));
+        assert_eq!(written_at("fluid.viscosity"), (2, 13));
+        assert_eq!(written_at("body.0"), (3, 1));
+        assert_eq!(written_at("body.1"), (5, 1));
+        assert_eq!(written_at("body.1.x.1"), (6, 9));
     }
 
     #[test]
     fn another_alternative_replaces_the_first_one() {
         let mut root = tree("time = { steady = {} }\nboundary = { left = \"no-slip\" }");
         set(&mut root, "time.unsteady.step", "0.1").unwrap();
-        assert!(!root.find("time.steady").1 && root.find("time.unsteady.step").1);
+        assert!(root.get("time.steady").is_none() && root.get("time.unsteady.step").is_some());
         set(&mut root, "boundary.left.parabolic.peak", "2").unwrap();
-        assert_eq!(root.find("boundary.left.parabolic.peak").0.value, TomlValue::Integer(2));
+        assert_eq!(root.get("boundary.left.parabolic.peak").unwrap().value, TomlValue::Integer(2));
         let mut parent = tree("[time.steady]\n[mesh]\nsize = 1\ngrowth = 0.1");
         parent.merge(tree("[time.unsteady]\nstep = 1\n[mesh]\nsize = 2"));
-        assert!(!parent.find("time.steady").1 && parent.find("mesh.growth").1);
-        assert_eq!(parent.find("mesh.size").0.value, TomlValue::Integer(2));
+        assert!(parent.get("time.steady").is_none() && parent.get("mesh.growth").is_some());
+        assert_eq!(parent.get("mesh.size").unwrap().value, TomlValue::Integer(2));
     }
 
     #[test]
     fn an_index_past_the_end_is_refused() {
         let mut root = tree("modes = [1, 2]");
         set(&mut root, "modes.1", "3").unwrap();
-        assert_eq!(root.find("modes.1").0.value, TomlValue::Integer(3));
+        assert_eq!(root.get("modes.1").unwrap().value, TomlValue::Integer(3));
         let error = set(&mut root, "modes.2", "3").unwrap_err();
         assert!(error.help.contains("has 2 of them"), "{error:?}");
         assert!(set(&mut root, "modes.1.x", "3").is_err());

@@ -241,18 +241,19 @@ fn check_balance(findings: &mut Findings<'_>) {
         return;
     }
     // Flows that vary differently in time cannot balance each other.
-    let mut groups: Vec<(Option<&TimeFunction>, f64, f64)> = Vec::new();
+    let mut groups: Vec<FlowGroup<'_>> = Vec::new();
     for (side, condition) in &case.boundary {
-        let (inflow, factor) = inflow(&case.domain, side, condition);
-        match groups.iter_mut().find(|(known, ..)| *known == factor) {
-            Some((_, net, gross)) => {
-                *net += inflow;
-                *gross += inflow.abs();
+        let factor = factor_in_time(condition);
+        let inflow = inflow(&case.domain, side, condition);
+        match groups.iter_mut().find(|group| group.factor == factor) {
+            Some(group) => {
+                group.net += inflow;
+                group.gross += inflow.abs();
             }
-            None => groups.push((factor, inflow, inflow.abs())),
+            None => groups.push(FlowGroup { factor, net: inflow, gross: inflow.abs() }),
         }
     }
-    for (_, net, gross) in groups {
+    for FlowGroup { net, gross, .. } in groups {
         if net.abs() > BALANCE * gross {
             let (verb, unit) = if net > 0.0 { ("enters", "") } else { ("leaves", "-") };
             let kind = if case.domain.is_axisymmetric() { "m3/s" } else { "m2/s" };
@@ -270,12 +271,27 @@ fn check_balance(findings: &mut Findings<'_>) {
     }
 }
 
-/// Flow into the domain through a side (m2/s planar, m3/s axisymmetric), and its factor in time.
-fn inflow<'a>(
-    domain: &DomainSpec,
-    side: &str,
-    condition: &'a BoundaryCondition,
-) -> (f64, Option<&'a TimeFunction>) {
+/// Flow through all sides with the same factor in time (m2/s planar, m3/s axisymmetric).
+struct FlowGroup<'a> {
+    factor: Option<&'a TimeFunction>,
+    /// What enters, less what leaves.
+    net: f64,
+    /// What enters, and what leaves.
+    gross: f64,
+}
+
+/// The factor in time of the flow through a side.
+fn factor_in_time(condition: &BoundaryCondition) -> Option<&TimeFunction> {
+    match condition {
+        BoundaryCondition::Velocity { factor, .. }
+        | BoundaryCondition::Parabolic { factor, .. }
+        | BoundaryCondition::Shear { factor, .. } => factor.as_ref(),
+        _ => None,
+    }
+}
+
+/// Flow into the domain through a side without its factor in time (m2/s planar, m3/s axisymmetric).
+fn inflow(domain: &DomainSpec, side: &str, condition: &BoundaryCondition) -> f64 {
     let [[x0, y0], [x1, y1]] = domain.extent();
     let (length, height) = (x1 - x0, y1 - y0);
     // Inward normal of a straight side.
@@ -286,7 +302,7 @@ fn inflow<'a>(
         _ => (-1.0, 1),
     };
     match condition {
-        BoundaryCondition::Velocity { value, factor } => {
+        BoundaryCondition::Velocity { value, .. } => {
             let normal_velocity = inward * value.get(axis).copied().unwrap_or(0.0);
             let area = match (domain, axis) {
                 // What enters a closed curve on one side leaves it on the other.
@@ -298,19 +314,19 @@ fn inflow<'a>(
                 (_, 0) => height,
                 (_, _) => length,
             };
-            (normal_velocity * area, factor.as_ref())
+            normal_velocity * area
         }
-        BoundaryCondition::Parabolic { peak, factor } if axis == 0 => {
+        BoundaryCondition::Parabolic { peak, .. } if axis == 0 => {
             let area = match domain {
                 DomainSpec::Cylinder { radius, .. } => 0.5 * PI * radius * radius,
                 _ => 2.0 / 3.0 * height,
             };
-            (inward * peak * area, factor.as_ref())
+            inward * peak * area
         }
-        BoundaryCondition::Shear { rate, origin, factor } if axis == 0 => {
+        BoundaryCondition::Shear { rate, origin, .. } if axis == 0 => {
             let mean = 0.5 * (y0 + y1) - origin;
-            (inward * rate * mean * height, factor.as_ref())
+            inward * rate * mean * height
         }
-        _ => (0.0, None),
+        _ => 0.0,
     }
 }

@@ -67,6 +67,12 @@ pub fn check(findings: &mut Findings<'_>) {
             );
         }
     }
+    check_output(findings);
+}
+
+/// How often results are written.
+fn check_output(findings: &mut Findings<'_>) {
+    let case = findings.case();
     for (key, cadence) in
         [("output.fields", case.output.fields), ("output.series", case.output.series)]
     {
@@ -82,7 +88,7 @@ pub fn check(findings: &mut Findings<'_>) {
     }
 }
 
-/// When a mesh that moves is made anew.
+/// When the domain is remeshed.
 fn check_moving(findings: &mut Findings<'_>) {
     let case = findings.case();
     let (moving, gap_layers) = (case.mesh.moving, case.mesh.gap_layers);
@@ -95,7 +101,7 @@ fn check_moving(findings: &mut Findings<'_>) {
         );
     }
     // Both as written: the scale of the mesh makes gaps coarser than they were meant to be, which
-    // is no reason to refuse them. A mesh with few layers is made anew once it has lost some.
+    // is no reason to refuse them. Gaps with few layers are remeshed once they have lost some.
     if moving.layers < 1.0 {
         findings.error(
             "mesh.moving.layers",

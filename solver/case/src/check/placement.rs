@@ -25,8 +25,8 @@ pub fn check(findings: &mut Findings<'_>) {
     let layout = Layout::new(&domain, &bodies, case.domain.extent());
     let misplaced = layout.misplaced();
     for Misplaced { body, error } in &misplaced {
-        let (message, help) = explained(error);
-        findings.error(&format!("body.{body}.center"), message, help);
+        let help = remedy(error);
+        findings.error(&format!("body.{body}.center"), message(error), help);
     }
     for (index, probe) in case.probe.iter().enumerate() {
         let minus = Some(&probe.minus).filter(|minus| !minus.is_empty());
@@ -40,23 +40,26 @@ pub fn check(findings: &mut Findings<'_>) {
     }
 }
 
-/// What is wrong with where a body is, and what to do.
-fn explained(error: &MeshError) -> (String, &'static str) {
+/// What is wrong with where a body is.
+fn message(error: &MeshError) -> String {
     match error {
-        MeshError::Outside { body, gap, x, y } => (
-            format!(
-                "body \"{body}\" touches or leaves the domain at ({x:.4}, {y:.4}): gap {gap:.3e}"
-            ),
-            "move it inward, make it smaller, or enlarge the domain",
+        MeshError::Outside { body, gap, x, y } => format!(
+            "body \"{body}\" touches or leaves the domain at ({x:.4}, {y:.4}): gap {gap:.3e}"
         ),
-        MeshError::Overlap { first, second, gap, x, y } => (
-            format!(
-                "bodies \"{first}\" and \"{second}\" touch or overlap at ({x:.4}, {y:.4}): \
-                 gap {gap:.3e}"
-            ),
-            "move them apart, or make them smaller",
+        MeshError::Overlap { first, second, gap, x, y } => format!(
+            "bodies \"{first}\" and \"{second}\" touch or overlap at ({x:.4}, {y:.4}): \
+             gap {gap:.3e}"
         ),
-        other => (other.to_string(), ""),
+        other => other.to_string(),
+    }
+}
+
+/// What to do about it.
+fn remedy(error: &MeshError) -> &'static str {
+    match error {
+        MeshError::Outside { .. } => "move it inward, make it smaller, or enlarge the domain",
+        MeshError::Overlap { .. } => "move them apart, or make them smaller",
+        _ => "",
     }
 }
 

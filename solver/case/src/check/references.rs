@@ -235,31 +235,7 @@ fn check_statistic(
     let case = findings.case();
     let statistic = format!("{key}.statistic");
     let is_any = |list: &[Statistic]| list.contains(&reference.statistic);
-    for (name, is_given, what, owners, names) in [
-        ("at", reference.at.is_some(), "a time", [At].as_slice(), "statistic `at`"),
-        (
-            "level",
-            reference.level.is_some(),
-            "a value",
-            &[Crossing, When],
-            "statistics `crossing` and `when`",
-        ),
-        ("of", reference.of.is_some(), "a quantity to wait for", &[When], "statistic `when`"),
-    ] {
-        if is_any(owners) && !is_given {
-            findings.error(
-                &statistic,
-                format!("the statistic `{}` needs {what}", reference.statistic.name()),
-                &format!("add {name} = ... to the reference"),
-            );
-        } else if is_given && !is_any(owners) {
-            findings.error(
-                &format!("{key}.{name}"),
-                format!("`{name}` goes with the {names} only"),
-                &format!("write statistic = \"{}\", or leave `{name}` out", owners[0].name()),
-            );
-        }
-    }
+    check_arguments(findings, key, reference);
     if reference.statistic == At
         && let Some(at) = reference.at
         && (at < 0.0 || end.is_some_and(|end| at > end))
@@ -300,6 +276,38 @@ fn check_statistic(
     }
     if is_any(&[MorisonDrag, MorisonInertia]) {
         check_morison(findings, key, reference);
+    }
+}
+
+/// Whether the statistic has what it needs, and nothing else is given.
+fn check_arguments(findings: &mut Findings<'_>, key: &str, reference: &Reference) {
+    use Statistic::{At, Crossing, When};
+    let statistic = format!("{key}.statistic");
+    let is_any = |list: &[Statistic]| list.contains(&reference.statistic);
+    for (name, is_given, what, owners, names) in [
+        ("at", reference.at.is_some(), "a time", [At].as_slice(), "statistic `at`"),
+        (
+            "level",
+            reference.level.is_some(),
+            "a value",
+            &[Crossing, When],
+            "statistics `crossing` and `when`",
+        ),
+        ("of", reference.of.is_some(), "a quantity to wait for", &[When], "statistic `when`"),
+    ] {
+        if is_any(owners) && !is_given {
+            findings.error(
+                &statistic,
+                format!("the statistic `{}` needs {what}", reference.statistic.name()),
+                &format!("add {name} = ... to the reference"),
+            );
+        } else if is_given && !is_any(owners) {
+            findings.error(
+                &format!("{key}.{name}"),
+                format!("`{name}` goes with the {names} only"),
+                &format!("write statistic = \"{}\", or leave `{name}` out", owners[0].name()),
+            );
+        }
     }
 }
 

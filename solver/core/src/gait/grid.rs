@@ -4,6 +4,7 @@ use alewife_mesh::{Profile, Station};
 
 use super::number::Number;
 use super::rule::Rule;
+use super::whole::whole;
 
 /// Gauss points of a panel.
 const POINTS: usize = 6;
@@ -150,7 +151,7 @@ fn panels(profile: &Profile, discontinuities: &[f64]) -> Vec<Panel> {
             let along = [0, 1].map(|i| profile.at(piece, pair[i]).along);
             let count = ((along[1] - along[0]) / longest).ceil().max(4.0);
             let step = (pair[1] - pair[0]) / count;
-            panels.extend((0..count as usize).map(|i| {
+            panels.extend((0..whole(count)).map(|i| {
                 let from = pair[0] + step * i as f64;
                 Panel { piece, from, step }
             }));

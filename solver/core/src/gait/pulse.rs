@@ -1,6 +1,7 @@
 //! `Pulse`: a disc or a sphere whose area or volume is a function of time.
 
 use std::f64::consts::TAU;
+use std::iter::successors;
 
 use alewife_mesh::SecondMoments;
 use num_dual::{Dual64, DualNum, first_derivative};
@@ -91,13 +92,12 @@ impl ShapeMotion for Pulse {
 
     fn discontinuities(&self, from: f64, to: f64) -> Vec<f64> {
         let PulseLaw::Table { knots, period } = &self.law else { return Vec::new() };
-        let cycles = match period {
-            Some(period) => (from / period).floor() as i64..=(to / period).ceil() as i64,
-            None => 0..=0,
-        };
-        let mut times: Vec<f64> = cycles
+        let [first, last] =
+            period.map_or([0.0; 2], |period| [(from / period).floor(), (to / period).ceil()]);
+        let mut times: Vec<f64> = successors(Some(first), |cycle| Some(cycle + 1.0))
+            .take_while(|cycle| *cycle <= last)
             .flat_map(|cycle| {
-                let start = period.map_or(0.0, |period| period * cycle as f64);
+                let start = period.map_or(0.0, |period| period * cycle);
                 knots.iter().map(move |knot| start + knot[0])
             })
             .filter(|time| *time > from && *time < to)

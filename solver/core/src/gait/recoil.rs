@@ -4,6 +4,7 @@ use std::sync::{Mutex, PoisonError};
 
 use super::error::GaitError;
 use super::rule::Rule;
+use super::whole::whole;
 
 /// Intervals of the table in a period.
 const INTERVALS: usize = 16;
@@ -33,7 +34,7 @@ struct Interval {
 impl RecoilAngle {
     /// For a rate that has this period (s) after a transient (s).
     pub fn new(transient: f64, period: f64) -> Self {
-        let before = (transient / period * INTERVALS as f64).ceil() as usize;
+        let before = whole((transient / period * INTERVALS as f64).ceil());
         let table = Mutex::new(Vec::new());
         Self { rule: Rule::new(POINTS), transient, before, period, table }
     }
@@ -83,10 +84,10 @@ impl RecoilAngle {
     ) -> Result<f64, GaitError> {
         let last = self.before + INTERVALS - 1;
         let index = if time < self.transient {
-            (time / self.transient * self.before as f64) as usize
+            whole(time / self.transient * self.before as f64)
         } else {
             let part = (time - self.transient) / self.period * INTERVALS as f64;
-            self.before + part as usize
+            self.before + whole(part)
         };
         let index = index.min(last);
         let mut table = self.table.lock().unwrap_or_else(PoisonError::into_inner);

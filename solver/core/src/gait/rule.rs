@@ -19,7 +19,7 @@ impl Rule {
             let mut x = -(PI * (i as f64 + 0.75) / (n as f64 + 0.5)).cos();
             let mut slope = 1.0;
             for _ in 0..100 {
-                let (value, derivative) = legendre(n, x);
+                let Legendre { value, derivative } = legendre(n, x);
                 slope = derivative;
                 let step = value / derivative;
                 x -= step;
@@ -49,14 +49,20 @@ impl Rule {
     }
 }
 
+/// A Legendre polynomial at a point.
+struct Legendre {
+    value: f64,
+    derivative: f64,
+}
+
 /// P_n and its derivative inside (-1, 1).
-fn legendre(n: usize, x: f64) -> (f64, f64) {
+fn legendre(n: usize, x: f64) -> Legendre {
     let (mut before, mut value) = (1.0, x);
     for k in 1..n {
         let k = k as f64;
         (before, value) = (value, ((2.0 * k + 1.0) * x * value - k * before) / (k + 1.0));
     }
-    (value, n as f64 * (before - x * value) / (1.0 - x * x))
+    Legendre { value, derivative: n as f64 * (before - x * value) / (1.0 - x * x) }
 }
 
 #[cfg(test)]
@@ -67,14 +73,12 @@ mod tests {
     fn polynomials_are_integrated_exactly() {
         for n in [4, 6, 8] {
             let rule = Rule::new(n);
-            for degree in 0..2 * n {
-                let power = degree as i32;
+            for (degree, power) in (0..2 * n).zip(0..) {
                 let sum: f64 =
                     rule.points.iter().zip(&rule.weights).map(|(x, w)| w * x.powi(power)).sum();
                 assert!((sum * (degree as f64 + 1.0) - 1.0).abs() < 1e-14);
             }
-            for degree in 0..n {
-                let power = degree as i32;
+            for (degree, power) in (0..n).zip(0..) {
                 let row = rule.up_to(0.37);
                 let sum: f64 = rule.points.iter().zip(&row).map(|(x, w)| w * x.powi(power)).sum();
                 let exact = 0.37_f64.powi(power + 1) / (degree as f64 + 1.0);

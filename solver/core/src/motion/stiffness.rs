@@ -5,7 +5,7 @@ use nalgebra::SVector;
 
 use super::surface_distance::surface_distances;
 use crate::algebra::{AffineConstraints, CellMaps, ConstraintBuilder, SparseMatrix};
-use crate::space::simplex_gradients;
+use crate::space::{StraightSimplex, straight_simplex};
 
 /// The equation the displacement of the mesh solves; by default the one that lets a body go
 /// farthest (measured in `tests/motion/reach.rs`).
@@ -101,16 +101,16 @@ impl Stiffness {
             MotionKind::Harmonic(stiffening) => (1, stiffening),
             MotionKind::Elastic { stiffening, .. } => (D, stiffening),
         };
-        let geometry: Vec<_> = mesh.cell_ids().map(|cell| simplex_gradients(mesh, cell)).collect();
-        let measures: Vec<f64> = geometry.iter().map(|(measure, _)| *measure).collect();
+        let geometry: Vec<_> = mesh.cell_ids().map(|cell| straight_simplex(mesh, cell)).collect();
+        let measures: Vec<f64> = geometry.iter().map(|simplex| simplex.measure).collect();
         let factors = stiffening.factors(&measures, || surface_distances(mesh, carrying));
         let n_local = (D + 1) * n_components;
         let mut raw = Vec::with_capacity(n_local * mesh.n_cells());
         let mut cells = vec![0.0; n_local * n_local * mesh.n_cells()];
-        for (cell, (measure, gradients)) in geometry.iter().enumerate() {
+        for (cell, StraightSimplex { measure, gradients }) in geometry.iter().enumerate() {
             for &vertex in mesh.cell_vertices(CellId::new(cell)) {
                 let first = vertex.index() * n_components;
-                raw.extend((first..first + n_components).map(|unknown| unknown as u32));
+                raw.extend((first..first + n_components).map(raw_unknown));
             }
             let matrix = &mut cells[cell * n_local * n_local..(cell + 1) * n_local * n_local];
             let weight = measure * factors[cell];
@@ -142,6 +142,11 @@ impl Stiffness {
         }
         constraints.restrict(&load)
     }
+}
+
+/// A raw unknown as maps of cells store it.
+fn raw_unknown(unknown: usize) -> u32 {
+    u32::try_from(unknown).expect("indices of unknowns take at most 32 bits")
 }
 
 /// P^T K P, K the sum of the matrices of all cells, by the raw unknowns of each.

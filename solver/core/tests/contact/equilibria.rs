@@ -51,11 +51,11 @@ fn steps_are_not_bound_to_the_stiffness() {
     let gaps = PlanarGaps::new(&tank(), &[0, 1, 2, 3], &[disc("a"), disc("b")]).unwrap();
     let places = [[0.1, 3.0, 0.0], [0.0, 1.8, 0.0]];
     for law in laws {
-        for step in [0.003, 0.03, 0.3] {
+        for (step, n_steps) in [(0.003, 4000), (0.03, 400), (0.3, 40)] {
             let load = [[0.0, -1.0, 0.0]; 2];
             let mut mock = Mock::planar(&gaps, law, &places, &load);
             (mock.step, mock.friction) = (step, Some(planar([1.0; 3])));
-            for _ in 0..(12.0 / step) as usize {
+            for _ in 0..n_steps {
                 let end = mock.advance().unwrap_or_else(|e| panic!("{law:?} {step}: {e}"));
                 assert!(end.loads.minimum_gap.unwrap().gap > 0.0);
                 assert!(end.iterations < 60, "{law:?} {step}: {}", end.iterations);
