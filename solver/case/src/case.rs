@@ -1,0 +1,81 @@
+//! `Case`: what one case file declares.
+
+use std::collections::BTreeMap;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{
+    Body, BoundaryCondition, ContactSpec, DomainSpec, Fluid, Geometry, Joint, MeshSettings,
+    Numbers, Output, Probe, Reference, Scales, Statistics, SwimmerSpec, TimeSettings, Variant,
+};
+
+/// A problem to solve: what one case file declares, after `extends`, variants and `--set`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Case {
+    /// One line saying what is solved.
+    pub title: String,
+    /// A paragraph for `alewife show`: physics, source, what to expect.
+    #[serde(default)]
+    pub description: String,
+    /// Planar, or axisymmetric (x along the axis, y the distance from it).
+    pub geometry: Geometry,
+    /// The consistent units of all numbers: `dimensionless`, `SI`, `cm g s`, ...
+    #[serde(default = "dimensionless")]
+    pub units: String,
+    /// Name of the body the frame of reference travels with; the laboratory frame if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub frame: Option<String>,
+    /// The fluid and its equations.
+    pub fluid: Fluid,
+    /// The region, with named sides.
+    pub domain: DomainSpec,
+    /// What holds on each side of the domain, by the side's name.
+    #[serde(default)]
+    pub boundary: BTreeMap<String, BoundaryCondition>,
+    /// The bodies in the fluid, but for those of swimmers.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub body: Vec<Body>,
+    /// How bodies are attached to each other.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub joint: Vec<Joint>,
+    /// Swimmers made of bodies and joints by their kind.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub swimmer: Vec<SwimmerSpec>,
+    /// Forces that keep bodies apart from each other and from walls.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub contact: Option<ContactSpec>,
+    /// Cell sizes.
+    pub mesh: MeshSettings,
+    /// Steady solution or march in time.
+    pub time: TimeSettings,
+    /// What is written, and how often.
+    #[serde(default)]
+    pub output: Output,
+    /// Points at which the flow is measured.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub probe: Vec<Probe>,
+    /// Length and velocity that make coefficients and numbers dimensionless.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub scales: Option<Scales>,
+    /// Dimensionless numbers the author expects; they must agree with the derived ones.
+    #[serde(default)]
+    pub numbers: Numbers,
+    /// The stretch of time over which statistics are taken.
+    #[serde(default)]
+    pub statistics: Statistics,
+    /// Published values this case is held against.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub reference: Vec<Reference>,
+    /// Whether `alewife validate --quick` runs the case (its variants say so themselves).
+    #[serde(default)]
+    pub quick: bool,
+    /// Members of a family: the same case with some keys set, and its own references.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub variant: Vec<Variant>,
+}
+
+fn dimensionless() -> String {
+    "dimensionless".to_owned()
+}

@@ -1,0 +1,102 @@
+//! `Findings`: the diagnostics of a case found so far.
+
+use crate::diagnostic::{Diagnostic, Severity};
+use crate::read::CaseFile;
+use crate::{Case, Model};
+
+/// Numbers a point or a velocity has; axisymmetric cases are computed in their half plane.
+const DIMENSIONS: usize = 2;
+
+/// The diagnostics found so far.
+pub struct Findings<'a> {
+    file: &'a CaseFile,
+    diagnostics: Vec<Diagnostic>,
+}
+
+impl<'a> Findings<'a> {
+    /// None yet.
+    pub fn new(file: &'a CaseFile) -> Self {
+        Self { file, diagnostics: Vec::new() }
+    }
+
+    /// All of them, in the order in which they were found.
+    pub fn into_diagnostics(self) -> Vec<Diagnostic> {
+        self.diagnostics
+    }
+
+    /// The case as it is written.
+    pub fn case(&self) -> &'a Case {
+        &self.file.model.case
+    }
+
+    /// What follows from it.
+    pub fn model(&self) -> &'a Model {
+        &self.file.model
+    }
+
+    /// Whether there are warnings at most.
+    pub fn has_no_error(&self) -> bool {
+        self.diagnostics.iter().all(|one| one.severity == Severity::Warning)
+    }
+
+    fn add(&mut self, severity: Severity, key: &str, message: String, help: &str) {
+        let key = &self.written(key);
+        let location = self.file.location(key);
+        let (key, help) = (key.to_owned(), help.to_owned());
+        self.diagnostics.push(Diagnostic { severity, key, message, help, location });
+    }
+
+    /// The key of what stands in the file: for one of a body made for a swimmer that of the swimmer.
+    fn written(&self, key: &str) -> String {
+        let number = |list: &str| {
+            let rest = key.strip_prefix(list)?;
+            rest.split('.').next()?.parse::<usize>().ok()
+        };
+        let of_body = number("body.").and_then(|body| self.model().swimmer_of_body(body));
+        let of_joint = number("joint.").and_then(|joint| self.model().swimmer_of_joint(joint));
+        of_body
+            .or(of_joint)
+            .map_or_else(|| key.to_owned(), |swimmer| format!("swimmer.{swimmer}.kind"))
+    }
+
+    /// Adds an error.
+    pub fn error(&mut self, key: &str, message: String, help: &str) {
+        self.add(Severity::Error, key, message, help);
+    }
+
+    /// Adds a warning.
+    pub fn warning(&mut self, key: &str, message: String, help: &str) {
+        self.add(Severity::Warning, key, message, help);
+    }
+
+    /// A number that must be larger than zero.
+    pub fn positive(&mut self, key: &str, value: f64) {
+        if value <= 0.0 {
+            let help = "write a number larger than 0";
+            self.error(key, format!("`{key}` is {value}, but must be positive"), help);
+        }
+    }
+
+    /// A number that must not be negative.
+    pub fn not_negative(&mut self, key: &str, value: f64) {
+        if value < 0.0 {
+            let help = "write 0 or a larger number";
+            self.error(key, format!("`{key}` is {value}, but must not be negative"), help);
+        }
+    }
+
+    /// A vector with one number per dimension; `true` if it is one.
+    pub fn vector(&mut self, key: &str, values: &[f64]) -> bool {
+        let is_vector = values.len() == DIMENSIONS;
+        if !is_vector {
+            let plural = if values.len() == 1 { "" } else { "s" };
+            let n = values.len();
+            self.error(
+                key,
+                format!("`{key}` has {n} number{plural}, but this case has {DIMENSIONS} dimensions"),
+                "write [x, y]; in axisymmetric cases x is along the axis and y the distance from it",
+            );
+        }
+        is_vector
+    }
+}

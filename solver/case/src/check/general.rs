@@ -1,0 +1,77 @@
+//! Problems of title, geometry, domain and frame of reference.
+
+use super::Findings;
+use crate::type_error::suggestion;
+use crate::{DomainSpec, Geometry};
+
+pub fn check(findings: &mut Findings<'_>) {
+    let case = findings.case();
+    if case.title.trim().is_empty() {
+        findings.warning(
+            "title",
+            "the title is empty".to_owned(),
+            "say what is solved in one line",
+        );
+    }
+    let (is_axisymmetric, wanted, domains) = match case.geometry {
+        Geometry::Planar => (false, "planar", "box, channel, disc"),
+        Geometry::Axisymmetric => (true, "axisymmetric", "half-disc, cylinder"),
+    };
+    if case.domain.is_axisymmetric() != is_axisymmetric {
+        findings.error(
+            "domain",
+            format!("this domain does not fit `geometry = \"{wanted}\"`"),
+            &format!("{wanted} domains: {domains}"),
+        );
+    }
+    check_domain(findings);
+    check_frame(findings);
+}
+
+/// The domain has an inside.
+fn check_domain(findings: &mut Findings<'_>) {
+    match &findings.case().domain {
+        DomainSpec::Box { min, max } => {
+            if (0..2).any(|axis| max[axis] <= min[axis]) {
+                findings.error(
+                    "domain.box.max",
+                    format!("the box from {min:?} to {max:?} is empty"),
+                    "both numbers of `max` must be larger than those of `min`",
+                );
+            }
+        }
+        DomainSpec::Channel { length, height } => {
+            findings.positive("domain.channel.length", *length);
+            findings.positive("domain.channel.height", *height);
+        }
+        DomainSpec::Disc { radius, .. } => findings.positive("domain.disc.radius", *radius),
+        DomainSpec::HalfDisc { radius, .. } => {
+            findings.positive("domain.half-disc.radius", *radius);
+        }
+        DomainSpec::Cylinder { x, radius } => {
+            findings.positive("domain.cylinder.radius", *radius);
+            if x[1] <= x[0] {
+                findings.error(
+                    "domain.cylinder.x",
+                    format!("the cylinder from {} to {} is empty", x[0], x[1]),
+                    "write x = [start, end] with start < end",
+                );
+            }
+        }
+    }
+}
+
+/// The frame travels with a body or a swimmer.
+fn check_frame(findings: &mut Findings<'_>) {
+    let (case, model) = (findings.case(), findings.model());
+    if let (Some(name), None) = (&case.frame, model.frame_body()) {
+        let bodies = model.bodies.iter().map(|body| body.name.as_str());
+        let swimmers = model.swimmers.iter().map(|swimmer| swimmer.name.as_str());
+        let names: Vec<&str> = bodies.chain(swimmers).collect();
+        findings.error(
+            "frame",
+            format!("`frame` is \"{name}\", but no body or swimmer has that name"),
+            &suggestion(name, &names),
+        );
+    }
+}
