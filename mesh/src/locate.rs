@@ -261,6 +261,7 @@ fn nearest_in_simplex<const D: usize>(point: [f64; D], columns: &[Point<D>; D]) 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::test_meshes::{bulged_cube, cube_of_five, cube_of_twelve};
     use crate::{Domain, PlacedShape, Shape, Sizing, generate};
 
     fn channel() -> Mesh<2> {
@@ -321,5 +322,64 @@ mod tests {
             let found = locator.nearest(point).unwrap();
             assert!((found.distance - 0.005).abs() < 1e-4, "{}", found.distance);
         }
+    }
+
+    /// Reference points well inside, close to a vertex, and close to a face.
+    const INSIDE: [[f64; 3]; 3] = [[0.25, 0.2, 0.3], [0.02, 0.95, 0.01], [0.3, 0.3, 0.002]];
+
+    #[test]
+    fn points_of_a_tetrahedral_mesh_are_found_in_their_cells() {
+        for mesh in [cube_of_five(), cube_of_twelve(), bulged_cube(0.2)] {
+            let locator = Locator::new(&mesh);
+            for cell in mesh.cell_ids() {
+                for at in INSIDE {
+                    let point = map_quadratic(&mesh.cell_nodes(cell), at).position;
+                    let found = locator.locate(point).expect("the point is in the mesh");
+                    assert_eq!((found.cell, found.distance), (cell, 0.0));
+                    let off = Point::from(found.reference) - Point::from(at);
+                    assert!(off.norm() < 1e-12, "{:?}", found.reference);
+                }
+            }
+            assert!(mesh.nodes.iter().all(|node| locator.locate(*node).is_some()));
+        }
+    }
+
+    #[test]
+    fn points_outside_tetrahedra_are_refused_and_have_a_nearest_cell() {
+        let straight = Locator::new(&cube_of_five());
+        let above = Point::<3>::new(0.5, 0.4, 1.3);
+        assert_eq!(straight.locate(above), None);
+        let found = straight.nearest(above).expect("a mesh has a nearest cell");
+        assert!((found.distance - 0.3).abs() < 1e-15);
+        let at_corner = straight.nearest(Point::<3>::new(-2.0, -1.0, -2.0)).expect("likewise");
+        assert!((at_corner.distance - 3.0).abs() < 1e-14);
+
+        // The middle of a side is on a curved edge, which leaves it by a fifth of 1/2
+        let mesh = bulged_cube(0.2);
+        let curved = Locator::new(&mesh);
+        let middle = Point::<3>::new(0.5, 0.5, 1.1);
+        assert_eq!(curved.locate(middle).map(|found| found.distance), Some(0.0));
+        let beyond = middle + Point::<3>::new(0.0, 0.0, 0.25);
+        assert_eq!(curved.locate(beyond), None);
+        let found = curved.nearest(beyond).expect("a mesh has a nearest cell");
+        let closest = distance_to_places(&mesh, beyond);
+        assert!(found.distance <= closest + 1e-12, "{} {closest}", found.distance);
+        assert!(found.distance > closest - 1e-3, "{} {closest}", found.distance);
+    }
+
+    /// Distance from a point to the nearest of many places in all cells (m).
+    fn distance_to_places(mesh: &Mesh<3>, point: Point<3>) -> f64 {
+        let n = 40;
+        let mut least = f64::INFINITY;
+        for cell in mesh.cell_ids() {
+            let nodes = mesh.cell_nodes(cell);
+            for (i, j, k) in (0..=n).flat_map(|i| {
+                (0..=n - i).flat_map(move |j| (0..=n - i - j).map(move |k| (i, j, k)))
+            }) {
+                let at = [i, j, k].map(|m| f64::from(m) / f64::from(n));
+                least = least.min((map_quadratic(&nodes, at).position - point).norm());
+            }
+        }
+        least
     }
 }
