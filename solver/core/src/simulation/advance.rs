@@ -52,7 +52,7 @@ pub enum Attempt {
     Rejected(StepError),
 }
 
-impl Simulation<2> {
+impl<const D: usize> Simulation<D> {
     /// Time spent so far.
     #[must_use]
     pub fn timing(&self) -> &Timing {
@@ -180,7 +180,7 @@ impl Simulation<2> {
         let state = &self.state;
         let frame = state.origin_at(&self.problem, &state.poses)
             - state.origin_at(&self.problem, &state.previous_poses);
-        let frame = crate::body::on_mesh::<2>(&frame);
+        let frame = crate::body::on_mesh::<D>(&frame);
         let mut most = f64::MIN_POSITIVE;
         for cell in state.mesh.cell_ids() {
             let length = |edge: alewife_mesh::Edge<'_>| {

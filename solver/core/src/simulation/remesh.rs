@@ -15,13 +15,13 @@ use crate::motion::Transfer;
 use crate::space::Tables;
 
 /// One level of a flow, on the old mesh and where the new one is to be then.
-struct Level<'a> {
+struct Level<'a, const D: usize> {
     name: &'static str,
-    solution: &'a Solution<2>,
+    solution: &'a Solution<D>,
     /// The old mesh then, seen from the frame.
-    old: &'a Mesh<2>,
+    old: &'a Mesh<D>,
     /// The new mesh then, seen from the frame.
-    new: &'a Mesh<2>,
+    new: &'a Mesh<D>,
     /// Bodies then, seen from the frame.
     bodies: BodiesAt<'a>,
     /// Position of the frame then (m).
@@ -33,11 +33,11 @@ struct Level<'a> {
 ///
 /// # Errors
 /// When the mesh cannot be generated, or the flow not be made divergence-free on it.
-pub(super) fn remesh(
-    problem: &Problem<2>,
-    state: &mut State<2>,
-    moving: &MovingMesh<2>,
-) -> Result<MovingMesh<2>, RemeshError> {
+pub(super) fn remesh<const D: usize>(
+    problem: &Problem<D>,
+    state: &mut State<D>,
+    moving: &MovingMesh<D>,
+) -> Result<MovingMesh<D>, RemeshError> {
     let shapes = BodyShapes::at(&problem.bodies, state.time)?;
     let Meshed { mesh: new, scene, poses, shifts } = moving.remesh(state, &shapes)?;
     let image_shifts: Vec<Vector3<f64>> =
@@ -81,20 +81,20 @@ pub(super) fn remesh(
 }
 
 /// Takes levels of a flow from one mesh to another.
-struct Takeover<'a> {
-    problem: &'a Problem<2>,
-    moving: &'a MovingMesh<2>,
+struct Takeover<'a, const D: usize> {
+    problem: &'a Problem<D>,
+    moving: &'a MovingMesh<D>,
     boundaries: Boundaries,
-    tables: Tables<2>,
+    tables: Tables<D>,
     /// None where nothing has inertia: the older velocities are first guesses only.
-    projection: Option<DivergenceFreeProjection<2>>,
+    projection: Option<DivergenceFreeProjection<D>>,
 }
 
-impl<'a> Takeover<'a> {
+impl<'a, const D: usize> Takeover<'a, D> {
     fn new(
-        problem: &'a Problem<2>,
-        new: &Mesh<2>,
-        moving: &'a MovingMesh<2>,
+        problem: &'a Problem<D>,
+        new: &Mesh<D>,
+        moving: &'a MovingMesh<D>,
     ) -> Result<Self, RemeshError> {
         let projection =
             problem.has_inertia.then(|| DivergenceFreeProjection::new(problem, new)).transpose()?;
@@ -105,9 +105,9 @@ impl<'a> Takeover<'a> {
     /// A level on the new mesh, and other velocities (m/s2 at the nodes) with it.
     fn level(
         &mut self,
-        level: &Level<'_>,
-        others: &[Point<2>],
-    ) -> Result<(Solution<2>, Vec<Point<2>>), RemeshError> {
+        level: &Level<'_, D>,
+        others: &[Point<D>],
+    ) -> Result<(Solution<D>, Vec<Point<D>>), RemeshError> {
         let images = self.moving.scene().images([level.old, level.new]);
         let not_found = || RemeshError::NotFound { level: level.name };
         let transfer = Transfer::new(level.old, level.new, &images).ok_or_else(not_found)?;
