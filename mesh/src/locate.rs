@@ -35,6 +35,8 @@ pub struct Located<const D: usize> {
 #[derive(Debug, Clone)]
 pub struct Locator<const D: usize> {
     tree: BoxTree<D>,
+    /// Boxes around the cells.
+    boxes: Vec<Bounds<D>>,
     /// Positions of the vertices of all cells, D + 1 for each (m).
     vertices: Vec<Point<D>>,
     /// Where the nodes of each curved cell start in `quadratic`; [`STRAIGHT`] for the others.
@@ -77,7 +79,7 @@ impl<const D: usize> Locator<D> {
         }
         let tree = BoxTree::new(&boxes);
         let tolerance = TOLERANCE * tree.extent();
-        Self { tree, vertices, curved, quadratic, tolerance }
+        Self { tree, boxes, vertices, curved, quadratic, tolerance }
     }
 
     /// The cell that holds a point (m), and the reference coordinates there; `None` outside.
@@ -98,9 +100,40 @@ impl<const D: usize> Locator<D> {
         self.search(point, f64::INFINITY)
     }
 
+    /// The cell nearest to one of the images of a point: `point + shift` (m) for each shift. Of
+    /// images that are equally near, the first one counts.
+    ///
+    /// `None` as from [`Self::nearest`], or without a shift.
+    #[must_use]
+    pub fn nearest_image(&self, point: Point<D>, shifts: &[Point<D>]) -> Option<Located<D>> {
+        // Most points have an image inside, which a short search finds
+        let mut inside = shifts.iter().filter_map(|shift| self.locate(point + shift));
+        if let Some(found) = inside.find(|found| found.distance == 0.0) {
+            return Some(found);
+        }
+        let images = shifts.iter().map(|shift| point + shift);
+        let promising = images.clone().min_by(|a, b| {
+            let [a, b] = [a, b].map(|image| self.tree.squared_distance(image));
+            a.total_cmp(&b)
+        })?;
+        let reach = self.nearest(promising)?.distance + self.tolerance;
+        let mut best: Option<Located<D>> = None;
+        for found in images.filter_map(|image| self.search(image, reach)) {
+            if best.is_none_or(|best| found.distance < best.distance) {
+                best = Some(found);
+            }
+        }
+        best
+    }
+
     fn search(&self, point: Point<D>, reach: f64) -> Option<Located<D>> {
         let mut best: Option<Located<D>> = None;
         self.tree.visit_near(point, reach, |cell, reach| {
+            // Inside is what is so by rounding, too
+            let bound = reach.max(self.tolerance);
+            if self.boxes[cell].squared_distance(&point) > bound * bound {
+                return false;
+            }
             let found = self.locate_in(CellId::new(cell), point);
             if found.distance <= *reach && best.is_none_or(|b| found.distance < b.distance) {
                 best = Some(found);
@@ -310,6 +343,25 @@ mod tests {
             assert!(locator.locate(Point::<2>::new(x, y)).is_none(), "({x}, {y})");
         }
         assert!(locator.locate(Point::<2>::new(-1e-10, 0.2)).is_some());
+    }
+
+    #[test]
+    fn the_nearest_image_is_that_of_the_plain_loop() {
+        let mesh = channel();
+        let locator = Locator::new(&mesh);
+        let shifts: Vec<_> = (-2..=2)
+            .flat_map(|i| (-2..=2).map(move |j| (f64::from(i), f64::from(j))))
+            .map(|(i, j)| Point::<2>::new(2.2 * i, 0.41 * j))
+            .collect();
+        for (i, j) in (0..60).flat_map(|i| (0..60).map(move |j| (i, j))) {
+            let point = Point::<2>::new(-3.0 + 0.1 * f64::from(i), -0.6 + 0.02 * f64::from(j));
+            let all = shifts.iter().filter_map(|shift| locator.nearest(point + shift));
+            let plain = all.min_by(|a, b| a.distance.total_cmp(&b.distance));
+            assert_eq!(locator.nearest_image(point, &shifts), plain);
+        }
+        let nowhere = Point::<2>::new(f64::NAN, 0.0);
+        assert_eq!(locator.nearest_image(nowhere, &shifts), None);
+        assert_eq!(locator.nearest_image(Point::<2>::zeros(), &[]), None);
     }
 
     #[test]
