@@ -8,6 +8,7 @@ mod medial;
 mod path;
 mod samples;
 mod search;
+mod shortest_way;
 mod steps;
 mod straighten;
 mod stretch;
