@@ -40,7 +40,7 @@ pub use moving_mesh::{MotionSettings, MovingMesh};
 pub use planar::{build_mesh, shape_motion, sizing};
 pub use resume::{ResumeError, SavedState};
 pub use run::{RunSummary, simulate, simulate_from};
-pub use scene::{RemeshError, Scene};
+pub use scene::{Meshed, PosesByShift, RemeshError, Scene};
 pub use series::Series;
 pub use snapshot::{BodyReport, LastState, Observer, Snapshot};
 pub use start::simulation_on;
