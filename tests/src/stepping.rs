@@ -4,8 +4,8 @@ use alewife_core::body::Pose;
 use alewife_core::case::{Convection, Steady};
 use alewife_core::coupling::{BodiesAt, BodyShapes, FluidSystem, Problem, RigidBodyEquations};
 use alewife_core::simulation::{
-    MeshPath, State, SteadyFlow, SteadyTask, StepReport, TimeStepper, Timing, Workspace,
-    solve_steady,
+    MeshPath, State, SteadyFlow, SteadyTask, StepReport, StepResult, TimeStepper, Timing,
+    Workspace, solve_steady,
 };
 use alewife_core::time::Bdf;
 use alewife_mesh::Mesh;
@@ -85,7 +85,7 @@ impl<'a, const D: usize> Stepping<'a, D> {
     /// When it cannot be made.
     pub fn advance(&mut self, bdf: Bdf) -> StepReport {
         let made = self.stepper.advance(&mut self.work, &self.state, bdf);
-        let (level, report) = made.expect("the step is solved");
+        let StepResult { level, report } = made.expect("the step is solved");
         self.state.accept(self.stepper.problem, level);
         report
     }

@@ -7,7 +7,7 @@ use super::newton::{Flow, flow_residual};
 use super::pass::PassEquations;
 use super::predict::integrate_poses;
 use super::state::State;
-use super::step::{TimeStepper, Workspace};
+use super::stepper::{TimeStepper, Workspace};
 use super::{RunError, Stage};
 use crate::body::{Pose, Twist};
 use crate::contact::{ContactLoads, ContactSolution, ContactStep, Gaps, Law};

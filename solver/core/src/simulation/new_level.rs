@@ -5,7 +5,7 @@ use super::history::StepHistory;
 use super::pass::Pass;
 use super::propulsion_history::{PowerShare, PropulsionStep};
 use super::state::{NewLevel, State};
-use super::step::{TimeStepper, Workspace};
+use super::stepper::{TimeStepper, Workspace};
 use crate::body::{Pose, Twist};
 use crate::contact::ContactLoads;
 use crate::coupling::{PropulsionPower, Solution};

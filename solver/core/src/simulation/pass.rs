@@ -5,7 +5,7 @@ use alewife_mesh::{Mesh, Point};
 use super::history::StepHistory;
 use super::newton::FlowEquations;
 use super::state::State;
-use super::step::{TimeStepper, Workspace};
+use super::stepper::{TimeStepper, Workspace};
 use crate::algebra::AffineConstraints;
 use crate::body::Pose;
 use crate::case::Convection as ConvectionChoice;

@@ -2,9 +2,9 @@
 
 use super::advance::Simulation;
 use super::measure::Measure;
+use super::planar::{Prepared, prepare};
 use super::resume::SavedState;
 use super::snapshot::{LastState, Observer, Snapshot};
-use super::start::prepare;
 use super::steady::{SteadyFlow, SteadyTask, solve_steady};
 use super::{RunError, Series, Stage, Timing};
 use crate::case::{Case, Initial, Model, Steady, TimeSettings, Unsteady};
@@ -40,10 +40,10 @@ pub fn simulate(
 /// Whatever stops the run; observers are notified before it is returned.
 pub fn simulate_from(
     model: &Model,
-    saved: Option<&SavedState>,
+    saved: Option<&SavedState<2>>,
     observers: &mut [Box<dyn Observer<2>>],
 ) -> Result<RunSummary, RunError> {
-    let (simulation, measure) = match prepare(model, saved) {
+    let Prepared { simulation, measure } = match prepare(model, saved) {
         Ok(prepared) => prepared,
         Err(error) => {
             for observer in observers.iter_mut() {
