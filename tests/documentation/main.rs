@@ -5,26 +5,12 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use alewife_core::case::{
-    Case, CaseFile, Reference, Severity, check, known_quantities, schema, significant,
+    BodyQuantity, Case, CaseFile, FlowQuantity, JointQuantity, ProbeQuantity, Quantity, Reference,
+    Severity, SwimmerQuantity, check, schema, significant,
 };
 
 /// Beginnings of paths that exist on one machine only.
 const OF_ONE_MACHINE: [&str; 4] = ["/work", "/tmp", "/root", "/home"];
-
-/// A case with a body that moves, contact, a probe and scales, and so all quantities there are.
-const ALL_QUANTITIES: &str = r#"
-title    = "all quantities"
-geometry = "planar"
-fluid    = { model = "stokes", viscosity = 1.0, density = 1.0 }
-domain.box = { min = [-2.0, -2.0], max = [2.0, 2.0] }
-boundary = { left = "no-slip", right = "no-slip", bottom = "no-slip", top = "no-slip" }
-mesh     = { size = 0.5 }
-time.unsteady = { step = 0.1, end = 1.0 }
-contact.barrier = { range = 0.1, stiffness = 1.0 }
-scales   = { length = 1.0, velocity = 1.0 }
-body     = [{ name = "disc", shape.disc.radius = 0.5, center = [0.0, 0.0], motion = "free" }]
-probe    = [{ name = "point", point = [1.0, 1.0] }]
-"#;
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the package is in the root").to_owned()
@@ -96,15 +82,47 @@ fn every_key_and_word_of_a_case_file_is_on_its_page() {
     assert!(missing.is_empty(), "docs/case-file.md does not tell of {missing:?}");
 }
 
+/// One table of quantities; rows that differ in their names only are one.
+fn table<T>(title: &str, rows: &[Quantity<T>]) -> String {
+    let mut text = format!(
+        "{title}\n\n| Quantity | Unit (planar) | Only with | Meaning |\n|---|---|---|---|\n"
+    );
+    let is_same = |a: &Quantity<T>, b: &Quantity<T>| {
+        (a.unit, a.when, a.meaning) == (b.unit, b.when, b.meaning)
+    };
+    for rows in rows.chunk_by(is_same) {
+        let names: Vec<String> = rows.iter().map(|row| format!("`{}`", row.name)).collect();
+        let Quantity { unit, when, meaning, .. } = &rows[0];
+        let row = format!("| {} | {unit} | {} | {meaning} |\n", names.join(", "), when.words());
+        text += &row.replace("|  |", "| |");
+    }
+    text
+}
+
+/// To write the tables again: `ALEWIFE_UPDATE=1 cargo test --release -p tests --test documentation`.
 #[test]
-fn every_quantity_is_on_the_page_of_case_files() {
-    let told = terms(&text("docs/case-file.md"));
-    let file = Case::parse("all.toml", ALL_QUANTITIES, &[]).unwrap_or_else(|e| panic!("{e}"));
-    let known = known_quantities(&file.model);
-    assert!(known.len() > 20, "{known:?}");
-    let suffixes = known.iter().filter_map(|name| Some(name.split_once('.')?.1));
-    let missing: Vec<&str> = suffixes.filter(|suffix| !told.contains(*suffix)).collect();
-    assert!(missing.is_empty(), "docs/case-file.md does not tell of {missing:?}");
+fn the_tables_of_quantities_are_those_of_the_program() {
+    let tables = [
+        table("Of each body, as `NAME.` and:", BodyQuantity::TABLE),
+        table("Of each [`joint`](#joint), as `CHILD.` and:", JointQuantity::TABLE),
+        table(
+            "Of everything that swims, a `[[swimmer]]` or a body with a gait, as `NAME.` and:",
+            SwimmerQuantity::TABLE,
+        ),
+        table("Of each probe, as `NAME.` and:", ProbeQuantity::TABLE),
+        table("Of the flow, as `flow.` and:", FlowQuantity::TABLE),
+    ];
+    let tables = format!("\n{}\n", tables.join("\n"));
+    let page = text("docs/case-file.md");
+    let (begin, end) = ("<!-- quantities: begin -->\n", "<!-- quantities: end -->");
+    let start = page.find(begin).expect("the page marks their beginning") + begin.len();
+    let stop = page.find(end).expect("the page marks their end");
+    if std::env::var_os("ALEWIFE_UPDATE").is_some() {
+        let updated = format!("{}{tables}{}", &page[..start], &page[stop..]);
+        fs::write(root().join("docs/case-file.md"), updated).expect("the page can be written");
+    } else {
+        assert_eq!(&page[start..stop], tables, "see this test's comment for how to update them");
+    }
 }
 
 /// Reads a case, and complains about whatever `check` calls an error.

@@ -20,8 +20,6 @@ use super::diagnostic::{Diagnostic, Severity};
 use super::read::CaseFile;
 use super::{Case, DomainSpec, Geometry, Model};
 
-pub use references::known_quantities;
-
 /// Numbers a place or a velocity has; axisymmetric cases are computed in their half plane.
 const DIMENSIONS: usize = 2;
 
