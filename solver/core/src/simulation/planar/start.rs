@@ -26,7 +26,7 @@ pub(in crate::simulation) struct Prepared {
     /// At rest, or as it was saved.
     pub simulation: Simulation<2>,
     /// What is measured of it.
-    pub measure: Measure,
+    pub measure: Measure<2>,
 }
 
 /// Builds the simulation of a case with its measurements, as it was saved if there is such a state.
@@ -39,14 +39,17 @@ pub(in crate::simulation) fn prepare(
     let mesh = &initial.mesh;
     tracing::info!(cells = mesh.n_cells(), nodes = mesh.n_nodes(), "mesh generated");
     check_memory(mesh)?;
-    let mut measure = Measure::new(model, mesh)?;
+    let domain = model.case.mesh_domain();
+    let images = |mesh: &Mesh<2>| domain.images_around(mesh.nodes.iter().copied());
+    let mut measure = Measure::new(model, mesh, &images(mesh))?;
     let mut simulation = at_rest(model, initial, timing)?;
     if let Some(saved) = saved {
         saved.restore_into(&mut simulation, |problem, reference| {
             moving_mesh_of(model, problem, reference)
         })?;
         if simulation.moving_mesh.is_none() {
-            measure.find_probes(&model.case, &simulation.state.mesh_in_frame());
+            let mesh = simulation.state.mesh_in_frame();
+            measure.find_probes(&model.case, &mesh, &images(&mesh));
         }
     }
     Ok(Prepared { simulation, measure })
