@@ -34,11 +34,10 @@ mod stepper;
 
 pub use crate::timing::{Stage, Timing, cpu_seconds};
 pub use advance::{Attempt, Simulation, StepScheme};
-pub use build::build_problem;
 pub use error::{RunError, StepError};
 pub use mesh_path::{MeshPath, NodePath};
 pub use moving_mesh::{MotionSettings, MovingMesh};
-pub use planar::{build_mesh, shape_motion, simulation_on, sizing};
+pub use planar::{build_mesh, build_problem, shape_motion, simulation_on, sizing};
 pub use resume::{ResumeError, SavedState};
 pub use run::{RunSummary, simulate, simulate_from};
 pub use scene::{Meshed, PosesByShift, RemeshError, Scene};
