@@ -4,9 +4,10 @@ use std::fmt::Write as _;
 
 use alewife_mesh::{Mesh, Quality};
 
+use super::engine;
 use super::exit::{Exit, Failure};
+use super::read::{CheckedCase, read_and_check};
 use super::style::{self, Ink, on_stdout, say};
-use super::{engine, read_and_check};
 use crate::case::{
     BoundaryCondition, Cadence, Case, CaseFile, Diagnostic, DomainSpec, FlowModel, GaitSpec, Joint,
     JointKind, Model, Motion, Precision, Scheme, ShapeSpec, Stroke, SwimmerModel, TimeSettings,
@@ -38,7 +39,7 @@ pub fn check(cases: &[String], settings: &[String], has_mesh: bool) -> Result<Ex
 }
 
 fn check_one(argument: &str, settings: &[String], has_mesh: bool) -> Result<(), Failure> {
-    let (file, warnings) = read_and_check(argument, settings)?;
+    let CheckedCase { file, warnings } = read_and_check(argument, settings)?;
     let mut text = format!("{}  {}\n", on_stdout(Ink::Bold, &file.full_name()), file.case().title);
     text += &facts(&file);
     let numbers = number_table(&file.model);
@@ -341,10 +342,14 @@ fn output_size(model: &Model, mesh: &Mesh<2>) -> f64 {
 }
 
 fn bytes(size: f64) -> String {
-    let units = ["bytes", "kB", "MB", "GB", "TB"];
-    let step = if size < 1.0 { 0 } else { ((size.log10() / 3.0) as usize).min(units.len() - 1) };
-    let digits = usize::from(step > 0);
-    format!("{:.digits$} {}", size / 1000_f64.powi(step as i32), units[step])
+    let larger = ["kB", "MB", "GB", "TB"];
+    let (mut number, mut unit) = (size, None);
+    for name in larger {
+        if number >= 1000.0 {
+            (number, unit) = (number / 1000.0, Some(name));
+        }
+    }
+    unit.map_or_else(|| format!("{number:.0} bytes"), |unit| format!("{number:.1} {unit}"))
 }
 
 fn duration(seconds: f64) -> String {

@@ -1,5 +1,6 @@
 //! `Exit`: the codes the program ends with, after sysexits where there is one.
 
+use std::io;
 use std::process::ExitCode;
 
 use super::style;
@@ -104,5 +105,11 @@ impl From<RunDirectoryError> for Failure {
             _ => Exit::InputOutput,
         };
         Self::new(exit, error.to_string())
+    }
+}
+
+impl From<io::Error> for Failure {
+    fn from(error: io::Error) -> Self {
+        Self::new(Exit::InputOutput, error.to_string())
     }
 }

@@ -8,7 +8,7 @@ use alewife_mesh::{Quality, write_vtu};
 
 use super::engine;
 use super::exit::{Exit, Failure};
-use super::read_case;
+use super::read::read_case;
 use super::style::say;
 
 /// Makes the mesh of a case, writes it as VTU, and tells its quality.

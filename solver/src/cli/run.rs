@@ -5,8 +5,9 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::exit::{Exit, Failure};
+use super::read::{Settings, read_case};
 use super::style::{Ink, on_stdout, say};
-use super::{Settings, engine, read_case, threads};
+use super::{engine, threads};
 use crate::case::{Case, Model, TimeSettings, significant};
 use crate::observer::{RunDirectory, write_atomic};
 use crate::simulation::{RunSummary, SavedState};

@@ -5,8 +5,9 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::exit::{Exit, Failure};
+use super::read::read_and_check;
 use super::style::{Ink, complain, on_stdout, say};
-use super::{engine, read_and_check, run, threads};
+use super::{engine, run, threads};
 use crate::case::{Cadence, Case, Numbers, Statistics, library};
 use crate::observer::{RunDirectory, read_outcome};
 use crate::simulation::{RunError, RunSummary};
@@ -103,7 +104,7 @@ fn validate_one(
     options: &Options,
     n_threads: usize,
 ) -> Result<Vec<Comparison>, Failure> {
-    let (file, _) = read_and_check(member, &[])?;
+    let file = read_and_check(member, &[])?.file;
     let name = file.full_name();
     let of_run = name.replace('/', "-");
     let outcome = match (&options.out, &options.from) {

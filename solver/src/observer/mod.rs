@@ -14,6 +14,7 @@
 //! | `comparison.json` | Computed against published values, by the command line | at the end |
 //! | `lock` | Held while a run lives | – |
 
+mod atomic;
 mod csv;
 mod fields;
 mod foxglove;
@@ -34,6 +35,7 @@ mod vorticity;
 use crate::case::Model;
 use crate::simulation::Observer;
 
+pub use atomic::write_atomic;
 pub use csv::SeriesFile;
 pub use fields::FieldFiles;
 pub use kept::read_outcome;
@@ -41,7 +43,7 @@ pub use log::start_log;
 pub use mcap::MessageFile;
 pub use progress::Progress;
 pub use provenance::Provenance;
-pub use run_directory::{RunDirectory, RunDirectoryError, write_atomic};
+pub use run_directory::{RunDirectory, RunDirectoryError};
 pub use status::{RunState, Status, StatusFile};
 
 /// Everyone who looks on at a run in `directory`; with `quiet`, without progress on the terminal.

@@ -82,7 +82,11 @@ impl<const D: usize> Observer<D> for Progress {
     fn on_step(&mut self, snapshot: &Snapshot<'_, D>) -> io::Result<()> {
         if let Some(bar) = &self.bar {
             if let Some(end) = self.end {
-                #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+                #[expect(
+                    clippy::cast_possible_truncation,
+                    clippy::cast_sign_loss,
+                    reason = "saturates"
+                )]
                 bar.set_position((snapshot.time / end * FULL as f64) as u64);
             }
             bar.set_message(self.line(snapshot));

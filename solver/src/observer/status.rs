@@ -7,7 +7,8 @@ use std::time::{Duration, Instant};
 
 use serde::{Deserialize, Serialize};
 
-use super::{process, write_atomic};
+use super::atomic::write_atomic;
+use super::process;
 use crate::case::{Case, TimeSettings};
 use crate::simulation::{LastState, Observer, RunError, Snapshot, Stage, Timing, cpu_seconds};
 
@@ -87,7 +88,11 @@ impl StatusFile {
             TimeSettings::Steady(_) => (None, None),
             TimeSettings::Unsteady(march) => {
                 // Of an end that is a multiple of the step, rounding shall not make one step more.
-                #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+                #[expect(
+                    clippy::cast_possible_truncation,
+                    clippy::cast_sign_loss,
+                    reason = "saturates"
+                )]
                 let steps = (march.end / march.step - 1e-9).ceil().max(0.0) as usize;
                 (march.adaptive.is_none().then_some(steps), Some(march.end))
             }

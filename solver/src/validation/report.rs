@@ -181,8 +181,8 @@ fn two_digits(value: f64) -> String {
     if value == 0.0 {
         "0".to_owned()
     } else if (0.01..1000.0).contains(&size) {
-        let digits = (1 - size.log10().floor() as i32).clamp(0, 3);
-        format!("{value:.*}", digits as usize)
+        let digits = [10.0, 1.0, 0.1].iter().take_while(|power| size < **power).count();
+        format!("{value:.digits$}")
     } else {
         format!("{value:.1e}")
     }
