@@ -24,6 +24,8 @@ mod simplex;
 mod sizing;
 mod spline;
 mod surroundings;
+#[cfg(test)]
+mod test_meshes;
 mod vtu;
 
 pub use check::check_mesh;

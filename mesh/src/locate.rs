@@ -35,6 +35,8 @@ pub struct Located<const D: usize> {
 #[derive(Debug, Clone)]
 pub struct Locator<const D: usize> {
     tree: BoxTree<D>,
+    /// Boxes around the cells.
+    boxes: Vec<Bounds<D>>,
     /// Positions of the vertices of all cells, D + 1 for each (m).
     vertices: Vec<Point<D>>,
     /// Where the nodes of each curved cell start in `quadratic`; [`STRAIGHT`] for the others.
@@ -77,7 +79,7 @@ impl<const D: usize> Locator<D> {
         }
         let tree = BoxTree::new(&boxes);
         let tolerance = TOLERANCE * tree.extent();
-        Self { tree, vertices, curved, quadratic, tolerance }
+        Self { tree, boxes, vertices, curved, quadratic, tolerance }
     }
 
     /// The cell that holds a point (m), and the reference coordinates there; `None` outside.
@@ -98,9 +100,40 @@ impl<const D: usize> Locator<D> {
         self.search(point, f64::INFINITY)
     }
 
+    /// The cell nearest to one of the images of a point: `point + shift` (m) for each shift. Of
+    /// images that are equally near, the first one counts.
+    ///
+    /// `None` as from [`Self::nearest`], or without a shift.
+    #[must_use]
+    pub fn nearest_image(&self, point: Point<D>, shifts: &[Point<D>]) -> Option<Located<D>> {
+        // Most points have an image inside, which a short search finds
+        let mut inside = shifts.iter().filter_map(|shift| self.locate(point + shift));
+        if let Some(found) = inside.find(|found| found.distance == 0.0) {
+            return Some(found);
+        }
+        let images = shifts.iter().map(|shift| point + shift);
+        let promising = images.clone().min_by(|a, b| {
+            let [a, b] = [a, b].map(|image| self.tree.squared_distance(image));
+            a.total_cmp(&b)
+        })?;
+        let reach = self.nearest(promising)?.distance + self.tolerance;
+        let mut best: Option<Located<D>> = None;
+        for found in images.filter_map(|image| self.search(image, reach)) {
+            if best.is_none_or(|best| found.distance < best.distance) {
+                best = Some(found);
+            }
+        }
+        best
+    }
+
     fn search(&self, point: Point<D>, reach: f64) -> Option<Located<D>> {
         let mut best: Option<Located<D>> = None;
         self.tree.visit_near(point, reach, |cell, reach| {
+            // Inside is what is so by rounding, too
+            let bound = reach.max(self.tolerance);
+            if self.boxes[cell].squared_distance(&point) > bound * bound {
+                return false;
+            }
             let found = self.locate_in(CellId::new(cell), point);
             if found.distance <= *reach && best.is_none_or(|b| found.distance < b.distance) {
                 best = Some(found);
@@ -261,6 +294,7 @@ fn nearest_in_simplex<const D: usize>(point: [f64; D], columns: &[Point<D>; D]) 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::test_meshes::{bulged_cube, cube_of_five, cube_of_twelve};
     use crate::{Domain, PlacedShape, Shape, Sizing, generate};
 
     fn channel() -> Mesh<2> {
@@ -312,6 +346,25 @@ mod tests {
     }
 
     #[test]
+    fn the_nearest_image_is_that_of_the_plain_loop() {
+        let mesh = channel();
+        let locator = Locator::new(&mesh);
+        let shifts: Vec<_> = (-2..=2)
+            .flat_map(|i| (-2..=2).map(move |j| (f64::from(i), f64::from(j))))
+            .map(|(i, j)| Point::<2>::new(2.2 * i, 0.41 * j))
+            .collect();
+        for (i, j) in (0..60).flat_map(|i| (0..60).map(move |j| (i, j))) {
+            let point = Point::<2>::new(-3.0 + 0.1 * f64::from(i), -0.6 + 0.02 * f64::from(j));
+            let all = shifts.iter().filter_map(|shift| locator.nearest(point + shift));
+            let plain = all.min_by(|a, b| a.distance.total_cmp(&b.distance));
+            assert_eq!(locator.nearest_image(point, &shifts), plain);
+        }
+        let nowhere = Point::<2>::new(f64::NAN, 0.0);
+        assert_eq!(locator.nearest_image(nowhere, &shifts), None);
+        assert_eq!(locator.nearest_image(Point::<2>::zeros(), &[]), None);
+    }
+
+    #[test]
     fn points_just_inside_the_body_are_nearest_to_its_surface() {
         let mesh = channel();
         let locator = Locator::new(&mesh);
@@ -321,5 +374,64 @@ mod tests {
             let found = locator.nearest(point).unwrap();
             assert!((found.distance - 0.005).abs() < 1e-4, "{}", found.distance);
         }
+    }
+
+    /// Reference points well inside, close to a vertex, and close to a face.
+    const INSIDE: [[f64; 3]; 3] = [[0.25, 0.2, 0.3], [0.02, 0.95, 0.01], [0.3, 0.3, 0.002]];
+
+    #[test]
+    fn points_of_a_tetrahedral_mesh_are_found_in_their_cells() {
+        for mesh in [cube_of_five(), cube_of_twelve(), bulged_cube(0.2)] {
+            let locator = Locator::new(&mesh);
+            for cell in mesh.cell_ids() {
+                for at in INSIDE {
+                    let point = map_quadratic(&mesh.cell_nodes(cell), at).position;
+                    let found = locator.locate(point).expect("the point is in the mesh");
+                    assert_eq!((found.cell, found.distance), (cell, 0.0));
+                    let off = Point::from(found.reference) - Point::from(at);
+                    assert!(off.norm() < 1e-12, "{:?}", found.reference);
+                }
+            }
+            assert!(mesh.nodes.iter().all(|node| locator.locate(*node).is_some()));
+        }
+    }
+
+    #[test]
+    fn points_outside_tetrahedra_are_refused_and_have_a_nearest_cell() {
+        let straight = Locator::new(&cube_of_five());
+        let above = Point::<3>::new(0.5, 0.4, 1.3);
+        assert_eq!(straight.locate(above), None);
+        let found = straight.nearest(above).expect("a mesh has a nearest cell");
+        assert!((found.distance - 0.3).abs() < 1e-15);
+        let at_corner = straight.nearest(Point::<3>::new(-2.0, -1.0, -2.0)).expect("likewise");
+        assert!((at_corner.distance - 3.0).abs() < 1e-14);
+
+        // The middle of a side is on a curved edge, which leaves it by a fifth of 1/2
+        let mesh = bulged_cube(0.2);
+        let curved = Locator::new(&mesh);
+        let middle = Point::<3>::new(0.5, 0.5, 1.1);
+        assert_eq!(curved.locate(middle).map(|found| found.distance), Some(0.0));
+        let beyond = middle + Point::<3>::new(0.0, 0.0, 0.25);
+        assert_eq!(curved.locate(beyond), None);
+        let found = curved.nearest(beyond).expect("a mesh has a nearest cell");
+        let closest = distance_to_places(&mesh, beyond);
+        assert!(found.distance <= closest + 1e-12, "{} {closest}", found.distance);
+        assert!(found.distance > closest - 1e-3, "{} {closest}", found.distance);
+    }
+
+    /// Distance from a point to the nearest of many places in all cells (m).
+    fn distance_to_places(mesh: &Mesh<3>, point: Point<3>) -> f64 {
+        let n = 40;
+        let mut least = f64::INFINITY;
+        for cell in mesh.cell_ids() {
+            let nodes = mesh.cell_nodes(cell);
+            for (i, j, k) in (0..=n).flat_map(|i| {
+                (0..=n - i).flat_map(move |j| (0..=n - i - j).map(move |k| (i, j, k)))
+            }) {
+                let at = [i, j, k].map(|m| f64::from(m) / f64::from(n));
+                least = least.min((map_quadratic(&nodes, at).position - point).norm());
+            }
+        }
+        least
     }
 }

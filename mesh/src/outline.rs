@@ -199,6 +199,12 @@ impl Outline {
         (point - self.center).norm() - self.reach
     }
 
+    /// Whether [`Self::least_gap`] surely exceeds a bound (m), at less cost still.
+    pub(crate) fn is_beyond(&self, point: Point<2>, bound: f64) -> bool {
+        let off = (point - self.center).abs();
+        off.x.max(off.y) > (bound + self.reach) * (1.0 + 1e-9)
+    }
+
     /// Point (m), first and second derivative at a parameter in [0, 1] of one of the quarters.
     #[must_use]
     pub fn evaluate(&self, quarter: usize, parameter: f64) -> [Point<2>; 3] {

@@ -79,8 +79,9 @@ pub(crate) fn nearest_body(
         for (i, shift) in images.iter().enumerate() {
             let is_other = i > 0 || but != Some(body);
             let bound = nearest.map_or(reach, |(_, gap)| gap);
-            if is_other && outline.least_gap(point - shift) < bound {
-                let gap = outline.nearest(point - shift).gap;
+            let image = point - shift;
+            if is_other && !outline.is_beyond(image, bound) && outline.least_gap(image) < bound {
+                let gap = outline.nearest(image).gap;
                 if gap < bound {
                     nearest = Some((body, gap));
                 }

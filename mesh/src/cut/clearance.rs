@@ -3,6 +3,9 @@
 use crate::Point;
 use crate::outline::Outline;
 
+/// All images of a body but the nearest are half a period away or more, to rounding.
+const FAR: f64 = 0.499_999;
+
 /// Bodies and the periods by which they repeat (m).
 #[derive(Debug, Clone, Copy)]
 pub struct Clearance<'a> {
@@ -29,8 +32,15 @@ impl Clearance<'_> {
                     [near, near + 1.0, near - 1.0].map(|k| Some(k * length))
                 }
             };
-            for y in steps(1).into_iter().flatten() {
-                for x in steps(0).into_iter().flatten() {
+            let is_far = |axis: usize, nth: usize, gap: f64| {
+                let half = self.periods[axis].map_or(0.0, |length| FAR * length);
+                nth > 0 && gap + outline.reach() < half
+            };
+            for (j, y) in steps(1).into_iter().flatten().enumerate() {
+                for (i, x) in steps(0).into_iter().flatten().enumerate() {
+                    if is_far(0, i, gap) || is_far(1, j, gap) {
+                        continue;
+                    }
                     let there = point - Point::<2>::new(x, y);
                     let is_own = but == Some(body) && x == 0.0 && y == 0.0;
                     if !is_own && outline.least_gap(there) < gap {

@@ -21,6 +21,13 @@ enum Node {
     Branch(u32),
 }
 
+/// The square of a node.
+struct Square {
+    node: usize,
+    center: Point<2>,
+    half: f64,
+}
+
 impl PointTree {
     /// Empty tree over the square around all `points`, which are then inserted.
     pub fn new(points: &[Point<2>]) -> Self {
@@ -79,31 +86,34 @@ impl PointTree {
         radius: f64,
         mut visit: impl FnMut(usize) -> bool,
     ) -> bool {
-        let mut stack = vec![(0_usize, self.center, self.half)];
-        while let Some((node, center, half)) = stack.pop() {
-            let away = (point - center).abs();
-            if away.x > half + radius || away.y > half + radius {
-                continue;
-            }
-            match &self.nodes[node] {
-                Node::Leaf(held) => {
-                    for i in held {
-                        let near = (self.points[*i as usize] - point).norm_squared();
-                        if near < radius * radius && visit(*i as usize) {
-                            return true;
-                        }
-                    }
-                }
-                Node::Branch(first) => {
-                    let half = 0.5 * half;
-                    for child in 0..4 {
-                        let center = child_center(center, half, child);
-                        stack.push((*first as usize + child, center, half));
-                    }
-                }
-            }
+        let root = Square { node: 0, center: self.center, half: self.half };
+        self.any_in(&root, point, radius, &mut visit)
+    }
+
+    fn any_in(
+        &self,
+        square: &Square,
+        point: Point<2>,
+        radius: f64,
+        visit: &mut impl FnMut(usize) -> bool,
+    ) -> bool {
+        let away = (point - square.center).abs();
+        let reach = square.half + radius;
+        if away.x > reach || away.y > reach {
+            return false;
         }
-        false
+        match &self.nodes[square.node] {
+            Node::Leaf(held) => held.iter().any(|i| {
+                let near = (self.points[*i as usize] - point).norm_squared();
+                near < radius * radius && visit(*i as usize)
+            }),
+            Node::Branch(first) => (0..4).rev().any(|child| {
+                let half = 0.5 * square.half;
+                let center = child_center(square.center, half, child);
+                let node = *first as usize + child;
+                self.any_in(&Square { node, center, half }, point, radius, visit)
+            }),
+        }
     }
 }
 

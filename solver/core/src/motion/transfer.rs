@@ -169,13 +169,12 @@ fn find<const D: usize>(
     periods: &[Point<D>],
 ) -> Option<Vec<Source<D>>> {
     let locator = Locator::new(old);
+    let images: Vec<Point<D>> = std::iter::once(&Point::zeros()).chain(periods).copied().collect();
     let find = |point: &Point<D>| {
         if let Some(found) = locator.locate(*point) {
             return Some(settle(found.cell, found.reference, Landing::Inside, 0.0));
         }
-        let images = std::iter::once(Point::<D>::zeros()).chain(periods.iter().copied());
-        let found = images.filter_map(|shift| locator.nearest(point + shift));
-        let nearest = found.min_by(|a, b| a.distance.total_cmp(&b.distance))?;
+        let nearest = locator.nearest_image(*point, &images)?;
         Some(settle(nearest.cell, nearest.reference, Landing::Extrapolated, nearest.distance))
     };
     let order = by_proximity(points);
