@@ -49,10 +49,14 @@ impl Crate {
     fn read(folder: &str) -> Self {
         let mut all = Self::default();
         for (file, text) in sources(folder) {
+            // A program is a crate of its own beside its library
+            if file.ends_with("src/main.rs") {
+                continue;
+            }
             let inside = file.strip_prefix(folder).expect("a source lies in its folder");
             let inside = inside.trim_start_matches('/').trim_end_matches(".rs");
             let mut module: Module = inside.split('/').map(str::to_owned).collect();
-            if module.last().is_some_and(|last| ["mod", "lib", "main"].contains(&last.as_str())) {
+            if module.last().is_some_and(|last| ["mod", "lib"].contains(&last.as_str())) {
                 module.pop();
             }
             all.add(module, &file, &syntax(&file, &text));

@@ -94,7 +94,7 @@ impl<'ast> Visit<'ast> for Tuples {
 #[ignore = "not yet kept by all rooms"]
 fn functions_are_short_and_their_signatures_plain() {
     let mut wrong = Vec::new();
-    for (file, text) in all_sources() {
+    for (file, text) in all_sources().filter(|(file, _)| !file.ends_with("tests.rs")) {
         let tree = syntax(&file, &text);
         let mut functions = Functions { file: &file, wrong: Vec::new() };
         functions.visit_file(&tree);

@@ -31,6 +31,7 @@ mod state;
 mod steady;
 mod step;
 mod stepper;
+mod workspace;
 
 pub use crate::timing::{Stage, Timing, cpu_seconds};
 pub use advance::{Attempt, Simulation, StepScheme};
@@ -45,4 +46,5 @@ pub use series::Series;
 pub use snapshot::{BodyReport, LastState, Observer, Snapshot};
 pub use state::{NewLevel, State};
 pub use steady::{SteadyFailure, SteadyFlow, SteadyTask, solve_steady};
-pub use stepper::{Step, StepReport, StepResult, TimeStepper, Workspace};
+pub use stepper::{Step, StepReport, StepResult, TimeStepper};
+pub use workspace::Workspace;

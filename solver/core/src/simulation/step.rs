@@ -20,7 +20,8 @@ use super::newton::{Criterion, Flow, newton};
 use super::pass::{Pass, PassEquations, Placement};
 use super::predict::{integrate_poses, limit_by_gaps, predict_poses};
 use super::state::State;
-use super::stepper::{Step, StepReport, StepResult, TimeStepper, Workspace};
+use super::stepper::{Step, StepReport, StepResult, TimeStepper};
+use super::workspace::Workspace;
 use crate::coupling::Solution;
 use crate::time::Bdf;
 

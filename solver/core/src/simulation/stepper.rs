@@ -1,13 +1,10 @@
 //! `TimeStepper`: what makes steps; what a step starts from, works with and leaves.
 
-use alewife_mesh::Mesh;
-
-use super::Timing;
 use super::mesh_path::MeshPath;
 use super::state::{NewLevel, State};
 use crate::case::Convection;
 use crate::contact::Law;
-use crate::coupling::{BodyLoads, FluidSystem, Problem};
+use crate::coupling::{BodyLoads, Problem};
 use crate::time::Bdf;
 
 /// What stays the same from step to step while the mesh lasts.
@@ -21,16 +18,6 @@ pub struct TimeStepper<'a, const D: usize> {
     pub path: MeshPath<'a, D>,
     /// The law of contact, if any.
     pub contact: Option<&'a Law>,
-}
-
-/// What a step works with; nothing in it is read before it is written.
-pub struct Workspace<const D: usize> {
-    /// The linear system on the mesh.
-    pub system: FluidSystem<D>,
-    /// The mesh of the present pass, in the laboratory.
-    pub mesh: Mesh<D>,
-    /// Time spent in each stage.
-    pub timing: Timing,
 }
 
 /// A step in time.

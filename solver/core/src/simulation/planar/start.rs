@@ -19,7 +19,7 @@ use crate::simulation::resume::SavedState;
 use crate::simulation::scene::RemeshError;
 use crate::simulation::start::{check_memory, step_scheme};
 use crate::simulation::state::State;
-use crate::simulation::stepper::Workspace;
+use crate::simulation::workspace::Workspace;
 use crate::simulation::{RunError, Stage, Timing};
 
 /// A simulation with its measurements.
