@@ -44,7 +44,7 @@ const FOREIGN: [(&str, &[&str]); 8] = [
     ("faer", &["solver/linear/src/algebra/", "solver/linear/src/multifrontal/"]),
     ("pulp", &["solver/core/src/flow/", "solver/linear/src/multifrontal/"]),
     ("metis_sys", &["solver/linear/src/multifrontal/metis.rs"]),
-    ("spade", &["mesh/src/generate/", "mesh/src/cut/"]),
+    ("spade", &["mesh/src/planar/generate/", "mesh/src/planar/cut/"]),
     ("mcap", &["solver/src/observer/"]),
     ("clap", &["solver/src/cli/"]),
     ("indicatif", &["solver/src/observer/"]),
