@@ -137,6 +137,60 @@ fn read_and_check(argument: &str, what: &str) -> CaseFile {
     file
 }
 
+/// Source folders of all crates.
+const CRATES: [&str; 5] =
+    ["mesh/src", "solver/case/src", "solver/core/src", "solver/linear/src", "solver/src"];
+
+/// All source files below a folder.
+fn sources(folder: &Path) -> Vec<PathBuf> {
+    let mut found = Vec::new();
+    for entry in fs::read_dir(folder).expect("the folder exists") {
+        let path = entry.expect("the entry is readable").path();
+        if path.is_dir() {
+            found.extend(sources(&path));
+        } else if path.extension().is_some_and(|extension| extension == "rs") {
+            found.push(path);
+        }
+    }
+    found
+}
+
+fn all_sources() -> impl Iterator<Item = PathBuf> {
+    CRATES.into_iter().flat_map(|folder| sources(&root().join(folder)))
+}
+
+#[test]
+fn every_file_the_architecture_names_exists() {
+    let page = text("docs/architecture.md");
+    let prose = page.split("<!-- map: begin -->").next().unwrap_or_default();
+    let short = |path: &str| path.replace("/src/", "/");
+    let files: Vec<String> = all_sources().map(|path| short(&path.display().to_string())).collect();
+    let named = |term: &&String| term.ends_with(".rs") || term.contains("/src/");
+    let terms = terms(prose);
+    let missing: Vec<&String> = terms
+        .iter()
+        .filter(named)
+        .filter(|term| !files.iter().any(|file| file.contains(&format!("/{}", short(term)))))
+        .collect();
+    assert!(terms.iter().filter(named).count() > 50, "{terms:?}");
+    assert!(missing.is_empty(), "docs/architecture.md names {missing:?}, which do not exist");
+}
+
+#[test]
+fn every_name_of_the_notation_is_in_the_code() {
+    let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    let read = |path| fs::read_to_string(path).expect("the file is text");
+    let code: String = all_sources().map(read).collect();
+    let known: BTreeSet<&str> = code.split(|c| !is_part(c)).collect();
+    let page = text("docs/notation.md");
+    let terms = terms(&page);
+    let names = terms.iter().flat_map(|term| term.split(|c| !is_part(c)));
+    let missing: Vec<&str> =
+        names.filter(|name| !name.is_empty() && !known.contains(name)).collect();
+    assert!(terms.len() > 100, "{} terms", terms.len());
+    assert!(missing.is_empty(), "docs/notation.md names {missing:?}, which the code does not have");
+}
+
 #[test]
 fn every_complete_example_is_right() {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("documentation");
@@ -226,7 +280,10 @@ fn every_case_has_a_page() {
 
 #[test]
 fn no_page_names_a_path_of_one_machine() {
-    let mut pages = vec!["README.md".to_owned(), "postprocess/README.md".to_owned()];
+    let mut pages: Vec<String> =
+        ["README.md", "CONTRIBUTING.md", "CHANGELOG.md", "postprocess/README.md"]
+            .map(str::to_owned)
+            .into();
     for folder in std::iter::once("docs".to_owned())
         .chain(std::iter::once("cases".to_owned()))
         .chain(case_names().iter().map(|name| format!("cases/{name}")))

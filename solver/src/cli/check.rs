@@ -18,7 +18,7 @@ use crate::coupling::memory_estimate;
 /// Output above which a warning is given (bytes).
 const LARGE_OUTPUT: f64 = 2e9;
 
-/// Checks cases one after the other; the first bad one decides the exit code and is told last.
+/// Checks cases one after the other; the first bad one decides the exit code and is printed last.
 pub fn check(cases: &[String], settings: &[String], has_mesh: bool) -> Result<Exit, Failure> {
     let mut worst: Option<Failure> = None;
     for (index, argument) in cases.iter().enumerate() {
@@ -118,7 +118,7 @@ pub fn facts(file: &CaseFile) -> String {
     line(
         "reference",
         match (n, in_variants) {
-            (0, 0) => "none: nothing tells whether the result is right".to_owned(),
+            (0, 0) => "none: the result is not compared with anything".to_owned(),
             (1, 0) => "1 published value".to_owned(),
             (n, 0) => format!("{n} published values"),
             (n, more) => format!("{} published values, {more} of them in variants", n + more),
@@ -224,13 +224,13 @@ fn joint_line(joint: &Joint) -> String {
             )
         }
     };
-    format!("{} hangs on {}: {what}", joint.child, joint.parent)
+    format!("{} is attached to {}: {what}", joint.child, joint.parent)
 }
 
 fn swimmer_line(model: &Model, swimmer: &SwimmerModel) -> String {
     let bodies = match swimmer.bodies.len() {
         1 => "1 body".to_owned(),
-        n => format!("{n} bodies, told of as one"),
+        n => format!("{n} bodies, reported as one"),
     };
     let period = swimmer.period.map(|period| format!(", period {}", significant(period)));
     let motion = match swimmer.bodies.iter().all(|body| model.bodies[*body].motion == Motion::Free)
@@ -281,7 +281,7 @@ fn costs(model: &Model, mesh: &Mesh<2>) -> String {
     let memory = memory_estimate(2 * mesh.n_nodes() + mesh.n_vertices);
     // Measured on planar runs with 1.1 10^4 to 2 10^5 unknowns, on one core, every system factorised.
     let factorisation = 0.0095 * (n_dofs / 1e4).powf(1.4);
-    // What follows the bodies: the mesh, its quality, contact, measurements, new meshes.
+    // What follows the bodies: the mesh, its quality, contact, measurements, remeshing.
     let following = if model.mesh_moves() { 0.5 } else { 0.0 };
     let assembly = 6e-7 * n_dofs;
     let systems = n_systems(model);
@@ -294,7 +294,7 @@ fn costs(model: &Model, mesh: &Mesh<2>) -> String {
     let is_adaptive =
         matches!(&model.case.time, TimeSettings::Unsteady(time) if time.adaptive.is_some());
     let cost = if is_adaptive {
-        format!("{} for each linear system; how many, the steps will tell", duration(seconds))
+        format!("{} for each linear system; their number depends on the steps", duration(seconds))
     } else {
         let plural = if systems == 1.0 { "" } else { "s" };
         format!("{} for {systems} linear system{plural}", duration(systems * seconds))

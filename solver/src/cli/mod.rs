@@ -1,4 +1,4 @@
-//! The command line: what is asked for, what is said back, and which code the program ends with.
+//! The command line: commands, their output, and the exit codes.
 
 mod check;
 mod engine;
@@ -55,7 +55,7 @@ enum Command {
         #[arg(long, short)]
         long: bool,
     },
-    /// Tell what a case is about: physics, derived numbers, published values, variants
+    /// Show what a case is about: physics, derived numbers, published values, variants
     Show {
         /// Which case
         case: String,
@@ -63,7 +63,7 @@ enum Command {
         #[arg(long)]
         source: bool,
     },
-    /// Read cases, mesh them, and say what they would cost; nothing is solved
+    /// Read cases, mesh them, and estimate their cost; nothing is solved
     Check {
         /// Which cases
         #[arg(required = true)]
@@ -74,7 +74,7 @@ enum Command {
         #[arg(long)]
         no_mesh: bool,
     },
-    /// Make the mesh of a case, write it as VTU, and tell its quality
+    /// Make the mesh of a case, write it as VTU, and report its quality
     Mesh {
         /// Which case
         case: String,

@@ -73,7 +73,7 @@ pub fn validate(options: &Options) -> Result<Exit, Failure> {
     } else if options.markdown {
         say(comparison_page(&comparisons).trim_end());
     } else {
-        run::tell(&comparisons);
+        run::print_comparisons(&comparisons);
         let n_good = comparisons.len() - n_bad;
         let words = format!("{n_good} of {} values within their tolerance", comparisons.len());
         say(&on_stdout(if n_bad == 0 { Ink::Green } else { Ink::Red }, &words));
@@ -123,7 +123,7 @@ fn validate_one(
     })
 }
 
-/// A run that was kept, of this very case but for what it is held against.
+/// A run that was kept, of the same case, its references aside.
 fn kept(directory: &Path, case: &Case) -> Result<RunSummary, Failure> {
     let refuse = |exit, reason: String| {
         Failure::new(exit, format!("--from: {}: {reason}", directory.display()))

@@ -29,7 +29,7 @@ impl Progress {
     pub fn new(case: &Case) -> Self {
         let end = match &case.time {
             TimeSettings::Steady(_) => None,
-            TimeSettings::Unsteady(march) => Some(march.end),
+            TimeSettings::Unsteady(settings) => Some(settings.end),
         };
         let bar = TERMINAL.is_terminal().then(|| {
             let (bar, template) = match end {

@@ -51,9 +51,11 @@ pub enum StatisticError {
         /// Largest value in the window.
         highest: f64,
     },
-    /// Drag and inertia cannot be told apart.
-    #[error("body `{body}` does not swing along {axis} in the window, as Morison's equation needs")]
-    NoSwing {
+    /// Drag and inertia cannot be separated.
+    #[error(
+        "body `{body}` does not oscillate along {axis} in the window, as Morison's equation needs"
+    )]
+    NoOscillation {
         /// Name of the body.
         body: String,
         /// Axis of the force.

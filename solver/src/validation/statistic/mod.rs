@@ -7,11 +7,11 @@ mod tests;
 
 use self::curve::Curve;
 pub use self::error::StatisticError;
-use super::morison::{self, Swing};
+use super::morison::{self, Oscillation};
 use crate::case::{Case, Reference, Statistic};
 use crate::simulation::Series;
 
-/// The number a reference is held against: its statistic of the run, divided by `per`.
+/// The number that is compared with a reference: its statistic of the run, divided by `per`.
 ///
 /// # Errors
 /// [`StatisticError`] when the run does not hold what the statistic needs.
@@ -89,12 +89,13 @@ fn morison_fit(
     let force = column(&reference.quantity)?;
     let velocity = column(&format!("{body}.velocity.{axis}"))?;
     let acceleration = column(&format!("{body}.acceleration.{axis}"))?;
-    let swing = Swing {
+    let oscillation = Oscillation {
         times: &force.times,
         force: &force.values,
         velocity: &velocity.values,
         acceleration: &acceleration.values,
     };
-    morison::fit(swing, case.fluid.density, scales.length)
-        .ok_or_else(|| StatisticError::NoSwing { body: body.to_owned(), axis: axis.to_owned() })
+    morison::fit(oscillation, case.fluid.density, scales.length).ok_or_else(|| {
+        StatisticError::NoOscillation { body: body.to_owned(), axis: axis.to_owned() }
+    })
 }

@@ -247,7 +247,7 @@ fn morisons_coefficients_are_those_of_the_bodys_own_motion() {
     let inertia = of("b.force.y", Statistic::MorisonInertia).unwrap();
     assert!((drag - 1.7).abs() < 1e-11 && (inertia - 1.2).abs() < 1e-11, "{drag} {inertia}");
     let error = of("b.force.x", Statistic::MorisonDrag).unwrap_err();
-    assert!(matches!(error, StatisticError::NoSwing { .. }), "{error}");
+    assert!(matches!(error, StatisticError::NoOscillation { .. }), "{error}");
     assert!(of("b.velocity.y", Statistic::MorisonDrag).is_err());
 }
 
