@@ -10,9 +10,9 @@ use std::path::{Path, PathBuf};
 
 use alewife_mesh::{Mesh, Point, Simplex, write_vtu_as};
 
+use super::atomic::write_atomic;
 use super::schedule::Schedule;
 use super::vorticity::nodal_vorticity;
-use super::write_atomic;
 use crate::case::{Case, Precision};
 use crate::simulation::{LastState, Observer, RunError, Snapshot};
 

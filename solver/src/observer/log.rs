@@ -22,7 +22,7 @@ static FILE: Mutex<Option<File>> = Mutex::new(None);
 ///
 /// `verbosity` is the number of `-v` on the command line: warnings, then 1 for what the program
 /// does, 2 for details, 3 for everything; negative for errors only. The variable `ALEWIFE_LOG`
-/// overrides it: a level, or pairs `target=level` separated by commas. `log.jsonl` in `directory` always tells what
+/// overrides it: a level, or pairs `target=level` separated by commas. `log.jsonl` in `directory` always holds what
 /// the program does, and more if `verbosity` asks for more.
 ///
 /// # Errors

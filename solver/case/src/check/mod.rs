@@ -8,6 +8,7 @@ mod boundary;
 mod contact;
 mod fluid;
 mod gait;
+mod joints;
 mod mesh;
 mod placement;
 mod references;
@@ -19,8 +20,6 @@ mod time;
 use super::diagnostic::{Diagnostic, Severity};
 use super::read::CaseFile;
 use super::{Case, DomainSpec, Geometry, Model};
-
-pub use references::known_quantities;
 
 /// Numbers a place or a velocity has; axisymmetric cases are computed in their half plane.
 const DIMENSIONS: usize = 2;
@@ -40,6 +39,7 @@ pub fn check(file: &CaseFile) -> Vec<Diagnostic> {
     fluid::check(&mut findings);
     boundary::check(&mut findings);
     bodies::check(&mut findings);
+    joints::check(&mut findings);
     swimmers::check(&mut findings);
     contact::check(&mut findings);
     mesh::check(&mut findings);

@@ -5,7 +5,8 @@ use super::mesh_path::MeshPath;
 use super::moving_mesh::MovingMesh;
 use super::remesh::remesh;
 use super::state::State;
-use super::step::{StepReport, TimeStepper, Workspace};
+use super::stepper::{StepReport, StepResult, TimeStepper};
+use super::workspace::Workspace;
 use super::{Stage, Timing};
 use crate::case::{Convection, Scheme};
 use crate::contact::{ContactError, Law};
@@ -106,7 +107,7 @@ impl<const D: usize> Simulation<D> {
             path: moving_mesh.as_ref().map_or(MeshPath::Fixed, MeshPath::FollowsBodies),
             contact: law.as_ref(),
         };
-        let (level, report) = match scheme.method {
+        let StepResult { level, report } = match scheme.method {
             Scheme::Rk3 => {
                 let rates_jump = state.last_step == 0.0 && state.time > 0.0;
                 stepper.advance_explicitly(work, state, size, rates_jump)?

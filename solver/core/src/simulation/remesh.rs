@@ -1,6 +1,6 @@
 //! A new mesh in the middle of a run, with both levels of the flow taken over to it.
 
-use alewife_mesh::{Mesh, Point};
+use alewife_mesh::Mesh;
 use nalgebra::Vector3;
 
 use super::moving_mesh::MovingMesh;
@@ -72,12 +72,19 @@ pub(super) fn remesh<const D: usize>(
         bodies: bodies(&previous_poses, &shapes_before),
         origin: origin_before,
     };
-    let (now, rates) = takeover.level(&now, &state.rates)?;
-    let (previous, _) = takeover.level(&previous, &[])?;
-    (state.now, state.previous, state.rates) = (now, previous, rates);
+    let (now, previous) = (takeover.level(&now)?, takeover.level(&previous)?);
+    state.rates = now.transfer.quadratic(&state.rates);
+    (state.now, state.previous) = (now.solution, previous.solution);
     state.image_shifts = image_shifts;
     state.put_on_mesh(new, before.nodes);
     Ok(successor)
+}
+
+/// A level on the new mesh.
+struct Taken<'a, const D: usize> {
+    solution: Solution<D>,
+    /// From the old mesh to the new one.
+    transfer: Transfer<'a, D>,
 }
 
 /// Takes levels of a flow from one mesh to another.
@@ -102,16 +109,11 @@ impl<'a, const D: usize> Takeover<'a, D> {
         Ok(Self { problem, moving, boundaries, tables, projection })
     }
 
-    /// A level on the new mesh, and other velocities (m/s2 at the nodes) with it.
-    fn level(
-        &mut self,
-        level: &Level<'_, D>,
-        others: &[Point<D>],
-    ) -> Result<(Solution<D>, Vec<Point<D>>), RemeshError> {
+    /// A level on the new mesh.
+    fn level<'b>(&mut self, level: &Level<'b, D>) -> Result<Taken<'b, D>, RemeshError> {
         let images = self.moving.scene().images([level.old, level.new]);
         let not_found = || RemeshError::NotFound { level: level.name };
-        let transfer = Transfer::new(level.old, level.new, &images).ok_or_else(not_found)?;
-        let others = if others.is_empty() { Vec::new() } else { transfer.quadratic(others) };
+        let mut transfer = Transfer::new(level.old, level.new, &images).ok_or_else(not_found)?;
         let mut solution = Solution {
             velocity: transfer.quadratic(&level.solution.velocity),
             pressure: transfer.linear(&level.solution.pressure),
@@ -130,13 +132,13 @@ impl<'a, const D: usize> Takeover<'a, D> {
             &mut solution.velocity,
         );
         if let Some(projection) = &mut self.projection {
-            let transfer = transfer.with_points(&self.tables, &images).ok_or_else(not_found)?;
+            transfer = transfer.with_points(&self.tables, &images).ok_or_else(not_found)?;
             let residual =
                 transfer.missed(&self.tables, &level.solution.velocity, &solution.velocity);
             projection.move_to(self.problem, level.new)?;
             solution.velocity =
                 projection.project_with(level.new, &solution.velocity, &residual)?;
         }
-        Ok((solution, others))
+        Ok(Taken { solution, transfer })
     }
 }

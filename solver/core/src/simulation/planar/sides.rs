@@ -1,13 +1,22 @@
-//! Sides of the domain of a case as boundary conditions.
+//! The problem of a planar or axisymmetric case, with the sides of its domain.
 
-use alewife_mesh::Point;
+use alewife_mesh::{Mesh, Point};
 
-use crate::case::{BoundaryCondition, Case, DomainSpec, TimeFunction};
-use crate::coupling::{Side, VelocityProfile};
+use crate::case::{BoundaryCondition, Case, DomainSpec, Model, TimeFunction};
+use crate::coupling::{Problem, Side, VelocityProfile};
 use crate::gait::WavingSheet;
 use crate::simulation::RunError;
+use crate::simulation::build::problem_with_sides;
 use crate::space::Metric;
 use crate::time::factor_at;
+
+/// The problem of a case on its mesh.
+///
+/// # Errors
+/// When the case asks for something that is not there yet.
+pub fn build_problem(model: &Model, mesh: &Mesh<2>) -> Result<Problem<2>, RunError> {
+    problem_with_sides(model, mesh, |name| side(&model.case, name))
+}
 
 /// Lower and upper end of the domain along y, where profiles are zero.
 fn height_range(case: &Case) -> [f64; 2] {
@@ -23,7 +32,7 @@ fn height_range(case: &Case) -> [f64; 2] {
 }
 
 /// What holds on a side of the domain.
-pub(super) fn side(case: &Case, name: &str) -> Result<Side<2>, RunError> {
+fn side(case: &Case, name: &str) -> Result<Side<2>, RunError> {
     let condition = case.boundary.get(name).ok_or_else(|| {
         RunError::Unsupported(format!("side `{name}` of the domain has no condition in [boundary]"))
     })?;

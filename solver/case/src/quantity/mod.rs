@@ -1,0 +1,201 @@
+//! `Quantity`: what a run measures; names, columns, references and the user's page follow from it.
+//!
+//! A new quantity is one row of `table.rs` and one arm of its `match` in the measurements of a run.
+
+mod table;
+
+use super::{JointKind, Model, TimeSettings};
+
+pub use table::{BodyQuantity, FlowQuantity, JointQuantity, ProbeQuantity, SwimmerQuantity};
+
+/// A row of a table of quantities.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Quantity<T> {
+    /// Which one it is.
+    pub id: T,
+    /// Name after that of its owner, such as `force.x`.
+    pub name: &'static str,
+    /// Unit; that of planar cases in parentheses where it differs.
+    pub unit: &'static str,
+    /// When it exists.
+    pub when: When,
+    /// What it is.
+    pub meaning: &'static str,
+}
+
+/// When a quantity exists.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum When {
+    /// In all cases.
+    Always,
+    /// There are `[scales]` and a density, so that coefficients can be formed.
+    Scales,
+    /// There is `[contact]`.
+    Contact,
+    /// The joint is a pivot.
+    Pivot,
+    /// The joint is an arm.
+    Arm,
+    /// The swimmer has more than one body.
+    SeveralBodies,
+    /// The swimmer has a period, and the run is unsteady.
+    Cycles,
+    /// The same, and its resistance is known.
+    TowedCycles,
+    /// Its resistance is known, but it has no cycles.
+    TowedWithoutCycles,
+    /// All work on the fluid is that of bodies.
+    IdleSides,
+    /// The mesh moves.
+    MovingMesh,
+}
+
+impl When {
+    /// The same in words, for a table; empty for quantities of all cases.
+    #[must_use]
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::Always => "",
+            Self::Scales => "`scales`",
+            Self::Contact => "[`contact`](#contact)",
+            Self::Pivot => "pivots (`bent`, `hinge`)",
+            Self::Arm => "`arm`",
+            Self::SeveralBodies => "several bodies",
+            Self::Cycles => "a period",
+            Self::TowedCycles => "a period and `resistance`",
+            Self::TowedWithoutCycles => "`resistance`, no period",
+            Self::IdleSides => "bodies, and sides that do no work",
+            Self::MovingMesh => "a moving mesh",
+        }
+    }
+
+    fn holds(self, known: &Circumstances) -> bool {
+        match self {
+            Self::Always => true,
+            Self::Scales => known.has_coefficients,
+            Self::Contact => known.has_contact,
+            Self::Pivot => !known.is_arm,
+            Self::Arm => known.is_arm,
+            Self::SeveralBodies => known.has_several_bodies,
+            Self::Cycles => known.has_cycles,
+            Self::TowedCycles => known.has_cycles && known.has_resistance,
+            Self::TowedWithoutCycles => !known.has_cycles && known.has_resistance,
+            Self::IdleSides => known.balances_energy,
+            Self::MovingMesh => known.mesh_moves,
+        }
+    }
+}
+
+/// What decides which quantities the case, a joint or a swimmer has.
+#[derive(Debug, Clone, Default)]
+struct Circumstances {
+    has_coefficients: bool,
+    has_contact: bool,
+    is_arm: bool,
+    has_several_bodies: bool,
+    has_cycles: bool,
+    has_resistance: bool,
+    balances_energy: bool,
+    mesh_moves: bool,
+}
+
+/// A column of `series.csv`: which quantity, and of what.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Source {
+    /// Of a body, by its number in [`Model::bodies`].
+    Body(usize, BodyQuantity),
+    /// Of a joint, counted in the order of the bodies that are their children.
+    Joint(usize, JointQuantity),
+    /// Of a swimmer, by its number in [`Model::swimmers`].
+    Swimmer(usize, SwimmerQuantity),
+    /// Of a probe, by its number in [`Case::probe`](crate::Case::probe).
+    Probe(usize, ProbeQuantity),
+    /// Of the flow.
+    Flow(FlowQuantity),
+}
+
+/// A named column of `series.csv`.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Column {
+    /// Name, such as `cylinder.force.x`.
+    pub name: String,
+    /// Whose quantity it is, and which.
+    pub source: Source,
+}
+
+/// The columns of `series.csv` after `time`.
+#[must_use]
+pub fn columns(model: &Model) -> Vec<Column> {
+    let case = &model.case;
+    let of_case = Circumstances {
+        has_coefficients: case.has_coefficients(),
+        has_contact: case.contact.is_some(),
+        balances_energy: model.balances_energy(),
+        mesh_moves: model.mesh_moves(),
+        ..Circumstances::default()
+    };
+    let mut columns = Vec::new();
+    for (nth, body) in model.bodies.iter().enumerate() {
+        let source = |quantity| Source::Body(nth, quantity);
+        add(&mut columns, &body.name, BodyQuantity::TABLE, &of_case, source);
+    }
+    let joints = model.bodies.iter().enumerate().filter_map(|(index, child)| {
+        let joint = model.joint_above(index)?;
+        Some((child, matches!(model.joints[joint].kind, JointKind::Arm { .. })))
+    });
+    for (nth, (child, is_arm)) in joints.enumerate() {
+        let source = |quantity| Source::Joint(nth, quantity);
+        let known = Circumstances { is_arm, ..of_case.clone() };
+        add(&mut columns, &child.name, JointQuantity::TABLE, &known, source);
+    }
+    let is_unsteady = matches!(case.time, TimeSettings::Unsteady(_));
+    for (nth, swimmer) in model.swimmers.iter().enumerate() {
+        let source = |quantity| Source::Swimmer(nth, quantity);
+        let known = Circumstances {
+            has_several_bodies: swimmer.bodies.len() > 1,
+            has_cycles: swimmer.period.is_some() && is_unsteady,
+            has_resistance: swimmer.resistance.is_some(),
+            ..of_case.clone()
+        };
+        add(&mut columns, &swimmer.name, SwimmerQuantity::TABLE, &known, source);
+    }
+    for (nth, probe) in case.probe.iter().enumerate() {
+        let source = |quantity| Source::Probe(nth, quantity);
+        add(&mut columns, &probe.name, ProbeQuantity::TABLE, &of_case, source);
+    }
+    add(&mut columns, "flow", FlowQuantity::TABLE, &of_case, Source::Flow);
+    columns
+}
+
+/// Adds those quantities of an owner that exist.
+fn add<T: Copy>(
+    columns: &mut Vec<Column>,
+    owner: &str,
+    table: &[Quantity<T>],
+    known: &Circumstances,
+    source: impl Fn(T) -> Source,
+) {
+    columns.extend(
+        table
+            .iter()
+            .filter(|row| row.when.holds(known))
+            .map(|row| Column { name: format!("{owner}.{}", row.name), source: source(row.id) }),
+    );
+}
+
+/// Names of all quantities of a run: the columns of `series.csv` after `time`.
+#[must_use]
+pub fn known_quantities(model: &Model) -> Vec<String> {
+    columns(model).into_iter().map(|column| column.name).collect()
+}
+
+/// The conditions under which quantities of a name exist, whatever the case.
+pub(crate) fn conditions_of(name: &str) -> Vec<When> {
+    fn of<T>(table: &[Quantity<T>], name: &str) -> Vec<When> {
+        let is_it = |row: &&Quantity<T>| name.ends_with(&format!(".{}", row.name));
+        table.iter().filter(is_it).map(|row| row.when).collect()
+    }
+    let mut found = of(BodyQuantity::TABLE, name);
+    found.extend(of(SwimmerQuantity::TABLE, name));
+    found
+}
