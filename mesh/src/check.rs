@@ -182,45 +182,13 @@ fn check_periodic<const D: usize>(mesh: &Mesh<D>) -> Result<(), MeshError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Boundary, BoundaryId, BoundaryKind, Facet, Point};
+    use crate::Point;
+    use crate::test_meshes::{bulged_cube, cube_of_five, cube_of_twelve, quadratic};
 
     /// Two tetrahedra with a common face, their boundary in one piece.
-    pub fn two_tetrahedra() -> Mesh<3> {
+    fn two_tetrahedra() -> Mesh<3> {
         let corners = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0; 3]];
-        let tetrahedra = [[0, 1, 2, 3], [4, 2, 1, 3]];
-        let mut nodes: Vec<Point<3>> = corners.map(Point::from).to_vec();
-        let mut middles: HashMap<[usize; 2], NodeId> = HashMap::new();
-        let mut cells = Vec::new();
-        for vertices in tetrahedra {
-            cells.extend(vertices.map(NodeId::new));
-            for edge in Simplex::<3>::EDGES {
-                let [a, b] = edge.map(|local| vertices[local]);
-                cells.push(*middles.entry([a.min(b), a.max(b)]).or_insert_with(|| {
-                    nodes.push((nodes[a] + nodes[b]) * 0.5);
-                    NodeId::new(nodes.len() - 1)
-                }));
-            }
-        }
-        let all = (0..2).flat_map(|cell| (0..4).map(move |side| (cell, side)));
-        let is_inner = |cell: usize, side: usize| {
-            Simplex::<3>::facet_vertices(side)
-                .iter()
-                .all(|v| (1..4).contains(&tetrahedra[cell][*v]))
-        };
-        let facet = |(cell, side)| Facet {
-            cell: CellId::new(cell),
-            side: side as u8,
-            boundary: BoundaryId::new(0),
-        };
-        Mesh {
-            nodes,
-            n_vertices: 5,
-            cells,
-            curved: vec![false; 2],
-            facets: all.filter(|(cell, side)| !is_inner(*cell, *side)).map(facet).collect(),
-            boundaries: vec![Boundary { name: "all".into(), kind: BoundaryKind::Side }],
-            periodic: Vec::new(),
-        }
+        quadratic(corners.map(Point::from).to_vec(), &[[0, 1, 2, 3], [4, 2, 1, 3]])
     }
 
     fn what(mesh: &Mesh<3>) -> &'static str {
@@ -248,5 +216,35 @@ mod tests {
         let twice = spoil(&|mesh| mesh.facets.push(mesh.facets[0]));
         assert_eq!(twice, "a facet is not on the boundary or is listed twice");
         assert_eq!(spoil(&|mesh| mesh.cells[0] = mesh.cells[1]), "a node belongs to no cell");
+    }
+
+    #[test]
+    fn meshes_of_a_cube_are_accepted_unless_a_cell_has_two_boundary_facets() {
+        for mesh in [cube_of_twelve(), bulged_cube(0.2), bulged_cube(-0.05)] {
+            assert_eq!(check_mesh(&mesh), Ok(()));
+        }
+        assert_eq!(what(&cube_of_five()), FINE);
+        let spoil = |change: &dyn Fn(&mut Mesh<3>)| {
+            let mut spoilt = bulged_cube(0.2);
+            change(&mut spoilt);
+            what(&spoilt)
+        };
+        // The inner node of an edge from the centre, the last vertex, is in the interior
+        let interior = |mesh: &Mesh<3>| {
+            let center = NodeId::new(mesh.n_vertices - 1);
+            let mut edges = mesh.cell_edges(CellId::new(0));
+            edges.find(|edge| edge.ends.contains(&center)).map(|edge| edge.inner[0])
+        };
+        let bent = spoil(&|mesh| {
+            let node = interior(mesh).expect("every cell has the centre");
+            mesh.nodes[node].x += 0.01;
+        });
+        assert_eq!(bent, "an interior edge is not straight");
+        assert_eq!(
+            spoil(&|mesh| mesh.cells.swap(4, 5)),
+            "a cell has a Jacobian that is not positive"
+        );
+        let folded = bulged_cube(-1.2);
+        assert_eq!(what(&folded), "a cell has a Jacobian that is not positive");
     }
 }

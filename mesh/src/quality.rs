@@ -248,6 +248,7 @@ impl<const D: usize> fmt::Display for Quality<D> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::test_meshes::{bulged_cube, cube_of_five};
 
     #[test]
     fn a_regular_tetrahedron_is_perfect_and_a_flat_one_is_not() {
@@ -273,5 +274,32 @@ mod tests {
         assert!((half - 0.5).abs() < 1e-15);
         let (det, squares) = straight_measures(&[at(0.0, 0.0), at(2.0, 0.0), at(1.0, 3f64.sqrt())]);
         assert!((mean_ratio::<2>(det, squares) - 1.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn the_quality_of_a_cube_of_five_tetrahedra_is_known() {
+        let quality = Quality::of(&cube_of_five());
+        assert_eq!((quality.n_cells, quality.n_vertices, quality.n_nodes), (5, 8, 26));
+        assert_eq!((quality.n_dofs, quality.n_curved), (3 * 26 + 8, 0));
+        // One is regular, the four at the corners of the cube have three right angles
+        let at_corner = 12.0 * 0.5_f64.powf(2.0 / 3.0) / 9.0;
+        assert!((quality.min_ratio - at_corner).abs() < 1e-15);
+        assert!((quality.mean_ratio - (1.0 + 4.0 * at_corner) / 5.0).abs() < 1e-15);
+        let angle = (1.0 / 3.0_f64.sqrt()).acos().to_degrees();
+        assert!((quality.min_angle - angle).abs() < 1e-13, "{}", quality.min_angle);
+        assert_eq!((quality.shortest_edge, quality.longest_edge), (1.0, 2.0_f64.sqrt()));
+        assert_eq!(quality.min_curved_jacobian, 1.0);
+    }
+
+    #[test]
+    fn curved_tetrahedra_are_worse_than_straight_ones_and_folded_ones_are_not_valid() {
+        let worst = |by: f64| bulged_cube(by).worst_cell().expect("a cube has cells");
+        let straight = worst(0.0);
+        assert!((straight.quality - Quality::of(&bulged_cube(0.0)).min_ratio).abs() < 1e-14);
+        assert!(worst(-0.05).quality < straight.quality && worst(-0.05).is_valid());
+        assert!(!worst(-1.2).is_valid());
+        let quality = Quality::of(&bulged_cube(-0.05));
+        assert_eq!(quality.n_curved, 12);
+        assert!((0.1..1.0).contains(&quality.min_curved_jacobian));
     }
 }

@@ -4,7 +4,7 @@
 //! cannot miss a narrow place between them.
 
 use crate::planar::boundary::{BoundaryLoops, Curve};
-use crate::planar::gap_query::nearest_body;
+use crate::surface::nearest_surface;
 use crate::{BoundaryKind, Domain, MeshError, PlacedShape, Point, Sizing};
 
 /// Largest number of samples on the boundary.
@@ -176,8 +176,8 @@ impl<'a> Surfaces<'a> {
     /// Distance to the nearest body, the images of all and the body itself left out.
     fn gap_to_bodies(&self, point: Point<2>, but: Option<usize>) -> f64 {
         let bodies = &self.border.outlines[..self.n_bodies];
-        nearest_body(bodies, self.images, point, but, f64::INFINITY)
-            .map_or(f64::INFINITY, |(_, gap)| gap)
+        nearest_surface(bodies, self.images, point, but, f64::INFINITY)
+            .map_or(f64::INFINITY, |near| near.gap)
     }
 
     /// Diameter of the largest empty circle that touches the body here, seen from its own parts.
