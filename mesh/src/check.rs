@@ -78,7 +78,7 @@ fn check_facets<const D: usize>(mesh: &Mesh<D>) -> Result<HashSet<[NodeId; 2]>, 
     let mut open: HashMap<[NodeId; D], Side> = HashMap::new();
     for cell in mesh.cell_ids() {
         for side in 0..Simplex::<D>::N_VERTICES {
-            let (vertices, is_even) = sorted(facet_vertices(mesh, cell, side));
+            let Sorted { vertices, is_even } = sorted(facet_vertices(mesh, cell, side));
             match open.remove(&vertices) {
                 Some(other) if other.is_even == is_even => {
                     return broken("a facet has two cells on the same side", cell.index());
@@ -96,7 +96,7 @@ fn check_facets<const D: usize>(mesh: &Mesh<D>) -> Result<HashSet<[NodeId; 2]>, 
         if facet.boundary.index() >= mesh.boundaries.len() {
             return broken("a facet has a boundary that does not exist", facet.cell.index());
         }
-        let (vertices, _) = sorted(mesh.facet_vertices(facet));
+        let Sorted { vertices, .. } = sorted(mesh.facet_vertices(facet));
         let side = open.remove(&vertices);
         if side.is_none_or(|at| (at.cell, at.side) != (facet.cell, usize::from(facet.side))) {
             return broken("a facet is not on the boundary or is listed twice", facet.cell.index());
@@ -119,10 +119,16 @@ fn facet_vertices<const D: usize>(mesh: &Mesh<D>, cell: CellId, side: usize) -> 
     Simplex::<D>::facet_vertices(side).map(|local| mesh.cell(cell)[local])
 }
 
-/// Vertices in order, and whether an even number of exchanges takes them there.
-fn sorted<const D: usize>(mut vertices: [NodeId; D]) -> ([NodeId; D], bool) {
+/// Vertices in order.
+struct Sorted<const N: usize> {
+    vertices: [NodeId; N],
+    /// Whether an even number of exchanges takes them there.
+    is_even: bool,
+}
+
+fn sorted<const N: usize>(mut vertices: [NodeId; N]) -> Sorted<N> {
     let mut is_even = true;
-    for i in 1..D {
+    for i in 1..N {
         for j in (0..i).rev() {
             if vertices[j] > vertices[j + 1] {
                 vertices.swap(j, j + 1);
@@ -130,7 +136,7 @@ fn sorted<const D: usize>(mut vertices: [NodeId; D]) -> ([NodeId; D], bool) {
             }
         }
     }
-    (vertices, is_even)
+    Sorted { vertices, is_even }
 }
 
 /// Checks that cells agree about the inner nodes of their edges, and that edges are straight but on
@@ -142,7 +148,7 @@ fn check_edges<const D: usize>(
     let mut inner_nodes: HashMap<[NodeId; 2], Vec<NodeId>> = HashMap::new();
     for cell in mesh.cell_ids() {
         for edge in mesh.cell_edges(cell) {
-            let (ends, is_forward) = sorted(edge.ends);
+            let Sorted { vertices: ends, is_even: is_forward } = sorted(edge.ends);
             let mut inner = edge.inner.to_vec();
             if !is_forward {
                 inner.reverse();

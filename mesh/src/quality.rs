@@ -77,20 +77,30 @@ impl<const D: usize> CellQuality<D> {
     }
 }
 
-/// det J of the straight simplex with these vertices (m^D), and the sum of its squared edges (m²).
-fn straight_measures<const D: usize>(vertices: &[Point<D>]) -> (f64, f64) {
-    let det = determinant(&std::array::from_fn::<_, D, _>(|k| vertices[k + 1] - vertices[0]));
-    let edges = Simplex::<D>::EDGES.iter();
-    (det, edges.map(|&[i, j]| (vertices[j] - vertices[i]).norm_squared()).sum())
+/// Measures of a straight simplex.
+#[derive(Debug, Clone, Copy)]
+struct StraightMeasures<const D: usize> {
+    /// det J (m^D).
+    det: f64,
+    /// Sum of its squared edges (m²).
+    squares: f64,
 }
 
-/// Mean ratio of a simplex from det J and the sum of its squared edges: 1 when regular, 0 when
-/// flat, negative when inverted.
-fn mean_ratio<const D: usize>(det: f64, squares: f64) -> f64 {
-    if D == 2 {
-        2.0 * 3.0_f64.sqrt() * det / squares
-    } else {
-        12.0 * det.signum() * (0.5 * det.abs()).powf(2.0 / 3.0) / squares
+impl<const D: usize> StraightMeasures<D> {
+    fn of(vertices: &[Point<D>]) -> Self {
+        let det = determinant(&std::array::from_fn::<_, D, _>(|k| vertices[k + 1] - vertices[0]));
+        let edges = Simplex::<D>::EDGES.iter();
+        let squares = edges.map(|&[i, j]| (vertices[j] - vertices[i]).norm_squared()).sum();
+        Self { det, squares }
+    }
+
+    /// Mean ratio: 1 when regular, 0 when flat, negative when inverted.
+    fn mean_ratio(&self) -> f64 {
+        if D == 2 {
+            2.0 * 3.0_f64.sqrt() * self.det / self.squares
+        } else {
+            12.0 * self.det.signum() * (0.5 * self.det.abs()).powf(2.0 / 3.0) / self.squares
+        }
     }
 }
 
@@ -125,8 +135,8 @@ impl<const D: usize> Mesh<D> {
     #[must_use]
     pub fn cell_quality(&self, cell: CellId) -> f64 {
         let nodes = self.cell_nodes(cell);
-        let (det, squares) = straight_measures(&nodes[..=D]);
-        let ratio = mean_ratio::<D>(det, squares);
+        let straight = StraightMeasures::of(&nodes[..=D]);
+        let (det, ratio) = (straight.det, straight.mean_ratio());
         let quality = if self.curved[cell] && det > 0.0 {
             // Unlike f64::min, the comparison keeps what is not a number
             let lowest = jacobian_coefficients(&nodes)
@@ -163,15 +173,15 @@ impl<const D: usize> Quality<D> {
                 shortest = shortest.min(length);
                 longest = longest.max(length);
             }
-            let (det, squares) = straight_measures(&nodes[..=D]);
+            let straight = StraightMeasures::of(&nodes[..=D]);
             if mesh.curved[cell] {
                 let lowest =
                     jacobian_coefficients(&nodes).into_iter().fold(f64::INFINITY, f64::min);
-                min_curved_jacobian = min_curved_jacobian.min(lowest / det);
+                min_curved_jacobian = min_curved_jacobian.min(lowest / straight.det);
             }
             all.push(WorstCell {
                 cell,
-                ratio: mean_ratio::<D>(det, squares),
+                ratio: straight.mean_ratio(),
                 angle: smallest_angle(&nodes[..=D]).to_degrees(),
                 center: mesh.cell_center(cell),
             });
@@ -254,10 +264,7 @@ mod tests {
     fn a_regular_tetrahedron_is_perfect_and_a_flat_one_is_not() {
         let corners = [[1.0, 1.0, 1.0], [1.0, -1.0, -1.0], [-1.0, -1.0, 1.0], [-1.0, 1.0, -1.0]];
         let mut vertices = corners.map(Point::<3>::from);
-        let ratio = |vertices: &[Point<3>]| {
-            let (det, squares) = straight_measures(vertices);
-            mean_ratio::<3>(det, squares)
-        };
+        let ratio = |vertices: &[Point<3>]| StraightMeasures::of(vertices).mean_ratio();
         assert!((ratio(&vertices) - 1.0).abs() < 1e-15, "{}", ratio(&vertices));
         let angle = smallest_angle(&vertices);
         assert!((angle - (1.0_f64 / 3.0).acos()).abs() < 1e-15, "{angle}");
@@ -272,8 +279,8 @@ mod tests {
         let at = |x: f64, y: f64| Point::<2>::new(x, y);
         let half = smallest_angle(&[at(0.0, 0.0), at(1.0, 0.0), at(1.0, 0.5_f64.tan())]);
         assert!((half - 0.5).abs() < 1e-15);
-        let (det, squares) = straight_measures(&[at(0.0, 0.0), at(2.0, 0.0), at(1.0, 3f64.sqrt())]);
-        assert!((mean_ratio::<2>(det, squares) - 1.0).abs() < 1e-15);
+        let regular = StraightMeasures::of(&[at(0.0, 0.0), at(2.0, 0.0), at(1.0, 3f64.sqrt())]);
+        assert!((regular.mean_ratio() - 1.0).abs() < 1e-15);
     }
 
     #[test]
