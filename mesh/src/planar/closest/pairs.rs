@@ -105,7 +105,7 @@ fn newton(first: &Outline, second: &Outline, a: &Arc, b: &Arc) -> Option<Closest
     let (small_u, small_v) = (1e-15 * first.period(), 1e-15 * second.period());
     let (mut last, mut is_converged) = (f64::INFINITY, false);
     for _ in 0..60 {
-        let (residual, matrix) = opposition(first.at(u), second.at(v));
+        let Opposition { residual, matrix } = opposition(first.at(u), second.at(v));
         let step = solve(matrix, residual);
         let (next_u, next_v) = (within(a, u - step.x), within(b, v - step.y));
         let moved = ((next_u - u).abs() / a.width()).max((next_v - v).abs() / b.width());
@@ -121,11 +121,14 @@ fn newton(first: &Outline, second: &Outline, a: &Arc, b: &Arc) -> Option<Closest
     is_converged.then(|| describe(first, second, u, v))
 }
 
-/// Residual of "tangents opposite, and square to p - q", and its derivative in both parameters.
-fn opposition(
-    [p, p1, p2]: [Point<2>; 3],
-    [q, q1, q2]: [Point<2>; 3],
-) -> (Point<2>, nalgebra::Matrix2<f64>) {
+/// How far tangents are from being opposite, and square to p - q.
+struct Opposition {
+    residual: Point<2>,
+    /// Derivative of the residual in both parameters.
+    matrix: nalgebra::Matrix2<f64>,
+}
+
+fn opposition([p, p1, p2]: [Point<2>; 3], [q, q1, q2]: [Point<2>; 3]) -> Opposition {
     let (s, r) = (p1.norm(), q1.norm());
     let (t, w) = (p1 / s, q1 / r);
     // Turning of the tangents with the parameters
@@ -138,7 +141,8 @@ fn opposition(
         p1.dot(&mean) + 0.5 * turn_p * between.dot(&left(t)),
         -q1.dot(&mean) - 0.5 * turn_q * between.dot(&left(w)),
     );
-    (Point::<2>::new(cross(t, w), between.dot(&mean)), matrix)
+    let residual = Point::<2>::new(cross(t, w), between.dot(&mean));
+    Opposition { residual, matrix }
 }
 
 /// Solution of two equations; the shortest one of least squares when they are singular, as for

@@ -22,6 +22,15 @@ pub struct BoundaryEdge {
     pub parameters: [f64; 2],
 }
 
+/// Two edges of periodic sides, travelled in opposite directions.
+#[derive(Debug, Clone, Copy)]
+pub struct EdgePair {
+    /// Index of the copy.
+    pub copy: u32,
+    /// Index of the original.
+    pub original: u32,
+}
+
 /// All edges of the boundary with the places of their vertices.
 #[derive(Debug, Clone)]
 pub struct BoundaryEdges {
@@ -29,8 +38,8 @@ pub struct BoundaryEdges {
     pub points: Vec<Point<2>>,
     /// The edges, piece after piece in the order of travel.
     pub edges: Vec<BoundaryEdge>,
-    /// Edge pairs (copy, original) of periodic sides, travelled in opposite directions.
-    pub periodic: Vec<(u32, u32)>,
+    /// Pairs of edges of periodic sides.
+    pub periodic: Vec<EdgePair>,
 }
 
 impl BoundaryEdges {
@@ -81,7 +90,7 @@ impl BoundaryEdges {
         for edge in original.rev() {
             let BoundaryEdge { vertices, parameters, .. } = self.edges[edge];
             let vertex = self.points.len() as u32;
-            self.periodic.push((self.edges.len() as u32, edge as u32));
+            self.periodic.push(EdgePair { copy: self.edges.len() as u32, original: edge as u32 });
             self.edges.push(BoundaryEdge {
                 vertices: [vertex, vertex + 1],
                 piece: piece as u32,

@@ -1,18 +1,19 @@
 //! From triangles to the mesh: one node per edge, on the exact curve along the boundary.
 
+use super::edges::EdgePair;
 use super::triangulation::{Triangulation, WALL};
 use crate::curved::jacobian_coefficients;
 use crate::planar::boundary::BoundaryLoops;
 use crate::{BoundaryId, CellId, Facet, Mesh, MeshError, NodeId, PeriodicPair, Simplex};
 
-/// Mesh with quadratic geometry; `periodic` are the boundary edge pairs (copy, original).
+/// Mesh with quadratic geometry; `periodic` are the pairs of boundary edges.
 ///
 /// # Errors
 /// [`MeshError::FoldedCell`].
 pub fn finish(
     triangles: Triangulation,
     border: &BoundaryLoops,
-    periodic: &[(u32, u32)],
+    periodic: &[EdgePair],
     is_curved: bool,
 ) -> Result<Mesh<2>, MeshError> {
     let n_vertices = triangles.points.len();
@@ -97,7 +98,7 @@ fn check_curved(mesh: &Mesh<2>) -> Result<(), MeshError> {
 fn pair_nodes(
     mesh: &Mesh<2>,
     triangles: &Triangulation,
-    periodic: &[(u32, u32)],
+    periodic: &[EdgePair],
 ) -> Vec<PeriodicPair> {
     let mut original: Vec<NodeId> = mesh.node_ids().collect();
     let mut copies = Vec::new();
@@ -106,8 +107,8 @@ fn pair_nodes(
         let ends = triangles.edges[edge].vertices.map(NodeId::from);
         (ends, mesh.facet_inner_nodes(&mesh.facets[edge]))
     };
-    for (copy, source) in periodic {
-        let (([a, b], to_inner), ([c, d], from_inner)) = (nodes(*copy), nodes(*source));
+    for pair in periodic {
+        let (([a, b], to_inner), ([c, d], from_inner)) = (nodes(pair.copy), nodes(pair.original));
         // The copy is travelled backwards
         let inner = to_inner.zip(from_inner.rev());
         for (to, from) in std::iter::once((a, d)).chain(inner).chain([(b, c)]) {
