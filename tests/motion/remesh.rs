@@ -5,7 +5,7 @@ use alewife_core::motion::{
     Fresh, Limits, MeshMotion, MotionKind, Reason, RigidMove, mesh_boundary_conditions,
     needs_remesh,
 };
-use alewife_mesh::{Mesh, Sizing, Surroundings, generate};
+use alewife_mesh::{GapQuery, Mesh, Sizing, generate};
 
 use super::{disc, square};
 
@@ -13,7 +13,7 @@ use super::{disc, square};
 fn reason_after(sizing: &Sizing, start: [f64; 2], to: Pose) -> (Mesh<2>, Option<Reason>) {
     let (domain, body) = (square(false, false), disc("disc", start[0], start[1]));
     let mesh = generate(&domain, std::slice::from_ref(&body), sizing).unwrap();
-    let mut surroundings = Surroundings::new(&domain, std::slice::from_ref(&body)).unwrap();
+    let mut surroundings = GapQuery::new(&domain, std::slice::from_ref(&body)).unwrap();
     let fresh = Fresh::new(&mesh, &surroundings, Limits::default());
     assert_eq!(needs_remesh(&mesh, &fresh, &surroundings), None, "a new mesh is good");
     let motion =
@@ -68,7 +68,7 @@ fn overlapping_bodies_have_a_negative_gap() {
     let sizing = Sizing::graded(0.15, 0.2, 0.4);
     let (domain, bodies) = (square(false, false), [disc("a", -0.6, 0.0), disc("b", 0.6, 0.0)]);
     let mesh = generate(&domain, &bodies, &sizing).unwrap();
-    let mut surroundings = Surroundings::new(&domain, &bodies).unwrap();
+    let mut surroundings = GapQuery::new(&domain, &bodies).unwrap();
     let fresh = Fresh::new(&mesh, &surroundings, Limits::default());
     surroundings.place_body(0, alewife_mesh::Point::<2>::new(0.0, 0.0), 0.0);
     let reason = needs_remesh(&mesh, &fresh, &surroundings);

@@ -6,7 +6,7 @@ use alewife_mesh::{Domain, Point};
 
 use super::body::Body;
 use super::diagnostic::CaseError;
-use super::discs::DiscGrid;
+use super::discs::{Disc, DiscGrid};
 use super::joint::PlanarPose;
 use super::parts::{Part, poses};
 use super::swimmer::{Copies, SwimmerSpec};
@@ -69,7 +69,8 @@ fn random_copies(
     let [min, max] = within.unwrap_or_else(|| case.domain.extent());
     let mut occupied = Occupied::new(case.mesh_domain(), [min, max], present.len() + count);
     for body in present.iter().filter(|body| body.center.len() == 2) {
-        occupied.add(Point::<2>::new(body.center[0], body.center[1]), body.shape.reach());
+        let center = Point::<2>::new(body.center[0], body.center[1]);
+        occupied.add(Disc { center, radius: body.shape.reach() });
     }
     let mut copies = Vec::with_capacity(*count);
     for nth in 0..*count {
@@ -81,7 +82,7 @@ fn random_copies(
                 Geometry::Axisymmetric => 0.0,
             };
             let center = Point::<2>::new(x, y);
-            occupied.has_space(center, reach, *gap).then_some(center)
+            occupied.has_space(&Disc { center, radius: reach }, *gap).then_some(center)
         });
         let Some(center) = found else {
             return Err(CaseError::at(
@@ -95,7 +96,7 @@ fn random_copies(
                 "ask for fewer copies, a smaller gap, or a larger domain",
             ));
         };
-        occupied.add(center, reach);
+        occupied.add(Disc { center, radius: reach });
         let angle = if *turned { TAU * random.next() } else { swimmer.angle };
         copies
             .push(Individual { name: copy_name(swimmer, nth), pose: PlanarPose { center, angle } });
@@ -110,45 +111,39 @@ fn reach(parts: &[Part]) -> f64 {
     })
 }
 
-/// Circles that are taken in a domain and its periodic images.
+/// Discs that are taken in a domain and its periodic images.
 struct Occupied {
     domain: Domain,
     images: Vec<Point<2>>,
-    circles: Vec<Circle>,
+    discs: Vec<Disc>,
     grid: DiscGrid,
-}
-
-struct Circle {
-    center: Point<2>,
-    radius: f64,
 }
 
 impl Occupied {
     fn new(domain: Domain, [min, max]: [[f64; 2]; 2], expected: usize) -> Self {
         let images = domain.images();
-        Self { domain, images, circles: Vec::new(), grid: DiscGrid::new(min, max, expected) }
+        Self { domain, images, discs: Vec::new(), grid: DiscGrid::new(min, max, expected) }
     }
 
-    fn add(&mut self, center: Point<2>, radius: f64) {
-        self.grid.insert(self.circles.len(), center, radius);
-        self.circles.push(Circle { center, radius });
+    fn add(&mut self, disc: Disc) {
+        self.grid.insert(self.discs.len(), &disc);
+        self.discs.push(disc);
     }
 
-    /// Whether a circle has a gap (m) to all others and to the walls.
-    fn has_space(&self, center: Point<2>, reach: f64, gap: f64) -> bool {
+    /// Whether a disc has a gap (m) to all others and to the walls.
+    fn has_space(&self, disc: &Disc, gap: f64) -> bool {
+        let Disc { center, radius: reach } = *disc;
         let is_apart = |other: usize| {
-            let Circle { center: taken, radius } = self.circles[other];
+            let Disc { center: taken, radius } = self.discs[other];
             let least = reach + radius + gap;
             self.images.iter().all(|shift| (center - taken - shift).norm() >= least)
         };
         let walls = (0..self.domain.sides().len()).filter(|side| !self.domain.is_periodic(*side));
         let clearance =
             walls.map(|side| self.domain.side_gap(side, center)).fold(f64::INFINITY, f64::min);
+        let image = |shift| Disc { center: center - shift, radius: reach + gap };
         clearance >= reach + gap
-            && self
-                .images
-                .iter()
-                .all(|shift| self.grid.near(center - shift, reach + gap).all(is_apart))
+            && self.images.iter().all(|shift| self.grid.near(&image(shift)).all(is_apart))
     }
 }
 

@@ -125,9 +125,16 @@ impl TypeError {
     }
 }
 
+/// Most words a suggestion lists.
+const MOST_WORDS: usize = 100;
+
 /// "did you mean ...? accepted: ..." for a word that is not known.
 pub fn suggestion<S: AsRef<str>>(found: &str, accepted: &[S]) -> String {
-    let list = accepted.iter().map(AsRef::as_ref).collect::<Vec<_>>().join(", ");
+    let words: Vec<&str> = accepted.iter().take(MOST_WORDS).map(AsRef::as_ref).collect();
+    let mut list = words.join(", ");
+    if accepted.len() > MOST_WORDS {
+        list += &format!(" and {} more", accepted.len() - MOST_WORDS);
+    }
     match nearest(found, accepted) {
         Some(word) => format!("did you mean `{word}`? accepted: {list}"),
         None => format!("accepted: {list}"),

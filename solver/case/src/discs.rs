@@ -8,6 +8,15 @@ const MOST_CELLS: usize = 1024;
 /// Part of a radius by which discs are taken larger, so that rounding loses none.
 const ROUNDING: f64 = 1e-9;
 
+/// A disc.
+#[derive(Debug, Clone, Copy)]
+pub struct Disc {
+    /// Centre (m).
+    pub center: Point<2>,
+    /// Radius (m).
+    pub radius: f64,
+}
+
 /// Numbered discs in the cells of a rectangle; what lies outside counts to the nearest cells.
 pub struct DiscGrid {
     min: [f64; 2],
@@ -28,8 +37,8 @@ impl DiscGrid {
     }
 
     /// Adds a disc.
-    pub fn insert(&mut self, number: usize, center: Point<2>, radius: f64) {
-        let [columns, rows] = self.ranges(center, radius);
+    pub fn insert(&mut self, number: usize, disc: &Disc) {
+        let [columns, rows] = self.ranges(disc);
         for row in rows {
             for column in columns.clone() {
                 self.cells[row * self.counts[0] + column].push(number);
@@ -38,14 +47,15 @@ impl DiscGrid {
     }
 
     /// All discs that may meet a disc, some of them more than once, and others near it.
-    pub fn near(&self, center: Point<2>, radius: f64) -> impl Iterator<Item = usize> {
-        let [columns, rows] = self.ranges(center, radius);
+    pub fn near(&self, disc: &Disc) -> impl Iterator<Item = usize> + use<'_> {
+        let [columns, rows] = self.ranges(disc);
         rows.flat_map(move |row| columns.clone().map(move |column| (row, column)))
             .flat_map(|(row, column)| self.cells[row * self.counts[0] + column].iter().copied())
     }
 
     /// Columns and rows of the cells around a disc.
-    fn ranges(&self, center: Point<2>, radius: f64) -> [std::ops::RangeInclusive<usize>; 2] {
+    fn ranges(&self, disc: &Disc) -> [std::ops::RangeInclusive<usize>; 2] {
+        let Disc { center, radius } = *disc;
         let radius = radius * (1.0 + ROUNDING);
         [0, 1].map(|axis| {
             let cell = |x: f64| {
@@ -77,25 +87,25 @@ mod tests {
 
     #[test]
     fn no_disc_that_meets_another_is_missed() {
-        let discs: Vec<(Point<2>, f64)> = (0..300)
+        let discs: Vec<Disc> = (0..300)
             .map(|nth| {
                 let (x, y) = (scattered(nth), scattered(7 * nth + 3));
                 // Some outside the grid, and a few that are large
                 let radius = if nth % 50 == 0 { 3.0 } else { 0.2 * scattered(3 * nth) };
-                (Point::<2>::new(12.0 * x - 1.0, 6.0 * y - 1.0), radius)
+                Disc { center: Point::<2>::new(12.0 * x - 1.0, 6.0 * y - 1.0), radius }
             })
             .collect();
         let mut grid = DiscGrid::new([0.0, 0.0], [10.0, 4.0], discs.len());
-        for (nth, (center, radius)) in discs.iter().enumerate() {
-            grid.insert(nth, *center, *radius);
+        for (nth, disc) in discs.iter().enumerate() {
+            grid.insert(nth, disc);
         }
         let mut looked_at = 0;
-        for (one, radius) in &discs {
-            let near: Vec<usize> = grid.near(*one, *radius).collect();
+        for one in &discs {
+            let near: Vec<usize> = grid.near(one).collect();
             looked_at += near.len();
-            for (nth, (other, other_radius)) in discs.iter().enumerate() {
-                let meet = (one - other).norm() <= radius + other_radius;
-                assert!(!meet || near.contains(&nth), "{one} {other}");
+            for (nth, other) in discs.iter().enumerate() {
+                let meet = (one.center - other.center).norm() <= one.radius + other.radius;
+                assert!(!meet || near.contains(&nth), "{one:?} {other:?}");
             }
         }
         assert!(looked_at < discs.len() * discs.len() / 3, "{looked_at} of all pairs");
@@ -104,7 +114,8 @@ mod tests {
     #[test]
     fn a_rectangle_of_no_size_has_one_cell() {
         let mut grid = DiscGrid::new([0.0, 1.0], [5.0, 1.0], 10);
-        grid.insert(4, Point::<2>::new(2.0, 1.0), 0.1);
-        assert!(grid.near(Point::<2>::new(2.1, 1.0), 0.1).any(|found| found == 4));
+        let disc = |x: f64| Disc { center: Point::<2>::new(x, 1.0), radius: 0.1 };
+        grid.insert(4, &disc(2.0));
+        assert!(grid.near(&disc(2.1)).any(|found| found == 4));
     }
 }

@@ -6,8 +6,8 @@ use super::copies::{Individual, individuals};
 use super::diagnostic::CaseError;
 use super::parts::{Part, parts, poses};
 use super::{
-    Body, BoundaryCondition, Case, GaitSpec, Geometry, Joint, JointKind, Motion, SwimmerKind,
-    SwimmerSpec, TimeSettings,
+    Body, BoundaryCondition, Case, GaitSpec, Geometry, Joint, Motion, SwimmerKind, SwimmerSpec,
+    TimeSettings,
 };
 
 /// What a case describes: the case as it is written, and the bodies, joints and swimmers that
@@ -28,6 +28,8 @@ pub struct Model {
     swimmer_of_joints: Vec<usize>,
     /// First body of each name.
     by_name: HashMap<String, usize>,
+    /// First joint of each name of a child.
+    joint_of_child: HashMap<String, usize>,
     /// First joint whose child a body is.
     joint_above: Vec<Option<usize>>,
 }
@@ -59,11 +61,15 @@ impl Model {
             swimmer_of_bodies: Vec::new(),
             swimmer_of_joints: Vec::new(),
             by_name: HashMap::new(),
+            joint_of_child: HashMap::new(),
             joint_above: Vec::new(),
             case,
         };
         for body in 0..model.bodies.len() {
             model.register_name(body);
+        }
+        for joint in 0..model.joints.len() {
+            model.register_child(joint);
         }
         for (index, swimmer) in model.case.swimmer.clone().iter().enumerate() {
             match &swimmer.kind {
@@ -73,9 +79,9 @@ impl Model {
         }
         model.add_single_bodies();
         model.joint_above = vec![None; model.bodies.len()];
-        for (index, joint) in model.joints.iter().enumerate() {
-            if let Some(&child) = model.by_name.get(&joint.child) {
-                model.joint_above[child].get_or_insert(index);
+        for (child, joint) in &model.joint_of_child {
+            if let Some(&child) = model.by_name.get(child) {
+                model.joint_above[child] = Some(*joint);
             }
         }
         Ok(model)
@@ -83,6 +89,10 @@ impl Model {
 
     fn register_name(&mut self, body: usize) {
         self.by_name.entry(self.bodies[body].name.clone()).or_insert(body);
+    }
+
+    fn register_child(&mut self, joint: usize) {
+        self.joint_of_child.entry(self.joints[joint].child.clone()).or_insert(joint);
     }
 
     /// Makes one swimmer of bodies that exist.
@@ -113,10 +123,10 @@ impl Model {
     fn period_of(&self, bodies: &[usize]) -> Option<f64> {
         let gait = |body: &usize| self.bodies[*body].gait.as_ref().and_then(GaitSpec::period);
         bodies.iter().find_map(gait).or_else(|| {
-            let names: Vec<&str> =
-                bodies.iter().map(|body| self.bodies[*body].name.as_str()).collect();
-            let joints = self.joints.iter().filter(|joint| names.contains(&joint.child.as_str()));
-            joints.map(|joint| &joint.kind).find_map(JointKind::period)
+            let above = |body: &usize| self.joint_of_child.get(&self.bodies[*body].name).copied();
+            let mut joints: Vec<usize> = bodies.iter().filter_map(above).collect();
+            joints.sort_unstable();
+            joints.into_iter().find_map(|joint| self.joints[joint].kind.period())
         })
     }
 
@@ -147,6 +157,7 @@ impl Model {
                 let parent = format!("{name}-{}", attachment.parent + 1);
                 self.joints.push(attachment.joint(parent, own.clone()));
                 self.swimmer_of_joints.push(index);
+                self.register_child(self.joints.len() - 1);
             }
             self.bodies.push(Body {
                 name: own,

@@ -2,9 +2,15 @@
 
 use std::fmt::Write as _;
 
-use super::{Case, FlowModel, GaitSpec, Geometry, Model, ShapeSpec, TimeSettings};
+use alewife_mesh::Point;
 
-/// Gaps that are told of: of many bodies those of the closest pairs.
+use super::discs::{Disc, DiscGrid};
+use super::{
+    Body, Case, FlowModel, GaitSpec, Geometry, Model, ShapeSpec, SquirmerGait, SwimmerModel,
+    TimeSettings,
+};
+
+/// Gaps that are listed: of many bodies those of the closest pairs.
 const MOST_GAPS: usize = 3;
 
 /// density * velocity * length / viscosity of `[scales]`; 0 in Stokes flow.
@@ -35,79 +41,102 @@ pub struct DerivedNumber {
 /// All numbers that can be derived from a case, in the order in which they are printed.
 #[must_use]
 pub fn derived_numbers(model: &Model) -> Vec<DerivedNumber> {
+    let mut table = Table::default();
+    numbers_of_flow(&mut table, model);
+    for body in &model.bodies {
+        if let Some(GaitSpec::Squirmer(squirmer)) = &body.gait {
+            numbers_of_squirmer(&mut table, &model.case, body, squirmer);
+        }
+    }
+    for swimmer in &model.swimmers {
+        numbers_of_swimmer(&mut table, model, swimmer);
+    }
+    table.0.extend(gaps(model));
+    table.0
+}
+
+#[derive(Default)]
+struct Table(Vec<DerivedNumber>);
+
+impl Table {
+    fn add(&mut self, name: &str, value: f64, formula: &str) {
+        let (name, formula) = (name.to_owned(), formula.to_owned());
+        self.0.push(DerivedNumber { name, value, formula });
+    }
+}
+
+fn has_inertia(case: &Case) -> bool {
+    case.fluid.model != FlowModel::Stokes
+}
+
+fn kinematic_viscosity(case: &Case) -> f64 {
+    case.fluid.viscosity / case.fluid.density
+}
+
+fn numbers_of_flow(table: &mut Table, model: &Model) {
     let case = &model.case;
-    let mut table = Vec::new();
-    let mut add = |name: &str, value: f64, formula: &str| {
-        table.push(DerivedNumber { name: name.to_owned(), value, formula: formula.to_owned() });
-    };
-    let density = case.fluid.density;
-    let kinematic = case.fluid.viscosity / density;
-    let has_inertia = case.fluid.model != FlowModel::Stokes;
+    let has_inertia = has_inertia(case);
     if let (true, Some(value)) = (has_inertia, reynolds(case)) {
-        add("Reynolds number", value, "density * scales.velocity * scales.length / viscosity");
+        let formula = "density * scales.velocity * scales.length / viscosity";
+        table.add("Reynolds number", value, formula);
     }
     if let (true, Some(value)) = (has_inertia, density_ratio(model)) {
-        add("density ratio", value, "density of the first body / density of the fluid");
+        table.add("density ratio", value, "density of the first body / density of the fluid");
     }
     let length = case
         .scales
         .map(|scales| scales.length)
         .or_else(|| Some(model.bodies.first()?.shape.reach()));
-    if let (true, Some(length)) = (density > 0.0, length) {
-        add("Stokes time", length * length / kinematic, "length^2 * density / viscosity");
+    if let (true, Some(length)) = (case.fluid.density > 0.0, length) {
+        let stokes_time = length * length / kinematic_viscosity(case);
+        table.add("Stokes time", stokes_time, "length^2 * density / viscosity");
         if let (true, TimeSettings::Unsteady(time)) = (has_inertia, &case.time) {
-            let steps = length * length / kinematic / time.step;
-            add("steps per Stokes time", steps, "Stokes time / time.unsteady.step");
+            let steps = stokes_time / time.step;
+            table.add("steps per Stokes time", steps, "Stokes time / time.unsteady.step");
         }
     }
     if let (Some(scales), TimeSettings::Unsteady(time)) = (case.scales, &case.time) {
         let turnover = scales.length / scales.velocity;
-        add("turnover time", turnover, "scales.length / scales.velocity");
-        add("duration in turnovers", time.end / turnover, "time.unsteady.end / turnover time");
+        table.add("turnover time", turnover, "scales.length / scales.velocity");
+        let turnovers = time.end / turnover;
+        table.add("duration in turnovers", turnovers, "time.unsteady.end / turnover time");
     }
-    for body in &model.bodies {
-        let name = &body.name;
-        if let Some(GaitSpec::Squirmer(squirmer)) = &body.gait {
-            let first = squirmer.modes.first().copied().unwrap_or(0.0);
-            // Mean slip over the surface: 2/3 B1 on a sphere, 1/2 B1 on a disc.
-            let (factor, formula) = match body.shape {
-                ShapeSpec::Sphere { .. } => (2.0 / 3.0, "2/3 B1, unbounded Stokes flow"),
-                _ => (0.5, "1/2 B1, unbounded Stokes flow"),
-            };
-            let speed = factor * first;
-            add(&format!("{name}: free swimming speed"), speed, formula);
-            if let (true, Some(second)) = (first != 0.0, squirmer.modes.get(1)) {
-                let kind = "B2/B1: negative pusher, positive puller";
-                add(&format!("{name}: beta"), second / first, kind);
-            }
-            if has_inertia {
-                let value = speed.abs() * body.shape.reach() / kinematic;
-                let formula = "density * swimming speed * radius / viscosity";
-                add(&format!("{name}: swimming Reynolds number"), value, formula);
-            }
-        }
+}
+
+fn numbers_of_squirmer(table: &mut Table, case: &Case, body: &Body, squirmer: &SquirmerGait) {
+    let name = &body.name;
+    let first = squirmer.modes.first().copied().unwrap_or(0.0);
+    // Mean slip over the surface: 2/3 B1 on a sphere, 1/2 B1 on a disc.
+    let (factor, formula) = match body.shape {
+        ShapeSpec::Sphere { .. } => (2.0 / 3.0, "2/3 B1, unbounded Stokes flow"),
+        _ => (0.5, "1/2 B1, unbounded Stokes flow"),
+    };
+    let speed = factor * first;
+    table.add(&format!("{name}: free swimming speed"), speed, formula);
+    if let (true, Some(second)) = (first != 0.0, squirmer.modes.get(1)) {
+        let kind = "B2/B1: negative pusher, positive puller";
+        table.add(&format!("{name}: beta"), second / first, kind);
     }
-    for swimmer in &model.swimmers {
-        let Some(period) = swimmer.period else { continue };
-        let name = &swimmer.name;
-        if let TimeSettings::Unsteady(time) = &case.time {
-            add(
-                &format!("{name}: steps per cycle"),
-                period / time.step,
-                "period / time.unsteady.step",
-            );
-        }
-        if has_inertia {
-            let length = extent(model, &swimmer.bodies);
-            let value = length * length / (kinematic * period);
-            let formula = "density * length^2 / (viscosity * period), from end to end at the start";
-            add(&format!("{name}: oscillatory Reynolds number"), value, formula);
-        }
+    if has_inertia(case) {
+        let value = speed.abs() * body.shape.reach() / kinematic_viscosity(case);
+        let formula = "density * swimming speed * radius / viscosity";
+        table.add(&format!("{name}: swimming Reynolds number"), value, formula);
     }
-    for (name, gap, formula) in gaps(model) {
-        add(&name, gap, &formula);
+}
+
+fn numbers_of_swimmer(table: &mut Table, model: &Model, swimmer: &SwimmerModel) {
+    let Some(period) = swimmer.period else { return };
+    let name = &swimmer.name;
+    if let TimeSettings::Unsteady(time) = &model.case.time {
+        let formula = "period / time.unsteady.step";
+        table.add(&format!("{name}: steps per cycle"), period / time.step, formula);
     }
-    table
+    if has_inertia(&model.case) {
+        let length = extent(model, &swimmer.bodies);
+        let value = length * length / (kinematic_viscosity(&model.case) * period);
+        let formula = "density * length^2 / (viscosity * period), from end to end at the start";
+        table.add(&format!("{name}: oscillatory Reynolds number"), value, formula);
+    }
 }
 
 /// Largest distance of two points of bodies at the start (m): of one body its length, of several by
@@ -120,42 +149,76 @@ fn extent(model: &Model, bodies: &[usize]) -> f64 {
             shape => 2.0 * shape.reach(),
         };
     }
-    let circle = |body: usize| {
-        let body = &model.bodies[body];
+    let circle = |body: &usize| {
+        let body = &model.bodies[*body];
         let at = |axis: usize| body.center.get(axis).copied().unwrap_or(0.0);
-        (at(0), at(1), body.shape.reach())
+        Disc { center: Point::<2>::new(at(0), at(1)), radius: body.shape.reach() }
     };
+    let circles: Vec<Disc> = bodies.iter().map(circle).collect();
     let mut most = 0.0f64;
-    for &one in bodies {
-        for &other in bodies {
-            let ((x1, y1, r1), (x2, y2, r2)) = (circle(one), circle(other));
-            most = most.max((x2 - x1).hypot(y2 - y1) + r1 + r2);
+    for one in &circles {
+        for other in &circles {
+            most = most.max(distance(one, other) + one.radius + other.radius);
         }
     }
     most
 }
 
-/// Gaps between bodies over the size of the smaller one, by their surrounding circles: the smallest
-/// ones.
-fn gaps(model: &Model) -> Vec<(String, f64, String)> {
-    let mut found = Vec::new();
-    for (i, first) in model.bodies.iter().enumerate() {
-        for second in &model.bodies[i + 1..] {
-            let (&[x1, y1], &[x2, y2]) = (first.center.as_slice(), second.center.as_slice()) else {
-                continue;
-            };
-            let (r1, r2) = (first.shape.reach(), second.shape.reach());
-            let gap = (x2 - x1).hypot(y2 - y1) - r1 - r2;
-            found.push((
-                format!("gap {} - {}", first.name, second.name),
-                gap / r1.min(r2),
-                "gap of surrounding circles / smaller radius".to_owned(),
-            ));
+/// Distance of the centres of two discs (m).
+fn distance(one: &Disc, other: &Disc) -> f64 {
+    (other.center.x - one.center.x).hypot(other.center.y - one.center.y)
+}
+
+/// A gap between two bodies.
+struct Gap {
+    bodies: [usize; 2],
+    /// Gap of the surrounding circles over the smaller radius.
+    ratio: f64,
+}
+
+/// The smallest gaps between bodies, ascending.
+fn gaps(model: &Model) -> Vec<DerivedNumber> {
+    let mut circles = Vec::with_capacity(model.bodies.len());
+    for (index, body) in model.bodies.iter().enumerate() {
+        if let &[x, y] = body.center.as_slice() {
+            let circle = Disc { center: Point::<2>::new(x, y), radius: body.shape.reach() };
+            circles.push((index, circle));
         }
     }
-    found.sort_by(|one, other| one.1.total_cmp(&other.1));
+    let [min, max] = model.case.domain.extent();
+    let mut grid = DiscGrid::new(min, max, circles.len());
+    for (nth, (_, circle)) in circles.iter().enumerate() {
+        grid.insert(nth, circle);
+    }
+    // All gaps up to a ratio are found by circles that are larger by it
+    let mut found = Vec::new();
+    for ratio in [1.0, 4.0, 16.0, f64::INFINITY] {
+        found.clear();
+        for (nth, (index, circle)) in circles.iter().enumerate() {
+            let larger = Disc { radius: (1.0 + ratio) * circle.radius, ..*circle };
+            let mut near: Vec<usize> = grid.near(&larger).filter(|other| *other > nth).collect();
+            near.sort_unstable();
+            near.dedup();
+            for (other_index, other) in near.into_iter().map(|other| &circles[other]) {
+                let gap = distance(circle, other) - circle.radius - other.radius;
+                let own = gap / circle.radius.min(other.radius);
+                if own <= ratio || ratio.is_infinite() {
+                    found.push(Gap { bodies: [*index, *other_index], ratio: own });
+                }
+            }
+        }
+        if found.len() >= MOST_GAPS {
+            break;
+        }
+    }
+    found.sort_by(|one, other| one.ratio.total_cmp(&other.ratio));
     found.truncate(MOST_GAPS);
-    found
+    let number = |gap: Gap| {
+        let [first, second] = gap.bodies.map(|body| &model.bodies[body].name);
+        let formula = "gap of surrounding circles / smaller radius".to_owned();
+        DerivedNumber { name: format!("gap {first} - {second}"), value: gap.ratio, formula }
+    };
+    found.into_iter().map(number).collect()
 }
 
 /// The derived numbers as lines `name  value  formula`.
@@ -200,6 +263,53 @@ pub fn geometry_name(geometry: Geometry) -> &'static str {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Gaps of a case of discs at `x` on a line, with these radii.
+    fn gaps_of(discs: &[[f64; 2]]) -> Vec<(String, f64)> {
+        let mut text = "title = 't'
+geometry = 'planar'
+fluid = { model = 'stokes', viscosity = 1.0 }
+domain.box = { min = [0.0, -9.0], max = [1000.0, 9.0] }
+boundary = { left = 'no-slip', right = 'no-slip', bottom = 'no-slip', top = 'no-slip' }
+mesh = { size = 0.5 }
+time = { steady = {} }
+"
+        .to_owned();
+        for (nth, [x, radius]) in discs.iter().enumerate() {
+            let _ = write!(
+                text,
+                "[[body]]\nname = '{nth}'\nshape.disc.radius = {radius}\ncenter = [{x}, 0.0]\n"
+            );
+        }
+        let file = crate::Case::parse("t.toml", &text, &[]).unwrap();
+        gaps(&file.model).into_iter().map(|gap| (gap.name, gap.value)).collect()
+    }
+
+    #[test]
+    fn the_smallest_gaps_are_found_however_far_apart_bodies_are() {
+        let found = gaps_of(&[[10.0, 1.0], [900.0, 1.0], [400.0, 2.0], [402.0, 1.0]]);
+        let wanted = [("gap 2 - 3", -1.0), ("gap 0 - 2", 387.0), ("gap 0 - 3", 390.0)];
+        assert_eq!(found, wanted.map(|(name, gap)| (name.to_owned(), gap)));
+        assert_eq!(gaps_of(&[[10.0, 1.0], [900.0, 1.0]]), [("gap 0 - 1".to_owned(), 888.0)]);
+        assert_eq!(gaps_of(&[[10.0, 1.0]]), []);
+    }
+
+    #[test]
+    fn the_smallest_gaps_are_those_of_all_pairs() {
+        let scattered = |nth: usize| (nth as f64 * 0.618_033_988_749).fract();
+        let discs: Vec<[f64; 2]> =
+            (0..60).map(|n| [1000.0 * scattered(n), 0.1 + scattered(7 * n)]).collect();
+        let mut pairs = Vec::new();
+        for (i, [x, r]) in discs.iter().enumerate() {
+            for (j, [other_x, other_r]) in discs.iter().enumerate().skip(i + 1) {
+                let gap = (other_x - x).abs() - r - other_r;
+                pairs.push((format!("gap {i} - {j}"), gap / r.min(*other_r)));
+            }
+        }
+        pairs.sort_by(|one, other| one.1.total_cmp(&other.1));
+        pairs.truncate(MOST_GAPS);
+        assert_eq!(gaps_of(&discs), pairs);
+    }
 
     #[test]
     fn six_digits_are_shown_without_trailing_zeros() {

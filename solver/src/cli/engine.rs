@@ -23,7 +23,7 @@ pub fn simulate(model: &Model) -> Result<RunSummary, RunError> {
 /// without progress on the terminal.
 pub fn simulate_into(
     model: &Model,
-    saved: Option<&SavedState>,
+    saved: Option<&SavedState<2>>,
     directory: &RunDirectory,
     quiet: bool,
 ) -> Result<RunSummary, RunError> {

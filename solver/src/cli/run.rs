@@ -87,7 +87,7 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
 }
 
 /// Reads the state a run left.
-fn read_state(path: &Path, case: &Case) -> Result<SavedState, Failure> {
+fn read_state(path: &Path, case: &Case) -> Result<SavedState<2>, Failure> {
     let refuse = |exit, reason: String| {
         let path = path.display();
         Failure::new(
@@ -102,7 +102,7 @@ fn read_state(path: &Path, case: &Case) -> Result<SavedState, Failure> {
         return Err(refuse(Exit::Usage, "a steady solution cannot be resumed".to_owned()));
     };
     let text = std::fs::read(path).map_err(|error| refuse(Exit::NoInput, error.to_string()))?;
-    let saved: SavedState = serde_json::from_slice(&text)
+    let saved: SavedState<2> = serde_json::from_slice(&text)
         .map_err(|error| refuse(Exit::BadCase, format!("this is no state of a run: {error}")))?;
     if saved.time >= settings.end {
         let reason = format!("it is at time {}, and the case ends at {}", saved.time, settings.end);

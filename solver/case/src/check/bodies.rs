@@ -1,5 +1,6 @@
 //! Problems of `[[body]]`: names, shapes, motions, and gaits that do not fit.
 
+use std::collections::HashSet;
 use std::f64::consts::PI;
 
 use super::Findings;
@@ -15,11 +16,11 @@ const RESERVED: [&str; 2] = ["flow", "time"];
 
 pub fn check(findings: &mut Findings<'_>) {
     let case = findings.case();
-    let mut taken: Vec<&str> = Vec::new();
+    let mut taken: HashSet<&str> = HashSet::new();
     for (index, body) in findings.model().bodies.iter().enumerate() {
         let key = format!("body.{index}");
         check_name(findings, &format!("{key}.name"), &body.name, &taken);
-        taken.push(&body.name);
+        taken.insert(&body.name);
         check_shape(findings, &format!("{key}.shape"), &body.shape);
         let has_place = findings.vector(&format!("{key}.center"), &body.center);
         if let Some(density) = body.density {
@@ -40,12 +41,12 @@ pub fn check(findings: &mut Findings<'_>) {
     }
     for (index, probe) in case.probe.iter().enumerate() {
         check_name(findings, &format!("probe.{index}.name"), &probe.name, &taken);
-        taken.push(&probe.name);
+        taken.insert(&probe.name);
     }
 }
 
 /// A name is one word, and means one thing.
-fn check_name(findings: &mut Findings<'_>, key: &str, name: &str, taken: &[&str]) {
+fn check_name(findings: &mut Findings<'_>, key: &str, name: &str, taken: &HashSet<&str>) {
     let sides = findings.case().domain.sides();
     let is_word =
         !name.is_empty() && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '-' || c == '_');
@@ -56,7 +57,7 @@ fn check_name(findings: &mut Findings<'_>, key: &str, name: &str, taken: &[&str]
             "write one word of the letters a-z, digits, - and _",
         );
     }
-    if taken.contains(&name) {
+    if taken.contains(name) {
         findings.error(
             key,
             format!("the name \"{name}\" is taken by a body or probe above"),

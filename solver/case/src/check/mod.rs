@@ -8,6 +8,7 @@ mod boundary;
 mod contact;
 mod fluid;
 mod gait;
+mod joints;
 mod mesh;
 mod placement;
 mod references;
@@ -38,6 +39,7 @@ pub fn check(file: &CaseFile) -> Vec<Diagnostic> {
     fluid::check(&mut findings);
     boundary::check(&mut findings);
     bodies::check(&mut findings);
+    joints::check(&mut findings);
     swimmers::check(&mut findings);
     contact::check(&mut findings);
     mesh::check(&mut findings);

@@ -2,8 +2,8 @@
 
 use alewife_mesh::{Domain, MeshError, Outline, PlacedShape, Point, check_wrapped_placement};
 
-use super::{Findings, Severity};
-use crate::Diagnostic;
+use super::Findings;
+use crate::discs::{Disc, DiscGrid};
 
 /// Distance out of the fluid, over the size of the domain or a body, that is taken for rounding.
 const ROUNDING: f64 = 1e-6;
@@ -18,125 +18,274 @@ pub fn check(findings: &mut Findings<'_>) {
         if model.joint_above(index).is_some() {
             let center = placed.center;
             let images = domain.images().into_iter().map(|shift| center + shift);
-            let inside = |place: &Point<2>| domain.clearance(*place);
+            let inside = |point: &Point<2>| domain.clearance(*point);
             placed.center = images.max_by(|a, b| inside(a).total_cmp(&inside(b))).unwrap_or(center);
         }
     }
-    let problems = placement_problems(&domain, &bodies);
-    let is_placed = problems.is_empty();
-    for (index, error) in problems {
-        let key = findings.written(&format!("body.{index}.center"));
-        let (message, help) = match &error {
-            MeshError::Outside { body, gap, x, y } => (
-                format!(
-                    "body \"{body}\" touches or leaves the domain at ({x:.4}, {y:.4}): gap {gap:.3e}"
-                ),
-                "move it inward, make it smaller, or enlarge the domain",
-            ),
-            MeshError::Overlap { first, second, gap, x, y } => (
-                format!(
-                    "bodies \"{first}\" and \"{second}\" touch or overlap at ({x:.4}, {y:.4}): \
-                     gap {gap:.3e}"
-                ),
-                "move them apart, or make them smaller",
-            ),
-            other => (other.to_string(), ""),
-        };
-        let location = findings.file.location(&key);
-        findings.diagnostics.push(Diagnostic {
-            severity: Severity::Error,
-            key,
-            message,
-            help: help.to_owned(),
-            location,
-        });
+    let layout = Layout::new(&domain, &bodies, case.domain.extent());
+    let misplaced = layout.misplaced();
+    for Misplaced { body, error } in &misplaced {
+        let (message, help) = explained(error);
+        findings.error(&format!("body.{body}.center"), message, help);
     }
     for (index, probe) in case.probe.iter().enumerate() {
-        let key = format!("probe.{index}");
-        let has_point = findings.vector(&format!("{key}.point"), &probe.point);
-        if has_point {
-            probe_point(
-                findings,
-                &format!("{key}.point"),
-                &domain,
-                &bodies,
-                &probe.point,
-                is_placed,
-            );
-        }
-        if !probe.minus.is_empty() && findings.vector(&format!("{key}.minus"), &probe.minus) {
-            probe_point(
-                findings,
-                &format!("{key}.minus"),
-                &domain,
-                &bodies,
-                &probe.minus,
-                is_placed,
-            );
-        }
-    }
-}
-
-/// Everything that is wrong with where bodies are, each with the index of the body to move.
-fn placement_problems(domain: &Domain, bodies: &[PlacedShape]) -> Vec<(usize, MeshError)> {
-    let mut problems = Vec::new();
-    let mut inside: Vec<usize> = Vec::new();
-    for (index, body) in bodies.iter().enumerate() {
-        if let Err(error) = check_wrapped_placement(domain, std::slice::from_ref(body)) {
-            problems.push((index, error));
-            continue;
-        }
-        // Across a periodic side a body may lie, beyond it it may not
-        let gap = domain.clearance(body.center);
-        if gap < 0.0 {
-            let (x, y) = (body.center.x, body.center.y);
-            problems.push((index, MeshError::Outside { body: body.name.clone(), gap, x, y }));
-            continue;
-        }
-        for other in &inside {
-            let pair = [bodies[*other].clone(), body.clone()];
-            if let Err(error) = check_wrapped_placement(domain, &pair) {
-                problems.push((index, error));
+        let minus = Some(&probe.minus).filter(|minus| !minus.is_empty());
+        for (name, point) in [("point", Some(&probe.point)), ("minus", minus)] {
+            let key = format!("probe.{index}.{name}");
+            let Some(point) = point.filter(|point| findings.vector(&key, point)) else { continue };
+            if is_in_domain(findings, &key, &domain, point) && misplaced.is_empty() {
+                check_outside_bodies(findings, &key, &layout, point);
             }
         }
-        inside.push(index);
     }
-    problems
 }
 
-/// Whether a point is in the fluid, or on its boundary.
-fn probe_point(
+/// What is wrong with where a body is, and what to do.
+fn explained(error: &MeshError) -> (String, &'static str) {
+    match error {
+        MeshError::Outside { body, gap, x, y } => (
+            format!(
+                "body \"{body}\" touches or leaves the domain at ({x:.4}, {y:.4}): gap {gap:.3e}"
+            ),
+            "move it inward, make it smaller, or enlarge the domain",
+        ),
+        MeshError::Overlap { first, second, gap, x, y } => (
+            format!(
+                "bodies \"{first}\" and \"{second}\" touch or overlap at ({x:.4}, {y:.4}): \
+                 gap {gap:.3e}"
+            ),
+            "move them apart, or make them smaller",
+        ),
+        other => (other.to_string(), ""),
+    }
+}
+
+/// A body that is where it cannot be.
+#[derive(Debug, PartialEq)]
+struct Misplaced {
+    /// The body to move.
+    body: usize,
+    error: MeshError,
+}
+
+/// Bodies in a domain, found by the circles around them.
+struct Layout<'a> {
+    domain: &'a Domain,
+    images: Vec<Point<2>>,
+    bodies: &'a [PlacedShape],
+    /// `None` of a shape that has none.
+    outlines: Vec<Option<Outline>>,
+    grid: DiscGrid,
+}
+
+impl<'a> Layout<'a> {
+    /// Bodies in a domain with the corners `extent` (m).
+    fn new(domain: &'a Domain, bodies: &'a [PlacedShape], extent: [[f64; 2]; 2]) -> Self {
+        let outlines: Vec<Option<Outline>> =
+            bodies.iter().map(|body| Outline::new(body).ok()).collect();
+        let mut grid = DiscGrid::new(extent[0], extent[1], bodies.len());
+        for (body, outline) in outlines.iter().enumerate() {
+            if let Some(outline) = outline {
+                grid.insert(body, &circle(outline));
+            }
+        }
+        Self { domain, images: domain.images(), bodies, outlines, grid }
+    }
+
+    /// Everything that is wrong with where bodies are.
+    fn misplaced(&self) -> Vec<Misplaced> {
+        let mut misplaced = Vec::new();
+        let mut is_inside = vec![false; self.bodies.len()];
+        for (index, body) in self.bodies.iter().enumerate() {
+            let mut refuse = |error| misplaced.push(Misplaced { body: index, error });
+            if let Err(error) = check_wrapped_placement(self.domain, std::slice::from_ref(body)) {
+                refuse(error);
+                continue;
+            }
+            // Across a periodic side a body may lie, beyond it it may not
+            let gap = self.domain.clearance(body.center);
+            if gap < 0.0 {
+                let (x, y) = (body.center.x, body.center.y);
+                refuse(MeshError::Outside { body: body.name.clone(), gap, x, y });
+                continue;
+            }
+            for other in self.near(index).into_iter().filter(|other| is_inside[*other]) {
+                let pair = [self.bodies[other].clone(), body.clone()];
+                if let Err(error) = check_wrapped_placement(self.domain, &pair) {
+                    refuse(error);
+                }
+            }
+            is_inside[index] = true;
+        }
+        misplaced
+    }
+
+    /// Bodies with circles around them that may meet that of a body or of an image of it, itself
+    /// among them, in ascending order.
+    fn near(&self, body: usize) -> Vec<usize> {
+        self.outlines[body].as_ref().map_or(Vec::new(), |outline| self.meeting(&circle(outline)))
+    }
+
+    /// Bodies with circles around them that may meet a disc or an image of it, in ascending order.
+    fn meeting(&self, disc: &Disc) -> Vec<usize> {
+        let mut found = Vec::new();
+        for shift in &self.images {
+            let image = Disc { center: disc.center + shift, radius: disc.radius };
+            let does_meet = |body: &usize| {
+                let other = self.outlines[*body].as_ref().map(circle);
+                other.is_some_and(|other| {
+                    (image.center - other.center).norm() <= image.radius + other.radius
+                })
+            };
+            found.extend(self.grid.near(&image).filter(does_meet));
+        }
+        found.sort_unstable();
+        found.dedup();
+        found
+    }
+
+    /// Bodies that a point lies in, by more than rounding.
+    fn around(&self, point: Point<2>) -> Vec<usize> {
+        let is_inside = |body: &usize| {
+            self.outlines[*body].as_ref().is_some_and(|outline| {
+                let gaps = self.images.iter().map(|shift| outline.nearest(point + shift).gap);
+                gaps.fold(f64::INFINITY, f64::min) < -ROUNDING * outline.reach()
+            })
+        };
+        let near = self.meeting(&Disc { center: point, radius: 0.0 });
+        near.into_iter().filter(is_inside).collect()
+    }
+}
+
+/// The circle around an outline, with room for the smallest gap there may be.
+fn circle(outline: &Outline) -> Disc {
+    Disc { center: outline.center(), radius: (1.0 + ROUNDING) * outline.reach() }
+}
+
+/// Whether a point is in the domain, or on a side of it.
+fn is_in_domain(
     findings: &mut Findings<'_>,
     key: &str,
     domain: &Domain,
-    bodies: &[PlacedShape],
-    point: &[f64],
-    are_bodies_placed: bool,
-) {
-    let place = Point::<2>::new(point[0], point[1]);
+    coordinates: &[f64],
+) -> bool {
+    let point = Point::<2>::new(coordinates[0], coordinates[1]);
     let [min, max] = findings.case().domain.extent();
     let size = (max[0] - min[0]).hypot(max[1] - min[1]);
-    let below_axis = if domain.is_axisymmetric() { -place.y } else { 0.0 };
-    if domain.clearance(place) < -ROUNDING * size || below_axis > ROUNDING * size {
+    let below_axis = if domain.is_axisymmetric() { -point.y } else { 0.0 };
+    let is_outside = domain.clearance(point) < -ROUNDING * size || below_axis > ROUNDING * size;
+    if is_outside {
         findings.error(
             key,
-            format!("the point {point:?} is outside the domain"),
+            format!("the point {coordinates:?} is outside the domain"),
             &format!("the domain reaches from {min:?} to {max:?}"),
         );
-        return;
     }
-    if !are_bodies_placed {
-        return;
+    !is_outside
+}
+
+/// A point must be in the fluid, or on the surface of a body.
+fn check_outside_bodies(
+    findings: &mut Findings<'_>,
+    key: &str,
+    layout: &Layout<'_>,
+    coordinates: &[f64],
+) {
+    for body in layout.around(Point::<2>::new(coordinates[0], coordinates[1])) {
+        findings.error(
+            key,
+            format!(
+                "the point {coordinates:?} is inside the body \"{}\"",
+                layout.bodies[body].name
+            ),
+            "move it into the fluid, or on to the surface of the body",
+        );
     }
-    for (body, placed) in findings.model().bodies.iter().zip(bodies) {
-        let Ok(outline) = Outline::new(placed) else { continue };
-        let gaps = domain.images().into_iter().map(|shift| outline.nearest(place + shift).gap);
-        if gaps.fold(f64::INFINITY, f64::min) < -ROUNDING * body.shape.reach() {
-            findings.error(
-                key,
-                format!("the point {point:?} is inside the body \"{}\"", body.name),
-                "move it into the fluid, or on to the surface of the body",
-            );
+}
+
+#[cfg(test)]
+mod tests {
+    use alewife_mesh::Shape;
+
+    use super::*;
+
+    /// Numbers in [0, 1) without a pattern, by the golden ratio.
+    fn scattered(nth: usize) -> f64 {
+        (nth as f64 * 0.618_033_988_749).fract()
+    }
+
+    /// Discs and ellipses, some of which overlap each other, cross a side or are outside.
+    fn scattered_bodies() -> Vec<PlacedShape> {
+        let shape = |nth: usize| match nth % 3 {
+            0 => Shape::Ellipse { semi_axes: [0.3, 0.04] },
+            _ => Shape::Disc { radius: if nth % 20 == 1 { 0.5 } else { 0.06 } },
+        };
+        let body = |nth: usize| PlacedShape {
+            name: format!("body-{nth}"),
+            shape: shape(nth),
+            center: Point::<2>::new(4.1 * scattered(nth) - 0.05, 3.1 * scattered(7 * nth) - 0.05),
+            angle: nth as f64,
+            size: None,
+        };
+        (0..90).map(body).collect()
+    }
+
+    /// The same with every pair of bodies looked at.
+    fn misplaced_by_all_pairs(domain: &Domain, bodies: &[PlacedShape]) -> Vec<Misplaced> {
+        let mut misplaced = Vec::new();
+        let mut inside: Vec<usize> = Vec::new();
+        for (index, body) in bodies.iter().enumerate() {
+            let alone = check_wrapped_placement(domain, std::slice::from_ref(body)).err();
+            let gap = domain.clearance(body.center);
+            let (name, [x, y]) = (body.name.clone(), [body.center.x, body.center.y]);
+            let beyond = (gap < 0.0).then_some(MeshError::Outside { body: name, gap, x, y });
+            if let Some(error) = alone.or(beyond) {
+                misplaced.push(Misplaced { body: index, error });
+                continue;
+            }
+            for other in &inside {
+                let pair = [bodies[*other].clone(), body.clone()];
+                let error = check_wrapped_placement(domain, &pair).err();
+                misplaced.extend(error.map(|error| Misplaced { body: index, error }));
+            }
+            inside.push(index);
         }
+        misplaced
+    }
+
+    #[test]
+    fn overlaps_are_those_found_among_all_pairs_of_bodies() {
+        let (min, max) = (Point::<2>::zeros(), Point::<2>::new(4.0, 3.0));
+        let bodies = scattered_bodies();
+        for [periodic_x, periodic_y] in [[false, false], [true, false], [true, true]] {
+            let domain = Domain::Box { min, max, periodic_x, periodic_y };
+            let layout = Layout::new(&domain, &bodies, [min.into(), max.into()]);
+            let found = layout.misplaced();
+            let overlaps =
+                found.iter().filter(|one| matches!(one.error, MeshError::Overlap { .. }));
+            assert!(overlaps.count() > 20 && found.len() < 300, "{}", found.len());
+            assert_eq!(found, misplaced_by_all_pairs(&domain, &bodies));
+        }
+    }
+
+    #[test]
+    fn the_bodies_around_a_point_are_found_across_periodic_sides() {
+        let (min, max) = (Point::<2>::zeros(), Point::<2>::new(4.0, 3.0));
+        let bodies = scattered_bodies();
+        let domain = Domain::Box { min, max, periodic_x: true, periodic_y: true };
+        let layout = Layout::new(&domain, &bodies, [min.into(), max.into()]);
+        let mut n_found = 0;
+        for nth in 0..200 {
+            let point = Point::<2>::new(4.0 * scattered(3 * nth), 3.0 * scattered(5 * nth + 1));
+            let is_around = |body: &usize| {
+                let outline = Outline::new(&bodies[*body]).unwrap();
+                let mut images = domain.images().into_iter();
+                images.any(|shift| outline.nearest(point + shift).gap < -1e-5)
+            };
+            let around = layout.around(point);
+            n_found += around.len();
+            assert_eq!(around, (0..bodies.len()).filter(is_around).collect::<Vec<_>>());
+        }
+        assert!(n_found > 50, "{n_found}");
     }
 }

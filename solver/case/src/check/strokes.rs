@@ -1,8 +1,9 @@
 //! Bodies that would run into each other in their strokes, foreseen before anything is solved.
 
-use alewife_mesh::{Domain, MeshError, PlacedShape, Point, check_placement};
+use alewife_mesh::{Domain, MeshError, Outline, PlacedShape, Point, check_placement, closest};
 
 use super::Findings;
+use crate::discs::{Disc, DiscGrid};
 use crate::joint::{PlanarPose, child_pose};
 use crate::{Geometry, Joint, Model, Stroke, TimeSettings};
 
@@ -11,6 +12,9 @@ const TIMES: u32 = 96;
 
 /// Half the side of the box around a swimmer over the distance of its farthest body.
 const ROOM: f64 = 10.0;
+
+/// Gap over the sizes of two bodies above which they are apart for certain.
+const APART: f64 = 1e-5;
 
 pub fn check(findings: &mut Findings<'_>) {
     let model = findings.model();
@@ -24,28 +28,18 @@ pub fn check(findings: &mut Findings<'_>) {
         {
             continue;
         }
-        let mut tree = vec![root];
-        let mut joints: Vec<(usize, usize, &Joint)> = Vec::new();
-        let mut next = 0;
-        while let Some(&parent) = tree.get(next) {
-            for &child in &children[parent] {
-                let Some(joint) = model.joint_above(child) else { continue };
-                joints.push((next, tree.len(), &model.joints[joint]));
-                tree.push(child);
-            }
-            next += 1;
-        }
+        let tree = Tree::new(model, &children, root);
         let strokes: Vec<&Stroke> =
-            joints.iter().filter_map(|(_, _, joint)| joint.kind.stroke()).collect();
+            tree.joints.iter().filter_map(|link| link.joint.kind.stroke()).collect();
         let end = strokes.iter().map(|stroke| cycle(stroke)).fold(0.0, f64::max);
         let end = end.min(unsteady.end);
         // How a free hinge bends, only the run will tell.
-        if strokes.len() < joints.len() || end == 0.0 {
+        if strokes.len() < tree.joints.len() || end == 0.0 {
             continue;
         }
         let meeting = (1..=TIMES).find_map(|nth| {
             let time = end * f64::from(nth) / f64::from(TIMES);
-            meet(model, &tree, &joints, time).map(|error| (time, error))
+            tree.overlap(time).map(|error| (time, error))
         });
         if let Some((time, MeshError::Overlap { first, second, .. })) = meeting {
             let joint =
@@ -69,42 +63,106 @@ fn cycle(stroke: &Stroke) -> f64 {
     }
 }
 
-/// The bodies of a tree, its root where it starts, if two of them overlap at a time (s).
-fn meet(
-    model: &Model,
-    tree: &[usize],
-    joints: &[(usize, usize, &Joint)],
-    time: f64,
-) -> Option<MeshError> {
-    let mut poses = vec![PlanarPose::default(); tree.len()];
-    poses[0].angle = model.bodies[tree[0]].angle;
-    for &(parent, child, joint) in joints {
-        let Joint { on_parent, on_child, kind, .. } = joint;
-        poses[child] = child_pose(poses[parent], *on_parent, *on_child, kind, time);
+/// Bodies that hang on each other, the one all others hang on first.
+struct Tree<'a> {
+    geometry: Geometry,
+    bodies: Vec<PlacedShape>,
+    /// `None` of a shape that has none.
+    outlines: Vec<Option<Outline>>,
+    joints: Vec<Link<'a>>,
+}
+
+/// A joint between bodies of a tree, by their positions in it.
+struct Link<'a> {
+    parent: usize,
+    child: usize,
+    joint: &'a Joint,
+}
+
+impl<'a> Tree<'a> {
+    fn new(model: &'a Model, children: &[Vec<usize>], root: usize) -> Self {
+        let mut indices = vec![root];
+        let mut joints: Vec<Link<'a>> = Vec::new();
+        let mut next = 0;
+        while let Some(&parent) = indices.get(next) {
+            for &child in &children[parent] {
+                let Some(joint) = model.joint_above(child) else { continue };
+                let joint = &model.joints[joint];
+                joints.push(Link { parent: next, child: indices.len(), joint });
+                indices.push(child);
+            }
+            next += 1;
+        }
+        let placed = |body: &usize| model.bodies[*body].placed(model.case.mesh.scale);
+        let bodies: Vec<PlacedShape> = indices.iter().map(placed).collect();
+        let outlines = bodies.iter().map(|body| Outline::new(body).ok()).collect();
+        Self { geometry: model.case.geometry, bodies, outlines, joints }
     }
-    let bodies: Vec<PlacedShape> = tree
-        .iter()
-        .zip(&poses)
-        .map(|(body, pose)| PlacedShape {
+
+    /// The bodies at a time (s), the first one where it starts.
+    fn at(&self, time: f64) -> Vec<PlacedShape> {
+        let mut poses = vec![PlanarPose::default(); self.bodies.len()];
+        poses[0].angle = self.bodies[0].angle;
+        for Link { parent, child, joint } in &self.joints {
+            let Joint { on_parent, on_child, kind, .. } = joint;
+            poses[*child] = child_pose(poses[*parent], *on_parent, *on_child, kind, time);
+        }
+        let placed = |(body, pose): (&PlacedShape, &PlanarPose)| PlacedShape {
             center: pose.center,
             angle: pose.angle,
-            ..model.bodies[*body].placed(model.case.mesh.scale)
-        })
-        .collect();
-    let far = bodies.iter().zip(tree).fold(0.0f64, |far, (placed, body)| {
-        far.max(placed.center.norm() + model.bodies[*body].shape.reach())
-    });
-    let room = ROOM * far;
-    let domain = match model.case.geometry {
-        Geometry::Planar => Domain::Box {
-            min: Point::<2>::new(-room, -room),
-            max: Point::<2>::new(room, room),
-            periodic_x: false,
-            periodic_y: false,
-        },
-        Geometry::Axisymmetric => {
-            Domain::Cylinder { x: [-room, room], radius: room, periodic_x: false }
+            ..body.clone()
+        };
+        self.bodies.iter().zip(&poses).map(placed).collect()
+    }
+
+    /// The first overlap of two bodies at a time (s).
+    fn overlap(&self, time: f64) -> Option<MeshError> {
+        let bodies = self.at(time);
+        let outline = |index: usize| {
+            let (outline, body) = (self.outlines[index].as_ref()?, &bodies[index]);
+            Some(outline.placed_at(body.center, body.angle))
+        };
+        let outlines: Vec<Option<Outline>> = (0..bodies.len()).map(outline).collect();
+        let far = outlines
+            .iter()
+            .flatten()
+            .fold(0.0f64, |far, outline| far.max(outline.center().norm() + outline.reach()));
+        let mut grid = DiscGrid::new([-far; 2], [far; 2], bodies.len());
+        for (index, outline) in outlines.iter().enumerate() {
+            let Some(outline) = outline else { continue };
+            let radius = (1.0 + APART) * outline.reach();
+            let circle = Disc { center: outline.center(), radius };
+            let mut near: Vec<usize> = grid.near(&circle).collect();
+            near.sort_unstable();
+            near.dedup();
+            for other in near {
+                let Some(placed) = &outlines[other] else { continue };
+                let size = outline.reach().min(placed.reach());
+                if closest(outline, placed).gap <= APART * size {
+                    let pair = [bodies[other].clone(), bodies[index].clone()];
+                    let refused = check_placement(&self.surroundings(ROOM * far), &pair).err();
+                    if refused.is_some() {
+                        return refused;
+                    }
+                }
+            }
+            grid.insert(index, &circle);
         }
-    };
-    check_placement(&domain, &bodies).err()
+        None
+    }
+
+    /// A domain whose sides are as far from the origin as said (m).
+    fn surroundings(&self, room: f64) -> Domain {
+        match self.geometry {
+            Geometry::Planar => Domain::Box {
+                min: Point::<2>::new(-room, -room),
+                max: Point::<2>::new(room, room),
+                periodic_x: false,
+                periodic_y: false,
+            },
+            Geometry::Axisymmetric => {
+                Domain::Cylinder { x: [-room, room], radius: room, periodic_x: false }
+            }
+        }
+    }
 }

@@ -1,209 +1,16 @@
-//! Problems of `[[joint]]` and `[[swimmer]]`: strokes, trees, and numbers that make no body.
+//! Problems of `[[swimmer]]`: numbers of parts, cycles, names, and the explicit scheme.
 
-use std::f64::consts::TAU;
+use std::collections::HashSet;
 
 use super::Findings;
-use crate::joint::{PlanarPose, child_pose};
+use super::joints::{arm, hinge, stroke};
 use crate::{
-    Copies, FlowModel, Geometry, Hinge, JointKind, Motion, Pivot, Scheme, Stroke, SwimmerKind,
-    TimeSettings,
+    Copies, FlowModel, Geometry, JointKind, Motion, Pivot, Scheme, Stroke, SwimmerKind,
+    SwimmerSpec, TimeSettings,
 };
 
-/// Distance between a child and where its joint puts it, over the size of the joint, that is taken
-/// for rounding.
-const ROUNDING: f64 = 1e-6;
-
 pub fn check(findings: &mut Findings<'_>) {
-    joints(findings);
-    swimmers(findings);
-    explicit_scheme(findings);
-}
-
-fn joints(findings: &mut Findings<'_>) {
-    let (case, model) = (findings.case(), findings.model());
-    let mut parents: Vec<Option<usize>> = vec![None; model.bodies.len()];
-    for (index, joint) in model.joints.iter().enumerate() {
-        let key = format!("joint.{index}");
-        let is_made = model.swimmer_of_joint(index).is_some();
-        if !is_made {
-            stroke_of_joint(findings, &key, &joint.kind);
-        }
-        let mut ends = [None; 2];
-        for (end, (what, name)) in
-            ends.iter_mut().zip([("parent", &joint.parent), ("child", &joint.child)])
-        {
-            *end = model.body_index(name);
-            if end.is_none() {
-                let names: Vec<&str> = model.bodies.iter().map(|body| body.name.as_str()).collect();
-                findings.error(
-                    &format!("{key}.{what}"),
-                    format!("`{what}` is \"{name}\", but no body has that name"),
-                    &crate::deserialize::suggestion(name, &names),
-                );
-            }
-        }
-        let [Some(parent), Some(child)] = ends else { continue };
-        if parents[child].is_some() || parent == child {
-            findings.error(
-                &format!("{key}.child"),
-                format!("\"{}\" hangs on two bodies, or on itself", joint.child),
-                "bodies make trees: a body hangs on one other body at most",
-            );
-            continue;
-        }
-        parents[child] = Some(parent);
-        if is_made {
-            continue;
-        }
-        if model.bodies[child].motion != Motion::Free {
-            findings.error(
-                &format!("{key}.child"),
-                format!(
-                    "\"{}\" hangs on \"{}\", and cannot be held or moved besides",
-                    joint.child, joint.parent
-                ),
-                "write motion = \"free\" for it; the body all others hang on may be held or moved",
-            );
-        }
-        let pose = |body: usize| {
-            let body = &model.bodies[body];
-            let at = |axis: usize| body.center.get(axis).copied().unwrap_or(0.0);
-            PlanarPose { center: [at(0), at(1)].into(), angle: body.angle }
-        };
-        let found = pose(child);
-        // A free pivot may start at any angle: that of the bodies
-        let bend = found.angle - pose(parent).angle;
-        let kind = match &joint.kind {
-            JointKind::Hinge(hinge) => JointKind::Hinge(Hinge { rest: bend, ..hinge.clone() }),
-            kind => kind.clone(),
-        };
-        let wanted = child_pose(pose(parent), joint.on_parent, joint.on_child, &kind, 0.0);
-        let size = (wanted.center - pose(parent).center).norm();
-        let is_arm = matches!(joint.kind, JointKind::Arm { .. });
-        let off = (wanted.center - found.center).norm();
-        if off > ROUNDING * size {
-            findings.error(
-                &format!("{key}.child"),
-                format!(
-                    "the joint puts \"{}\" at [{}, {}] at time 0, not at [{}, {}]",
-                    joint.child, wanted.center.x, wanted.center.y, found.center.x, found.center.y
-                ),
-                &format!("write center = [{}, {}] for it", wanted.center.x, wanted.center.y),
-            );
-        }
-        let turned = (wanted.angle - found.angle + TAU / 2.0).rem_euclid(TAU) - TAU / 2.0;
-        if !is_arm && turned.abs() > ROUNDING && !matches!(joint.kind, JointKind::Hinge(_)) {
-            findings.error(
-                &format!("{key}.child"),
-                format!(
-                    "the joint turns \"{}\" to {} at time 0, not to {}",
-                    joint.child, wanted.angle, found.angle
-                ),
-                &format!("write angle = {} for it", wanted.angle),
-            );
-        }
-    }
-    if (0..parents.len()).any(|start| {
-        let mut body = start;
-        (0..parents.len()).all(|_| {
-            parents[body].is_some_and(|parent| {
-                body = parent;
-                true
-            })
-        })
-    }) {
-        findings.error(
-            "joint",
-            "the joints make a circle".to_owned(),
-            "bodies make trees: one of them must hang on nothing",
-        );
-    }
-    if case.geometry == Geometry::Axisymmetric {
-        for (index, joint) in model.joints.iter().enumerate() {
-            let is_along = match &joint.kind {
-                JointKind::Arm { direction, .. } => direction.sin().abs() < 1e-9,
-                JointKind::Bent { .. } | JointKind::Hinge(_) => false,
-            };
-            if !is_along || joint.on_parent[1] != 0.0 || joint.on_child[1] != 0.0 {
-                findings.error(
-                    &format!("joint.{index}.kind"),
-                    format!("the joint of \"{}\" leaves the axis", joint.child),
-                    "axisymmetric bodies hang on arms along the axis: direction = 0.0 or 3.141592653589793",
-                );
-            }
-        }
-    }
-}
-
-fn stroke_of_joint(findings: &mut Findings<'_>, key: &str, kind: &JointKind) {
-    match kind {
-        JointKind::Arm { length, .. } => {
-            stroke(findings, &format!("{key}.kind.arm.length"), length);
-            arm(findings, &format!("{key}.kind.arm.length"), length);
-        }
-        JointKind::Bent { angle } => stroke(findings, &format!("{key}.kind.bent.angle"), angle),
-        JointKind::Hinge(one) => hinge(findings, &format!("{key}.kind.hinge"), one),
-    }
-}
-
-fn hinge(findings: &mut Findings<'_>, key: &str, hinge: &Hinge) {
-    findings.not_negative(&format!("{key}.stiffness"), hinge.stiffness);
-    findings.not_negative(&format!("{key}.damping"), hinge.damping);
-    if let Some(torque) = &hinge.torque {
-        stroke(findings, &format!("{key}.torque"), torque);
-    }
-}
-
-/// An arm has a positive length at all times.
-fn arm(findings: &mut Findings<'_>, key: &str, length: &Stroke) {
-    let [least, _] = length.range();
-    if least <= 0.0 {
-        findings.error(
-            key,
-            format!("the arm is as short as {least}"),
-            "its length must be positive at all times",
-        );
-    }
-}
-
-/// Numbers of a stroke.
-pub(super) fn stroke(findings: &mut Findings<'_>, key: &str, stroke: &Stroke) {
-    match stroke {
-        Stroke::Constant(_) => {}
-        Stroke::Sine { period, ramp, .. } => {
-            findings.positive(&format!("{key}.sine.period"), *period);
-            findings.not_negative(&format!("{key}.sine.ramp"), *ramp);
-        }
-        Stroke::Legs { knots, period, .. } => {
-            findings.positive(&format!("{key}.legs.period"), *period);
-            let is_rising = knots.windows(2).all(|pair| pair[1][0] > pair[0][0]);
-            let is_inside = knots.first().is_some_and(|knot| knot[0] == 0.0)
-                && knots.last().is_some_and(|knot| knot[0] < *period);
-            if !is_rising || !is_inside {
-                findings.error(
-                    &format!("{key}.legs.knots"),
-                    "the times of the knots must rise from 0 to below the period".to_owned(),
-                    "write knots = [[0.0, v0], [t1, v1], ...]; at the period the value is v0 again",
-                );
-            }
-        }
-        Stroke::Table(knots) => {
-            let is_rising = knots.windows(2).all(|pair| pair[1][0] > pair[0][0]);
-            if knots.is_empty() || !is_rising {
-                findings.error(
-                    &format!("{key}.table"),
-                    "the times of a table must rise from knot to knot".to_owned(),
-                    "write table = [[t0, v0], [t1, v1], ...] with t0 < t1 < ...",
-                );
-            }
-        }
-    }
-}
-
-fn swimmers(findings: &mut Findings<'_>) {
-    let case = findings.case();
-    let is_planar = case.geometry == Geometry::Planar;
-    for (index, swimmer) in case.swimmer.iter().enumerate() {
+    for (index, swimmer) in findings.case().swimmer.iter().enumerate() {
         let key = format!("swimmer.{index}");
         if let Some(period) = swimmer.period {
             findings.positive(&format!("{key}.period"), period);
@@ -212,118 +19,135 @@ fn swimmers(findings: &mut Findings<'_>) {
         if let Some(resistance) = swimmer.resistance {
             findings.positive(&format!("{key}.resistance"), resistance);
         }
-        let mut planar_only = |name: &str| {
-            if !is_planar {
-                findings.error(
-                    &format!("{key}.kind"),
-                    format!("a {name} cannot stand in an axisymmetric case"),
-                    "axisymmetric swimmers: body, linked-spheres, bodies",
-                );
-            }
-        };
-        match &swimmer.kind {
-            SwimmerKind::Star { arms, radius, radii, .. } => {
-                planar_only("star");
-                if radii.is_empty() {
-                    findings.error(
-                        &format!("{key}.kind.star.radii"),
-                        "a star without arms is a disc".to_owned(),
-                        "give one radius or more",
-                    );
-                }
-                for (nth, length) in arms.iter().enumerate() {
-                    let key = format!("{key}.kind.star.arms.{nth}");
-                    stroke(findings, &key, length);
-                    arm(findings, &key, length);
-                    if let Some(end) = radii.get(nth) {
-                        reaches(findings, &key, length, radius + end);
-                    }
-                }
-            }
-            SwimmerKind::Chain { gap, joints, .. } => {
-                planar_only("chain");
-                findings.positive(&format!("{key}.kind.chain.gap"), *gap);
-                for (nth, joint) in joints.iter().enumerate() {
-                    let key = format!("{key}.kind.chain.joints.{nth}");
-                    match joint {
-                        Pivot::Bent { angle } => {
-                            stroke(findings, &format!("{key}.bent.angle"), angle)
-                        }
-                        Pivot::Hinge(one) => hinge(findings, &format!("{key}.hinge"), one),
-                    }
-                }
-            }
-            SwimmerKind::LinkedSpheres { arms, radii, .. } => {
-                if radii.len() < 2 {
-                    findings.error(
-                        &format!("{key}.kind.linked-spheres.radii"),
-                        format!("{} sphere has nothing to be linked to", radii.len()),
-                        "give two radii or more",
-                    );
-                }
-                for (nth, length) in arms.iter().enumerate() {
-                    let key = format!("{key}.kind.linked-spheres.arms.{nth}");
-                    stroke(findings, &key, length);
-                    arm(findings, &key, length);
-                    if let [Some(left), Some(right)] = [radii.get(nth), radii.get(nth + 1)] {
-                        reaches(findings, &key, length, left + right);
-                    }
-                }
-            }
-            SwimmerKind::Bodies(names) => {
-                let mut sorted = names.clone();
-                sorted.sort();
-                sorted.dedup();
-                if names.is_empty() || sorted.len() < names.len() {
-                    findings.error(
-                        &format!("{key}.kind.bodies"),
-                        "a swimmer is made of one body or more, each named once".to_owned(),
-                        "write bodies = [\"NAME\", ...] with names of [[body]]",
-                    );
-                }
-                let idle = [
-                    ("center", swimmer.center != [0.0; 2]),
-                    ("angle", swimmer.angle != 0.0),
-                    ("density", swimmer.density.is_some()),
-                    ("motion", swimmer.motion != Motion::Free),
-                    ("size", swimmer.size.is_some()),
-                    ("copies", swimmer.copies.is_some()),
-                ];
-                for (name, _) in idle.iter().filter(|(_, is_given)| *is_given) {
-                    findings.error(
-                        &format!("{key}.{name}"),
-                        format!("`{name}` has no effect on bodies that are there already"),
-                        "leave it out, and write it for the bodies themselves",
-                    );
-                }
-            }
-            SwimmerKind::Body { .. } => {}
-        }
-        match &swimmer.copies {
-            Some(Copies::Random { count, gap, .. }) => {
-                findings.not_negative(&format!("{key}.copies.random.gap"), *gap);
-                none(findings, &format!("{key}.copies.random.count"), *count);
-            }
-            Some(Copies::Lattice { counts, .. }) => {
-                none(findings, &format!("{key}.copies.lattice.counts"), counts[0] * counts[1]);
-            }
-            None => {}
-        }
+        parts(findings, &key, swimmer);
+        copies(findings, &key, swimmer);
     }
     short_steps(findings);
-    let model = findings.model();
-    let mut names: Vec<&str> = model.bodies.iter().map(|body| body.name.as_str()).collect();
+    names(findings);
+    explicit_scheme(findings);
+}
+
+/// The bodies and joints a swimmer is made of.
+fn parts(findings: &mut Findings<'_>, key: &str, swimmer: &SwimmerSpec) {
+    match &swimmer.kind {
+        SwimmerKind::Star { arms, radius, radii, .. } => {
+            planar_only(findings, key, "star");
+            if radii.is_empty() {
+                findings.error(
+                    &format!("{key}.kind.star.radii"),
+                    "a star without arms is a disc".to_owned(),
+                    "give one radius or more",
+                );
+            }
+            for (nth, length) in arms.iter().enumerate() {
+                let sum = radii.get(nth).map(|end| radius + end);
+                arm_of_swimmer(findings, &format!("{key}.kind.star.arms.{nth}"), length, sum);
+            }
+        }
+        SwimmerKind::Chain { gap, joints, .. } => {
+            planar_only(findings, key, "chain");
+            findings.positive(&format!("{key}.kind.chain.gap"), *gap);
+            for (nth, joint) in joints.iter().enumerate() {
+                let key = format!("{key}.kind.chain.joints.{nth}");
+                match joint {
+                    Pivot::Bent { angle } => stroke(findings, &format!("{key}.bent.angle"), angle),
+                    Pivot::Hinge(one) => hinge(findings, &format!("{key}.hinge"), one),
+                }
+            }
+        }
+        SwimmerKind::LinkedSpheres { arms, radii, .. } => {
+            if radii.len() < 2 {
+                findings.error(
+                    &format!("{key}.kind.linked-spheres.radii"),
+                    format!("{} sphere has nothing to be linked to", radii.len()),
+                    "give two radii or more",
+                );
+            }
+            for (nth, length) in arms.iter().enumerate() {
+                let key = format!("{key}.kind.linked-spheres.arms.{nth}");
+                let sum = radii.get(nth).zip(radii.get(nth + 1)).map(|(left, right)| left + right);
+                arm_of_swimmer(findings, &key, length, sum);
+            }
+        }
+        SwimmerKind::Bodies(names) => group(findings, key, swimmer, names),
+        SwimmerKind::Body { .. } => {}
+    }
+}
+
+fn planar_only(findings: &mut Findings<'_>, key: &str, name: &str) {
+    if findings.case().geometry != Geometry::Planar {
+        findings.error(
+            &format!("{key}.kind"),
+            format!("a {name} cannot stand in an axisymmetric case"),
+            "axisymmetric swimmers: body, linked-spheres, bodies",
+        );
+    }
+}
+
+/// An arm between round bodies whose radii have a known sum (m).
+fn arm_of_swimmer(findings: &mut Findings<'_>, key: &str, length: &Stroke, radii: Option<f64>) {
+    stroke(findings, key, length);
+    arm(findings, key, length);
+    if let Some(radii) = radii {
+        reaches(findings, key, length, radii);
+    }
+}
+
+/// A swimmer made of bodies that have names of their own.
+fn group(findings: &mut Findings<'_>, key: &str, swimmer: &SwimmerSpec, names: &[String]) {
+    let distinct: HashSet<&String> = names.iter().collect();
+    if names.is_empty() || distinct.len() < names.len() {
+        findings.error(
+            &format!("{key}.kind.bodies"),
+            "a swimmer is made of one body or more, each named once".to_owned(),
+            "write bodies = [\"NAME\", ...] with names of [[body]]",
+        );
+    }
+    let idle = [
+        ("center", swimmer.center != [0.0; 2]),
+        ("angle", swimmer.angle != 0.0),
+        ("density", swimmer.density.is_some()),
+        ("motion", swimmer.motion != Motion::Free),
+        ("size", swimmer.size.is_some()),
+        ("copies", swimmer.copies.is_some()),
+    ];
+    for (name, _) in idle.iter().filter(|(_, is_given)| *is_given) {
+        findings.error(
+            &format!("{key}.{name}"),
+            format!("`{name}` has no effect on bodies that are there already"),
+            "leave it out, and write it for the bodies themselves",
+        );
+    }
+}
+
+fn copies(findings: &mut Findings<'_>, key: &str, swimmer: &SwimmerSpec) {
+    match &swimmer.copies {
+        Some(Copies::Random { count, gap, .. }) => {
+            findings.not_negative(&format!("{key}.copies.random.gap"), *gap);
+            none(findings, &format!("{key}.copies.random.count"), *count);
+        }
+        Some(Copies::Lattice { counts, .. }) => {
+            none(findings, &format!("{key}.copies.lattice.counts"), counts[0] * counts[1]);
+        }
+        None => {}
+    }
+}
+
+/// A swimmer has a name of its own, but for that of its only body.
+fn names(findings: &mut Findings<'_>) {
+    let (case, model) = (findings.case(), findings.model());
+    let mut taken: HashSet<&str> = model.bodies.iter().map(|body| body.name.as_str()).collect();
     for group in &model.swimmers {
-        let is_body = matches!(group.bodies[..], [body] if model.bodies[body].name == group.name);
-        let is_side = case.domain.sides().contains(&group.name.as_str());
-        if !is_body && (names.contains(&group.name.as_str()) || is_side) {
+        let name = group.name.as_str();
+        let is_body = matches!(group.bodies[..], [body] if model.bodies[body].name == name);
+        if !is_body && (taken.contains(name) || case.domain.sides().contains(&name)) {
             findings.error(
                 "swimmer",
-                format!("the name \"{}\" is taken by a body, a swimmer or a side", group.name),
+                format!("the name \"{name}\" is taken by a body, a swimmer or a side"),
                 "give every body and every swimmer a name of its own",
             );
         }
-        names.push(&group.name);
+        taken.insert(name);
     }
 }
 

@@ -7,8 +7,10 @@ use alewife_mesh::{BoundaryKind, Mesh, NodeId, Point};
 
 use super::boundaries::{Boundaries, BoundaryNode};
 use super::constrain::Constrainer;
+use super::linear_system::unknowns;
+use super::pressure_mean::PressureMean;
 use super::problem::{Problem, Side};
-use super::system::{make_compatible, pressure_weights, unknowns};
+
 use crate::algebra::{
     AffineConstraints, ConstraintBuilder, DirectSolver, LinearError, LinearSolver, SparseMatrix,
 };
@@ -28,8 +30,8 @@ pub struct DivergenceFreeProjection<const D: usize> {
     assembly: Assembly<D>,
     matrix: SparseMatrix,
     solver: DirectSolver,
-    /// int psi dx of each vertex when the flow is enclosed, to distribute a net flux.
-    enclosed_weights: Option<Vec<f64>>,
+    /// Distributes a net flux where the flow is enclosed.
+    enclosed: Option<PressureMean>,
 }
 
 /// Neither stress nor convection, and as much mass as asked for.
@@ -57,8 +59,7 @@ impl<const D: usize> DivergenceFreeProjection<D> {
             Assembly::new(mesh, layout, &constraints, problem.metric, &[], None);
         let solver = DirectSolver::new(&pattern, &unknowns(&layout, &constraints));
         let matrix = SparseMatrix::zeros(pattern);
-        let mut projection =
-            Self { layout, constraints, assembly, matrix, solver, enclosed_weights: None };
+        let mut projection = Self { layout, constraints, assembly, matrix, solver, enclosed: None };
         projection.move_to(problem, mesh)?;
         Ok(projection)
     }
@@ -74,8 +75,8 @@ impl<const D: usize> DivergenceFreeProjection<D> {
         let (constraints, values) = (&self.constraints, self.matrix.values_mut());
         assemble(&self.assembly, mesh, constraints, &terms(1.0), &fields, values);
         self.solver.set_up(&self.matrix)?;
-        self.enclosed_weights =
-            problem.is_enclosed().then(|| pressure_weights(mesh, self.assembly.tables()));
+        self.enclosed =
+            problem.is_enclosed().then(|| PressureMean::new(mesh, self.assembly.tables()));
         Ok(())
     }
 
@@ -87,8 +88,8 @@ impl<const D: usize> DivergenceFreeProjection<D> {
         let fields = Fields { velocity, pressure: &pressure };
         let raw = residual(&self.assembly, mesh, &terms(0.0), &fields);
         let mut defect = raw[self.layout.pressures()].to_vec();
-        if let Some(weights) = &self.enclosed_weights {
-            make_compatible(&mut defect, weights);
+        if let Some(mean) = &self.enclosed {
+            mean.make_compatible(&mut defect);
         }
         // A pressure of one side of a periodic pair tests both
         for pair in &mesh.periodic {

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use alewife_mesh::{CellId, Facet, Mesh, Point, Surroundings};
+use alewife_mesh::{CellId, Facet, GapQuery, Mesh, Point};
 
 /// A surface must have lost this part of its layers before a new mesh is worth its price: gaps that
 /// were meshed with few layers on purpose do not ask for a mesh at every step.
@@ -81,7 +81,7 @@ impl fmt::Display for Reason {
 impl Fresh {
     /// Measures a new mesh among the surfaces it was made for.
     #[must_use]
-    pub fn new(mesh: &Mesh<2>, surroundings: &Surroundings, limits: Limits) -> Self {
+    pub fn new(mesh: &Mesh<2>, surroundings: &GapQuery, limits: Limits) -> Self {
         let quality = mesh.cell_ids().map(|cell| mesh.cell_quality(cell)).collect();
         let layers = mesh
             .facets
@@ -107,7 +107,7 @@ impl Fresh {
 /// # Panics
 /// Never for a mesh with the cells of the fresh one.
 #[must_use]
-pub fn needs_remesh(mesh: &Mesh<2>, fresh: &Fresh, surroundings: &Surroundings) -> Option<Reason> {
+pub fn needs_remesh(mesh: &Mesh<2>, fresh: &Fresh, surroundings: &GapQuery) -> Option<Reason> {
     let spoilt = worst_quality(mesh, fresh);
     if matches!(spoilt, Some(Reason::Quality { quality, .. }) if quality <= 0.0) {
         return spoilt;
@@ -130,7 +130,7 @@ fn worst_quality(mesh: &Mesh<2>, fresh: &Fresh) -> Option<Reason> {
     })
 }
 
-fn narrowest_gap(mesh: &Mesh<2>, fresh: &Fresh, surroundings: &Surroundings) -> Option<Reason> {
+fn narrowest_gap(mesh: &Mesh<2>, fresh: &Fresh, surroundings: &GapQuery) -> Option<Reason> {
     let narrow = mesh.facets.iter().zip(&fresh.layers).filter_map(|(facet, when_new)| {
         let limit = fresh.limits.layers.min(LOST * when_new);
         crowding(mesh, surroundings, facet, limit).map(|found| (facet, found))
@@ -156,7 +156,7 @@ struct Crowding {
 /// The narrowest of the places of a facet with fewer than `limit` layers across the gap.
 fn crowding(
     mesh: &Mesh<2>,
-    surroundings: &Surroundings,
+    surroundings: &GapQuery,
     facet: &Facet,
     limit: f64,
 ) -> Option<Crowding> {

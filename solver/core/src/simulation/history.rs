@@ -5,7 +5,7 @@ use alewife_mesh::Point;
 use super::error::StepError;
 use super::predict::unmoved_poses;
 use super::state::State;
-use super::step::{Step, TimeStepper};
+use super::stepper::{Step, TimeStepper};
 use crate::body::{Inertia, Pose, RigidVector, Twist, carried_velocity};
 use crate::coupling::{BodyShapes, PosesByVelocity, Problem, RigidBodyEquations, Solution};
 use crate::time::Bdf;

@@ -81,7 +81,10 @@ pub(super) fn joint_value(joint: &JointReport, quantity: JointQuantity) -> f64 {
 }
 
 /// Reports of all bodies.
-pub(super) fn body_reports(simulation: &Simulation<2>, loads: &[BodyLoads]) -> Vec<BodyReport> {
+pub(super) fn body_reports<const D: usize>(
+    simulation: &Simulation<D>,
+    loads: &[BodyLoads],
+) -> Vec<BodyReport> {
     let Simulation { problem, state, work, .. } = simulation;
     let stress = work.system.surface_stress(problem, &state.mesh, &state.now);
     let in_mesh = state.in_mesh(&state.poses);
@@ -101,9 +104,9 @@ pub(super) fn body_reports(simulation: &Simulation<2>, loads: &[BodyLoads]) -> V
 ///
 /// # Errors
 /// When a gait fails.
-pub(super) fn measure_joints(
-    problem: &Problem<2>,
-    state: &State<2>,
+pub(super) fn measure_joints<const D: usize>(
+    problem: &Problem<D>,
+    state: &State<D>,
     loads: &[BodyLoads],
 ) -> Result<Vec<JointReport>, RunError> {
     if !problem.has_joints() {

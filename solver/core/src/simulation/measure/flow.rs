@@ -26,7 +26,11 @@ pub(super) struct FlowMeasurement {
 }
 
 impl FlowMeasurement {
-    pub(super) fn new(tables: &Tables<2>, problem: &Problem<2>, state: &State<2>) -> Self {
+    pub(super) fn new<const D: usize>(
+        tables: &Tables<D>,
+        problem: &Problem<D>,
+        state: &State<D>,
+    ) -> Self {
         let mut sums = Self {
             dissipation: 0.0,
             kinetic_energy: 0.0,
@@ -40,8 +44,8 @@ impl FlowMeasurement {
         for cell in state.mesh.cell_ids() {
             let nodes = state.mesh.cell(cell);
             workspace.for_each_point(tables, &state.mesh, cell, |at| {
-                let mut velocity = Point::<2>::zeros();
-                let mut gradient = SMatrix::<f64, 2, 2>::zeros();
+                let mut velocity = Point::<D>::zeros();
+                let mut gradient = SMatrix::<f64, D, D>::zeros();
                 for (a, &node) in nodes.iter().enumerate() {
                     let nodal = &state.now.velocity[node];
                     velocity += nodal * at.phi[a];

@@ -8,7 +8,7 @@ mod flow;
 mod probes;
 mod swimmers;
 
-use alewife_mesh::Mesh;
+use alewife_mesh::{Mesh, Point};
 
 use self::bodies::{BodyMotion, Coefficients, body_reports, joint_value, measure_joints};
 use self::flow::FlowMeasurement;
@@ -21,10 +21,10 @@ use crate::case::{Case, Column, Model, Source, TimeSettings, columns};
 use crate::coupling::BodyLoads;
 
 /// Measures a run; made once a mesh.
-pub(super) struct Measure {
+pub(super) struct Measure<const D: usize> {
     names: Vec<String>,
     sources: Vec<Source>,
-    probes: Probes,
+    probes: Probes<D>,
     coefficients: Coefficients,
     balances_energy: bool,
     is_unsteady: bool,
@@ -38,19 +38,23 @@ pub(super) struct Measured {
     pub values: Vec<f64>,
 }
 
-impl Measure {
-    /// Finds the probes in the mesh and names the quantities.
+impl<const D: usize> Measure<D> {
+    /// Finds the probes in the mesh, or in its images by these shifts (m), and names the quantities.
     ///
     /// # Errors
     /// When a probe is not in the fluid.
-    pub(super) fn new(model: &Model, mesh: &Mesh<2>) -> Result<Self, RunError> {
+    pub(super) fn new(
+        model: &Model,
+        mesh: &Mesh<D>,
+        images: &[Point<D>],
+    ) -> Result<Self, RunError> {
         let case = &model.case;
         let (names, sources) =
             columns(model).into_iter().map(|Column { name, source }| (name, source)).unzip();
         Ok(Self {
             names,
             sources,
-            probes: Probes::in_fluid(case, mesh)?,
+            probes: Probes::in_fluid(case, mesh, images)?,
             coefficients: Coefficients::of(case),
             balances_energy: model.balances_energy(),
             is_unsteady: matches!(case.time, TimeSettings::Unsteady(_)),
@@ -58,8 +62,8 @@ impl Measure {
     }
 
     /// Finds the probes in a mesh that has moved, seen from the frame.
-    pub(super) fn find_probes(&mut self, case: &Case, mesh: &Mesh<2>) {
-        self.probes = Probes::find(case, mesh);
+    pub(super) fn find_probes(&mut self, case: &Case, mesh: &Mesh<D>, images: &[Point<D>]) {
+        self.probes = Probes::find(case, mesh, images);
     }
 
     pub(super) fn names(&self) -> &[String] {
@@ -73,12 +77,16 @@ impl Measure {
     pub(super) fn measure(
         &mut self,
         case: &Case,
-        simulation: &mut Simulation<2>,
+        simulation: &mut Simulation<D>,
         loads: &[BodyLoads],
     ) -> Result<Measured, RunError> {
-        if simulation.moving_mesh.is_some() && !self.probes.is_empty() {
-            let seen = simulation.state.mesh_in_frame();
-            simulation.work.timing.measure(Stage::Loads, || self.find_probes(case, &seen));
+        let Simulation { state, work, moving_mesh, .. } = simulation;
+        if let Some(moving) = moving_mesh.as_ref().filter(|_| !self.probes.is_empty()) {
+            let seen = state.mesh_in_frame();
+            work.timing.measure(Stage::Loads, || {
+                let images = moving.scene().images([&seen, &seen]);
+                self.find_probes(case, &seen, &images);
+            });
         }
         let mut timing = simulation.work.timing;
         let measured = timing.measure(Stage::Loads, || self.values(simulation, loads));
@@ -88,7 +96,7 @@ impl Measure {
 
     fn values(
         &self,
-        simulation: &mut Simulation<2>,
+        simulation: &mut Simulation<D>,
         loads: &[BodyLoads],
     ) -> Result<Measured, RunError> {
         let bodies = body_reports(simulation, loads);

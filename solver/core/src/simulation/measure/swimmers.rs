@@ -22,9 +22,9 @@ pub(super) struct SwimmerMeasurement {
 }
 
 impl SwimmerMeasurement {
-    pub(super) fn new(
-        problem: &Problem<2>,
-        state: &State<2>,
+    pub(super) fn new<const D: usize>(
+        problem: &Problem<D>,
+        state: &State<D>,
         group: &Group,
         history: &PropulsionHistory,
         loads: &[BodyLoads],

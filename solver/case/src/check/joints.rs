@@ -1,0 +1,246 @@
+//! Problems of `[[joint]]`: ends, trees, poses at the start, and numbers of strokes.
+
+use std::f64::consts::TAU;
+
+use super::Findings;
+use crate::joint::{PlanarPose, child_pose};
+use crate::{Geometry, Hinge, Joint, JointKind, Model, Motion, Stroke};
+
+/// Distance between a child and where its joint puts it, over the size of the joint, that is taken
+/// for rounding.
+const ROUNDING: f64 = 1e-6;
+
+pub fn check(findings: &mut Findings<'_>) {
+    let model = findings.model();
+    let mut parents: Vec<Option<usize>> = vec![None; model.bodies.len()];
+    for (index, joint) in model.joints.iter().enumerate() {
+        let key = format!("joint.{index}");
+        let is_written = model.swimmer_of_joint(index).is_none();
+        if is_written {
+            stroke_of_joint(findings, &key, &joint.kind);
+        }
+        let Some(ends) = ends(findings, &key, joint) else { continue };
+        if parents[ends.child].is_some() || ends.parent == ends.child {
+            findings.error(
+                &format!("{key}.child"),
+                format!("\"{}\" hangs on two bodies, or on itself", joint.child),
+                "bodies make trees: a body hangs on one other body at most",
+            );
+            continue;
+        }
+        parents[ends.child] = Some(ends.parent);
+        if is_written {
+            motion_of_child(findings, &key, joint, ends);
+            pose_of_child(findings, &key, joint, ends);
+        }
+    }
+    if has_circle(&parents) {
+        findings.error(
+            "joint",
+            "the joints make a circle".to_owned(),
+            "bodies make trees: one of them must hang on nothing",
+        );
+    }
+    if findings.case().geometry == Geometry::Axisymmetric {
+        along_the_axis(findings);
+    }
+}
+
+/// Indices of the bodies a joint is between.
+#[derive(Clone, Copy)]
+struct Ends {
+    parent: usize,
+    child: usize,
+}
+
+fn ends(findings: &mut Findings<'_>, key: &str, joint: &Joint) -> Option<Ends> {
+    let model = findings.model();
+    let mut end = |what: &str, name: &str| {
+        let body = model.body_index(name);
+        if body.is_none() {
+            let names: Vec<&str> = model.bodies.iter().map(|body| body.name.as_str()).collect();
+            findings.error(
+                &format!("{key}.{what}"),
+                format!("`{what}` is \"{name}\", but no body has that name"),
+                &crate::deserialize::suggestion(name, &names),
+            );
+        }
+        body
+    };
+    let (parent, child) = (end("parent", &joint.parent), end("child", &joint.child));
+    Some(Ends { parent: parent?, child: child? })
+}
+
+fn motion_of_child(findings: &mut Findings<'_>, key: &str, joint: &Joint, ends: Ends) {
+    if findings.model().bodies[ends.child].motion != Motion::Free {
+        findings.error(
+            &format!("{key}.child"),
+            format!(
+                "\"{}\" hangs on \"{}\", and cannot be held or moved besides",
+                joint.child, joint.parent
+            ),
+            "write motion = \"free\" for it; the body all others hang on may be held or moved",
+        );
+    }
+}
+
+/// The child starts where the joint puts it.
+fn pose_of_child(findings: &mut Findings<'_>, key: &str, joint: &Joint, ends: Ends) {
+    let [parent, found] = [ends.parent, ends.child].map(|body| start(findings.model(), body));
+    // A free pivot may start at any angle: that of the bodies
+    let kind = match &joint.kind {
+        JointKind::Hinge(hinge) => {
+            JointKind::Hinge(Hinge { rest: found.angle - parent.angle, ..hinge.clone() })
+        }
+        kind => kind.clone(),
+    };
+    let wanted = child_pose(parent, joint.on_parent, joint.on_child, &kind, 0.0);
+    let size = (wanted.center - parent.center).norm();
+    let off = (wanted.center - found.center).norm();
+    if off > ROUNDING * size {
+        findings.error(
+            &format!("{key}.child"),
+            format!(
+                "the joint puts \"{}\" at [{}, {}] at time 0, not at [{}, {}]",
+                joint.child, wanted.center.x, wanted.center.y, found.center.x, found.center.y
+            ),
+            &format!("write center = [{}, {}] for it", wanted.center.x, wanted.center.y),
+        );
+    }
+    let turned = (wanted.angle - found.angle + TAU / 2.0).rem_euclid(TAU) - TAU / 2.0;
+    if matches!(joint.kind, JointKind::Bent { .. }) && turned.abs() > ROUNDING {
+        findings.error(
+            &format!("{key}.child"),
+            format!(
+                "the joint turns \"{}\" to {} at time 0, not to {}",
+                joint.child, wanted.angle, found.angle
+            ),
+            &format!("write angle = {} for it", wanted.angle),
+        );
+    }
+}
+
+/// Pose in which a body starts.
+fn start(model: &Model, body: usize) -> PlanarPose {
+    let body = &model.bodies[body];
+    let at = |axis: usize| body.center.get(axis).copied().unwrap_or(0.0);
+    PlanarPose { center: [at(0), at(1)].into(), angle: body.angle }
+}
+
+/// Whether a body is among those it hangs on.
+fn has_circle(parents: &[Option<usize>]) -> bool {
+    // Known to lead to a body that hangs on nothing
+    let mut is_safe = vec![false; parents.len()];
+    (0..parents.len()).any(|start| {
+        let mut path = Vec::new();
+        let mut above = Some(start);
+        while let Some(body) = above.filter(|body| !is_safe[*body]) {
+            if path.len() == parents.len() {
+                return true;
+            }
+            path.push(body);
+            above = parents[body];
+        }
+        for body in path {
+            is_safe[body] = true;
+        }
+        false
+    })
+}
+
+/// Axisymmetric bodies hang on arms along the axis.
+fn along_the_axis(findings: &mut Findings<'_>) {
+    for (index, joint) in findings.model().joints.iter().enumerate() {
+        let is_along = match &joint.kind {
+            JointKind::Arm { direction, .. } => direction.sin().abs() < 1e-9,
+            JointKind::Bent { .. } | JointKind::Hinge(_) => false,
+        };
+        if !is_along || joint.on_parent[1] != 0.0 || joint.on_child[1] != 0.0 {
+            findings.error(
+                &format!("joint.{index}.kind"),
+                format!("the joint of \"{}\" leaves the axis", joint.child),
+                "axisymmetric bodies hang on arms along the axis: direction = 0.0 or \
+                 3.141592653589793",
+            );
+        }
+    }
+}
+
+fn stroke_of_joint(findings: &mut Findings<'_>, key: &str, kind: &JointKind) {
+    match kind {
+        JointKind::Arm { length, .. } => {
+            stroke(findings, &format!("{key}.kind.arm.length"), length);
+            arm(findings, &format!("{key}.kind.arm.length"), length);
+        }
+        JointKind::Bent { angle } => stroke(findings, &format!("{key}.kind.bent.angle"), angle),
+        JointKind::Hinge(one) => hinge(findings, &format!("{key}.kind.hinge"), one),
+    }
+}
+
+/// Numbers of a free pivot.
+pub(super) fn hinge(findings: &mut Findings<'_>, key: &str, hinge: &Hinge) {
+    findings.not_negative(&format!("{key}.stiffness"), hinge.stiffness);
+    findings.not_negative(&format!("{key}.damping"), hinge.damping);
+    if let Some(torque) = &hinge.torque {
+        stroke(findings, &format!("{key}.torque"), torque);
+    }
+}
+
+/// An arm has a positive length at all times.
+pub(super) fn arm(findings: &mut Findings<'_>, key: &str, length: &Stroke) {
+    let [least, _] = length.range();
+    if least <= 0.0 {
+        findings.error(
+            key,
+            format!("the arm is as short as {least}"),
+            "its length must be positive at all times",
+        );
+    }
+}
+
+/// Numbers of a stroke.
+pub(super) fn stroke(findings: &mut Findings<'_>, key: &str, stroke: &Stroke) {
+    match stroke {
+        Stroke::Constant(_) => {}
+        Stroke::Sine { period, ramp, .. } => {
+            findings.positive(&format!("{key}.sine.period"), *period);
+            findings.not_negative(&format!("{key}.sine.ramp"), *ramp);
+        }
+        Stroke::Legs { knots, period, .. } => {
+            findings.positive(&format!("{key}.legs.period"), *period);
+            let is_rising = knots.windows(2).all(|pair| pair[1][0] > pair[0][0]);
+            let is_inside = knots.first().is_some_and(|knot| knot[0] == 0.0)
+                && knots.last().is_some_and(|knot| knot[0] < *period);
+            if !is_rising || !is_inside {
+                findings.error(
+                    &format!("{key}.legs.knots"),
+                    "the times of the knots must rise from 0 to below the period".to_owned(),
+                    "write knots = [[0.0, v0], [t1, v1], ...]; at the period the value is v0 again",
+                );
+            }
+        }
+        Stroke::Table(knots) => {
+            let is_rising = knots.windows(2).all(|pair| pair[1][0] > pair[0][0]);
+            if knots.is_empty() || !is_rising {
+                findings.error(
+                    &format!("{key}.table"),
+                    "the times of a table must rise from knot to knot".to_owned(),
+                    "write table = [[t0, v0], [t1, v1], ...] with t0 < t1 < ...",
+                );
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::has_circle;
+
+    #[test]
+    fn circles_are_told_from_trees() {
+        assert!(!has_circle(&[None, Some(0), Some(1), Some(1), None]));
+        assert!(!has_circle(&[Some(1), Some(2), Some(3), None]));
+        assert!(has_circle(&[None, Some(2), Some(3), Some(1)]));
+        assert!(has_circle(&[Some(1), Some(0)]));
+    }
+}
