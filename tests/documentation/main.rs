@@ -1,4 +1,4 @@
-//! The user's pages agree with the program: keys, quantities, examples, and the table of cases.
+//! The pages agree with the program: keys, quantities, examples, names, files, and the table of cases.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
