@@ -1,4 +1,4 @@
-//! The user's pages agree with the program: keys, quantities, examples, and the table of cases.
+//! The pages agree with the program: keys, quantities, examples, names, files, and the table of cases.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -160,20 +160,30 @@ fn all_sources() -> impl Iterator<Item = PathBuf> {
 }
 
 #[test]
-fn every_file_the_architecture_names_exists() {
-    let page = text("docs/architecture.md");
-    let prose = page.split("<!-- map: begin -->").next().unwrap_or_default();
+fn every_source_file_a_page_names_exists() {
+    // A page may leave out the folder of the crate
     let short = |path: &str| path.replace("/src/", "/");
-    let files: Vec<String> = all_sources().map(|path| short(&path.display().to_string())).collect();
-    let named = |term: &&String| term.ends_with(".rs") || term.contains("/src/");
-    let terms = terms(prose);
-    let missing: Vec<&String> = terms
+    let folders = ["mesh", "solver", "tests"].map(|folder| root().join(folder));
+    let files: Vec<String> = folders
         .iter()
-        .filter(named)
-        .filter(|term| !files.iter().any(|file| file.contains(&format!("/{}", short(term)))))
+        .flat_map(|folder| sources(folder))
+        .map(|path| short(&path.display().to_string()))
         .collect();
-    assert!(terms.iter().filter(named).count() > 50, "{terms:?}");
-    assert!(missing.is_empty(), "docs/architecture.md names {missing:?}, which do not exist");
+    let (mut named, mut missing) = (0, Vec::new());
+    for page in ["CONTRIBUTING.md", "architecture", "method", "notation", "output", "performance"] {
+        let file = if page.ends_with(".md") { page.to_owned() } else { format!("docs/{page}.md") };
+        let page = text(&file);
+        for term in terms(page.split("<!-- map: begin -->").next().unwrap_or_default()) {
+            if term.ends_with(".rs") || term.contains("/src/") {
+                named += 1;
+                if !files.iter().any(|file| file.contains(&format!("/{}", short(&term)))) {
+                    missing.push(format!("{file}: {term}"));
+                }
+            }
+        }
+    }
+    assert!(named > 50, "{named} files are named");
+    assert!(missing.is_empty(), "these files do not exist: {missing:?}");
 }
 
 #[test]

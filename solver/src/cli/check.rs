@@ -279,7 +279,7 @@ fn n_systems(model: &Model) -> f64 {
 fn costs(model: &Model, mesh: &Mesh<2>) -> String {
     let n_dofs = (2 * mesh.n_nodes() + mesh.n_vertices) as f64;
     let memory = memory_estimate(2 * mesh.n_nodes() + mesh.n_vertices);
-    // Measured on planar runs with 1.1 10^4 to 2 10^5 unknowns, on one core, every system factorised.
+    // Measured on planar runs with 1.1 10^4 to 2 10^5 unknowns on one core, all systems factorised.
     let factorisation = 0.0095 * (n_dofs / 1e4).powf(1.4);
     // What follows the bodies: the mesh, its quality, contact, measurements, remeshing.
     let following = if model.mesh_moves() { 0.5 } else { 0.0 };

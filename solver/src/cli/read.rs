@@ -9,7 +9,8 @@ use crate::case::{CaseFile, Diagnostic, Severity};
 /// Keys set on the command line.
 #[derive(Debug, Clone, Args)]
 pub struct Settings {
-    /// Set a key of the case, such as mesh.scale=0.5 or body.0.gait.squirmer.modes.1=3; repeat at will
+    /// Set a key of the case, such as mesh.scale=0.5 or body.0.gait.squirmer.modes.1=3; repeat at
+    /// will
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub set: Vec<String>,
 }

@@ -1,4 +1,4 @@
-//! A finished run read back from its directory, to be compared again without being made again.
+//! A finished run read back from its directory, to be compared again without being run again.
 
 use std::io;
 use std::path::Path;

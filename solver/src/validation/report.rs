@@ -199,15 +199,16 @@ pub fn comparisons_to_json(comparisons: &[Comparison]) -> Value {
 pub fn comparison_page(comparisons: &[Comparison]) -> String {
     let n_within = comparisons.iter().filter(|row| row.verdict == Verdict::Within).count();
     let mut page = format!(
-        "# Validation\n\nWritten by `alewife validate --markdown` of version {}; not edited by hand. \
-         {n_within} of {} values are within their tolerance.\n",
+        "# Validation\n\nWritten by `alewife validate --markdown` of version {}; not edited by \
+         hand. {n_within} of {} values are within their tolerance.\n",
         env!("CARGO_PKG_VERSION"),
         comparisons.len()
     );
     let case_of = |row: &Comparison| row.case.split('/').next().unwrap_or_default().to_owned();
     for rows in comparisons.chunk_by(|one, other| case_of(one) == case_of(other)) {
         page += &format!("\n## {}\n\n", case_of(&rows[0]));
-        page += "| variant | quantity | computed | published | difference | tolerance | verdict | unknowns | CPU (s) |\n";
+        page += "| variant | quantity | computed | published | difference | tolerance | verdict \
+                 | unknowns | CPU (s) |\n";
         page += "|---|---|---|---|---|---|---|---|---|\n";
         for row in rows {
             let [case, quantity, computed, published, difference, tolerance, verdict] = row.cells();

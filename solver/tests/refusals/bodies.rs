@@ -58,7 +58,7 @@ fn bodies_move_through_the_mesh() {
     );
     assert_refused(
         &check(&with_contact, &["--set", "time.steady={}"]),
-        &["a steady solution knows no contact", "wrong.toml:26:2", "march in time"],
+        &["a steady solution knows no contact", "wrong.toml:26:2", "use [time.unsteady]"],
     );
 }
 

@@ -82,7 +82,7 @@ pub fn check(findings: &mut Findings<'_>) {
     }
 }
 
-/// When a mesh that moves is made anew.
+/// When a mesh that moves is replaced.
 fn check_moving(findings: &mut Findings<'_>) {
     let case = findings.case();
     let (moving, gap_layers) = (case.mesh.moving, case.mesh.gap_layers);
@@ -95,7 +95,7 @@ fn check_moving(findings: &mut Findings<'_>) {
         );
     }
     // Both as written: the scale of the mesh makes gaps coarser than they were meant to be, which
-    // is no reason to refuse them. A mesh with few layers is made anew once it has lost some.
+    // is no reason to refuse them. A mesh with few layers is replaced once it has lost some.
     if moving.layers < 1.0 {
         findings.error(
             "mesh.moving.layers",
@@ -106,7 +106,7 @@ fn check_moving(findings: &mut Findings<'_>) {
         findings.error(
             "mesh.moving.layers",
             format!(
-                "a new mesh is made below {} layers across a gap, but has only {gap_layers} itself",
+                "the domain is remeshed below {} layers across a gap, but a new mesh has {gap_layers}",
                 moving.layers
             ),
             &format!("write at most mesh.gap_layers = {gap_layers}, or raise that"),

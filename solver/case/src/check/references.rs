@@ -159,7 +159,7 @@ fn check_statistic(
         findings.error(
             &statistic,
             format!("a steady solution has no {lacking}"),
-            "solve in time with [time.unsteady], or take the statistic \"final\"",
+            "use [time.unsteady], or take the statistic \"final\"",
         );
     }
     if reference.statistic == Strouhal && case.scales.is_none() {

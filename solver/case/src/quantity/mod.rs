@@ -199,3 +199,71 @@ pub(crate) fn conditions_of(name: &str) -> Vec<When> {
     found.extend(of(SwimmerQuantity::TABLE, name));
     found
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Case;
+
+    fn names(setting: &[&str]) -> Vec<String> {
+        let text = r#"
+            title = "all quantities"
+            geometry = "planar"
+            fluid = { model = "stokes", viscosity = 1.0, density = 1.0 }
+            domain.box = { min = [-4.0, -4.0], max = [4.0, 4.0] }
+            boundary = { left = "no-slip", right = "no-slip", bottom = "no-slip", top = "no-slip" }
+            mesh = { size = 0.5 }
+            time.unsteady = { step = 0.1, end = 1.0 }
+            probe = [{ name = "point", point = [1.0, 1.0] }]
+            [[swimmer]]
+            name = "pair"
+            center = [0.0, 0.0]
+            resistance = 2.0
+            [swimmer.kind.linked-spheres]
+            radii = [0.2, 0.2]
+            arms = [{ sine = { mean = 1.0, amplitude = 0.2, period = 1.0 } }]
+        "#;
+        let settings: Vec<String> = setting.iter().map(|&setting| setting.to_owned()).collect();
+        known_quantities(&Case::parse("all.toml", text, &settings).unwrap().model)
+    }
+
+    #[test]
+    fn columns_are_named_and_ordered_as_before() {
+        let body = "x y angle velocity.x velocity.y angular_velocity acceleration.x \
+                    acceleration.y force.x force.y torque surface_force.x surface_force.y \
+                    surface_torque power";
+        let of = |owner: &str, names: &str| -> Vec<String> {
+            names.split_whitespace().map(|name| format!("{owner}.{name}")).collect()
+        };
+        let arm = "joint.length joint.rate joint.force joint.power";
+        let group = "x y angle velocity.x velocity.y angular_velocity force.x force.y torque power \
+                     shape_power spent_power thrust drag";
+        let cycle = "cycle.x cycle.y cycle.angle cycle.speed cycle.power cycle.cost_of_transport \
+                     cycle.efficiency cycle.drift cycle.lighthill_efficiency";
+        let flow = "dissipation kinetic_energy mass_defect energy_defect";
+        let expected = [
+            of("pair-1", body),
+            of("pair-2", body),
+            of("pair-2", arm),
+            of("pair", group),
+            of("pair", cycle),
+            of("point", "velocity.x velocity.y pressure"),
+            of("flow", flow),
+            of("flow", "least_gap cells remeshes"),
+        ];
+        assert_eq!(names(&[]), expected.concat());
+
+        let coefficients = "drag_coefficient lift_coefficient moment_coefficient";
+        let contact = "contact_force.x contact_force.y contact_torque";
+        let loaded = names(&[
+            "scales={ length=1.0, velocity=1.0 }",
+            "contact.barrier={ range=0.1, stiffness=1.0 }",
+        ]);
+        let expected = [of("pair-1", body), of("pair-1", coefficients), of("pair-1", contact)];
+        assert_eq!(loaded[..21], expected.concat());
+
+        let steady = names(&["time.steady={}"]);
+        assert!(!steady.iter().any(|name| name.contains(".cycle.") || name.contains("least_gap")));
+        assert!(steady.contains(&"pair.lighthill_efficiency".to_owned()), "{steady:?}");
+    }
+}

@@ -72,8 +72,8 @@ quantities! {
         Length: "joint.length", "m", Arm, "Length of the arm";
         Rate: "joint.rate", "rad/s or m/s", Always, "Rate of the angle or length";
         Torque: "joint.torque", "N m (N)", Pivot,
-            "Torque of the joint on the child, the opposite on the parent: what a motor there would \
-             need; at a hinge that of spring, damper and motor together";
+            "Torque of the joint on the child, the opposite on the parent: what a motor there \
+             would need; at a hinge that of spring, damper and motor together";
         Force: "joint.force", "N (N/m)", Arm,
             "Force of the arm on the child along it, the opposite on the parent";
         Power: "joint.power", "W (W/m)", Always,
@@ -102,8 +102,8 @@ quantities! {
              mean rigid motion";
         ExpendedPower: "spent_power", "W (W/m)", Always,
             "Expended power, without recovery: the same without those parts of the surface where \
-             the fluid does work on the body; by integrating the stress, so on coarse meshes it may \
-             come out below `shape_power`";
+             the fluid does work on the body; by integrating the stress, so on coarse meshes it \
+             may come out below `shape_power`";
         Thrust: "thrust", "N (N/m)", Always,
             "Force on the surface along the velocity of the centre of mass, positive; by \
              integrating the stress";
@@ -111,9 +111,11 @@ quantities! {
             "Force on the surface against the velocity of the centre of mass, positive; by \
              integrating the stress";
         CycleX: "cycle.x", "m", Cycles,
-            "Displacement of the centre of mass over the last cycle; NaN before the first has ended";
+            "Displacement of the centre of mass over the last cycle; NaN before the first one \
+             ends";
         CycleY: "cycle.y", "m", Cycles,
-            "Displacement of the centre of mass over the last cycle; NaN before the first has ended";
+            "Displacement of the centre of mass over the last cycle; NaN before the first one \
+             ends";
         CycleAngle: "cycle.angle", "rad", Cycles, "Rotation over the last cycle";
         CycleSpeed: "cycle.speed", "m/s", Cycles, "Length of that displacement over the period";
         CyclePower: "cycle.power", "W (W/m)", Cycles, "Mean of `power` over the last cycle";

@@ -28,8 +28,8 @@ pub enum StatisticError {
     },
     /// The series does not repeat itself often enough.
     #[error(
-        "`{quantity}` crosses its mean upwards {crossings} times in the window; a period takes two: \
-         run longer or widen statistics.window"
+        "`{quantity}` crosses its mean upwards {crossings} times in the window; a period takes \
+         two: run longer or widen statistics.window"
     )]
     NoPeriod {
         /// Name of the series.
@@ -39,7 +39,8 @@ pub enum StatisticError {
     },
     /// The series stays on one side of a level.
     #[error(
-        "`{quantity}` does not reach {level} in the window: it goes from {lowest} to {highest} there"
+        "`{quantity}` does not reach {level} in the window: it goes from {lowest} to {highest} \
+         there"
     )]
     NotReached {
         /// Name of the series.
