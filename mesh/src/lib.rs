@@ -21,6 +21,7 @@ mod surface;
 mod test_meshes;
 mod vtu;
 
+pub use box_tree::{Bounds, BoxTree};
 pub use check::check_mesh;
 pub use curved::{CellMap, CellNodes, jacobian_coefficients, map_quadratic, shape_functions};
 pub use error::MeshError;

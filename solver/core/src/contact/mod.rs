@@ -5,9 +5,11 @@
 //! contact and its correction know bodies by pose and rigid motions only, whatever the dimension.
 //! The fluid enters through the mobility of the bodies.
 
+mod broad_phase;
 mod correction;
 mod curvature;
 mod direction;
+mod encounter;
 mod error;
 mod gaps;
 mod implicit;

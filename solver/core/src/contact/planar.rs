@@ -2,15 +2,17 @@
 
 use std::collections::HashSet;
 
-use alewife_mesh::{
-    Closest, Domain, Outline, PlacedShape, Point, Wall, closest, closest_features, closest_to_wall,
-    on_meridian, thickness, wall_features,
-};
+use alewife_mesh::{Domain, Outline, PlacedShape, Point, Wall, on_meridian, thickness};
 use nalgebra::{Rotation2, Vector3};
 
+use super::broad_phase::{BroadPhase, Circle};
+use super::encounter::{Encounter, Surface};
 use super::pair::blend_weights;
 use super::{ContactError, ContactPair, Curvatures, Gaps, MinimumGap, Partner};
 use crate::body::{Modes, Pose};
+
+/// Bodies up to which all gaps are looked at to find the smallest one.
+const FEW_BODIES: usize = 16;
 
 /// A body's outline in its own frame.
 #[derive(Debug, Clone)]
@@ -125,17 +127,69 @@ impl PlanarGaps {
         self.joined.contains(&[body, other])
     }
 
-    /// Appends the pairs of points of a body and its partner; `away` leads from the partner to the
-    /// image of it that was met (m).
+    /// For each body those from it on that may be nearer than `range` (m), itself among them.
+    fn neighbours(&self, outlines: &[Outline], range: f64) -> Vec<Vec<usize>> {
+        let circle =
+            |outline: &Outline| Circle { center: outline.center(), radius: outline.reach() };
+        let phase = BroadPhase::new(outlines.iter().map(circle).collect(), self.periods);
+        (0..outlines.len()).map(|body| phase.neighbours(body, range)).collect()
+    }
+
+    /// Visits each body with its neighbours, which are given, and then with the walls.
+    fn for_each_encounter(
+        &self,
+        poses: &[Pose],
+        outlines: &[Outline],
+        neighbours: &[Vec<usize>],
+        mut visit: impl FnMut(&Encounter<'_>),
+    ) {
+        for (body, outline) in outlines.iter().enumerate() {
+            for &other in neighbours[body].iter().filter(|other| !self.are_joined(body, **other)) {
+                let partner = Partner::Body(other);
+                for away in self.images(poses, body, other) {
+                    let surface =
+                        Surface::Outline(self.bodies[other].outline_at(&poses[other], away));
+                    visit(&Encounter { body, outline, partner, away, surface });
+                }
+            }
+            for WallSide { side, wall, .. } in &self.walls {
+                let (partner, away) = (Partner::Wall(*side), Point::<2>::zeros());
+                visit(&Encounter { body, outline, partner, away, surface: Surface::Wall(wall) });
+            }
+        }
+    }
+
+    /// The smallest gap, those between bodies farther apart than `range` (m) left out.
+    fn minimum_gap_within(
+        &self,
+        poses: &[Pose],
+        outlines: &[Outline],
+        range: f64,
+    ) -> Option<MinimumGap> {
+        let neighbours = self.neighbours(outlines, range);
+        let mut least: Option<MinimumGap> = None;
+        self.for_each_encounter(poses, outlines, &neighbours, |met| {
+            if least.is_some_and(|least| least.gap <= met.gap_bound()) {
+                return;
+            }
+            let gap = met.gap();
+            if least.is_none_or(|least| gap < least.gap) {
+                least = Some(MinimumGap { body: met.body, partner: met.partner, gap });
+            }
+        });
+        least
+    }
+
+    /// Appends the close pairs of points of a body and its partner with gaps below `range` (m).
     fn append(
         &self,
         pairs: &mut Vec<ContactPair>,
         poses: &[Pose],
-        found: &Encounter,
-        points: Vec<Closest>,
+        met: &Encounter<'_>,
         range: f64,
     ) {
-        let Encounter { body, partner, away } = *found;
+        let Encounter { body, partner, away, .. } = *met;
+        let points = met.features(range);
         let points = if self.is_axisymmetric { on_meridian(points) } else { points };
         let mut size = self.bodies[body].outline.reach();
         if let Partner::Body(other) = partner {
@@ -161,14 +215,6 @@ impl PlanarGaps {
         }));
         blend_weights(&mut pairs[first..], size, range);
     }
-}
-
-/// A body and what it may meet.
-struct Encounter {
-    body: usize,
-    partner: Partner,
-    /// From the partner to the image of it that is met (m).
-    away: Point<2>,
 }
 
 impl Gaps for PlanarGaps {
@@ -201,60 +247,26 @@ impl Gaps for PlanarGaps {
     /// Order: bodies, then images, then the first outline's parameter; walls of a body last.
     fn pairs(&self, poses: &[Pose], range: f64) -> Vec<ContactPair> {
         let outlines = self.outlines(poses);
+        let neighbours = self.neighbours(&outlines, range);
         let mut pairs = Vec::new();
-        for (body, outline) in outlines.iter().enumerate() {
-            for other in body..outlines.len() {
-                if self.are_joined(body, other) {
-                    continue;
-                }
-                for away in self.images(poses, body, other) {
-                    let image = self.bodies[other].outline_at(&poses[other], away);
-                    let points = closest_features(outline, &image, range);
-                    let met = Encounter { body, partner: Partner::Body(other), away };
-                    self.append(&mut pairs, poses, &met, points, range);
-                }
-            }
-            for WallSide { side, wall, .. } in &self.walls {
-                let points = wall_features(outline, wall, range);
-                let away = Point::<2>::zeros();
-                let met = Encounter { body, partner: Partner::Wall(*side), away };
-                self.append(&mut pairs, poses, &met, points, range);
-            }
-        }
+        self.for_each_encounter(poses, &outlines, &neighbours, |met| {
+            self.append(&mut pairs, poses, met, range);
+        });
         pairs
     }
 
     fn minimum_gap(&self, poses: &[Pose]) -> Option<MinimumGap> {
         let outlines = self.outlines(poses);
-        let mut least: Option<MinimumGap> = None;
-        let mut offer = |body: usize, partner: Partner, bound: f64, gap: &dyn Fn() -> f64| {
-            if least.is_some_and(|least| least.gap <= bound) {
-                return;
-            }
-            let gap = gap();
-            if least.is_none_or(|least| gap < least.gap) {
-                least = Some(MinimumGap { body, partner, gap });
-            }
-        };
-        for (body, outline) in outlines.iter().enumerate() {
-            for other in body..outlines.len() {
-                if self.are_joined(body, other) {
-                    continue;
-                }
-                for away in self.images(poses, body, other) {
-                    let image = self.bodies[other].outline_at(&poses[other], away);
-                    let bound = outline.least_gap(image.center()) - image.reach();
-                    let gap = || closest(outline, &image).gap;
-                    offer(body, Partner::Body(other), bound, &gap);
-                }
-            }
-            for WallSide { side, wall, .. } in &self.walls {
-                let bound = wall.gap(outline.center()) - outline.reach();
-                let gap = || closest_to_wall(outline, wall).gap;
-                offer(body, Partner::Wall(*side), bound, &gap);
+        let smallest = self.bodies.iter().map(|body| body.reach).fold(f64::INFINITY, f64::min);
+        let near = if outlines.len() > FEW_BODIES { smallest } else { f64::INFINITY };
+        // No gap beyond the range is below one within it
+        for range in [near, 4.0 * near, 16.0 * near] {
+            let least = self.minimum_gap_within(poses, &outlines, range);
+            if least.is_some_and(|least| least.gap <= range) {
+                return least;
             }
         }
-        least
+        self.minimum_gap_within(poses, &outlines, f64::INFINITY)
     }
 
     /// Half the thickness of the thinner body; walls are half planes, which cannot be crossed.
@@ -262,9 +274,15 @@ impl Gaps for PlanarGaps {
         let bounds: Vec<f64> = (0..self.n_bodies())
             .map(|body| self.displacement_bound(body, &from[body], &to[body]))
             .collect();
+        let circle = |body: usize| Circle {
+            center: center(&from[body]),
+            radius: self.bodies[body].reach + bounds[body],
+        };
+        let circles = (0..self.n_bodies()).map(circle).collect();
+        let phase = BroadPhase::new(circles, self.periods);
         let mut fraction = 1.0f64;
         for body in 0..self.n_bodies() {
-            for other in body..self.n_bodies() {
+            for other in phase.neighbours(body, 0.0) {
                 let (one, two) = (&self.bodies[body], &self.bodies[other]);
                 let both = bounds[body] + bounds[other];
                 let near = self.images(from, body, other).into_iter().any(|away| {
@@ -296,3 +314,6 @@ fn center(pose: &Pose) -> Point<2> {
 fn in_space(vector: Point<2>) -> Vector3<f64> {
     Vector3::new(vector.x, vector.y, 0.0)
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,112 @@
+//! Pairs of bodies and smallest gaps against a search of all pairs.
+
+use alewife_mesh::Shape;
+
+use super::*;
+
+/// Numbers in [0, 1) without a pattern, by the golden ratio.
+fn scattered(nth: usize) -> f64 {
+    (nth as f64 * 0.618_033_988_749).fract()
+}
+
+/// Bodies of several shapes that lie in a square of the side `size` (m), and beside it.
+fn crowd(n: usize, size: f64) -> (Vec<PlacedShape>, Vec<Pose>) {
+    let triangle = vec![[0.5, 0.1], [-0.3, 0.6], [-0.4, -0.4]];
+    let shape = |nth: usize| match nth % 4 {
+        0 => Shape::Ellipse { semi_axes: [0.6, 0.2] },
+        1 => Shape::Spline { points: triangle.clone() },
+        _ => Shape::Disc { radius: 0.1 + 0.3 * scattered(11 * nth) },
+    };
+    let body = |nth: usize| PlacedShape {
+        name: nth.to_string(),
+        shape: shape(nth),
+        center: Point::<2>::zeros(),
+        angle: 0.0,
+        size: None,
+    };
+    let pose = |nth: usize| {
+        let [x, y] = [scattered(nth), scattered(7 * nth + 3)];
+        Pose::planar(1.2 * size * x, size * y, 4.0 * x)
+    };
+    ((0..n).map(body).collect(), (0..n).map(pose).collect())
+}
+
+fn box_of(size: f64, periodic_x: bool, periodic_y: bool) -> Domain {
+    let (min, max) = (Point::<2>::zeros(), Point::<2>::repeat(size));
+    Domain::Box { min, max, periodic_x, periodic_y }
+}
+
+#[test]
+fn pairs_and_the_smallest_gap_are_those_found_among_all_bodies() {
+    let size = 14.0;
+    let (bodies, poses) = crowd(80, size);
+    for (periodic_x, periodic_y, walls) in
+        [(false, false, vec![0, 1, 2, 3]), (true, false, vec![2, 3]), (true, true, vec![])]
+    {
+        let domain = box_of(size, periodic_x, periodic_y);
+        let joined = [[3, 5], [8, 7]].into_iter();
+        let gaps = PlanarGaps::new(&domain, &walls, &bodies).unwrap().with_joined(joined);
+        let outlines = gaps.outlines(&poses);
+        let all: Vec<Vec<usize>> = (0..80).map(|body| (body..80).collect()).collect();
+        for range in [0.05, 0.5] {
+            let mut pairs = Vec::new();
+            gaps.for_each_encounter(&poses, &outlines, &all, |met| {
+                gaps.append(&mut pairs, &poses, met, range);
+            });
+            assert!(pairs.len() > 20, "{}", pairs.len());
+            assert_eq!(gaps.pairs(&poses, range), pairs);
+        }
+        let least = gaps.minimum_gap_within(&poses, &outlines, f64::INFINITY);
+        assert_eq!(gaps.minimum_gap(&poses), least);
+    }
+}
+
+#[test]
+fn the_smallest_gap_is_found_between_bodies_far_apart() {
+    let disc = |nth: usize| PlacedShape {
+        name: nth.to_string(),
+        shape: Shape::Disc { radius: 1.0 },
+        center: Point::<2>::zeros(),
+        angle: 0.0,
+        size: None,
+    };
+    let n = FEW_BODIES + 4;
+    let bodies: Vec<PlacedShape> = (0..n).map(disc).collect();
+    for distance in [3.0, 8.0, 30.0, 300.0] {
+        let at = |nth: usize| distance * nth as f64 + f64::from(nth > 5);
+        let poses: Vec<Pose> = (0..n).map(|nth| Pose::planar(at(nth), 5.0, 0.0)).collect();
+        let gaps = PlanarGaps::new(&box_of(9.0, false, false), &[], &bodies).unwrap();
+        let least = gaps.minimum_gap(&poses).unwrap();
+        assert_eq!((least.body, least.partner), (0, Partner::Body(1)));
+        assert_eq!(least.gap, distance - 2.0);
+    }
+}
+
+#[test]
+fn the_bound_of_the_step_is_that_of_all_bodies() {
+    let (bodies, from) = crowd(60, 12.0);
+    let gaps = PlanarGaps::new(&box_of(12.0, true, true), &[], &bodies).unwrap();
+    let moved = |(nth, pose): (usize, &Pose)| {
+        let (x, y) = (pose.center.x, pose.center.y);
+        Pose::planar(x + 0.3 * scattered(nth), y, pose.angle())
+    };
+    let to: Vec<Pose> = from.iter().enumerate().map(moved).collect();
+    let mut fraction = 1.0f64;
+    for body in 0..60 {
+        for other in body..60 {
+            let [one, two] =
+                [body, other].map(|body| gaps.displacement_bound(body, &from[body], &to[body]));
+            let reach = gaps.reach(body) + gaps.reach(other) + one + two;
+            let near = gaps
+                .images(&from, body, other)
+                .into_iter()
+                .any(|away| (center(&from[body]) - center(&from[other]) - away).norm() < reach);
+            if near {
+                let thinner = gaps.bodies[body].thickness.min(gaps.bodies[other].thickness);
+                fraction = fraction.min(0.5 * thinner / (one + two));
+            }
+        }
+    }
+    assert!(fraction < 1.0);
+    assert_eq!(gaps.max_step_fraction(&from, &to), fraction);
+}
