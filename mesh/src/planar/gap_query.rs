@@ -1,6 +1,16 @@
 //! `GapQuery`: how far it is from a surface to the surfaces around it.
 
+use crate::surface::nearest_surface;
 use crate::{BoundaryKind, Domain, MeshError, Outline, PlacedShape, Point};
+
+/// A surface that faces a point of a boundary.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Facing {
+    /// Its boundary in the mesh.
+    pub boundary: usize,
+    /// Signed gap (m), negative where the surfaces overlap.
+    pub gap: f64,
+}
 
 /// The exact surfaces of a domain and its bodies in one configuration.
 #[derive(Debug, Clone)]
@@ -35,8 +45,7 @@ impl GapQuery {
     }
 
     /// The surface that faces a point (m) of boundary `boundary` of a mesh, of kind `kind`, if one
-    /// is nearer than `reach` (m): its boundary in the mesh and the signed gap (m), negative where
-    /// the surfaces overlap.
+    /// is nearer than `reach` (m).
     ///
     /// Bodies face the sides of the domain, each other and all their periodic images; sides face
     /// bodies. Periodic sides and the axis are no surfaces.
@@ -47,47 +56,21 @@ impl GapQuery {
         kind: BoundaryKind,
         point: Point<2>,
         reach: f64,
-    ) -> Option<(usize, f64)> {
+    ) -> Option<Facing> {
         let n_sides = self.domain.sides().len();
         let but = match kind {
             BoundaryKind::Body(body) => Some(body),
             BoundaryKind::Side if !self.domain.is_periodic(boundary) => None,
             BoundaryKind::Side | BoundaryKind::Axis => return None,
         };
-        let body = nearest_body(&self.outlines, &self.images, point, but, reach)
-            .map(|(body, gap)| (n_sides + body, gap));
+        let body = nearest_surface(&self.outlines, &self.images, point, but, reach)
+            .map(|near| Facing { boundary: n_sides + near.surface, gap: near.gap });
         let sides = (0..n_sides)
             .filter(|&side| but.is_some() && !self.domain.is_periodic(side))
-            .map(|side| (side, self.domain.side_gap(side, point)))
-            .filter(|(_, gap)| *gap < reach);
-        body.into_iter().chain(sides).min_by(|a, b| a.1.total_cmp(&b.1))
+            .map(|side| Facing { boundary: side, gap: self.domain.side_gap(side, point) })
+            .filter(|facing| facing.gap < reach);
+        body.into_iter().chain(sides).min_by(|a, b| a.gap.total_cmp(&b.gap))
     }
-}
-
-/// The nearest body within reach of a point and the signed gap to it (m), the images of all
-/// included and the body `but` itself left out.
-pub(crate) fn nearest_body(
-    outlines: &[Outline],
-    images: &[Point<2>],
-    point: Point<2>,
-    but: Option<usize>,
-    reach: f64,
-) -> Option<(usize, f64)> {
-    let mut nearest: Option<(usize, f64)> = None;
-    for (body, outline) in outlines.iter().enumerate() {
-        for (i, shift) in images.iter().enumerate() {
-            let is_other = i > 0 || but != Some(body);
-            let bound = nearest.map_or(reach, |(_, gap)| gap);
-            let image = point - shift;
-            if is_other && !outline.is_beyond(image, bound) && outline.least_gap(image) < bound {
-                let gap = outline.nearest(image).gap;
-                if gap < bound {
-                    nearest = Some((body, gap));
-                }
-            }
-        }
-    }
-    nearest
 }
 
 #[cfg(test)]
@@ -113,15 +96,21 @@ mod tests {
         let right = Point::<2>::new(3.5, 0.0);
         let of_b = BoundaryKind::Body(1);
         let mut walled = GapQuery::new(&domain(false), &bodies).unwrap();
-        assert_eq!(walled.facing(5, of_b, right, 9.0), Some((1, 0.5)));
+        assert_eq!(walled.facing(5, of_b, right, 9.0), Some(Facing { boundary: 1, gap: 0.5 }));
         assert_eq!(walled.facing(5, of_b, right, 0.4), None);
         // The image of a at 6.5 is 2 away, the walls at y = 3 and -3 are 3 away
         let periodic = GapQuery::new(&domain(true), &bodies).unwrap();
-        assert_eq!(periodic.facing(5, of_b, right, 9.0), Some((4, 2.0)));
+        assert_eq!(periodic.facing(5, of_b, right, 9.0), Some(Facing { boundary: 4, gap: 2.0 }));
         assert_eq!(periodic.facing(1, BoundaryKind::Side, right, 9.0), None);
         let below = Point::<2>::new(-1.5, -3.0);
-        assert_eq!(walled.facing(2, BoundaryKind::Side, below, 9.0), Some((4, 2.0)));
+        assert_eq!(
+            walled.facing(2, BoundaryKind::Side, below, 9.0),
+            Some(Facing { boundary: 4, gap: 2.0 })
+        );
         walled.place_body(0, Point::<2>::new(-1.5, -1.75), 0.0);
-        assert_eq!(walled.facing(2, BoundaryKind::Side, below, 9.0), Some((4, 0.25)));
+        assert_eq!(
+            walled.facing(2, BoundaryKind::Side, below, 9.0),
+            Some(Facing { boundary: 4, gap: 0.25 })
+        );
     }
 }

@@ -46,84 +46,127 @@ fn place_among(
     images: Option<&[Point<2>]>,
 ) -> Result<Vec<Outline>, MeshError> {
     check_domain(domain)?;
-    let clearance = |x: Point<2>| {
-        let sides = 0..domain.sides().len();
-        let counted = sides.filter(|&side| images.is_none() || !domain.is_periodic(side));
-        counted.map(|side| domain.side_gap(side, x)).fold(f64::INFINITY, f64::min)
-    };
-    let gap_to = |other: &Outline, x: Point<2>, is_own: bool| match images {
-        None => other.nearest(x).gap,
-        Some(images) => {
-            let images = images.iter().skip(usize::from(is_own));
-            images.fold(f64::INFINITY, |gap, shift| {
-                if other.least_gap(x - shift) < gap {
-                    gap.min(other.nearest(x - shift).gap)
-                } else {
-                    gap
-                }
-            })
-        }
-    };
-    let apart = |other: &Outline, x: Point<2>| match images {
-        None => (x - other.center()).norm(),
-        Some(images) => {
-            let gaps = images.iter().map(|shift| (x - shift - other.center()).norm());
-            gaps.fold(f64::INFINITY, f64::min)
-        }
-    };
+    let sides = 0..domain.sides().len();
+    let sides = sides.filter(|&side| images.is_none() || !domain.is_periodic(side)).collect();
+    let distances = Distances { domain, sides, images };
     let mut outlines: Vec<Outline> = Vec::with_capacity(bodies.len());
     for (i, body) in bodies.iter().enumerate() {
         check_kind(domain, body)?;
-        let taken = bodies[..i].iter().any(|other| other.name == body.name);
-        if taken || domain.sides().contains(&body.name.as_str()) {
-            return Err(MeshError::DuplicateName { name: body.name.clone() });
-        }
-        if let Some(size) = body.size.filter(|size| !(*size > 0.0 && size.is_finite())) {
-            return Err(MeshError::Body {
+        check_name_and_size(domain, body, &bodies[..i])?;
+        let outline = Outline::new(body)?;
+        let smallest_gap = SMALLEST_GAP * extent(&outline);
+        let refused = |least: &Least| least.value.is_nan() || least.value <= smallest_gap;
+        if let Some(Least { value, at }) = distances.to_sides(&outline).filter(refused) {
+            return Err(MeshError::Outside {
                 body: body.name.clone(),
-                what: "size",
-                value: size,
-                wanted: "positive and finite",
+                gap: value,
+                x: at.x,
+                y: at.y,
             });
         }
-        let outline = Outline::new(body)?;
-        let extent = extent(&outline);
-        let (gap, at) = smallest(&outline, clearance);
-        if gap.is_nan() || gap <= SMALLEST_GAP * extent {
-            return Err(MeshError::Outside { body: body.name.clone(), gap, x: at.x, y: at.y });
-        }
-        let own_images = images.iter().flat_map(|images| &images[1..]);
-        if own_images.map(|shift| shift.norm()).any(|apart| apart < 3.0 * outline.reach()) {
-            let (gap, at) = smallest(&outline, |x| gap_to(&outline, x, true));
-            if gap.is_nan() || gap <= SMALLEST_GAP * extent {
-                let (first, second) = (body.name.clone(), body.name.clone());
-                return Err(MeshError::Overlap { first, second, gap, x: at.x, y: at.y });
-            }
+        let overlap = |other: &PlacedShape, least: Least| MeshError::Overlap {
+            first: other.name.clone(),
+            second: body.name.clone(),
+            gap: least.value,
+            x: least.at.x,
+            y: least.at.y,
+        };
+        if let Some(least) = distances.to_own_images(&outline).filter(refused) {
+            return Err(overlap(body, least));
         }
         for (other, placed) in bodies.iter().zip(&outlines) {
-            // Circles around both that do not meet say enough
-            let reach = outline.reach() + placed.reach();
-            if apart(placed, outline.center()) > reach + SMALLEST_GAP * extent {
-                continue;
-            }
-            let (near, far) = (
-                smallest(&outline, |x| gap_to(placed, x, false)),
-                smallest(placed, |x| gap_to(&outline, x, false)),
-            );
-            let (gap, at) = if near.0 < far.0 { near } else { far };
-            if gap.is_nan() || gap <= SMALLEST_GAP * extent {
-                return Err(MeshError::Overlap {
-                    first: other.name.clone(),
-                    second: body.name.clone(),
-                    gap,
-                    x: at.x,
-                    y: at.y,
-                });
+            let least = distances.between(&outline, placed, smallest_gap);
+            if let Some(least) = least.filter(refused) {
+                return Err(overlap(other, least));
             }
         }
         outlines.push(outline);
     }
     Ok(outlines)
+}
+
+/// Gaps between outlines, and to the sides of a domain that count.
+struct Distances<'a> {
+    domain: &'a Domain,
+    sides: Vec<usize>,
+    images: Option<&'a [Point<2>]>,
+}
+
+impl Distances<'_> {
+    /// Least gap to the sides; `None` where none counts.
+    fn to_sides(&self, outline: &Outline) -> Option<Least> {
+        let gap = |x: Point<2>| {
+            let gaps = self.sides.iter().map(|&side| self.domain.side_gap(side, x));
+            gaps.fold(f64::INFINITY, f64::min)
+        };
+        (!self.sides.is_empty()).then(|| least(outline, gap))
+    }
+
+    /// Least gap of an outline to its own images; `None` where they are far.
+    fn to_own_images(&self, outline: &Outline) -> Option<Least> {
+        let mut own = self.images.iter().flat_map(|images| &images[1..]);
+        let are_near = own.any(|shift| shift.norm() < 3.0 * outline.reach());
+        are_near.then(|| least(outline, |x| self.gap_to(outline, x, true)))
+    }
+
+    /// Least gap between two outlines; `None` where circles around both are farther apart than
+    /// this (m).
+    fn between(&self, one: &Outline, other: &Outline, smallest_gap: f64) -> Option<Least> {
+        if self.apart(other, one.center()) > one.reach() + other.reach() + smallest_gap {
+            return None;
+        }
+        let near = least(one, |x| self.gap_to(other, x, false));
+        let far = least(other, |x| self.gap_to(one, x, false));
+        Some(if near.value < far.value { near } else { far })
+    }
+
+    /// Gap from a point to an outline and its images, or to its images alone.
+    fn gap_to(&self, other: &Outline, x: Point<2>, is_own: bool) -> f64 {
+        match self.images {
+            None => other.nearest(x).gap,
+            Some(images) => {
+                let images = images.iter().skip(usize::from(is_own));
+                images.fold(f64::INFINITY, |gap, shift| {
+                    if other.least_gap(x - shift) < gap {
+                        gap.min(other.nearest(x - shift).gap)
+                    } else {
+                        gap
+                    }
+                })
+            }
+        }
+    }
+
+    /// Distance from a point to the nearest centre of an outline and its images.
+    fn apart(&self, other: &Outline, x: Point<2>) -> f64 {
+        match self.images {
+            None => (x - other.center()).norm(),
+            Some(images) => {
+                let gaps = images.iter().map(|shift| (x - shift - other.center()).norm());
+                gaps.fold(f64::INFINITY, f64::min)
+            }
+        }
+    }
+}
+
+fn check_name_and_size(
+    domain: &Domain,
+    body: &PlacedShape,
+    before: &[PlacedShape],
+) -> Result<(), MeshError> {
+    let is_taken = before.iter().any(|other| other.name == body.name);
+    if is_taken || domain.sides().contains(&body.name.as_str()) {
+        return Err(MeshError::DuplicateName { name: body.name.clone() });
+    }
+    match body.size.filter(|size| !(*size > 0.0 && size.is_finite())) {
+        Some(value) => Err(MeshError::Body {
+            body: body.name.clone(),
+            what: "size",
+            value,
+            wanted: "positive and finite",
+        }),
+        None => Ok(()),
+    }
 }
 
 fn check_domain(domain: &Domain) -> Result<(), MeshError> {
@@ -175,8 +218,16 @@ fn extent(outline: &Outline) -> f64 {
     (point(0) - point(2)).norm().max((point(1) - point(3)).norm())
 }
 
-/// Smallest value of a function over an outline, and where: samples, then golden sections.
-fn smallest(outline: &Outline, f: impl Fn(Point<2>) -> f64) -> (f64, Point<2>) {
+/// Smallest value of a function over an outline.
+#[derive(Debug, Clone, Copy)]
+struct Least {
+    value: f64,
+    /// Where (m).
+    at: Point<2>,
+}
+
+/// Smallest value of a function over an outline: samples, then golden sections.
+fn least(outline: &Outline, f: impl Fn(Point<2>) -> f64) -> Least {
     let n = 4 * STARTS;
     let at = |u: f64| {
         let u = u.rem_euclid(4.0);
@@ -187,7 +238,7 @@ fn smallest(outline: &Outline, f: impl Fn(Point<2>) -> f64) -> (f64, Point<2>) {
     let values: Vec<f64> = (0..n).map(|i| f(at(i as f64 * step))).collect();
     let lowest = values.iter().copied().fold(f64::INFINITY, f64::min);
     let highest = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    let mut best = (f64::INFINITY, at(0.0));
+    let mut best = Least { value: f64::INFINITY, at: at(0.0) };
     for i in 0..n {
         let (before, after) = (values[(i + n - 1) % n], values[(i + 1) % n]);
         let hopeless = values[i] > lowest + 0.1 * (highest - lowest);
@@ -197,14 +248,18 @@ fn smallest(outline: &Outline, f: impl Fn(Point<2>) -> f64) -> (f64, Point<2>) {
         let u = golden((i as f64 - 1.0) * step, (i as f64 + 1.0) * step, |u| f(at(u)));
         for u in [u, i as f64 * step] {
             let value = f(at(u));
-            if value < best.0 || value.is_nan() {
-                best = (value, at(u));
+            if value < best.value || value.is_nan() {
+                best = Least { value, at: at(u) };
             }
         }
     }
-    // No search may end above what a sample has seen.
-    let seen = (0..n).filter(|&i| values[i] == lowest).map(|i| (lowest, at(i as f64 * step)));
-    seen.take(1).fold(best, |best, sample| if best.0 <= sample.0 { best } else { sample })
+    // No search may end above what a sample has seen
+    match (0..n).find(|&i| values[i] == lowest) {
+        Some(i) if best.value > lowest || best.value.is_nan() => {
+            Least { value: lowest, at: at(i as f64 * step) }
+        }
+        _ => best,
+    }
 }
 
 /// Minimum of a function that falls, then rises, on an interval.

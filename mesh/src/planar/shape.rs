@@ -93,30 +93,30 @@ impl Shape {
     /// Area or volume, centroid and second moments; `None` for a spline without valid points.
     #[must_use]
     pub fn moments(&self) -> Option<Moments> {
-        let (measure, second) = match self {
-            Self::Disc { radius } => planar_ellipse([*radius; 2]),
-            Self::Ellipse { semi_axes } => planar_ellipse(*semi_axes),
-            Self::Spline { points } => return Spline::through(points).map(|s| spline_moments(&s)),
-            Self::Curve { spline } => return Some(spline_moments(spline)),
-            Self::Sphere { radius } => ellipsoid([*radius; 2]),
-            Self::Spheroid { semi_axes } => ellipsoid(*semi_axes),
-        };
-        Some(Moments { measure, centroid: Point::<2>::zeros(), second })
+        match self {
+            Self::Disc { radius } => Some(planar_ellipse([*radius; 2])),
+            Self::Ellipse { semi_axes } => Some(planar_ellipse(*semi_axes)),
+            Self::Spline { points } => Spline::through(points).map(|s| spline_moments(&s)),
+            Self::Curve { spline } => Some(spline_moments(spline)),
+            Self::Sphere { radius } => Some(ellipsoid([*radius; 2])),
+            Self::Spheroid { semi_axes } => Some(ellipsoid(*semi_axes)),
+        }
     }
 }
 
-fn planar_ellipse([a, b]: [f64; 2]) -> (f64, SecondMoments) {
+fn planar_ellipse([a, b]: [f64; 2]) -> Moments {
     let area = PI * a * b;
-    (area, SecondMoments::Planar { polar: area * (a * a + b * b) / 4.0 })
+    let second = SecondMoments::Planar { polar: area * (a * a + b * b) / 4.0 };
+    Moments { measure: area, centroid: Point::<2>::zeros(), second }
 }
 
-fn ellipsoid([a, b]: [f64; 2]) -> (f64, SecondMoments) {
+fn ellipsoid([a, b]: [f64; 2]) -> Moments {
     let volume = 4.0 / 3.0 * PI * a * b * b;
     let second = SecondMoments::Revolved {
         along: volume * 2.0 * b * b / 5.0,
         across: volume * (a * a + b * b) / 5.0,
     };
-    (volume, second)
+    Moments { measure: volume, centroid: Point::<2>::zeros(), second }
 }
 
 /// By Green's theorem: ∫ |x|^k dA = ∮ |x|^k (x dy - y dx) / (k + 2), exact for cubic pieces.

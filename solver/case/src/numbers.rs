@@ -278,7 +278,7 @@ time = { steady = {} }
         for (nth, [x, radius]) in discs.iter().enumerate() {
             let _ = write!(
                 text,
-                "[[body]]\nname = '{nth}'\nshape.disc.radius = {radius}\ncenter = [{x}, 0.0]\n"
+                "[[body]]\nname = '{nth}'\nshape.disc.radius = {radius}\ncenter = [{x}, 0.0]\nmotion = 'held'\n"
             );
         }
         let file = crate::Case::parse("t.toml", &text, &[]).unwrap();

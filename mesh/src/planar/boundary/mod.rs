@@ -6,7 +6,7 @@
 use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
 
-use crate::planar::cut::{Line, Path};
+use crate::planar::cut::{CopyOf, Line, Path, PathPoint};
 use crate::planar::vector::cross;
 use crate::quadrature::integrate;
 use crate::{Boundary, BoundaryId, BoundaryKind, Cut, Domain, Outline, PlacedShape, Point};
@@ -18,8 +18,8 @@ pub struct BoundaryPiece {
     pub curve: Curve,
     /// Index of its boundary.
     pub boundary: BoundaryId,
-    /// The piece whose discretisation it copies, moved by a vector (m), backwards.
-    pub copy_of: Option<(usize, Point<2>)>,
+    /// The piece whose discretisation it copies backwards.
+    pub copy_of: Option<CopyOf>,
 }
 
 /// The curve of a piece.
@@ -38,6 +38,15 @@ pub enum Curve {
     },
     /// A line through the fluid, whose edges are straight.
     Path(Arc<Path>),
+}
+
+/// How the boundary runs at one of its points.
+#[derive(Debug, Clone, Copy)]
+pub struct Frame {
+    /// Unit normal into the fluid.
+    pub normal: Point<2>,
+    /// Radius of curvature (m), infinite when straight.
+    pub radius: f64,
 }
 
 /// All loops of the boundary.
@@ -71,11 +80,12 @@ impl BoundaryLoops {
                     (Point::<2>::new(max.x, min.y), Point::<2>::new(min.x, max.y));
                 let width = Point::<2>::new(max.x - min.x, 0.0);
                 let height = Point::<2>::new(0.0, max.y - min.y);
+                let copy = |original, shift| CopyOf { original, shift };
                 // Left comes before right here, so that a copy always refers to an earlier piece
                 pieces.push(segment(left_max, *min, 0, None));
                 pieces.push(segment(*min, right_min, 2, None));
-                pieces.push(segment(right_min, *max, 1, periodic_x.then_some((0, width))));
-                pieces.push(segment(*max, left_max, 3, periodic_y.then_some((1, height))));
+                pieces.push(segment(right_min, *max, 1, periodic_x.then_some(copy(0, width))));
+                pieces.push(segment(*max, left_max, 3, periodic_y.then_some(copy(1, height))));
             }
             Domain::Disc { center, radius } => {
                 outlines.push(Outline::circle(*center, *radius));
@@ -96,7 +106,7 @@ impl BoundaryLoops {
                 let length = corner(x[1] - x[0], 0.0);
                 pieces.push(segment(corner(x[0], *radius), corner(x[0], 0.0), 0, None));
                 along_axis(&mut pieces, *x, 3, first_body, &outlines[..bodies.len()]);
-                let copy = periodic_x.then_some((0, length));
+                let copy = periodic_x.then_some(CopyOf { original: 0, shift: length });
                 pieces.push(segment(corner(x[1], 0.0), corner(x[1], *radius), 1, copy));
                 pieces.push(segment(corner(x[1], *radius), corner(x[0], *radius), 2, None));
             }
@@ -145,7 +155,7 @@ impl BoundaryLoops {
                 [point, -first, second]
             }
             Curve::Path(path) => {
-                let (point, direction, _) = path.at(parameter);
+                let PathPoint { point, direction, .. } = path.at(parameter);
                 [point, direction * path.length(), Point::<2>::zeros()]
             }
         }
@@ -181,16 +191,17 @@ impl BoundaryLoops {
         t.clamp(from, to)
     }
 
-    /// Unit normal into the fluid and radius of curvature (m), infinite when straight.
-    pub fn frame(&self, piece: usize, parameter: f64) -> (Point<2>, f64) {
+    /// Normal and radius of curvature at a point of a piece.
+    pub fn frame(&self, piece: usize, parameter: f64) -> Frame {
         let [_, first, second] = self.evaluate(piece, parameter);
         let speed = first.norm();
         let bend = cross(first, second).abs();
         if let Curve::Path(path) = &self.pieces[piece].curve {
-            let (_, direction, radius) = path.at(parameter);
-            return (Point::<2>::new(-direction.y, direction.x), radius);
+            let PathPoint { direction, radius, .. } = path.at(parameter);
+            return Frame { normal: Point::<2>::new(-direction.y, direction.x), radius };
         }
-        (Point::<2>::new(-first.y, first.x) / speed, speed.powi(3) / bend)
+        let normal = Point::<2>::new(-first.y, first.x) / speed;
+        Frame { normal, radius: speed.powi(3) / bend }
     }
 
     /// Whether the edges of a piece are straight.
@@ -201,7 +212,8 @@ impl BoundaryLoops {
     /// Whether a piece is one of a periodic pair.
     pub fn is_periodic(&self, piece: usize) -> bool {
         let copies = self.pieces.iter().filter_map(|p| p.copy_of);
-        self.pieces[piece].copy_of.is_some() || copies.into_iter().any(|(of, _)| of == piece)
+        self.pieces[piece].copy_of.is_some()
+            || copies.into_iter().any(|copy| copy.original == piece)
     }
 
     /// Length per parameter where it is constant: all but outlines that are no circles.
@@ -250,7 +262,7 @@ pub fn segment(
     a: Point<2>,
     b: Point<2>,
     boundary: usize,
-    copy_of: Option<(usize, Point<2>)>,
+    copy_of: Option<CopyOf>,
 ) -> BoundaryPiece {
     BoundaryPiece { curve: Curve::Segment(a, b), boundary: BoundaryId::new(boundary), copy_of }
 }

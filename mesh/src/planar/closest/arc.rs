@@ -28,6 +28,22 @@ pub struct Arc {
     level: u32,
 }
 
+/// A circle.
+#[derive(Debug, Clone, Copy)]
+pub struct Circle {
+    /// Centre (m).
+    pub center: Point<2>,
+    /// Radius (m).
+    pub radius: f64,
+}
+
+/// A stretch of each of two outlines.
+#[derive(Debug, Clone, Copy)]
+pub struct ArcPair {
+    pub first: Arc,
+    pub second: Arc,
+}
+
 /// An interval of numbers.
 #[derive(Debug, Clone, Copy)]
 pub struct Range {
@@ -112,9 +128,10 @@ impl Arc {
         if turned < along { (turned / along).asin() } else { PI }
     }
 
-    /// Centre (m) and radius (m) of a circle that holds it.
-    pub fn circle(&self) -> (Point<2>, f64) {
-        (0.5 * (self.start + self.end), 0.5 * self.chord().norm() + self.bulge())
+    /// A circle that holds it.
+    pub fn circle(&self) -> Circle {
+        let center = 0.5 * (self.start + self.end);
+        Circle { center, radius: 0.5 * self.chord().norm() + self.bulge() }
     }
 
     /// Lower left and upper right corner of a rectangle that holds it (m).
@@ -188,10 +205,8 @@ pub fn apart(a: f64, b: f64, period: f64) -> f64 {
 /// Whether the outline is surely crossed by another one: shallow crossings, which only
 /// the search for pairs of points sees as a feature with a negative gap, are not looked for.
 pub fn outlines_cross(first: &Outline, second: &Outline) -> bool {
-    let near = nearby(first, second, 0.0);
-    let mut open: Vec<(Arc, Arc)> =
-        near.0.iter().flat_map(|a| near.1.iter().map(move |b| (*a, *b))).collect();
-    while let Some((a, b)) = open.pop() {
+    let mut open = pairs_within(first, second, 0.0);
+    while let Some(ArcPair { first: a, second: b }) = open.pop() {
         if !boxes_meet(&a, &b) || least_distance(&a, &b) > 0.0 {
             continue;
         }
@@ -204,27 +219,31 @@ pub fn outlines_cross(first: &Outline, second: &Outline) -> bool {
 }
 
 /// Both pairs got by halving the longer one of two stretches; none when both are smallest.
-pub fn split(a: &Arc, b: &Arc, first: &Outline, second: &Outline) -> Vec<(Arc, Arc)> {
-    let a_is_longer = a.circle().1 >= b.circle().1;
+pub fn split(a: &Arc, b: &Arc, first: &Outline, second: &Outline) -> Vec<ArcPair> {
+    let a_is_longer = a.circle().radius >= b.circle().radius;
+    let with_half_of_a = |half| ArcPair { first: half, second: *b };
+    let with_half_of_b = |half| ArcPair { first: *a, second: half };
     match (a.is_smallest(), b.is_smallest()) {
         (true, true) => Vec::new(),
-        (false, true) => a.halves(first).map(|half| (half, *b)).to_vec(),
-        (false, false) if a_is_longer => a.halves(first).map(|half| (half, *b)).to_vec(),
-        _ => b.halves(second).map(|half| (*a, half)).to_vec(),
+        (false, true) => a.halves(first).map(with_half_of_a).to_vec(),
+        (false, false) if a_is_longer => a.halves(first).map(with_half_of_a).to_vec(),
+        _ => b.halves(second).map(with_half_of_b).to_vec(),
     }
 }
 
-/// The stretches of each of two outlines that may come within `range` of the other (m).
-pub fn nearby(first: &Outline, second: &Outline, range: f64) -> (Vec<Arc>, Vec<Arc>) {
+/// All pairs of stretches of two outlines that may come within `range` of the other outline (m).
+pub fn pairs_within(first: &Outline, second: &Outline, range: f64) -> Vec<ArcPair> {
     let keep = |one: &Outline, other: &Outline| {
         let mut arcs = Arc::all_of(one);
         arcs.retain(|arc| {
-            let (center, radius) = arc.circle();
+            let Circle { center, radius } = arc.circle();
             other.least_gap(center) <= radius + range
         });
         arcs
     };
-    (keep(first, second), keep(second, first))
+    let (near_second, near_first) = (keep(first, second), keep(second, first));
+    let pair = |first: &Arc, second: &Arc| ArcPair { first: *first, second: *second };
+    near_second.iter().flat_map(|a| near_first.iter().map(move |b| pair(a, b))).collect()
 }
 
 /// Whether the rectangles around two stretches meet.

@@ -10,7 +10,10 @@
 //! D < 0. Where bounds show D > 0 there is one feature at most; where neither is shown the pair is
 //! halved, down to 1/256 of a stretch between two points of a spline, within which minima are one.
 
-use super::arc::{Arc, Range, apart, least_distance, may_be_opposite, nearby, split, wrapped};
+use super::arc::{
+    Arc, ArcPair, Circle, Range, apart, least_distance, may_be_opposite, pairs_within, split,
+    wrapped,
+};
 use super::closest_points::Closest;
 use crate::planar::vector::cross;
 use crate::{Outline, Point};
@@ -21,11 +24,9 @@ const STRAIGHT: f64 = 0.4;
 /// All features with |gap| below `limit` (m), the ones of shallow overlaps included, in the order
 /// of their places on the first outline.
 pub fn features(first: &Outline, second: &Outline, limit: f64) -> Vec<Closest> {
-    let near = nearby(first, second, limit);
-    let mut open: Vec<(Arc, Arc)> =
-        near.0.iter().flat_map(|a| near.1.iter().map(move |b| (*a, *b))).collect();
+    let mut open = pairs_within(first, second, limit);
     let mut found: Vec<Closest> = Vec::new();
-    while let Some((a, b)) = open.pop() {
+    while let Some(ArcPair { first: a, second: b }) = open.pop() {
         let distance = least_distance(&a, &b);
         if distance > limit || !may_be_opposite(&a, &b) || !may_be_square(&a, &b) {
             continue;
@@ -62,7 +63,8 @@ pub fn features(first: &Outline, second: &Outline, limit: f64) -> Vec<Closest> {
 
 /// Whether p - q may be perpendicular to both stretches for some p and q on them.
 fn may_be_square(a: &Arc, b: &Arc) -> bool {
-    let ((p, p_radius), (q, q_radius)) = (a.circle(), b.circle());
+    let Circle { center: p, radius: p_radius } = a.circle();
+    let Circle { center: q, radius: q_radius } = b.circle();
     let (between, spread) = (p - q, p_radius + q_radius);
     [a, b].into_iter().all(|arc| {
         let along = between.dot(&arc.chord()).abs() / arc.chord().norm();
@@ -73,7 +75,8 @@ fn may_be_square(a: &Arc, b: &Arc) -> bool {
 
 /// Bounds of D = k1 + k2 + g k1 k2 over two stretches.
 fn regularity(a: &Arc, b: &Arc, distance: f64) -> Range {
-    let ((p, p_radius), (q, q_radius)) = (a.circle(), b.circle());
+    let Circle { center: p, radius: p_radius } = a.circle();
+    let Circle { center: q, radius: q_radius } = b.circle();
     let farthest = (p - q).norm() + p_radius + q_radius;
     let outward = Point::<2>::new(b.chord().y, -b.chord().x) / b.chord().norm();
     let ahead = (p - q).dot(&outward);

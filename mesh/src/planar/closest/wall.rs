@@ -1,6 +1,6 @@
 //! `Wall`: a side of the domain that bodies cannot pass, and where an outline comes close to it.
 
-use super::arc::{Arc, Range, angle_between, apart, wrapped};
+use super::arc::{Arc, Circle, Range, angle_between, apart, wrapped};
 use super::closest_points::Closest;
 use crate::planar::vector::cross;
 use crate::{Domain, Outline, Point};
@@ -159,7 +159,7 @@ fn is_hopeless(wall: &Wall, arc: &Arc, range: f64) -> bool {
     if wall.gap(arc.start).min(wall.gap(arc.end)) - arc.bulge() > range {
         return true;
     }
-    let (center, radius) = arc.circle();
+    let Circle { center, radius } = arc.circle();
     let swing = match wall {
         Wall::Line { .. } => 0.0,
         Wall::Circle { center: middle, .. } => {
@@ -179,7 +179,7 @@ fn regularity(wall: &Wall, arc: &Arc) -> Range {
     if !(k1.low.is_finite() && k1.high.is_finite()) {
         return Range { low: f64::NEG_INFINITY, high: f64::INFINITY };
     }
-    let (center, radius) = arc.circle();
+    let Circle { center, radius } = arc.circle();
     let (gap, k2) = (wall.gap(center), wall.curvature());
     let factor = Range { low: 1.0 + k2 * (gap + radius), high: 1.0 + k2 * (gap - radius) };
     let factor = Range { low: factor.low.min(factor.high), high: factor.high.max(factor.low) };

@@ -10,7 +10,7 @@ use spade::{DelaunayTriangulation, Point2, Triangulation as _};
 
 use super::clearance::Clearance;
 use super::samples::Samples;
-use super::steps::{Steps, displacement};
+use super::steps::{Steps, displacement, sum};
 use crate::Point;
 
 /// Copies of the places on each side of the domain in which the triangles are made.
@@ -22,16 +22,38 @@ pub struct Junction {
     /// Its place (m).
     pub at: Point<2>,
     /// The corridors that leave it, counter-clockwise, each with the end it has here.
-    pub arms: [(usize, usize); 3],
+    pub arms: [CorridorEnd; 3],
     /// Where it reaches each of the walls, if it does (m).
     pub walls: [Option<Point<2>>; 2],
+}
+
+/// A corridor followed from one of its ends, 0 or 1.
+#[derive(Debug, Clone, Copy)]
+pub struct CorridorEnd {
+    pub corridor: usize,
+    pub end: usize,
+}
+
+/// One of the three arms of a junction.
+#[derive(Debug, Clone, Copy)]
+pub struct JunctionArm {
+    pub junction: usize,
+    pub arm: usize,
+}
+
+/// Where a corridor leads.
+#[derive(Debug, Clone, Copy)]
+pub struct Arrival {
+    pub at: JunctionArm,
+    /// Periods gone.
+    pub steps: Steps,
 }
 
 /// A way between two surfaces from one junction to the next.
 #[derive(Debug, Clone)]
 pub struct Corridor {
     /// Junction and arm at both ends.
-    pub ends: [(usize, usize); 2],
+    pub ends: [JunctionArm; 2],
     /// Periods from the place of the second junction to the end of the way.
     pub steps: Steps,
     /// Places on the way, those of the junctions left out, from the first junction on (m).
@@ -48,77 +70,66 @@ pub struct Medial {
     pub periods: [Option<f64>; 2],
 }
 
-/// A place with the periods by which it is moved.
-type Corner = (u32, Steps);
+/// A sample with the periods by which it is moved.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+struct Corner {
+    sample: u32,
+    steps: Steps,
+}
 
 /// A triangle, up to whole periods.
 #[derive(Debug, Clone)]
-struct Cell {
+struct PeriodicTriangle {
     /// Counter-clockwise.
     corners: [Corner; 3],
-    /// What is behind side i, from corner i to the next: cell, its side, and its periods; none
-    /// where both corners are on the same surface.
-    behind: [Option<(usize, usize, Steps)>; 3],
+    /// What is behind side i, from corner i to the next; none where both corners are on the same
+    /// surface.
+    behind: [Option<Behind>; 3],
 }
+
+/// The triangle behind a side.
+#[derive(Debug, Clone, Copy)]
+struct Behind {
+    triangle: usize,
+    /// Its own side.
+    side: usize,
+    /// Periods by which it is moved.
+    steps: Steps,
+}
+
+/// Corners of a triangle moved by periods so that the sample of lowest index is not moved, sorted.
+#[derive(Debug, Clone, Copy)]
+struct Canonical {
+    key: [Corner; 3],
+    /// Periods that move them back.
+    steps: Steps,
+}
+
+/// What stands for an arm that has not been followed yet.
+const NO_CORRIDOR: CorridorEnd = CorridorEnd { corridor: usize::MAX, end: 0 };
 
 impl Medial {
     /// The ways between surfaces; `None` where the triangles do not repeat, by a tie.
     pub fn new(samples: &Samples, clearance: &Clearance<'_>) -> Option<Self> {
-        let cells = cells(samples)?;
-        let place = |(sample, steps): Corner| {
-            samples.points[sample as usize] + displacement(steps, samples.periods)
-        };
-        let middle = |cell: usize, side: usize| {
-            let corners = &cells[cell].corners;
-            (place(corners[side]) + place(corners[(side + 1) % 3])) * 0.5
-        };
-        let is_junction = |cell: &Cell| cell.behind.iter().all(Option::is_some);
-        let mut number = vec![usize::MAX; cells.len()];
-        let mut junctions = Vec::new();
-        for (index, cell) in cells.iter().enumerate().filter(|(_, cell)| is_junction(cell)) {
-            number[index] = junctions.len();
-            let [a, b, c] = cell.corners.map(place);
-            let wall = |wall: usize| {
-                let owner = samples.n_bodies + wall;
-                let corner = cell.corners.iter().find(|c| samples.owners[c.0 as usize] == owner);
-                corner.map(|corner| place(*corner))
-            };
-            let walls = [wall(0), wall(1)];
-            junctions.push(Junction { at: incenter(a, b, c), arms: [(usize::MAX, 0); 3], walls });
-        }
+        let triangles = triangles(samples)?;
+        let tracing = Tracing::new(&triangles, samples);
+        let mut junctions = tracing.junctions();
         let mut corridors: Vec<Corridor> = Vec::new();
-        for start in 0..cells.len() {
-            if number[start] == usize::MAX {
+        for start in 0..triangles.len() {
+            let first = tracing.number[start];
+            if first == usize::MAX {
                 continue;
             }
             for arm in 0..3 {
-                let first = number[start];
-                if junctions[first].arms[arm].0 != usize::MAX {
+                if junctions[first].arms[arm].corridor != usize::MAX {
                     continue;
                 }
-                let mut way = vec![junctions[first].at];
-                let (mut cell, mut side, mut steps) = (start, arm, [0, 0]);
-                let end = loop {
-                    way.push(middle(cell, side) + displacement(steps, samples.periods));
-                    let (next, entry, moved) = cells[cell].behind[side]?;
-                    steps = [steps[0] + moved[0], steps[1] + moved[1]];
-                    cell = next;
-                    if number[cell] != usize::MAX {
-                        break (number[cell], entry);
-                    }
-                    side = (0..3).find(|&s| s != entry && cells[cell].behind[s].is_some())?;
-                    if way.len() > cells.len() {
-                        return None;
-                    }
-                };
-                way.push(junctions[end.0].at + displacement(steps, samples.periods));
-                let cost = cost(&way, clearance);
-                way.pop();
-                way.remove(0);
-                let index = corridors.len();
-                corridors.push(Corridor { ends: [(first, arm), end], steps, way, cost });
-                junctions[first].arms[arm] = (index, 0);
-                junctions[end.0].arms[end.1] = (index, 1);
+                let (from, corridor) = (JunctionArm { junction: first, arm }, corridors.len());
+                let traced = tracing.corridor(start, from, &junctions, clearance)?;
+                for (end, JunctionArm { junction, arm }) in traced.ends.into_iter().enumerate() {
+                    junctions[junction].arms[arm] = CorridorEnd { corridor, end };
+                }
+                corridors.push(traced);
             }
         }
         Some(Self { junctions, corridors, periods: samples.periods })
@@ -129,25 +140,107 @@ impl Medial {
         self.junctions[junction].at + displacement(steps, self.periods)
     }
 
-    /// Along a corridor from one of its ends: the junction at the other, its arm there, and the
-    /// periods gone.
-    pub fn follow(&self, corridor: usize, from_end: usize) -> (usize, usize, Steps) {
-        let Corridor { ends, steps, .. } = &self.corridors[corridor];
-        let (junction, arm) = ends[1 - from_end];
-        let steps = if from_end == 0 { *steps } else { [-steps[0], -steps[1]] };
-        (junction, arm, steps)
+    /// Along a corridor from one of its ends to the other.
+    pub fn follow(&self, leg: CorridorEnd) -> Arrival {
+        let Corridor { ends, steps, .. } = &self.corridors[leg.corridor];
+        let steps = if leg.end == 0 { *steps } else { [-steps[0], -steps[1]] };
+        Arrival { at: ends[1 - leg.end], steps }
     }
 
-    /// Places inside a corridor from one of its ends, whose junction is moved by periods (m).
-    pub fn way(&self, corridor: usize, from_end: usize, steps: Steps) -> Vec<Point<2>> {
-        let Corridor { way, steps: gone, .. } = &self.corridors[corridor];
-        if from_end == 0 {
+    /// The junction a corridor leaves, and its arm there.
+    pub fn start(&self, leg: CorridorEnd) -> JunctionArm {
+        self.corridors[leg.corridor].ends[leg.end]
+    }
+
+    /// Points inside a corridor from one of its ends, whose junction is moved by periods (m).
+    pub fn way(&self, leg: CorridorEnd, steps: Steps) -> Vec<Point<2>> {
+        let Corridor { way, steps: gone, .. } = &self.corridors[leg.corridor];
+        if leg.end == 0 {
             let shift = displacement(steps, self.periods);
             way.iter().map(|x| x + shift).collect()
         } else {
             let shift = displacement([steps[0] - gone[0], steps[1] - gone[1]], self.periods);
             way.iter().rev().map(|x| x + shift).collect()
         }
+    }
+}
+
+/// Follows strips of triangles from junction to junction.
+struct Tracing<'a> {
+    triangles: &'a [PeriodicTriangle],
+    samples: &'a Samples,
+    /// The junction that each triangle is, `usize::MAX` where it is none.
+    number: Vec<usize>,
+}
+
+impl<'a> Tracing<'a> {
+    fn new(triangles: &'a [PeriodicTriangle], samples: &'a Samples) -> Self {
+        let mut n_junctions = 0;
+        let number = |triangle: &PeriodicTriangle| {
+            let is_junction = triangle.behind.iter().all(Option::is_some);
+            let number = if is_junction { n_junctions } else { usize::MAX };
+            n_junctions += usize::from(is_junction);
+            number
+        };
+        Self { triangles, samples, number: triangles.iter().map(number).collect() }
+    }
+
+    fn point(&self, corner: Corner) -> Point<2> {
+        self.samples.points[corner.sample as usize]
+            + displacement(corner.steps, self.samples.periods)
+    }
+
+    fn middle(&self, triangle: usize, side: usize) -> Point<2> {
+        let corners = &self.triangles[triangle].corners;
+        (self.point(corners[side]) + self.point(corners[(side + 1) % 3])) * 0.5
+    }
+
+    /// All junctions, their arms not followed yet.
+    fn junctions(&self) -> Vec<Junction> {
+        let numbered = self.triangles.iter().zip(&self.number);
+        let junction = |(triangle, _): (&PeriodicTriangle, &usize)| {
+            let [a, b, c] = triangle.corners.map(|corner| self.point(corner));
+            let wall = |wall: usize| {
+                let owner = self.samples.n_bodies + wall;
+                let owner_of = |corner: &Corner| self.samples.owners[corner.sample as usize];
+                let corner = triangle.corners.iter().find(|corner| owner_of(corner) == owner);
+                corner.map(|corner| self.point(*corner))
+            };
+            Junction { at: incenter(a, b, c), arms: [NO_CORRIDOR; 3], walls: [wall(0), wall(1)] }
+        };
+        numbered.filter(|(_, number)| **number != usize::MAX).map(junction).collect()
+    }
+
+    /// The corridor that leaves a junction, which is a triangle, by one of its arms.
+    fn corridor(
+        &self,
+        start: usize,
+        from: JunctionArm,
+        junctions: &[Junction],
+        clearance: &Clearance<'_>,
+    ) -> Option<Corridor> {
+        let periods = self.samples.periods;
+        let mut way = vec![junctions[from.junction].at];
+        let (mut triangle, mut side, mut steps) = (start, from.arm, [0, 0]);
+        let end = loop {
+            way.push(self.middle(triangle, side) + displacement(steps, periods));
+            let next = self.triangles[triangle].behind[side]?;
+            steps = sum(steps, next.steps);
+            triangle = next.triangle;
+            if self.number[triangle] != usize::MAX {
+                break JunctionArm { junction: self.number[triangle], arm: next.side };
+            }
+            let behind = &self.triangles[triangle].behind;
+            side = (0..3).find(|&s| s != next.side && behind[s].is_some())?;
+            if way.len() > self.triangles.len() {
+                return None;
+            }
+        };
+        way.push(junctions[end.junction].at + displacement(steps, periods));
+        let cost = cost(&way, clearance);
+        way.pop();
+        way.remove(0);
+        Some(Corridor { ends: [from, end], steps, way, cost })
     }
 }
 
@@ -163,8 +256,8 @@ pub fn cost(way: &[Point<2>], clearance: &Clearance<'_>) -> f64 {
     })
 }
 
-/// The triangles between all places, each once.
-fn cells(samples: &Samples) -> Option<Vec<Cell>> {
+/// The triangles between all samples, each once.
+fn triangles(samples: &Samples) -> Option<Vec<PeriodicTriangle>> {
     let n = samples.points.len();
     let range = |axis: usize| samples.periods[axis].map_or(0..=0, |_| -COPIES..=COPIES);
     let copies: Vec<Steps> = range(1).flat_map(|y| range(0).map(move |x| [x, y])).collect();
@@ -177,59 +270,68 @@ fn cells(samples: &Samples) -> Option<Vec<Cell>> {
     if made.num_vertices() != n * copies.len() {
         return None;
     }
-    let corner = |index: usize| ((index % n) as u32, copies[index / n]);
-    let mut cells = Vec::new();
+    let corner = |index: usize| Corner { sample: (index % n) as u32, steps: copies[index / n] };
+    let mut triangles = Vec::new();
     let mut number: HashMap<[Corner; 3], usize> = HashMap::new();
     let mut faces = Vec::new();
     for face in made.inner_faces() {
         let corners = face.vertices().map(|vertex| corner(vertex.index()));
-        let (key, steps) = canonical(corners);
+        let Canonical { key, steps } = canonical(corners);
         if steps == [0, 0] {
-            number.insert(key, cells.len());
-            cells.push(Cell { corners, behind: [None; 3] });
+            number.insert(key, triangles.len());
+            triangles.push(PeriodicTriangle { corners, behind: [None; 3] });
             faces.push(face);
         }
     }
-    let is_same = |a: Corner, b: Corner| {
-        let (one, other) = (samples.owners[a.0 as usize], samples.owners[b.0 as usize]);
-        one == other && (a.1 == b.1 || one >= samples.n_bodies)
-    };
     for (index, face) in faces.iter().enumerate() {
-        let corners = cells[index].corners;
+        let corners = triangles[index].corners;
         for edge in face.adjacent_edges() {
             let [from, to] = [edge.from(), edge.to()].map(|vertex| corner(vertex.index()));
-            if is_same(from, to) {
+            if samples.is_same_surface(from, to) {
                 continue;
             }
             let side = corners.iter().position(|c| *c == from)?;
             let other = edge.rev().face().as_inner()?;
-            let there = other.vertices().map(|vertex| corner(vertex.index()));
-            let (key, steps) = canonical(there);
+            let Canonical { key, steps } =
+                canonical(other.vertices().map(|vertex| corner(vertex.index())));
             let neighbour = *number.get(&key)?;
-            let back = |c: Corner| (c.0, [c.1[0] - steps[0], c.1[1] - steps[1]]);
-            let entry = cells[neighbour].corners.iter().position(|c| *c == back(to))?;
-            if cells[neighbour].corners[(entry + 1) % 3] != back(from) {
+            let there = &triangles[neighbour].corners;
+            let entry = there.iter().position(|c| *c == to.back(steps))?;
+            if there[(entry + 1) % 3] != from.back(steps) {
                 return None;
             }
-            cells[index].behind[side] = Some((neighbour, entry, steps));
+            triangles[index].behind[side] =
+                Some(Behind { triangle: neighbour, side: entry, steps });
         }
     }
-    Some(cells)
+    Some(triangles)
 }
 
-/// The corners of a triangle moved by periods so that the place of lowest index is not moved,
-/// sorted; and the periods that move them back.
-fn canonical(corners: [Corner; 3]) -> ([Corner; 3], Steps) {
-    let lowest = corners[0].0.min(corners[1].0).min(corners[2].0);
+impl Samples {
+    /// Whether two corners are on the same wall, or on one body in the same period.
+    fn is_same_surface(&self, a: Corner, b: Corner) -> bool {
+        let (one, other) = (self.owners[a.sample as usize], self.owners[b.sample as usize]);
+        one == other && (a.steps == b.steps || one >= self.n_bodies)
+    }
+}
+
+impl Corner {
+    fn back(self, by: Steps) -> Self {
+        Self { steps: [self.steps[0] - by[0], self.steps[1] - by[1]], ..self }
+    }
+}
+
+fn canonical(corners: [Corner; 3]) -> Canonical {
+    let lowest = corners[0].sample.min(corners[1].sample).min(corners[2].sample);
     let moved = |by: Steps| {
-        let mut moved = corners.map(|(i, steps)| (i, [steps[0] - by[0], steps[1] - by[1]]));
-        moved.sort_unstable();
-        (moved, by)
+        let mut key = corners.map(|corner| corner.back(by));
+        key.sort_unstable();
+        Canonical { key, steps: by }
     };
-    let mut best: Option<([Corner; 3], Steps)> = None;
-    for (_, steps) in corners.iter().filter(|corner| corner.0 == lowest) {
-        let next = moved(*steps);
-        if best.is_none_or(|best| next.0 < best.0) {
+    let mut best: Option<Canonical> = None;
+    for corner in corners.iter().filter(|corner| corner.sample == lowest) {
+        let next = moved(corner.steps);
+        if best.is_none_or(|best| next.key < best.key) {
             best = Some(next);
         }
     }

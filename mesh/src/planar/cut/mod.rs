@@ -8,6 +8,7 @@ mod medial;
 mod path;
 mod samples;
 mod search;
+mod shortest_way;
 mod steps;
 mod straighten;
 mod stretch;
@@ -19,8 +20,8 @@ use crate::planar::placement::place_wrapped;
 use crate::planar::vector::cross;
 use crate::{Domain, MeshError, PlacedShape, Point};
 
-pub(crate) use path::Path;
-pub(crate) use stretch::{Line, Stretch};
+pub(crate) use path::{Path, PathPoint};
+pub(crate) use stretch::{CopyOf, Line, Stretch};
 
 use clearance::Clearance;
 use medial::Medial;

@@ -14,6 +14,17 @@ pub struct Path {
     radii: Vec<f64>,
 }
 
+/// A point of a path.
+#[derive(Debug, Clone, Copy)]
+pub struct PathPoint {
+    /// Where (m).
+    pub point: Point<2>,
+    /// Unit tangent.
+    pub direction: Point<2>,
+    /// Radius of curvature (m).
+    pub radius: f64,
+}
+
 impl Path {
     pub fn new(points: Vec<Point<2>>, clearance: &Clearance<'_>) -> Self {
         let n = points.len();
@@ -51,8 +62,8 @@ impl Path {
         self.lengths[self.lengths.len() - 1]
     }
 
-    /// The place at a part of its length (m), the direction there, and the radius of curvature (m).
-    pub fn at(&self, part: f64) -> (Point<2>, Point<2>, f64) {
+    /// The point at a part of its length.
+    pub fn at(&self, part: f64) -> PathPoint {
         let wanted = part * self.length();
         let next = self.lengths.partition_point(|length| *length <= wanted);
         let next = next.clamp(1, self.points.len() - 1);
@@ -65,7 +76,7 @@ impl Path {
         } else {
             from + (to - from) * ((wanted - self.lengths[next - 1]) / step)
         };
-        (point, direction, radius)
+        PathPoint { point, direction, radius }
     }
 
     pub fn moved(&self, shift: Point<2>) -> Self {

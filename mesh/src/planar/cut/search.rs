@@ -1,6 +1,7 @@
 //! The cheapest lines along which a periodic domain can be cut open.
 
-use super::medial::Medial;
+use super::medial::{CorridorEnd, Medial};
+use super::shortest_way::Search;
 use super::steps::{Steps, displacement, sum};
 use super::straighten::Network;
 use crate::{Domain, Point};
@@ -8,82 +9,41 @@ use crate::{Domain, Point};
 /// Periods a way around may stray along each direction.
 const STRAY: i32 = 3;
 
-/// A corridor followed from one of its ends.
-type Leg = (usize, usize);
-
 /// A loop once around along y and a way across, which end on each other: together they bound a cell
 /// that holds all bodies. `None` where there is none.
 pub fn theta(medial: &Medial) -> Option<Network> {
-    let around = shortest_loop(medial)?;
-    let on_loop = |junction: usize| around.iter().position(|visit| visit.junction == junction);
-    // Which junctions have their third arm on the right of the loop
-    let n = around.len();
-    let mut third = vec![(0, false); n];
-    for (i, visit) in around.iter().enumerate() {
-        let (corridor, end) = around[(i + n - 1) % n].leg;
-        let entered = medial.corridors[corridor].ends[1 - end].1;
-        let (corridor, end) = visit.leg;
-        let left = medial.corridors[corridor].ends[end].1;
-        // The sides of a triangle are in counter-clockwise order: from one to the next, the third
-        // is on the left
-        third[i] = (3 - entered - left, left == (entered + 2) % 3);
-    }
-    // From the right of the loop to its left
-    let mut search = Search::new(medial.junctions.len());
-    for (i, visit) in around.iter().enumerate() {
-        if third[i].1 {
-            let leg = medial.junctions[visit.junction].arms[third[i].0];
-            search.offer(medial, (visit.junction, [0, 0], 0.0, None), leg);
-        }
-    }
-    let (last, legs) = loop {
-        let found = search.next()?;
-        let known = search.reached[found].clone();
-        match on_loop(known.junction) {
-            Some(i) if !third[i].1 && known.arm == third[i].0 => break (i, search.legs(found)),
-            Some(_) => {}
-            None => {
-                if search.settle(known.junction) {
-                    for leg in medial.junctions[known.junction].arms {
-                        let from = (known.junction, known.steps, known.cost, Some(found));
-                        search.offer(medial, from, leg);
-                    }
-                }
-            }
-        }
-    };
-    let first = {
-        let (corridor, end) = *legs.first()?;
-        on_loop(medial.corridors[corridor].ends[end].0)?
-    };
+    let around = Loop::shortest(medial)?;
+    let crossing = around.crossing()?;
+    let first = around.position_of(medial.start(*crossing.legs.first()?).junction)?;
+    let last = crossing.last;
     // Along the loop from where the way across starts
     let mut steps = [0, 0];
     let mut lines = [Vec::new(), Vec::new()];
     let mut steps_at_last = None;
+    let n = around.visits.len();
     for k in 0..n {
-        let visit = &around[(first + k) % n];
+        let visit = &around.visits[(first + k) % n];
         if (first + k) % n == last {
             steps_at_last = Some(steps);
         }
         let line = &mut lines[usize::from(steps_at_last.is_some())];
         line.push(medial.place(visit.junction, steps));
-        line.extend(medial.way(visit.leg.0, visit.leg.1, steps));
-        steps = sum(steps, medial.follow(visit.leg.0, visit.leg.1).2);
+        line.extend(medial.way(visit.leg, steps));
+        steps = sum(steps, medial.follow(visit.leg).steps);
     }
     let steps_at_last = steps_at_last?;
     let [mut before, mut after] = lines;
     before.push(*after.first()?);
-    after.push(medial.place(around[first].junction, steps));
+    after.push(medial.place(around.visits[first].junction, steps));
     let along = steps;
     let mut across = Vec::new();
     steps = [0, 0];
-    for &(corridor, end) in &legs {
-        let from = medial.corridors[corridor].ends[end].0;
-        across.push(medial.place(from, steps));
-        across.extend(medial.way(corridor, end, steps));
-        steps = sum(steps, medial.follow(corridor, end).2);
+    for &leg in &crossing.legs {
+        across.push(medial.place(medial.start(leg).junction, steps));
+        across.extend(medial.way(leg, steps));
+        steps = sum(steps, medial.follow(leg).steps);
     }
-    across.push(medial.place(around[last].junction, steps));
+    across.push(medial.place(around.visits[last].junction, steps));
     let over = [steps[0] - steps_at_last[0], steps[1] - steps_at_last[1]];
     // The cell must be as large as the domain, not a multiple of it
     (along[1] * over[0] - along[0] * over[1] == 1).then(|| Network::Theta {
@@ -112,14 +72,11 @@ pub fn crossing(medial: &Medial, domain: &Domain) -> Option<Network> {
         if medial.junctions[known.junction].walls[1].is_some() {
             break found;
         }
-        for leg in medial.junctions[known.junction].arms {
-            let from = (known.junction, known.steps, known.cost, Some(found));
-            search.offer(medial, from, leg);
-        }
+        search.follow_all(medial, found);
     };
     let legs = search.legs(last);
     let start = match legs.first() {
-        Some(&(corridor, end)) => medial.corridors[corridor].ends[end].0,
+        Some(&leg) => medial.start(leg).junction,
         None => search.reached[last].junction,
     };
     let on_wall = |point: Point<2>, wall: usize| {
@@ -129,10 +86,10 @@ pub fn crossing(medial: &Medial, domain: &Domain) -> Option<Network> {
     };
     let mut line = vec![on_wall(medial.junctions[start].walls[0]?, 0)];
     let mut steps = [0, 0];
-    for &(corridor, end) in &legs {
-        line.push(medial.place(medial.corridors[corridor].ends[end].0, steps));
-        line.extend(medial.way(corridor, end, steps));
-        steps = sum(steps, medial.follow(corridor, end).2);
+    for &leg in &legs {
+        line.push(medial.place(medial.start(leg).junction, steps));
+        line.extend(medial.way(leg, steps));
+        steps = sum(steps, medial.follow(leg).steps);
     }
     let junction = search.reached[last].junction;
     line.push(medial.place(junction, steps));
@@ -145,31 +102,97 @@ pub fn crossing(medial: &Medial, domain: &Domain) -> Option<Network> {
 #[derive(Debug, Clone)]
 struct Visit {
     junction: usize,
-    leg: Leg,
+    leg: CorridorEnd,
 }
 
-/// The cheapest loop once around along y that meets no junction twice.
-fn shortest_loop(medial: &Medial) -> Option<Vec<Visit>> {
-    let mut best: Option<(f64, Vec<Visit>)> = None;
-    for base in 0..medial.junctions.len() {
-        let limit = best.as_ref().map_or(f64::INFINITY, |best| best.0);
-        let Some((cost, legs)) = loop_through(medial, base, limit) else { continue };
-        let visits: Vec<Visit> = legs
-            .iter()
-            .map(|&leg| Visit { junction: medial.corridors[leg.0].ends[leg.1].0, leg })
-            .collect();
-        let mut met = vec![false; medial.junctions.len()];
-        let is_simple =
-            visits.iter().all(|visit| !std::mem::replace(&mut met[visit.junction], true));
-        if is_simple {
-            best = Some((cost, visits));
+/// A loop once around along y that meets no junction twice.
+struct Loop<'a> {
+    medial: &'a Medial,
+    visits: Vec<Visit>,
+}
+
+/// A way from one junction of a loop to another.
+struct Crossing {
+    legs: Vec<CorridorEnd>,
+    /// Position on the loop at which it ends.
+    last: usize,
+}
+
+/// The arm of a junction of a loop that is not part of it.
+#[derive(Debug, Clone, Copy)]
+struct ThirdArm {
+    arm: usize,
+    is_on_right: bool,
+}
+
+impl<'a> Loop<'a> {
+    /// The cheapest one.
+    fn shortest(medial: &'a Medial) -> Option<Self> {
+        let mut least = f64::INFINITY;
+        let mut best: Option<Vec<Visit>> = None;
+        for base in 0..medial.junctions.len() {
+            let Some(turn) = loop_through(medial, base, least) else { continue };
+            let visit = |&leg: &CorridorEnd| Visit { junction: medial.start(leg).junction, leg };
+            let visits: Vec<Visit> = turn.legs.iter().map(visit).collect();
+            let mut met = vec![false; medial.junctions.len()];
+            let is_simple =
+                visits.iter().all(|visit| !std::mem::replace(&mut met[visit.junction], true));
+            if is_simple {
+                (least, best) = (turn.cost, Some(visits));
+            }
+        }
+        best.map(|visits| Self { medial, visits })
+    }
+
+    fn position_of(&self, junction: usize) -> Option<usize> {
+        self.visits.iter().position(|visit| visit.junction == junction)
+    }
+
+    fn third_arms(&self) -> Vec<ThirdArm> {
+        let n = self.visits.len();
+        let third = |(i, visit): (usize, &Visit)| {
+            let entered = self.medial.follow(self.visits[(i + n - 1) % n].leg).at.arm;
+            let left = self.medial.start(visit.leg).arm;
+            // The sides of a triangle are in counter-clockwise order: from one to the next, the
+            // third is on the left
+            ThirdArm { arm: 3 - entered - left, is_on_right: left == (entered + 2) % 3 }
+        };
+        self.visits.iter().enumerate().map(third).collect()
+    }
+
+    /// The cheapest way from the right of the loop to its left.
+    fn crossing(&self) -> Option<Crossing> {
+        let (medial, third) = (self.medial, self.third_arms());
+        let mut search = Search::new(medial.junctions.len());
+        for (visit, third) in self.visits.iter().zip(&third).filter(|(_, t)| t.is_on_right) {
+            search.follow_from_loop(medial, medial.junctions[visit.junction].arms[third.arm]);
+        }
+        loop {
+            let found = search.next()?;
+            let known = search.reached[found].clone();
+            match self.position_of(known.junction) {
+                Some(last) if !third[last].is_on_right && known.arm == third[last].arm => {
+                    return Some(Crossing { legs: search.legs(found), last });
+                }
+                Some(_) => {}
+                None => {
+                    if search.settle(known.junction) {
+                        search.follow_all(medial, found);
+                    }
+                }
+            }
         }
     }
-    best.map(|best| best.1)
+}
+
+/// A way once around from a junction.
+struct Turn {
+    cost: f64,
+    legs: Vec<CorridorEnd>,
 }
 
 /// The cheapest way from a junction to its image one period up, if it costs less than a limit.
-fn loop_through(medial: &Medial, base: usize, limit: f64) -> Option<(f64, Vec<Leg>)> {
+fn loop_through(medial: &Medial, base: usize, limit: f64) -> Option<Turn> {
     let wide = (2 * STRAY + 1) as usize;
     let mut search = Search::new(medial.junctions.len() * wide * wide);
     let state = |junction: usize, steps: Steps| {
@@ -184,85 +207,11 @@ fn loop_through(medial: &Medial, base: usize, limit: f64) -> Option<(f64, Vec<Le
             return None;
         }
         if known.junction == base && known.steps == [0, 1] {
-            return Some((known.cost, search.legs(found)));
+            return Some(Turn { cost: known.cost, legs: search.legs(found) });
         }
         let is_new = state(known.junction, known.steps).is_some_and(|state| search.settle(state));
         if is_new {
-            for leg in medial.junctions[known.junction].arms {
-                let from = (known.junction, known.steps, known.cost, Some(found));
-                search.offer(medial, from, leg);
-            }
+            search.follow_all(medial, found);
         }
-    }
-}
-
-/// What has been reached on the way, and over what.
-#[derive(Debug, Clone)]
-struct Reached {
-    junction: usize,
-    /// The arm it was entered by.
-    arm: usize,
-    steps: Steps,
-    cost: f64,
-    before: Option<usize>,
-    leg: Option<Leg>,
-}
-
-/// Dijkstra's method; few enough junctions for a plain list.
-struct Search {
-    reached: Vec<Reached>,
-    open: Vec<usize>,
-    settled: Vec<bool>,
-}
-
-impl Search {
-    fn new(n_states: usize) -> Self {
-        Self { reached: Vec::new(), open: Vec::new(), settled: vec![false; n_states] }
-    }
-
-    fn start(&mut self, junction: usize) {
-        self.open.push(self.reached.len());
-        let (steps, cost) = ([0, 0], 0.0);
-        self.reached.push(Reached { junction, arm: 3, steps, cost, before: None, leg: None });
-    }
-
-    /// Follows a corridor from a junction that was reached.
-    fn offer(
-        &mut self,
-        medial: &Medial,
-        (_, steps, cost, before): (usize, Steps, f64, Option<usize>),
-        leg: Leg,
-    ) {
-        let (junction, arm, gone) = medial.follow(leg.0, leg.1);
-        let (steps, cost) = (sum(steps, gone), cost + medial.corridors[leg.0].cost);
-        self.open.push(self.reached.len());
-        self.reached.push(Reached { junction, arm, steps, cost, before, leg: Some(leg) });
-    }
-
-    /// The cheapest of what is open.
-    fn next(&mut self) -> Option<usize> {
-        let cost = |at: &usize| self.reached[*at].cost;
-        let order = |a: &(usize, &usize), b: &(usize, &usize)| cost(a.1).total_cmp(&cost(b.1));
-        let (place, _) = self.open.iter().enumerate().min_by(order)?;
-        Some(self.open.swap_remove(place))
-    }
-
-    /// Whether a state is settled for the first time.
-    fn settle(&mut self, state: usize) -> bool {
-        !std::mem::replace(&mut self.settled[state], true)
-    }
-
-    /// The corridors that led somewhere, in order.
-    fn legs(&self, mut at: usize) -> Vec<Leg> {
-        let mut legs = Vec::new();
-        loop {
-            legs.extend(self.reached[at].leg);
-            match self.reached[at].before {
-                Some(before) => at = before,
-                None => break,
-            }
-        }
-        legs.reverse();
-        legs
     }
 }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::clearance::Clearance;
 use super::path::Path;
-use super::stretch::{Line, Stretch};
+use super::stretch::{CopyOf, Line, Stretch};
 use crate::{BoundaryId, Domain, Point};
 
 /// Distance of neighbouring points over the clearance there.
@@ -90,9 +90,9 @@ fn theta(
         stretch(Line::Along(Arc::clone(&down[0])), 0, None),
         stretch(Line::Along(Arc::clone(&down[1])), 0, None),
         stretch(Line::Along(Arc::clone(&across)), 2, None),
-        stretch(copy(&down[0], over), 1, Some((0, over))),
-        stretch(copy(&down[1], over + along), 1, Some((1, over + along))),
-        stretch(copy(&across, along), 3, Some((2, along))),
+        stretch(copy(&down[0], over), 1, copied(0, over)),
+        stretch(copy(&down[1], over + along), 1, copied(1, over + along)),
+        stretch(copy(&across, along), 3, copied(2, along)),
     ]
 }
 
@@ -131,7 +131,7 @@ fn crossing(
     let copy = |path: &Path, side, of| Stretch {
         line: Line::Along(Arc::new(path.moved(period))),
         side: BoundaryId::new(side),
-        copy_of: Some((of, period)),
+        copy_of: copied(of, period),
     };
     if wall_axis == 1 {
         vec![
@@ -148,6 +148,10 @@ fn crossing(
             straight(start + period, start, 0),
         ]
     }
+}
+
+fn copied(original: usize, shift: Point<2>) -> Option<CopyOf> {
+    Some(CopyOf { original, shift })
 }
 
 /// A line under tension between bodies.

@@ -11,8 +11,17 @@ pub(crate) struct Stretch {
     pub line: Line,
     /// Index of the side it is part of.
     pub side: BoundaryId,
-    /// The stretch it copies backwards, and the whole periods between them (m).
-    pub copy_of: Option<(usize, Point<2>)>,
+    /// The stretch it copies backwards.
+    pub copy_of: Option<CopyOf>,
+}
+
+/// What a periodic part of a boundary copies.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct CopyOf {
+    /// Index of the original.
+    pub original: usize,
+    /// Whole periods from it to the copy (m).
+    pub shift: Point<2>,
 }
 
 /// The line of a stretch.

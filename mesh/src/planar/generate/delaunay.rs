@@ -1,11 +1,20 @@
 //! Constrained Delaunay triangulation of boundary and interior points (spade).
 
-use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation as _};
+use spade::handles::{FaceHandle, InnerTag};
+use spade::{CdtEdge, ConstrainedDelaunayTriangulation, Point2, Triangulation as _};
 
 use super::edges::BoundaryEdges;
 use super::front::SizedPoints;
 use super::triangulation::{Triangulation, WALL};
 use crate::{MeshError, Point, SizeField};
+
+type Delaunay = ConstrainedDelaunayTriangulation<Point2<f64>>;
+
+/// A triangle of the triangulation.
+type Face<'a> = FaceHandle<'a, InnerTag, Point2<f64>, (), CdtEdge<()>, ()>;
+
+/// Number of a triangle that is not in the fluid.
+const OUTSIDE: u32 = u32::MAX;
 
 /// Triangles of the fluid between the boundary edges, through all given interior points.
 ///
@@ -25,11 +34,9 @@ pub fn triangulate(
     let constraints =
         boundary.edges.iter().map(|e| e.vertices.map(|v| v as usize)).collect::<Vec<_>>();
     let mut conflict = None;
-    let cdt = ConstrainedDelaunayTriangulation::<Point2<f64>>::try_bulk_load_cdt(
-        vertices,
-        constraints,
-        |edge| conflict = conflict.or(Some(edge[0])),
-    )
+    let cdt = Delaunay::try_bulk_load_cdt(vertices, constraints, |edge| {
+        conflict = conflict.or(Some(edge[0]))
+    })
     .map_err(|_| refuse(0, "a coordinate is not finite, or too large"))?;
     if let Some(vertex) = conflict {
         return Err(refuse(vertex, "boundary edges cross"));
@@ -38,55 +45,76 @@ pub fn triangulate(
         return Err(refuse(0, "two vertices coincide"));
     }
 
-    // The fluid is what can be reached from the left of boundary edges without crossing one
-    let mut edge_from = vec![u32::MAX; points.len()];
-    for (i, edge) in boundary.edges.iter().enumerate() {
-        edge_from[edge.vertices[0] as usize] = i as u32;
-    }
-    const OUTSIDE: u32 = u32::MAX;
-    let mut number = vec![OUTSIDE; cdt.num_all_faces()];
-    let mut order = Vec::new();
-    for edge in cdt.directed_edges().filter(|e| e.is_constraint_edge()) {
-        let (from, to) = (edge.from().index(), edge.to().index());
-        let boundary_edge = boundary.edges[edge_from[from] as usize];
-        if boundary_edge.vertices[1] as usize != to {
-            continue;
-        }
-        let Some(face) = edge.face().as_inner() else {
-            return Err(refuse(from, "the boundary is not closed"));
-        };
-        if number[face.index()] == OUTSIDE {
-            number[face.index()] = order.len() as u32;
-            order.push(face);
-        }
-    }
-    let mut next = 0;
-    while next < order.len() {
-        for edge in order[next].adjacent_edges().iter().filter(|e| !e.is_constraint_edge()) {
-            let Some(face) = edge.rev().face().as_inner() else {
-                return Err(refuse(edge.from().index(), "the boundary is not closed"));
-            };
-            if number[face.index()] == OUTSIDE {
-                number[face.index()] = order.len() as u32;
-                order.push(face);
-            }
-        }
-        next += 1;
-    }
-    let triangles = order.iter().map(|f| f.vertices().map(|v| v.index() as u32)).collect();
-    let across = order
-        .iter()
-        .map(|face| {
-            face.adjacent_edges().map(|edge| {
-                if edge.is_constraint_edge() {
-                    WALL | edge_from[edge.from().index()]
-                } else {
-                    number[edge.rev().face().index()]
-                }
-            })
-        })
-        .collect();
+    let fluid = Fluid::new(&cdt, boundary)
+        .map_err(|vertex| refuse(vertex, "the boundary is not closed"))?;
     let at_boundary = boundary.points.iter().map(|x| sizes.at(*x));
     let sizes = at_boundary.chain(interior.sizes.iter().copied()).collect();
-    Ok(Triangulation::new(points, sizes, triangles, across, boundary.edges.clone()))
+    Ok(Triangulation::new(points, sizes, fluid.triangles(), fluid.across(), boundary.edges.clone()))
+}
+
+/// The triangles of the fluid: those that can be reached from the left of boundary edges without
+/// crossing one.
+struct Fluid<'a> {
+    faces: Vec<Face<'a>>,
+    /// Position of each face in `faces`, or [`OUTSIDE`].
+    number: Vec<u32>,
+    /// Boundary edge that starts at each vertex.
+    edge_from: Vec<u32>,
+}
+
+impl<'a> Fluid<'a> {
+    /// Gathers the triangles; a vertex at which the boundary is open is the error.
+    fn new(cdt: &'a Delaunay, boundary: &BoundaryEdges) -> Result<Self, usize> {
+        let mut edge_from = vec![u32::MAX; cdt.num_vertices()];
+        for (i, edge) in boundary.edges.iter().enumerate() {
+            edge_from[edge.vertices[0] as usize] = i as u32;
+        }
+        let number = vec![OUTSIDE; cdt.num_all_faces()];
+        let mut fluid = Self { faces: Vec::new(), number, edge_from };
+        for edge in cdt.directed_edges().filter(|e| e.is_constraint_edge()) {
+            let (from, to) = (edge.from().index(), edge.to().index());
+            let boundary_edge = boundary.edges[fluid.edge_from[from] as usize];
+            if boundary_edge.vertices[1] as usize == to {
+                fluid.include(edge.face().as_inner().ok_or(from)?);
+            }
+        }
+        let mut next = 0;
+        while next < fluid.faces.len() {
+            for edge in fluid.faces[next].adjacent_edges() {
+                if !edge.is_constraint_edge() {
+                    fluid.include(edge.rev().face().as_inner().ok_or(edge.from().index())?);
+                }
+            }
+            next += 1;
+        }
+        Ok(fluid)
+    }
+
+    fn include(&mut self, face: Face<'a>) {
+        let number = &mut self.number[face.index()];
+        if *number == OUTSIDE {
+            *number = self.faces.len() as u32;
+            self.faces.push(face);
+        }
+    }
+
+    /// Corners of all triangles.
+    fn triangles(&self) -> Vec<[u32; 3]> {
+        let corners = |face: &Face<'_>| face.vertices().map(|vertex| vertex.index() as u32);
+        self.faces.iter().map(corners).collect()
+    }
+
+    /// What is behind the sides of all triangles.
+    fn across(&self) -> Vec<[u32; 3]> {
+        let behind = |face: &Face<'_>| {
+            face.adjacent_edges().map(|edge| {
+                if edge.is_constraint_edge() {
+                    WALL | self.edge_from[edge.from().index()]
+                } else {
+                    self.number[edge.rev().face().index()]
+                }
+            })
+        };
+        self.faces.iter().map(behind).collect()
+    }
 }

@@ -1,6 +1,7 @@
 //! Boundary edges: every piece of the border cut by the size field, evenly in arc length over h.
 
 use crate::planar::boundary::BoundaryLoops;
+use crate::planar::cut::CopyOf;
 use crate::{MeshError, Point, SizeField};
 
 /// Largest number of boundary edges.
@@ -46,7 +47,7 @@ impl BoundaryEdges {
             let start = made.points.len() as u32;
             for piece in *first..end {
                 let from = made.edges.len();
-                if let Some((original, shift)) = border.pieces[piece].copy_of {
+                if let Some(CopyOf { original, shift }) = border.pieces[piece].copy_of {
                     made.copy(piece, ranges[original].clone(), shift);
                 } else {
                     let cuts = cut(border, piece, sizes)?;

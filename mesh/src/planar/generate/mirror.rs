@@ -6,6 +6,7 @@
 use std::collections::HashMap;
 
 use crate::planar::boundary::{BoundaryLoops, BoundaryPiece, Curve, quarter_of, segment};
+use crate::planar::cut::CopyOf;
 use crate::{
     Boundary, BoundaryId, BoundaryKind, CellId, Domain, Facet, Mesh, NodeId, Outline, PeriodicPair,
     PlacedShape, Point, Sizing,
@@ -188,21 +189,22 @@ impl Mirror {
         max: Point<2>,
     ) -> [Point<2>; 2] {
         let at = |x: f64, y: f64| Point::<2>::new(x, y);
+        let copy_of_first = |shift| CopyOf { original: 0, shift };
         if self.axis == 1 {
             // Left comes first, for right to copy it
-            let copy = domain.is_periodic(0).then_some((0, at(max.x - min.x, 0.0)));
+            let copy = domain.is_periodic(0).then_some(at(max.x - min.x, 0.0));
             let [start, end] = [at(min.x, self.at), at(max.x, self.at)];
             pieces.push(segment(at(min.x, max.y), start, 0, None));
             // The line and what it enters are put between the two sides, the top comes last
-            pieces.push(segment(end, max, 1, copy));
+            pieces.push(segment(end, max, 1, copy.map(copy_of_first)));
             pieces.push(segment(max, at(min.x, max.y), 3, None));
             [start, end]
         } else {
-            let copy = domain.is_periodic(2).then_some((0, at(0.0, max.y - min.y)));
+            let copy = domain.is_periodic(2).then_some(at(0.0, max.y - min.y));
             let [start, end] = [at(self.at, max.y), at(self.at, min.y)];
             pieces.push(segment(end, at(max.x, min.y), 2, None));
             pieces.push(segment(at(max.x, min.y), max, 1, None));
-            pieces.push(segment(max, start, 3, copy));
+            pieces.push(segment(max, start, 3, copy.map(copy_of_first)));
             [start, end]
         }
     }
@@ -265,7 +267,7 @@ impl Mirror {
         for (node, _) in half.nodes.iter_mut().zip(&is_on_line).filter(|(_, on_line)| **on_line) {
             node[self.axis] = self.at;
         }
-        let ([kept, image], n_nodes) = number(&half, &is_on_line);
+        let Numbering { kept, image, n_nodes } = number(&half, &is_on_line);
         let mut whole = Mesh {
             nodes: vec![Point::<2>::zeros(); n_nodes],
             n_vertices: 0,
@@ -310,9 +312,18 @@ impl Mirror {
     }
 }
 
-/// Numbers in the whole mesh of the half's nodes and of their images, vertices first, and how many
-/// nodes it has.
-fn number(half: &Mesh<2>, is_on_line: &[bool]) -> ([Vec<NodeId>; 2], usize) {
+/// Numbers of nodes in the whole mesh.
+struct Numbering {
+    /// Of the nodes of the half.
+    kept: Vec<NodeId>,
+    /// Of their images.
+    image: Vec<NodeId>,
+    /// How many there are.
+    n_nodes: usize,
+}
+
+/// Numbers the nodes of the whole mesh, vertices first.
+fn number(half: &Mesh<2>, is_on_line: &[bool]) -> Numbering {
     let (mut kept, mut image) =
         (vec![NodeId::default(); half.n_nodes()], vec![NodeId::default(); half.n_nodes()]);
     let mut next = 0;
@@ -326,7 +337,7 @@ fn number(half: &Mesh<2>, is_on_line: &[bool]) -> ([Vec<NodeId>; 2], usize) {
             next += 1;
         }
     }
-    ([kept, image], next)
+    Numbering { kept, image, n_nodes: next }
 }
 
 /// Places around an outline, the ends of its quarters among them.

@@ -71,6 +71,12 @@ pub fn finish(
         periodic: Vec::new(),
     };
     mesh.periodic = pair_nodes(&mesh, &triangles, periodic);
+    check_curved(&mesh)?;
+    Ok(mesh)
+}
+
+/// Whether no curved cell is folded.
+fn check_curved(mesh: &Mesh<2>) -> Result<(), MeshError> {
     for cell in mesh.cell_ids().filter(|cell| mesh.curved[*cell]) {
         let nodes = mesh.cell_nodes(cell);
         let lowest = jacobian_coefficients(&nodes).into_iter().fold(f64::INFINITY, f64::min);
@@ -84,7 +90,7 @@ pub fn finish(
             });
         }
     }
-    Ok(mesh)
+    Ok(())
 }
 
 /// Periodic pairs of nodes, chains resolved, sorted by copy.

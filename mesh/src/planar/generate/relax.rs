@@ -43,8 +43,16 @@ pub fn smooth_all(mesh: &mut Triangulation) {
     }
 }
 
-/// Sum of (1/q - 1)² over the triangles around a place, and the worst quality.
-fn energy(ring: &[[Point<2>; 2]], place: Point<2>) -> (f64, f64) {
+/// How good the triangles around a vertex are.
+#[derive(Debug, Clone, Copy)]
+struct RingQuality {
+    /// Sum of (1/q - 1)².
+    energy: f64,
+    /// The worst quality.
+    worst: f64,
+}
+
+fn ring_quality(ring: &[[Point<2>; 2]], place: Point<2>) -> RingQuality {
     let mut sum = 0.0;
     let mut worst = f64::INFINITY;
     for [a, b] in ring {
@@ -53,7 +61,7 @@ fn energy(ring: &[[Point<2>; 2]], place: Point<2>) -> (f64, f64) {
         let excess = 1.0 / q.max(1e-9) - 1.0;
         sum += excess * excess;
     }
-    (sum, worst)
+    RingQuality { energy: sum, worst }
 }
 
 fn ring(mesh: &Triangulation, star: &[Corner]) -> Vec<[Point<2>; 2]> {
@@ -75,12 +83,12 @@ fn smooth(mesh: &mut Triangulation, v: u32, star: &[Corner]) {
         target += (a + b) * 0.5 + Point::<2>::new(-along.y, along.x) * (0.5 * 3.0_f64.sqrt());
     }
     target /= ring.len() as f64;
-    let (sum, worst) = energy(&ring, here);
+    let now = ring_quality(&ring, here);
     let mut step = target - here;
     for _ in 0..3 {
         let place = here + step;
-        let (new_sum, new_worst) = energy(&ring, place);
-        if new_sum < sum * (1.0 - 1e-4) && new_worst >= worst.min(GOOD) {
+        let then = ring_quality(&ring, place);
+        if then.energy < now.energy * (1.0 - 1e-4) && then.worst >= now.worst.min(GOOD) {
             mesh.points[v as usize] = place;
             return;
         }
@@ -94,7 +102,7 @@ pub fn raise_worst(mesh: &mut Triangulation, v: u32) -> bool {
     mesh.star(v, &mut star);
     let ring = ring(mesh, &star);
     let mut place = mesh.points[v as usize];
-    let start = energy(&ring, place).1;
+    let start = ring_quality(&ring, place).worst;
     let mut worst = start;
     let reach = ring.iter().map(|[a, _]| (a - place).norm()).fold(f64::INFINITY, f64::min);
     let mut step = 0.3 * reach;
@@ -103,7 +111,7 @@ pub fn raise_worst(mesh: &mut Triangulation, v: u32) -> bool {
         for k in 0..8 {
             let (sin, cos) = (std::f64::consts::FRAC_PI_4 * f64::from(k)).sin_cos();
             let there = place + Point::<2>::new(cos, sin) * step;
-            let quality = energy(&ring, there).1;
+            let quality = ring_quality(&ring, there).worst;
             if quality > worst + PROGRESS {
                 (place, worst, moved) = (there, quality, true);
             }

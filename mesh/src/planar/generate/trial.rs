@@ -33,13 +33,13 @@ pub fn try_moves(mesh: &mut Triangulation) -> bool {
         if !mesh.is_alive(t) || mesh.quality(t) >= BAD {
             continue;
         }
-        for (split, corner) in moves(mesh, t) {
+        for change in moves(mesh, t) {
             if trials == 0 {
                 return has_gained;
             }
             trials -= 1;
             let mut copy = mesh.clone();
-            if !apply(&mut copy, split, corner) {
+            if !apply(&mut copy, change) {
                 continue;
             }
             let then = total_shortage(&copy);
@@ -62,8 +62,17 @@ fn total_shortage(mesh: &Triangulation) -> f64 {
         .sum()
 }
 
-/// Inner sides of a triangle and of its neighbours: to be split, or merged at their first corner.
-fn moves(mesh: &Triangulation, t: usize) -> Vec<(bool, Corner)> {
+/// A change of the connections.
+#[derive(Debug, Clone, Copy)]
+enum Change {
+    /// The side that starts at a corner is split.
+    Split(Corner),
+    /// The vertex at a corner is merged into the next one.
+    Merge(Corner),
+}
+
+/// Changes of the inner sides of a triangle and of its neighbours, merges first.
+fn moves(mesh: &Triangulation, t: usize) -> Vec<Change> {
     let around = mesh.across[t].into_iter().filter(|n| n & WALL == 0).map(|n| n as usize);
     let triangles: Vec<usize> = std::iter::once(t).chain(around).collect();
     let mut moves = Vec::new();
@@ -72,8 +81,10 @@ fn moves(mesh: &Triangulation, t: usize) -> Vec<(bool, Corner)> {
             for side in 0..3 {
                 let corner = (*triangle, side);
                 let is_inner = mesh.across[*triangle][side] & WALL == 0;
-                if is_inner && (split || !mesh.is_fixed(mesh.triangles[*triangle][side])) {
-                    moves.push((split, corner));
+                if is_inner && split {
+                    moves.push(Change::Split(corner));
+                } else if is_inner && !mesh.is_fixed(mesh.triangles[*triangle][side]) {
+                    moves.push(Change::Merge(corner));
                 }
             }
         }
@@ -82,19 +93,23 @@ fn moves(mesh: &Triangulation, t: usize) -> Vec<(bool, Corner)> {
 }
 
 /// Makes a move and relaxes the patch around it; whether it was possible.
-fn apply(mesh: &mut Triangulation, split: bool, (t, s): Corner) -> bool {
+fn apply(mesh: &mut Triangulation, change: Change) -> bool {
+    let (Change::Split((t, s)) | Change::Merge((t, s))) = change;
     let [a, b] = [0, 1].map(|i| mesh.triangles[t][(s + i) % 3]);
-    let center = if split {
-        let middle = (mesh.points[a as usize] + mesh.points[b as usize]) * 0.5;
-        mesh.split((t, s), middle, 0.0)
-    } else {
-        let mut star = Vec::new();
-        mesh.star(a, &mut star);
-        if mesh.merged_quality((t, s), &star).is_none_or(|quality| quality < 0.05) {
-            return false;
+    let center = match change {
+        Change::Split(corner) => {
+            let middle = (mesh.points[a as usize] + mesh.points[b as usize]) * 0.5;
+            mesh.split(corner, middle, 0.0)
         }
-        mesh.merge((t, s), &star);
-        b
+        Change::Merge(corner) => {
+            let mut star = Vec::new();
+            mesh.star(a, &mut star);
+            if mesh.merged_quality(corner, &star).is_none_or(|quality| quality < 0.05) {
+                return false;
+            }
+            mesh.merge(corner, &star);
+            b
+        }
     };
     for _ in 0..SWEEPS {
         let vertices = patch(mesh, center);

@@ -14,6 +14,7 @@ use std::sync::Arc;
 use closed_spline::ClosedSpline;
 use foot::Foot;
 
+use crate::surface::{Surface, SurfacePoint};
 use crate::{MeshError, PlacedShape, Point, Shape, Spline};
 
 /// The closed curve around a body, in the world.
@@ -191,12 +192,6 @@ impl Outline {
         (point - self.center).norm() - self.reach
     }
 
-    /// Whether [`Self::least_gap`] surely exceeds a bound (m), at less cost still.
-    pub(crate) fn is_beyond(&self, point: Point<2>, bound: f64) -> bool {
-        let off = (point - self.center).abs();
-        off.x.max(off.y) > (bound + self.reach) * (1.0 + 1e-9)
-    }
-
     /// Point (m), first and second derivative at a parameter in [0, 1] of one of the quarters.
     #[must_use]
     pub fn evaluate(&self, quarter: usize, parameter: f64) -> [Point<2>; 3] {
@@ -255,6 +250,32 @@ impl Outline {
 
     fn turn(&self, v: Point<2>) -> Point<2> {
         Point::<2>::new(self.cos * v.x - self.sin * v.y, self.sin * v.x + self.cos * v.y)
+    }
+}
+
+impl Surface<2> for Outline {
+    type Parameter = f64;
+
+    fn center(&self) -> Point<2> {
+        self.center
+    }
+
+    fn reach(&self) -> f64 {
+        self.reach
+    }
+
+    fn nearest_point(&self, point: Point<2>) -> SurfacePoint<2> {
+        let Nearest { point, normal, gap, .. } = self.nearest(point);
+        SurfacePoint { point, normal, gap }
+    }
+
+    fn parameter_of(&self, point: Point<2>) -> f64 {
+        Self::parameter_of(self, point)
+    }
+
+    fn point(&self, parameter: f64) -> SurfacePoint<2> {
+        let [point, rate, _] = self.at(parameter);
+        SurfacePoint { point, normal: Point::<2>::new(rate.y, -rate.x).normalize(), gap: 0.0 }
     }
 }
 

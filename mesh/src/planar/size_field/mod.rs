@@ -96,6 +96,6 @@ impl SizeField {
     #[must_use]
     pub fn smallest(&self) -> f64 {
         let boxes = self.boxes.iter().map(|b| b.size);
-        self.tree.sources().iter().map(|s| s.1).chain(boxes).fold(self.size, f64::min)
+        self.tree.sources().iter().map(|source| source.size).chain(boxes).fold(self.size, f64::min)
     }
 }

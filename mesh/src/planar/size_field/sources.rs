@@ -3,8 +3,9 @@
 //! The gap is Lipschitz with constant one, so samples closer than half of the size they find
 //! cannot miss a narrow place between them.
 
-use crate::planar::boundary::{BoundaryLoops, Curve};
-use crate::planar::gap_query::nearest_body;
+use super::tree::SizeSource;
+use crate::planar::boundary::{BoundaryLoops, Curve, Frame};
+use crate::surface::nearest_surface;
 use crate::{BoundaryKind, Domain, MeshError, PlacedShape, Point, Sizing};
 
 /// Largest number of samples on the boundary.
@@ -25,7 +26,7 @@ pub fn surface_sizes(
     bodies: &[PlacedShape],
     sizing: &Sizing,
     border: &BoundaryLoops,
-) -> Result<Vec<(Point<2>, f64)>, MeshError> {
+) -> Result<Vec<SizeSource>, MeshError> {
     let surfaces = Surfaces::new(domain, bodies, sizing, border);
     let images = &border.images;
     let mut sources = Vec::new();
@@ -41,15 +42,15 @@ pub fn surface_sizes(
         let mut from = (0.0, first);
         while let Some((to, depth)) = ends.pop() {
             let next = surfaces.sample(index, to);
-            let length = (next.0 - from.1.0).norm();
-            if depth < surfaces.halvings(index) || length > 0.5 * next.1.min(from.1.1) {
+            let length = (next.point - from.1.point).norm();
+            if depth < surfaces.halvings(index) || length > 0.5 * next.size.min(from.1.size) {
                 ends.push((to, depth + 1));
                 ends.push((0.5 * (from.0 + to), depth + 1));
                 if samples.len() + sources.len() > MOST_SAMPLES || depth > 60 {
                     return Err(MeshError::TooManyCells {
                         what: "places on the boundary",
                         limit: MOST_SAMPLES,
-                        smallest: next.1.min(from.1.1),
+                        smallest: next.size.min(from.1.size),
                     });
                 }
                 continue;
@@ -58,10 +59,11 @@ pub fn surface_sizes(
             from = (to, next);
         }
         for shift in images {
-            sources.extend(samples.iter().map(|(x, size)| (x + shift, *size)));
+            let moved = |s: &SizeSource| SizeSource { point: s.point + shift, ..*s };
+            sources.extend(samples.iter().map(moved));
         }
     }
-    sources.retain(|(_, size)| *size < sizing.size);
+    sources.retain(|source| source.size < sizing.size);
     Ok(sources)
 }
 
@@ -117,7 +119,7 @@ impl<'a> Surfaces<'a> {
             {
                 facing[outline].extend((0..FACING_SAMPLES).map(|i| {
                     let parameter = i as f64 / FACING_SAMPLES as f64;
-                    (border.point(index, parameter), border.frame(index, parameter).0)
+                    (border.point(index, parameter), border.frame(index, parameter).normal)
                 }));
             }
         }
@@ -138,9 +140,9 @@ impl<'a> Surfaces<'a> {
     }
 
     /// Place of a piece and the size wanted there.
-    fn sample(&self, piece: usize, parameter: f64) -> (Point<2>, f64) {
+    fn sample(&self, piece: usize, parameter: f64) -> SizeSource {
         let point = self.border.point(piece, parameter);
-        let (normal, radius) = self.border.frame(piece, parameter);
+        let Frame { normal, radius } = self.border.frame(piece, parameter);
         let boundary = self.border.pieces[piece].boundary;
         let layers = self.layers;
         let size = match self.border.boundaries[boundary].kind {
@@ -170,14 +172,14 @@ impl<'a> Surfaces<'a> {
                 }
             }
         };
-        (point, size.min(self.own[boundary]).min(self.turn * radius))
+        SizeSource { point, size: size.min(self.own[boundary]).min(self.turn * radius) }
     }
 
     /// Distance to the nearest body, the images of all and the body itself left out.
     fn gap_to_bodies(&self, point: Point<2>, but: Option<usize>) -> f64 {
         let bodies = &self.border.outlines[..self.n_bodies];
-        nearest_body(bodies, self.images, point, but, f64::INFINITY)
-            .map_or(f64::INFINITY, |(_, gap)| gap)
+        nearest_surface(bodies, self.images, point, but, f64::INFINITY)
+            .map_or(f64::INFINITY, |near| near.gap)
     }
 
     /// Diameter of the largest empty circle that touches the body here, seen from its own parts.

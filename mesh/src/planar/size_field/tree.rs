@@ -5,10 +5,19 @@ use crate::Point;
 /// Sources in one leaf.
 const LEAF: usize = 8;
 
-/// Places with a wanted size, ready for min_i (h_i + growth |x - x_i|).
+/// A point with a wanted size.
+#[derive(Debug, Clone, Copy)]
+pub struct SizeSource {
+    /// Where (m).
+    pub point: Point<2>,
+    /// Wanted edge length there (m).
+    pub size: f64,
+}
+
+/// Points with a wanted size, ready for min_i (h_i + growth |x - x_i|).
 #[derive(Debug, Clone)]
 pub struct SizeTree {
-    sources: Vec<(Point<2>, f64)>,
+    sources: Vec<SizeSource>,
     nodes: Vec<Node>,
 }
 
@@ -25,7 +34,7 @@ struct Node {
 
 impl SizeTree {
     /// Tree over places and their sizes (m).
-    pub fn new(mut sources: Vec<(Point<2>, f64)>) -> Self {
+    pub fn new(mut sources: Vec<SizeSource>) -> Self {
         let mut nodes = Vec::new();
         let n = sources.len();
         if n > 0 {
@@ -35,7 +44,7 @@ impl SizeTree {
     }
 
     /// The places and their sizes.
-    pub fn sources(&self) -> &[(Point<2>, f64)] {
+    pub fn sources(&self) -> &[SizeSource] {
         &self.sources
     }
 
@@ -54,8 +63,8 @@ impl SizeTree {
             }
             let node = self.nodes[index as usize];
             if node.right == 0 {
-                for (place, size) in &self.sources[node.from as usize..node.to as usize] {
-                    best = best.min(size + growth * (point - place).norm());
+                for source in &self.sources[node.from as usize..node.to as usize] {
+                    best = best.min(source.size + growth * (point - source.point).norm());
                 }
                 continue;
             }
@@ -78,15 +87,15 @@ impl SizeTree {
     }
 }
 
-fn split(sources: &mut [(Point<2>, f64)], from: usize, to: usize, nodes: &mut Vec<Node>) {
+fn split(sources: &mut [SizeSource], from: usize, to: usize, nodes: &mut Vec<Node>) {
     let part = &mut sources[from..to];
-    let mut min = part[0].0;
-    let mut max = part[0].0;
+    let mut min = part[0].point;
+    let mut max = part[0].point;
     let mut smallest = f64::INFINITY;
-    for (place, size) in part.iter() {
-        min = min.inf(place);
-        max = max.sup(place);
-        smallest = smallest.min(*size);
+    for source in part.iter() {
+        min = min.inf(&source.point);
+        max = max.sup(&source.point);
+        smallest = smallest.min(source.size);
     }
     let index = nodes.len();
     nodes.push(Node { min, max, smallest, from: from as u32, to: to as u32, right: 0 });
@@ -95,7 +104,7 @@ fn split(sources: &mut [(Point<2>, f64)], from: usize, to: usize, nodes: &mut Ve
     }
     let axis = usize::from(max.y - min.y > max.x - min.x);
     let middle = part.len() / 2;
-    part.select_nth_unstable_by(middle, |a, b| a.0[axis].total_cmp(&b.0[axis]));
+    part.select_nth_unstable_by(middle, |a, b| a.point[axis].total_cmp(&b.point[axis]));
     split(sources, from, from + middle, nodes);
     nodes[index].right = nodes.len() as u32;
     split(sources, from + middle, to, nodes);
@@ -113,12 +122,16 @@ mod tests {
             (state >> 11) as f64 / (1_u64 << 53) as f64
         };
         let sources: Vec<_> = (0..500)
-            .map(|_| (Point::<2>::new(random(), random()), 0.01 + 0.1 * random()))
+            .map(|_| SizeSource {
+                point: Point::<2>::new(random(), random()),
+                size: 0.01 + 0.1 * random(),
+            })
             .collect();
         let tree = SizeTree::new(sources.clone());
         for _ in 0..500 {
             let x = Point::<2>::new(3.0 * random() - 1.0, 3.0 * random() - 1.0);
-            let plain = sources.iter().map(|(p, h)| h + 0.3 * (x - p).norm()).fold(0.4, f64::min);
+            let plain =
+                sources.iter().map(|s| s.size + 0.3 * (x - s.point).norm()).fold(0.4, f64::min);
             assert!((tree.envelope(x, 0.3, 0.4, 0.0) - plain).abs() < 1e-15);
             let near = tree.envelope(x, 0.3, 0.4, 0.01);
             assert!(near >= plain - 1e-15 && near <= plain / 0.99 + 1e-15);

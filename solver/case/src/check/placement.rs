@@ -263,7 +263,8 @@ mod tests {
             let found = layout.misplaced();
             let overlaps =
                 found.iter().filter(|one| matches!(one.error, MeshError::Overlap { .. }));
-            assert!(overlaps.count() > 20 && found.len() < 300, "{}", found.len());
+            let n_overlaps = overlaps.count();
+            assert!(n_overlaps > 10 && found.len() > n_overlaps, "{n_overlaps} of {}", found.len());
             assert_eq!(found, misplaced_by_all_pairs(&domain, &bodies));
         }
     }

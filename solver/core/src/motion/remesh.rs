@@ -166,8 +166,9 @@ fn crowding(
     let kind = mesh.boundaries[facet.boundary].kind;
     let found = mesh.facet_nodes(facet).filter_map(|node| {
         let place = mesh.nodes[node];
-        let (facing, gap) = surroundings.facing(boundary, kind, place, limit * length)?;
-        Some(Crowding { facing, place, gap, layers: gap / length })
+        let found = surroundings.facing(boundary, kind, place, limit * length)?;
+        let layers = found.gap / length;
+        Some(Crowding { facing: found.boundary, place, gap: found.gap, layers })
     });
     found.min_by(|a, b| a.layers.total_cmp(&b.layers))
 }

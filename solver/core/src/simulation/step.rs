@@ -62,6 +62,7 @@ impl<const D: usize> TimeStepper<'_, D> {
             if self.path.resolves(&pass.poses, &reached) {
                 let loads = self.loads(work, state, &equations, &mut flow);
                 let error = local_error(self, state, &step, &flow.solution);
+                let contact = self.with_minimum_gap(contact, gaps, state, &reached);
                 let end = Arrival { poses: reached, solution: flow.solution, contact };
                 let level = self.new_level(work, state, &history, &pass, end, &loads.propulsion)?;
                 let report = StepReport { loads: loads.bodies, iterations, error };
