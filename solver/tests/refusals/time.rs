@@ -35,7 +35,7 @@ fn a_moving_mesh_has_limits_a_new_one_meets() {
         ("quality=0", "must be positive"),
         ("quality=1", "keeps 1 of its quality"),
         ("layers=0.5", "a gap needs a layer of cells"),
-        ("layers=5", "has only 4 itself"),
+        ("layers=5", "a new mesh has 4"),
         ("equation=elastc", "`elastic`?"),
     ] {
         let setting = format!("mesh.moving.{setting}");
