@@ -1,6 +1,6 @@
 //! The table of all quantities: name, unit, when it exists, meaning; in the order of the columns.
 
-use super::{Quantity, When};
+use super::row::{Quantity, When};
 
 /// A type with one value per row, and the rows; each row reads
 /// `Variant: name, unit, when it exists, meaning`. Rows that follow each other with the same unit

@@ -16,6 +16,7 @@ mod implicit;
 mod law;
 mod loads;
 mod pair;
+mod pair_vector;
 mod planar;
 mod unknowns;
 
@@ -25,5 +26,6 @@ pub use gaps::{Gaps, MinimumGap};
 pub use implicit::{ContactSolution, ContactStep};
 pub use law::{Law, LawKind};
 pub use loads::{ContactForce, ContactLoads};
-pub use pair::{ContactPair, PairMatrix, PairVector, Partner};
+pub use pair::{ContactPair, Partner};
+pub use pair_vector::{PairMatrix, PairVector};
 pub use planar::PlanarGaps;

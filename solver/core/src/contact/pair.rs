@@ -1,8 +1,9 @@
 //! `ContactPair`: a close pair of points, and how its gap changes as the bodies move.
 
-use nalgebra::{SMatrix, SVector, Vector3};
+use nalgebra::Vector3;
 
 use super::Curvatures;
+use super::pair_vector::{PairMatrix, PairVector};
 use crate::body::{Modes, RigidVector, Wrench};
 
 /// What a body faces.
@@ -13,12 +14,6 @@ pub enum Partner {
     /// A side of the domain, by its number.
     Wall(usize),
 }
-
-/// The six components of a body's rigid motion, then those of its partner.
-pub type PairVector = SVector<f64, 12>;
-
-/// A matrix over the components of a [`PairVector`].
-pub type PairMatrix = SMatrix<f64, 12, 12>;
 
 /// A point of a body and the point of its partner that it is nearest to.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,8 +1,10 @@
 //! `LinearSystem`: matrix and solver of fluid and bodies on one mesh.
 
+use std::sync::Arc;
+
 use crate::algebra::{
     Accuracy, AffineConstraints, DirectSolver, LinearError, LinearSolver, Pattern, SparseMatrix,
-    Unknowns,
+    Term, Unknowns,
 };
 use crate::flow::pressure_unknowns;
 use crate::space::DofLayout;
@@ -18,7 +20,7 @@ pub(super) struct LinearSystem {
 
 impl LinearSystem {
     /// A zero matrix.
-    pub(super) fn new(pattern: Pattern, unknowns: Unknowns) -> Self {
+    pub(super) fn new(pattern: Arc<Pattern>, unknowns: Unknowns) -> Self {
         let matrix = SparseMatrix::zeros(pattern);
         Self { matrix, solver: None, accuracy: Accuracy::default(), unknowns }
     }
@@ -76,15 +78,16 @@ impl LinearSystem {
     }
 
     /// Adds factor * v w^T with row vectors v and w of some unknowns.
-    pub(super) fn add_product(&mut self, v: &[(u32, f64)], w: &[(u32, f64)], factor: f64) {
+    pub(super) fn add_product(&mut self, v: &[Term<u32>], w: &[Term<u32>], factor: f64) {
         if factor == 0.0 {
             return;
         }
-        for &(first, one) in v {
-            for &(second, other) in w {
-                let entry = self.matrix.pattern().entry(first as usize, second as usize);
+        for one in v {
+            for other in w {
+                let entry =
+                    self.matrix.pattern().entry(one.unknown as usize, other.unknown as usize);
                 if let Some(entry) = entry {
-                    self.matrix.values_mut()[entry] += one * other * factor;
+                    self.matrix.values_mut()[entry] += one.weight * other.weight * factor;
                 }
             }
         }

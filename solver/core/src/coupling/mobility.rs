@@ -6,7 +6,7 @@ use super::error::SolveError;
 use super::linear_system::Factorised;
 use super::solution::Solution;
 use super::system::FluidSystem;
-use crate::algebra::AffineConstraints;
+use crate::algebra::{AffineConstraints, Term};
 use crate::body::RigidVector;
 use crate::timing::{Stage, Timing};
 
@@ -34,10 +34,10 @@ impl<const D: usize> FluidSystem<D> {
         let n_modes = self.modes.len();
         let layout = self.layout;
         let raw = bodies.iter().flat_map(|&body| (0..n_modes).map(move |mode| (body, mode)));
-        let rows: Vec<&[(u32, f64)]> =
+        let rows: Vec<&[Term<u32>]> =
             raw.map(|(body, mode)| constraints.row(layout.rigid(body, mode))).collect();
         let mut masters: Vec<usize> =
-            rows.iter().flat_map(|row| row.iter().map(|(unknown, _)| *unknown as usize)).collect();
+            rows.iter().flat_map(|row| row.iter().map(|term| term.unknown as usize)).collect();
         masters.sort_unstable();
         masters.dedup();
         let Factorised { matrix, solver } = self.linear.factorised(timing)?;
@@ -46,9 +46,9 @@ impl<const D: usize> FluidSystem<D> {
         let inverse = DMatrix::from_column_slice(masters.len(), masters.len(), &inverse);
         let mut weights: DMatrix<f64> = DMatrix::zeros(rows.len(), masters.len());
         for (at, row) in rows.iter().enumerate() {
-            for (unknown, weight) in *row {
-                if let Ok(column) = masters.binary_search(&(*unknown as usize)) {
-                    weights[(at, column)] += weight;
+            for term in *row {
+                if let Ok(column) = masters.binary_search(&(term.unknown as usize)) {
+                    weights[(at, column)] += term.weight;
                 }
             }
         }
@@ -70,8 +70,8 @@ impl<const D: usize> FluidSystem<D> {
         let mut change = vec![0.0; self.n_unknowns];
         for BodyLoad { body, load } in loads {
             for (position, mode) in self.modes.iter().enumerate() {
-                for (unknown, weight) in constraints.row(self.layout.rigid(*body, position)) {
-                    change[*unknown as usize] += weight * load[mode];
+                for term in constraints.row(self.layout.rigid(*body, position)) {
+                    change[term.unknown as usize] += term.weight * load[mode];
                 }
             }
         }

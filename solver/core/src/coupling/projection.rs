@@ -3,6 +3,8 @@
 //! What is interpolated from mesh to mesh is no longer divergence-free; without this projection
 //! the pressure of the next step would have to correct that at once, as a spike in the forces.
 
+use std::sync::Arc;
+
 use alewife_mesh::{BoundaryKind, Mesh, NodeId, Point};
 
 use super::boundaries::{Boundaries, BoundaryNode};
@@ -55,10 +57,9 @@ impl<const D: usize> DivergenceFreeProjection<D> {
     pub fn new(problem: &Problem<D>, mesh: &Mesh<D>) -> Result<Self, LinearError> {
         let layout = DofLayout::new(mesh, 0, 0);
         let constraints = hold_given_velocities(problem, mesh, &layout);
-        let (pattern, assembly) =
-            Assembly::new(mesh, layout, &constraints, problem.metric, &[], None);
-        let solver = DirectSolver::new(&pattern, &unknowns(&layout, &constraints));
-        let matrix = SparseMatrix::zeros(pattern);
+        let assembly = Assembly::new(mesh, layout, &constraints, problem.metric, &[], None);
+        let solver = DirectSolver::new(assembly.pattern(), &unknowns(&layout, &constraints));
+        let matrix = SparseMatrix::zeros(Arc::clone(assembly.pattern()));
         let mut projection = Self { layout, constraints, assembly, matrix, solver, enclosed: None };
         projection.move_to(problem, mesh)?;
         Ok(projection)
@@ -158,7 +159,7 @@ fn hold_given_velocities<const D: usize>(
         for boundary in boundaries {
             let is_body = matches!(mesh.boundaries[boundary].kind, BoundaryKind::Body(_));
             let mut hold = |node: NodeId, axis: usize| {
-                builder.constrain(layout.velocity(node, axis), vec![], 0.0);
+                builder.fix(layout.velocity(node, axis), 0.0);
             };
             match &problem.sides[boundary] {
                 Some(Side::Symmetry { normal_axis }) if !is_body => hold(node, *normal_axis),

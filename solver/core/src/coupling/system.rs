@@ -5,6 +5,8 @@
 //! m dU/dt - F_ext and d(I omega)/dt - T_ext: no interface stress, no multiplier, and no added-mass
 //! instability at any density ratio.
 
+use std::sync::Arc;
+
 use alewife_mesh::Mesh;
 
 use super::boundaries::Boundaries;
@@ -19,7 +21,7 @@ use super::rigid_equations::{RigidBodyEquations, rotations};
 use super::shapes::BodyShapes;
 use super::solution::Solution;
 use super::surface_load::SurfaceStress;
-use crate::algebra::{Accuracy, AffineConstraints, Unknowns};
+use crate::algebra::{Accuracy, AffineConstraints, Term, Unknowns};
 use crate::body::{Modes, Pose};
 use crate::flow::{Assembly, FlowTerms, assemble, residual};
 use crate::space::{DofLayout, FacetRule, Tables};
@@ -68,7 +70,7 @@ impl<const D: usize> FluidSystem<D> {
         let constraints = Constrainer { problem, mesh, layout: &layout }
             .constraints(&boundaries, BodiesAt { poses, shapes: &shapes });
         let frame = problem.frame.filter(|_| unknown_frame);
-        let (pattern, assembly) = Assembly::new(
+        let assembly = Assembly::new(
             mesh,
             layout,
             &constraints,
@@ -77,7 +79,8 @@ impl<const D: usize> FluidSystem<D> {
             frame,
         );
         let pressure = PressureMean::new(mesh, assembly.tables());
-        let linear = LinearSystem::new(pattern, unknowns(&layout, &constraints));
+        let linear =
+            LinearSystem::new(Arc::clone(assembly.pattern()), unknowns(&layout, &constraints));
         Self {
             layout,
             boundaries,
@@ -273,8 +276,8 @@ impl<const D: usize> FluidSystem<D> {
         for pivot in &at.bodies.pivots {
             for (position, _) in rotations(modes) {
                 let [child, parent] = [pivot.child, pivot.parent].map(|body| row(body, position));
-                let opposite = parent.iter().map(|(unknown, weight)| (*unknown, -weight));
-                let turn: Vec<(u32, f64)> = child.iter().copied().chain(opposite).collect();
+                let opposite = parent.iter().map(|term| Term { weight: -term.weight, ..*term });
+                let turn: Vec<Term<u32>> = child.iter().copied().chain(opposite).collect();
                 self.linear.add_product(&turn, &turn, pivot.resistance);
             }
         }

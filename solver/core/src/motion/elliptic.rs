@@ -32,7 +32,14 @@ pub struct MeshMotion<const D: usize> {
     /// Inner nodes of edges that are interpolated between the ends.
     interpolated: Vec<EdgeNode>,
     /// Inner nodes of curved facets with a prescribed displacement, and their boundary.
-    prescribed: Vec<(NodeId, BoundaryId)>,
+    prescribed: Vec<BoundaryNode>,
+}
+
+/// A node with the boundary that prescribes its displacement.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct BoundaryNode {
+    node: NodeId,
+    boundary: BoundaryId,
 }
 
 /// An inner node of an edge.
@@ -99,7 +106,7 @@ impl<const D: usize> MeshMotion<D> {
             displacements[node] =
                 displacements[from] * (1.0 - parameter) + displacements[to] * parameter;
         }
-        for &(node, boundary) in &self.prescribed {
+        for &BoundaryNode { node, boundary } in &self.prescribed {
             displacements[node] = prescribed(boundary, node, &self.reference[node]);
         }
         Ok(displacements)
@@ -171,7 +178,7 @@ impl<const D: usize> MeshMotion<D> {
 fn curved_facet_nodes<const D: usize>(
     mesh: &Mesh<D>,
     conditions: &[MeshBoundaryCondition],
-) -> Vec<(NodeId, BoundaryId)> {
+) -> Vec<BoundaryNode> {
     let mut nodes: Vec<_> = mesh
         .facets
         .iter()
@@ -179,20 +186,20 @@ fn curved_facet_nodes<const D: usize>(
             let condition = conditions[facet.boundary];
             condition == MeshBoundaryCondition::Prescribed && mesh.curved[facet.cell]
         })
-        .flat_map(|facet| mesh.facet_inner_nodes(facet).map(|node| (node, facet.boundary)))
+        .flat_map(|facet| {
+            let boundary = facet.boundary;
+            mesh.facet_inner_nodes(facet).map(move |node| BoundaryNode { node, boundary })
+        })
         .collect();
     nodes.sort_unstable();
-    nodes.dedup_by_key(|(node, _)| *node);
+    nodes.dedup_by_key(|at| at.node);
     nodes
 }
 
 /// Inner nodes of all edges but those whose displacement is prescribed.
-fn edge_nodes<const D: usize>(
-    mesh: &Mesh<D>,
-    prescribed: &[(NodeId, BoundaryId)],
-) -> Vec<EdgeNode> {
+fn edge_nodes<const D: usize>(mesh: &Mesh<D>, prescribed: &[BoundaryNode]) -> Vec<EdgeNode> {
     let mut is_known = vec![false; mesh.n_nodes()];
-    for &(node, _) in prescribed {
+    for &BoundaryNode { node, .. } in prescribed {
         is_known[node] = true;
     }
     let mut nodes = Vec::new();
