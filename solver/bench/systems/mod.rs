@@ -24,7 +24,8 @@ pub struct TimeStep {
     /// The constraints at time zero: the cylinder is held.
     pub constraints: AffineConstraints,
     problem: Problem<2>,
-    assembly: Assembly<2>,
+    /// Pattern and maps of the mesh.
+    pub assembly: Assembly<2>,
     solution: Solution<2>,
     /// The inflow's parabola everywhere, which convects.
     crossing: Vec<Point<2>>,

@@ -1,6 +1,7 @@
 //! `Case`: the typed contents of a case file; `Model`: what follows from them.
 
 mod body;
+mod case_text;
 mod check;
 mod contact;
 mod copies;
@@ -28,6 +29,7 @@ mod stroke;
 mod swimmer;
 mod time;
 mod tree;
+mod type_error;
 
 use std::collections::BTreeMap;
 

@@ -6,18 +6,17 @@
 //! published for one problem does not hold for another.
 
 use std::collections::BTreeMap;
-use std::fs;
-use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use serde::Deserialize;
 
-use super::deserialize::{Mismatch, TypeError, suggestion};
+use super::case_text::{CaseText, Located, locate, no_such_case, read_file, shipped_text, stem};
 use super::diagnostic::{CaseError, Diagnostic, Severity};
 use super::geometry::opposite;
 use super::nearest::nearest;
 use super::source::{Location, Origin, Source};
 use super::tree::{self, TomlNode, TomlValue, TreeError};
+use super::type_error::{Mismatch, TypeError, suggestion};
 use super::{BoundaryCondition, Case, Model, library};
 
 /// Keys of a file that those who extend it do not inherit.
@@ -79,7 +78,7 @@ impl Case {
     /// # Errors
     /// [`CaseError`]: no such case, a file that cannot be read, or all that is wrong in it.
     pub fn read(argument: &str, settings: &[String]) -> Result<CaseFile, CaseError> {
-        let (text, variant) = locate(argument)?;
+        let Located { text, variant } = locate(argument)?;
         assemble(&text, variant.as_deref(), settings)
     }
 
@@ -102,14 +101,6 @@ impl Case {
     }
 }
 
-/// The text of a case before it is understood.
-struct CaseText {
-    name: String,
-    /// Where relative paths start; a shipped case has none.
-    directory: Option<PathBuf>,
-    source: Arc<Source>,
-}
-
 fn collect_not_finite(node: &TomlNode, path: String, paths: &mut Vec<String>) {
     let below =
         |step: &str| if path.is_empty() { step.to_owned() } else { format!("{path}.{step}") };
@@ -127,76 +118,6 @@ fn collect_not_finite(node: &TomlNode, path: String, paths: &mut Vec<String>) {
         }
         _ => {}
     }
-}
-
-/// Name of a case by its file: `cases/jets/case.toml` is `jets`, `mine.toml` is `mine`.
-fn stem(file: &str) -> String {
-    let path = Path::new(file);
-    let of = |path: &Path| path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
-    match of(path) {
-        Some(stem) if stem == "case" => path.parent().and_then(of).unwrap_or(stem),
-        Some(stem) => stem,
-        None => "case".to_owned(),
-    }
-}
-
-/// Finds the text and the variant an argument means.
-fn locate(argument: &str) -> Result<(CaseText, Option<String>), CaseError> {
-    let is_path = |text: &str| text.ends_with(".toml");
-    if is_path(argument) || Path::new(argument).is_file() {
-        return Ok((read_file(Path::new(argument))?, None));
-    }
-    if let Some(shipped) = library::find(argument) {
-        return Ok((shipped_text(shipped), None));
-    }
-    let directory = Path::new(argument).join("case.toml");
-    if directory.is_file() {
-        return Ok((read_file(&directory)?, None));
-    }
-    let Some((case, variant)) = argument.rsplit_once('/') else {
-        return Err(no_such_case(argument));
-    };
-    let text = if is_path(case) {
-        read_file(Path::new(case))?
-    } else if let Some(shipped) = library::find(case) {
-        shipped_text(shipped)
-    } else if Path::new(case).join("case.toml").is_file() {
-        read_file(&Path::new(case).join("case.toml"))?
-    } else {
-        return Err(no_such_case(case));
-    };
-    Ok((text, Some(variant.to_owned())))
-}
-
-fn no_such_case(name: &str) -> CaseError {
-    let known: Vec<&str> = library::list().iter().map(|case| case.name).collect();
-    let mut help = match nearest(name, &known) {
-        Some(word) => format!("did you mean `{word}`? "),
-        None => String::new(),
-    };
-    help += &format!("shipped cases: {}; a file of your own ends in .toml", known.join(", "));
-    CaseError::NotFound { what: format!("there is no case `{name}`"), help }
-}
-
-fn shipped_text(case: &library::Shipped) -> CaseText {
-    let source = Source { name: case.file.to_owned(), text: case.text.to_owned() };
-    CaseText { name: case.name.to_owned(), directory: None, source: Arc::new(source) }
-}
-
-fn read_file(path: &Path) -> Result<CaseText, CaseError> {
-    let text = fs::read_to_string(path).map_err(|error| match error.kind() {
-        std::io::ErrorKind::NotFound => CaseError::NotFound {
-            what: format!("there is no file {}", path.display()),
-            help: "give the path of a case file, or a name from `alewife list`".to_owned(),
-        },
-        _ => CaseError::Unreadable { path: path.to_owned(), source: error },
-    })?;
-    let name = path.display().to_string();
-    Ok(CaseText {
-        name: stem(&path.canonicalize().unwrap_or_else(|_| path.to_owned()).to_string_lossy()),
-        directory: Some(path.parent().unwrap_or(Path::new("")).to_owned()),
-        source: Arc::new(Source { name, text }),
-    })
 }
 
 /// Puts the tree together, and types it.

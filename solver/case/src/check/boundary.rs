@@ -3,8 +3,8 @@
 use std::f64::consts::PI;
 
 use super::Findings;
-use crate::deserialize::suggestion;
 use crate::geometry::opposite;
+use crate::type_error::suggestion;
 use crate::{BoundaryCondition, DomainSpec, TimeFunction, TimeSettings};
 
 /// Net inflow over gross flow above which it is an error.

@@ -62,7 +62,7 @@ fn ends(findings: &mut Findings<'_>, key: &str, joint: &Joint) -> Option<Ends> {
             findings.error(
                 &format!("{key}.{what}"),
                 format!("`{what}` is \"{name}\", but no body has that name"),
-                &crate::deserialize::suggestion(name, &names),
+                &crate::type_error::suggestion(name, &names),
             );
         }
         body

@@ -1,7 +1,7 @@
 //! Problems of `[mesh]`, `[output]` and cells too coarse for a body.
 
 use super::Findings;
-use crate::deserialize::suggestion;
+use crate::type_error::suggestion;
 use crate::{Cadence, MovingMesh};
 
 /// Edges on an outline below which a body is hardly round.

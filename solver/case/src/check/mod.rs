@@ -112,7 +112,7 @@ fn general(findings: &mut Findings<'_>) {
         findings.error(
             "frame",
             format!("`frame` is \"{name}\", but no body or swimmer has that name"),
-            &super::deserialize::suggestion(name, &names),
+            &super::type_error::suggestion(name, &names),
         );
     }
 }

@@ -1,8 +1,8 @@
 //! Problems of `[[reference]]` and `[statistics]`: quantities, statistics and tolerances.
 
 use super::Findings;
-use crate::deserialize::suggestion;
 use crate::quantity::{When, conditions_of, known_quantities};
+use crate::type_error::suggestion;
 use crate::{Geometry, Reference, Statistic, TimeSettings};
 
 pub fn check(findings: &mut Findings<'_>) {

@@ -1,0 +1,214 @@
+//! `TypeError`: why a value of a case cannot be typed, where it is, and what is accepted.
+
+use std::fmt::{self, Display};
+
+use serde::de::{self, Expected, Unexpected};
+
+use super::nearest::nearest;
+use super::source::Origin;
+
+/// What a value cannot be typed for.
+#[derive(Debug)]
+pub enum Mismatch {
+    /// A key no table of this kind has.
+    UnknownKey {
+        /// The key.
+        key: String,
+        /// Those it may have.
+        accepted: Vec<String>,
+    },
+    /// None of the alternatives.
+    UnknownAlternative {
+        /// What is there.
+        found: String,
+        /// What may be there.
+        accepted: Vec<String>,
+    },
+    /// A key that must be given is not.
+    MissingKey(String),
+    /// A value of another type.
+    WrongType {
+        /// What is there.
+        found: String,
+        /// What is wanted.
+        wanted: String,
+    },
+    /// Anything else: what is wrong, and what to do.
+    Other(String, String),
+}
+
+/// A mismatch, with its place.
+#[derive(Debug)]
+pub struct TypeError(Box<Inner>);
+
+#[derive(Debug)]
+struct Inner {
+    mismatch: Mismatch,
+    origin: Option<Origin>,
+    /// Steps from the value up to the root.
+    path: Vec<String>,
+}
+
+impl TypeError {
+    pub fn new(mismatch: Mismatch) -> Self {
+        Self(Box::new(Inner { mismatch, origin: None, path: Vec::new() }))
+    }
+
+    /// Says where, unless that is known more exactly already.
+    pub fn at(mut self, origin: &Origin) -> Self {
+        self.0.origin.get_or_insert_with(|| origin.clone());
+        self
+    }
+
+    /// Says by which step the value is reached from the table or array around it.
+    pub fn below(mut self, step: impl Into<String>) -> Self {
+        self.0.path.push(step.into());
+        self
+    }
+
+    /// What is wrong.
+    pub fn mismatch(&self) -> &Mismatch {
+        &self.0.mismatch
+    }
+
+    /// Where it is.
+    pub fn origin(&self) -> Option<&Origin> {
+        self.0.origin.as_ref()
+    }
+
+    /// The value, or for unknown and missing keys their table, by keys joined with dots.
+    pub fn path(&self) -> String {
+        self.0.path.iter().rev().cloned().collect::<Vec<_>>().join(".")
+    }
+
+    /// The table of an unknown or missing key, as a reader would call it.
+    fn table(&self) -> String {
+        let path = self.path();
+        if path.is_empty() { "at the top of the case".to_owned() } else { format!("in `{path}`") }
+    }
+
+    /// What is wrong, in one line.
+    pub fn message(&self) -> String {
+        let path = self.path();
+        match self.mismatch() {
+            Mismatch::UnknownKey { key, .. } => format!("unknown key `{key}` {}", self.table()),
+            Mismatch::UnknownAlternative { found, .. } => {
+                format!("`{path}` cannot be `{found}`")
+            }
+            Mismatch::MissingKey(key) => format!("missing key `{key}` {}", self.table()),
+            Mismatch::WrongType { found, wanted } => {
+                format!("`{path}` is {found} where {wanted} is wanted")
+            }
+            Mismatch::Other(message, _) => format!("`{path}`: {message}"),
+        }
+    }
+
+    /// What to do, in one line.
+    pub fn help(&self) -> String {
+        match self.mismatch() {
+            Mismatch::UnknownKey { key: found, accepted }
+            | Mismatch::UnknownAlternative { found, accepted } => suggestion(found, accepted),
+            Mismatch::MissingKey(key) => format!("add `{key} = ...` there"),
+            Mismatch::WrongType { found, wanted } => {
+                if found.starts_with("the string") && wanted.contains("number") {
+                    "write the number without quotes and without its unit".to_owned()
+                } else {
+                    String::new()
+                }
+            }
+            Mismatch::Other(_, help) => help.clone(),
+        }
+    }
+}
+
+/// Most words a suggestion lists.
+const MOST_WORDS: usize = 100;
+
+/// "did you mean ...? accepted: ..." for a word that is not known.
+pub fn suggestion<S: AsRef<str>>(found: &str, accepted: &[S]) -> String {
+    let words: Vec<&str> = accepted.iter().take(MOST_WORDS).map(AsRef::as_ref).collect();
+    let mut list = words.join(", ");
+    if accepted.len() > MOST_WORDS {
+        list += &format!(" and {} more", accepted.len() - MOST_WORDS);
+    }
+    match nearest(found, accepted) {
+        Some(word) => format!("did you mean `{word}`? accepted: {list}"),
+        None => format!("accepted: {list}"),
+    }
+}
+
+impl Display for TypeError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.message())
+    }
+}
+
+impl std::error::Error for TypeError {}
+
+fn owned(words: &[&str]) -> Vec<String> {
+    words.iter().map(|word| (*word).to_owned()).collect()
+}
+
+impl de::Error for TypeError {
+    fn custom<T: Display>(message: T) -> Self {
+        Self::new(Mismatch::Other(message.to_string(), String::new()))
+    }
+
+    fn invalid_type(found: Unexpected<'_>, wanted: &dyn Expected) -> Self {
+        Self::new(Mismatch::WrongType { found: describe(found), wanted: plain(wanted) })
+    }
+
+    fn invalid_value(found: Unexpected<'_>, wanted: &dyn Expected) -> Self {
+        Self::invalid_type(found, wanted)
+    }
+
+    fn invalid_length(length: usize, wanted: &dyn Expected) -> Self {
+        let found = format!("an array of {length}");
+        Self::new(Mismatch::WrongType { found, wanted: plain(wanted) })
+    }
+
+    fn unknown_field(key: &str, accepted: &'static [&'static str]) -> Self {
+        Self::new(Mismatch::UnknownKey { key: key.to_owned(), accepted: owned(accepted) })
+    }
+
+    fn unknown_variant(found: &str, accepted: &'static [&'static str]) -> Self {
+        Self::new(Mismatch::UnknownAlternative {
+            found: found.to_owned(),
+            accepted: owned(accepted),
+        })
+    }
+
+    fn missing_field(key: &'static str) -> Self {
+        Self::new(Mismatch::MissingKey(key.to_owned()))
+    }
+}
+
+fn describe(found: Unexpected<'_>) -> String {
+    match found {
+        Unexpected::Str(text) => format!("the string \"{text}\""),
+        Unexpected::Bool(value) => format!("`{value}`"),
+        Unexpected::Signed(value) => format!("`{value}`"),
+        Unexpected::Unsigned(value) => format!("`{value}`"),
+        Unexpected::Float(value) => format!("`{value:?}`"),
+        Unexpected::Seq => "an array".to_owned(),
+        Unexpected::Map => "a table".to_owned(),
+        other => other.to_string(),
+    }
+}
+
+/// serde's words for a type in those of TOML.
+fn plain(wanted: &dyn Expected) -> String {
+    let words = wanted.to_string();
+    match words.as_str() {
+        "f64" => "a number".to_owned(),
+        "usize" => "a whole number of 0 or more".to_owned(),
+        "a boolean" => "true or false".to_owned(),
+        "a sequence" => "an array".to_owned(),
+        "a map" => "a table".to_owned(),
+        _ if words.starts_with("struct ") => "a table".to_owned(),
+        _ => match words.strip_prefix("an array of length ") {
+            Some(length) => format!("an array of {length} numbers"),
+            None => words,
+        },
+    }
+}
