@@ -44,8 +44,8 @@ pub(super) fn check_memory<const D: usize>(mesh: &Mesh<D>) -> Result<(), RunErro
     const GIGABYTE: f64 = 1e9;
     let n_dofs = D * mesh.n_nodes() + mesh.n_vertices;
     let needed = memory_estimate(n_dofs) / GIGABYTE;
-    let told = std::fs::read_to_string("/proc/meminfo").unwrap_or_default();
-    let line = told.lines().find_map(|line| line.strip_prefix("MemAvailable:"));
+    let report = std::fs::read_to_string("/proc/meminfo").unwrap_or_default();
+    let line = report.lines().find_map(|line| line.strip_prefix("MemAvailable:"));
     let kilobytes = line.and_then(|line| line.trim().trim_end_matches(" kB").parse::<f64>().ok());
     match kilobytes.map(|kilobytes| kilobytes * 1024.0 / GIGABYTE) {
         Some(available) if needed > available => {
