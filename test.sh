@@ -18,7 +18,6 @@ install_system_packages() {
 
 install_system_packages
 cargo test --release --workspace
-cargo build --release --workspace
 
 venv=target/venv
 [ -x "$venv/bin/python" ] || python3 -m venv "$venv"

@@ -7,8 +7,8 @@ use std::io::BufWriter;
 use std::time::Instant;
 
 use alewife_mesh::{
-    Domain, Locator, PlacedShape, Point, Quality, Shape, SizeField, Sizing, check_mesh, generate,
-    write_vtu,
+    Array, Domain, Locator, PlacedShape, Point, Quality, Shape, SizeField, Sizing, check_mesh,
+    generate, write_vtu,
 };
 
 /// A domain with its bodies and the sizes asked for.
@@ -147,8 +147,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             let x: Vec<f64> = mesh.nodes.iter().map(|p| p.x).collect();
             let both: Vec<f64> = mesh.nodes.iter().flat_map(|p| [p.x, p.y]).collect();
             let number: Vec<f64> = (0..mesh.n_cells()).map(|c| c as f64).collect();
-            let arrays: [(&str, usize, &[f64]); 2] = [("x", 1, &x), ("position", 2, &both)];
-            write_vtu(file, &mesh, Some(0.5), &arrays, &[("cell", 1, &number)])?;
+            let arrays = [Array::new("x", 1, &x), Array::new("position", 2, &both)];
+            write_vtu(file, &mesh, Some(0.5), &arrays, &[Array::new("cell", 1, &number)])?;
         }
     }
     Ok(())

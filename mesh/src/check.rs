@@ -78,7 +78,7 @@ fn check_facets<const D: usize>(mesh: &Mesh<D>) -> Result<HashSet<[NodeId; 2]>, 
     let mut open: HashMap<[NodeId; D], Side> = HashMap::new();
     for cell in mesh.cell_ids() {
         for side in 0..Simplex::<D>::N_VERTICES {
-            let (vertices, is_even) = sorted(facet_vertices(mesh, cell, side));
+            let Sorted { vertices, is_even } = sorted(facet_vertices(mesh, cell, side));
             match open.remove(&vertices) {
                 Some(other) if other.is_even == is_even => {
                     return broken("a facet has two cells on the same side", cell.index());
@@ -96,7 +96,7 @@ fn check_facets<const D: usize>(mesh: &Mesh<D>) -> Result<HashSet<[NodeId; 2]>, 
         if facet.boundary.index() >= mesh.boundaries.len() {
             return broken("a facet has a boundary that does not exist", facet.cell.index());
         }
-        let (vertices, _) = sorted(mesh.facet_vertices(facet));
+        let Sorted { vertices, .. } = sorted(mesh.facet_vertices(facet));
         let side = open.remove(&vertices);
         if side.is_none_or(|at| (at.cell, at.side) != (facet.cell, usize::from(facet.side))) {
             return broken("a facet is not on the boundary or is listed twice", facet.cell.index());
@@ -119,10 +119,16 @@ fn facet_vertices<const D: usize>(mesh: &Mesh<D>, cell: CellId, side: usize) -> 
     Simplex::<D>::facet_vertices(side).map(|local| mesh.cell(cell)[local])
 }
 
-/// Vertices in order, and whether an even number of exchanges takes them there.
-fn sorted<const D: usize>(mut vertices: [NodeId; D]) -> ([NodeId; D], bool) {
+/// Vertices in order.
+struct Sorted<const N: usize> {
+    vertices: [NodeId; N],
+    /// Whether an even number of exchanges takes them there.
+    is_even: bool,
+}
+
+fn sorted<const N: usize>(mut vertices: [NodeId; N]) -> Sorted<N> {
     let mut is_even = true;
-    for i in 1..D {
+    for i in 1..N {
         for j in (0..i).rev() {
             if vertices[j] > vertices[j + 1] {
                 vertices.swap(j, j + 1);
@@ -130,7 +136,7 @@ fn sorted<const D: usize>(mut vertices: [NodeId; D]) -> ([NodeId; D], bool) {
             }
         }
     }
-    (vertices, is_even)
+    Sorted { vertices, is_even }
 }
 
 /// Checks that cells agree about the inner nodes of their edges, and that edges are straight but on
@@ -142,7 +148,7 @@ fn check_edges<const D: usize>(
     let mut inner_nodes: HashMap<[NodeId; 2], Vec<NodeId>> = HashMap::new();
     for cell in mesh.cell_ids() {
         for edge in mesh.cell_edges(cell) {
-            let (ends, is_forward) = sorted(edge.ends);
+            let Sorted { vertices: ends, is_even: is_forward } = sorted(edge.ends);
             let mut inner = edge.inner.to_vec();
             if !is_forward {
                 inner.reverse();
@@ -182,45 +188,13 @@ fn check_periodic<const D: usize>(mesh: &Mesh<D>) -> Result<(), MeshError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Boundary, BoundaryId, BoundaryKind, Facet, Point};
+    use crate::Point;
+    use crate::test_meshes::{bulged_cube, cube_of_five, cube_of_twelve, quadratic};
 
     /// Two tetrahedra with a common face, their boundary in one piece.
-    pub fn two_tetrahedra() -> Mesh<3> {
+    fn two_tetrahedra() -> Mesh<3> {
         let corners = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0; 3]];
-        let tetrahedra = [[0, 1, 2, 3], [4, 2, 1, 3]];
-        let mut nodes: Vec<Point<3>> = corners.map(Point::from).to_vec();
-        let mut middles: HashMap<[usize; 2], NodeId> = HashMap::new();
-        let mut cells = Vec::new();
-        for vertices in tetrahedra {
-            cells.extend(vertices.map(NodeId::new));
-            for edge in Simplex::<3>::EDGES {
-                let [a, b] = edge.map(|local| vertices[local]);
-                cells.push(*middles.entry([a.min(b), a.max(b)]).or_insert_with(|| {
-                    nodes.push((nodes[a] + nodes[b]) * 0.5);
-                    NodeId::new(nodes.len() - 1)
-                }));
-            }
-        }
-        let all = (0..2).flat_map(|cell| (0..4).map(move |side| (cell, side)));
-        let is_inner = |cell: usize, side: usize| {
-            Simplex::<3>::facet_vertices(side)
-                .iter()
-                .all(|v| (1..4).contains(&tetrahedra[cell][*v]))
-        };
-        let facet = |(cell, side)| Facet {
-            cell: CellId::new(cell),
-            side: side as u8,
-            boundary: BoundaryId::new(0),
-        };
-        Mesh {
-            nodes,
-            n_vertices: 5,
-            cells,
-            curved: vec![false; 2],
-            facets: all.filter(|(cell, side)| !is_inner(*cell, *side)).map(facet).collect(),
-            boundaries: vec![Boundary { name: "all".into(), kind: BoundaryKind::Side }],
-            periodic: Vec::new(),
-        }
+        quadratic(corners.map(Point::from).to_vec(), &[[0, 1, 2, 3], [4, 2, 1, 3]])
     }
 
     fn what(mesh: &Mesh<3>) -> &'static str {
@@ -248,5 +222,35 @@ mod tests {
         let twice = spoil(&|mesh| mesh.facets.push(mesh.facets[0]));
         assert_eq!(twice, "a facet is not on the boundary or is listed twice");
         assert_eq!(spoil(&|mesh| mesh.cells[0] = mesh.cells[1]), "a node belongs to no cell");
+    }
+
+    #[test]
+    fn meshes_of_a_cube_are_accepted_unless_a_cell_has_two_boundary_facets() {
+        for mesh in [cube_of_twelve(), bulged_cube(0.2), bulged_cube(-0.05)] {
+            assert_eq!(check_mesh(&mesh), Ok(()));
+        }
+        assert_eq!(what(&cube_of_five()), FINE);
+        let spoil = |change: &dyn Fn(&mut Mesh<3>)| {
+            let mut spoilt = bulged_cube(0.2);
+            change(&mut spoilt);
+            what(&spoilt)
+        };
+        // The inner node of an edge from the centre, the last vertex, is in the interior
+        let interior = |mesh: &Mesh<3>| {
+            let center = NodeId::new(mesh.n_vertices - 1);
+            let mut edges = mesh.cell_edges(CellId::new(0));
+            edges.find(|edge| edge.ends.contains(&center)).map(|edge| edge.inner[0])
+        };
+        let bent = spoil(&|mesh| {
+            let node = interior(mesh).expect("every cell has the centre");
+            mesh.nodes[node].x += 0.01;
+        });
+        assert_eq!(bent, "an interior edge is not straight");
+        assert_eq!(
+            spoil(&|mesh| mesh.cells.swap(4, 5)),
+            "a cell has a Jacobian that is not positive"
+        );
+        let folded = bulged_cube(-1.2);
+        assert_eq!(what(&folded), "a cell has a Jacobian that is not positive");
     }
 }

@@ -35,17 +35,17 @@ impl<const D: usize> Mesh<D> {
     }
 }
 
-impl Mesh<2> {
-    /// Area (m²), curved sides included.
+impl<const D: usize> Mesh<D> {
+    /// Area (m²) or volume (m³), curved facets included.
     #[must_use]
-    pub fn area(&self) -> f64 {
-        // det J is quadratic, for which the mean over the middles of the sides is exact
-        let middle = [[0.5, 0.0], [0.5, 0.5], [0.0, 0.5]];
+    pub fn measure(&self) -> f64 {
+        // The integral of a polynomial over a simplex is the mean of its Bezier coefficients times
+        // the measure of the reference simplex, 1 / D!
+        let reference: f64 = (1..=D).map(|k| 1.0 / k as f64).product();
         self.cell_ids()
             .map(|cell| {
-                let nodes = self.cell_nodes(cell);
-                middle.into_iter().map(|at| map_quadratic(&nodes, at).det_jacobian()).sum::<f64>()
-                    / 6.0
+                let coefficients = jacobian_coefficients(&self.cell_nodes(cell));
+                coefficients.iter().sum::<f64>() / coefficients.len() as f64 * reference
             })
             .sum()
     }
@@ -170,6 +170,8 @@ pub fn jacobian_coefficients<const D: usize>(nodes: &[Point<D>]) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::quadrature::integrate;
+    use crate::test_meshes::{bulged_cube, cube_of_five, cube_of_twelve};
 
     fn bulged(height: f64) -> [Point<2>; 6] {
         [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [0.5, height], [0.5, 0.5], [0.0, 0.5]]
@@ -267,5 +269,23 @@ mod tests {
             let slope = (moved(step) - moved(-step)) / (2.0 * step);
             assert!((slope - map.columns[axis]).norm() < 1e-9);
         }
+    }
+
+    #[test]
+    fn the_volume_of_a_cube_is_that_of_its_tetrahedra() {
+        for mesh in [cube_of_five(), cube_of_twelve()] {
+            assert!((mesh.measure() - 1.0).abs() < 1e-14, "{}", mesh.measure());
+        }
+        let mesh = bulged_cube(0.2);
+        let integrals = mesh.cell_ids().map(|cell| {
+            let nodes = mesh.cell_nodes(cell);
+            integrate(0.0, 1.0, |x| {
+                integrate(0.0, 1.0 - x, |y| {
+                    integrate(0.0, 1.0 - x - y, |z| map_quadratic(&nodes, [x, y, z]).det_jacobian())
+                })
+            })
+        });
+        let volume: f64 = integrals.sum();
+        assert!(volume > 1.1 && (mesh.measure() - volume).abs() < 1e-12, "{volume}");
     }
 }

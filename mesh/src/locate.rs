@@ -4,7 +4,10 @@
 //! of a curved one by Newton's method.
 
 use crate::box_tree::{Bounds, BoxTree};
-use crate::curved::{determinant, map_quadratic};
+use crate::cell_point::{
+    CellPoint, invert_quadratic, nearest_in_quadratic, nearest_in_simplex, solve,
+};
+use crate::curved::determinant;
 use crate::{CellId, Mesh, Point, Simplex};
 
 /// A point this far outside (in sizes of the mesh) still counts as on its boundary.
@@ -35,6 +38,8 @@ pub struct Located<const D: usize> {
 #[derive(Debug, Clone)]
 pub struct Locator<const D: usize> {
     tree: BoxTree<D>,
+    /// Boxes around the cells.
+    boxes: Vec<Bounds<D>>,
     /// Positions of the vertices of all cells, D + 1 for each (m).
     vertices: Vec<Point<D>>,
     /// Where the nodes of each curved cell start in `quadratic`; [`STRAIGHT`] for the others.
@@ -42,13 +47,6 @@ pub struct Locator<const D: usize> {
     /// Positions of the nodes of the curved cells (m).
     quadratic: Vec<Point<D>>,
     tolerance: f64,
-}
-
-/// A point of a cell.
-#[derive(Debug, Clone, Copy)]
-struct CellPoint<const D: usize> {
-    reference: [f64; D],
-    position: Point<D>,
 }
 
 impl<const D: usize> Locator<D> {
@@ -77,7 +75,7 @@ impl<const D: usize> Locator<D> {
         }
         let tree = BoxTree::new(&boxes);
         let tolerance = TOLERANCE * tree.extent();
-        Self { tree, vertices, curved, quadratic, tolerance }
+        Self { tree, boxes, vertices, curved, quadratic, tolerance }
     }
 
     /// The cell that holds a point (m), and the reference coordinates there; `None` outside.
@@ -98,9 +96,40 @@ impl<const D: usize> Locator<D> {
         self.search(point, f64::INFINITY)
     }
 
+    /// The cell nearest to one of the images of a point: `point + shift` (m) for each shift. Of
+    /// images that are equally near, the first one counts.
+    ///
+    /// `None` as from [`Self::nearest`], or without a shift.
+    #[must_use]
+    pub fn nearest_image(&self, point: Point<D>, shifts: &[Point<D>]) -> Option<Located<D>> {
+        // Most points have an image inside, which a short search finds
+        let mut inside = shifts.iter().filter_map(|shift| self.locate(point + shift));
+        if let Some(found) = inside.find(|found| found.distance == 0.0) {
+            return Some(found);
+        }
+        let images = shifts.iter().map(|shift| point + shift);
+        let promising = images.clone().min_by(|a, b| {
+            let [a, b] = [a, b].map(|image| self.tree.squared_distance(image));
+            a.total_cmp(&b)
+        })?;
+        let reach = self.nearest(promising)?.distance + self.tolerance;
+        let mut best: Option<Located<D>> = None;
+        for found in images.filter_map(|image| self.search(image, reach)) {
+            if best.is_none_or(|best| found.distance < best.distance) {
+                best = Some(found);
+            }
+        }
+        best
+    }
+
     fn search(&self, point: Point<D>, reach: f64) -> Option<Located<D>> {
         let mut best: Option<Located<D>> = None;
         self.tree.visit_near(point, reach, |cell, reach| {
+            // Inside is what is so by rounding, too
+            let bound = reach.max(self.tolerance);
+            if self.boxes[cell].squared_distance(&point) > bound * bound {
+                return false;
+            }
             let found = self.locate_in(CellId::new(cell), point);
             if found.distance <= *reach && best.is_none_or(|b| found.distance < b.distance) {
                 best = Some(found);
@@ -144,123 +173,11 @@ impl<const D: usize> Locator<D> {
     }
 }
 
-/// Solution of Σ x_k column_k = right, by Cramer's rule.
-fn solve<const D: usize>(columns: &[Point<D>; D], right: Point<D>, det: f64) -> [f64; D] {
-    std::array::from_fn(|k| {
-        let mut replaced = *columns;
-        replaced[k] = right;
-        determinant(&replaced) / det
-    })
-}
-
-/// Reference coordinates of a point in a curved cell, by Newton's method from those of the
-/// straight one; `None` when the map degenerates on the way, as it may far outside the cell.
-fn invert_quadratic<const D: usize>(
-    nodes: &[Point<D>],
-    point: Point<D>,
-    start: [f64; D],
-    tolerance: f64,
-) -> Option<[f64; D]> {
-    let mut at = start.map(|x| x.clamp(-0.5, 1.5));
-    for _ in 0..30 {
-        let map = map_quadratic(nodes, at);
-        let det = map.det_jacobian();
-        if det <= 0.0 {
-            return None;
-        }
-        let step = solve(&map.columns, point - map.position, det);
-        let length = step.iter().fold(0.0_f64, |length, x| length.hypot(*x));
-        let damping = (0.5 / length).min(1.0);
-        for (x, step) in at.iter_mut().zip(step) {
-            *x += damping * step;
-        }
-        if length < 1e-15 {
-            break;
-        }
-    }
-    let miss = (point - map_quadratic(nodes, at).position).norm();
-    (miss <= tolerance).then_some(at)
-}
-
-/// Nearest point of a curved cell to a point outside.
-///
-/// Steps along the sides in the metric of the Jacobian there, from the nearest point of the
-/// straight cell, whose Jacobian has these columns; a few suffice, as a side turns little.
-fn nearest_in_quadratic<const D: usize>(
-    nodes: &[Point<D>],
-    point: Point<D>,
-    start: [f64; D],
-    columns: &[Point<D>; D],
-) -> CellPoint<D> {
-    let at =
-        |reference| CellPoint { reference, position: map_quadratic(nodes, reference).position };
-    let mut best = at(nearest_in_simplex(start, columns));
-    for _ in 0..4 {
-        let map = map_quadratic(nodes, best.reference);
-        let det = map.det_jacobian();
-        if det <= 0.0 {
-            break;
-        }
-        let step = solve(&map.columns, point - map.position, det);
-        let wanted = std::array::from_fn(|k| best.reference[k] + step[k]);
-        let next = at(nearest_in_simplex(wanted, &map.columns));
-        if (point - next.position).norm() >= (point - best.position).norm() {
-            break;
-        }
-        best = next;
-    }
-    best
-}
-
-/// Nearest point on the boundary of the reference simplex in the metric of a Jacobian with these
-/// columns.
-fn nearest_in_simplex<const D: usize>(point: [f64; D], columns: &[Point<D>; D]) -> [f64; D] {
-    let vertex = |i: usize| std::array::from_fn(|axis| f64::from(u8::from(axis + 1 == i)));
-    let minus = |a: [f64; D], b: [f64; D]| std::array::from_fn(|k| a[k] - b[k]);
-    let dot = |a: [f64; D], b: [f64; D]| {
-        let mut sum = 0.0;
-        for i in 0..D {
-            sum += columns[i].dot(&columns[i]) * a[i] * b[i];
-            for j in i + 1..D {
-                sum += columns[i].dot(&columns[j]) * (a[i] * b[j] + a[j] * b[i]);
-            }
-        }
-        sum
-    };
-    let mut best = (f64::INFINITY, [0.0; D]);
-    let mut offer = |at: [f64; D]| {
-        let miss = minus(point, at);
-        let gap = dot(miss, miss);
-        if gap < best.0 {
-            best = (gap, at);
-        }
-    };
-    for &[i, j] in Simplex::<D>::EDGES {
-        let (a, b): ([f64; D], [f64; D]) = (vertex(i), vertex(j));
-        let along = minus(b, a);
-        let t = (dot(minus(point, a), along) / dot(along, along)).clamp(0.0, 1.0);
-        offer(std::array::from_fn(|k| a[k] + t * along[k]));
-    }
-    if D == 3 {
-        for face in Simplex::<D>::FACETS {
-            let [a, b, c]: [[f64; D]; 3] = [0, 1, 2].map(|i| vertex(face[i]));
-            let (u, v, w) = (minus(b, a), minus(c, a), minus(point, a));
-            // The foot of the perpendicular in the plane of the face, where it is in the face
-            let (uu, uv, vv) = (dot(u, u), dot(u, v), dot(v, v));
-            let (uw, vw) = (dot(u, w), dot(v, w));
-            let det = uu * vv - uv * uv;
-            let (s, t) = ((vv * uw - uv * vw) / det, (uu * vw - uv * uw) / det);
-            if s >= 0.0 && t >= 0.0 && s + t <= 1.0 {
-                offer(std::array::from_fn(|k| a[k] + s * u[k] + t * v[k]));
-            }
-        }
-    }
-    best.1
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::curved::map_quadratic;
+    use crate::test_meshes::{bulged_cube, cube_of_five, cube_of_twelve};
     use crate::{Domain, PlacedShape, Shape, Sizing, generate};
 
     fn channel() -> Mesh<2> {
@@ -312,6 +229,25 @@ mod tests {
     }
 
     #[test]
+    fn the_nearest_image_is_that_of_the_plain_loop() {
+        let mesh = channel();
+        let locator = Locator::new(&mesh);
+        let shifts: Vec<_> = (-2..=2)
+            .flat_map(|i| (-2..=2).map(move |j| (f64::from(i), f64::from(j))))
+            .map(|(i, j)| Point::<2>::new(2.2 * i, 0.41 * j))
+            .collect();
+        for (i, j) in (0..60).flat_map(|i| (0..60).map(move |j| (i, j))) {
+            let point = Point::<2>::new(-3.0 + 0.1 * f64::from(i), -0.6 + 0.02 * f64::from(j));
+            let all = shifts.iter().filter_map(|shift| locator.nearest(point + shift));
+            let plain = all.min_by(|a, b| a.distance.total_cmp(&b.distance));
+            assert_eq!(locator.nearest_image(point, &shifts), plain);
+        }
+        let nowhere = Point::<2>::new(f64::NAN, 0.0);
+        assert_eq!(locator.nearest_image(nowhere, &shifts), None);
+        assert_eq!(locator.nearest_image(Point::<2>::zeros(), &[]), None);
+    }
+
+    #[test]
     fn points_just_inside_the_body_are_nearest_to_its_surface() {
         let mesh = channel();
         let locator = Locator::new(&mesh);
@@ -321,5 +257,64 @@ mod tests {
             let found = locator.nearest(point).unwrap();
             assert!((found.distance - 0.005).abs() < 1e-4, "{}", found.distance);
         }
+    }
+
+    /// Reference points well inside, close to a vertex, and close to a face.
+    const INSIDE: [[f64; 3]; 3] = [[0.25, 0.2, 0.3], [0.02, 0.95, 0.01], [0.3, 0.3, 0.002]];
+
+    #[test]
+    fn points_of_a_tetrahedral_mesh_are_found_in_their_cells() {
+        for mesh in [cube_of_five(), cube_of_twelve(), bulged_cube(0.2)] {
+            let locator = Locator::new(&mesh);
+            for cell in mesh.cell_ids() {
+                for at in INSIDE {
+                    let point = map_quadratic(&mesh.cell_nodes(cell), at).position;
+                    let found = locator.locate(point).expect("the point is in the mesh");
+                    assert_eq!((found.cell, found.distance), (cell, 0.0));
+                    let off = Point::from(found.reference) - Point::from(at);
+                    assert!(off.norm() < 1e-12, "{:?}", found.reference);
+                }
+            }
+            assert!(mesh.nodes.iter().all(|node| locator.locate(*node).is_some()));
+        }
+    }
+
+    #[test]
+    fn points_outside_tetrahedra_are_refused_and_have_a_nearest_cell() {
+        let straight = Locator::new(&cube_of_five());
+        let above = Point::<3>::new(0.5, 0.4, 1.3);
+        assert_eq!(straight.locate(above), None);
+        let found = straight.nearest(above).expect("a mesh has a nearest cell");
+        assert!((found.distance - 0.3).abs() < 1e-15);
+        let at_corner = straight.nearest(Point::<3>::new(-2.0, -1.0, -2.0)).expect("likewise");
+        assert!((at_corner.distance - 3.0).abs() < 1e-14);
+
+        // The middle of a side is on a curved edge, which leaves it by a fifth of 1/2
+        let mesh = bulged_cube(0.2);
+        let curved = Locator::new(&mesh);
+        let middle = Point::<3>::new(0.5, 0.5, 1.1);
+        assert_eq!(curved.locate(middle).map(|found| found.distance), Some(0.0));
+        let beyond = middle + Point::<3>::new(0.0, 0.0, 0.25);
+        assert_eq!(curved.locate(beyond), None);
+        let found = curved.nearest(beyond).expect("a mesh has a nearest cell");
+        let closest = distance_to_places(&mesh, beyond);
+        assert!(found.distance <= closest + 1e-12, "{} {closest}", found.distance);
+        assert!(found.distance > closest - 1e-3, "{} {closest}", found.distance);
+    }
+
+    /// Distance from a point to the nearest of many places in all cells (m).
+    fn distance_to_places(mesh: &Mesh<3>, point: Point<3>) -> f64 {
+        let n = 40;
+        let mut least = f64::INFINITY;
+        for cell in mesh.cell_ids() {
+            let nodes = mesh.cell_nodes(cell);
+            for (i, j, k) in (0..=n).flat_map(|i| {
+                (0..=n - i).flat_map(move |j| (0..=n - i - j).map(move |k| (i, j, k)))
+            }) {
+                let at = [i, j, k].map(|m| f64::from(m) / f64::from(n));
+                least = least.min((map_quadratic(&nodes, at).position - point).norm());
+            }
+        }
+        least
     }
 }

@@ -77,20 +77,30 @@ impl<const D: usize> CellQuality<D> {
     }
 }
 
-/// det J of the straight simplex with these vertices (m^D), and the sum of its squared edges (m²).
-fn straight_measures<const D: usize>(vertices: &[Point<D>]) -> (f64, f64) {
-    let det = determinant(&std::array::from_fn::<_, D, _>(|k| vertices[k + 1] - vertices[0]));
-    let edges = Simplex::<D>::EDGES.iter();
-    (det, edges.map(|&[i, j]| (vertices[j] - vertices[i]).norm_squared()).sum())
+/// Measures of a straight simplex.
+#[derive(Debug, Clone, Copy)]
+struct StraightMeasures<const D: usize> {
+    /// det J (m^D).
+    det: f64,
+    /// Sum of its squared edges (m²).
+    squares: f64,
 }
 
-/// Mean ratio of a simplex from det J and the sum of its squared edges: 1 when regular, 0 when
-/// flat, negative when inverted.
-fn mean_ratio<const D: usize>(det: f64, squares: f64) -> f64 {
-    if D == 2 {
-        2.0 * 3.0_f64.sqrt() * det / squares
-    } else {
-        12.0 * det.signum() * (0.5 * det.abs()).powf(2.0 / 3.0) / squares
+impl<const D: usize> StraightMeasures<D> {
+    fn of(vertices: &[Point<D>]) -> Self {
+        let det = determinant(&std::array::from_fn::<_, D, _>(|k| vertices[k + 1] - vertices[0]));
+        let edges = Simplex::<D>::EDGES.iter();
+        let squares = edges.map(|&[i, j]| (vertices[j] - vertices[i]).norm_squared()).sum();
+        Self { det, squares }
+    }
+
+    /// Mean ratio: 1 when regular, 0 when flat, negative when inverted.
+    fn mean_ratio(&self) -> f64 {
+        if D == 2 {
+            2.0 * 3.0_f64.sqrt() * self.det / self.squares
+        } else {
+            12.0 * self.det.signum() * (0.5 * self.det.abs()).powf(2.0 / 3.0) / self.squares
+        }
     }
 }
 
@@ -125,8 +135,8 @@ impl<const D: usize> Mesh<D> {
     #[must_use]
     pub fn cell_quality(&self, cell: CellId) -> f64 {
         let nodes = self.cell_nodes(cell);
-        let (det, squares) = straight_measures(&nodes[..=D]);
-        let ratio = mean_ratio::<D>(det, squares);
+        let straight = StraightMeasures::of(&nodes[..=D]);
+        let (det, ratio) = (straight.det, straight.mean_ratio());
         let quality = if self.curved[cell] && det > 0.0 {
             // Unlike f64::min, the comparison keeps what is not a number
             let lowest = jacobian_coefficients(&nodes)
@@ -163,15 +173,15 @@ impl<const D: usize> Quality<D> {
                 shortest = shortest.min(length);
                 longest = longest.max(length);
             }
-            let (det, squares) = straight_measures(&nodes[..=D]);
+            let straight = StraightMeasures::of(&nodes[..=D]);
             if mesh.curved[cell] {
                 let lowest =
                     jacobian_coefficients(&nodes).into_iter().fold(f64::INFINITY, f64::min);
-                min_curved_jacobian = min_curved_jacobian.min(lowest / det);
+                min_curved_jacobian = min_curved_jacobian.min(lowest / straight.det);
             }
             all.push(WorstCell {
                 cell,
-                ratio: mean_ratio::<D>(det, squares),
+                ratio: straight.mean_ratio(),
                 angle: smallest_angle(&nodes[..=D]).to_degrees(),
                 center: mesh.cell_center(cell),
             });
@@ -248,15 +258,13 @@ impl<const D: usize> fmt::Display for Quality<D> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::test_meshes::{bulged_cube, cube_of_five};
 
     #[test]
     fn a_regular_tetrahedron_is_perfect_and_a_flat_one_is_not() {
         let corners = [[1.0, 1.0, 1.0], [1.0, -1.0, -1.0], [-1.0, -1.0, 1.0], [-1.0, 1.0, -1.0]];
         let mut vertices = corners.map(Point::<3>::from);
-        let ratio = |vertices: &[Point<3>]| {
-            let (det, squares) = straight_measures(vertices);
-            mean_ratio::<3>(det, squares)
-        };
+        let ratio = |vertices: &[Point<3>]| StraightMeasures::of(vertices).mean_ratio();
         assert!((ratio(&vertices) - 1.0).abs() < 1e-15, "{}", ratio(&vertices));
         let angle = smallest_angle(&vertices);
         assert!((angle - (1.0_f64 / 3.0).acos()).abs() < 1e-15, "{angle}");
@@ -271,7 +279,34 @@ mod tests {
         let at = |x: f64, y: f64| Point::<2>::new(x, y);
         let half = smallest_angle(&[at(0.0, 0.0), at(1.0, 0.0), at(1.0, 0.5_f64.tan())]);
         assert!((half - 0.5).abs() < 1e-15);
-        let (det, squares) = straight_measures(&[at(0.0, 0.0), at(2.0, 0.0), at(1.0, 3f64.sqrt())]);
-        assert!((mean_ratio::<2>(det, squares) - 1.0).abs() < 1e-15);
+        let regular = StraightMeasures::of(&[at(0.0, 0.0), at(2.0, 0.0), at(1.0, 3f64.sqrt())]);
+        assert!((regular.mean_ratio() - 1.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn the_quality_of_a_cube_of_five_tetrahedra_is_known() {
+        let quality = Quality::of(&cube_of_five());
+        assert_eq!((quality.n_cells, quality.n_vertices, quality.n_nodes), (5, 8, 26));
+        assert_eq!((quality.n_dofs, quality.n_curved), (3 * 26 + 8, 0));
+        // One is regular, the four at the corners of the cube have three right angles
+        let at_corner = 12.0 * 0.5_f64.powf(2.0 / 3.0) / 9.0;
+        assert!((quality.min_ratio - at_corner).abs() < 1e-15);
+        assert!((quality.mean_ratio - (1.0 + 4.0 * at_corner) / 5.0).abs() < 1e-15);
+        let angle = (1.0 / 3.0_f64.sqrt()).acos().to_degrees();
+        assert!((quality.min_angle - angle).abs() < 1e-13, "{}", quality.min_angle);
+        assert_eq!((quality.shortest_edge, quality.longest_edge), (1.0, 2.0_f64.sqrt()));
+        assert_eq!(quality.min_curved_jacobian, 1.0);
+    }
+
+    #[test]
+    fn curved_tetrahedra_are_worse_than_straight_ones_and_folded_ones_are_not_valid() {
+        let worst = |by: f64| bulged_cube(by).worst_cell().expect("a cube has cells");
+        let straight = worst(0.0);
+        assert!((straight.quality - Quality::of(&bulged_cube(0.0)).min_ratio).abs() < 1e-14);
+        assert!(worst(-0.05).quality < straight.quality && worst(-0.05).is_valid());
+        assert!(!worst(-1.2).is_valid());
+        let quality = Quality::of(&bulged_cube(-0.05));
+        assert_eq!(quality.n_curved, 12);
+        assert!((0.1..1.0).contains(&quality.min_curved_jacobian));
     }
 }

@@ -13,8 +13,24 @@ use crate::{Mesh, Simplex};
 /// Bytes of a block before compression.
 const BLOCK: usize = 32 * 1024;
 
-/// A named array: name, components per node or cell, values one node or cell after the other.
-pub type Array<'a> = (&'a str, usize, &'a [f64]);
+/// A named array of values at the nodes or in the cells.
+#[derive(Debug, Clone, Copy)]
+pub struct Array<'a> {
+    /// Its name.
+    pub name: &'a str,
+    /// Components per node or cell.
+    pub components: usize,
+    /// Values, one node or cell after the other.
+    pub values: &'a [f64],
+}
+
+impl<'a> Array<'a> {
+    /// An array of values with this many components for each node or cell.
+    #[must_use]
+    pub fn new(name: &'a str, components: usize, values: &'a [f64]) -> Self {
+        Self { name, components, values }
+    }
+}
 
 /// How floating-point arrays are stored.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -85,7 +101,8 @@ pub fn write_vtu_as<const D: usize>(
         .iter()
         .flat_map(|p| (0..3).map(move |i| if i < D { p[i] } else { 0.0 }))
         .collect();
-    file.declare_floats(&mut xml, Precision::F64, &("Points", 3, &positions), mesh.n_nodes())?;
+    let positions = Array::new("Points", 3, &positions);
+    file.declare_floats(&mut xml, Precision::F64, &positions, mesh.n_nodes())?;
     xml += "</Points>\n<Cells>\n";
     let per_cell = Simplex::<D>::N_NODES as u64;
     let integers = |name: &str| format!("type=\"Int64\" Name=\"{name}\"");
@@ -134,9 +151,10 @@ impl Appended {
         &mut self,
         xml: &mut String,
         precision: Precision,
-        (name, components, values): &Array<'_>,
+        array: &Array<'_>,
         n: usize,
     ) -> io::Result<()> {
+        let Array { name, components, values } = *array;
         if values.len() != components * n {
             let message = format!(
                 "array \"{name}\" has {} values, {components} components for {n} places need {}",
@@ -186,7 +204,8 @@ mod tests {
     fn the_header_lists_the_arrays_and_the_blocks_decompress_to_them() {
         let mut out = Vec::new();
         let pressure = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0];
-        write_vtu(&mut out, &triangle(), Some(0.25), &[("p & q", 1, &pressure)], &[]).unwrap();
+        write_vtu(&mut out, &triangle(), Some(0.25), &[Array::new("p & q", 1, &pressure)], &[])
+            .unwrap();
         let start = out.windows(2).position(|w| w == b"\n_").unwrap() + 2;
         let header = String::from_utf8(out[..start].to_vec()).unwrap();
         assert!(header.contains("Name=\"p &amp; q\" NumberOfComponents=\"1\""));
@@ -206,7 +225,7 @@ mod tests {
     fn single_precision_is_for_arrays_only() {
         let mut out = Vec::new();
         let speed = [0.5; 12];
-        let arrays: [Array<'_>; 1] = [("speed", 2, &speed)];
+        let arrays = [Array::new("speed", 2, &speed)];
         write_vtu_as(Precision::F32, &mut out, &triangle(), None, &arrays, &[]).unwrap();
         let header = String::from_utf8_lossy(&out).into_owned();
         assert!(header.contains("type=\"Float32\" Name=\"speed\" NumberOfComponents=\"2\""));
@@ -216,7 +235,7 @@ mod tests {
 
     #[test]
     fn an_array_of_the_wrong_length_is_refused() {
-        let error = write_vtu(Vec::new(), &triangle(), None, &[("u", 2, &[0.0])], &[]);
+        let error = write_vtu(Vec::new(), &triangle(), None, &[Array::new("u", 2, &[0.0])], &[]);
         assert_eq!(error.unwrap_err().kind(), io::ErrorKind::InvalidInput);
     }
 }

@@ -299,7 +299,7 @@ fn area_order(body: PlacedShape, exact: f64, curved: bool) -> f64 {
         let mesh = generate(&square(false, false), std::slice::from_ref(&body), &sizing)
             .expect("is meshed");
         let n = mesh.facets.iter().filter(|f| f.boundary.index() == 4).count() as f64;
-        (n, (mesh.area() - (6.0 * 6.2 - exact)).abs())
+        (n, (mesh.measure() - (6.0 * 6.2 - exact)).abs())
     };
     let [(n0, e0), (n1, e1)] = [0.1, 0.025].map(study);
     (e0 / e1).ln() / (n1 / n0).ln()
@@ -424,5 +424,5 @@ fn a_very_large_domain_is_cheap() {
     let mesh = generate(&half, &[sphere], &Sizing::graded(0.05, 0.2, 1e4)).unwrap();
     assert!(mesh.n_cells() < 4000, "{}", mesh.n_cells());
     let exact = 0.5 * PI * (1e8 - 1.0);
-    assert!((mesh.area() / exact - 1.0).abs() < 1e-4);
+    assert!((mesh.measure() / exact - 1.0).abs() < 1e-4);
 }

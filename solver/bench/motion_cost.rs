@@ -8,7 +8,7 @@ use alewife_core::motion::{
     mesh_boundary_conditions, needs_remesh,
 };
 use alewife_core::timing::cpu_seconds;
-use alewife_mesh::{Domain, Locator, PlacedShape, Point, Shape, Sizing, Surroundings, generate};
+use alewife_mesh::{Domain, GapQuery, Locator, PlacedShape, Point, Shape, Sizing, generate};
 
 fn timed<T>(what: &str, run: impl FnOnce() -> T) -> T {
     let start = cpu_seconds();
@@ -43,7 +43,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             motion.move_nodes(&mut moved, &|_, _, x| rigid.displacement(x))
         })?;
     }
-    let mut around = Surroundings::new(&domain, std::slice::from_ref(&disc))?;
+    let mut around = GapQuery::new(&domain, std::slice::from_ref(&disc))?;
     let fresh = timed("measure the new mesh", || Fresh::new(&mesh, &around, Limits::default()));
     let carried = rigid.carry(&disc);
     around.place_body(0, carried.center, carried.angle);

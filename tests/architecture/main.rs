@@ -1,9 +1,14 @@
 //! The map in docs/architecture.md agrees with the code, and rooms use only the rooms below them.
 
+mod circles;
+mod limits;
+mod sources;
+
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::fs;
-use std::path::{Path, PathBuf};
+
+use sources::{CRATES, all_sources, root, sources};
 
 /// The rooms of the solver, lowest first, and the rooms each may use.
 const ROOMS: [(&str, &[&str]); 18] = [
@@ -39,42 +44,11 @@ const FOREIGN: [(&str, &[&str]); 8] = [
     ("faer", &["solver/linear/src/algebra/", "solver/linear/src/multifrontal/"]),
     ("pulp", &["solver/core/src/flow/", "solver/linear/src/multifrontal/"]),
     ("metis_sys", &["solver/linear/src/multifrontal/metis.rs"]),
-    ("spade", &["mesh/src/generate/", "mesh/src/cut/"]),
+    ("spade", &["mesh/src/planar/generate/", "mesh/src/planar/cut/"]),
     ("mcap", &["solver/src/observer/"]),
     ("clap", &["solver/src/cli/"]),
     ("indicatif", &["solver/src/observer/"]),
 ];
-
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the package is in the root").to_owned()
-}
-
-/// All source files below a folder, by path relative to the root.
-fn sources(folder: &str) -> BTreeMap<String, String> {
-    fn collect(folder: &Path, found: &mut BTreeMap<String, String>) {
-        for entry in fs::read_dir(folder).expect("the folder exists") {
-            let path = entry.expect("the entry is readable").path();
-            if path.is_dir() {
-                collect(&path, found);
-            } else if path.extension().is_some_and(|extension| extension == "rs") {
-                let name = path.strip_prefix(root()).expect("below the root").display().to_string();
-                found.insert(name, fs::read_to_string(&path).expect("the file is text"));
-            }
-        }
-    }
-    let mut found = BTreeMap::new();
-    collect(&root().join(folder), &mut found);
-    found
-}
-
-/// Source folders of all crates.
-const CRATES: [&str; 5] =
-    ["mesh/src", "solver/case/src", "solver/core/src", "solver/linear/src", "solver/src"];
-
-/// The source files of all crates, by path relative to the root.
-fn all_sources() -> impl Iterator<Item = (String, String)> {
-    CRATES.into_iter().flat_map(sources)
-}
 
 /// The room of a file of the solver: the crate of case files is one, all others are folders of their
 /// crates, or files at the top.

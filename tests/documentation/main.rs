@@ -1,30 +1,16 @@
-//! The user's pages agree with the program: keys, quantities, examples, and the table of cases.
+//! The pages agree with the program: keys, quantities, examples, names, files, and the table of cases.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use alewife_core::case::{
-    Case, CaseFile, Reference, Severity, check, known_quantities, schema, significant,
+    BodyQuantity, Case, CaseFile, FlowQuantity, JointQuantity, ProbeQuantity, Quantity, Reference,
+    Severity, SwimmerQuantity, check, schema, significant,
 };
 
 /// Beginnings of paths that exist on one machine only.
 const OF_ONE_MACHINE: [&str; 4] = ["/work", "/tmp", "/root", "/home"];
-
-/// A case with a body that moves, contact, a probe and scales, and so all quantities there are.
-const ALL_QUANTITIES: &str = r#"
-title    = "all quantities"
-geometry = "planar"
-fluid    = { model = "stokes", viscosity = 1.0, density = 1.0 }
-domain.box = { min = [-2.0, -2.0], max = [2.0, 2.0] }
-boundary = { left = "no-slip", right = "no-slip", bottom = "no-slip", top = "no-slip" }
-mesh     = { size = 0.5 }
-time.unsteady = { step = 0.1, end = 1.0 }
-contact.barrier = { range = 0.1, stiffness = 1.0 }
-scales   = { length = 1.0, velocity = 1.0 }
-body     = [{ name = "disc", shape.disc.radius = 0.5, center = [0.0, 0.0], motion = "free" }]
-probe    = [{ name = "point", point = [1.0, 1.0] }]
-"#;
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the package is in the root").to_owned()
@@ -96,15 +82,47 @@ fn every_key_and_word_of_a_case_file_is_on_its_page() {
     assert!(missing.is_empty(), "docs/case-file.md does not tell of {missing:?}");
 }
 
+/// One table of quantities; rows that differ in their names only are one.
+fn table<T>(title: &str, rows: &[Quantity<T>]) -> String {
+    let mut text = format!(
+        "{title}\n\n| Quantity | Unit (planar) | Only with | Meaning |\n|---|---|---|---|\n"
+    );
+    let is_same = |a: &Quantity<T>, b: &Quantity<T>| {
+        (a.unit, a.when, a.meaning) == (b.unit, b.when, b.meaning)
+    };
+    for rows in rows.chunk_by(is_same) {
+        let names: Vec<String> = rows.iter().map(|row| format!("`{}`", row.name)).collect();
+        let Quantity { unit, when, meaning, .. } = &rows[0];
+        let row = format!("| {} | {unit} | {} | {meaning} |\n", names.join(", "), when.words());
+        text += &row.replace("|  |", "| |");
+    }
+    text
+}
+
+/// To write the tables again: `ALEWIFE_UPDATE=1 cargo test --release -p tests --test documentation`.
 #[test]
-fn every_quantity_is_on_the_page_of_case_files() {
-    let told = terms(&text("docs/case-file.md"));
-    let file = Case::parse("all.toml", ALL_QUANTITIES, &[]).unwrap_or_else(|e| panic!("{e}"));
-    let known = known_quantities(&file.model);
-    assert!(known.len() > 20, "{known:?}");
-    let suffixes = known.iter().filter_map(|name| Some(name.split_once('.')?.1));
-    let missing: Vec<&str> = suffixes.filter(|suffix| !told.contains(*suffix)).collect();
-    assert!(missing.is_empty(), "docs/case-file.md does not tell of {missing:?}");
+fn the_tables_of_quantities_are_those_of_the_program() {
+    let tables = [
+        table("Of each body, as `NAME.` and:", BodyQuantity::TABLE),
+        table("Of each [`joint`](#joint), as `CHILD.` and:", JointQuantity::TABLE),
+        table(
+            "Of everything that swims, a `[[swimmer]]` or a body with a gait, as `NAME.` and:",
+            SwimmerQuantity::TABLE,
+        ),
+        table("Of each probe, as `NAME.` and:", ProbeQuantity::TABLE),
+        table("Of the flow, as `flow.` and:", FlowQuantity::TABLE),
+    ];
+    let tables = format!("\n{}\n", tables.join("\n"));
+    let page = text("docs/case-file.md");
+    let (begin, end) = ("<!-- quantities: begin -->\n", "<!-- quantities: end -->");
+    let start = page.find(begin).expect("the page marks their beginning") + begin.len();
+    let stop = page.find(end).expect("the page marks their end");
+    if std::env::var_os("ALEWIFE_UPDATE").is_some() {
+        let updated = format!("{}{tables}{}", &page[..start], &page[stop..]);
+        fs::write(root().join("docs/case-file.md"), updated).expect("the page can be written");
+    } else {
+        assert_eq!(&page[start..stop], tables, "see this test's comment for how to update them");
+    }
 }
 
 /// Reads a case, and complains about whatever `check` calls an error.
@@ -117,6 +135,70 @@ fn read_and_check(argument: &str, what: &str) -> CaseFile {
         .collect();
     assert!(errors.is_empty(), "{what}\n{}", errors.join("\n"));
     file
+}
+
+/// Source folders of all crates.
+const CRATES: [&str; 5] =
+    ["mesh/src", "solver/case/src", "solver/core/src", "solver/linear/src", "solver/src"];
+
+/// All source files below a folder.
+fn sources(folder: &Path) -> Vec<PathBuf> {
+    let mut found = Vec::new();
+    for entry in fs::read_dir(folder).expect("the folder exists") {
+        let path = entry.expect("the entry is readable").path();
+        if path.is_dir() {
+            found.extend(sources(&path));
+        } else if path.extension().is_some_and(|extension| extension == "rs") {
+            found.push(path);
+        }
+    }
+    found
+}
+
+fn all_sources() -> impl Iterator<Item = PathBuf> {
+    CRATES.into_iter().flat_map(|folder| sources(&root().join(folder)))
+}
+
+#[test]
+fn every_source_file_a_page_names_exists() {
+    // A page may leave out the folder of the crate
+    let short = |path: &str| path.replace("/src/", "/");
+    let folders = ["mesh", "solver", "tests"].map(|folder| root().join(folder));
+    let files: Vec<String> = folders
+        .iter()
+        .flat_map(|folder| sources(folder))
+        .map(|path| short(&path.display().to_string()))
+        .collect();
+    let (mut named, mut missing) = (0, Vec::new());
+    for page in ["CONTRIBUTING.md", "architecture", "method", "notation", "output", "performance"] {
+        let file = if page.ends_with(".md") { page.to_owned() } else { format!("docs/{page}.md") };
+        let page = text(&file);
+        for term in terms(page.split("<!-- map: begin -->").next().unwrap_or_default()) {
+            if term.ends_with(".rs") || term.contains("/src/") {
+                named += 1;
+                if !files.iter().any(|file| file.contains(&format!("/{}", short(&term)))) {
+                    missing.push(format!("{file}: {term}"));
+                }
+            }
+        }
+    }
+    assert!(named > 50, "{named} files are named");
+    assert!(missing.is_empty(), "these files do not exist: {missing:?}");
+}
+
+#[test]
+fn every_name_of_the_notation_is_in_the_code() {
+    let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    let read = |path| fs::read_to_string(path).expect("the file is text");
+    let code: String = all_sources().map(read).collect();
+    let known: BTreeSet<&str> = code.split(|c| !is_part(c)).collect();
+    let page = text("docs/notation.md");
+    let terms = terms(&page);
+    let names = terms.iter().flat_map(|term| term.split(|c| !is_part(c)));
+    let missing: Vec<&str> =
+        names.filter(|name| !name.is_empty() && !known.contains(name)).collect();
+    assert!(terms.len() > 100, "{} terms", terms.len());
+    assert!(missing.is_empty(), "docs/notation.md names {missing:?}, which the code does not have");
 }
 
 #[test]
@@ -208,7 +290,10 @@ fn every_case_has_a_page() {
 
 #[test]
 fn no_page_names_a_path_of_one_machine() {
-    let mut pages = vec!["README.md".to_owned(), "postprocess/README.md".to_owned()];
+    let mut pages: Vec<String> =
+        ["README.md", "CONTRIBUTING.md", "CHANGELOG.md", "postprocess/README.md"]
+            .map(str::to_owned)
+            .into();
     for folder in std::iter::once("docs".to_owned())
         .chain(std::iter::once("cases".to_owned()))
         .chain(case_names().iter().map(|name| format!("cases/{name}")))

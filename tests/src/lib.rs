@@ -9,6 +9,7 @@ mod stepping;
 mod stop;
 mod study;
 mod swim;
+mod tetrahedra;
 
 pub use moved::Moved;
 pub use norms::{Errors, errors};
@@ -17,3 +18,4 @@ pub use stepping::{Stepping, steady, steady_with, workspace};
 pub use stop::stopped;
 pub use study::Study;
 pub use swim::Swim;
+pub use tetrahedra::{three_tetrahedra, two_tetrahedra};

@@ -31,13 +31,13 @@ pub fn sides(
 
 /// A problem whose bodies, if any, are held.
 #[must_use]
-pub fn fluid_only(
-    mesh: &Mesh<2>,
-    sides: Vec<Option<Side<2>>>,
+pub fn fluid_only<const D: usize>(
+    mesh: &Mesh<D>,
+    sides: Vec<Option<Side<D>>>,
     density: f64,
     viscosity: f64,
     metric: Metric,
-) -> Problem<2> {
+) -> Problem<D> {
     let bodies = mesh.boundaries.iter().enumerate().filter_map(|(index, boundary)| {
         let BoundaryKind::Body(_) = boundary.kind else { return None };
         let pose = Pose::planar(0.0, 0.0, 0.0);

@@ -4,21 +4,21 @@ use alewife_core::body::Pose;
 use alewife_core::case::{Convection, Steady};
 use alewife_core::coupling::{BodiesAt, BodyShapes, FluidSystem, Problem, RigidBodyEquations};
 use alewife_core::simulation::{
-    MeshPath, State, SteadyFlow, SteadyTask, StepReport, TimeStepper, Timing, Workspace,
-    solve_steady,
+    MeshPath, State, SteadyFlow, SteadyTask, StepReport, StepResult, TimeStepper, Timing,
+    Workspace, solve_steady,
 };
 use alewife_core::time::Bdf;
 use alewife_mesh::Mesh;
 
 /// What steps of a problem on a mesh work with, its bodies at their poses at time zero.
 #[must_use]
-pub fn workspace(problem: &Problem<2>, mesh: &Mesh<2>) -> Workspace<2> {
+pub fn workspace<const D: usize>(problem: &Problem<D>, mesh: &Mesh<D>) -> Workspace<D> {
     let poses = start_poses(problem);
     let system = FluidSystem::new(problem, mesh, &poses, false);
     Workspace { system, mesh: mesh.clone(), timing: Timing::default() }
 }
 
-fn start_poses(problem: &Problem<2>) -> Vec<Pose> {
+fn start_poses<const D: usize>(problem: &Problem<D>) -> Vec<Pose> {
     problem.bodies.iter().map(|body| body.pose).collect()
 }
 
@@ -27,7 +27,11 @@ fn start_poses(problem: &Problem<2>) -> Vec<Pose> {
 /// # Panics
 /// When it is not found.
 #[must_use]
-pub fn steady(problem: &Problem<2>, mesh: &Mesh<2>, settings: &Steady) -> SteadyFlow<2> {
+pub fn steady<const D: usize>(
+    problem: &Problem<D>,
+    mesh: &Mesh<D>,
+    settings: &Steady,
+) -> SteadyFlow<D> {
     let mut work = workspace(problem, mesh);
     let has_convection = problem.has_convection;
     steady_with(&mut work, problem, settings, has_convection)
@@ -38,12 +42,12 @@ pub fn steady(problem: &Problem<2>, mesh: &Mesh<2>, settings: &Steady) -> Steady
 /// # Panics
 /// When it is not found.
 #[must_use]
-pub fn steady_with(
-    work: &mut Workspace<2>,
-    problem: &Problem<2>,
+pub fn steady_with<const D: usize>(
+    work: &mut Workspace<D>,
+    problem: &Problem<D>,
     settings: &Steady,
     has_convection: bool,
-) -> SteadyFlow<2> {
+) -> SteadyFlow<D> {
     let poses = start_poses(problem);
     let shapes = BodyShapes::at(&problem.bodies, 0.0).expect("gaits have shapes");
     let equations = RigidBodyEquations::steady(problem, &poses, 0.0);
@@ -53,22 +57,22 @@ pub fn steady_with(
 }
 
 /// A problem without contact that is stepped in time.
-pub struct Stepping<'a> {
+pub struct Stepping<'a, const D: usize> {
     /// How it is stepped.
-    pub stepper: TimeStepper<'a, 2>,
+    pub stepper: TimeStepper<'a, D>,
     /// What evolves.
-    pub state: State<2>,
-    work: Workspace<2>,
+    pub state: State<D>,
+    work: Workspace<D>,
 }
 
-impl<'a> Stepping<'a> {
+impl<'a, const D: usize> Stepping<'a, D> {
     /// At rest at time zero on a mesh.
     #[must_use]
     pub fn new(
-        problem: &'a Problem<2>,
-        mesh: &Mesh<2>,
+        problem: &'a Problem<D>,
+        mesh: &Mesh<D>,
         convection: Convection,
-        path: MeshPath<'a, 2>,
+        path: MeshPath<'a, D>,
     ) -> Self {
         let stepper = TimeStepper { problem, convection, path, contact: None };
         let state = State::at_rest(problem, mesh.clone());
@@ -81,7 +85,7 @@ impl<'a> Stepping<'a> {
     /// When it cannot be made.
     pub fn advance(&mut self, bdf: Bdf) -> StepReport {
         let made = self.stepper.advance(&mut self.work, &self.state, bdf);
-        let (level, report) = made.expect("the step is solved");
+        let StepResult { level, report } = made.expect("the step is solved");
         self.state.accept(self.stepper.problem, level);
         report
     }

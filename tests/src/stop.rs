@@ -9,7 +9,7 @@ use alewife_core::simulation::{LastState, Observer, RunError, SavedState, Snapsh
 struct Stopper {
     after: usize,
     steps: usize,
-    left: Arc<Mutex<Option<SavedState>>>,
+    left: Arc<Mutex<Option<SavedState<2>>>>,
 }
 
 impl Observer<2> for Stopper {
@@ -38,14 +38,14 @@ impl Observer<2> for Stopper {
 /// # Panics
 /// When the run fails before, or the text is not the state.
 #[must_use]
-pub fn stopped(model: &Model, after: usize) -> SavedState {
+pub fn stopped(model: &Model, after: usize) -> SavedState<2> {
     let left = Arc::new(Mutex::new(None));
     let stopper = Stopper { after, steps: 0, left: Arc::clone(&left) };
     let error = simulate(model, &mut [Box::new(stopper)]).expect_err("it is stopped");
     assert!(matches!(error, RunError::Stopped { .. }), "{error}");
     let saved = left.lock().expect("the run is over").take().expect("there is a state");
     let text = serde_json::to_string(&saved).expect("it is written");
-    let read: SavedState = serde_json::from_str(&text).expect("it is read");
+    let read: SavedState<2> = serde_json::from_str(&text).expect("it is read");
     assert!(read == saved, "not a bit is lost");
     read
 }

@@ -1,6 +1,8 @@
 //! The flow of the shipped case dfg-2d-2 in the middle of a time step, at a wanted size.
 
-use alewife_core::algebra::{AffineConstraints, Pattern, SparseMatrix, Unknowns};
+use std::sync::Arc;
+
+use alewife_core::algebra::{AffineConstraints, SparseMatrix, Unknowns};
 use alewife_core::case::{Case, Model};
 use alewife_core::coupling::{BodiesAt, BodyShapes, FluidSystem, Problem, Solution};
 use alewife_core::flow::{Assembly, Convection, FlowTerms, assemble, residual};
@@ -21,10 +23,9 @@ pub struct TimeStep {
     pub mesh: Mesh<2>,
     /// The constraints at time zero: the cylinder is held.
     pub constraints: AffineConstraints,
-    /// Sparsity pattern of the matrix.
-    pub pattern: Pattern,
     problem: Problem<2>,
-    assembly: Assembly<2>,
+    /// Pattern and maps of the mesh.
+    pub assembly: Assembly<2>,
     solution: Solution<2>,
     /// The inflow's parabola everywhere, which convects.
     crossing: Vec<Point<2>>,
@@ -76,7 +77,7 @@ impl TimeStep {
         let constraints =
             system.constraints(&problem, &mesh, BodiesAt { poses: &poses, shapes: &shapes });
         let sides = problem.do_nothing_sides();
-        let (pattern, assembly) =
+        let assembly =
             Assembly::new(&mesh, system.layout, &constraints, problem.metric, &sides, None);
         let (peak, height) = (1.5, 0.41);
         let parabola = |place: &Point<2>| {
@@ -92,7 +93,6 @@ impl TimeStep {
         Self {
             mesh,
             constraints,
-            pattern,
             problem,
             assembly,
             solution,
@@ -136,7 +136,7 @@ impl TimeStep {
     /// The system to be solved for the change of the free unknowns.
     #[allow(dead_code, reason = "not every benchmark solves the system")]
     pub fn linear_system(&self) -> LinearSystem {
-        let mut matrix = SparseMatrix::zeros(self.pattern.clone());
+        let mut matrix = SparseMatrix::zeros(Arc::clone(self.assembly.pattern()));
         self.assemble(matrix.values_mut());
         let rhs = self.constraints.restrict(&self.residual()).iter().map(|value| -value).collect();
         LinearSystem { matrix, rhs, unknowns: self.unknowns.clone() }

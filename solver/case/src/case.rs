@@ -48,7 +48,7 @@ pub struct Case {
     pub contact: Option<ContactSpec>,
     /// Cell sizes.
     pub mesh: MeshSettings,
-    /// Steady solution or march in time.
+    /// Steady solution or time steps.
     pub time: TimeSettings,
     /// What is written, and how often.
     #[serde(default)]
@@ -65,7 +65,7 @@ pub struct Case {
     /// The stretch of time over which statistics are taken.
     #[serde(default)]
     pub statistics: Statistics,
-    /// Published values this case is held against.
+    /// Published values this case is compared with.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub reference: Vec<Reference>,
     /// Whether `alewife validate --quick` runs the case (its variants say so themselves).

@@ -21,6 +21,7 @@ mod nearest;
 mod numbers;
 mod output;
 mod parts;
+mod quantity;
 mod read;
 mod reference;
 mod schema;
@@ -33,7 +34,7 @@ mod type_error;
 
 pub use body::{Body, GaitSpec, ImposedMotion, Lock, Motion, ShapeSpec, SpringSpec, SquirmerGait};
 pub use case::Case;
-pub use check::{check, known_quantities};
+pub use check::check;
 pub use contact::ContactSpec;
 pub use diagnostic::{CaseError, Diagnostic, Severity};
 pub use domain::{BoundaryCondition, DomainSpec, Geometry, TimeFunction};
@@ -48,6 +49,10 @@ pub use model::{Model, SwimmerModel};
 pub use nearest::nearest;
 pub use numbers::{DerivedNumber, derived_numbers, geometry_name, number_table, significant};
 pub use output::{Cadence, Output, Precision, Probe};
+pub use quantity::{
+    BodyQuantity, Column, FlowQuantity, JointQuantity, ProbeQuantity, Quantity, Source,
+    SwimmerQuantity, When, columns, known_quantities,
+};
 pub use read::CaseFile;
 pub use reference::{Numbers, Reference, Scales, Statistic, Statistics, Variant};
 pub use schema::schema;

@@ -29,7 +29,7 @@ pub struct MeshSettings {
     /// Whether cells follow curved boundaries (isoparametric P2) or stay straight.
     #[serde(default = "default_curved")]
     pub curved: bool,
-    /// How the mesh follows bodies that move, and when it is made anew.
+    /// How the mesh follows bodies that move, and when it is replaced by a new one.
     #[serde(default, skip_serializing_if = "MovingMesh::is_default")]
     pub moving: MovingMesh,
     /// Factor on the sizes above and on `growth`, divisor of `gap_layers`: 0.5 is the same mesh
@@ -45,10 +45,10 @@ pub struct MovingMesh {
     /// The equation the displacements of the cells solve.
     #[serde(default)]
     pub equation: MeshEquation,
-    /// Quality of a cell, over its quality when new, below which the mesh is made anew (1).
+    /// Quality of a cell, over its quality when new, below which the domain is remeshed (1).
     #[serde(default = "default_quality")]
     pub quality: f64,
-    /// Layers of cells across a gap below which the mesh is made anew.
+    /// Layers of cells across a gap below which the domain is remeshed.
     #[serde(default = "default_layers")]
     pub layers: f64,
 }

@@ -250,7 +250,7 @@ impl Model {
         })
     }
 
-    /// Whether a march in time deforms the mesh: a body moves as seen from the frame, turns and
+    /// Whether the mesh deforms in time: a body moves as seen from the frame, turns and
     /// looks different then, or deforms; or a side of the domain waves.
     #[must_use]
     pub fn mesh_moves(&self) -> bool {

@@ -1,4 +1,4 @@
-//! `[[reference]]`, `[[variant]]`, `[scales]`, `[numbers]`, `[statistics]`: what a case is held against.
+//! `[[reference]]`, `[[variant]]`, `[scales]`, `[numbers]`, `[statistics]`: published values.
 
 use std::collections::BTreeMap;
 

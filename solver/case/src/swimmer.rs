@@ -89,7 +89,7 @@ pub enum SwimmerKind {
         /// link farther from the middle less that of the nearer one.
         joints: Vec<Pivot>,
     },
-    /// Bodies of `[[body]]` that are told of as one.
+    /// Bodies of `[[body]]` that are reported as one.
     Bodies(Vec<String>),
 }
 

@@ -1,4 +1,4 @@
-//! `[time]`: a steady solution, or a march in time.
+//! `[time]`: a steady solution, or time steps.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 pub enum TimeSettings {
     /// Steady flow, or the instantaneous flow of the `stokes` model.
     Steady(Steady),
-    /// March in time.
+    /// An unsteady run, by time steps.
     Unsteady(Unsteady),
 }
 

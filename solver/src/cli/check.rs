@@ -4,9 +4,10 @@ use std::fmt::Write as _;
 
 use alewife_mesh::{Mesh, Quality};
 
+use super::engine;
 use super::exit::{Exit, Failure};
+use super::read::{CheckedCase, read_and_check};
 use super::style::{self, Ink, on_stdout, say};
-use super::{engine, read_and_check};
 use crate::case::{
     BoundaryCondition, Cadence, Case, CaseFile, Diagnostic, DomainSpec, FlowModel, GaitSpec, Joint,
     JointKind, Model, Motion, Precision, Scheme, ShapeSpec, Stroke, SwimmerModel, TimeSettings,
@@ -17,7 +18,7 @@ use crate::coupling::memory_estimate;
 /// Output above which a warning is given (bytes).
 const LARGE_OUTPUT: f64 = 2e9;
 
-/// Checks cases one after the other; the first bad one decides the exit code and is told last.
+/// Checks cases one after the other; the first bad one decides the exit code and is printed last.
 pub fn check(cases: &[String], settings: &[String], has_mesh: bool) -> Result<Exit, Failure> {
     let mut worst: Option<Failure> = None;
     for (index, argument) in cases.iter().enumerate() {
@@ -38,7 +39,7 @@ pub fn check(cases: &[String], settings: &[String], has_mesh: bool) -> Result<Ex
 }
 
 fn check_one(argument: &str, settings: &[String], has_mesh: bool) -> Result<(), Failure> {
-    let (file, warnings) = read_and_check(argument, settings)?;
+    let CheckedCase { file, warnings } = read_and_check(argument, settings)?;
     let mut text = format!("{}  {}\n", on_stdout(Ink::Bold, &file.full_name()), file.case().title);
     text += &facts(&file);
     let numbers = number_table(&file.model);
@@ -117,7 +118,7 @@ pub fn facts(file: &CaseFile) -> String {
     line(
         "reference",
         match (n, in_variants) {
-            (0, 0) => "none: nothing tells whether the result is right".to_owned(),
+            (0, 0) => "none: the result is not compared with anything".to_owned(),
             (1, 0) => "1 published value".to_owned(),
             (n, 0) => format!("{n} published values"),
             (n, more) => format!("{} published values, {more} of them in variants", n + more),
@@ -223,13 +224,13 @@ fn joint_line(joint: &Joint) -> String {
             )
         }
     };
-    format!("{} hangs on {}: {what}", joint.child, joint.parent)
+    format!("{} is attached to {}: {what}", joint.child, joint.parent)
 }
 
 fn swimmer_line(model: &Model, swimmer: &SwimmerModel) -> String {
     let bodies = match swimmer.bodies.len() {
         1 => "1 body".to_owned(),
-        n => format!("{n} bodies, told of as one"),
+        n => format!("{n} bodies, reported as one"),
     };
     let period = swimmer.period.map(|period| format!(", period {}", significant(period)));
     let motion = match swimmer.bodies.iter().all(|body| model.bodies[*body].motion == Motion::Free)
@@ -278,9 +279,9 @@ fn n_systems(model: &Model) -> f64 {
 fn costs(model: &Model, mesh: &Mesh<2>) -> String {
     let n_dofs = (2 * mesh.n_nodes() + mesh.n_vertices) as f64;
     let memory = memory_estimate(2 * mesh.n_nodes() + mesh.n_vertices);
-    // Measured on planar runs with 1.1 10^4 to 2 10^5 unknowns, on one core, every system factorised.
+    // Measured on planar runs with 1.1 10^4 to 2 10^5 unknowns on one core, all systems factorised.
     let factorisation = 0.0095 * (n_dofs / 1e4).powf(1.4);
-    // What follows the bodies: the mesh, its quality, contact, measurements, new meshes.
+    // What follows the bodies: the mesh, its quality, contact, measurements, remeshing.
     let following = if model.mesh_moves() { 0.5 } else { 0.0 };
     let assembly = 6e-7 * n_dofs;
     let systems = n_systems(model);
@@ -293,7 +294,7 @@ fn costs(model: &Model, mesh: &Mesh<2>) -> String {
     let is_adaptive =
         matches!(&model.case.time, TimeSettings::Unsteady(time) if time.adaptive.is_some());
     let cost = if is_adaptive {
-        format!("{} for each linear system; how many, the steps will tell", duration(seconds))
+        format!("{} for each linear system; their number depends on the steps", duration(seconds))
     } else {
         let plural = if systems == 1.0 { "" } else { "s" };
         format!("{} for {systems} linear system{plural}", duration(systems * seconds))
@@ -341,10 +342,14 @@ fn output_size(model: &Model, mesh: &Mesh<2>) -> f64 {
 }
 
 fn bytes(size: f64) -> String {
-    let units = ["bytes", "kB", "MB", "GB", "TB"];
-    let step = if size < 1.0 { 0 } else { ((size.log10() / 3.0) as usize).min(units.len() - 1) };
-    let digits = usize::from(step > 0);
-    format!("{:.digits$} {}", size / 1000_f64.powi(step as i32), units[step])
+    let larger = ["kB", "MB", "GB", "TB"];
+    let (mut number, mut unit) = (size, None);
+    for name in larger {
+        if number >= 1000.0 {
+            (number, unit) = (number / 1000.0, Some(name));
+        }
+    }
+    unit.map_or_else(|| format!("{number:.0} bytes"), |unit| format!("{number:.1} {unit}"))
 }
 
 fn duration(seconds: f64) -> String {

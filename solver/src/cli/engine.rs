@@ -14,7 +14,7 @@ pub fn build_mesh(model: &Model) -> Result<Mesh<2>, RunError> {
     simulation::build_mesh(model)
 }
 
-/// Runs a case with nobody looking on.
+/// Runs a case without observers.
 pub fn simulate(model: &Model) -> Result<RunSummary, RunError> {
     simulation::simulate(model, &mut [])
 }
@@ -23,7 +23,7 @@ pub fn simulate(model: &Model) -> Result<RunSummary, RunError> {
 /// without progress on the terminal.
 pub fn simulate_into(
     model: &Model,
-    saved: Option<&SavedState>,
+    saved: Option<&SavedState<2>>,
     directory: &RunDirectory,
     quiet: bool,
 ) -> Result<RunSummary, RunError> {

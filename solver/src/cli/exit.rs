@@ -1,5 +1,6 @@
 //! `Exit`: the codes the program ends with, after sysexits where there is one.
 
+use std::io;
 use std::process::ExitCode;
 
 use super::style;
@@ -13,7 +14,7 @@ use crate::simulation::RunError;
 pub enum Exit {
     /// Done.
     Done = 0,
-    /// The command line makes no sense.
+    /// The command line is invalid.
     Usage = 2,
     /// The solver diverged.
     Diverged = 10,
@@ -46,20 +47,20 @@ impl From<Exit> for ExitCode {
 pub struct Failure {
     /// Code to end with.
     pub exit: Exit,
-    /// What to tell.
+    /// What is printed.
     pub message: String,
 }
 
 impl Failure {
-    /// A failure told as `error: ...`.
+    /// A failure printed as `error: ...`.
     pub fn new(exit: Exit, message: impl AsRef<str>) -> Self {
         Self { exit, message: style::error(message.as_ref()) }
     }
 
     /// A case that is wrong, with all its diagnostics.
     pub fn wrong(diagnostics: &[Diagnostic]) -> Self {
-        let told: Vec<String> = diagnostics.iter().map(style::diagnostic).collect();
-        Self { exit: Exit::BadCase, message: told.join("\n\n") }
+        let texts: Vec<String> = diagnostics.iter().map(style::diagnostic).collect();
+        Self { exit: Exit::BadCase, message: texts.join("\n\n") }
     }
 }
 
@@ -104,5 +105,11 @@ impl From<RunDirectoryError> for Failure {
             _ => Exit::InputOutput,
         };
         Self::new(exit, error.to_string())
+    }
+}
+
+impl From<io::Error> for Failure {
+    fn from(error: io::Error) -> Self {
+        Self::new(Exit::InputOutput, error.to_string())
     }
 }

@@ -35,7 +35,7 @@ pub fn list(is_long: bool) -> Result<Exit, Failure> {
     Ok(Exit::Done)
 }
 
-/// Tells what a case is about, or prints its text.
+/// Shows what a case is about, or prints its text.
 pub fn show(argument: &str, is_source: bool) -> Result<Exit, Failure> {
     let file = Case::read(argument, &[])?;
     if is_source {
@@ -51,7 +51,7 @@ pub fn show(argument: &str, is_source: bool) -> Result<Exit, Failure> {
     Ok(Exit::Done)
 }
 
-/// Everything there is to tell about a case without solving or meshing it.
+/// Everything known of a case without solving or meshing it.
 fn summary(file: &CaseFile) -> String {
     let case = file.case();
     let mut text = format!("{}\n", on_stdout(Ink::Bold, &file.full_name()));

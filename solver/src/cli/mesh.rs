@@ -8,10 +8,10 @@ use alewife_mesh::{Quality, write_vtu};
 
 use super::engine;
 use super::exit::{Exit, Failure};
-use super::read_case;
+use super::read::read_case;
 use super::style::say;
 
-/// Makes the mesh of a case, writes it as VTU, and tells its quality.
+/// Makes the mesh of a case, writes it as VTU, and reports its quality.
 pub fn mesh(argument: &str, settings: &[String], out: Option<PathBuf>) -> Result<Exit, Failure> {
     let file = read_case(argument, settings)?;
     let mesh = engine::build_mesh(&file.model)?;

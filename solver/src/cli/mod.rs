@@ -1,4 +1,4 @@
-//! The command line: what is asked for, what is said back, and which code the program ends with.
+//! The command line: commands, their output, and the exit codes.
 
 mod check;
 mod engine;
@@ -6,21 +6,21 @@ mod exit;
 mod library;
 mod mesh;
 mod panic;
+mod read;
 mod run;
 mod signal;
 mod style;
 mod threads;
 mod validate;
 
-use std::io;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use clap::{Args, CommandFactory, Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
 use clap_complete::Shell;
 
-use crate::case::{CaseFile, Diagnostic, Severity};
 use exit::{Exit, Failure};
+use read::Settings;
 use style::{complain, say};
 
 pub use panic::guard;
@@ -55,7 +55,7 @@ enum Command {
         #[arg(long, short)]
         long: bool,
     },
-    /// Tell what a case is about: physics, derived numbers, published values, variants
+    /// Show what a case is about: physics, derived numbers, published values, variants
     Show {
         /// Which case
         case: String,
@@ -63,7 +63,7 @@ enum Command {
         #[arg(long)]
         source: bool,
     },
-    /// Read cases, mesh them, and say what they would cost; nothing is solved
+    /// Read cases, mesh them, and estimate their cost; nothing is solved
     Check {
         /// Which cases
         #[arg(required = true)]
@@ -74,7 +74,7 @@ enum Command {
         #[arg(long)]
         no_mesh: bool,
     },
-    /// Make the mesh of a case, write it as VTU, and tell its quality
+    /// Make the mesh of a case, write it as VTU, and report its quality
     Mesh {
         /// Which case
         case: String,
@@ -100,14 +100,6 @@ enum Command {
         /// Which shell
         shell: Shell,
     },
-}
-
-/// Keys set on the command line.
-#[derive(Debug, Clone, Args)]
-struct Settings {
-    /// Set a key of the case, such as mesh.scale=0.5 or body.0.gait.squirmer.modes.1=3; repeat at will
-    #[arg(long = "set", value_name = "KEY=VALUE")]
-    set: Vec<String>,
 }
 
 /// Does what the command line says.
@@ -145,33 +137,5 @@ fn dispatch(command: Command) -> Result<Exit, Failure> {
             say(String::from_utf8_lossy(&text).trim_end());
             Ok(Exit::Done)
         }
-    }
-}
-
-/// Reads a case and refuses it if it is wrong; warnings are told and let through.
-fn read_case(argument: &str, settings: &[String]) -> Result<CaseFile, Failure> {
-    let (file, warnings) = read_and_check(argument, settings)?;
-    for warning in &warnings {
-        complain(&style::diagnostic(warning));
-    }
-    Ok(file)
-}
-
-/// Reads a case and refuses it if it is wrong; warnings are handed back.
-fn read_and_check(
-    argument: &str,
-    settings: &[String],
-) -> Result<(CaseFile, Vec<Diagnostic>), Failure> {
-    let file = crate::case::Case::read(argument, settings)?;
-    let diagnostics = crate::case::check(&file);
-    if diagnostics.iter().any(|one| one.severity == Severity::Error) {
-        return Err(Failure::wrong(&diagnostics));
-    }
-    Ok((file, diagnostics))
-}
-
-impl From<io::Error> for Failure {
-    fn from(error: io::Error) -> Self {
-        Self::new(Exit::InputOutput, error.to_string())
     }
 }

@@ -1,4 +1,4 @@
-//! A bug ends the program with an apology and what is needed to report it.
+//! A bug ends the program with a message and what is needed to report it.
 
 use std::panic::{self, AssertUnwindSafe};
 use std::process::ExitCode;
@@ -6,10 +6,10 @@ use std::process::ExitCode;
 use super::exit::Exit;
 use super::style::complain;
 
-/// Runs the program; a panic becomes an apology and exit code 70.
+/// Runs the program; a panic becomes a message and exit code 70.
 #[must_use]
 pub fn guard(program: impl FnOnce() -> ExitCode) -> ExitCode {
-    // With RUST_BACKTRACE set, somebody is looking for the bug: let Rust tell all it knows.
+    // With RUST_BACKTRACE set, somebody is looking for the bug: let Rust print all it knows.
     if std::env::var_os("RUST_BACKTRACE").is_none() {
         panic::set_hook(Box::new(|information| {
             let place = information

@@ -5,8 +5,9 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::exit::{Exit, Failure};
+use super::read::{Settings, read_case};
 use super::style::{Ink, on_stdout, say};
-use super::{Settings, engine, read_case, threads};
+use super::{engine, threads};
 use crate::case::{Case, Model, TimeSettings, significant};
 use crate::observer::{RunDirectory, write_atomic};
 use crate::simulation::{RunSummary, SavedState};
@@ -36,7 +37,7 @@ pub struct Options {
     /// Threads; by default those the batch system or the machine grants
     #[arg(long, short, value_name = "N")]
     threads: Option<usize>,
-    /// Go on from the state a run left that stopped or failed: its state.json or failure/state.json
+    /// Resume from the state of a run that stopped or failed: its state.json or failure/state.json
     #[arg(long, value_name = "FILE")]
     resume: Option<PathBuf>,
     /// Replace a finished run
@@ -67,14 +68,14 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
         let text = format!("{:#}\n", comparisons_to_json(&comparisons));
         write_atomic(&out.join(COMPARISON_FILE), text.as_bytes())?;
     }
-    tell(&comparisons);
+    print_comparisons(&comparisons);
     if comparisons.is_empty() {
         tell_last_values(&file.model, &outcome);
     }
     let seconds: f64 = outcome.timing.cpu.iter().sum();
     let remeshes = outcome.series.column("flow.remeshes").and_then(|all| all.last().copied());
     let moving = remeshes.map_or_else(String::new, |remeshes| {
-        format!(", {:.3} s a step, {remeshes} new meshes", seconds / outcome.steps.max(1) as f64)
+        format!(", {:.3} s a step, {remeshes} remeshings", seconds / outcome.steps.max(1) as f64)
     });
     say(&format!(
         "{} unknowns, {} steps, {seconds:.2} s of CPU time{moving}; written to {}",
@@ -86,7 +87,7 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
 }
 
 /// Reads the state a run left.
-fn read_state(path: &Path, case: &Case) -> Result<SavedState, Failure> {
+fn read_state(path: &Path, case: &Case) -> Result<SavedState<2>, Failure> {
     let refuse = |exit, reason: String| {
         let path = path.display();
         Failure::new(
@@ -97,14 +98,14 @@ fn read_state(path: &Path, case: &Case) -> Result<SavedState, Failure> {
             ),
         )
     };
-    let TimeSettings::Unsteady(march) = &case.time else {
-        return Err(refuse(Exit::Usage, "a steady solution does not go on".to_owned()));
+    let TimeSettings::Unsteady(settings) = &case.time else {
+        return Err(refuse(Exit::Usage, "a steady solution cannot be resumed".to_owned()));
     };
     let text = std::fs::read(path).map_err(|error| refuse(Exit::NoInput, error.to_string()))?;
-    let saved: SavedState = serde_json::from_slice(&text)
+    let saved: SavedState<2> = serde_json::from_slice(&text)
         .map_err(|error| refuse(Exit::BadCase, format!("this is no state of a run: {error}")))?;
-    if saved.time >= march.end {
-        let reason = format!("it is at time {}, and the case ends at {}", saved.time, march.end);
+    if saved.time >= settings.end {
+        let reason = format!("it is at time {}, and the case ends at {}", saved.time, settings.end);
         return Err(refuse(Exit::BadCase, reason));
     }
     Ok(saved)
@@ -113,16 +114,16 @@ fn read_state(path: &Path, case: &Case) -> Result<SavedState, Failure> {
 /// Prints how the bodies ended, for a case without published values.
 fn tell_last_values(model: &Model, outcome: &RunSummary) {
     let Some(last) = outcome.series.rows.last() else { return };
-    // Of many bodies that are told of as one only what they do together.
+    // Of the many bodies of a swimmer only what they do together.
     let is_alone = |body: usize| {
         !model.swimmers.iter().any(|one| one.bodies.len() > 1 && one.bodies.contains(&body))
     };
     let bodies = model.bodies.iter().enumerate().filter(|(index, _)| is_alone(*index));
-    let told: Vec<&str> = bodies
+    let shown: Vec<&str> = bodies
         .map(|(_, body)| body.name.as_str())
         .chain(model.swimmers.iter().map(|swimmer| swimmer.name.as_str()))
         .collect();
-    let body_of = |name: &str| told.iter().any(|told| name.starts_with(&format!("{told}.")));
+    let body_of = |name: &str| shown.iter().any(|shown| name.starts_with(&format!("{shown}.")));
     for (name, value) in outcome.series.names.iter().zip(last) {
         // Of cycles nothing is known before the first has ended
         if body_of(name) && !name.contains("surface_") && !value.is_nan() {
@@ -131,8 +132,8 @@ fn tell_last_values(model: &Model, outcome: &RunSummary) {
     }
 }
 
-/// Prints the table of comparisons, verdicts in colour, with what there is to say about them.
-pub fn tell(comparisons: &[Comparison]) {
+/// Prints the table of comparisons, verdicts in colour, with reasons and notes.
+pub fn print_comparisons(comparisons: &[Comparison]) {
     if comparisons.is_empty() {
         return;
     }

@@ -5,8 +5,9 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::exit::{Exit, Failure};
+use super::read::read_and_check;
 use super::style::{Ink, complain, on_stdout, say};
-use super::{engine, read_and_check, run, threads};
+use super::{engine, run, threads};
 use crate::case::{Cadence, Case, Numbers, Statistics, library};
 use crate::observer::{RunDirectory, read_outcome};
 use crate::simulation::{RunError, RunSummary};
@@ -72,7 +73,7 @@ pub fn validate(options: &Options) -> Result<Exit, Failure> {
     } else if options.markdown {
         say(comparison_page(&comparisons).trim_end());
     } else {
-        run::tell(&comparisons);
+        run::print_comparisons(&comparisons);
         let n_good = comparisons.len() - n_bad;
         let words = format!("{n_good} of {} values within their tolerance", comparisons.len());
         say(&on_stdout(if n_bad == 0 { Ink::Green } else { Ink::Red }, &words));
@@ -103,7 +104,7 @@ fn validate_one(
     options: &Options,
     n_threads: usize,
 ) -> Result<Vec<Comparison>, Failure> {
-    let (file, _) = read_and_check(member, &[])?;
+    let file = read_and_check(member, &[])?.file;
     let name = file.full_name();
     let of_run = name.replace('/', "-");
     let outcome = match (&options.out, &options.from) {
@@ -122,7 +123,7 @@ fn validate_one(
     })
 }
 
-/// A run that was kept, of this very case but for what it is held against.
+/// A run that was kept, of the same case, its references aside.
 fn kept(directory: &Path, case: &Case) -> Result<RunSummary, Failure> {
     let refuse = |exit, reason: String| {
         Failure::new(exit, format!("--from: {}: {reason}", directory.display()))

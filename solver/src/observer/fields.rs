@@ -8,11 +8,11 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use alewife_mesh::{Mesh, Point, Simplex, write_vtu_as};
+use alewife_mesh::{Array, Mesh, Point, Simplex, write_vtu_as};
 
+use super::atomic::write_atomic;
 use super::schedule::Schedule;
 use super::vorticity::nodal_vorticity;
-use super::write_atomic;
 use crate::case::{Case, Precision};
 use crate::simulation::{LastState, Observer, RunError, Snapshot};
 
@@ -56,9 +56,9 @@ impl FieldFiles {
         let velocity: Vec<f64> = velocity.iter().flat_map(|u| [u.x, u.y, 0.0]).collect();
         let pressure = nodal_pressure(mesh, pressure);
         let arrays = [
-            ("velocity", 3, &velocity[..]),
-            ("pressure", 1, &pressure[..]),
-            ("vorticity", 1, &vorticity[..]),
+            Array::new("velocity", 3, &velocity),
+            Array::new("pressure", 1, &pressure),
+            Array::new("vorticity", 1, &vorticity),
         ];
         let mut bytes = Vec::new();
         write_vtu_as(self.precision, &mut bytes, mesh, Some(time), &arrays, &[])?;

@@ -42,79 +42,106 @@ impl Kind {
 
     /// The schema, by the rules of JSON Schema.
     pub fn schema(self) -> Value {
-        let number = || json!({"type": "number"});
-        let text = || json!({"type": "string"});
-        let vector = || object(&[("x", number()), ("y", number()), ("z", number())]);
-        let rotation =
-            || object(&[("x", number()), ("y", number()), ("z", number()), ("w", number())]);
-        let wrench = || object(&[("force", vector()), ("torque", vector())]);
+        let wrench = || object(&[("force", vector_schema()), ("torque", vector_schema())]);
         let mut schema = match self {
             Self::Transforms => object(&[(
                 "transforms",
                 list(object(&[
                     ("timestamp", timestamp_schema()),
-                    ("parent_frame_id", text()),
-                    ("child_frame_id", text()),
-                    ("translation", vector()),
-                    ("rotation", rotation()),
+                    ("parent_frame_id", text_schema()),
+                    ("child_frame_id", text_schema()),
+                    ("translation", vector_schema()),
+                    ("rotation", rotation_schema()),
                 ])),
             )]),
-            Self::Scene => {
-                let pose = || object(&[("position", vector()), ("orientation", rotation())]);
-                let colour = || {
-                    object(&[("r", number()), ("g", number()), ("b", number()), ("a", number())])
-                };
-                let solid = || object(&[("pose", pose()), ("size", vector()), ("color", colour())]);
-                object(&[
-                    ("deletions", list(json!({"type": "object"}))),
-                    (
-                        "entities",
-                        list(object(&[
-                            ("timestamp", timestamp_schema()),
-                            ("frame_id", text()),
-                            ("id", text()),
-                            ("lifetime", timestamp_schema()),
-                            ("frame_locked", json!({"type": "boolean"})),
-                            ("spheres", list(solid())),
-                            ("cylinders", list(solid())),
-                            ("lines", list(json!({"type": "object"}))),
-                        ])),
-                    ),
-                ])
-            }
+            Self::Scene => scene_schema(),
             Self::Log => object(&[
                 ("timestamp", timestamp_schema()),
                 ("level", json!({"type": "integer"})),
-                ("message", text()),
-                ("name", text()),
-                ("file", text()),
+                ("message", text_schema()),
+                ("name", text_schema()),
+                ("file", text_schema()),
                 ("line", json!({"type": "integer"})),
             ]),
             Self::Step => object(&[
                 ("step", json!({"type": "integer"})),
-                ("time", number()),
-                ("time_step", number()),
+                ("time", number_schema()),
+                ("time_step", number_schema()),
                 ("iterations", json!({"type": "integer"})),
                 ("n_dofs", json!({"type": "integer"})),
-                ("quantities", json!({"type": "object", "additionalProperties": number()})),
+                ("quantities", json!({"type": "object", "additionalProperties": number_schema()})),
             ]),
             Self::Body => object(&[
                 ("step", json!({"type": "integer"})),
-                ("time", number()),
+                ("time", number_schema()),
                 (
                     "pose",
-                    object(&[("center", vector()), ("rotation", rotation()), ("angle", number())]),
+                    object(&[
+                        ("center", vector_schema()),
+                        ("rotation", rotation_schema()),
+                        ("angle", number_schema()),
+                    ]),
                 ),
-                ("twist", object(&[("linear", vector()), ("angular", vector())])),
+                ("twist", object(&[("linear", vector_schema()), ("angular", vector_schema())])),
                 ("load", wrench()),
                 ("surface_load", wrench()),
                 ("contact", wrench()),
-                ("power", number()),
+                ("power", number_schema()),
             ]),
         };
         schema["title"] = json!(self.schema_name());
         schema
     }
+}
+
+fn number_schema() -> Value {
+    json!({"type": "number"})
+}
+
+fn text_schema() -> Value {
+    json!({"type": "string"})
+}
+
+fn vector_schema() -> Value {
+    object(&[("x", number_schema()), ("y", number_schema()), ("z", number_schema())])
+}
+
+fn rotation_schema() -> Value {
+    object(&[
+        ("x", number_schema()),
+        ("y", number_schema()),
+        ("z", number_schema()),
+        ("w", number_schema()),
+    ])
+}
+
+fn scene_schema() -> Value {
+    let pose = || object(&[("position", vector_schema()), ("orientation", rotation_schema())]);
+    let colour = || {
+        object(&[
+            ("r", number_schema()),
+            ("g", number_schema()),
+            ("b", number_schema()),
+            ("a", number_schema()),
+        ])
+    };
+    let solid = || object(&[("pose", pose()), ("size", vector_schema()), ("color", colour())]);
+    object(&[
+        ("deletions", list(json!({"type": "object"}))),
+        (
+            "entities",
+            list(object(&[
+                ("timestamp", timestamp_schema()),
+                ("frame_id", text_schema()),
+                ("id", text_schema()),
+                ("lifetime", timestamp_schema()),
+                ("frame_locked", json!({"type": "boolean"})),
+                ("spheres", list(solid())),
+                ("cylinders", list(solid())),
+                ("lines", list(json!({"type": "object"}))),
+            ])),
+        ),
+    ])
 }
 
 /// Poses of all body frames in the world.

@@ -1,4 +1,4 @@
-//! A finished run read back from its directory, to be compared again without being made again.
+//! A finished run read back from its directory, to be compared again without being run again.
 
 use std::io;
 use std::path::Path;
@@ -9,7 +9,7 @@ use crate::simulation::{RunSummary, Series, Stage, Timing};
 /// What the run in `directory` left: its series, its time and its size.
 ///
 /// # Errors
-/// When it has not come to its end, or its files cannot be read.
+/// When it has not finished, or its files cannot be read.
 pub fn read_outcome(directory: &Path) -> io::Result<RunSummary> {
     let status = Status::read(directory)?;
     if status.state != RunState::Finished {

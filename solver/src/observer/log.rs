@@ -22,8 +22,8 @@ static FILE: Mutex<Option<File>> = Mutex::new(None);
 ///
 /// `verbosity` is the number of `-v` on the command line: warnings, then 1 for what the program
 /// does, 2 for details, 3 for everything; negative for errors only. The variable `ALEWIFE_LOG`
-/// overrides it: a level, or pairs `target=level` separated by commas. `log.jsonl` in `directory` always tells what
-/// the program does, and more if `verbosity` asks for more.
+/// overrides it: a level, or pairs `target=level` separated by commas. `log.jsonl` in `directory`
+/// always holds what the program does, and more if `verbosity` asks for more.
 ///
 /// # Errors
 /// When `log.jsonl` cannot be made, or `ALEWIFE_LOG` cannot be understood.

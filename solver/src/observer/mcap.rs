@@ -13,8 +13,8 @@ use mcap::records::{MessageHeader, Metadata};
 use mcap::{Attachment, Compression, McapError, WriteOptions, Writer};
 use serde_json::Value;
 
-use super::RunDirectory;
 use super::foxglove::{self, Kind, Severity};
+use super::run_directory::RunDirectory;
 use super::schedule::Schedule;
 use crate::case::{Body, Geometry, Model};
 use crate::simulation::{LastState, Observer, RunError, Snapshot};

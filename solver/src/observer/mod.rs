@@ -12,8 +12,9 @@
 //! | `run.mcap` | Bodies and quantities as messages | flushed every few steps |
 //! | `fields/*.vtu`, `fields.pvd` | Velocity, pressure, vorticity | whole files only |
 //! | `comparison.json` | Computed against published values, by the command line | at the end |
-//! | `lock` | Held while a run lives | – |
+//! | `lock` | Held while the run is under way | – |
 
+mod atomic;
 mod csv;
 mod fields;
 mod foxglove;
@@ -34,6 +35,7 @@ mod vorticity;
 use crate::case::Model;
 use crate::simulation::Observer;
 
+pub use atomic::write_atomic;
 pub use csv::SeriesFile;
 pub use fields::FieldFiles;
 pub use kept::read_outcome;
@@ -41,13 +43,13 @@ pub use log::start_log;
 pub use mcap::MessageFile;
 pub use progress::Progress;
 pub use provenance::Provenance;
-pub use run_directory::{RunDirectory, RunDirectoryError, write_atomic};
+pub use run_directory::{RunDirectory, RunDirectoryError};
 pub use status::{RunState, Status, StatusFile};
 
-/// Everyone who looks on at a run in `directory`; with `quiet`, without progress on the terminal.
+/// All observers of a run in `directory`; with `quiet`, without progress on the terminal.
 ///
-/// Make them before the mesh is made: `status.json` says from then on that the run lives, and a
-/// failure to build the simulation can be told to them.
+/// Make them before the mesh is generated: `status.json` shows the run from then on, and they are
+/// notified if the simulation cannot be built.
 ///
 /// # Errors
 /// When a file cannot be made.

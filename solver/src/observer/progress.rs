@@ -29,7 +29,7 @@ impl Progress {
     pub fn new(case: &Case) -> Self {
         let end = match &case.time {
             TimeSettings::Steady(_) => None,
-            TimeSettings::Unsteady(march) => Some(march.end),
+            TimeSettings::Unsteady(settings) => Some(settings.end),
         };
         let bar = TERMINAL.is_terminal().then(|| {
             let (bar, template) = match end {
@@ -82,7 +82,11 @@ impl<const D: usize> Observer<D> for Progress {
     fn on_step(&mut self, snapshot: &Snapshot<'_, D>) -> io::Result<()> {
         if let Some(bar) = &self.bar {
             if let Some(end) = self.end {
-                #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+                #[expect(
+                    clippy::cast_possible_truncation,
+                    clippy::cast_sign_loss,
+                    reason = "saturates"
+                )]
                 bar.set_position((snapshot.time / end * FULL as f64) as u64);
             }
             bar.set_message(self.line(snapshot));

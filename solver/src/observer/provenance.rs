@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::process;
 
-/// Variables by which Slurm tells a process which job it is.
+/// Variables by which Slurm names the job of a process.
 const SLURM: [&str; 9] = [
     "SLURM_CLUSTER_NAME",
     "SLURM_JOB_ID",
@@ -26,9 +26,9 @@ pub struct Provenance {
     pub alewife: String,
     /// `git describe` of its source, if it was built in a checkout.
     pub git: Option<String>,
-    /// Compiler it was built with, if the build told.
+    /// Compiler it was built with, if the build recorded it.
     pub rustc: Option<String>,
-    /// Target triple, or architecture and system if the build did not tell.
+    /// Target triple, or architecture and system if the build did not record it.
     pub target: String,
     /// Command line.
     pub argv: Vec<String>,

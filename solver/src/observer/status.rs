@@ -1,4 +1,4 @@
-//! `status.json`: whether a run lives, how far it is, and what each stage has cost.
+//! `status.json`: whether a run is alive, how far it is, and what each stage has cost.
 
 use std::collections::BTreeMap;
 use std::io;
@@ -7,7 +7,8 @@ use std::time::{Duration, Instant};
 
 use serde::{Deserialize, Serialize};
 
-use super::{process, write_atomic};
+use super::atomic::write_atomic;
+use super::process;
 use crate::case::{Case, TimeSettings};
 use crate::simulation::{LastState, Observer, RunError, Snapshot, Stage, Timing, cpu_seconds};
 
@@ -18,7 +19,7 @@ const INTERVAL: Duration = Duration::from_secs(1);
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum RunState {
-    /// It lives, or its process was killed: `pid` and `updated_at` tell which.
+    /// It runs, or its process was killed: `pid` and `updated_at` show which.
     Running,
     /// It came to its end.
     Finished,
@@ -78,18 +79,22 @@ pub struct StatusFile {
 }
 
 impl StatusFile {
-    /// Says from now on that a run lives in `directory`.
+    /// Marks `directory` as that of a run under way.
     ///
     /// # Errors
     /// When the file cannot be written.
     pub fn create(directory: &Path, case: &Case) -> io::Result<Self> {
         let (steps, end) = match &case.time {
             TimeSettings::Steady(_) => (None, None),
-            TimeSettings::Unsteady(march) => {
+            TimeSettings::Unsteady(settings) => {
                 // Of an end that is a multiple of the step, rounding shall not make one step more.
-                #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
-                let steps = (march.end / march.step - 1e-9).ceil().max(0.0) as usize;
-                (march.adaptive.is_none().then_some(steps), Some(march.end))
+                #[expect(
+                    clippy::cast_possible_truncation,
+                    clippy::cast_sign_loss,
+                    reason = "saturates"
+                )]
+                let steps = (settings.end / settings.step - 1e-9).ceil().max(0.0) as usize;
+                (settings.adaptive.is_none().then_some(steps), Some(settings.end))
             }
         };
         let status = Status {

@@ -146,16 +146,33 @@ fn files(path: &Path) -> Vec<PathBuf> {
     found
 }
 
-/// Topic, time and content of every message that can be read, and whether the file ends well.
-fn messages(bytes: &[u8]) -> (Vec<(String, u64, serde_json::Value)>, bool) {
-    let mut found = Vec::new();
+/// What can be read of a `run.mcap`.
+#[derive(Debug, PartialEq)]
+struct Messages {
+    all: Vec<Message>,
+    /// Whether the file ends as it should.
+    is_whole: bool,
+}
+
+#[derive(Debug, PartialEq)]
+struct Message {
+    topic: String,
+    /// Nanoseconds.
+    time: u64,
+    content: serde_json::Value,
+}
+
+fn messages(bytes: &[u8]) -> Messages {
+    let mut all = Vec::new();
     let options = [::mcap::read::Options::IgnoreEndMagic].into_iter().collect();
     for message in ::mcap::MessageStream::new_with_options(bytes, options).unwrap() {
-        let Ok(message) = message else { return (found, false) };
+        let Ok(message) = message else { return Messages { all, is_whole: false } };
         let content = serde_json::from_slice(&message.data).unwrap();
-        found.push((message.channel.topic.clone(), message.log_time, content));
+        let topic = message.channel.topic.clone();
+        all.push(Message { topic, time: message.log_time, content });
     }
-    (found, ::mcap::Summary::read(bytes).is_ok_and(|summary| summary.is_some()))
+    let is_whole = ::mcap::Summary::read(bytes).is_ok_and(|summary| summary.is_some());
+    Messages { all, is_whole }
 }
 
 #[test]
@@ -241,9 +258,10 @@ fn a_failure_is_told_with_its_reason() {
     let status = Status::read(place.path()).unwrap();
     assert_eq!(status.state, RunState::Failed);
     assert_eq!(status.reason.as_deref(), Some("mesh: no room between the bodies"));
-    let (messages, is_whole) = messages(&std::fs::read(place.path().join("run.mcap")).unwrap());
+    let Messages { all, is_whole } =
+        messages(&std::fs::read(place.path().join("run.mcap")).unwrap());
     assert!(is_whole);
-    assert_eq!(messages.last().unwrap().2["message"], "mesh: no room between the bodies");
+    assert_eq!(all.last().unwrap().content["message"], "mesh: no room between the bodies");
 
     for observer in &mut everyone {
         observer.on_failure(&RunError::Stopped { step: 0, time: 0.0 }, None).unwrap();
@@ -261,10 +279,11 @@ fn a_killed_run_leaves_whole_files_and_readable_messages() {
 
     // What is on the disk now is what a kill would leave: nothing of this process is written any
     // more.
-    let (messages, is_whole) = messages(&std::fs::read(place.path().join("run.mcap")).unwrap());
+    let Messages { all, is_whole } =
+        messages(&std::fs::read(place.path().join("run.mcap")).unwrap());
     assert!(!is_whole);
-    let last = messages.iter().rfind(|(topic, ..)| topic == "/step").unwrap();
-    assert_eq!((last.1, &last.2["step"]), (1_600_000_000, &16.into()));
+    let last = all.iter().rfind(|message| message.topic == "/step").unwrap();
+    assert_eq!((last.time, &last.content["step"]), (1_600_000_000, &16.into()));
     assert_eq!(Status::read(place.path()).unwrap().state, RunState::Running);
     let series = std::fs::read_to_string(place.path().join("series.csv")).unwrap();
     assert!(series.is_empty() || series.ends_with('\n'));
@@ -276,15 +295,16 @@ fn messages_tell_every_step_of_every_body() {
     let place = tempfile::tempdir().unwrap();
     Run::new().complete(place.path());
     let bytes = std::fs::read(place.path().join("run.mcap")).unwrap();
-    let (messages, is_whole) = messages(&bytes);
+    let Messages { all, is_whole } = messages(&bytes);
     assert!(is_whole);
     let mut count = BTreeMap::<&str, usize>::new();
-    messages.iter().for_each(|(topic, ..)| *count.entry(topic).or_default() += 1);
+    all.iter().for_each(|message| *count.entry(&message.topic).or_default() += 1);
     let expected = [("/body/swimmer", 41), ("/log", 2), ("/scene", 1), ("/step", 41), ("/tf", 41)];
     assert_eq!(count, expected.into());
 
-    let (_, time, body) = messages.iter().rfind(|(topic, ..)| topic == "/body/swimmer").unwrap();
-    assert_eq!(*time, 4_000_000_000);
+    let last = all.iter().rfind(|message| message.topic == "/body/swimmer").unwrap();
+    assert_eq!(last.time, 4_000_000_000);
+    let body = &last.content;
     assert_eq!(body["pose"]["center"]["x"], 0.3 * 4.0);
     assert_eq!(body["twist"]["angular"]["z"], 0.1);
     assert_eq!(body["power"], 0.25);

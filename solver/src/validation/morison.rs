@@ -1,13 +1,13 @@
-//! Morison's equation: drag and inertia coefficient of a body that swings in a fluid at rest.
+//! Morison's equation: drag and inertia coefficient of a body that oscillates in fluid at rest.
 
 use std::f64::consts::PI;
 
-/// Smallest angle between drag and inertia, as its squared sine, at which a fit tells them apart.
+/// Smallest angle between drag and inertia, as its squared sine, at which a fit separates them.
 const APART: f64 = 1e-10;
 
 /// Force on a body (per unit length) and its motion along the same axis, over time.
 #[derive(Debug, Clone, Copy)]
-pub struct Swing<'a> {
+pub struct Oscillation<'a> {
     /// Times (s).
     pub times: &'a [f64],
     /// Force of the fluid on the body (N/m).
@@ -21,20 +21,20 @@ pub struct Swing<'a> {
 /// c_D and c_I of F = -1/2 rho D c_D |v| v - rho (pi D^2/4) c_I dv/dt (@dutsch1998).
 ///
 /// They make the integral over time of the squared difference least; `None` where the motion does
-/// not tell them apart.
-pub fn fit(swing: Swing<'_>, density: f64, diameter: f64) -> Option<[f64; 2]> {
+/// not separate them.
+pub fn fit(oscillation: Oscillation<'_>, density: f64, diameter: f64) -> Option<[f64; 2]> {
     let drag = -0.5 * density * diameter;
     let inertia = -0.25 * PI * density * diameter * diameter;
     let (mut matrix, mut right) = ([[0.0; 2]; 2], [0.0; 2]);
-    for i in 0..swing.times.len() {
+    for i in 0..oscillation.times.len() {
         // Steps are uneven: each counts for half the time between its neighbours.
-        let before = swing.times[i.saturating_sub(1)];
-        let after = swing.times[(i + 1).min(swing.times.len() - 1)];
+        let before = oscillation.times[i.saturating_sub(1)];
+        let after = oscillation.times[(i + 1).min(oscillation.times.len() - 1)];
         let weight = 0.5 * (after - before);
-        let speed = swing.velocity[i];
-        let terms = [drag * speed.abs() * speed, inertia * swing.acceleration[i]];
+        let speed = oscillation.velocity[i];
+        let terms = [drag * speed.abs() * speed, inertia * oscillation.acceleration[i]];
         for row in 0..2 {
-            right[row] += weight * terms[row] * swing.force[i];
+            right[row] += weight * terms[row] * oscillation.force[i];
             for column in 0..2 {
                 matrix[row][column] += weight * terms[row] * terms[column];
             }
@@ -73,13 +73,13 @@ mod tests {
                 more(times[i]) - coefficients[0] * drag - coefficients[1] * inertia
             })
             .collect();
-        let swing = Swing {
+        let oscillation = Oscillation {
             times: &times,
             force: &force,
             velocity: &velocity,
             acceleration: &acceleration,
         };
-        fit(swing, DENSITY, DIAMETER).unwrap()
+        fit(oscillation, DENSITY, DIAMETER).unwrap()
     }
 
     #[test]
@@ -100,13 +100,13 @@ mod tests {
         let (times, force) = ([0.0, 0.1, 0.3], [1.0, 2.0, 3.0]);
         for velocity in [[0.0; 3], [2.0; 3]] {
             let acceleration = [0.0; 3];
-            let swing = Swing {
+            let oscillation = Oscillation {
                 times: &times,
                 force: &force,
                 velocity: &velocity,
                 acceleration: &acceleration,
             };
-            assert_eq!(fit(swing, 1.0, 1.0), None);
+            assert_eq!(fit(oscillation, 1.0, 1.0), None);
         }
     }
 }

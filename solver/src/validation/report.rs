@@ -48,7 +48,7 @@ pub struct Comparison {
     pub cpu_seconds: f64,
 }
 
-/// Holds a run against all references of its case.
+/// Compares a run with all references of its case.
 #[must_use]
 pub fn compare(name: &str, case: &Case, outcome: &RunSummary) -> Vec<Comparison> {
     let cpu_seconds = outcome.timing.cpu.iter().sum();
@@ -181,8 +181,8 @@ fn two_digits(value: f64) -> String {
     if value == 0.0 {
         "0".to_owned()
     } else if (0.01..1000.0).contains(&size) {
-        let digits = (1 - size.log10().floor() as i32).clamp(0, 3);
-        format!("{value:.*}", digits as usize)
+        let digits = [10.0, 1.0, 0.1].iter().take_while(|power| size < **power).count();
+        format!("{value:.digits$}")
     } else {
         format!("{value:.1e}")
     }
@@ -199,15 +199,16 @@ pub fn comparisons_to_json(comparisons: &[Comparison]) -> Value {
 pub fn comparison_page(comparisons: &[Comparison]) -> String {
     let n_within = comparisons.iter().filter(|row| row.verdict == Verdict::Within).count();
     let mut page = format!(
-        "# Validation\n\nWritten by `alewife validate --markdown` of version {}; not edited by hand. \
-         {n_within} of {} values are within their tolerance.\n",
+        "# Validation\n\nWritten by `alewife validate --markdown` of version {}; not edited by \
+         hand. {n_within} of {} values are within their tolerance.\n",
         env!("CARGO_PKG_VERSION"),
         comparisons.len()
     );
     let case_of = |row: &Comparison| row.case.split('/').next().unwrap_or_default().to_owned();
     for rows in comparisons.chunk_by(|one, other| case_of(one) == case_of(other)) {
         page += &format!("\n## {}\n\n", case_of(&rows[0]));
-        page += "| variant | quantity | computed | published | difference | tolerance | verdict | unknowns | CPU (s) |\n";
+        page += "| variant | quantity | computed | published | difference | tolerance | verdict \
+                 | unknowns | CPU (s) |\n";
         page += "|---|---|---|---|---|---|---|---|---|\n";
         for row in rows {
             let [case, quantity, computed, published, difference, tolerance, verdict] = row.cells();
@@ -218,16 +219,16 @@ pub fn comparison_page(comparisons: &[Comparison]) -> String {
                 row.dofs, row.cpu_seconds
             );
         }
-        let mut told = Vec::new();
+        let mut listed = Vec::new();
         for row in rows {
             let note =
                 row.reference.note.as_ref().map_or(String::new(), |note| format!(" ({note})"));
             let line = format!("{}{note}", row.reference.source);
-            if !told.contains(&line) {
-                told.push(line);
+            if !listed.contains(&line) {
+                listed.push(line);
             }
         }
-        page += &format!("\nSources: {}.\n", told.join("; "));
+        page += &format!("\nSources: {}.\n", listed.join("; "));
     }
     page
 }

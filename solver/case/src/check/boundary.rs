@@ -1,4 +1,4 @@
-//! Problems of `[boundary]`: sides, conditions that cannot hold there, and fluid that piles up.
+//! Problems of `[boundary]`: sides, conditions that cannot hold there, and inflow without outflow.
 
 use std::f64::consts::PI;
 
@@ -7,7 +7,7 @@ use crate::geometry::opposite;
 use crate::type_error::suggestion;
 use crate::{BoundaryCondition, DomainSpec, TimeFunction, TimeSettings};
 
-/// Net inflow over gross flow above which fluid piles up.
+/// Net inflow over gross flow above which it is an error.
 const BALANCE: f64 = 1e-9;
 
 pub fn check(findings: &mut Findings<'_>) {
@@ -156,13 +156,13 @@ fn check_sheet(findings: &mut Findings<'_>, key: &str, side: &str, condition: &B
         findings.error(
             key,
             "a waving sheet moves, and the solution is steady".to_owned(),
-            "march in time with [time.unsteady]",
+            "use [time.unsteady]",
         );
     }
     if !findings.model().bodies.is_empty() {
         findings.error(
             key,
-            "bodies above a waving sheet are not supported: a new mesh would have a straight side"
+            "bodies above a waving sheet are not supported: remeshing would make the side straight"
                 .to_owned(),
             "leave out the bodies, or make the side \"no-slip\"",
         );
@@ -196,7 +196,7 @@ pub(super) fn check_factor(findings: &mut Findings<'_>, key: &str, factor: &Time
         findings.warning(
             key,
             "a steady solution knows no time: the factor is taken at time 0".to_owned(),
-            "leave the factor out, or march in time with [time.unsteady]",
+            "leave the factor out, or use [time.unsteady]",
         );
     }
 }

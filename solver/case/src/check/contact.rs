@@ -1,4 +1,4 @@
-//! Problems of `[contact]`: numbers that make no law, and cases it has no part in.
+//! Problems of `[contact]`: laws that are not valid, and cases without contact.
 
 use super::Findings;
 use crate::{ContactSpec, Convection, Geometry, Lock, Motion, TimeSettings};
@@ -25,7 +25,7 @@ pub fn check(findings: &mut Findings<'_>) {
         TimeSettings::Steady(_) => findings.error(
             "contact",
             "a steady solution knows no contact".to_owned(),
-            "march in time with [time.unsteady], or leave [contact] out",
+            "use [time.unsteady], or leave [contact] out",
         ),
         TimeSettings::Unsteady(unsteady) => {
             if unsteady.convection == Convection::Newton {

@@ -88,7 +88,7 @@ fn check_output(findings: &mut Findings<'_>) {
     }
 }
 
-/// When the domain is remeshed.
+/// When a mesh that moves is replaced.
 fn check_moving(findings: &mut Findings<'_>) {
     let case = findings.case();
     let (moving, gap_layers) = (case.mesh.moving, case.mesh.gap_layers);
@@ -101,7 +101,7 @@ fn check_moving(findings: &mut Findings<'_>) {
         );
     }
     // Both as written: the scale of the mesh makes gaps coarser than they were meant to be, which
-    // is no reason to refuse them. Gaps with few layers are remeshed once they have lost some.
+    // is no reason to refuse them. A mesh with few layers is replaced once it has lost some.
     if moving.layers < 1.0 {
         findings.error(
             "mesh.moving.layers",
@@ -112,7 +112,7 @@ fn check_moving(findings: &mut Findings<'_>) {
         findings.error(
             "mesh.moving.layers",
             format!(
-                "a new mesh is made below {} layers across a gap, but has only {gap_layers} itself",
+                "the domain is remeshed below {} layers across a gap, but a new mesh has {gap_layers}",
                 moving.layers
             ),
             &format!("write at most mesh.gap_layers = {gap_layers}, or raise that"),

@@ -1,6 +1,6 @@
 //! What a case means: all its diagnostics at once, each with its location and a remedy.
 //!
-//! Reading has made sure of keys and types. Here every number is held against what it stands for,
+//! Reading has made sure of keys and types. Here every number is compared with what it stands for,
 //! and every name against what it names. Nothing is meshed or solved.
 
 mod bodies;
@@ -21,8 +21,6 @@ mod time;
 
 use super::diagnostic::Diagnostic;
 use super::read::CaseFile;
-
-pub use references::known_quantities;
 
 use findings::Findings;
 

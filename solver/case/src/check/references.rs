@@ -1,129 +1,9 @@
 //! Problems of `[[reference]]` and `[statistics]`: quantities, statistics and tolerances.
 
 use super::Findings;
+use crate::quantity::{When, conditions_of, known_quantities};
 use crate::type_error::suggestion;
-use crate::{Geometry, JointKind, Model, Reference, Statistic, TimeSettings};
-
-/// What is measured on every body.
-const OF_A_BODY: [&str; 15] = [
-    "x",
-    "y",
-    "angle",
-    "velocity.x",
-    "velocity.y",
-    "angular_velocity",
-    "acceleration.x",
-    "acceleration.y",
-    "force.x",
-    "force.y",
-    "torque",
-    "surface_force.x",
-    "surface_force.y",
-    "surface_torque",
-    "power",
-];
-
-/// What is measured on every body besides, when there are `[scales]`.
-const COEFFICIENTS: [&str; 3] = ["drag_coefficient", "lift_coefficient", "moment_coefficient"];
-
-/// What is measured on every body besides, when there is `[contact]`.
-const OF_CONTACT: [&str; 3] = ["contact_force.x", "contact_force.y", "contact_torque"];
-
-/// What is measured on bodies that are told of as one.
-const OF_A_GROUP: [&str; 10] = [
-    "x",
-    "y",
-    "angle",
-    "velocity.x",
-    "velocity.y",
-    "angular_velocity",
-    "force.x",
-    "force.y",
-    "torque",
-    "power",
-];
-
-/// What is measured on everything that swims.
-const OF_A_SWIMMER: [&str; 4] = ["shape_power", "spent_power", "thrust", "drag"];
-
-/// What is measured besides on what swims in cycles, over the last one.
-const OF_A_CYCLE: [&str; 8] = [
-    "cycle.x",
-    "cycle.y",
-    "cycle.angle",
-    "cycle.speed",
-    "cycle.power",
-    "cycle.cost_of_transport",
-    "cycle.efficiency",
-    "cycle.drift",
-];
-
-/// What is measured on a joint, told of with the body that hangs by it.
-const OF_A_PIVOT: [&str; 4] = ["joint.angle", "joint.rate", "joint.torque", "joint.power"];
-
-/// The same where there is an arm.
-const OF_AN_ARM: [&str; 4] = ["joint.length", "joint.rate", "joint.force", "joint.power"];
-
-/// What is measured at every probe.
-const OF_A_PROBE: [&str; 3] = ["velocity.x", "velocity.y", "pressure"];
-
-/// What is measured on the flow.
-const OF_THE_FLOW: [&str; 3] = ["dissipation", "kinetic_energy", "mass_defect"];
-
-/// What is measured besides, when the mesh moves.
-const OF_A_MOVING_MESH: [&str; 3] = ["least_gap", "cells", "remeshes"];
-
-/// Names of all quantities of a run: the columns of `series.csv` after `time`.
-#[must_use]
-pub fn known_quantities(model: &Model) -> Vec<String> {
-    let case = &model.case;
-    let mut names = Vec::new();
-    let mut add = |owner: &str, what: &[&str]| {
-        names.extend(what.iter().map(|quantity| format!("{owner}.{quantity}")));
-    };
-    for body in &model.bodies {
-        add(&body.name, &OF_A_BODY);
-        if case.has_coefficients() {
-            add(&body.name, &COEFFICIENTS);
-        }
-        if case.contact.is_some() {
-            add(&body.name, &OF_CONTACT);
-        }
-    }
-    for (index, body) in model.bodies.iter().enumerate() {
-        match model.joint_above(index).map(|joint| &model.joints[joint].kind) {
-            Some(JointKind::Arm { .. }) => add(&body.name, &OF_AN_ARM),
-            Some(_) => add(&body.name, &OF_A_PIVOT),
-            None => {}
-        }
-    }
-    for group in &model.swimmers {
-        if group.bodies.len() > 1 {
-            add(&group.name, &OF_A_GROUP);
-        }
-        add(&group.name, &OF_A_SWIMMER);
-        let has_cycles = group.period.is_some() && matches!(case.time, TimeSettings::Unsteady(_));
-        if has_cycles {
-            add(&group.name, &OF_A_CYCLE);
-        }
-        match (group.resistance, has_cycles) {
-            (Some(_), true) => add(&group.name, &["cycle.lighthill_efficiency"]),
-            (Some(_), false) => add(&group.name, &["lighthill_efficiency"]),
-            (None, _) => {}
-        }
-    }
-    for probe in &case.probe {
-        add(&probe.name, &OF_A_PROBE);
-    }
-    add("flow", &OF_THE_FLOW);
-    if model.balances_energy() {
-        add("flow", &["energy_defect"]);
-    }
-    if model.mesh_moves() {
-        add("flow", &OF_A_MOVING_MESH);
-    }
-    names
-}
+use crate::{Geometry, Reference, Statistic, TimeSettings};
 
 pub fn check(findings: &mut Findings<'_>) {
     let case = findings.case();
@@ -177,24 +57,22 @@ pub fn check(findings: &mut Findings<'_>) {
 }
 
 fn check_quantity(findings: &mut Findings<'_>, key: &str, quantity: &str, known: &[String]) {
-    if !known.iter().any(|name| name == quantity) {
-        let mut help = suggestion(quantity, known);
-        if quantity.contains(".cycle.") {
-            help =
-                "cycles need a march in time and a period: that of a stroke or gait, or `period` \
-                    of the [[swimmer]]"
-                    .to_owned();
-        }
-        if quantity.ends_with("lighthill_efficiency") {
-            help = "this efficiency needs `resistance` of the [[swimmer]]".to_owned();
-        }
-        let is_coefficient = COEFFICIENTS.iter().any(|name| quantity.ends_with(name));
-        if is_coefficient && !findings.case().has_coefficients() {
-            help = "coefficients need [scales] with length and velocity, and a fluid density"
-                .to_owned();
-        }
-        findings.error(key, format!("there is no quantity `{quantity}`"), &help);
+    if known.iter().any(|name| name == quantity) {
+        return;
     }
+    let missing = conditions_of(quantity);
+    let help = if missing.contains(&When::Scales) && !findings.case().has_coefficients() {
+        "coefficients need [scales] with length and velocity, and a fluid density".to_owned()
+    } else if quantity.ends_with("lighthill_efficiency") {
+        "this efficiency needs `resistance` of the [[swimmer]]".to_owned()
+    } else if missing.contains(&When::Cycles) {
+        "cycles need an unsteady run and a period: that of a stroke or gait, or `period` of the \
+         [[swimmer]]"
+            .to_owned()
+    } else {
+        suggestion(quantity, known)
+    };
+    findings.error(key, format!("there is no quantity `{quantity}`"), &help);
 }
 
 fn check_tolerance(findings: &mut Findings<'_>, key: &str, reference: &Reference) {
@@ -257,7 +135,7 @@ fn check_statistic(
         findings.error(
             &statistic,
             format!("a steady solution has no {lacking}"),
-            "march in time with [time.unsteady], or take the statistic \"final\"",
+            "use [time.unsteady], or take the statistic \"final\"",
         );
     }
     if reference.statistic == Strouhal && case.scales.is_none() {

@@ -1,4 +1,4 @@
-//! Problems of `body.spring`: numbers that make no spring, and motions it has no hold on.
+//! Problems of `body.spring`: springs that are not valid, and motions that do not follow them.
 
 use super::Findings;
 use crate::{Body, Lock, Motion, SpringSpec, TimeSettings};
@@ -23,7 +23,7 @@ pub fn check(findings: &mut Findings<'_>, key: &str, body: &Body) {
         findings.error(
             &key,
             format!("\"{}\" is on a spring, which acts in unsteady runs only", body.name),
-            "march in time with [time.unsteady], or leave the spring out",
+            "use [time.unsteady], or leave the spring out",
         );
     }
     if body.motion == Motion::Free {

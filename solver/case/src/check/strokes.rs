@@ -1,4 +1,4 @@
-//! Bodies that would run into each other in their strokes, foreseen before anything is solved.
+//! Bodies that would collide in their strokes, found before anything is solved.
 
 use alewife_mesh::{Domain, MeshError, Outline, PlacedShape, Point, check_placement, closest};
 

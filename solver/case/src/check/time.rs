@@ -14,7 +14,7 @@ pub fn check(findings: &mut Findings<'_>) {
                 findings.error(
                     "time.steady",
                     "the model `unsteady-stokes` has no steady solution of its own".to_owned(),
-                    "march with [time.unsteady], or write model = \"stokes\", to which it settles",
+                    "use [time.unsteady], or write model = \"stokes\", to which it tends",
                 );
             }
             findings.positive("time.steady.tolerance", steady.tolerance);

@@ -13,7 +13,7 @@
 
 use nalgebra::{Matrix3, Matrix6, SMatrix, Vector3, Vector6};
 
-use super::PairMatrix;
+use super::pair_vector::PairMatrix;
 
 /// Regularity over the curvatures below which surfaces are parallel.
 const PARALLEL: f64 = 1e-9;

@@ -2,7 +2,8 @@
 
 use nalgebra::Vector3;
 
-use super::{Curvatures, PairMatrix, PairVector};
+use super::Curvatures;
+use super::pair_vector::{PairMatrix, PairVector};
 use crate::body::{Modes, RigidVector, Wrench};
 
 /// What a body faces.

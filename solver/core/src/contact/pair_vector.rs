@@ -1,4 +1,4 @@
-//! `PairVector`: the components of the rigid motions of two bodies, and matrices over them.
+//! Vectors and matrices over the rigid motions of two bodies.
 
 use nalgebra::{SMatrix, SVector};
 

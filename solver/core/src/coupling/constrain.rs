@@ -9,7 +9,7 @@ use super::boundaries::{Boundaries, BoundaryNode};
 use super::kinematics::{RigidRow, turned_component};
 use super::problem::{Drive, Problem};
 use super::shapes::{BodyShapes, MovingSurface};
-use crate::algebra::{AffineConstraints, ConstraintBuilder};
+use crate::algebra::{AffineConstraints, ConstraintBuilder, Term};
 use crate::body::{Pose, Twist, in_space};
 use crate::space::DofLayout;
 
@@ -59,12 +59,13 @@ impl<const D: usize> Constrainer<'_, D> {
                 let raw = self.layout.rigid(body, position);
                 let drive = rigid.drive(mode);
                 if let Some(value) = drive.given(time) {
-                    builder.constrain(raw, vec![], value);
+                    builder.fix(raw, value);
                 } else if let (Drive::Linked, Some(rows)) = (drive, &rows) {
                     let RigidRow { entries, value } = &rows[body][mode];
                     let entries = entries.iter().filter_map(|(unknown, weight)| {
                         let position = modes.position(unknown.mode)?;
-                        Some((self.layout.rigid(unknown.body, position), *weight))
+                        let unknown = self.layout.rigid(unknown.body, position);
+                        Some(Term { unknown, weight: *weight })
                     });
                     builder.constrain(raw, entries.collect(), *value);
                 }
@@ -91,7 +92,7 @@ impl<const D: usize> Constrainer<'_, D> {
                     (true, false) => turned_component(mode, &lever, axis),
                     (false, false) | (true, true) => return None,
                 };
-                Some((self.layout.rigid(body, position), weight))
+                Some(Term { unknown: self.layout.rigid(body, position), weight })
             });
             builder.constrain(self.layout.velocity(node, axis), entries.collect(), slip[axis]);
         }
@@ -101,12 +102,12 @@ impl<const D: usize> Constrainer<'_, D> {
         let point = &self.mesh.nodes[at.node];
         if let Some(velocity) = self.problem.given_velocity(&at.boundaries, point, time) {
             for axis in 0..D {
-                builder.constrain(self.layout.velocity(at.node, axis), vec![], velocity[axis]);
+                builder.fix(self.layout.velocity(at.node, axis), velocity[axis]);
             }
             return;
         }
         for normal_axis in self.problem.symmetry_axes(&at.boundaries) {
-            builder.constrain(self.layout.velocity(at.node, normal_axis), vec![], 0.0);
+            builder.fix(self.layout.velocity(at.node, normal_axis), 0.0);
         }
     }
 
@@ -119,12 +120,12 @@ impl<const D: usize> Constrainer<'_, D> {
                 let raw = layout.velocity(pair.copy, axis);
                 if !builder.is_constrained(raw) {
                     let original = layout.velocity(pair.original, axis);
-                    builder.constrain(raw, vec![(original, 1.0)], 0.0);
+                    builder.equate(raw, original);
                 }
             }
             if pair.copy.index() < layout.n_vertices {
                 let original = layout.pressure(pair.original);
-                builder.constrain(layout.pressure(pair.copy), vec![(original, 1.0)], 0.0);
+                builder.equate(layout.pressure(pair.copy), original);
             }
         }
         if self.problem.is_enclosed() {
@@ -136,7 +137,7 @@ impl<const D: usize> Constrainer<'_, D> {
                 .map(|vertex| layout.pressure(vertex))
                 .find(|&raw| !builder.is_constrained(raw));
             if let Some(raw) = pinned {
-                builder.constrain(raw, vec![], 0.0);
+                builder.fix(raw, 0.0);
             }
         }
     }
@@ -149,7 +150,7 @@ impl<const D: usize> Constrainer<'_, D> {
             return;
         };
         for axis in (0..D).filter(|&axis| is_free[axis]) {
-            builder.constrain(self.layout.velocity(node, axis), vec![], 0.0);
+            builder.fix(self.layout.velocity(node, axis), 0.0);
         }
     }
 }

@@ -28,7 +28,7 @@ impl<const D: usize> FluidSystem<D> {
             }
             names.join(", ")
         };
-        let is_rigid = singular.unknowns.iter().any(|one| self.unknowns.dense.contains(one));
+        let is_rigid = singular.unknowns.iter().any(|one| self.unknowns().dense.contains(one));
         SolveError::Undetermined {
             unknowns: listed(&singular.unknowns),
             equations: listed(&singular.equations),

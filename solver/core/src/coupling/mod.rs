@@ -6,8 +6,11 @@ mod diagnosis;
 mod error;
 mod joint_loads;
 mod kinematics;
+mod linear_system;
 mod loads;
+mod mobility;
 mod nullspace;
+mod pressure_mean;
 mod problem;
 mod projection;
 mod propulsion;
@@ -22,6 +25,7 @@ pub use constrain::{BodiesAt, BoundaryValues, impose_boundary_values};
 pub use error::{SolveError, coordinates};
 pub use joint_loads::{BodyStates, JointReport, joint_reports};
 pub use loads::{BodyLoads, ResidualOnMesh, body_loads};
+pub use mobility::BodyLoad;
 pub use problem::{
     Arm, Drive, Group, Joint, MovingValue, Pivot, Problem, RateDiscontinuities, RigidBody, Side,
     Spring, TimeValue, Turn, VelocityProfile, second_moments,
@@ -36,4 +40,4 @@ pub use rigid_equations::{
 pub use shapes::{BodyShapes, MovingSurface, ShapeError};
 pub use solution::Solution;
 pub use surface_load::SurfaceStress;
-pub use system::{BodyLoad, Configuration, FluidSystem, memory_estimate};
+pub use system::{Configuration, FluidSystem, memory_estimate};

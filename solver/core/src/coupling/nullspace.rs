@@ -22,7 +22,15 @@ pub(super) struct TranslationNullspace<const D: usize> {
     pinned: NodeId,
     /// Nodes of one side of each periodic pair, with the weights of their velocity in the mean
     /// velocity.
-    weights: Vec<(NodeId, SMatrix<f64, D, D>)>,
+    weights: Vec<NodeWeights<D>>,
+}
+
+/// What the velocity of a node counts in the mean velocity.
+#[derive(Debug, Clone)]
+struct NodeWeights<const D: usize> {
+    node: NodeId,
+    /// One column for each component of the mean.
+    weights: SMatrix<f64, D, D>,
 }
 
 impl<const D: usize> TranslationNullspace<D> {
@@ -56,10 +64,11 @@ impl<const D: usize> TranslationNullspace<D> {
 
     /// Makes the mean velocity of fluid and bodies zero.
     pub fn center(&self, solution: &mut Solution<D>) {
-        let mean = self.weights.iter().fold(Point::<D>::zeros(), |sum, (node, weights)| {
-            let velocity = &solution.velocity[*node];
-            sum + Point::<D>::from_fn(|axis, _| weights.column(axis).dot(velocity))
-        });
+        let mean =
+            self.weights.iter().fold(Point::<D>::zeros(), |sum, NodeWeights { node, weights }| {
+                let velocity = &solution.velocity[*node];
+                sum + Point::<D>::from_fn(|axis, _| weights.column(axis).dot(velocity))
+            });
         self.subtract(&mean, solution);
     }
 
@@ -78,14 +87,14 @@ impl<const D: usize> TranslationNullspace<D> {
 /// The mean of a solenoidal velocity over fluid and bodies is the sum over periodic pairs of sides of
 /// the way between them times the flux across, over the volume: int u_i = int div(x_i u), in which
 /// surfaces of bodies between fluid and body cancel.
-fn weights<const D: usize>(mesh: &Mesh<D>) -> Vec<(NodeId, SMatrix<f64, D, D>)> {
+fn weights<const D: usize>(mesh: &Mesh<D>) -> Vec<NodeWeights<D>> {
     let mut original = vec![None; mesh.n_nodes()];
     for pair in &mesh.periodic {
         original[pair.copy] = Some(pair.original);
     }
     let [at_vertices, at_inner] = basis_means::<D>();
     let mut volume = Point::<D>::zeros();
-    let mut weights: Vec<(NodeId, SMatrix<f64, D, D>)> = Vec::new();
+    let mut all: Vec<NodeWeights<D>> = Vec::new();
     for facet in &mesh.facets {
         // Vertices may be copies of another pair of sides, inner nodes are not
         let mut inner = mesh.facet_inner_nodes(facet);
@@ -95,20 +104,21 @@ fn weights<const D: usize>(mesh: &Mesh<D>) -> Vec<(NodeId, SMatrix<f64, D, D>)> 
         let vertices = mesh.facet_vertices(facet);
         let outward = vector_area(&vertices.map(|vertex| mesh.nodes[vertex]));
         let mut add = |node: NodeId, mean: f64| {
-            weights.push((node, SMatrix::from_fn(|i, axis| outward[i] * (mean * way[axis]))));
+            let weights = SMatrix::from_fn(|i, axis| outward[i] * (mean * way[axis]));
+            all.push(NodeWeights { node, weights });
         };
         add(vertices[0], at_vertices);
         inner.by_ref().for_each(|node| add(node, at_inner));
         vertices[1..].iter().for_each(|&vertex| add(vertex, at_vertices));
         volume += way.component_mul(&outward);
     }
-    for (_, weights) in &mut weights {
+    for NodeWeights { weights, .. } in &mut all {
         for axis in 0..D {
             let volume = if volume[axis] == 0.0 { 1.0 } else { volume[axis] };
             weights.column_mut(axis).iter_mut().for_each(|weight| *weight /= volume);
         }
     }
-    weights
+    all
 }
 
 /// Means over a facet of the quadratic basis functions of its vertices and of its inner nodes.

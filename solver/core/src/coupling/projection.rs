@@ -3,12 +3,16 @@
 //! What is interpolated from mesh to mesh is no longer divergence-free; without this projection
 //! the pressure of the next step would have to correct that at once, as a spike in the forces.
 
+use std::sync::Arc;
+
 use alewife_mesh::{BoundaryKind, Mesh, NodeId, Point};
 
 use super::boundaries::{Boundaries, BoundaryNode};
 use super::constrain::Constrainer;
+use super::linear_system::unknowns;
+use super::pressure_mean::PressureMean;
 use super::problem::{Problem, Side};
-use super::system::{make_compatible, pressure_weights, unknowns};
+
 use crate::algebra::{
     AffineConstraints, ConstraintBuilder, DirectSolver, LinearError, LinearSolver, SparseMatrix,
 };
@@ -28,8 +32,8 @@ pub struct DivergenceFreeProjection<const D: usize> {
     assembly: Assembly<D>,
     matrix: SparseMatrix,
     solver: DirectSolver,
-    /// int psi dx of each vertex when the flow is enclosed, to distribute a net flux.
-    enclosed_weights: Option<Vec<f64>>,
+    /// Distributes a net flux where the flow is enclosed.
+    enclosed: Option<PressureMean>,
 }
 
 /// Neither stress nor convection, and as much mass as asked for.
@@ -53,12 +57,10 @@ impl<const D: usize> DivergenceFreeProjection<D> {
     pub fn new(problem: &Problem<D>, mesh: &Mesh<D>) -> Result<Self, LinearError> {
         let layout = DofLayout::new(mesh, 0, 0);
         let constraints = hold_given_velocities(problem, mesh, &layout);
-        let (pattern, assembly) =
-            Assembly::new(mesh, layout, &constraints, problem.metric, &[], None);
-        let solver = DirectSolver::new(&pattern, &unknowns(&layout, &constraints));
-        let matrix = SparseMatrix::zeros(pattern);
-        let mut projection =
-            Self { layout, constraints, assembly, matrix, solver, enclosed_weights: None };
+        let assembly = Assembly::new(mesh, layout, &constraints, problem.metric, &[], None);
+        let solver = DirectSolver::new(assembly.pattern(), &unknowns(&layout, &constraints));
+        let matrix = SparseMatrix::zeros(Arc::clone(assembly.pattern()));
+        let mut projection = Self { layout, constraints, assembly, matrix, solver, enclosed: None };
         projection.move_to(problem, mesh)?;
         Ok(projection)
     }
@@ -74,8 +76,8 @@ impl<const D: usize> DivergenceFreeProjection<D> {
         let (constraints, values) = (&self.constraints, self.matrix.values_mut());
         assemble(&self.assembly, mesh, constraints, &terms(1.0), &fields, values);
         self.solver.set_up(&self.matrix)?;
-        self.enclosed_weights =
-            problem.is_enclosed().then(|| pressure_weights(mesh, self.assembly.tables()));
+        self.enclosed =
+            problem.is_enclosed().then(|| PressureMean::new(mesh, self.assembly.tables()));
         Ok(())
     }
 
@@ -87,8 +89,8 @@ impl<const D: usize> DivergenceFreeProjection<D> {
         let fields = Fields { velocity, pressure: &pressure };
         let raw = residual(&self.assembly, mesh, &terms(0.0), &fields);
         let mut defect = raw[self.layout.pressures()].to_vec();
-        if let Some(weights) = &self.enclosed_weights {
-            make_compatible(&mut defect, weights);
+        if let Some(mean) = &self.enclosed {
+            mean.make_compatible(&mut defect);
         }
         // A pressure of one side of a periodic pair tests both
         for pair in &mesh.periodic {
@@ -157,7 +159,7 @@ fn hold_given_velocities<const D: usize>(
         for boundary in boundaries {
             let is_body = matches!(mesh.boundaries[boundary].kind, BoundaryKind::Body(_));
             let mut hold = |node: NodeId, axis: usize| {
-                builder.constrain(layout.velocity(node, axis), vec![], 0.0);
+                builder.fix(layout.velocity(node, axis), 0.0);
             };
             match &problem.sides[boundary] {
                 Some(Side::Symmetry { normal_axis }) if !is_body => hold(node, *normal_axis),

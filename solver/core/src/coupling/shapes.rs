@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 use thiserror::Error;
 
 use super::problem::RigidBody;
-use crate::body::Pose;
+use crate::body::{Inertia, Pose};
 use crate::gait::{DeformedOutline, Gait, GaitError};
 
 /// A gait that gives a body no shape at some time.
@@ -38,6 +38,17 @@ impl RigidBody {
     fn deformed_at(&self, time: f64) -> Result<Option<DeformedOutline>, ShapeError> {
         let deformed = self.shape.as_ref().map(|motion| motion.at(time)).transpose();
         deformed.map_err(|reason| ShapeError { body: self.name.clone(), reason })
+    }
+
+    /// Mass and inertia tensor with the outline at a time (s).
+    ///
+    /// # Errors
+    /// [`ShapeError`] where a gait gives the body no shape.
+    pub fn inertia_at(&self, time: f64) -> Result<Inertia, ShapeError> {
+        if self.inertia.is_zero() {
+            return Ok(self.inertia);
+        }
+        Ok(self.inertia_with(self.deformed_at(time)?.as_ref()))
     }
 }
 

@@ -8,9 +8,10 @@ use std::sync::Arc;
 
 use alewife_mesh::Mesh;
 
-use super::kernel::{CellInput, CellKernel, LocalLayout, quadratic_kernel};
+use super::kernel::{CellInput, CellKernel, LocalLayout};
 use super::open_side::OpenSides;
 use super::parallel::for_each_cell;
+use super::taylor_hood::quadratic_kernel;
 use super::terms::{Convection, Fields, FlowTerms};
 use crate::algebra::{AffineConstraints, CellMaps, Pattern};
 use crate::space::{DofLayout, Metric, Tables};
@@ -38,17 +39,23 @@ impl<const D: usize> Assembly<D> {
         metric: Metric,
         open_boundaries: &[usize],
         frame: Option<usize>,
-    ) -> (Pattern, Self) {
+    ) -> Self {
         let tables = Tables::new(metric);
         let kernel = quadratic_kernel(&tables, frame.is_some());
         let local = kernel.layout();
         let is_pressure = pressure_unknowns(&layout, constraints);
         let raw = raw_unknowns(mesh, &layout, local, frame);
-        let (pattern, maps) = CellMaps::new(local.n_local(), raw, constraints, |row, column| {
+        let maps = CellMaps::new(local.n_local(), raw, constraints, |row, column| {
             !(is_pressure[row] && is_pressure[column])
         });
         let open_sides = OpenSides::new(mesh, open_boundaries, metric);
-        (pattern, Self { tables, kernel, maps, open_sides, layout })
+        Self { tables, kernel, maps, open_sides, layout }
+    }
+
+    /// The sparsity pattern of the system.
+    #[must_use]
+    pub fn pattern(&self) -> &Arc<Pattern> {
+        self.maps.pattern()
     }
 
     /// Basis tables.

@@ -1,15 +1,11 @@
 //! `CellKernel`: matrices and residuals of cells; the sizes of an element stay behind it.
 
-use std::any::Any;
 use std::fmt::Debug;
 use std::ops::Range;
-use std::sync::Arc;
 
 use alewife_mesh::Mesh;
 
-use super::taylor_hood;
 use super::terms::{Fields, FlowTerms};
-use crate::space::Tables;
 
 /// Local numbering of the raw unknowns of a cell: velocities along each axis in turn, pressures, then
 /// the velocities of the frame where they are unknowns of every cell.
@@ -82,22 +78,4 @@ pub(super) trait CellKernel<const D: usize>: Debug + Send + Sync {
 
     /// Overwrites the raw residuals of some cells, velocities and pressures of each.
     fn residuals(&self, input: CellInput<'_, D>, cells: Range<usize>, residuals: &mut [f64]);
-}
-
-/// The kernel of the P2-P1 element on meshes of dimension D, 2 or 3.
-pub(super) fn quadratic_kernel<const D: usize>(
-    tables: &Tables<D>,
-    with_frame: bool,
-) -> Arc<dyn CellKernel<D>> {
-    // Stable Rust has no specialisation: the kernel of each dimension is a type of its own, found by
-    // asking at run time, once a mesh, whether D is its dimension.
-    let tables: &dyn Any = tables;
-    let kernel: Box<dyn Any> = if let Some(tables) = tables.downcast_ref::<Tables<2>>() {
-        Box::new(taylor_hood::planar_kernel(tables, with_frame))
-    } else if let Some(tables) = tables.downcast_ref::<Tables<3>>() {
-        Box::new(taylor_hood::spatial_kernel(tables, with_frame))
-    } else {
-        unreachable!("a mesh is planar or spatial")
-    };
-    *kernel.downcast::<Arc<dyn CellKernel<D>>>().expect("the kernel was chosen by D")
 }

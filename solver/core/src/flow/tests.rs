@@ -6,8 +6,9 @@ use alewife_mesh::{Mesh, Point};
 use nalgebra::SMatrix;
 
 use self::setting::{BEND, METRICS, Setting, discs, mesh_of_disc, tetrahedra};
-use super::kernel::{CellInput, CellKernel, quadratic_kernel};
+use super::kernel::{CellInput, CellKernel};
 use super::taylor_hood::PlainKernel;
+use super::taylor_hood::quadratic_kernel;
 use super::*;
 use crate::space::sample_mesh::{bent, two_simplices};
 use crate::space::{CellValues, FacetRule, Metric, Tables};

@@ -19,9 +19,9 @@ impl Rule {
             let mut x = -(PI * (i as f64 + 0.75) / (n as f64 + 0.5)).cos();
             let mut slope = 1.0;
             for _ in 0..100 {
-                let Legendre { value, derivative } = legendre(n, x);
-                slope = derivative;
-                let step = value / derivative;
+                let at = legendre(n, x);
+                slope = at.derivative;
+                let step = at.value / at.derivative;
                 x -= step;
                 if step.abs() < 1e-16 {
                     break;
@@ -49,20 +49,20 @@ impl Rule {
     }
 }
 
-/// A Legendre polynomial at a point.
-struct Legendre {
+/// A function at a point.
+struct WithDerivative {
     value: f64,
     derivative: f64,
 }
 
-/// P_n and its derivative inside (-1, 1).
-fn legendre(n: usize, x: f64) -> Legendre {
+/// The Legendre polynomial P_n inside (-1, 1).
+fn legendre(n: usize, x: f64) -> WithDerivative {
     let (mut before, mut value) = (1.0, x);
     for k in 1..n {
         let k = k as f64;
         (before, value) = (value, ((2.0 * k + 1.0) * x * value - k * before) / (k + 1.0));
     }
-    Legendre { value, derivative: n as f64 * (before - x * value) / (1.0 - x * x) }
+    WithDerivative { value, derivative: n as f64 * (before - x * value) / (1.0 - x * x) }
 }
 
 #[cfg(test)]

@@ -189,7 +189,7 @@ impl<const D: usize> ConstrainedVertices<D> {
             let mut none_is_constrained = true;
             for (vertex, components) in self.is_constrained.iter().enumerate() {
                 if components[axis] {
-                    builder.constrain(vertex * n + position, vec![], 0.0);
+                    builder.fix(vertex * n + position, 0.0);
                     none_is_constrained = false;
                 }
             }
@@ -197,7 +197,7 @@ impl<const D: usize> ConstrainedVertices<D> {
                 let [copy, original] =
                     [pair.copy, pair.original].map(|vertex| vertex.index() * n + position);
                 if !builder.is_constrained(copy) {
-                    builder.constrain(copy, vec![(original, 1.0)], 0.0);
+                    builder.equate(copy, original);
                 }
             }
             if none_is_constrained {
@@ -205,7 +205,7 @@ impl<const D: usize> ConstrainedVertices<D> {
                     .map(|vertex| vertex * n + position)
                     .find(|&raw| !builder.is_constrained(raw));
                 if let Some(raw) = first {
-                    builder.constrain(raw, vec![], 0.0);
+                    builder.fix(raw, 0.0);
                 }
             }
         }

@@ -32,12 +32,12 @@ pub struct MeshMotion<const D: usize> {
     /// Inner nodes of edges that are interpolated between the ends.
     interpolated: Vec<EdgeNode>,
     /// Inner nodes of curved facets with a prescribed displacement, and their boundary.
-    prescribed: Vec<FacetNode>,
+    prescribed: Vec<BoundaryNode>,
 }
 
-/// An inner node of a curved facet.
+/// A node with the boundary that prescribes its displacement.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-struct FacetNode {
+struct BoundaryNode {
     node: NodeId,
     boundary: BoundaryId,
 }
@@ -106,7 +106,7 @@ impl<const D: usize> MeshMotion<D> {
             displacements[node] =
                 displacements[from] * (1.0 - parameter) + displacements[to] * parameter;
         }
-        for &FacetNode { node, boundary } in &self.prescribed {
+        for &BoundaryNode { node, boundary } in &self.prescribed {
             displacements[node] = prescribed(boundary, node, &self.reference[node]);
         }
         Ok(displacements)
@@ -178,7 +178,7 @@ impl<const D: usize> MeshMotion<D> {
 fn curved_facet_nodes<const D: usize>(
     mesh: &Mesh<D>,
     conditions: &[MeshBoundaryCondition],
-) -> Vec<FacetNode> {
+) -> Vec<BoundaryNode> {
     let mut nodes: Vec<_> = mesh
         .facets
         .iter()
@@ -188,18 +188,18 @@ fn curved_facet_nodes<const D: usize>(
         })
         .flat_map(|facet| {
             let boundary = facet.boundary;
-            mesh.facet_inner_nodes(facet).map(move |node| FacetNode { node, boundary })
+            mesh.facet_inner_nodes(facet).map(move |node| BoundaryNode { node, boundary })
         })
         .collect();
     nodes.sort_unstable();
-    nodes.dedup_by_key(|facet_node| facet_node.node);
+    nodes.dedup_by_key(|at| at.node);
     nodes
 }
 
 /// Inner nodes of all edges but those whose displacement is prescribed.
-fn edge_nodes<const D: usize>(mesh: &Mesh<D>, prescribed: &[FacetNode]) -> Vec<EdgeNode> {
+fn edge_nodes<const D: usize>(mesh: &Mesh<D>, prescribed: &[BoundaryNode]) -> Vec<EdgeNode> {
     let mut is_known = vec![false; mesh.n_nodes()];
-    for &FacetNode { node, .. } in prescribed {
+    for &BoundaryNode { node, .. } in prescribed {
         is_known[node] = true;
     }
     let mut nodes = Vec::new();

@@ -1,14 +1,14 @@
-//! When the mesh has to be made anew: spoilt cells, or too few layers between two surfaces.
+//! When a mesh is replaced: poor cells, or too few layers of them between two surfaces.
 
 use std::fmt;
 
-use alewife_mesh::{CellId, Facet, Mesh, Point, Surroundings};
+use alewife_mesh::{BoundaryKind, CellId, Facet, Facing, GapQuery, Mesh, Point};
 
-/// A surface must have lost this part of its layers before a new mesh is worth its price: gaps that
-/// were meshed with few layers on purpose do not ask for a mesh at every step.
+/// Layers left at a surface, over those of the new mesh, below which a new mesh is worth its price:
+/// gaps that were meshed with few layers on purpose do not ask for a mesh at every step.
 const LOST: f64 = 0.75;
 
-/// When a mesh is given up.
+/// When a mesh is replaced.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Limits {
     /// Lowest quality of a cell over its quality in the new mesh.
@@ -35,13 +35,13 @@ pub struct Fresh {
 
 /// Why a new mesh is needed.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Reason {
+pub enum Reason<const D: usize> {
     /// A cell is inverted or folded, or about to be.
     Quality {
         /// The cell.
         cell: CellId,
         /// Its centre (m).
-        place: Point<2>,
+        at: Point<D>,
         /// Its quality, see [`Mesh::cell_quality`]; 0 or less when inverted or folded.
         quality: f64,
         /// Its quality in the new mesh.
@@ -52,7 +52,7 @@ pub enum Reason {
         /// Names of the boundaries: the one whose cells are too large, and the one facing it.
         between: [String; 2],
         /// Where, on the first one (m).
-        place: Point<2>,
+        at: Point<D>,
         /// Gap (m), negative where surfaces overlap.
         gap: f64,
         /// Layers of cells across the gap.
@@ -60,28 +60,63 @@ pub enum Reason {
     },
 }
 
-impl fmt::Display for Reason {
+impl<const D: usize> fmt::Display for Reason<D> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Quality { cell, place, quality, when_new } => write!(
+            Self::Quality { cell, at, quality, when_new } => write!(
                 f,
-                "cell {cell} at ({:.6e}, {:.6e}) has quality {quality:.3}, {when_new:.3} when new",
-                place.x, place.y
+                "cell {cell} at {} has quality {quality:.3}, {when_new:.3} when new",
+                coordinates(at)
             ),
-            Self::Gap { between: [near, far], place, gap, layers } => write!(
+            Self::Gap { between: [near, far], at, gap, layers } => write!(
                 f,
-                "{layers:.2} layers of cells between \"{near}\" and \"{far}\" at ({:.6e}, {:.6e}), \
+                "{layers:.2} layers of cells between \"{near}\" and \"{far}\" at {}, \
                  gap {gap:.3e}",
-                place.x, place.y
+                coordinates(at)
             ),
         }
+    }
+}
+
+/// Coordinates in brackets.
+fn coordinates<const D: usize>(point: &Point<D>) -> String {
+    let all: Vec<String> = point.iter().map(|x| format!("{x:.6e}")).collect();
+    format!("({})", all.join(", "))
+}
+
+/// Surfaces that face each other across the fluid.
+pub trait FacingSurfaces<const D: usize> {
+    /// The surface that faces a point (m) of the boundary of a mesh with this number and kind, if one
+    /// is nearer than `reach` (m).
+    fn facing(
+        &self,
+        boundary: usize,
+        kind: BoundaryKind,
+        point: Point<D>,
+        reach: f64,
+    ) -> Option<Facing>;
+}
+
+impl FacingSurfaces<2> for GapQuery {
+    fn facing(
+        &self,
+        boundary: usize,
+        kind: BoundaryKind,
+        point: Point<2>,
+        reach: f64,
+    ) -> Option<Facing> {
+        Self::facing(self, boundary, kind, point, reach)
     }
 }
 
 impl Fresh {
     /// Measures a new mesh among the surfaces it was made for.
     #[must_use]
-    pub fn new(mesh: &Mesh<2>, surroundings: &Surroundings, limits: Limits) -> Self {
+    pub fn new<const D: usize>(
+        mesh: &Mesh<D>,
+        surroundings: &impl FacingSurfaces<D>,
+        limits: Limits,
+    ) -> Self {
         let quality = mesh.cell_ids().map(|cell| mesh.cell_quality(cell)).collect();
         let layers = mesh
             .facets
@@ -101,21 +136,25 @@ impl Fresh {
     }
 }
 
-/// Whether a mesh that has moved since it was `fresh` must be made anew, and the worst reason:
+/// Whether a mesh that has moved since it was `fresh` must be replaced, and the worst reason:
 /// cells that are inverted or folded come first, then gaps, then poor cells.
 ///
 /// # Panics
 /// Never for a mesh with the cells of the fresh one.
 #[must_use]
-pub fn needs_remesh(mesh: &Mesh<2>, fresh: &Fresh, surroundings: &Surroundings) -> Option<Reason> {
-    let spoilt = worst_quality(mesh, fresh);
-    if matches!(spoilt, Some(Reason::Quality { quality, .. }) if quality <= 0.0) {
-        return spoilt;
+pub fn needs_remesh<const D: usize>(
+    mesh: &Mesh<D>,
+    fresh: &Fresh,
+    surroundings: &impl FacingSurfaces<D>,
+) -> Option<Reason<D>> {
+    let poorest = worst_quality(mesh, fresh);
+    if matches!(poorest, Some(Reason::Quality { quality, .. }) if quality <= 0.0) {
+        return poorest;
     }
-    narrowest_gap(mesh, fresh, surroundings).or(spoilt)
+    narrowest_gap(mesh, fresh, surroundings).or(poorest)
 }
 
-fn worst_quality(mesh: &Mesh<2>, fresh: &Fresh) -> Option<Reason> {
+fn worst_quality<const D: usize>(mesh: &Mesh<D>, fresh: &Fresh) -> Option<Reason<D>> {
     let all = mesh.cell_ids().zip(&fresh.quality).map(|(cell, &when_new)| {
         let quality = mesh.cell_quality(cell);
         (cell, quality, when_new)
@@ -124,13 +163,17 @@ fn worst_quality(mesh: &Mesh<2>, fresh: &Fresh) -> Option<Reason> {
         all.min_by(|one, other| (one.1 / one.2).total_cmp(&(other.1 / other.2)))?;
     (quality < fresh.limits.quality * when_new).then(|| Reason::Quality {
         cell,
-        place: mesh.cell_center(cell),
+        at: mesh.cell_center(cell),
         quality,
         when_new,
     })
 }
 
-fn narrowest_gap(mesh: &Mesh<2>, fresh: &Fresh, surroundings: &Surroundings) -> Option<Reason> {
+fn narrowest_gap<const D: usize>(
+    mesh: &Mesh<D>,
+    fresh: &Fresh,
+    surroundings: &impl FacingSurfaces<D>,
+) -> Option<Reason<D>> {
     let narrow = mesh.facets.iter().zip(&fresh.layers).filter_map(|(facet, when_new)| {
         let limit = fresh.limits.layers.min(LOST * when_new);
         crowding(mesh, surroundings, facet, limit).map(|found| (facet, found))
@@ -139,35 +182,42 @@ fn narrowest_gap(mesh: &Mesh<2>, fresh: &Fresh, surroundings: &Surroundings) -> 
     let near = facet.boundary.index();
     Some(Reason::Gap {
         between: [near, found.facing].map(|boundary| mesh.boundaries[boundary].name.clone()),
-        place: found.place,
+        at: found.at,
         gap: found.gap,
         layers: found.layers,
     })
 }
 
 /// The narrowest place at a facet.
-struct Crowding {
+struct Crowding<const D: usize> {
     facing: usize,
-    place: Point<2>,
+    at: Point<D>,
     gap: f64,
     layers: f64,
 }
 
 /// The narrowest of the places of a facet with fewer than `limit` layers across the gap.
-fn crowding(
-    mesh: &Mesh<2>,
-    surroundings: &Surroundings,
+fn crowding<const D: usize>(
+    mesh: &Mesh<D>,
+    surroundings: &impl FacingSurfaces<D>,
     facet: &Facet,
     limit: f64,
-) -> Option<Crowding> {
-    let [start, end] = mesh.facet_vertices(facet).map(|vertex| mesh.nodes[vertex]);
-    let length = (end - start).norm();
+) -> Option<Crowding<D>> {
+    let vertices = mesh.facet_vertices(facet).map(|vertex| mesh.nodes[vertex]);
+    let length = longest_edge(&vertices);
     let boundary = facet.boundary.index();
     let kind = mesh.boundaries[facet.boundary].kind;
     let found = mesh.facet_nodes(facet).filter_map(|node| {
-        let place = mesh.nodes[node];
-        let (facing, gap) = surroundings.facing(boundary, kind, place, limit * length)?;
-        Some(Crowding { facing, place, gap, layers: gap / length })
+        let at = mesh.nodes[node];
+        let found = surroundings.facing(boundary, kind, at, limit * length)?;
+        let layers = found.gap / length;
+        Some(Crowding { facing: found.boundary, at, gap: found.gap, layers })
     });
     found.min_by(|a, b| a.layers.total_cmp(&b.layers))
+}
+
+/// Length (m) of the longest edge of a facet.
+fn longest_edge<const D: usize>(vertices: &[Point<D>; D]) -> f64 {
+    let pairs = (1..D).flat_map(|to| (0..to).map(move |from| [from, to]));
+    pairs.map(|[from, to]| (vertices[to] - vertices[from]).norm()).fold(0.0, f64::max)
 }

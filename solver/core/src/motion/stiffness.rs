@@ -1,11 +1,13 @@
 //! The matrix of mesh motion on linear elements, with small cells made stiff.
 
+use std::sync::Arc;
+
 use alewife_mesh::{CellId, Mesh, NodeId};
 use nalgebra::SVector;
 
 use super::surface_distance::surface_distances;
 use crate::algebra::{AffineConstraints, CellMaps, ConstraintBuilder, SparseMatrix};
-use crate::space::{StraightSimplex, straight_simplex};
+use crate::space::{StraightCell, straight_cell};
 
 /// The equation the displacement of the mesh solves; by default the one that lets a body go
 /// farthest (measured in `tests/motion/reach.rs`).
@@ -101,13 +103,13 @@ impl Stiffness {
             MotionKind::Harmonic(stiffening) => (1, stiffening),
             MotionKind::Elastic { stiffening, .. } => (D, stiffening),
         };
-        let geometry: Vec<_> = mesh.cell_ids().map(|cell| straight_simplex(mesh, cell)).collect();
-        let measures: Vec<f64> = geometry.iter().map(|simplex| simplex.measure).collect();
+        let geometry: Vec<_> = mesh.cell_ids().map(|cell| straight_cell(mesh, cell)).collect();
+        let measures: Vec<f64> = geometry.iter().map(|cell| cell.measure).collect();
         let factors = stiffening.factors(&measures, || surface_distances(mesh, carrying));
         let n_local = (D + 1) * n_components;
         let mut raw = Vec::with_capacity(n_local * mesh.n_cells());
         let mut cells = vec![0.0; n_local * n_local * mesh.n_cells()];
-        for (cell, StraightSimplex { measure, gradients }) in geometry.iter().enumerate() {
+        for (cell, StraightCell { measure, gradients }) in geometry.iter().enumerate() {
             for &vertex in mesh.cell_vertices(CellId::new(cell)) {
                 let first = vertex.index() * n_components;
                 raw.extend((first..first + n_components).map(raw_unknown));
@@ -156,8 +158,8 @@ fn sum_of_cells(
     constraints: &AffineConstraints,
     n_local: usize,
 ) -> SparseMatrix {
-    let (pattern, maps) = CellMaps::new(n_local, raw.to_vec(), constraints, |_, _| true);
-    let mut values = vec![0.0; pattern.n_entries()];
+    let maps = CellMaps::new(n_local, raw.to_vec(), constraints, |_, _| true);
+    let mut values = vec![0.0; maps.pattern().n_entries()];
     let mut folded = vec![0.0; maps.largest_matrix()];
     // The matrices are symmetric: rows are columns.
     for (cell, matrix) in cells.chunks_exact(n_local * n_local).enumerate() {
@@ -168,7 +170,7 @@ fn sum_of_cells(
             maps.scatter(cell, matrix, &mut values);
         }
     }
-    SparseMatrix::new(pattern, values)
+    SparseMatrix::new(Arc::clone(maps.pattern()), values)
 }
 
 fn harmonic_cell<const D: usize>(gradients: &[SVector<f64, D>], weight: f64, matrix: &mut [f64]) {

@@ -25,26 +25,22 @@ pub enum Landing {
 
 /// Where a node of the new mesh takes its values.
 #[derive(Debug, Clone, Copy)]
-struct Source {
+struct Source<const D: usize> {
     cell: CellId,
-    at: [f64; 2],
+    at: [f64; D],
     landing: Landing,
     /// Distance outside the old mesh (m).
     distance: f64,
 }
 
-/// What a node has before it is found.
-const NOWHERE: Source =
-    Source { cell: CellId::new(0), at: [0.0; 2], landing: Landing::Clamped, distance: 0.0 };
-
 /// Takes fields from one mesh to another.
 #[derive(Debug, Clone)]
-pub struct Transfer<'a> {
-    old: &'a Mesh<2>,
-    new: &'a Mesh<2>,
-    sources: Vec<Source>,
+pub struct Transfer<'a, const D: usize> {
+    old: &'a Mesh<D>,
+    new: &'a Mesh<D>,
+    sources: Vec<Source<D>>,
     /// Where the quadrature points of the new mesh take their values, cell by cell.
-    points: Vec<Source>,
+    points: Vec<Source<D>>,
 }
 
 /// How the nodes of the new mesh lie in the old one.
@@ -60,7 +56,7 @@ pub struct TransferReport {
     pub farthest_node: Option<NodeId>,
 }
 
-impl<'a> Transfer<'a> {
+impl<'a, const D: usize> Transfer<'a, D> {
     /// Finds the nodes of a new mesh in an old one.
     ///
     /// `periods` are the vectors by which a periodic domain repeats (m), see
@@ -69,7 +65,7 @@ impl<'a> Transfer<'a> {
     ///
     /// Returns `None` when a node is not finite or the old mesh has no cells.
     #[must_use]
-    pub fn new(old: &'a Mesh<2>, new: &'a Mesh<2>, periods: &[Point<2>]) -> Option<Self> {
+    pub fn new(old: &'a Mesh<D>, new: &'a Mesh<D>, periods: &[Point<D>]) -> Option<Self> {
         Some(Self { old, new, sources: find(old, &new.nodes, periods)?, points: Vec::new() })
     }
 
@@ -77,7 +73,7 @@ impl<'a> Transfer<'a> {
     ///
     /// Returns `None` as [`Self::new`] does.
     #[must_use]
-    pub fn with_points(mut self, tables: &Tables<2>, periods: &[Point<2>]) -> Option<Self> {
+    pub fn with_points(mut self, tables: &Tables<D>, periods: &[Point<D>]) -> Option<Self> {
         let mut points = Vec::new();
         let mut workspace = CellValues::default();
         for cell in self.new.cell_ids() {
@@ -89,16 +85,16 @@ impl<'a> Transfer<'a> {
 
     /// The new mesh.
     #[must_use]
-    pub fn mesh(&self) -> &'a Mesh<2> {
+    pub fn mesh(&self) -> &'a Mesh<D> {
         self.new
     }
 
     /// int phi (u - v) dx for each node, with u a field of the old mesh and v one of the new mesh: what
     /// interpolation loses. [`Self::with_points`] comes before.
     #[must_use]
-    pub fn missed(&self, tables: &Tables<2>, old: &[Point<2>], new: &[Point<2>]) -> Vec<Point<2>> {
+    pub fn missed(&self, tables: &Tables<D>, old: &[Point<D>], new: &[Point<D>]) -> Vec<Point<D>> {
         let mesh = self.new;
-        let mut missed = vec![Point::<2>::zeros(); new.len()];
+        let mut missed = vec![Point::<D>::zeros(); new.len()];
         let mut workspace = CellValues::default();
         let mut sources = self.points.iter();
         for cell in mesh.cell_ids() {
@@ -119,7 +115,7 @@ impl<'a> Transfer<'a> {
 
     /// A quadratic vector field (one vector a node of the old mesh) at the nodes of the new mesh.
     #[must_use]
-    pub fn quadratic(&self, field: &[Point<2>]) -> Vec<Point<2>> {
+    pub fn quadratic(&self, field: &[Point<D>]) -> Vec<Point<D>> {
         self.sources.iter().map(|source| self.at(source, |node| field[node])).collect()
     }
 
@@ -129,9 +125,10 @@ impl<'a> Transfer<'a> {
         self.sources[..self.new.n_vertices]
             .iter()
             .map(|source| {
-                let [x, y] = source.at;
-                let [a, b, c] = [0, 1, 2].map(|corner| field[self.old.cell(source.cell)[corner]]);
-                (1.0 - x - y) * a + x * b + y * c
+                let corners = self.old.cell(source.cell);
+                let others = source.at.iter().zip(&corners[1..]);
+                let at_first = first_barycentric(&source.at) * field[corners[0]];
+                others.fold(at_first, |sum, (l, &vertex)| sum + l * field[vertex])
             })
             .collect()
     }
@@ -155,83 +152,86 @@ impl<'a> Transfer<'a> {
         }
     }
 
-    fn at(&self, source: &Source, field: impl Fn(NodeId) -> Point<2>) -> Point<2> {
+    fn at(&self, source: &Source<D>, field: impl Fn(NodeId) -> Point<D>) -> Point<D> {
         let weights = shape_functions(source.at);
         let nodes = self.old.cell(source.cell);
         nodes
             .iter()
             .zip(weights.iter())
-            .fold(Point::<2>::zeros(), |sum, (&node, &weight)| sum + field(node) * weight)
+            .fold(Point::<D>::zeros(), |sum, (&node, &weight)| sum + field(node) * weight)
     }
 }
 
-/// Finds places (m) in a mesh; `None` when one is not finite or the mesh has no cells.
-fn find(old: &Mesh<2>, places: &[Point<2>], periods: &[Point<2>]) -> Option<Vec<Source>> {
+/// Finds points (m) in a mesh; `None` when one is not finite or the mesh has no cells.
+fn find<const D: usize>(
+    old: &Mesh<D>,
+    points: &[Point<D>],
+    periods: &[Point<D>],
+) -> Option<Vec<Source<D>>> {
     let locator = Locator::new(old);
-    let find = |place: &Point<2>| {
-        if let Some(found) = locator.locate(*place) {
+    let images: Vec<Point<D>> = std::iter::once(&Point::zeros()).chain(periods).copied().collect();
+    let find = |point: &Point<D>| {
+        if let Some(found) = locator.locate(*point) {
             return Some(settle(found.cell, found.reference, Landing::Inside, 0.0));
         }
-        let images = std::iter::once(Point::<2>::zeros()).chain(periods.iter().copied());
-        let found = images.filter_map(|shift| locator.nearest(place + shift));
-        let nearest = found.min_by(|a, b| a.distance.total_cmp(&b.distance))?;
+        let nearest = locator.nearest_image(*point, &images)?;
         Some(settle(nearest.cell, nearest.reference, Landing::Extrapolated, nearest.distance))
     };
-    let order = near_ones_together(places);
-    let found: Option<Vec<Source>> = order
+    let order = by_proximity(points);
+    let found: Option<Vec<(usize, Source<D>)>> = order
         .par_chunks(NODES_PER_TASK)
-        .flat_map_iter(|nodes| nodes.iter().map(|&node| find(&places[node as usize])))
+        .flat_map_iter(|some| some.iter().map(|&point| Some((point, find(&points[point])?))))
         .collect();
-    let mut sources = vec![NOWHERE; places.len()];
-    for (node, source) in order.into_iter().zip(found?) {
-        sources[node as usize] = source;
-    }
-    Some(sources)
+    let mut found = found?;
+    found.par_sort_unstable_by_key(|(point, _)| *point);
+    Some(found.into_iter().map(|(_, source)| source).collect())
+}
+
+/// The barycentric coordinate of the first vertex.
+fn first_barycentric<const D: usize>(at: &[f64; D]) -> f64 {
+    at.iter().fold(1.0, |rest, l| rest - l)
 }
 
 /// Keeps reference coordinates within the cell, or near it where they are extrapolated.
-fn settle(cell: CellId, at: [f64; 2], landing: Landing, distance: f64) -> Source {
-    let barycentric = [1.0 - at[0] - at[1], at[0], at[1]];
-    let lowest = barycentric.into_iter().fold(f64::INFINITY, f64::min);
+fn settle<const D: usize>(
+    cell: CellId,
+    at: [f64; D],
+    landing: Landing,
+    distance: f64,
+) -> Source<D> {
+    let first = first_barycentric(&at);
+    let lowest = at.iter().fold(first, |lowest, l| lowest.min(*l));
     if lowest >= EXTRAPOLATION {
         return Source { cell, at, landing, distance };
     }
-    let kept = barycentric.map(|l| l.max(EXTRAPOLATION));
     // Back to the sum of one, the parts above the bound giving way
-    let spare: f64 = kept.iter().map(|l| l - EXTRAPOLATION).sum();
-    let scale = (1.0 - 3.0 * EXTRAPOLATION) / spare;
-    let [_, x, y] = kept.map(|l| EXTRAPOLATION + (l - EXTRAPOLATION) * scale);
-    Source { cell, at: [x, y], landing: Landing::Clamped, distance }
+    let spare = |l: f64| l.max(EXTRAPOLATION) - EXTRAPOLATION;
+    let total = at.iter().fold(spare(first), |sum, l| sum + spare(*l));
+    let scale = (1.0 - (D + 1) as f64 * EXTRAPOLATION) / total;
+    let at = at.map(|l| EXTRAPOLATION + spare(l) * scale);
+    Source { cell, at, landing: Landing::Clamped, distance }
 }
 
-/// The nodes along a Z-order curve: the search finds what it needs in the cache.
-fn near_ones_together(nodes: &[Point<2>]) -> Vec<u32> {
-    let bound = |best: f64, other: fn(&Point<2>, &Point<2>) -> Point<2>| {
-        nodes.iter().fold(Point::<2>::repeat(best), |sum, node| other(&sum, node))
+/// Points along a Z-order curve: the search finds what it needs in the cache.
+fn by_proximity<const D: usize>(points: &[Point<D>]) -> Vec<usize> {
+    let bound = |best: f64, other: fn(&Point<D>, &Point<D>) -> Point<D>| {
+        points.iter().fold(Point::<D>::repeat(best), |sum, point| other(&sum, point))
     };
     let low = bound(f64::INFINITY, |a, b| a.inf(b));
     let high = bound(f64::NEG_INFINITY, |a, b| a.sup(b));
     let scale = f64::from(u16::MAX) / (high - low).max();
-    // Bits of x and y in turn
-    let spread = |x: f64| {
-        let mut bits = u64::from(x as u16);
-        for (shift, mask) in
-            [(8, 0x00ff_00ff), (4, 0x0f0f_0f0f), (2, 0x3333_3333), (1, 0x5555_5555)]
-        {
-            bits = (bits | bits << shift) & mask;
-        }
-        bits
-    };
-    let mut keys: Vec<(u64, u32)> = nodes
-        .iter()
-        .enumerate()
-        .map(|(node, place)| {
-            let at = (place - low) * scale;
-            (spread(at.x) | spread(at.y) << 1, node as u32)
+    let key = |point: &Point<D>| {
+        let at = (point - low) * scale;
+        // Bits of all coordinates in turn
+        let bits = (0..u16::BITS as usize).flat_map(|bit| (0..D).map(move |axis| [bit, axis]));
+        bits.fold(0_u64, |key, [bit, axis]| {
+            let set = (at[axis] as u64) >> bit & 1;
+            key | set << (D * bit + axis)
         })
-        .collect();
-    keys.sort_unstable();
-    keys.into_iter().map(|(_, node)| node).collect()
+    };
+    let mut order: Vec<usize> = (0..points.len()).collect();
+    order.sort_by_cached_key(|&point| key(&points[point]));
+    order
 }
 
 #[cfg(test)]

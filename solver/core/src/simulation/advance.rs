@@ -5,7 +5,8 @@ use super::mesh_path::MeshPath;
 use super::moving_mesh::MovingMesh;
 use super::remesh::remesh;
 use super::state::State;
-use super::step::{StepReport, TimeStepper, Workspace};
+use super::stepper::{StepReport, StepResult, TimeStepper};
+use super::workspace::Workspace;
 use super::{Stage, Timing};
 use crate::case::{Convection, Scheme};
 use crate::contact::{ContactError, Law};
@@ -52,7 +53,7 @@ pub enum Attempt {
     Rejected(StepError),
 }
 
-impl Simulation<2> {
+impl<const D: usize> Simulation<D> {
     /// Time spent so far.
     #[must_use]
     pub fn timing(&self) -> &Timing {
@@ -106,7 +107,7 @@ impl Simulation<2> {
             path: moving_mesh.as_ref().map_or(MeshPath::Fixed, MeshPath::FollowsBodies),
             contact: law.as_ref(),
         };
-        let (level, report) = match scheme.method {
+        let StepResult { level, report } = match scheme.method {
             Scheme::Rk3 => {
                 let rates_jump = state.last_step == 0.0 && state.time > 0.0;
                 stepper.advance_explicitly(work, state, size, rates_jump)?
@@ -180,7 +181,7 @@ impl Simulation<2> {
         let state = &self.state;
         let frame = state.origin_at(&self.problem, &state.poses)
             - state.origin_at(&self.problem, &state.previous_poses);
-        let frame = crate::body::on_mesh::<2>(&frame);
+        let frame = crate::body::on_mesh::<D>(&frame);
         let mut most = f64::MIN_POSITIVE;
         for cell in state.mesh.cell_ids() {
             let length = |edge: alewife_mesh::Edge<'_>| {

@@ -1,7 +1,7 @@
 //! The local error of a step, from its difference from a prediction of the same order.
 
 use super::state::State;
-use super::step::{Step, TimeStepper};
+use super::stepper::{Step, TimeStepper};
 use crate::body::Mode;
 use crate::coupling::Solution;
 

@@ -11,7 +11,8 @@ use super::history::{INSIDE, StepHistory};
 use super::pass::{Pass, PassEquations, Placement};
 use super::propulsion_history::{PowerShare, PropulsionStep};
 use super::state::{NewLevel, State};
-use super::step::{StepReport, TimeStepper, Workspace};
+use super::stepper::{StepReport, StepResult, TimeStepper};
+use super::workspace::Workspace;
 use crate::body::{Pose, RigidVector, Twist};
 use crate::contact::ContactLoads;
 use crate::coupling::{BodyLoads, PropulsionPower, Solution};
@@ -22,6 +23,15 @@ struct Stage {
     part: f64,
     /// Weights of the stages before in its poses.
     weights: &'static [f64],
+}
+
+impl Stage {
+    /// When it is in a step of a size (s); at the end of the step rates are those before it.
+    fn instant<const D: usize>(&self, state: &State<D>, size: f64) -> Instant {
+        let time = state.time + self.part * size;
+        let rates_at = if self.part < 1.0 { time } else { time - INSIDE * size };
+        Instant { time, rates_at }
+    }
 }
 
 const STAGES: [Stage; 3] = [
@@ -75,7 +85,7 @@ fn rates_of<const D: usize>(solution: &Solution<D>) -> Vec<RigidVector> {
 }
 
 impl<const D: usize> TimeStepper<'_, D> {
-    /// The level a step of a size (s) leads to from a state. `rates_jump` says that rates jump at its
+    /// What a step of a size (s) leads to from a state, which stays where it is. `rates_jump` says that rates jump at its
     /// beginning.
     ///
     /// # Errors
@@ -86,21 +96,25 @@ impl<const D: usize> TimeStepper<'_, D> {
         state: &State<D>,
         size: f64,
         rates_jump: bool,
-    ) -> Result<(NewLevel<D>, StepReport), StepError> {
+    ) -> Result<StepResult<D>, StepError> {
         let mut stages = self.first_stage(work, state, size, rates_jump)?;
         let [first, second, third] = STAGES;
         for stage in [first, second] {
-            let (flow, _) = self.stage(work, state, size, &stages, &stage)?;
+            let poses = self.stage_poses(state, &stages.rates, &stage, size);
+            let flow =
+                self.flow_at(work, state, &poses, stage.instant(state, size), &stages.last)?;
             stages.push(&flow);
         }
-        let (flow, poses) = self.stage(work, state, size, &stages, &third)?;
+        let poses = self.stage_poses(state, &stages.rates, &third, size);
+        let flow = self.flow_at(work, state, &poses, third.instant(state, size), &stages.last)?;
         stages.push(&flow);
         let report = StepReport {
             loads: flow.loads.clone(),
             iterations: stages.iterations,
             error: self.explicit_error(&stages.rates),
         };
-        Ok((self.explicit_level(state, size, flow, poses, &stages.powers)?, report))
+        let level = self.explicit_level(state, size, flow, poses, &stages.powers)?;
+        Ok(StepResult { level, report })
     }
 
     /// The flow at the beginning, which is that of the state unless rates jump.
@@ -126,21 +140,6 @@ impl<const D: usize> TimeStepper<'_, D> {
             stages.powers.push(state.propulsion.iter().map(|history| history.power()).collect());
         }
         Ok(stages)
-    }
-
-    fn stage(
-        &self,
-        work: &mut Workspace<D>,
-        state: &State<D>,
-        size: f64,
-        stages: &Stages<D>,
-        stage: &Stage,
-    ) -> Result<(InstantaneousFlow<D>, Vec<Pose>), StepError> {
-        let time = state.time + stage.part * size;
-        let rates_at = if stage.part < 1.0 { time } else { time - INSIDE * size };
-        let poses = self.stage_poses(state, &stages.rates, stage, size);
-        let flow = self.flow_at(work, state, &poses, Instant { time, rates_at }, &stages.last)?;
-        Ok((flow, poses))
     }
 
     /// Poses of a stage; bodies that hang on others follow them exactly.

@@ -5,9 +5,11 @@ use alewife_mesh::Point;
 use super::error::StepError;
 use super::predict::unmoved_poses;
 use super::state::State;
-use super::step::{Step, TimeStepper};
+use super::stepper::{Step, TimeStepper};
 use crate::body::{Inertia, Pose, RigidVector, Twist, carried_velocity};
-use crate::coupling::{BodyShapes, PosesByVelocity, Problem, RigidBodyEquations, Solution};
+use crate::coupling::{
+    BodyShapes, PosesByVelocity, Problem, RigidBody, RigidBodyEquations, Solution,
+};
 use crate::time::Bdf;
 
 /// Part of a step by which rates at its ends are evaluated inside it: those that jump there have two.
@@ -47,16 +49,13 @@ impl OlderBodies {
         poses: &[Pose],
         twists: &[Twist],
     ) -> Result<Self, StepError> {
-        let deforms =
-            problem.bodies.iter().any(|body| body.shape.is_some() && !body.inertia.is_zero());
-        let shapes = if deforms {
-            BodyShapes::at(&problem.bodies, time)?
-        } else {
-            BodyShapes::rigid(problem.bodies.len())
-        };
-        let bodies = problem.bodies.iter().enumerate();
-        let inertia = bodies.map(|(body, rigid)| rigid.inertia_with(shapes.deformed(body)));
-        Ok(Self { inertia: inertia.collect(), poses: poses.to_vec(), twists: twists.to_vec() })
+        let inertia =
+            |body: &RigidBody| -> Result<Inertia, StepError> { Ok(body.inertia_at(time)?) };
+        Ok(Self {
+            inertia: problem.bodies.iter().map(inertia).collect::<Result<_, _>>()?,
+            poses: poses.to_vec(),
+            twists: twists.to_vec(),
+        })
     }
 }
 

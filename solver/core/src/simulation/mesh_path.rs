@@ -6,7 +6,7 @@ use super::Stage;
 use super::error::StepError;
 use super::moving_mesh::{GapsAt, MovingMesh};
 use super::state::State;
-use super::step::Workspace;
+use super::workspace::Workspace;
 use crate::body::{Pose, on_mesh};
 use crate::coupling::{BodyShapes, Problem, RigidBody};
 

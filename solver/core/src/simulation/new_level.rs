@@ -5,9 +5,10 @@ use super::history::StepHistory;
 use super::pass::Pass;
 use super::propulsion_history::{PowerShare, PropulsionStep};
 use super::state::{NewLevel, State};
-use super::step::{TimeStepper, Workspace};
+use super::stepper::TimeStepper;
+use super::workspace::Workspace;
 use crate::body::{Pose, Twist};
-use crate::contact::ContactLoads;
+use crate::contact::{ContactLoads, Gaps};
 use crate::coupling::{PropulsionPower, Solution};
 
 /// What the last pass of a step has found.
@@ -19,6 +20,19 @@ pub(super) struct Arrival<const D: usize> {
 }
 
 impl<const D: usize> TimeStepper<'_, D> {
+    /// Loads of contact with the smallest gap of bodies at these poses.
+    pub(super) fn with_minimum_gap(
+        &self,
+        contact: ContactLoads,
+        gaps: Option<&dyn Gaps>,
+        state: &State<D>,
+        poses: &[Pose],
+    ) -> ContactLoads {
+        let Some(gaps) = gaps else { return contact };
+        let minimum_gap = gaps.minimum_gap(&state.in_own_frame(self.problem, poses));
+        ContactLoads { minimum_gap, ..contact }
+    }
+
     /// The new level, with the mesh moved to where the bodies get to.
     pub(super) fn new_level(
         &self,
@@ -29,11 +43,8 @@ impl<const D: usize> TimeStepper<'_, D> {
         end: Arrival<D>,
         propulsion: &[PropulsionPower],
     ) -> Result<NewLevel<D>, StepError> {
-        let Arrival { poses, solution, mut contact } = end;
+        let Arrival { poses, solution, contact } = end;
         let bdf = &history.step.bdf;
-        if let Some(gaps) = self.path.gaps(&history.shapes) {
-            contact.minimum_gap = gaps.minimum_gap(&state.in_own_frame(self.problem, &poses));
-        }
         let nodes = self.path.move_mesh(work, self.problem, state, &poses, &history.shapes)?;
         let rates = solution.velocity.iter().zip(&history.derivative);
         let twists = solution.twists.iter().zip(&pass.bodies.bodies);

@@ -2,7 +2,7 @@
 
 use alewife_mesh::Point;
 
-use super::step::Step;
+use super::stepper::Step;
 use super::{RunError, Stage, Timing};
 use crate::coupling::{Configuration, FluidSystem, Solution, SolveError};
 use crate::flow::FlowTerms;

@@ -2,7 +2,7 @@
 
 use super::mesh_path::MeshPath;
 use super::state::State;
-use super::step::{Step, TimeStepper};
+use super::stepper::{Step, TimeStepper};
 use crate::body::{Mode, Pose, RigidVector, Twist};
 use crate::contact::Gaps;
 use crate::coupling::Problem;

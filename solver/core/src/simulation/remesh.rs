@@ -1,6 +1,6 @@
 //! A new mesh in the middle of a run, with both levels of the flow taken over to it.
 
-use alewife_mesh::{Mesh, Point};
+use alewife_mesh::Mesh;
 use nalgebra::Vector3;
 
 use super::moving_mesh::MovingMesh;
@@ -15,13 +15,13 @@ use crate::motion::Transfer;
 use crate::space::Tables;
 
 /// One level of a flow, on the old mesh and where the new one is to be then.
-struct Level<'a> {
+struct Level<'a, const D: usize> {
     name: &'static str,
-    solution: &'a Solution<2>,
+    solution: &'a Solution<D>,
     /// The old mesh then, seen from the frame.
-    old: &'a Mesh<2>,
+    old: &'a Mesh<D>,
     /// The new mesh then, seen from the frame.
-    new: &'a Mesh<2>,
+    new: &'a Mesh<D>,
     /// Bodies then, seen from the frame.
     bodies: BodiesAt<'a>,
     /// Position of the frame then (m).
@@ -33,11 +33,11 @@ struct Level<'a> {
 ///
 /// # Errors
 /// When the mesh cannot be generated, or the flow not be made divergence-free on it.
-pub(super) fn remesh(
-    problem: &Problem<2>,
-    state: &mut State<2>,
-    moving: &MovingMesh<2>,
-) -> Result<MovingMesh<2>, RemeshError> {
+pub(super) fn remesh<const D: usize>(
+    problem: &Problem<D>,
+    state: &mut State<D>,
+    moving: &MovingMesh<D>,
+) -> Result<MovingMesh<D>, RemeshError> {
     let shapes = BodyShapes::at(&problem.bodies, state.time)?;
     let Meshed { mesh: new, scene, poses, shifts } = moving.remesh(state, &shapes)?;
     let image_shifts: Vec<Vector3<f64>> =
@@ -72,29 +72,36 @@ pub(super) fn remesh(
         bodies: bodies(&previous_poses, &shapes_before),
         origin: origin_before,
     };
-    let (now, rates) = takeover.level(&now, &state.rates)?;
-    let (previous, _) = takeover.level(&previous, &[])?;
-    (state.now, state.previous, state.rates) = (now, previous, rates);
+    let (now, previous) = (takeover.level(&now)?, takeover.level(&previous)?);
+    state.rates = now.transfer.quadratic(&state.rates);
+    (state.now, state.previous) = (now.solution, previous.solution);
     state.image_shifts = image_shifts;
     state.put_on_mesh(new, before.nodes);
     Ok(successor)
 }
 
-/// Takes levels of a flow from one mesh to another.
-struct Takeover<'a> {
-    problem: &'a Problem<2>,
-    moving: &'a MovingMesh<2>,
-    boundaries: Boundaries,
-    tables: Tables<2>,
-    /// None where nothing has inertia: the older velocities are first guesses only.
-    projection: Option<DivergenceFreeProjection<2>>,
+/// A level on the new mesh.
+struct Taken<'a, const D: usize> {
+    solution: Solution<D>,
+    /// From the old mesh to the new one.
+    transfer: Transfer<'a, D>,
 }
 
-impl<'a> Takeover<'a> {
+/// Takes levels of a flow from one mesh to another.
+struct Takeover<'a, const D: usize> {
+    problem: &'a Problem<D>,
+    moving: &'a MovingMesh<D>,
+    boundaries: Boundaries,
+    tables: Tables<D>,
+    /// None where nothing has inertia: the older velocities are first guesses only.
+    projection: Option<DivergenceFreeProjection<D>>,
+}
+
+impl<'a, const D: usize> Takeover<'a, D> {
     fn new(
-        problem: &'a Problem<2>,
-        new: &Mesh<2>,
-        moving: &'a MovingMesh<2>,
+        problem: &'a Problem<D>,
+        new: &Mesh<D>,
+        moving: &'a MovingMesh<D>,
     ) -> Result<Self, RemeshError> {
         let projection =
             problem.has_inertia.then(|| DivergenceFreeProjection::new(problem, new)).transpose()?;
@@ -102,16 +109,11 @@ impl<'a> Takeover<'a> {
         Ok(Self { problem, moving, boundaries, tables, projection })
     }
 
-    /// A level on the new mesh, and other velocities (m/s2 at the nodes) with it.
-    fn level(
-        &mut self,
-        level: &Level<'_>,
-        others: &[Point<2>],
-    ) -> Result<(Solution<2>, Vec<Point<2>>), RemeshError> {
+    /// A level on the new mesh.
+    fn level<'b>(&mut self, level: &Level<'b, D>) -> Result<Taken<'b, D>, RemeshError> {
         let images = self.moving.scene().images([level.old, level.new]);
         let not_found = || RemeshError::NotFound { level: level.name };
-        let transfer = Transfer::new(level.old, level.new, &images).ok_or_else(not_found)?;
-        let others = if others.is_empty() { Vec::new() } else { transfer.quadratic(others) };
+        let mut transfer = Transfer::new(level.old, level.new, &images).ok_or_else(not_found)?;
         let mut solution = Solution {
             velocity: transfer.quadratic(&level.solution.velocity),
             pressure: transfer.linear(&level.solution.pressure),
@@ -130,13 +132,13 @@ impl<'a> Takeover<'a> {
             &mut solution.velocity,
         );
         if let Some(projection) = &mut self.projection {
-            let transfer = transfer.with_points(&self.tables, &images).ok_or_else(not_found)?;
+            transfer = transfer.with_points(&self.tables, &images).ok_or_else(not_found)?;
             let residual =
                 transfer.missed(&self.tables, &level.solution.velocity, &solution.velocity);
             projection.move_to(self.problem, level.new)?;
             solution.velocity =
                 projection.project_with(level.new, &solution.velocity, &residual)?;
         }
-        Ok((solution, others))
+        Ok(Taken { solution, transfer })
     }
 }

@@ -2,9 +2,9 @@
 
 use super::advance::Simulation;
 use super::measure::Measure;
+use super::planar::{Prepared, prepare};
 use super::resume::SavedState;
 use super::snapshot::{LastState, Observer, Snapshot};
-use super::start::prepare;
 use super::steady::{SteadyFlow, SteadyTask, solve_steady};
 use super::{RunError, Series, Stage, Timing};
 use crate::case::{Case, Initial, Model, Steady, TimeSettings, Unsteady};
@@ -40,10 +40,10 @@ pub fn simulate(
 /// Whatever stops the run; observers are notified before it is returned.
 pub fn simulate_from(
     model: &Model,
-    saved: Option<&SavedState>,
+    saved: Option<&SavedState<2>>,
     observers: &mut [Box<dyn Observer<2>>],
 ) -> Result<RunSummary, RunError> {
-    let (simulation, measure) = match prepare(model, saved) {
+    let Prepared { simulation, measure } = match prepare(model, saved) {
         Ok(prepared) => prepared,
         Err(error) => {
             for observer in observers.iter_mut() {
@@ -74,7 +74,7 @@ pub(super) struct Run<'a, const D: usize> {
     observers: &'a mut [Box<dyn Observer<D>>],
     series: Series,
     pub simulation: Simulation<D>,
-    measure: Measure,
+    measure: Measure<D>,
 }
 
 /// What is reported of a step besides loads.
@@ -88,7 +88,7 @@ pub(super) struct StepSummary {
     pub is_last: bool,
 }
 
-impl Run<'_, 2> {
+impl<const D: usize> Run<'_, D> {
     /// Makes the run; the number of its steps.
     fn make(&mut self, is_resumed: bool) -> Result<usize, RunError> {
         let case = self.case;
@@ -125,14 +125,14 @@ impl Run<'_, 2> {
     }
 }
 
-impl Run<'_, 2> {
+impl<const D: usize> Run<'_, D> {
     /// Solves for the flow at time zero without a time derivative.
     fn solve_at_start(
         &mut self,
         settings: &Steady,
         equations: &RigidBodyEquations,
         has_convection: bool,
-    ) -> Result<SteadyFlow<2>, RunError> {
+    ) -> Result<SteadyFlow<D>, RunError> {
         let Simulation { problem, state, work, .. } = &mut self.simulation;
         let (poses, shapes) = (state.in_mesh(&state.poses), BodyShapes::at(&problem.bodies, 0.0)?);
         let bodies = BodiesAt { poses: &poses, shapes: &shapes };

@@ -71,7 +71,7 @@ pub struct LastState<'a, const D: usize> {
     /// Pressure at the vertices (Pa).
     pub pressure: &'a [f64],
     /// All that evolves, for a run that resumes; none of a steady solution.
-    pub saved: Option<&'a SavedState>,
+    pub saved: Option<&'a SavedState<D>>,
 }
 
 /// Sees everything, changes nothing.

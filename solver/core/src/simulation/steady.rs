@@ -10,7 +10,7 @@ use super::RunError;
 use super::newton::{
     Criterion, Flow, FlowEquations, Iterate, NewtonFailure, flow_residual, newton,
 };
-use super::step::Workspace;
+use super::workspace::Workspace;
 use crate::case::Steady;
 use crate::coupling::{BodiesAt, Configuration, Problem, RigidBodyEquations, Solution, SolveError};
 use crate::flow::{Convection, FlowTerms};

@@ -10,84 +10,26 @@
 //! whole (`frame`); the unknown stays the velocity seen from the laboratory, so that no inertial force
 //! appears.
 
-use alewife_mesh::Mesh;
-
-use super::Timing;
 use super::contact_step::PassContact;
 use super::error::StepError;
 use super::error_estimate::local_error;
 use super::fluid_loads::{FluidLoads, SolvedConfiguration};
 use super::history::StepHistory;
-use super::mesh_path::MeshPath;
 use super::new_level::Arrival;
 use super::newton::{Criterion, Flow, newton};
 use super::pass::{Pass, PassEquations, Placement};
 use super::predict::{integrate_poses, limit_by_gaps, predict_poses};
-use super::state::{NewLevel, State};
-use crate::case::Convection;
-use crate::contact::Law;
-use crate::coupling::{BodyLoads, FluidSystem, Problem, Solution};
+use super::state::State;
+use super::stepper::{Step, StepReport, StepResult, TimeStepper};
+use super::workspace::Workspace;
+use crate::coupling::Solution;
 use crate::time::Bdf;
 
 /// Most passes until the bodies are where the flow was solved for.
 const MAX_PASSES: usize = 12;
 
-/// What stays the same from step to step while the mesh lasts.
-#[derive(Clone, Copy)]
-pub struct TimeStepper<'a, const D: usize> {
-    /// What is solved.
-    pub problem: &'a Problem<D>,
-    /// How convection is taken.
-    pub convection: Convection,
-    /// How the mesh moves.
-    pub path: MeshPath<'a, D>,
-    /// The law of contact, if any.
-    pub contact: Option<&'a Law>,
-}
-
-/// What a step works with; nothing in it is read before it is written.
-pub struct Workspace<const D: usize> {
-    /// The linear system on the mesh.
-    pub system: FluidSystem<D>,
-    /// The mesh of the present pass, in the laboratory.
-    pub mesh: Mesh<D>,
-    /// Time spent in each stage.
-    pub timing: Timing,
-}
-
-/// A step in time.
-#[derive(Debug, Clone, Copy)]
-pub struct Step {
-    /// Its number, from one.
-    pub number: usize,
-    /// The new time (s).
-    pub time: f64,
-    /// Backward differences at the new time.
-    pub bdf: Bdf,
-}
-
-impl Step {
-    /// The step from a state by some backward differences.
-    #[must_use]
-    pub fn from<const D: usize>(state: &State<D>, bdf: Bdf) -> Self {
-        Self { number: state.step + 1, time: state.time + bdf.step, bdf }
-    }
-}
-
-/// What a step leaves for measurements and for the choice of the next step.
-#[derive(Debug, Clone)]
-pub struct StepReport {
-    /// Loads of the fluid on the bodies, where the flow was solved for.
-    pub loads: Vec<BodyLoads>,
-    /// Linear systems solved.
-    pub iterations: usize,
-    /// Estimate of the error of the step, relative to the size of the velocities; zero for a step of
-    /// first order.
-    pub error: f64,
-}
-
 impl<const D: usize> TimeStepper<'_, D> {
-    /// The level a step of `bdf` leads to from a state, which [`State::accept`] takes on.
+    /// What a step of `bdf` leads to from a state, which stays where it is.
     ///
     /// # Errors
     /// When the system is singular, the solution not finite, Newton's method stalls, the mesh
@@ -97,7 +39,7 @@ impl<const D: usize> TimeStepper<'_, D> {
         work: &mut Workspace<D>,
         state: &State<D>,
         bdf: Bdf,
-    ) -> Result<(NewLevel<D>, StepReport), StepError> {
+    ) -> Result<StepResult<D>, StepError> {
         let problem = self.problem;
         let step = Step::from(state, bdf);
         let history = StepHistory::new(self, state, step)?;
@@ -120,9 +62,11 @@ impl<const D: usize> TimeStepper<'_, D> {
             if self.path.resolves(&pass.poses, &reached) {
                 let loads = self.loads(work, state, &equations, &mut flow);
                 let error = local_error(self, state, &step, &flow.solution);
+                let contact = self.with_minimum_gap(contact, gaps, state, &reached);
                 let end = Arrival { poses: reached, solution: flow.solution, contact };
                 let level = self.new_level(work, state, &history, &pass, end, &loads.propulsion)?;
-                return Ok((level, StepReport { loads: loads.bodies, iterations, error }));
+                let report = StepReport { loads: loads.bodies, iterations, error };
+                return Ok(StepResult { level, report });
             }
             (apart, poses, guess) = (pass.poses, reached, flow.solution);
         }

@@ -164,24 +164,24 @@ impl<const D: usize> CellValues<D> {
     }
 }
 
-/// A cell's straight simplex.
-#[derive(Debug, Clone)]
-pub struct StraightSimplex<const D: usize> {
+/// The straight simplex of a cell.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StraightCell<const D: usize> {
     /// Measure (m^D), negative when it is inverted.
     pub measure: f64,
-    /// Gradients of its D + 1 linear basis functions (1/m).
+    /// Gradients (1/m) of its D + 1 linear basis functions.
     pub gradients: Vec<SVector<f64, D>>,
 }
 
 /// The straight simplex of a cell.
 #[must_use]
-pub fn straight_simplex<const D: usize>(mesh: &Mesh<D>, cell: CellId) -> StraightSimplex<D> {
+pub fn straight_cell<const D: usize>(mesh: &Mesh<D>, cell: CellId) -> StraightCell<D> {
     let corners: Vec<_> = mesh.cell_vertices(cell).iter().map(|&node| mesh.nodes[node]).collect();
     let reference = p1_gradients();
     let map = CellMap::new(&corners, &reference);
     let factorial: usize = (1..=D).product();
     let gradients = reference.iter().map(|gradient| map.gradient(gradient)).collect();
-    StraightSimplex { measure: map.determinant / factorial as f64, gradients }
+    StraightCell { measure: map.determinant / factorial as f64, gradients }
 }
 
 /// sum_i weight_i point_i.

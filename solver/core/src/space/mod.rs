@@ -13,7 +13,7 @@ pub(crate) mod sample_mesh;
 
 pub use adjugate::adjugate;
 pub use basis::{p1_gradients, p1_values, p2_gradients, p2_values};
-pub use cell::{CellValues, PointValues, StraightSimplex, Tables, straight_simplex};
+pub use cell::{CellValues, PointValues, StraightCell, Tables, straight_cell};
 pub use element::{Element, n_lagrange_nodes};
 pub use facet::{FacetPoint, FacetRule};
 pub use layout::DofLayout;

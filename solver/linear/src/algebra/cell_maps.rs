@@ -1,6 +1,8 @@
 //! `CellMaps`: the sparsity pattern of a constrained system, and where each cell's matrix goes in it.
 
-use super::constraints::AffineConstraints;
+use std::sync::Arc;
+
+use super::constraints::{AffineConstraints, Term};
 use crate::sparse::Pattern;
 use crate::sparse::index::{to_u16, to_u32};
 
@@ -17,6 +19,7 @@ const NO_UNKNOWN: u32 = u32::MAX;
 /// folded, A -> P^T A P, before they are scattered.
 #[derive(Debug, Clone)]
 pub struct CellMaps {
+    pattern: Arc<Pattern>,
     n_local_raw: usize,
     raw: Vec<u32>,
     /// Start of each cell in `entries`, and the end of the last.
@@ -72,7 +75,7 @@ impl CellUnknowns {
         } else {
             let mut local = Vec::new();
             for &raw in raw {
-                for &(unknown, _) in constraints.row(raw as usize) {
+                for &Term { unknown, .. } in constraints.row(raw as usize) {
                     let known = self.unknowns[start..].iter().position(|&other| other == unknown);
                     let index = known.unwrap_or_else(|| {
                         self.unknowns.push(unknown);
@@ -99,7 +102,7 @@ impl CellMaps {
         raw: Vec<u32>,
         constraints: &AffineConstraints,
         couples: impl Fn(usize, usize) -> bool,
-    ) -> (Pattern, Self) {
+    ) -> Self {
         let mut unknowns = CellUnknowns { offsets: vec![0], unknowns: Vec::new() };
         unknowns.unknowns.reserve(raw.len());
         let mut folded = Vec::new();
@@ -126,8 +129,14 @@ impl CellMaps {
                 }));
             }
         }
-        let maps = Self { n_local_raw, raw, entry_offsets, entries, folded, folded_index, largest };
-        (pattern, maps)
+        let pattern = Arc::new(pattern);
+        Self { pattern, n_local_raw, raw, entry_offsets, entries, folded, folded_index, largest }
+    }
+
+    /// The sparsity pattern of the constrained system.
+    #[must_use]
+    pub fn pattern(&self) -> &Arc<Pattern> {
+        &self.pattern
     }
 
     /// Number of cells.
@@ -172,19 +181,19 @@ impl CellMaps {
         let raw = self.raw_unknowns(cell);
         let mut column_local = local.as_slice();
         for (&raw_column, column) in raw.iter().zip(matrix.chunks_exact(self.n_local_raw)) {
-            let column_entries = constraints.row(raw_column as usize);
-            let (column_indices, rest) = column_local.split_at(column_entries.len());
+            let column_terms = constraints.row(raw_column as usize);
+            let (column_indices, rest) = column_local.split_at(column_terms.len());
             column_local = rest;
             let mut row_local = local.as_slice();
             for (&raw_row, value) in raw.iter().zip(column) {
-                let row_entries = constraints.row(raw_row as usize);
-                let (row_indices, rest) = row_local.split_at(row_entries.len());
+                let row_terms = constraints.row(raw_row as usize);
+                let (row_indices, rest) = row_local.split_at(row_terms.len());
                 row_local = rest;
-                for (&column, &(_, column_weight)) in column_indices.iter().zip(column_entries) {
-                    let value = value * column_weight;
-                    for (&row, &(_, row_weight)) in row_indices.iter().zip(row_entries) {
+                for (&column, column_term) in column_indices.iter().zip(column_terms) {
+                    let value = value * column_term.weight;
+                    for (&row, row_term) in row_indices.iter().zip(row_terms) {
                         folded[usize::from(column) * n_local + usize::from(row)] +=
-                            row_weight * value;
+                            row_term.weight * value;
                     }
                 }
             }
@@ -250,9 +259,10 @@ mod tests {
     #[test]
     fn scattering_reduced_cells_equals_the_triple_product() {
         let mut builder = ConstraintBuilder::new(3);
-        builder.constrain(2, vec![(0, 0.5)], 1.0);
+        builder.constrain(2, vec![Term { unknown: 0, weight: 0.5 }], 1.0);
         let constraints = builder.build();
-        let (pattern, maps) = CellMaps::new(2, vec![0, 1, 1, 2], &constraints, |_, _| true);
+        let maps = CellMaps::new(2, vec![0, 1, 1, 2], &constraints, |_, _| true);
+        let pattern = maps.pattern();
         // Columns of [[2, -1], [-3, 4]].
         let cell = [2.0, -3.0, -1.0, 4.0];
         let mut values = vec![0.0; pattern.rows.len()];
@@ -274,9 +284,10 @@ mod tests {
     #[test]
     fn rows_and_columns_of_given_values_are_not_stored() {
         let mut builder = ConstraintBuilder::new(3);
-        builder.constrain(2, vec![], 5.0);
+        builder.fix(2, 5.0);
         let constraints = builder.build();
-        let (pattern, maps) = CellMaps::new(2, vec![0, 1, 1, 2], &constraints, |_, _| true);
+        let maps = CellMaps::new(2, vec![0, 1, 1, 2], &constraints, |_, _| true);
+        let pattern = maps.pattern();
         let cell = [2.0, -3.0, -1.0, 4.0];
         let mut values = vec![0.0; pattern.rows.len()];
         for index in 0..2 {

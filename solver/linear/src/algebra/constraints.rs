@@ -10,10 +10,19 @@ use crate::sparse::index::to_u32;
 /// Constraints that refer to constrained unknowns are followed through so many others at most.
 const MAX_CHAIN: usize = 8;
 
+/// An unknown with its weight in a sum.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Term<I> {
+    /// Index of the unknown.
+    pub unknown: I,
+    /// What it is multiplied by.
+    pub weight: f64,
+}
+
 /// A constraint under construction: weights of raw unknowns, and a value.
 #[derive(Debug, Clone, Default, PartialEq)]
 struct Line {
-    entries: Vec<(usize, f64)>,
+    terms: Vec<Term<usize>>,
     value: f64,
 }
 
@@ -37,8 +46,18 @@ impl ConstraintBuilder {
     }
 
     /// Sets x\[raw\] = sum of weight x\[other\] + value in place of an earlier constraint, if any.
-    pub fn constrain(&mut self, raw: usize, entries: Vec<(usize, f64)>, value: f64) {
-        self.lines[raw] = Some(Line { entries, value });
+    pub fn constrain(&mut self, raw: usize, terms: Vec<Term<usize>>, value: f64) {
+        self.lines[raw] = Some(Line { terms, value });
+    }
+
+    /// Sets x\[raw\] = value.
+    pub fn fix(&mut self, raw: usize, value: f64) {
+        self.constrain(raw, Vec::new(), value);
+    }
+
+    /// Sets x\[raw\] = x\[other\].
+    pub fn equate(&mut self, raw: usize, other: usize) {
+        self.constrain(raw, vec![Term { unknown: other, weight: 1.0 }], 0.0);
     }
 
     /// Numbers the free unknowns in the order of the raw ones and expands all constraints.
@@ -56,43 +75,44 @@ impl ConstraintBuilder {
         let unknown_of: Vec<Option<u32>> = self.lines.iter().map(number).collect();
         let mut constraints = AffineConstraints {
             offsets: vec![0],
-            entries: Vec::with_capacity(self.lines.len()),
+            terms: Vec::with_capacity(self.lines.len()),
             values: Vec::with_capacity(self.lines.len()),
             unknown_of: unknown_of.clone(),
             n_unknowns,
         };
         for raw in 0..self.lines.len() {
-            let first = constraints.entries.len();
-            let value = self.expand(raw, 1.0, &unknown_of, &mut constraints.entries, 0);
-            merge(&mut constraints.entries, first);
+            let first = constraints.terms.len();
+            let value = self.expand(raw, 1.0, &unknown_of, &mut constraints.terms, 0);
+            merge(&mut constraints.terms, first);
             constraints.values.push(value);
-            constraints.offsets.push(to_u32(constraints.entries.len()));
+            constraints.offsets.push(to_u32(constraints.terms.len()));
         }
         constraints
     }
 
-    /// Appends `weight` x\[raw\] in terms of free unknowns to `entries` and returns the value added.
+    /// Appends `weight` x\[raw\] in terms of free unknowns to `terms` and returns the value added.
     fn expand(
         &self,
         raw: usize,
         weight: f64,
         unknown_of: &[Option<u32>],
-        entries: &mut Vec<(u32, f64)>,
+        terms: &mut Vec<Term<u32>>,
         depth: usize,
     ) -> f64 {
         assert!(depth < MAX_CHAIN, "constraints of unknown {raw} refer to each other in a cycle");
         match &self.lines[raw] {
             None => {
                 let unknown = unknown_of[raw].expect("an unconstrained raw unknown is free");
-                entries.push((unknown, weight));
+                terms.push(Term { unknown, weight });
                 0.0
             }
             Some(line) => {
                 let referred: f64 = line
-                    .entries
+                    .terms
                     .iter()
-                    .map(|&(other, factor)| {
-                        self.expand(other, weight * factor, unknown_of, entries, depth + 1)
+                    .map(|other| {
+                        let weight = weight * other.weight;
+                        self.expand(other.unknown, weight, unknown_of, terms, depth + 1)
                     })
                     .sum();
                 weight * line.value + referred
@@ -101,29 +121,29 @@ impl ConstraintBuilder {
     }
 }
 
-/// Adds up the weights of unknowns that stand more than once among the entries from `first` on.
-fn merge(entries: &mut Vec<(u32, f64)>, first: usize) {
+/// Adds up the weights of unknowns that stand more than once among the terms from `first` on.
+fn merge(terms: &mut Vec<Term<u32>>, first: usize) {
     let mut end = first;
-    for next in first..entries.len() {
-        let (unknown, weight) = entries[next];
-        match entries[first..end].iter_mut().find(|(known, _)| *known == unknown) {
-            Some((_, sum)) => *sum += weight,
+    for next in first..terms.len() {
+        let term = terms[next];
+        match terms[first..end].iter_mut().find(|known| known.unknown == term.unknown) {
+            Some(known) => known.weight += term.weight,
             None => {
-                entries[end] = (unknown, weight);
+                terms[end] = term;
                 end += 1;
             }
         }
     }
-    entries.truncate(end);
+    terms.truncate(end);
 }
 
 /// x = P y + g: raw unknowns x from free unknowns y.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AffineConstraints {
-    /// Start of each row of P in `entries`, and the end of the last.
+    /// Start of each row of P in `terms`, and the end of the last.
     offsets: Vec<u32>,
-    /// Free unknown and weight of each entry of P.
-    entries: Vec<(u32, f64)>,
+    /// The entries of P, by the free unknown they multiply.
+    terms: Vec<Term<u32>>,
     /// g.
     values: Vec<f64>,
     unknown_of: Vec<Option<u32>>,
@@ -143,10 +163,10 @@ impl AffineConstraints {
         self.values.len()
     }
 
-    /// The row of P of a raw unknown: (free unknown, weight).
+    /// The row of P of a raw unknown, in terms of free unknowns.
     #[must_use]
-    pub fn row(&self, raw: usize) -> &[(u32, f64)] {
-        &self.entries[self.offsets[raw] as usize..self.offsets[raw + 1] as usize]
+    pub fn row(&self, raw: usize) -> &[Term<u32>] {
+        &self.terms[self.offsets[raw] as usize..self.offsets[raw + 1] as usize]
     }
 
     /// The entry of g of a raw unknown.
@@ -166,7 +186,7 @@ impl AffineConstraints {
     pub fn expand(&self, free: &[f64]) -> Vec<f64> {
         (0..self.n_raw())
             .map(|raw| {
-                self.row(raw).iter().fold(self.values[raw], |sum, &(unknown, weight)| {
+                self.row(raw).iter().fold(self.values[raw], |sum, &Term { unknown, weight }| {
                     sum + weight * free[unknown as usize]
                 })
             })
@@ -178,7 +198,7 @@ impl AffineConstraints {
     pub fn restrict(&self, raw_values: &[f64]) -> Vec<f64> {
         let mut restricted = vec![0.0; self.n_unknowns];
         for (raw, value) in raw_values.iter().enumerate() {
-            for &(unknown, weight) in self.row(raw) {
+            for &Term { unknown, weight } in self.row(raw) {
                 restricted[unknown as usize] += weight * value;
             }
         }
@@ -200,21 +220,25 @@ impl AffineConstraints {
 mod tests {
     use super::*;
 
+    fn terms<const N: usize>(all: [(usize, f64); N]) -> Vec<Term<usize>> {
+        all.map(|(unknown, weight)| Term { unknown, weight }).to_vec()
+    }
+
     #[test]
     fn weights_of_the_same_unknown_add_up() {
         let mut builder = ConstraintBuilder::new(3);
-        builder.constrain(0, vec![(1, 2.0), (2, 1.0)], 0.0);
-        builder.constrain(1, vec![(2, 3.0)], 0.0);
+        builder.constrain(0, terms([(1, 2.0), (2, 1.0)]), 0.0);
+        builder.constrain(1, terms([(2, 3.0)]), 0.0);
         let constraints = builder.build();
-        assert_eq!(constraints.row(0), &[(0, 7.0)]);
+        assert_eq!(constraints.row(0), &[Term { unknown: 0, weight: 7.0 }]);
     }
 
     #[test]
     fn chains_of_constraints_are_resolved_with_their_values() {
         let mut builder = ConstraintBuilder::new(4);
-        builder.constrain(0, vec![(1, 2.0)], 1.0);
-        builder.constrain(1, vec![(2, 3.0), (3, 1.0)], 0.5);
-        builder.constrain(3, vec![], 4.0);
+        builder.constrain(0, terms([(1, 2.0)]), 1.0);
+        builder.constrain(1, terms([(2, 3.0), (3, 1.0)]), 0.5);
+        builder.fix(3, 4.0);
         let constraints = builder.build();
         assert_eq!(constraints.n_unknowns(), 1);
         assert_eq!(constraints.expand(&[1.0]), vec![16.0, 7.5, 1.0, 4.0]);
@@ -226,8 +250,8 @@ mod tests {
     #[should_panic(expected = "refer to each other in a cycle")]
     fn a_cycle_of_constraints_is_refused() {
         let mut builder = ConstraintBuilder::new(2);
-        builder.constrain(0, vec![(1, 1.0)], 0.0);
-        builder.constrain(1, vec![(0, 1.0)], 0.0);
+        builder.equate(0, 1);
+        builder.equate(1, 0);
         let _ = builder.build();
     }
 }

@@ -12,6 +12,6 @@ pub use crate::multifrontal::Singular;
 pub use crate::sparse::{Pattern, SparseMatrix, Unknowns};
 pub use cell_maps::CellMaps;
 pub use cholesky::{Cholesky, CholeskyError};
-pub use constraints::{AffineConstraints, ConstraintBuilder};
+pub use constraints::{AffineConstraints, ConstraintBuilder, Term};
 pub use direct::DirectSolver;
 pub use solver::{Accuracy, LinearError, LinearSolver};

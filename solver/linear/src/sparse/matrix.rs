@@ -22,7 +22,7 @@ impl PartialEq for Revision {
 /// A square sparse matrix by compressed columns.
 #[derive(Debug)]
 pub struct SparseMatrix {
-    pattern: Pattern,
+    pattern: Arc<Pattern>,
     values: Vec<f64>,
     revision: Revision,
 }
@@ -33,14 +33,16 @@ impl SparseMatrix {
     /// # Panics
     /// When the number of values is not that of the pattern's entries.
     #[must_use]
-    pub fn new(pattern: Pattern, values: Vec<f64>) -> Self {
+    pub fn new(pattern: impl Into<Arc<Pattern>>, values: Vec<f64>) -> Self {
+        let pattern = pattern.into();
         assert_eq!(values.len(), pattern.n_entries(), "a value for each entry of the pattern");
         Self { pattern, values, revision: Revision { matrix: Arc::new(()), number: 0 } }
     }
 
     /// A matrix whose stored entries are all zero.
     #[must_use]
-    pub fn zeros(pattern: Pattern) -> Self {
+    pub fn zeros(pattern: impl Into<Arc<Pattern>>) -> Self {
+        let pattern = pattern.into();
         let values = vec![0.0; pattern.n_entries()];
         Self::new(pattern, values)
     }

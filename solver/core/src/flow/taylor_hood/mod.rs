@@ -7,6 +7,7 @@ mod plain;
 mod points;
 mod residual;
 
+use std::any::Any;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -29,8 +30,26 @@ const TETRAHEDRON: usize = Simplex::<3>::N_NODES;
 const TRIANGLE_LANES: usize = TRIANGLE.next_multiple_of(4);
 const TETRAHEDRON_LANES: usize = TETRAHEDRON.next_multiple_of(4);
 
+/// The kernel of the P2-P1 element on meshes of dimension D, 2 or 3.
+pub(super) fn quadratic_kernel<const D: usize>(
+    tables: &Tables<D>,
+    with_frame: bool,
+) -> Arc<dyn CellKernel<D>> {
+    // Stable Rust has no specialisation: the kernel of each dimension is a type of its own, found by
+    // asking at run time, once a mesh, whether D is its dimension.
+    let tables: &dyn Any = tables;
+    let kernel: Box<dyn Any> = if let Some(tables) = tables.downcast_ref::<Tables<2>>() {
+        Box::new(planar_kernel(tables, with_frame))
+    } else if let Some(tables) = tables.downcast_ref::<Tables<3>>() {
+        Box::new(spatial_kernel(tables, with_frame))
+    } else {
+        unreachable!("a mesh is planar or spatial")
+    };
+    *kernel.downcast::<Arc<dyn CellKernel<D>>>().expect("the kernel was chosen by D")
+}
+
 /// The kernel of plane and axisymmetric flow.
-pub(super) fn planar_kernel(tables: &Tables<2>, with_frame: bool) -> Arc<dyn CellKernel<2>> {
+fn planar_kernel(tables: &Tables<2>, with_frame: bool) -> Arc<dyn CellKernel<2>> {
     match tables.metric() {
         Metric::Cartesian => {
             Arc::new(TaylorHood::<2, TRIANGLE, TRIANGLE_LANES, 8, 16>::new(tables, with_frame))
@@ -43,7 +62,7 @@ pub(super) fn planar_kernel(tables: &Tables<2>, with_frame: bool) -> Arc<dyn Cel
 }
 
 /// The kernel of flow in space.
-pub(super) fn spatial_kernel(tables: &Tables<3>, with_frame: bool) -> Arc<dyn CellKernel<3>> {
+fn spatial_kernel(tables: &Tables<3>, with_frame: bool) -> Arc<dyn CellKernel<3>> {
     Arc::new(TaylorHood::<3, TETRAHEDRON, TETRAHEDRON_LANES, 16, 16>::new(tables, with_frame))
 }
 

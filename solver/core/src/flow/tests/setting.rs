@@ -1,5 +1,7 @@
 //! `Setting`: sample meshes with fields on them, whose residuals and matrices are tested.
 
+use std::sync::Arc;
+
 use alewife_mesh::{Domain, Mesh, Point, Sizing, generate};
 
 use crate::algebra::{AffineConstraints, ConstraintBuilder, Pattern};
@@ -53,7 +55,7 @@ pub struct Setting<const D: usize> {
     pub metric: Metric,
     pub layout: DofLayout<D>,
     pub constraints: AffineConstraints,
-    pub pattern: Pattern,
+    pub pattern: Arc<Pattern>,
     pub assembly: Assembly<D>,
     pub velocity: Vec<Point<D>>,
     pub pressure: Vec<f64>,
@@ -83,7 +85,7 @@ impl<const D: usize> Setting<D> {
         let layout = DofLayout::new(&mesh, 1, D * (D + 1) / 2);
         let constraints = ConstraintBuilder::new(layout.n_raw()).build();
         let frame = with_frame.then_some(0);
-        let (pattern, assembly) = Assembly::new(&mesh, layout, &constraints, metric, sides, frame);
+        let assembly = Assembly::new(&mesh, layout, &constraints, metric, sides, frame);
         let vertices = &mesh.nodes[..mesh.n_vertices];
         Self {
             velocity: field(&mesh, 0.0),
@@ -96,7 +98,7 @@ impl<const D: usize> Setting<D> {
             metric,
             layout,
             constraints,
-            pattern,
+            pattern: Arc::clone(assembly.pattern()),
             assembly,
         }
     }

@@ -2,13 +2,11 @@
 
 mod bodies;
 mod joints;
-mod sides;
 
 use alewife_mesh::{BoundaryId, BoundaryKind, Mesh};
 
 use self::bodies::rigid_body;
 use self::joints::add_joint;
-use self::sides::side;
 use super::RunError;
 use crate::body::Pose;
 use crate::case::{
@@ -27,11 +25,15 @@ pub(super) fn contact_law(contact: &ContactSpec) -> Result<Law, RunError> {
     Law::new(kind, range).map_err(|error| RunError::Unsupported(error.to_string()))
 }
 
-/// The problem of a case on its mesh.
+/// The problem of a case on its mesh, with what holds on each side of its domain by name.
 ///
 /// # Errors
 /// When the case asks for something that is not there yet.
-pub fn build_problem(model: &Model, mesh: &Mesh<2>) -> Result<Problem<2>, RunError> {
+pub(super) fn problem_with_sides<const D: usize>(
+    model: &Model,
+    mesh: &Mesh<D>,
+    side: impl Fn(&str) -> Result<Side<D>, RunError>,
+) -> Result<Problem<D>, RunError> {
     let case = &model.case;
     let metric = match case.geometry {
         Geometry::Planar => Metric::Cartesian,
@@ -47,7 +49,7 @@ pub fn build_problem(model: &Model, mesh: &Mesh<2>) -> Result<Problem<2>, RunErr
                 None
             }
             BoundaryKind::Axis => Some(Side::Symmetry { normal_axis: Metric::RADIAL }),
-            BoundaryKind::Side => Some(side(case, &known.name)?),
+            BoundaryKind::Side => Some(side(&known.name)?),
         });
     }
     let frame = model.frame_body();
@@ -91,7 +93,10 @@ fn group(case: &Case, swimmer: &SwimmerModel) -> Group {
 }
 
 /// Times at which rates of strokes and shapes jump.
-fn rate_discontinuities(model: &Model, problem: &Problem<2>) -> Option<RateDiscontinuities> {
+fn rate_discontinuities<const D: usize>(
+    model: &Model,
+    problem: &Problem<D>,
+) -> Option<RateDiscontinuities> {
     // Torques of hinges may jump: nothing moves by them at once
     let strokes: Vec<Stroke> =
         model.joints.iter().filter_map(|joint| joint.kind.stroke().cloned()).collect();
@@ -113,7 +118,7 @@ fn rate_discontinuities(model: &Model, problem: &Problem<2>) -> Option<RateDisco
 const VOLUME_TRIALS: u32 = 50;
 
 /// In an enclosed fluid bodies cannot grow or shrink together.
-fn check_volumes(case: &Case, problem: &Problem<2>) -> Result<(), RunError> {
+fn check_volumes<const D: usize>(case: &Case, problem: &Problem<D>) -> Result<(), RunError> {
     let TimeSettings::Unsteady(settings) = &case.time else { return Ok(()) };
     let is_rigid = problem.bodies.iter().all(|body| body.shape.is_none());
     if is_rigid || !problem.is_enclosed() {

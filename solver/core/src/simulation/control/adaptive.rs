@@ -5,7 +5,7 @@ use super::{NEAR, SMALLEST_PART, step_size_underflow};
 use crate::case::{Adaptive, Scheme, Unsteady};
 use crate::simulation::advance::Attempt;
 use crate::simulation::run::{Run, StepSummary};
-use crate::simulation::step::StepReport;
+use crate::simulation::stepper::StepReport;
 use crate::simulation::{RunError, StepError};
 
 /// Part of the time to the end that is rounding.
@@ -30,7 +30,7 @@ fn step_size_factor(error: f64) -> f64 {
     if error > 0.0 { (0.85 * error.powf(-1.0 / 3.0)).clamp(0.3, 1.5) } else { 1.5 }
 }
 
-impl Run<'_, 2> {
+impl<const D: usize> Run<'_, D> {
     /// Makes all steps; their number.
     pub(in crate::simulation) fn adaptive_steps(
         &mut self,

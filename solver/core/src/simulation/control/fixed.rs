@@ -7,7 +7,7 @@ use crate::coupling::BodyLoads;
 use crate::simulation::RunError;
 use crate::simulation::advance::Attempt;
 use crate::simulation::run::{Run, StepSummary};
-use crate::simulation::step::StepReport;
+use crate::simulation::stepper::StepReport;
 
 /// Growth of a step over the one before beyond which BDF2 would not be stable.
 const LARGEST_GROWTH: f64 = 2.1;
@@ -26,7 +26,7 @@ impl StepTally {
     }
 }
 
-impl Run<'_, 2> {
+impl<const D: usize> Run<'_, D> {
     /// Makes all steps; their number.
     pub(in crate::simulation) fn fixed_steps(
         &mut self,

@@ -23,7 +23,11 @@ pub(super) fn count_steps(settings: &Unsteady) -> usize {
 }
 
 /// The pieces of a step to a time (s), cut where rates of gaits jump.
-pub(super) fn pieces(settings: &Unsteady, simulation: &Simulation<2>, target: f64) -> Vec<Piece> {
+pub(super) fn pieces<const D: usize>(
+    settings: &Unsteady,
+    simulation: &Simulation<D>,
+    target: f64,
+) -> Vec<Piece> {
     let state = &simulation.state;
     let near = NEAR * settings.step;
     let jumps = simulation.problem.rate_discontinuities.as_ref();

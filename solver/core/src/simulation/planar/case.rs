@@ -5,11 +5,12 @@ use alewife_mesh::{Domain, Mesh, PlacedShape, SizeBox, Sizing};
 use super::periodic_cell::{PeriodicCell, initial_cell};
 use super::shape_motion::shape_motion;
 use crate::body::Pose;
-use crate::case::{Body, BoundaryCondition, Case, Model};
+use crate::case::{Body, BoundaryCondition, Case, MeshEquation, Model};
 use crate::coupling::{Problem, ShapeError};
 use crate::gait::WavingSheet;
-use crate::motion::Limits;
+use crate::motion::{Limits, MotionKind, Stiffening};
 use crate::simulation::RunError;
+use crate::simulation::moving_mesh::MotionSettings;
 
 /// Angle by which an outline turns along one edge at most (rad), however large its size.
 const LARGEST_TURN: f64 = 0.5;
@@ -61,6 +62,15 @@ impl PlanarCase {
             start_poses: problem.bodies.iter().map(|body| body.pose).collect(),
             sheets: sheets.collect(),
         })
+    }
+
+    /// How the mesh of the case moves.
+    pub fn motion_settings(&self, case: &Case) -> MotionSettings {
+        let kind = match case.mesh.moving.equation {
+            MeshEquation::Elastic => MotionKind::default(),
+            MeshEquation::Harmonic => MotionKind::Harmonic(Stiffening::MasudHughes),
+        };
+        MotionSettings { kind, turns: self.turns.clone() }
     }
 
     /// The sheet that a side is, if it is one.

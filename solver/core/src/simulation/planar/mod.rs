@@ -2,10 +2,14 @@
 
 mod case;
 mod periodic_cell;
+mod resume;
 mod scene;
 mod shape_motion;
+mod sides;
+mod start;
 
-pub(super) use case::{InitialMesh, PlanarCase, initial_mesh};
 pub use case::{build_mesh, sizing};
-pub(super) use scene::PlanarScene;
 pub use shape_motion::shape_motion;
+pub use sides::build_problem;
+pub use start::simulation_on;
+pub(super) use start::{Prepared, prepare};

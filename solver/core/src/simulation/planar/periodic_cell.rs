@@ -89,7 +89,7 @@ pub(super) fn initial_cell(
 fn straight(domain: &Domain, shapes: &[PlacedShape]) -> Result<Option<Domain>, MeshError> {
     let mut moved = domain.clone();
     for axis in 0..2 {
-        let Some((start, length)) = periodic_range(&moved, axis) else { continue };
+        let Some(Period { start, length }) = period(&moved, axis) else { continue };
         let (mut taken, mut smallest) = (Vec::new(), f64::INFINITY);
         for shape in shapes {
             let outline = Outline::new(shape)?;
@@ -128,12 +128,12 @@ fn straight(domain: &Domain, shapes: &[PlacedShape]) -> Result<Option<Domain>, M
 /// A domain moved back by whole periods where it has gone far.
 fn returned(mut domain: Domain, home: &Domain) -> Domain {
     for axis in 0..2 {
-        let (Some((start, length)), Some((at_first, _))) =
-            (periodic_range(&domain, axis), periodic_range(home, axis))
+        let (Some(Period { start, length }), Some(first)) =
+            (period(&domain, axis), period(home, axis))
         else {
             continue;
         };
-        let off = (start - at_first) / length;
+        let off = (start - first.start) / length;
         if off.abs() > MOST_OFF {
             shift(&mut domain, axis, -off.round() * length);
         }
@@ -141,29 +141,37 @@ fn returned(mut domain: Domain, home: &Domain) -> Domain {
     domain
 }
 
-/// Start and length of the domain along a periodic axis.
-fn periodic_range(domain: &Domain, axis: usize) -> Option<(f64, f64)> {
+/// Where a domain is along a periodic axis.
+#[derive(Debug, Clone, Copy)]
+struct Period {
+    start: f64,
+    length: f64,
+}
+
+/// The period along an axis; `None` where the domain does not repeat.
+fn period(domain: &Domain, axis: usize) -> Option<Period> {
+    let between = |start: f64, end: f64| Period { start, length: end - start };
     match (domain, axis) {
         (Domain::Box { min, max, periodic_x: true, .. }, 0)
         | (Domain::Box { min, max, periodic_y: true, .. }, 1) => {
-            Some((min[axis], max[axis] - min[axis]))
+            Some(between(min[axis], max[axis]))
         }
-        (Domain::Cylinder { x, periodic_x: true, .. }, 0) => Some((x[0], x[1] - x[0])),
+        (Domain::Cylinder { x, periodic_x: true, .. }, 0) => Some(between(x[0], x[1])),
         _ => None,
     }
 }
 
 /// Where a domain starts along its periodic directions (m), zero along others.
 pub(super) fn start_of(domain: &Domain) -> Point<2> {
-    Point::<2>::from_fn(|axis, _| periodic_range(domain, axis).map_or(0.0, |(start, _)| start))
+    Point::<2>::from_fn(|axis, _| period(domain, axis).map_or(0.0, |period| period.start))
 }
 
 /// A domain that starts elsewhere along its periodic directions.
 pub(super) fn started_at(domain: &Domain, start: &Point<2>) -> Domain {
     let mut moved = domain.clone();
     for axis in 0..2 {
-        if let Some((now, _)) = periodic_range(domain, axis) {
-            shift(&mut moved, axis, start[axis] - now);
+        if let Some(now) = period(domain, axis) {
+            shift(&mut moved, axis, start[axis] - now.start);
         }
     }
     moved
@@ -187,7 +195,7 @@ fn shift(domain: &mut Domain, axis: usize, way: f64) {
 fn into(domain: &Domain, point: &Point<2>) -> Point<2> {
     let mut shift = Point::<2>::zeros();
     for axis in 0..2 {
-        if let Some((start, length)) = periodic_range(domain, axis) {
+        if let Some(Period { start, length }) = period(domain, axis) {
             shift[axis] = -((point[axis] - start) / length).floor() * length;
         }
     }
@@ -216,7 +224,7 @@ mod tests {
 
     #[test]
     fn the_cut_of_a_periodic_domain_keeps_off_the_bodies() {
-        let range = |domain: &Domain| periodic_range(domain, 0).unwrap().0;
+        let range = |domain: &Domain| period(domain, 0).unwrap().start;
         assert_eq!(range(&straight(&strip(), &[disc(1.0, 0.0)]).unwrap().unwrap()), 0.0);
         // Half way round from a body on the cut, and from one that went round
         for x in [0.1, 2.1, -1.9, 14.1] {

@@ -4,8 +4,7 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 use alewife_mesh::{
-    BoundaryId, BoundaryKind, Domain, Mesh, NodeId, Outline, PlacedShape, Point, Shape,
-    Surroundings,
+    BoundaryId, BoundaryKind, Domain, GapQuery, Mesh, NodeId, Outline, PlacedShape, Point, Shape,
 };
 use nalgebra::Vector3;
 
@@ -32,7 +31,7 @@ pub(in crate::simulation) struct PlanarScene {
     /// Sheet of each boundary.
     sheets: Vec<Option<WavingSheet>>,
     fresh: Fresh,
-    surroundings: Surroundings,
+    surroundings: GapQuery,
     gaps: PlanarGaps,
 }
 
@@ -51,7 +50,7 @@ impl PlanarScene {
         poses: Vec<Pose>,
     ) -> Result<Self, RemeshError> {
         let sheets = mesh.boundaries.iter().map(|boundary| case.sheet(&boundary.name)).collect();
-        let surroundings = Surroundings::new(&domain, &shapes)?;
+        let surroundings = GapQuery::new(&domain, &shapes)?;
         let fresh = Fresh::new(mesh, &surroundings, case.limits);
         let walls: Vec<usize> =
             (0..domain.sides().len()).filter(|&side| domain.wall(side).is_some()).collect();

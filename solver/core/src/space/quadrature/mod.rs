@@ -1,25 +1,13 @@
 //! Quadrature rules on the reference simplex and on the unit interval.
 
+mod tabulated;
 mod tetrahedron;
 mod triangle;
 
 use nalgebra::SVector;
 
-/// Points and weights; the weights sum to the measure of the reference domain.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Rule<const D: usize> {
-    /// Points in reference coordinates.
-    pub points: Vec<SVector<f64, D>>,
-    /// Weights.
-    pub weights: Vec<f64>,
-}
-
-/// A tabulated rule: coordinates and weight of each point, the weights summing to one.
-struct Tabulated<const N: usize> {
-    /// Highest degree of polynomials it integrates exactly.
-    degree: usize,
-    points: &'static [[f64; N]],
-}
+pub use self::tabulated::Rule;
+use self::tabulated::rule_of_degree;
 
 /// A rule on the reference triangle or tetrahedron, exact for polynomials up to `degree` (at most 12
 /// and 8).
@@ -34,20 +22,6 @@ pub fn simplex_rule<const D: usize>(degree: usize) -> Rule<D> {
     match D {
         2 => rule_of_degree(&triangle::RULES, degree, 0.5),
         _ => rule_of_degree(&tetrahedron::RULES, degree, 1.0 / 6.0),
-    }
-}
-
-/// The first rule of at least a degree, its weights scaled to a measure.
-fn rule_of_degree<const D: usize, const N: usize>(
-    rules: &[Tabulated<N>],
-    degree: usize,
-    measure: f64,
-) -> Rule<D> {
-    let rule = rules.iter().find(|rule| rule.degree >= degree);
-    let rows = rule.expect("a rule of this degree is tabulated").points;
-    Rule {
-        points: rows.iter().map(|row| SVector::from_fn(|axis, _| row[axis])).collect(),
-        weights: rows.iter().map(|row| row[D] * measure).collect(),
     }
 }
 

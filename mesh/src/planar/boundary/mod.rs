@@ -1,0 +1,301 @@
+//! The boundary as closed loops of curve pieces, the fluid on their left.
+//!
+//! The outer loop runs counter-clockwise, bodies are clockwise holes. In an axisymmetric domain the
+//! outer loop follows the axis and climbs over every body on it by the upper half of its outline.
+
+use std::f64::consts::FRAC_PI_2;
+use std::sync::Arc;
+
+use crate::planar::cut::{CopyOf, Line, Path, PathPoint};
+use crate::planar::vector::cross;
+use crate::quadrature::integrate;
+use crate::{Boundary, BoundaryId, BoundaryKind, Cut, Domain, Outline, PlacedShape, Point};
+
+/// A smooth piece of the boundary with a parameter in [0, 1] in the direction of travel.
+#[derive(Debug, Clone)]
+pub struct BoundaryPiece {
+    /// Its curve.
+    pub curve: Curve,
+    /// Index of its boundary.
+    pub boundary: BoundaryId,
+    /// The piece whose discretisation it copies backwards.
+    pub copy_of: Option<CopyOf>,
+}
+
+/// The curve of a piece.
+#[derive(Debug, Clone)]
+pub enum Curve {
+    /// Straight from a to b.
+    Segment(Point<2>, Point<2>),
+    /// A quarter of outline `outline` of [`BoundaryLoops::outlines`].
+    Quarter {
+        /// Index of the outline.
+        outline: usize,
+        /// Which quarter.
+        quarter: usize,
+        /// Whether it is travelled clockwise.
+        reversed: bool,
+    },
+    /// A line through the fluid, whose edges are straight.
+    Path(Arc<Path>),
+}
+
+/// How the boundary runs at one of its points.
+#[derive(Debug, Clone, Copy)]
+pub struct Frame {
+    /// Unit normal into the fluid.
+    pub normal: Point<2>,
+    /// Radius of curvature (m), infinite when straight.
+    pub radius: f64,
+}
+
+/// All loops of the boundary.
+#[derive(Debug, Clone)]
+pub struct BoundaryLoops {
+    /// The pieces, loop after loop; within a loop each starts where the one before ends.
+    pub pieces: Vec<BoundaryPiece>,
+    /// First piece of each loop.
+    pub loops: Vec<usize>,
+    /// Outlines of the bodies, then of a round domain.
+    pub outlines: Vec<Outline>,
+    /// Sides of the domain, then bodies.
+    pub boundaries: Vec<Boundary>,
+    /// The vectors by which what it bounds repeats next to itself, zero first (m).
+    pub images: Vec<Point<2>>,
+    /// Whether periodic sides are those of the domain, not of a [`Cut`].
+    pub has_sides: bool,
+}
+
+impl BoundaryLoops {
+    /// Loops around a domain and its bodies, whose outlines are given.
+    pub fn new(domain: &Domain, bodies: &[PlacedShape], mut outlines: Vec<Outline>) -> Self {
+        let boundaries = boundaries(domain, bodies);
+        let sides = domain.sides();
+        let first_body = sides.len();
+        let mut pieces = Vec::new();
+        let mut loops = vec![0];
+        match domain {
+            Domain::Box { min, max, periodic_x, periodic_y } => {
+                let (right_min, left_max) =
+                    (Point::<2>::new(max.x, min.y), Point::<2>::new(min.x, max.y));
+                let width = Point::<2>::new(max.x - min.x, 0.0);
+                let height = Point::<2>::new(0.0, max.y - min.y);
+                let copy = |original, shift| CopyOf { original, shift };
+                // Left comes before right here, so that a copy always refers to an earlier piece
+                pieces.push(segment(left_max, *min, 0, None));
+                pieces.push(segment(*min, right_min, 2, None));
+                pieces.push(segment(right_min, *max, 1, periodic_x.then_some(copy(0, width))));
+                pieces.push(segment(*max, left_max, 3, periodic_y.then_some(copy(1, height))));
+            }
+            Domain::Disc { center, radius } => {
+                outlines.push(Outline::circle(*center, *radius));
+                for quarter in 0..4 {
+                    pieces.push(quarter_of(outlines.len() - 1, quarter, false, 0));
+                }
+            }
+            Domain::HalfDisc { center, radius } => {
+                outlines.push(Outline::circle(Point::<2>::new(*center, 0.0), *radius));
+                for quarter in 0..2 {
+                    pieces.push(quarter_of(outlines.len() - 1, quarter, false, 0));
+                }
+                let x = [center - radius, center + radius];
+                along_axis(&mut pieces, x, 1, first_body, &outlines[..bodies.len()]);
+            }
+            Domain::Cylinder { x, radius, periodic_x } => {
+                let corner = |x: f64, y: f64| Point::<2>::new(x, y);
+                let length = corner(x[1] - x[0], 0.0);
+                pieces.push(segment(corner(x[0], *radius), corner(x[0], 0.0), 0, None));
+                along_axis(&mut pieces, *x, 3, first_body, &outlines[..bodies.len()]);
+                let copy = periodic_x.then_some(CopyOf { original: 0, shift: length });
+                pieces.push(segment(corner(x[1], 0.0), corner(x[1], *radius), 1, copy));
+                pieces.push(segment(corner(x[1], *radius), corner(x[0], *radius), 2, None));
+            }
+        }
+        if !domain.is_axisymmetric() {
+            around_bodies(&mut pieces, &mut loops, bodies.len(), first_body);
+        }
+        Self { pieces, loops, outlines, boundaries, images: domain.images(), has_sides: true }
+    }
+
+    /// Loops around a periodic domain cut open and around its bodies, whose outlines are given.
+    pub fn along(
+        cut: &Cut,
+        domain: &Domain,
+        bodies: &[PlacedShape],
+        outlines: Vec<Outline>,
+    ) -> Self {
+        let mut pieces: Vec<BoundaryPiece> = Vec::new();
+        for stretch in cut.stretches() {
+            let curve = match &stretch.line {
+                Line::Straight(from, to) => Curve::Segment(*from, *to),
+                Line::Along(path) => Curve::Path(Arc::clone(path)),
+            };
+            pieces.push(BoundaryPiece { curve, boundary: stretch.side, copy_of: stretch.copy_of });
+        }
+        let mut loops = vec![0];
+        let first_body = domain.sides().len();
+        around_bodies(&mut pieces, &mut loops, bodies.len(), first_body);
+        let (boundaries, images) = (boundaries(domain, bodies), cut.images().to_vec());
+        Self { pieces, loops, outlines, boundaries, images, has_sides: false }
+    }
+
+    /// Point (m), first and second derivative of a piece.
+    pub fn evaluate(&self, piece: usize, parameter: f64) -> [Point<2>; 3] {
+        match &self.pieces[piece].curve {
+            Curve::Segment(a, b) => {
+                let point = if parameter >= 1.0 { *b } else { a + (b - a) * parameter };
+                [point, b - a, Point::<2>::zeros()]
+            }
+            Curve::Quarter { outline, quarter, reversed: false } => {
+                self.outlines[*outline].evaluate(*quarter, parameter)
+            }
+            Curve::Quarter { outline, quarter, reversed: true } => {
+                let [point, first, second] =
+                    self.outlines[*outline].evaluate(*quarter, 1.0 - parameter);
+                [point, -first, second]
+            }
+            Curve::Path(path) => {
+                let PathPoint { point, direction, .. } = path.at(parameter);
+                [point, direction * path.length(), Point::<2>::zeros()]
+            }
+        }
+    }
+
+    /// Point of a piece (m).
+    pub fn point(&self, piece: usize, parameter: f64) -> Point<2> {
+        self.evaluate(piece, parameter)[0]
+    }
+
+    /// Length of the curve between two parameters of a piece (m).
+    pub fn arc(&self, piece: usize, from: f64, to: f64) -> f64 {
+        match self.speed(piece) {
+            Some(speed) => speed * (to - from),
+            None => integrate(from, to, |t| self.evaluate(piece, t)[1].norm()),
+        }
+    }
+
+    /// Parameter between two others that cuts the arc length at a fraction, by Newton.
+    pub fn cut(&self, piece: usize, from: f64, to: f64, fraction: f64) -> f64 {
+        let mut t = from + fraction * (to - from);
+        if self.speed(piece).is_some() {
+            return t;
+        }
+        let wanted = fraction * self.arc(piece, from, to);
+        for _ in 0..20 {
+            let step = (self.arc(piece, from, t) - wanted) / self.evaluate(piece, t)[1].norm();
+            t -= step;
+            if step.abs() <= 1e-15 {
+                break;
+            }
+        }
+        t.clamp(from, to)
+    }
+
+    /// Normal and radius of curvature at a point of a piece.
+    pub fn frame(&self, piece: usize, parameter: f64) -> Frame {
+        let [_, first, second] = self.evaluate(piece, parameter);
+        let speed = first.norm();
+        let bend = cross(first, second).abs();
+        if let Curve::Path(path) = &self.pieces[piece].curve {
+            let PathPoint { direction, radius, .. } = path.at(parameter);
+            return Frame { normal: Point::<2>::new(-direction.y, direction.x), radius };
+        }
+        let normal = Point::<2>::new(-first.y, first.x) / speed;
+        Frame { normal, radius: speed.powi(3) / bend }
+    }
+
+    /// Whether the edges of a piece are straight.
+    pub fn is_straight(&self, piece: usize) -> bool {
+        matches!(self.pieces[piece].curve, Curve::Segment(..) | Curve::Path(_))
+    }
+
+    /// Whether a piece is one of a periodic pair.
+    pub fn is_periodic(&self, piece: usize) -> bool {
+        let copies = self.pieces.iter().filter_map(|p| p.copy_of);
+        self.pieces[piece].copy_of.is_some()
+            || copies.into_iter().any(|copy| copy.original == piece)
+    }
+
+    /// Length per parameter where it is constant: all but outlines that are no circles.
+    fn speed(&self, piece: usize) -> Option<f64> {
+        match &self.pieces[piece].curve {
+            Curve::Segment(a, b) => Some((b - a).norm()),
+            Curve::Quarter { outline, .. } => {
+                self.outlines[*outline].circle_radius().map(|radius| radius * FRAC_PI_2)
+            }
+            Curve::Path(path) => Some(path.length()),
+        }
+    }
+}
+
+/// The sides of a domain, then its bodies.
+fn boundaries(domain: &Domain, bodies: &[PlacedShape]) -> Vec<Boundary> {
+    let kind = |name: &str| match name {
+        "axis" => BoundaryKind::Axis,
+        _ => BoundaryKind::Side,
+    };
+    let sides = domain.sides().iter();
+    let sides = sides.map(|name| Boundary { name: (*name).to_string(), kind: kind(name) });
+    let bodies = bodies.iter().enumerate();
+    let bodies =
+        bodies.map(|(i, body)| Boundary { name: body.name.clone(), kind: BoundaryKind::Body(i) });
+    sides.chain(bodies).collect()
+}
+
+/// A clockwise loop around each body of a planar domain.
+fn around_bodies(
+    pieces: &mut Vec<BoundaryPiece>,
+    loops: &mut Vec<usize>,
+    n_bodies: usize,
+    first_body: usize,
+) {
+    for body in 0..n_bodies {
+        loops.push(pieces.len());
+        for quarter in [3, 2, 1, 0] {
+            pieces.push(quarter_of(body, quarter, true, first_body + body));
+        }
+    }
+}
+
+/// Straight piece from a to b.
+pub fn segment(
+    a: Point<2>,
+    b: Point<2>,
+    boundary: usize,
+    copy_of: Option<CopyOf>,
+) -> BoundaryPiece {
+    BoundaryPiece { curve: Curve::Segment(a, b), boundary: BoundaryId::new(boundary), copy_of }
+}
+
+/// A quarter of an outline.
+pub fn quarter_of(
+    outline: usize,
+    quarter: usize,
+    reversed: bool,
+    boundary: usize,
+) -> BoundaryPiece {
+    let curve = Curve::Quarter { outline, quarter, reversed };
+    BoundaryPiece { curve, boundary: BoundaryId::new(boundary), copy_of: None }
+}
+
+/// The axis from left to right, interrupted by the upper halves of the bodies in order of x.
+fn along_axis(
+    pieces: &mut Vec<BoundaryPiece>,
+    x: [f64; 2],
+    axis: usize,
+    first_body: usize,
+    bodies: &[Outline],
+) {
+    let pole =
+        |body: usize, quarter| Point::<2>::new(bodies[body].evaluate(quarter, 0.0)[0].x, 0.0);
+    let mut order: Vec<usize> = (0..bodies.len()).collect();
+    order.sort_by(|a, b| pole(*a, 2).x.total_cmp(&pole(*b, 2).x));
+    let mut from = Point::<2>::new(x[0], 0.0);
+    for body in order {
+        pieces.push(segment(from, pole(body, 2), axis, None));
+        pieces.push(quarter_of(body, 1, true, first_body + body));
+        pieces.push(quarter_of(body, 0, true, first_body + body));
+        from = pole(body, 0);
+    }
+    pieces.push(segment(from, Point::<2>::new(x[1], 0.0), axis, None));
+}

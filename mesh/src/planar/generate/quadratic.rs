@@ -1,0 +1,130 @@
+//! From triangles to the mesh: one node per edge, on the exact curve along the boundary.
+
+use super::edges::EdgePair;
+use super::triangulation::{Triangulation, WALL};
+use crate::curved::jacobian_coefficients;
+use crate::planar::boundary::BoundaryLoops;
+use crate::{BoundaryId, CellId, Facet, Mesh, MeshError, NodeId, PeriodicPair, Simplex};
+
+/// Mesh with quadratic geometry; `periodic` are the pairs of boundary edges.
+///
+/// # Errors
+/// [`MeshError::FoldedCell`].
+pub fn finish(
+    triangles: Triangulation,
+    border: &BoundaryLoops,
+    periodic: &[EdgePair],
+    is_curved: bool,
+) -> Result<Mesh<2>, MeshError> {
+    let n_vertices = triangles.points.len();
+    let n_cells = triangles.triangles.len();
+    let mut nodes = triangles.points.clone();
+    let unset = NodeId::from(u32::MAX);
+    let mut cells = Vec::with_capacity(Simplex::<2>::N_NODES * n_cells);
+    for corners in &triangles.triangles {
+        cells.extend(corners.map(NodeId::from));
+        cells.resize(cells.len() + Simplex::<2>::N_NODES - 3, unset);
+    }
+    // Where an inner node of a side stands in `cells`
+    let slot = |cell: usize, side: usize| {
+        Simplex::<2>::N_NODES * cell + Simplex::<2>::edge_nodes(side).start
+    };
+    let mut curved = vec![false; n_cells];
+    let no_facet = Facet { cell: CellId::default(), side: 0, boundary: BoundaryId::default() };
+    let mut facets = vec![no_facet; triangles.edges.len()];
+    for cell in 0..n_cells {
+        for side in 0..3 {
+            if cells[slot(cell, side)] != unset {
+                continue;
+            }
+            let [a, b] = Simplex::<2>::EDGES[side]
+                .map(|local| triangles.points[triangles.triangles[cell][local] as usize]);
+            let mut middle = (a + b) * 0.5;
+            let node = NodeId::new(nodes.len());
+            cells[slot(cell, side)] = node;
+            if let Some((other, other_side)) = triangles.behind((cell, side)) {
+                cells[slot(other, other_side)] = node;
+            } else {
+                let index = (triangles.across[cell][side] & !WALL) as usize;
+                let edge = triangles.edges[index];
+                let piece = edge.piece as usize;
+                facets[index] = Facet {
+                    cell: CellId::new(cell),
+                    side: side as u8,
+                    boundary: border.pieces[piece].boundary,
+                };
+                if is_curved && !border.is_straight(piece) {
+                    let [from, to] = edge.parameters;
+                    middle = border.point(piece, border.cut(piece, from, to, 0.5));
+                    curved[cell] = true;
+                }
+            }
+            nodes.push(middle);
+        }
+    }
+    let mut mesh = Mesh {
+        nodes,
+        n_vertices,
+        cells,
+        curved,
+        facets,
+        boundaries: border.boundaries.clone(),
+        periodic: Vec::new(),
+    };
+    mesh.periodic = pair_nodes(&mesh, &triangles, periodic);
+    check_curved(&mesh)?;
+    Ok(mesh)
+}
+
+/// Whether no curved cell is folded.
+fn check_curved(mesh: &Mesh<2>) -> Result<(), MeshError> {
+    for cell in mesh.cell_ids().filter(|cell| mesh.curved[*cell]) {
+        let nodes = mesh.cell_nodes(cell);
+        let lowest = jacobian_coefficients(&nodes).into_iter().fold(f64::INFINITY, f64::min);
+        if lowest <= 0.0 {
+            let center = mesh.cell_center(cell);
+            return Err(MeshError::FoldedCell {
+                cell,
+                det_jacobian: lowest,
+                x: center.x,
+                y: center.y,
+            });
+        }
+    }
+    Ok(())
+}
+
+/// Periodic pairs of nodes, chains resolved, sorted by copy.
+fn pair_nodes(
+    mesh: &Mesh<2>,
+    triangles: &Triangulation,
+    periodic: &[EdgePair],
+) -> Vec<PeriodicPair> {
+    let mut original: Vec<NodeId> = mesh.node_ids().collect();
+    let mut copies = Vec::new();
+    let nodes = |edge: u32| {
+        let edge = edge as usize;
+        let ends = triangles.edges[edge].vertices.map(NodeId::from);
+        (ends, mesh.facet_inner_nodes(&mesh.facets[edge]))
+    };
+    for pair in periodic {
+        let (([a, b], to_inner), ([c, d], from_inner)) = (nodes(pair.copy), nodes(pair.original));
+        // The copy is travelled backwards
+        let inner = to_inner.zip(from_inner.rev());
+        for (to, from) in std::iter::once((a, d)).chain(inner).chain([(b, c)]) {
+            // A corner of a doubly periodic box is a copy twice
+            if original[to] == to {
+                original[to] = from;
+                copies.push(to);
+            }
+        }
+    }
+    let root = |mut node: NodeId| {
+        while original[node] != node {
+            node = original[node];
+        }
+        node
+    };
+    copies.sort_unstable();
+    copies.into_iter().map(|copy| PeriodicPair { copy, original: root(copy) }).collect()
+}

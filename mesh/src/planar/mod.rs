@@ -1,0 +1,33 @@
+//! Everything planar by nature: shapes, outlines, domains, sizes, and meshes of triangles.
+
+mod boundary;
+mod closest;
+mod cut;
+mod domain;
+mod gap_query;
+mod generate;
+mod lattice;
+mod outline;
+mod placement;
+mod profile;
+mod shape;
+mod size_field;
+mod sizing;
+mod spline;
+mod vector;
+
+pub use closest::{
+    Closest, Wall, closest, closest_features, closest_to_wall, on_meridian, overlap, thickness,
+    wall_features,
+};
+pub use cut::Cut;
+pub use domain::Domain;
+pub use gap_query::{Facing, GapQuery};
+pub use generate::{generate, generate_along};
+pub use outline::{Nearest, Outline};
+pub use placement::{check_placement, check_wrapped_placement};
+pub use profile::{FishForm, FlagellateForm, Profile, Station};
+pub use shape::{Moments, PlacedShape, SecondMoments, Shape};
+pub use size_field::SizeField;
+pub use sizing::{SizeBox, Sizing};
+pub use spline::Spline;

@@ -1,0 +1,202 @@
+//! `ClosedSpline`: a spline as an outline, cut at its extreme points, with samples to search from.
+
+use std::sync::Arc;
+
+use super::foot::Foot;
+use crate::planar::vector::cross;
+use crate::{MeshError, Point, Spline};
+
+/// Samples between two points of the spline, to start searches from.
+const SAMPLES_PER_SPAN: usize = 12;
+
+/// A counter-clockwise spline that does not cross itself.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ClosedSpline {
+    /// The curve in the frame of the body.
+    pub spline: Arc<Spline>,
+    /// Parameters of its extreme points, and of the first one again.
+    cuts: [f64; 5],
+    /// Where searches start.
+    samples: Vec<Sample>,
+    /// Largest distance between neighbouring samples (m).
+    spacing: f64,
+}
+
+/// A point of the spline.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Sample {
+    parameter: f64,
+    point: Point<2>,
+}
+
+impl ClosedSpline {
+    /// Cuts a spline at its extreme points and refuses one that is clockwise or crosses itself.
+    pub fn new(spline: Arc<Spline>, name: &str) -> Result<Self, MeshError> {
+        let knots = spline.knots();
+        let samples: Vec<f64> = knots
+            .windows(2)
+            .flat_map(|k| {
+                let step = (k[1] - k[0]) / SAMPLES_PER_SPAN as f64;
+                (0..SAMPLES_PER_SPAN).map(move |i| k[0] + step * i as f64)
+            })
+            .collect();
+        let places: Vec<Point<2>> = samples.iter().map(|s| spline.evaluate(*s)[0]).collect();
+        let n = places.len();
+        let spacing = (0..n).map(|i| (places[(i + 1) % n] - places[i]).norm()).fold(0.0, f64::max);
+        let area: f64 = (0..n).map(|i| 0.5 * cross(places[i], places[(i + 1) % n])).sum();
+        if area <= 0.0 {
+            return Err(MeshError::Body {
+                body: name.to_string(),
+                what: "enclosed area of the spline",
+                value: area,
+                wanted: "positive: list its points counter-clockwise",
+            });
+        }
+        if let Some(at) = crossing(&places) {
+            return Err(MeshError::SelfIntersection { body: name.to_string(), x: at.x, y: at.y });
+        }
+        let directions = [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]].map(Point::<2>::from);
+        let mut cuts = [0.0; 5];
+        for (k, direction) in directions.iter().enumerate() {
+            let s = extreme(&spline, &samples, *direction);
+            // A simple counter-clockwise loop meets its extremes in this order
+            cuts[k] = if k > 0 && s < cuts[0] { s + spline.period() } else { s };
+        }
+        cuts[4] = cuts[0] + spline.period();
+        let sample = |(parameter, point)| Sample { parameter, point };
+        let samples = samples.into_iter().zip(places).map(sample).collect();
+        Ok(Self { spline, cuts, samples, spacing })
+    }
+
+    /// No point of it is farther from the origin (m).
+    pub fn reach(&self) -> f64 {
+        let farthest = self.samples.iter().map(|sample| sample.point.norm());
+        self.spacing + farthest.fold(0.0, f64::max)
+    }
+
+    /// Point (m), first and second derivative at a parameter in [0, 1] of one of the quarters.
+    pub fn evaluate(&self, quarter: usize, parameter: f64) -> [Point<2>; 3] {
+        let start = self.cuts[quarter];
+        let rate = self.cuts[quarter + 1] - start;
+        let [point, first, second] = self.spline.evaluate(start + rate * parameter);
+        [point, first * rate, second * (rate * rate)]
+    }
+
+    /// Point of the spline nearest to a point.
+    pub fn nearest(&self, point: Point<2>) -> Foot {
+        let [at, first, second] = self.spline.evaluate(self.parameter_of(point));
+        let speed = first.norm();
+        let normal = Point::<2>::new(first.y, -first.x) / speed;
+        Foot { point: at, normal, curvature: cross(first, second) / speed.powi(3) }
+    }
+
+    /// Parameter of the point of the spline nearest to a point.
+    pub fn parameter_of(&self, point: Point<2>) -> f64 {
+        let Self { spline, samples, spacing, .. } = self;
+        let n = samples.len();
+        let gaps: Vec<f64> = samples.iter().map(|sample| (sample.point - point).norm()).collect();
+        let shortest = gaps.iter().copied().fold(f64::INFINITY, f64::min);
+        let mut best = (f64::INFINITY, 0.0);
+        for i in 0..n {
+            let (before, after) = ((i + n - 1) % n, (i + 1) % n);
+            // Between samples the curve comes nearer than they by less than their spacing
+            let is_hopeless = gaps[i] > shortest + spacing;
+            if is_hopeless || gaps[i] > gaps[before] || gaps[i] > gaps[after] {
+                continue;
+            }
+            let low = samples[before].parameter - if i == 0 { spline.period() } else { 0.0 };
+            let high = samples[after].parameter + if after == 0 { spline.period() } else { 0.0 };
+            let s = foot_on_spline(spline, low, high, samples[i].parameter, point);
+            let gap = (spline.evaluate(s)[0] - point).norm();
+            if gap < best.0 {
+                best = (gap, s);
+            }
+        }
+        best.1
+    }
+}
+
+/// Root of (c(s) - x) . c'(s) between two parameters, by Newton kept inside the bracket.
+fn foot_on_spline(spline: &Spline, mut low: f64, mut high: f64, start: f64, x: Point<2>) -> f64 {
+    let mut s = start;
+    for _ in 0..60 {
+        let [at, first, second] = spline.evaluate(s);
+        let value = (at - x).dot(&first);
+        if value > 0.0 {
+            high = s;
+        } else {
+            low = s;
+        }
+        let slope = first.norm_squared() + (at - x).dot(&second);
+        let newton = s - value / slope;
+        let next =
+            if slope > 0.0 && newton > low && newton < high { newton } else { 0.5 * (low + high) };
+        if (next - s).abs() <= 1e-15 * spline.period() {
+            break;
+        }
+        s = next;
+    }
+    s
+}
+
+/// Parameter of the point of the spline farthest in a direction.
+fn extreme(spline: &Spline, samples: &[f64], direction: Point<2>) -> f64 {
+    let n = samples.len();
+    let height = |s: f64| spline.evaluate(s)[0].dot(&direction);
+    let mut top = 0;
+    for i in 1..n {
+        if height(samples[i]) > height(samples[top]) {
+            top = i;
+        }
+    }
+    let before = samples[(top + n - 1) % n];
+    let mut low = if before < samples[top] { before } else { before - spline.period() };
+    let after = samples[(top + 1) % n];
+    let mut high = if after > samples[top] { after } else { after + spline.period() };
+    let mut s = samples[top];
+    for _ in 0..100 {
+        let [_, first, second] = spline.evaluate(s);
+        let slope = first.dot(&direction);
+        if slope > 0.0 {
+            low = s;
+        } else {
+            high = s;
+        }
+        let newton = s - slope / second.dot(&direction);
+        let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
+        if (next - s).abs() <= 1e-16 * spline.period() {
+            break;
+        }
+        s = next;
+    }
+    s.rem_euclid(spline.period())
+}
+
+/// Where two sides of a closed polygon cross, if any do: a sweep along x.
+fn crossing(polygon: &[Point<2>]) -> Option<Point<2>> {
+    let n = polygon.len();
+    let side = |i: usize| (polygon[i], polygon[(i + 1) % n]);
+    let mut order: Vec<usize> = (0..n).collect();
+    let start = |i: usize| side(i).0.x.min(side(i).1.x);
+    order.sort_by(|i, j| start(*i).total_cmp(&start(*j)));
+    let mut open: Vec<usize> = Vec::new();
+    for &j in &order {
+        let (c, d) = side(j);
+        let (low, high) = (c.y.min(d.y), c.y.max(d.y));
+        open.retain(|i| side(*i).0.x.max(side(*i).1.x) >= c.x.min(d.x));
+        for &i in &open {
+            let (a, b) = side(i);
+            let are_neighbours = (i + 1) % n == j || (j + 1) % n == i;
+            if are_neighbours || low > a.y.max(b.y) || high < a.y.min(b.y) {
+                continue;
+            }
+            let (p, q) = (cross(b - a, c - a), cross(b - a, d - a));
+            let (r, s) = (cross(d - c, a - c), cross(d - c, b - c));
+            if p * q <= 0.0 && r * s <= 0.0 {
+                return Some((a + b + c + d) / 4.0);
+            }
+        }
+        open.push(j);
+    }
+    None
+}

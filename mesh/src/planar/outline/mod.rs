@@ -1,0 +1,387 @@
+//! `Outline`: the closed curve around a placed body, in four quarters cut at its extreme points.
+//!
+//! Quarter k runs counter-clockwise from the extreme point in direction k of the body frame (+x,
+//! +y, -x, -y) to the next one, with a parameter in [0, 1]. For an ellipse the parameter is the
+//! eccentric angle over π/2.
+
+mod closed_spline;
+mod ellipse;
+mod foot;
+
+use std::f64::consts::{FRAC_PI_2, TAU};
+use std::sync::Arc;
+
+use closed_spline::ClosedSpline;
+use foot::Foot;
+
+use crate::surface::{Surface, SurfacePoint};
+use crate::{MeshError, PlacedShape, Point, Shape, Spline};
+
+/// The closed curve around a body, in the world.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Outline {
+    center: Point<2>,
+    cos: f64,
+    sin: f64,
+    /// Shared by all places of the same body.
+    form: Arc<Form>,
+    /// No point of the outline is farther from the centre (m).
+    reach: f64,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+enum Form {
+    Ellipse([f64; 2]),
+    Spline(ClosedSpline),
+}
+
+/// The place of an outline nearest to a point.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Nearest {
+    /// Where on the outline (m).
+    pub point: Point<2>,
+    /// Unit normal there, out of the body.
+    pub normal: Point<2>,
+    /// Curvature there (1/m), positive where the body is convex.
+    pub curvature: f64,
+    /// Signed distance (m), negative inside the body.
+    pub gap: f64,
+}
+
+/// Pieces a quarter of an ellipse is cut into where searches start.
+const ARCS_PER_QUARTER: usize = 4;
+
+impl Outline {
+    /// Outline of a body in its place.
+    ///
+    /// # Errors
+    /// [`MeshError::Body`] when a length is not positive or a spline has no valid points,
+    /// [`MeshError::SelfIntersection`] when a spline crosses itself.
+    pub fn new(body: &PlacedShape) -> Result<Self, MeshError> {
+        let refuse =
+            |what, value, wanted| MeshError::Body { body: body.name.clone(), what, value, wanted };
+        for (what, value) in
+            [("centre x", body.center.x), ("centre y", body.center.y), ("angle", body.angle)]
+        {
+            if !value.is_finite() {
+                return Err(refuse(what, value, "finite"));
+            }
+        }
+        let (what, semi_axes) = match &body.shape {
+            Shape::Disc { radius } | Shape::Sphere { radius } => ("radius", [*radius; 2]),
+            Shape::Ellipse { semi_axes } | Shape::Spheroid { semi_axes } => {
+                ("semi_axes", *semi_axes)
+            }
+            Shape::Spline { points } => {
+                let spline = Spline::through(points).ok_or_else(|| {
+                    let wanted = "three or more, finite, no two neighbours equal";
+                    refuse("number of points", points.len() as f64, wanted)
+                })?;
+                let form = ClosedSpline::new(Arc::new(spline), &body.name)?;
+                return Ok(Self::with_form(body.center, body.angle, Form::Spline(form)));
+            }
+            Shape::Curve { spline } => {
+                let form = ClosedSpline::new(Arc::clone(spline), &body.name)?;
+                return Ok(Self::with_form(body.center, body.angle, Form::Spline(form)));
+            }
+        };
+        if let Some(value) = semi_axes.into_iter().find(|a| !(*a > 0.0 && a.is_finite())) {
+            return Err(refuse(what, value, "positive and finite"));
+        }
+        Ok(Self::with_form(body.center, body.angle, Form::Ellipse(semi_axes)))
+    }
+
+    /// Circle around a point.
+    #[must_use]
+    pub fn circle(center: Point<2>, radius: f64) -> Self {
+        Self::with_form(center, 0.0, Form::Ellipse([radius; 2]))
+    }
+
+    fn with_form(center: Point<2>, angle: f64, form: Form) -> Self {
+        let reach = match &form {
+            Form::Ellipse([a, b]) => a.max(*b),
+            Form::Spline(form) => form.reach(),
+        };
+        Self { center, cos: angle.cos(), sin: angle.sin(), form: Arc::new(form), reach }
+    }
+
+    /// The same outline with its origin at `center` (m) and turned by `angle` (rad) from its own
+    /// frame; nothing is computed anew.
+    #[must_use]
+    pub fn placed_at(&self, center: Point<2>, angle: f64) -> Self {
+        let form = Arc::clone(&self.form);
+        Self { center, cos: angle.cos(), sin: angle.sin(), form, reach: self.reach }
+    }
+
+    /// Place of the origin of the body's own frame (m).
+    #[must_use]
+    pub fn center(&self) -> Point<2> {
+        self.center
+    }
+
+    /// Radius of a circle about [`Self::center`] which holds the outline (m).
+    #[must_use]
+    pub fn reach(&self) -> f64 {
+        self.reach
+    }
+
+    /// Length of the parameter of [`Self::at`]: 2 pi for an ellipse, the last knot of a spline: the
+    /// chord length of its points (m) unless given.
+    #[must_use]
+    pub fn period(&self) -> f64 {
+        match &*self.form {
+            Form::Ellipse(_) => TAU,
+            Form::Spline(form) => form.spline.period(),
+        }
+    }
+
+    /// Point (m), first and second derivative at a parameter modulo [`Self::period`],
+    /// counter-clockwise: the eccentric angle of an ellipse (rad), the parameter of a spline.
+    #[must_use]
+    pub fn at(&self, parameter: f64) -> [Point<2>; 3] {
+        let [point, first, second] = match &*self.form {
+            Form::Ellipse([a, b]) => {
+                let (s, c) = parameter.sin_cos();
+                let point = Point::<2>::new(a * c, b * s);
+                [point, Point::<2>::new(-a * s, b * c), -point]
+            }
+            Form::Spline(form) => form.spline.evaluate(parameter),
+        };
+        [self.center + self.turn(point), self.turn(first), self.turn(second)]
+    }
+
+    /// Parameter of [`Self::at`] of the nearest place on the outline, from zero to the period: on
+    /// the outline the inverse of `at`.
+    #[must_use]
+    pub fn parameter_of(&self, point: Point<2>) -> f64 {
+        let local = self.to_local(point);
+        let parameter = match &*self.form {
+            Form::Ellipse([a, b]) => {
+                let foot = ellipse::nearest([*a, *b], local).point;
+                (foot.y / b).atan2(foot.x / a)
+            }
+            Form::Spline(form) => form.parameter_of(local),
+        };
+        let within = parameter.rem_euclid(self.period());
+        // Rounding may give the period itself
+        if within < self.period() { within } else { 0.0 }
+    }
+
+    /// Parameter of [`Self::at`] of the point of a circle in a direction of the world.
+    pub(crate) fn parameter_towards(&self, direction: Point<2>) -> f64 {
+        let (x, y) = (direction.x, direction.y);
+        let angle = (self.cos * y - self.sin * x).atan2(self.cos * x + self.sin * y);
+        if angle < 0.0 { angle + TAU } else { angle }
+    }
+
+    /// Parameters of [`Self::at`], from zero to the period, between which the outline has three
+    /// continuous derivatives and |second derivative| is largest at an end.
+    pub(crate) fn breaks(&self) -> Vec<f64> {
+        match &*self.form {
+            Form::Ellipse(_) => {
+                let n = 4 * ARCS_PER_QUARTER;
+                (0..=n).map(|i| TAU * i as f64 / n as f64).collect()
+            }
+            Form::Spline(form) => form.spline.knots().to_vec(),
+        }
+    }
+
+    /// A lower bound of the gap to a point (m), at no cost.
+    #[must_use]
+    pub fn least_gap(&self, point: Point<2>) -> f64 {
+        (point - self.center).norm() - self.reach
+    }
+
+    /// Point (m), first and second derivative at a parameter in [0, 1] of one of the quarters.
+    #[must_use]
+    pub fn evaluate(&self, quarter: usize, parameter: f64) -> [Point<2>; 3] {
+        let [point, first, second] = match &*self.form {
+            Form::Ellipse([a, b]) => {
+                let [c, s] = ellipse::cosine_and_sine(quarter, parameter);
+                let rate = FRAC_PI_2;
+                [
+                    Point::<2>::new(a * c, b * s),
+                    Point::<2>::new(-a * s, b * c) * rate,
+                    Point::<2>::new(-a * c, -b * s) * (rate * rate),
+                ]
+            }
+            Form::Spline(form) => form.evaluate(quarter, parameter),
+        };
+        [self.center + self.turn(point), self.turn(first), self.turn(second)]
+    }
+
+    /// Radius when the outline is a circle.
+    #[must_use]
+    pub fn circle_radius(&self) -> Option<f64> {
+        match &*self.form {
+            Form::Ellipse([a, b]) if a == b => Some(*a),
+            _ => None,
+        }
+    }
+
+    /// Whether the body is convex by construction (no two parts of it face each other).
+    #[must_use]
+    pub fn is_ellipse(&self) -> bool {
+        matches!(*self.form, Form::Ellipse(_))
+    }
+
+    /// Nearest place on the outline.
+    #[must_use]
+    pub fn nearest(&self, point: Point<2>) -> Nearest {
+        let local = self.to_local(point);
+        let Foot { point, normal, curvature } = match &*self.form {
+            Form::Ellipse(semi_axes) => ellipse::nearest(*semi_axes, local),
+            Form::Spline(form) => form.nearest(local),
+        };
+        let gap = (local - point).dot(&normal);
+        // The foot of the perpendicular makes the offset parallel to the normal
+        let gap = gap.signum() * (local - point).norm();
+        Nearest { point: self.center + self.turn(point), normal: self.turn(normal), curvature, gap }
+    }
+
+    /// A place of the world in the frame of the body.
+    fn to_local(&self, point: Point<2>) -> Point<2> {
+        let offset = point - self.center;
+        Point::<2>::new(
+            self.cos * offset.x + self.sin * offset.y,
+            -self.sin * offset.x + self.cos * offset.y,
+        )
+    }
+
+    fn turn(&self, v: Point<2>) -> Point<2> {
+        Point::<2>::new(self.cos * v.x - self.sin * v.y, self.sin * v.x + self.cos * v.y)
+    }
+}
+
+impl Surface<2> for Outline {
+    type Parameter = f64;
+
+    fn center(&self) -> Point<2> {
+        self.center
+    }
+
+    fn reach(&self) -> f64 {
+        self.reach
+    }
+
+    fn nearest_point(&self, point: Point<2>) -> SurfacePoint<2> {
+        let Nearest { point, normal, gap, .. } = self.nearest(point);
+        SurfacePoint { point, normal, gap }
+    }
+
+    fn parameter_of(&self, point: Point<2>) -> f64 {
+        Self::parameter_of(self, point)
+    }
+
+    fn point(&self, parameter: f64) -> SurfacePoint<2> {
+        let [point, rate, _] = self.at(parameter);
+        SurfacePoint { point, normal: Point::<2>::new(rate.y, -rate.x).normalize(), gap: 0.0 }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::planar::vector::cross;
+
+    fn ellipse(a: f64, b: f64) -> PlacedShape {
+        PlacedShape {
+            name: "body".into(),
+            shape: Shape::Ellipse { semi_axes: [a, b] },
+            center: Point::<2>::new(0.3, -0.2),
+            angle: 0.7,
+            size: None,
+        }
+    }
+
+    #[test]
+    fn the_nearest_point_of_an_ellipse_is_the_foot_of_its_normal() {
+        for (a, b) in [(2.0, 1.0), (0.5, 1.5), (1.0, 1.0), (10.0, 0.1)] {
+            let outline = Outline::new(&ellipse(a, b)).unwrap();
+            for quarter in 0..4 {
+                for i in 0..20 {
+                    let [on, first, second] = outline.evaluate(quarter, f64::from(i) / 20.0);
+                    let normal = Point::<2>::new(first.y, -first.x).normalize();
+                    let nearest = outline.nearest(on + normal * 0.37);
+                    assert!((nearest.point - on).norm() < 1e-7 * a.max(b), "{a} {b}");
+                    assert!((nearest.gap - 0.37).abs() < 1e-12, "{a} {b} {}", nearest.gap);
+                    assert!((nearest.normal - normal).norm() < 1e-6);
+                    let curvature = cross(first, second) / first.norm().powi(3);
+                    assert!((nearest.curvature / curvature - 1.0).abs() < 1e-4);
+                }
+            }
+            assert!(outline.nearest(outline.center).gap < 0.0);
+        }
+    }
+
+    /// Also next to the axes, where one coordinate is nothing but rounding.
+    #[test]
+    fn points_of_an_ellipse_have_no_gap_and_those_on_its_axes_the_right_one() {
+        for (a, b) in [(2.0, 1.0), (0.3, 0.789), (10.0, 0.1)] {
+            let outline = Outline::new(&ellipse(a, b)).unwrap();
+            for i in 0..192 {
+                let on = outline.evaluate(i / 48, (i % 48) as f64 / 48.0)[0];
+                let gap = outline.nearest(on).gap;
+                assert!(gap.abs() < 1e-14 * a.max(b), "{a} {b} {i}: {gap:e}");
+            }
+        }
+        for y in [0.0, 1e-300, 1e-20, 1e-17, 1e-12] {
+            let foot = ellipse::foot_on_ellipse(2.0, 1.0, 0.75, y);
+            // On the axis inside the centre of curvature the feet are those of a^2 x / (a^2 - b^2)
+            assert!((foot - Point::<2>::new(1.0, 0.75_f64.sqrt())).norm() < 1e-11, "{y}: {foot}");
+        }
+    }
+
+    #[test]
+    fn a_spline_is_cut_at_its_extreme_points() {
+        let points = (0..12)
+            .map(|i| std::f64::consts::TAU * f64::from(i) / 12.0 + 0.1)
+            .map(|t| [2.0 * t.cos() + 0.2 * (2.0 * t).cos(), t.sin()])
+            .collect();
+        let body = PlacedShape { shape: Shape::Spline { points }, angle: 0.0, ..ellipse(1.0, 1.0) };
+        let outline = Outline::new(&body).unwrap();
+        for (quarter, axis) in [(0, 0), (1, 1), (2, 0), (3, 1)] {
+            assert!(outline.evaluate(quarter, 0.0)[1][axis].abs() < 1e-12);
+        }
+        let nearest = outline.nearest(Point::<2>::new(5.0, 1.0));
+        let around = (0..4000).map(|i| outline.evaluate(i / 1000, (i % 1000) as f64 / 1000.0)[0]);
+        let closest = around.map(|p| (p - Point::<2>::new(5.0, 1.0)).norm()).reduce(f64::min);
+        assert!((nearest.gap - closest.unwrap()).abs() < 1e-5);
+    }
+
+    #[test]
+    fn a_figure_of_eight_is_refused() {
+        let points = vec![[2.0, -1.0], [2.0, 1.0], [-2.0, -1.5], [-2.0, 1.5]];
+        let body = PlacedShape { shape: Shape::Spline { points }, ..ellipse(1.0, 1.0) };
+        let error = Outline::new(&body).unwrap_err();
+        let clockwise_or_crossing =
+            matches!(error, MeshError::SelfIntersection { .. } | MeshError::Body { .. });
+        assert!(clockwise_or_crossing, "{error}");
+    }
+
+    #[test]
+    fn the_parameter_of_a_place_on_the_outline_gives_it_back() {
+        let fish = crate::FishForm {
+            length: 1.0,
+            head_width: 0.04,
+            tail_width: 0.01,
+            head_end: 0.04,
+            tail_start: 0.95,
+            tip_radius: 1e-3,
+            corner_radius: 0.01,
+        };
+        let spline = Arc::new(crate::Profile::fish(&fish).unwrap().spline().unwrap());
+        let fish = PlacedShape { shape: Shape::Curve { spline }, ..ellipse(1.0, 1.0) };
+        for body in [ellipse(2.0, 0.5), ellipse(0.3, 1.2), ellipse(0.7, 0.7), fish] {
+            let outline = Outline::new(&body).unwrap();
+            let period = outline.period();
+            for i in 0..1000 {
+                let wanted = period * f64::from(i) / 1000.0;
+                let found = outline.parameter_of(outline.at(wanted)[0]);
+                let off = (found - wanted).abs();
+                let off = off.min(period - off);
+                assert!(off < 1e-13 * period, "{i}: {found} for {wanted}");
+            }
+        }
+    }
+}

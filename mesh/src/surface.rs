@@ -1,0 +1,170 @@
+//! `Surface`: what is asked of the surface of a body in the plane or in space.
+
+use crate::Point;
+
+/// The point of a surface nearest to another point.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SurfacePoint<const D: usize> {
+    /// Where on the surface (m).
+    pub point: Point<D>,
+    /// Unit normal there, out of the body.
+    pub normal: Point<D>,
+    /// Signed distance (m), negative inside the body.
+    pub gap: f64,
+}
+
+/// The closed surface of a body with a pose: a curve in the plane, a surface in space.
+pub trait Surface<const D: usize> {
+    /// Coordinates on the surface, which belong to a material point.
+    type Parameter: Copy;
+
+    /// Position of the origin of the body's own frame (m).
+    fn center(&self) -> Point<D>;
+
+    /// Radius of a ball about [`Self::center`] that holds the surface (m).
+    fn reach(&self) -> f64;
+
+    /// The point of the surface nearest to another one (m).
+    fn nearest_point(&self, point: Point<D>) -> SurfacePoint<D>;
+
+    /// Coordinates of the point of the surface nearest to another one (m): on the surface the
+    /// inverse of [`Self::point`].
+    fn parameter_of(&self, point: Point<D>) -> Self::Parameter;
+
+    /// The point (m) with given coordinates, and the normal there.
+    fn point(&self, parameter: Self::Parameter) -> SurfacePoint<D>;
+
+    /// A lower bound of the gap to a point (m), at no cost.
+    fn least_gap(&self, point: Point<D>) -> f64 {
+        (point - self.center()).norm() - self.reach()
+    }
+
+    /// Whether [`Self::least_gap`] surely exceeds a bound (m), at less cost still.
+    fn is_beyond(&self, point: Point<D>, bound: f64) -> bool {
+        (point - self.center()).amax() > (bound + self.reach()) * (1.0 + 1e-9)
+    }
+}
+
+/// A surface that is near a point.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct NearSurface {
+    /// Its index.
+    pub surface: usize,
+    /// Signed gap to it (m).
+    pub gap: f64,
+}
+
+/// The nearest of several surfaces within reach of a point (m), the images of all included and the
+/// surface `but` itself left out, though not its images.
+///
+/// `images` are the vectors by which a periodic domain repeats (m), zero first.
+pub(crate) fn nearest_surface<const D: usize, S: Surface<D>>(
+    surfaces: &[S],
+    images: &[Point<D>],
+    point: Point<D>,
+    but: Option<usize>,
+    reach: f64,
+) -> Option<NearSurface> {
+    let mut nearest: Option<NearSurface> = None;
+    for (index, surface) in surfaces.iter().enumerate() {
+        for (i, shift) in images.iter().enumerate() {
+            let is_other = i > 0 || but != Some(index);
+            let bound = nearest.map_or(reach, |known| known.gap);
+            let image = point - shift;
+            if is_other && !surface.is_beyond(image, bound) && surface.least_gap(image) < bound {
+                let gap = surface.nearest_point(image).gap;
+                if gap < bound {
+                    nearest = Some(NearSurface { surface: index, gap });
+                }
+            }
+        }
+    }
+    nearest
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Outline, PlacedShape, Shape};
+
+    struct Ball {
+        center: Point<3>,
+        radius: f64,
+    }
+
+    impl Surface<3> for Ball {
+        type Parameter = [f64; 2];
+
+        fn center(&self) -> Point<3> {
+            self.center
+        }
+
+        fn reach(&self) -> f64 {
+            self.radius
+        }
+
+        fn nearest_point(&self, point: Point<3>) -> SurfacePoint<3> {
+            let normal = (point - self.center).normalize();
+            let gap = (point - self.center).norm() - self.radius;
+            SurfacePoint { point: self.center + normal * self.radius, normal, gap }
+        }
+
+        fn parameter_of(&self, point: Point<3>) -> [f64; 2] {
+            let off = point - self.center;
+            [off.y.atan2(off.x), (off.z / off.norm()).acos()]
+        }
+
+        fn point(&self, [azimuth, polar]: [f64; 2]) -> SurfacePoint<3> {
+            let [(s, c), (sin, cos)] = [azimuth, polar].map(f64::sin_cos);
+            let normal = Point::<3>::new(sin * c, sin * s, cos);
+            SurfacePoint { point: self.center + normal * self.radius, normal, gap: 0.0 }
+        }
+    }
+
+    #[test]
+    fn the_nearest_of_balls_and_their_images_is_found() {
+        let ball = |x: f64| Ball { center: Point::<3>::new(x, 0.0, 0.0), radius: 1.0 };
+        let balls = [ball(0.0), ball(4.0)];
+        let images = [0.0, 10.0, -10.0].map(|x| Point::<3>::new(x, 0.0, 0.0));
+        let find = |x: f64, but, reach| {
+            nearest_surface(&balls, &images, Point::<3>::new(x, 0.0, 0.0), but, reach)
+        };
+        assert_eq!(find(1.5, None, 9.0), Some(NearSurface { surface: 0, gap: 0.5 }));
+        assert_eq!(find(1.5, Some(0), 9.0), Some(NearSurface { surface: 1, gap: 1.5 }));
+        assert_eq!(find(1.5, Some(0), 1.0), None);
+        // The image of the first ball at 10
+        assert_eq!(find(8.0, Some(0), 9.0), Some(NearSurface { surface: 0, gap: 1.0 }));
+        assert_eq!(find(0.5, None, 9.0), Some(NearSurface { surface: 0, gap: -0.5 }));
+    }
+
+    /// Coordinates and points are inverse to each other, and normals point out of the body.
+    fn check_parameters<const D: usize, S: Surface<D>>(surface: &S, outside: &[Point<D>]) {
+        for from in outside {
+            let near = surface.nearest_point(*from);
+            let on = surface.point(surface.parameter_of(*from));
+            assert!((on.point - near.point).norm() < 1e-12 && on.gap == 0.0);
+            assert!((on.normal - near.normal).norm() < 1e-12);
+            assert!((near.point + near.normal * near.gap - from).norm() < 1e-12);
+            assert!(surface.least_gap(*from) <= near.gap);
+            assert!(!surface.is_beyond(*from, near.gap));
+            assert!(surface.is_beyond(*from, near.gap - 4.0 * surface.reach()));
+        }
+    }
+
+    #[test]
+    fn outlines_and_balls_are_surfaces() {
+        let outline = Outline::new(&PlacedShape {
+            name: "ellipse".into(),
+            shape: Shape::Ellipse { semi_axes: [2.0, 1.0] },
+            center: Point::<2>::new(0.3, -0.2),
+            angle: 0.7,
+            size: None,
+        });
+        let outline = outline.expect("an ellipse has an outline");
+        let points = [[5.0, 1.0], [-3.0, 2.0], [0.1, -4.0]].map(Point::<2>::from);
+        check_parameters(&outline, &points);
+        let ball = Ball { center: Point::<3>::new(0.1, 0.2, 0.3), radius: 0.5 };
+        let points = [[1.0, 2.0, 0.5], [-1.0, 0.4, -2.0]].map(Point::<3>::from);
+        check_parameters(&ball, &points);
+    }
+}

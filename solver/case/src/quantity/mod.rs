@@ -1,0 +1,181 @@
+//! `Quantity`: what a run measures; names, columns, references and the user's page follow from it.
+//!
+//! A new quantity is one row of `table.rs` and one arm of its `match` in the measurements of a run.
+
+mod row;
+mod table;
+
+use super::{JointKind, Model, TimeSettings};
+
+use self::row::Circumstances;
+pub use self::row::{Quantity, When};
+pub use self::table::{BodyQuantity, FlowQuantity, JointQuantity, ProbeQuantity, SwimmerQuantity};
+
+/// A column of `series.csv`: which quantity, and of what.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Source {
+    /// Of a body, by its number in [`Model::bodies`].
+    Body(usize, BodyQuantity),
+    /// Of a joint, counted in the order of the bodies that are their children.
+    Joint(usize, JointQuantity),
+    /// Of a swimmer, by its number in [`Model::swimmers`].
+    Swimmer(usize, SwimmerQuantity),
+    /// Of a probe, by its number in [`Case::probe`](crate::Case::probe).
+    Probe(usize, ProbeQuantity),
+    /// Of the flow.
+    Flow(FlowQuantity),
+}
+
+/// A named column of `series.csv`.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Column {
+    /// Name, such as `cylinder.force.x`.
+    pub name: String,
+    /// Whose quantity it is, and which.
+    pub source: Source,
+}
+
+/// The columns of `series.csv` after `time`.
+#[must_use]
+pub fn columns(model: &Model) -> Vec<Column> {
+    let case = &model.case;
+    let of_case = Circumstances {
+        has_coefficients: case.has_coefficients(),
+        has_contact: case.contact.is_some(),
+        balances_energy: model.balances_energy(),
+        mesh_moves: model.mesh_moves(),
+        ..Circumstances::default()
+    };
+    let mut columns = Vec::new();
+    for (nth, body) in model.bodies.iter().enumerate() {
+        let source = |quantity| Source::Body(nth, quantity);
+        add(&mut columns, &body.name, BodyQuantity::TABLE, &of_case, source);
+    }
+    let joints = model.bodies.iter().enumerate().filter_map(|(index, child)| {
+        let joint = model.joint_above(index)?;
+        Some((child, matches!(model.joints[joint].kind, JointKind::Arm { .. })))
+    });
+    for (nth, (child, is_arm)) in joints.enumerate() {
+        let source = |quantity| Source::Joint(nth, quantity);
+        let known = Circumstances { is_arm, ..of_case.clone() };
+        add(&mut columns, &child.name, JointQuantity::TABLE, &known, source);
+    }
+    let is_unsteady = matches!(case.time, TimeSettings::Unsteady(_));
+    for (nth, swimmer) in model.swimmers.iter().enumerate() {
+        let source = |quantity| Source::Swimmer(nth, quantity);
+        let known = Circumstances {
+            has_several_bodies: swimmer.bodies.len() > 1,
+            has_cycles: swimmer.period.is_some() && is_unsteady,
+            has_resistance: swimmer.resistance.is_some(),
+            ..of_case.clone()
+        };
+        add(&mut columns, &swimmer.name, SwimmerQuantity::TABLE, &known, source);
+    }
+    for (nth, probe) in case.probe.iter().enumerate() {
+        let source = |quantity| Source::Probe(nth, quantity);
+        add(&mut columns, &probe.name, ProbeQuantity::TABLE, &of_case, source);
+    }
+    add(&mut columns, "flow", FlowQuantity::TABLE, &of_case, Source::Flow);
+    columns
+}
+
+/// Adds those quantities of an owner that exist.
+fn add<T: Copy>(
+    columns: &mut Vec<Column>,
+    owner: &str,
+    table: &[Quantity<T>],
+    known: &Circumstances,
+    source: impl Fn(T) -> Source,
+) {
+    columns.extend(
+        table
+            .iter()
+            .filter(|row| row.when.holds(known))
+            .map(|row| Column { name: format!("{owner}.{}", row.name), source: source(row.id) }),
+    );
+}
+
+/// Names of all quantities of a run: the columns of `series.csv` after `time`.
+#[must_use]
+pub fn known_quantities(model: &Model) -> Vec<String> {
+    columns(model).into_iter().map(|column| column.name).collect()
+}
+
+/// The conditions under which quantities of a name exist, whatever the case.
+pub(crate) fn conditions_of(name: &str) -> Vec<When> {
+    fn of<T>(table: &[Quantity<T>], name: &str) -> Vec<When> {
+        let is_it = |row: &&Quantity<T>| name.ends_with(&format!(".{}", row.name));
+        table.iter().filter(is_it).map(|row| row.when).collect()
+    }
+    let mut found = of(BodyQuantity::TABLE, name);
+    found.extend(of(SwimmerQuantity::TABLE, name));
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Case;
+
+    fn names(setting: &[&str]) -> Vec<String> {
+        let text = r#"
+            title = "all quantities"
+            geometry = "planar"
+            fluid = { model = "stokes", viscosity = 1.0, density = 1.0 }
+            domain.box = { min = [-4.0, -4.0], max = [4.0, 4.0] }
+            boundary = { left = "no-slip", right = "no-slip", bottom = "no-slip", top = "no-slip" }
+            mesh = { size = 0.5 }
+            time.unsteady = { step = 0.1, end = 1.0 }
+            probe = [{ name = "point", point = [1.0, 1.0] }]
+            [[swimmer]]
+            name = "pair"
+            center = [0.0, 0.0]
+            resistance = 2.0
+            [swimmer.kind.linked-spheres]
+            radii = [0.2, 0.2]
+            arms = [{ sine = { mean = 1.0, amplitude = 0.2, period = 1.0 } }]
+        "#;
+        let settings: Vec<String> = setting.iter().map(|&setting| setting.to_owned()).collect();
+        known_quantities(&Case::parse("all.toml", text, &settings).unwrap().model)
+    }
+
+    #[test]
+    fn columns_are_named_and_ordered_as_before() {
+        let body = "x y angle velocity.x velocity.y angular_velocity acceleration.x \
+                    acceleration.y force.x force.y torque surface_force.x surface_force.y \
+                    surface_torque power";
+        let of = |owner: &str, names: &str| -> Vec<String> {
+            names.split_whitespace().map(|name| format!("{owner}.{name}")).collect()
+        };
+        let arm = "joint.length joint.rate joint.force joint.power";
+        let group = "x y angle velocity.x velocity.y angular_velocity force.x force.y torque power \
+                     shape_power spent_power thrust drag";
+        let cycle = "cycle.x cycle.y cycle.angle cycle.speed cycle.power cycle.cost_of_transport \
+                     cycle.efficiency cycle.drift cycle.lighthill_efficiency";
+        let flow = "dissipation kinetic_energy mass_defect energy_defect";
+        let expected = [
+            of("pair-1", body),
+            of("pair-2", body),
+            of("pair-2", arm),
+            of("pair", group),
+            of("pair", cycle),
+            of("point", "velocity.x velocity.y pressure"),
+            of("flow", flow),
+            of("flow", "least_gap cells remeshes"),
+        ];
+        assert_eq!(names(&[]), expected.concat());
+
+        let coefficients = "drag_coefficient lift_coefficient moment_coefficient";
+        let contact = "contact_force.x contact_force.y contact_torque";
+        let loaded = names(&[
+            "scales={ length=1.0, velocity=1.0 }",
+            "contact.barrier={ range=0.1, stiffness=1.0 }",
+        ]);
+        let expected = [of("pair-1", body), of("pair-1", coefficients), of("pair-1", contact)];
+        assert_eq!(loaded[..21], expected.concat());
+
+        let steady = names(&["time.steady={}"]);
+        assert!(!steady.iter().any(|name| name.contains(".cycle.") || name.contains("least_gap")));
+        assert!(steady.contains(&"pair.lighthill_efficiency".to_owned()), "{steady:?}");
+    }
+}

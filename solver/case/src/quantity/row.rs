@@ -1,0 +1,92 @@
+//! `Quantity`: a row of a table of quantities; `When`: in which cases one exists.
+
+/// A row of a table of quantities.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Quantity<T> {
+    /// Which one it is.
+    pub id: T,
+    /// Name after that of its owner, such as `force.x`.
+    pub name: &'static str,
+    /// Unit; that of planar cases in parentheses where it differs.
+    pub unit: &'static str,
+    /// When it exists.
+    pub when: When,
+    /// What it is.
+    pub meaning: &'static str,
+}
+
+/// When a quantity exists.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum When {
+    /// In all cases.
+    Always,
+    /// There are `[scales]` and a density, so that coefficients can be formed.
+    Scales,
+    /// There is `[contact]`.
+    Contact,
+    /// The joint is a pivot.
+    Pivot,
+    /// The joint is an arm.
+    Arm,
+    /// The swimmer has more than one body.
+    SeveralBodies,
+    /// The swimmer has a period, and the run is unsteady.
+    Cycles,
+    /// The same, and its resistance is known.
+    TowedCycles,
+    /// Its resistance is known, but it has no cycles.
+    TowedWithoutCycles,
+    /// All work on the fluid is that of bodies.
+    IdleSides,
+    /// The mesh moves.
+    MovingMesh,
+}
+
+impl When {
+    /// The same in words, for a table; empty for quantities of all cases.
+    #[must_use]
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::Always => "",
+            Self::Scales => "`scales`",
+            Self::Contact => "[`contact`](#contact)",
+            Self::Pivot => "pivots (`bent`, `hinge`)",
+            Self::Arm => "`arm`",
+            Self::SeveralBodies => "several bodies",
+            Self::Cycles => "a period",
+            Self::TowedCycles => "a period and `resistance`",
+            Self::TowedWithoutCycles => "`resistance`, no period",
+            Self::IdleSides => "bodies, and sides that do no work",
+            Self::MovingMesh => "a moving mesh",
+        }
+    }
+
+    pub(super) fn holds(self, known: &Circumstances) -> bool {
+        match self {
+            Self::Always => true,
+            Self::Scales => known.has_coefficients,
+            Self::Contact => known.has_contact,
+            Self::Pivot => !known.is_arm,
+            Self::Arm => known.is_arm,
+            Self::SeveralBodies => known.has_several_bodies,
+            Self::Cycles => known.has_cycles,
+            Self::TowedCycles => known.has_cycles && known.has_resistance,
+            Self::TowedWithoutCycles => !known.has_cycles && known.has_resistance,
+            Self::IdleSides => known.balances_energy,
+            Self::MovingMesh => known.mesh_moves,
+        }
+    }
+}
+
+/// What decides which quantities the case, a joint or a swimmer has.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Circumstances {
+    pub has_coefficients: bool,
+    pub has_contact: bool,
+    pub is_arm: bool,
+    pub has_several_bodies: bool,
+    pub has_cycles: bool,
+    pub has_resistance: bool,
+    pub balances_energy: bool,
+    pub mesh_moves: bool,
+}

@@ -1,0 +1,126 @@
+//! The quantities of bodies and of the joints they hang by.
+
+use crate::body::{Twist, Wrench, on_mesh};
+use crate::case::{BodyQuantity, Case, Geometry, JointQuantity};
+use crate::coupling::{
+    BodyLoads, BodyShapes, BodyStates, JointReport, Problem, RigidBody, joint_reports,
+};
+use crate::simulation::RunError;
+use crate::simulation::advance::Simulation;
+use crate::simulation::snapshot::BodyReport;
+use crate::simulation::state::State;
+
+/// Factors that make coefficients of loads; not numbers without `[scales]`.
+pub(super) struct Coefficients {
+    /// Coefficient per force (1/N).
+    force: f64,
+    /// Coefficient per torque (1/(N m)).
+    moment: f64,
+}
+
+impl Coefficients {
+    /// c = 2 F / (rho U^2 A) and the same with a length for torques.
+    pub(super) fn of(case: &Case) -> Self {
+        let Some(scales) = case.scales.filter(|_| case.has_coefficients()) else {
+            return Self { force: f64::NAN, moment: f64::NAN };
+        };
+        let area = scales.area.unwrap_or(match case.geometry {
+            Geometry::Planar => scales.length,
+            Geometry::Axisymmetric => std::f64::consts::PI * scales.length.powi(2) / 4.0,
+        });
+        let force = 2.0 / (case.fluid.density * scales.velocity.powi(2) * area);
+        Self { force, moment: force / scales.length }
+    }
+}
+
+/// A body as it moves, with its loads.
+pub(super) struct BodyMotion<'a> {
+    pub report: &'a BodyReport,
+    /// Angle over all turns (rad).
+    pub angle: f64,
+    pub acceleration: &'a Twist,
+    pub coefficients: &'a Coefficients,
+}
+
+impl BodyMotion<'_> {
+    pub(super) fn value(&self, quantity: BodyQuantity) -> f64 {
+        let BodyReport { pose, twist, load, surface_load, contact, power, .. } = self.report;
+        match quantity {
+            BodyQuantity::X => pose.center.x,
+            BodyQuantity::Y => pose.center.y,
+            BodyQuantity::Angle => self.angle,
+            BodyQuantity::VelocityX => twist.linear.x,
+            BodyQuantity::VelocityY => twist.linear.y,
+            BodyQuantity::AngularVelocity => twist.angular.z,
+            BodyQuantity::AccelerationX => self.acceleration.linear.x,
+            BodyQuantity::AccelerationY => self.acceleration.linear.y,
+            BodyQuantity::ForceX => load.force.x,
+            BodyQuantity::ForceY => load.force.y,
+            BodyQuantity::Torque => load.torque.z,
+            BodyQuantity::SurfaceForceX => surface_load.force.x,
+            BodyQuantity::SurfaceForceY => surface_load.force.y,
+            BodyQuantity::SurfaceTorque => surface_load.torque.z,
+            BodyQuantity::Power => *power,
+            BodyQuantity::DragCoefficient => load.force.x * self.coefficients.force,
+            BodyQuantity::LiftCoefficient => load.force.y * self.coefficients.force,
+            BodyQuantity::MomentCoefficient => load.torque.z * self.coefficients.moment,
+            BodyQuantity::ContactForceX => contact.force.x,
+            BodyQuantity::ContactForceY => contact.force.y,
+            BodyQuantity::ContactTorque => contact.torque.z,
+        }
+    }
+}
+
+pub(super) fn joint_value(joint: &JointReport, quantity: JointQuantity) -> f64 {
+    match quantity {
+        JointQuantity::Angle | JointQuantity::Length => joint.coordinate,
+        JointQuantity::Rate => joint.rate,
+        JointQuantity::Torque | JointQuantity::Force => joint.load,
+        JointQuantity::Power => joint.power(),
+    }
+}
+
+/// Reports of all bodies.
+pub(super) fn body_reports<const D: usize>(
+    simulation: &Simulation<D>,
+    loads: &[BodyLoads],
+) -> Vec<BodyReport> {
+    let Simulation { problem, state, work, .. } = simulation;
+    let stress = work.system.surface_stress(problem, &state.mesh, &state.now);
+    let in_mesh = state.in_mesh(&state.poses);
+    let report = |(body, rigid): (usize, &RigidBody)| BodyReport {
+        name: rigid.name.clone(),
+        pose: state.poses[body],
+        twist: state.now.twists[body],
+        load: loads[body].load,
+        surface_load: stress.load(rigid.boundary, problem.metric, &on_mesh(&in_mesh[body].center)),
+        contact: state.contact.wrenches[body],
+        power: loads[body].power,
+    };
+    problem.bodies.iter().enumerate().map(report).collect()
+}
+
+/// The joints of all bodies, in the order of their children.
+///
+/// # Errors
+/// When a gait fails.
+pub(super) fn measure_joints<const D: usize>(
+    problem: &Problem<D>,
+    state: &State<D>,
+    loads: &[BodyLoads],
+) -> Result<Vec<JointReport>, RunError> {
+    if !problem.has_joints() {
+        return Ok(Vec::new());
+    }
+    let contact = &state.contact.wrenches;
+    let loads: Vec<Wrench> =
+        loads.iter().zip(contact).map(|(fluid, contact)| fluid.load + *contact).collect();
+    let now = BodyStates {
+        shapes: &BodyShapes::at(&problem.bodies, state.time)?,
+        poses: &state.poses,
+        twists: &state.now.twists,
+        accelerations: &state.accelerations,
+        loads: &loads,
+    };
+    Ok(joint_reports(problem, &now))
+}

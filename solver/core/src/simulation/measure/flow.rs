@@ -1,0 +1,86 @@
+//! The quantities of the flow: its integrals, its energy balance, and the mesh it is computed on.
+
+use alewife_mesh::Point;
+use nalgebra::SMatrix;
+
+use crate::case::FlowQuantity;
+use crate::coupling::{BodyLoads, Problem};
+use crate::simulation::energy::EnergyRecord;
+use crate::simulation::state::State;
+use crate::space::{CellValues, Tables};
+
+/// The whole flow at one time.
+pub(super) struct FlowMeasurement {
+    /// Dissipation int 2 mu D : D (W).
+    dissipation: f64,
+    /// Kinetic energy int rho u^2 / 2 (J).
+    kinetic_energy: f64,
+    /// int div u (m3/s).
+    mass_defect: f64,
+    /// Defect of the energy balance over the work; not a number where sides do work, too.
+    pub energy_defect: f64,
+    /// Smallest gap between bodies and walls (m).
+    minimum_gap: f64,
+    cells: usize,
+    remeshes: usize,
+}
+
+impl FlowMeasurement {
+    pub(super) fn new<const D: usize>(
+        tables: &Tables<D>,
+        problem: &Problem<D>,
+        state: &State<D>,
+    ) -> Self {
+        let mut sums = Self {
+            dissipation: 0.0,
+            kinetic_energy: 0.0,
+            mass_defect: 0.0,
+            energy_defect: f64::NAN,
+            minimum_gap: state.contact.minimum_gap.map_or(f64::INFINITY, |minimum| minimum.gap),
+            cells: state.mesh.n_cells(),
+            remeshes: state.remeshes,
+        };
+        let mut workspace = CellValues::default();
+        for cell in state.mesh.cell_ids() {
+            let nodes = state.mesh.cell(cell);
+            workspace.for_each_point(tables, &state.mesh, cell, |at| {
+                let mut velocity = Point::<D>::zeros();
+                let mut gradient = SMatrix::<f64, D, D>::zeros();
+                for (a, &node) in nodes.iter().enumerate() {
+                    let nodal = &state.now.velocity[node];
+                    velocity += nodal * at.phi[a];
+                    gradient += nodal * at.grad_phi[a].transpose();
+                }
+                let rate = (gradient + gradient.transpose()) / 2.0;
+                let stretch = problem.metric.hoop_strain(&velocity, &at.position);
+                sums.dissipation +=
+                    2.0 * problem.viscosity * (rate.norm_squared() + stretch * stretch) * at.dx;
+                sums.kinetic_energy += problem.density * velocity.norm_squared() / 2.0 * at.dx;
+                sums.mass_defect += (gradient.trace() + stretch) * at.dx;
+            });
+        }
+        sums
+    }
+
+    /// What the energy balance records at a time (s).
+    pub(super) fn energy_record(&self, time: f64, loads: &[BodyLoads]) -> EnergyRecord {
+        EnergyRecord {
+            time,
+            power: loads.iter().map(|load| load.power).sum(),
+            dissipation: self.dissipation,
+            kinetic_energy: self.kinetic_energy,
+        }
+    }
+
+    pub(super) fn value(&self, quantity: FlowQuantity) -> f64 {
+        match quantity {
+            FlowQuantity::Dissipation => self.dissipation,
+            FlowQuantity::KineticEnergy => self.kinetic_energy,
+            FlowQuantity::MassDefect => self.mass_defect,
+            FlowQuantity::EnergyDefect => self.energy_defect,
+            FlowQuantity::MinimumGap => self.minimum_gap,
+            FlowQuantity::Cells => self.cells as f64,
+            FlowQuantity::Remeshes => self.remeshes as f64,
+        }
+    }
+}

@@ -1,0 +1,228 @@
+//! `SavedState`: a state as it is written to a file, for a run that resumes from it.
+
+mod error;
+mod level;
+mod mesh;
+
+use alewife_mesh::{Boundary, Mesh, Point};
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+pub use self::error::ResumeError;
+use self::error::VERSION;
+use self::level::{SavedContact, SavedLevel};
+use self::mesh::SavedMesh;
+use super::RunError;
+use super::advance::Simulation;
+use super::energy::EnergyBalance;
+use super::moving_mesh::MovingMesh;
+use super::propulsion_history::PropulsionHistory;
+use super::state::State;
+use crate::body::{Pose, Twist, on_mesh};
+use crate::coupling::{FluidSystem, Problem};
+
+/// Distance over the size of its coordinates by which a body may be elsewhere when a run resumes.
+const JUMP: f64 = 1e-9;
+
+/// Everything that evolves, as plain numbers in the case's units.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct SavedState<const D: usize> {
+    version: u32,
+    /// Names of the bodies, which must be those of the case that resumes.
+    bodies: Vec<String>,
+    /// Steps made.
+    pub step: usize,
+    /// Time (s).
+    pub time: f64,
+    last_step: f64,
+    proposed_step: Option<f64>,
+    start_pieces: Vec<f64>,
+    remeshes: usize,
+    mesh: SavedMesh,
+    origin: Vector3<f64>,
+    nodes: Vec<Point<D>>,
+    nodes_before: Vec<Point<D>>,
+    now: SavedLevel<D>,
+    previous: SavedLevel<D>,
+    rates: Vec<Point<D>>,
+    accelerations: Vec<Twist>,
+    poses: Vec<Pose>,
+    previous_poses: Vec<Pose>,
+    image_shifts: Vec<Vector3<f64>>,
+    top_speed: f64,
+    contact: SavedContact,
+    propulsion: Vec<PropulsionHistory>,
+    energy: EnergyBalance,
+    reference: Option<SavedReference<D>>,
+}
+
+/// The reference mesh, and where the bodies were then.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(in crate::simulation) struct SavedReference<const D: usize> {
+    /// Positions of its nodes (m).
+    pub nodes: Vec<Point<D>>,
+    /// Poses of the bodies.
+    pub poses: Vec<Pose>,
+    /// When it was generated (s).
+    pub time: f64,
+    /// Start of the domain along its periodic directions.
+    pub domain_start: Point<D>,
+}
+
+/// The reference mesh of a saved state.
+pub(super) struct Reference<'a, const D: usize> {
+    /// What was saved of it.
+    pub saved: &'a SavedReference<D>,
+    /// The mesh.
+    pub mesh: Mesh<D>,
+}
+
+impl<const D: usize> SavedState<D> {
+    /// What is written of a state.
+    #[must_use]
+    pub(super) fn of(
+        problem: &Problem<D>,
+        state: &State<D>,
+        moving: Option<&MovingMesh<D>>,
+    ) -> Self {
+        Self {
+            version: VERSION,
+            bodies: names(problem),
+            step: state.step,
+            time: state.time,
+            last_step: state.last_step,
+            proposed_step: state.proposed_step,
+            start_pieces: state.start_pieces.clone(),
+            remeshes: state.remeshes,
+            mesh: SavedMesh::of(&state.mesh),
+            origin: state.origin,
+            nodes: state.nodes.clone(),
+            nodes_before: state.nodes_before.clone(),
+            now: SavedLevel::of(&state.now),
+            previous: SavedLevel::of(&state.previous),
+            rates: state.rates.clone(),
+            accelerations: state.accelerations.clone(),
+            poses: state.poses.clone(),
+            previous_poses: state.previous_poses.clone(),
+            image_shifts: state.image_shifts.clone(),
+            top_speed: state.top_speed,
+            contact: SavedContact::of(&state.contact),
+            propulsion: state.propulsion.clone(),
+            energy: state.energy,
+            reference: moving.map(|moving| SavedReference {
+                nodes: moving.reference().to_vec(),
+                poses: moving.reference_poses().to_vec(),
+                time: moving.reference_time(),
+                domain_start: moving.scene().domain_start(),
+            }),
+        }
+    }
+
+    /// Puts a simulation of a case with the same bodies where this state is; `follow` makes what moves
+    /// the mesh from the reference mesh, where it moves.
+    ///
+    /// # Errors
+    /// When the state is not one of such a case.
+    pub(super) fn restore_into(
+        &self,
+        simulation: &mut Simulation<D>,
+        follow: impl FnOnce(&Problem<D>, &Reference<'_, D>) -> Result<MovingMesh<D>, RunError>,
+    ) -> Result<(), RunError> {
+        let problem = &simulation.problem;
+        let boundaries = simulation.state.mesh.boundaries.clone();
+        self.check(problem, boundaries.len())?;
+        let state = self.state(&boundaries);
+        simulation.moving_mesh = match (&self.reference, &simulation.moving_mesh) {
+            (Some(saved), Some(_)) => {
+                let mesh = self.mesh.with_nodes(saved.nodes.clone(), &boundaries);
+                Some(follow(problem, &Reference { saved, mesh })?)
+            }
+            (None, None) => None,
+            _ => return Err(ResumeError::MeshMotion.into()),
+        };
+        let poses = state.in_mesh(&state.poses);
+        let unknown_frame = simulation.scheme.unknown_frame;
+        simulation.work.system = FluidSystem::new(problem, &state.mesh, &poses, unknown_frame);
+        simulation.work.mesh = state.mesh.clone();
+        (simulation.state, simulation.is_fresh) = (state, false);
+        Ok(())
+    }
+
+    /// Whether the parts of the state fit together and to a problem.
+    fn check(&self, problem: &Problem<D>, n_boundaries: usize) -> Result<(), ResumeError> {
+        if self.version != VERSION {
+            return Err(ResumeError::Version { found: self.version });
+        }
+        let case = names(problem);
+        if self.bodies != case {
+            return Err(ResumeError::Bodies { state: self.bodies.clone(), case });
+        }
+        let (n_nodes, n_bodies) = (self.nodes.len(), case.len());
+        let levels = [&self.now, &self.previous];
+        let n_vertices = self.mesh.n_vertices;
+        let fits = self.mesh.is_consistent::<D>(n_nodes, n_boundaries)
+            && [&self.nodes_before, &self.rates].iter().all(|values| values.len() == n_nodes)
+            && levels.iter().all(|level| level.is_consistent(n_nodes, n_vertices, n_bodies))
+            && [&self.poses, &self.previous_poses].iter().all(|poses| poses.len() == n_bodies)
+            && self.accelerations.len() == n_bodies
+            && self.image_shifts.len() == n_bodies
+            && self.contact.wrenches.len() == n_bodies
+            && self.propulsion.len() == problem.groups.len()
+            && self.reference.as_ref().is_none_or(|reference| {
+                reference.nodes.len() == n_nodes && reference.poses.len() == n_bodies
+            });
+        if !fits {
+            return Err(ResumeError::Inconsistent);
+        }
+        self.check_joints(problem)
+    }
+
+    /// Whether the joints of the case leave the bodies where they are.
+    fn check_joints(&self, problem: &Problem<D>) -> Result<(), ResumeError> {
+        let mut put = self.poses.clone();
+        problem.apply_joints(&mut put, self.time);
+        for (body, (left, put)) in problem.bodies.iter().zip(self.poses.iter().zip(&put)) {
+            let numbers = |pose: &Pose| [pose.center.x, pose.center.y, pose.angle()];
+            let (was, is) = (numbers(left), numbers(put));
+            let size = was.iter().chain(&is).fold(0.0f64, |most, value| most.max(value.abs()));
+            if was.iter().zip(is).any(|(was, is)| (was - is).abs() > JUMP * size) {
+                let body = body.name.clone();
+                let (left, put) = (Box::new(*left), Box::new(*put));
+                return Err(ResumeError::Joint { body, left, put });
+            }
+        }
+        Ok(())
+    }
+
+    fn state(&self, boundaries: &[Boundary]) -> State<D> {
+        let origin = on_mesh::<D>(&self.origin);
+        let in_laboratory = self.nodes.iter().map(|node| node + origin).collect();
+        State {
+            step: self.step,
+            time: self.time,
+            last_step: self.last_step,
+            proposed_step: self.proposed_step,
+            start_pieces: self.start_pieces.clone(),
+            remeshes: self.remeshes,
+            mesh: self.mesh.with_nodes(in_laboratory, boundaries),
+            origin: self.origin,
+            nodes: self.nodes.clone(),
+            nodes_before: self.nodes_before.clone(),
+            now: self.now.solution(),
+            previous: self.previous.solution(),
+            poses: self.poses.clone(),
+            previous_poses: self.previous_poses.clone(),
+            image_shifts: self.image_shifts.clone(),
+            rates: self.rates.clone(),
+            accelerations: self.accelerations.clone(),
+            top_speed: self.top_speed,
+            contact: self.contact.loads(),
+            propulsion: self.propulsion.clone(),
+            energy: self.energy,
+        }
+    }
+}
+
+fn names<const D: usize>(problem: &Problem<D>) -> Vec<String> {
+    problem.bodies.iter().map(|body| body.name.clone()).collect()
+}

@@ -1,0 +1,61 @@
+//! `TimeStepper`: what makes steps; what a step starts from, works with and leaves.
+
+use super::mesh_path::MeshPath;
+use super::state::{NewLevel, State};
+use crate::case::Convection;
+use crate::contact::Law;
+use crate::coupling::{BodyLoads, Problem};
+use crate::time::Bdf;
+
+/// What stays the same from step to step while the mesh lasts.
+#[derive(Clone, Copy)]
+pub struct TimeStepper<'a, const D: usize> {
+    /// What is solved.
+    pub problem: &'a Problem<D>,
+    /// How convection is taken.
+    pub convection: Convection,
+    /// How the mesh moves.
+    pub path: MeshPath<'a, D>,
+    /// The law of contact, if any.
+    pub contact: Option<&'a Law>,
+}
+
+/// A step in time.
+#[derive(Debug, Clone, Copy)]
+pub struct Step {
+    /// Its number, from one.
+    pub number: usize,
+    /// The new time (s).
+    pub time: f64,
+    /// Backward differences at the new time.
+    pub bdf: Bdf,
+}
+
+impl Step {
+    /// The step from a state by some backward differences.
+    #[must_use]
+    pub fn from<const D: usize>(state: &State<D>, bdf: Bdf) -> Self {
+        Self { number: state.step + 1, time: state.time + bdf.step, bdf }
+    }
+}
+
+/// What a step leaves for measurements and for the choice of the next step.
+#[derive(Debug, Clone)]
+pub struct StepReport {
+    /// Loads of the fluid on the bodies, where the flow was solved for.
+    pub loads: Vec<BodyLoads>,
+    /// Linear systems solved.
+    pub iterations: usize,
+    /// Estimate of the error of the step, relative to the size of the velocities; zero for a step of
+    /// first order.
+    pub error: f64,
+}
+
+/// What a step leads to.
+#[derive(Debug, Clone)]
+pub struct StepResult<const D: usize> {
+    /// The new level, which [`State::accept`] takes on.
+    pub level: NewLevel<D>,
+    /// What is reported of the step.
+    pub report: StepReport,
+}

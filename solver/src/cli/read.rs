@@ -1,0 +1,43 @@
+//! Reading of the case a command names, with the keys set on the command line.
+
+use clap::Args;
+
+use super::exit::Failure;
+use super::style::{self, complain};
+use crate::case::{CaseFile, Diagnostic, Severity};
+
+/// Keys set on the command line.
+#[derive(Debug, Clone, Args)]
+pub struct Settings {
+    /// Set a key of the case, such as mesh.scale=0.5 or body.0.gait.squirmer.modes.1=3; repeat at
+    /// will
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    pub set: Vec<String>,
+}
+
+/// Reads a case and refuses it if it is wrong; warnings are reported and let through.
+pub fn read_case(argument: &str, settings: &[String]) -> Result<CaseFile, Failure> {
+    let CheckedCase { file, warnings } = read_and_check(argument, settings)?;
+    for warning in &warnings {
+        complain(&style::diagnostic(warning));
+    }
+    Ok(file)
+}
+
+/// A case without errors.
+pub struct CheckedCase {
+    /// The case.
+    pub file: CaseFile,
+    /// What is odd in it.
+    pub warnings: Vec<Diagnostic>,
+}
+
+/// Reads a case and refuses it if it is wrong; warnings are handed back.
+pub fn read_and_check(argument: &str, settings: &[String]) -> Result<CheckedCase, Failure> {
+    let file = crate::case::Case::read(argument, settings)?;
+    let warnings = crate::case::check(&file);
+    if warnings.iter().any(|one| one.severity == Severity::Error) {
+        return Err(Failure::wrong(&warnings));
+    }
+    Ok(CheckedCase { file, warnings })
+}

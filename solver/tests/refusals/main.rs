@@ -1,0 +1,130 @@
+//! Wrong cases are refused with exit code 65, the place in the file, and a remedy.
+#![expect(clippy::unwrap_used, reason = "a test that cannot write its files has failed")]
+
+mod bodies;
+mod domain;
+mod reading;
+mod references;
+mod swimmers;
+mod time;
+
+use std::path::Path;
+use std::process::Command;
+
+/// A case with nothing wrong in it: a disc held in a channel. Lines are counted from 1.
+const RIGHT: &str = r#"title = "A disc in a channel"
+geometry = "planar"
+
+[fluid]
+model = "navier-stokes"
+viscosity = 0.001
+density = 1.0
+
+[domain.channel]
+length = 2.2
+height = 0.41
+
+[boundary]
+left = { parabolic = { peak = 0.3 } }
+right = "do-nothing"
+bottom = "no-slip"
+top = "no-slip"
+
+[[body]]
+name = "disc"
+shape = { disc = { radius = 0.05 } }
+center = [0.2, 0.2]
+motion = "held"
+
+[mesh]
+size = 0.1
+surface = 0.02
+
+[time.steady]
+
+[scales]
+length = 0.1
+velocity = 0.2
+
+[numbers]
+reynolds = 20.0
+
+[[probe]]
+name = "drop"
+point = [0.15, 0.2]
+minus = [0.25, 0.2]
+
+[[reference]]
+quantity = "disc.drag_coefficient"
+value = 5.579535
+relative = 0.05
+source = "a published benchmark"
+
+[[variant]]
+name = "slow"
+set = { "boundary.left.parabolic.peak" = 0.03, "numbers.reynolds" = 2.0, "scales.velocity" = 0.02 }
+"#;
+
+struct Said {
+    code: i32,
+    stdout: String,
+    stderr: String,
+}
+
+fn alewife(directory: &Path, arguments: &[&str]) -> Said {
+    let output = Command::new(env!("CARGO_BIN_EXE_alewife"))
+        .args(arguments)
+        .current_dir(directory)
+        .env_remove("RUST_BACKTRACE")
+        .output()
+        .unwrap();
+    Said {
+        code: output.status.code().unwrap(),
+        stdout: String::from_utf8(output.stdout).unwrap(),
+        stderr: String::from_utf8(output.stderr).unwrap(),
+    }
+}
+
+/// Checks a text as `wrong.toml`, with more arguments behind it.
+fn check(text: &str, arguments: &[&str]) -> Said {
+    let directory = tempfile::tempdir().unwrap();
+    std::fs::write(directory.path().join("wrong.toml"), text).unwrap();
+    let all: Vec<&str> =
+        ["check", "--no-mesh", "wrong.toml"].iter().chain(arguments).copied().collect();
+    alewife(directory.path(), &all)
+}
+
+/// The right case with one stretch of it replaced.
+fn edited(from: &str, to: &str) -> String {
+    assert!(RIGHT.contains(from), "`{from}` is not in the right case");
+    RIGHT.replacen(from, to, 1)
+}
+
+fn without_variant(text: &str) -> &str {
+    text.split("[[variant]]").next().unwrap()
+}
+
+#[track_caller]
+fn assert_accepted(said: &Said) {
+    assert_eq!(said.code, 0, "{}{}", said.stdout, said.stderr);
+}
+
+#[track_caller]
+fn assert_refused(said: &Said, wanted: &[&str]) {
+    assert_eq!(said.code, 65, "{}{}", said.stdout, said.stderr);
+    for text in wanted {
+        assert!(said.stderr.contains(text), "`{text}` is not in:\n{}", said.stderr);
+    }
+}
+
+#[track_caller]
+fn refused(from: &str, to: &str, wanted: &[&str]) {
+    assert_refused(&check(&edited(from, to), &[]), wanted);
+}
+
+/// The right case as an unsteady run with its disc free, and these lines of the body.
+fn unsteady(lines: &str) -> String {
+    without_variant(RIGHT)
+        .replace("[time.steady]", "[time.unsteady]\nstep = 0.1\nend = 1.0")
+        .replace("motion = \"held\"", &format!("motion = \"free\"\n{lines}"))
+}

@@ -1,0 +1,165 @@
+//! Files that cannot be read: keys, types, settings, `extends`, variants.
+
+use super::{RIGHT, alewife, assert_accepted, assert_refused, check, edited, refused};
+
+#[test]
+fn a_right_case_is_accepted_with_its_variants() {
+    let said = check(RIGHT, &[]);
+    assert_accepted(&said);
+    assert_eq!(said.stderr, "");
+    assert!(said.stdout.contains("Reynolds number"), "{}", said.stdout);
+    assert!(said.stdout.contains("no solve is made"), "{}", said.stdout);
+}
+
+#[test]
+fn a_misspelt_key_is_named_with_the_nearest_one_and_all_others() {
+    refused(
+        "viscosity = 0.001",
+        "viscocity = 0.001",
+        &[
+            "unknown key `viscocity` in `fluid`",
+            "--> wrong.toml:6:1",
+            "6 | viscocity = 0.001",
+            "  | ^^^^^^^^^",
+            "did you mean `viscosity`? accepted: model, viscosity, density, gravity",
+        ],
+    );
+}
+
+#[test]
+fn all_misspelt_keys_are_named_at_once() {
+    let text = edited("size = 0.1", "sise = 0.1").replace("length = 2.2", "lenght = 2.2");
+    let said = check(&text, &[]);
+    assert_refused(&said, &["wrong.toml:10:1", "`length`", "wrong.toml:26:1", "`size`"]);
+    assert!(!said.stderr.contains("missing key"), "{}", said.stderr);
+}
+
+#[test]
+fn a_misspelt_key_inside_an_alternative_is_pointed_at() {
+    refused(
+        "{ disc = { radius = 0.05 } }",
+        "{ disc = { radios = 0.05 } }",
+        &["unknown key `radios` in `body.0.shape.disc`", "wrong.toml:21:20", "`radius`?"],
+    );
+}
+
+#[test]
+fn a_quoted_number_is_a_wrong_type() {
+    refused(
+        "viscosity = 0.001",
+        "viscosity = \"0.001 Pa s\"",
+        &[
+            "`fluid.viscosity` is the string \"0.001 Pa s\" where a number is wanted",
+            "wrong.toml:6:13",
+            "without quotes",
+        ],
+    );
+}
+
+#[test]
+fn an_unknown_alternative_is_refused_with_the_known_ones() {
+    refused(
+        "model = \"navier-stokes\"",
+        "model = \"navier-stoks\"",
+        &["wrong.toml:5:9", "`navier-stokes`?", "accepted: stokes, unsteady-stokes"],
+    );
+    refused(
+        "motion = \"held\"",
+        "motion = \"imposed\"",
+        &["wrong.toml:23:10", "{ imposed = ... }"],
+    );
+    refused("[time.steady]", "[time]", &["wrong.toml:29:", "exactly one", "steady, unsteady"]);
+}
+
+#[test]
+fn a_missing_radius_is_named_with_its_table() {
+    refused(
+        "{ disc = { radius = 0.05 } }",
+        "{ disc = { } }",
+        &["missing key `radius` in `body.0.shape.disc`", "wrong.toml:21:18", "radius = ..."],
+    );
+}
+
+#[test]
+fn text_that_is_not_toml_is_pointed_at() {
+    refused("size = 0.1", "size = 0,1", &["this is not TOML", "wrong.toml:26:"]);
+}
+
+#[test]
+fn an_unknown_variant_is_refused_with_the_known_ones() {
+    let directory = tempfile::tempdir().unwrap();
+    std::fs::write(directory.path().join("wrong.toml"), RIGHT).unwrap();
+    let said = alewife(directory.path(), &["check", "--no-mesh", "wrong.toml/slaw"]);
+    assert_refused(&said, &["there is no variant `slaw`", "wrong.toml:49:", "`slow`?"]);
+    assert_accepted(&alewife(directory.path(), &["check", "--no-mesh", "wrong.toml/slow"]));
+}
+
+#[test]
+fn a_variant_that_is_wrong_is_found_from_its_case() {
+    refused(
+        "\"numbers.reynolds\" = 2.0",
+        "\"numbers.reynolds\" = 3.0",
+        &["in variant wrong.toml/slow", "declared as 3", "wrong.toml:51:"],
+    );
+}
+
+#[test]
+fn a_wrong_setting_is_refused() {
+    let refused = |setting: &str, wanted: &[&str]| {
+        assert_refused(&check(RIGHT, &["--set", setting]), wanted);
+    };
+    refused(
+        "fluid.viscocity=2",
+        &["unknown key `viscocity`", "--> --set:1:1", "did you mean `viscosity`?"],
+    );
+    refused("body.1.center=[1, 1]", &["there is no `body.1`", "`body` has 1 of them"]);
+    refused("fluid.viscosity", &["sets nothing", "--set KEY=VALUE"]);
+    refused("fluid.viscosity=-1", &["must be positive", "--> --set:1:17"]);
+}
+
+#[test]
+fn settings_reach_into_arrays_and_take_words_without_quotes() {
+    let said = check(RIGHT, &["--set", "body.0.center.0=0.3", "--set", "fluid.model=stokes"]);
+    assert_accepted(&said);
+    assert!(said.stdout.contains("at [0.3, 0.2]"), "{}", said.stdout);
+    assert!(said.stdout.contains("Stokes, viscosity"), "{}", said.stdout);
+}
+
+#[test]
+fn a_file_extends_another_one_for_one_level() {
+    let directory = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: &str| std::fs::write(directory.path().join(name), text).unwrap();
+    let check = |name: &str| alewife(directory.path(), &["check", "--no-mesh", name]);
+    let child = "extends = \"base.toml\"\n[fluid]\nviscosity = 0.002\n[numbers]\nreynolds = 10\n";
+    write("base.toml", RIGHT);
+    write("child.toml", child);
+    write("grandchild.toml", "extends = \"child.toml\"\n");
+    write("orphan.toml", "extends = \"bass.toml\"\n");
+
+    let said = check("child.toml");
+    assert_accepted(&said);
+    assert!(said.stdout.contains("viscosity 0.002, density 1"), "{}", said.stdout);
+    assert!(said.stdout.contains("none: the result is not compared"), "{}", said.stdout);
+    assert_refused(&check("grandchild.toml"), &["child.toml:1:1", "one level of `extends`"]);
+    assert_refused(&check("orphan.toml"), &["orphan.toml:1:11", "there is no file bass.toml"]);
+
+    write("base.toml", &edited("density = 1.0", "densty = 1.0"));
+    assert_refused(&check("child.toml"), &["base.toml:7:1", "`density`?"]);
+}
+
+#[test]
+fn what_is_not_there_is_exit_code_66() {
+    let directory = tempfile::tempdir().unwrap();
+    let said = alewife(directory.path(), &["check", "absent.toml"]);
+    assert_eq!(said.code, 66, "{}", said.stderr);
+    let said = alewife(directory.path(), &["show", "squirmer-alon"]);
+    assert_eq!(said.code, 66);
+    assert!(said.stderr.contains("did you mean `squirmer-alone`?"), "{}", said.stderr);
+}
+
+#[test]
+fn usage_is_exit_code_2() {
+    let directory = tempfile::tempdir().unwrap();
+    assert_eq!(alewife(directory.path(), &["fly"]).code, 2);
+    assert_eq!(alewife(directory.path(), &["run"]).code, 2);
+}

@@ -1,0 +1,92 @@
+//! Wrong references, statistics and numbers.
+
+use super::{assert_accepted, assert_refused, check, refused, unsteady};
+
+#[test]
+fn a_reynolds_number_that_disagrees_is_shown_with_the_derived_one() {
+    refused(
+        "reynolds = 20.0",
+        "reynolds = 100.0",
+        &[
+            "declared as 100, but the case gives 20 = density * scales.velocity * scales.length / \
+             viscosity",
+            "wrong.toml:36:12",
+            "correct the declared number",
+        ],
+    );
+}
+
+#[test]
+fn an_unknown_quantity_is_refused_with_the_nearest_one() {
+    refused(
+        "quantity = \"disc.drag_coefficient\"",
+        "quantity = \"disc.drag_coeficient\"",
+        &[
+            "there is no quantity `disc.drag_coeficient`",
+            "wrong.toml:44:12",
+            "did you mean `disc.drag_coefficient`?",
+            "drop.pressure",
+            "flow.dissipation",
+        ],
+    );
+}
+
+#[test]
+fn a_reference_has_one_tolerance_and_a_statistic_has_what_it_needs() {
+    refused("relative = 0.05\n", "", &["has no tolerance", "wrong.toml:43:", "relative = ..."]);
+    refused("relative = 0.05", "relative = 0.05\nabsolute = 1.0", &["both", "wrong.toml:47:12"]);
+    refused("relative = 0.05", "relative = 0.05\nstatistic = \"at\"", &["add at = ..."]);
+    refused("relative = 0.05", "relative = 0.05\nstatistic = \"strouhal\"", &["no period"]);
+}
+
+#[test]
+fn statistics_of_moving_bodies_have_what_they_need() {
+    let text =
+        unsteady("").replace("quantity = \"disc.drag_coefficient\"", "quantity = \"disc.y\"");
+    let with = |lines: &str| text.replace("relative = 0.05", &format!("relative = 0.05\n{lines}"));
+    for lines in [
+        "statistic = \"crossing\"\nlevel = 0.3",
+        "statistic = \"when\"\nof = \"disc.x\"\nlevel = 0.3",
+        "statistic = \"range\"",
+        "statistic = \"max\"\nminus = \"disc.x\"",
+        "statistic = \"final\"",
+    ] {
+        assert_accepted(&check(&with(lines), &[]));
+    }
+    for (lines, wanted) in [
+        ("statistic = \"crossing\"", "the statistic `crossing` needs a value"),
+        ("statistic = \"when\"\nof = \"disc.x\"", "the statistic `when` needs a value"),
+        ("statistic = \"when\"\nlevel = 0.3", "`when` needs a quantity to wait for"),
+        ("statistic = \"when\"\nof = \"disc.z\"\nlevel = 1", "there is no quantity `disc.z`"),
+        ("level = 1.0", "`level` goes with the statistics `crossing` and `when` only"),
+        ("of = \"disc.x\"", "`of` goes with the statistic `when` only"),
+        ("statistic = \"crossing\"\nlevel = 1\nat = 0.5", "`at` goes with the statistic `at` only"),
+        ("statistic = \"at\"\nat = 2.0", "the time 2 is not within the run"),
+        ("minus = \"disk.y\"", "there is no quantity `disk.y`"),
+        ("minus = \"disc.y\"", "`disc.y` less itself is 0"),
+        ("statistic = \"morison-drag\"", "is one of forces, not of `disc.y`"),
+    ] {
+        assert_refused(&check(&with(lines), &[]), &[wanted]);
+    }
+    refused(
+        "relative = 0.05",
+        "relative = 0.05\nstatistic = \"crossing\"\nlevel = 1.0",
+        &["a steady solution has no course in time", "wrong.toml:47:13"],
+    );
+}
+
+#[test]
+fn morisons_equation_has_a_force_a_diameter_and_a_density() {
+    let text = unsteady("")
+        .replace("quantity = \"disc.drag_coefficient\"", "quantity = \"disc.force.x\"")
+        .replace("relative = 0.05", "relative = 0.05\nstatistic = \"morison-inertia\"");
+    assert_accepted(&check(&text, &[]));
+    let refused = |from: &str, to: &str, wanted: &str| {
+        assert!(text.contains(from), "{from}");
+        assert_refused(&check(&text.replace(from, to), &[]), &[wanted]);
+    };
+    let scales = "[scales]\nlength = 0.1\nvelocity = 0.2\n\n[numbers]\nreynolds = 20.0\n";
+    refused(scales, "", "needs a diameter and a density");
+    refused("relative = 0.05", "relative = 0.05\nminus = \"disc.force.y\"", "that of one body");
+    refused("disc.force.x", "drop.velocity.x", "not of `drop.velocity.x`");
+}

@@ -1,0 +1,186 @@
+//! Wrong joints and swimmers.
+
+use super::{assert_accepted, assert_refused, check};
+
+/// Swimmers and joints in an unsteady run: nothing wrong in it.
+const SWIMMING: &str = r#"
+title = "swimmers"
+geometry = "planar"
+fluid = { model = "stokes", viscosity = 1.0, density = 1.0 }
+domain.box = { min = [-5.0, -5.0], max = [5.0, 5.0] }
+boundary = { left = "no-slip", right = "no-slip", bottom = "no-slip", top = "no-slip" }
+mesh = { size = 0.5, surface = 0.1 }
+time.unsteady = { step = 0.1, end = 1.0, scheme = "rk3" }
+[[body]]
+name = "root"
+shape.disc.radius = 0.3
+center = [-3.0, -3.0]
+motion = "free"
+[[body]]
+name = "leaf"
+shape.disc.radius = 0.3
+center = [-2.0, -3.0]
+motion = "free"
+[[joint]]
+parent = "root"
+child = "leaf"
+kind.arm.length.sine = { mean = 1.0, amplitude = 0.2, period = 1.0 }
+[[swimmer]]
+name = "three"
+center = [0.0, 3.0]
+[swimmer.kind.linked-spheres]
+radii = [0.2, 0.2, 0.2]
+arms = [{ constant = 1.0 }, { legs = { period = 1.0, knots = [[0.0, 1.0], [0.5, 0.8]] } }]
+[[swimmer]]
+name = "chain"
+center = [1.0, -1.0]
+[swimmer.kind.chain]
+links = [[0.4, 0.1], [0.4, 0.1]]
+gap = 0.2
+joints = [{ hinge = { damping = 0.1 } }]
+"#;
+
+/// The case above with one stretch of it replaced is refused in these words.
+#[track_caller]
+fn refused_swimming(from: &str, to: &str, wanted: &[&str]) {
+    assert!(SWIMMING.contains(from), "`{from}` is not in the right case");
+    assert_refused(&check(&SWIMMING.replacen(from, to, 1), &[]), wanted);
+}
+
+#[test]
+fn strokes_have_lengths_and_times_that_rise() {
+    assert_accepted(&check(SWIMMING, &[]));
+    let is_short = "its length must be positive at all times";
+    refused_swimming("amplitude = 0.2", "amplitude = 1.0", &["the arm is as short as 0", is_short]);
+    refused_swimming("{ constant = 1.0 }", "{ constant = 0.0 }", &[is_short]);
+    refused_swimming("[0.5, 0.8]", "[0.5, -0.1]", &["as short as -0.1"]);
+    refused_swimming("[0.5, 0.8]", "[1.5, 0.8]", &["must rise from 0 to below the period"]);
+    refused_swimming("[0.0, 1.0], ", "[0.1, 1.0], ", &["must rise from 0 to below the period"]);
+    refused_swimming(
+        "amplitude = 0.2, period = 1.0",
+        "amplitude = 0.2, period = 0.0",
+        &["must be positive"],
+    );
+    let table = "{ table = [[0.0, 1.0], [0.5, 0.8], [0.4, 1.0]] }";
+    refused_swimming("{ constant = 1.0 }", table, &["must rise from knot to knot"]);
+    refused_swimming("damping = 0.1", "damping = -0.1", &["must not be negative"]);
+    refused_swimming("gap = 0.2", "gap = 0.0", &["must be positive"]);
+}
+
+#[test]
+fn links_that_meet_in_their_strokes_are_foreseen() {
+    let folds = |amplitude: f64| {
+        format!(
+            "links = [[0.4, 0.1], [0.4, 0.1], [0.4, 0.1]]\ngap = 0.2\njoints = [\
+             {{ bent.angle.sine = {{ amplitude = {amplitude}, period = 1.0 }} }}, \
+             {{ bent.angle.sine = {{ amplitude = -{amplitude}, period = 1.0 }} }}]\n#"
+        )
+    };
+    let with = |amplitude: f64| {
+        let rest =
+            "links = [[0.4, 0.1], [0.4, 0.1]]\ngap = 0.2\njoints = [{ hinge = { damping = 0.1 } }]";
+        SWIMMING.replacen(rest, &folds(amplitude), 1)
+    };
+    assert_accepted(&check(&with(0.8), &[]));
+    assert_refused(
+        &check(&with(2.6), &[]),
+        &["in their strokes \"chain-1\" and \"chain-3\" meet at time 0.", "bend less"],
+    );
+}
+
+#[test]
+fn bodies_and_joints_make_trees() {
+    let back = "[[joint]]\nparent = \"leaf\"\nchild = \"root\"\n\
+                kind.arm = { length.constant = 1.0, direction = 3.141592653589793 }\n[[swimmer]]";
+    refused_swimming("[[swimmer]]", back, &["the joints make a circle", "must hang on nothing"]);
+    refused_swimming(
+        "child = \"leaf\"",
+        "child = \"root\"",
+        &["hangs on two bodies, or on itself"],
+    );
+    refused_swimming(
+        "parent = \"root\"",
+        "parent = \"rot\"",
+        &["no body has that name", "`root`?"],
+    );
+    let held = SWIMMING.replacen("motion = \"free\"\n[[joint]]", "motion = \"held\"\n[[joint]]", 1);
+    assert_refused(
+        &check(&held, &[]),
+        &["cannot be held or moved besides", "may be held or moved"],
+    );
+    let away = SWIMMING.replacen("center = [-2.0, -3.0]", "center = [-2.0, -2.9]", 1);
+    assert_refused(&check(&away, &[]), &["the joint puts \"leaf\" at [-2, -3]", "write center"]);
+    let bent = "kind.bent.angle.constant = 0.5\non_parent = [1.0, 0.0]\n#";
+    refused_swimming("kind.arm", bent, &["turns \"leaf\" to 0.5", "write angle = 0.5"]);
+}
+
+#[test]
+fn swimmers_have_names_of_their_own_and_parts_that_fit() {
+    refused_swimming("name = \"chain\"", "name = \"three\"", &["three-1"]);
+    refused_swimming("name = \"chain\"", "name = \"leaf\"", &["the name \"leaf\" is taken"]);
+    refused_swimming(
+        "radii = [0.2, 0.2, 0.2]",
+        "radii = [0.2, 0.2]",
+        &["2 arms are given, and 1 are wanted"],
+    );
+    refused_swimming(
+        "joints = [{",
+        "joints = [{ bent.angle.constant = 0.0 }, {",
+        &["2 joints are given"],
+    );
+    refused_swimming(
+        "name = \"chain\"",
+        "name = \"chain\"\ncopies.random = { count = 40, seed = 1, gap = 0.5 }",
+        &["no space was found for copy", "fewer copies, a smaller gap"],
+    );
+    let none = "[[swimmer]]\nname = \"all\"\nkind.bodies = [\"root\", \"twig\"]\n[[swimmer]]";
+    refused_swimming("[[swimmer]]", none, &["there is no body \"twig\" before it"]);
+}
+
+#[test]
+fn a_chain_does_not_stand_on_the_axis() {
+    let text = r#"
+        title = "on the axis"
+        geometry = "axisymmetric"
+        fluid = { model = "stokes", viscosity = 1.0 }
+        domain.half-disc.radius = 5.0
+        boundary.wall = "no-slip"
+        mesh = { size = 0.5, surface = 0.1 }
+        time.unsteady = { step = 0.1, end = 1.0 }
+        [[swimmer]]
+        name = "swimmer"
+        [swimmer.kind]
+    "#;
+    let chain =
+        "chain = { links = [[0.4, 0.1], [0.4, 0.1]], gap = 0.2, joints = [{ hinge = {} }] }";
+    let star = "star = { radius = 0.3, radii = [0.2], arms = [{ constant = 1.0 }] }";
+    for (name, kind) in [("chain", chain), ("star", star)] {
+        let told = format!("a {name} cannot stand in an axisymmetric case");
+        assert_refused(&check(&format!("{text}{kind}"), &[]), &[&told]);
+    }
+    let spheres = "linked-spheres = { radii = [0.3, 0.2], arms = [{ constant = 1.0 }] }";
+    assert_accepted(&check(&format!("{text}{spheres}"), &[]));
+    let turned = "body.shape.sphere.radius = 1.0\n[[swimmer]]\nname = \"other\"\ncenter = [3.0, 0.0]\n\
+                  angle = 3.141592653589793\nkind.body.shape.sphere.radius = 1.0";
+    let told = ["the angle of \"other\" breaks the symmetry", "gait.squirmer.heading = 3.14"];
+    assert_refused(&check(&format!("{text}{turned}"), &[]), &told);
+}
+
+#[test]
+fn explicit_steps_have_no_inertia_and_nothing_stiff() {
+    let why = |what: &str| format!("the scheme `rk3` cannot be used: {what}");
+    refused_swimming(
+        "model = \"stokes\"",
+        "model = \"navier-stokes\"",
+        &[&why("the model has inertia")],
+    );
+    refused_swimming(
+        "damping = 0.1",
+        "stiffness = 0.1",
+        &[&why("there are hinges with stiffness")],
+    );
+    let contact = "contact.barrier = { range = 0.1, stiffness = 1.0 }\n[[body]]";
+    refused_swimming("[[body]]", contact, &[&why("there is [contact]")]);
+    let spring = "motion = \"free\"\nspring.stiffness = [1.0, 1.0]";
+    refused_swimming("motion = \"free\"", spring, &[&why("there are springs")]);
+}

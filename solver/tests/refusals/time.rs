@@ -1,0 +1,69 @@
+//! Wrong steps in time, moving meshes and frames.
+
+use super::{RIGHT, assert_accepted, assert_refused, check, refused, unsteady};
+
+#[test]
+fn adaptive_steps_have_bounds_around_the_first_one() {
+    let text = unsteady("").replace(
+        "end = 1.0",
+        "end = 0.95\n\n[time.unsteady.adaptive]\ntolerance = 1e-3\nlargest = 0.2\nsmallest = 1e-4",
+    );
+    let said = check(&text, &[]);
+    assert_accepted(&said);
+    // Nobody expects adaptive steps to divide the end.
+    assert_eq!(said.stderr, "");
+    for (setting, wanted) in [
+        ("tolerance=0", "must be positive"),
+        ("tolerance=1", "is no accuracy"),
+        ("largest=-1", "must be positive"),
+        ("largest=0.05", "the largest step, 0.05, is shorter than the first one, 0.1"),
+        ("smallest=0", "must be positive"),
+        ("smallest=0.15", "the smallest step, 0.15, is longer than the first one, 0.1"),
+        ("cfl=0", "must be positive"),
+        ("gap=0", "must be positive"),
+        ("gap=1", "may close"),
+    ] {
+        let setting = format!("time.unsteady.adaptive.{setting}");
+        assert_refused(&check(&text, &["--set", &setting]), &[wanted, "--> --set:1:"]);
+    }
+}
+
+#[test]
+fn a_moving_mesh_has_limits_a_new_one_meets() {
+    let text = unsteady("");
+    for (setting, wanted) in [
+        ("quality=0", "must be positive"),
+        ("quality=1", "keeps 1 of its quality"),
+        ("layers=0.5", "a gap needs a layer of cells"),
+        ("layers=5", "a new mesh has 4"),
+        ("equation=elastc", "`elastic`?"),
+    ] {
+        let setting = format!("mesh.moving.{setting}");
+        assert_refused(&check(&text, &["--set", &setting]), &[wanted, "--> --set:1:"]);
+    }
+    // The default is right on every mesh, and so is what the scale of the mesh makes of it.
+    for setting in ["mesh.gap_layers=1", "mesh.scale=4", "mesh.moving.layers=4"] {
+        assert_accepted(&check(&text, &["--set", setting]));
+    }
+    let still = check(RIGHT, &["--set", "mesh.moving.quality=0.3"]);
+    assert_accepted(&still);
+    assert!(still.stderr.contains("`mesh.moving` has no effect"), "{}", still.stderr);
+}
+
+#[test]
+fn the_frame_is_that_of_a_body() {
+    refused(
+        "[fluid]",
+        "frame = \"disk\"\n[fluid]",
+        &["no body or swimmer has that name", "`disc`?"],
+    );
+}
+
+#[test]
+fn unsteady_stokes_is_not_steady() {
+    refused(
+        "model = \"navier-stokes\"",
+        "model = \"unsteady-stokes\"",
+        &["no steady solution", "wrong.toml:29:7", "[time.unsteady]"],
+    );
+}

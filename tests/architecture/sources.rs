@@ -1,0 +1,52 @@
+//! The source files of all crates, as text and as syntax trees.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+pub fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the package is in the root").to_owned()
+}
+
+/// All source files below a folder, by path relative to the root.
+pub fn sources(folder: &str) -> BTreeMap<String, String> {
+    fn collect(folder: &Path, found: &mut BTreeMap<String, String>) {
+        for entry in fs::read_dir(folder).expect("the folder exists") {
+            let path = entry.expect("the entry is readable").path();
+            if path.is_dir() {
+                collect(&path, found);
+            } else if path.extension().is_some_and(|extension| extension == "rs") {
+                let name = path.strip_prefix(root()).expect("below the root").display().to_string();
+                found.insert(name, fs::read_to_string(&path).expect("the file is text"));
+            }
+        }
+    }
+    let mut found = BTreeMap::new();
+    collect(&root().join(folder), &mut found);
+    found
+}
+
+/// Source folders of all crates.
+pub const CRATES: [&str; 5] =
+    ["mesh/src", "solver/case/src", "solver/core/src", "solver/linear/src", "solver/src"];
+
+/// The source files of all crates, by path relative to the root.
+pub fn all_sources() -> impl Iterator<Item = (String, String)> {
+    CRATES.into_iter().flat_map(sources)
+}
+
+/// A file as a syntax tree, without its tests.
+pub fn syntax(file: &str, text: &str) -> syn::File {
+    let mut tree = syn::parse_file(text).unwrap_or_else(|error| panic!("{file}: {error}"));
+    tree.items.retain(|item| !is_test(item));
+    tree
+}
+
+/// Whether an item is compiled for tests only.
+fn is_test(item: &syn::Item) -> bool {
+    let syn::Item::Mod(module) = item else { return false };
+    module.attrs.iter().any(|attribute| {
+        attribute.path().is_ident("cfg")
+            && attribute.parse_args::<syn::Ident>().is_ok_and(|only| only == "test")
+    })
+}

@@ -1,0 +1,117 @@
+//! `Bipyramid`: a scene of few tetrahedra beside one body, meshed once with two and then with three.
+
+use alewife_core::body::{Modes, Pose, on_mesh};
+use alewife_core::contact::{ContactPair, Gaps, MinimumGap, Partner};
+use alewife_core::coupling::BodyShapes;
+use alewife_core::simulation::{Meshed, PosesByShift, RemeshError, Scene};
+use alewife_mesh::{BoundaryId, Mesh, NodeId, Point};
+use nalgebra::Vector3;
+use tests::three_tetrahedra;
+
+/// A double pyramid on a body that does not turn.
+#[derive(Debug, Clone)]
+pub struct Bipyramid {
+    n_cells: usize,
+    lowest_quality: f64,
+    /// Where the body was when the region was first meshed.
+    start: Pose,
+}
+
+impl Bipyramid {
+    /// The scene of a mesh.
+    pub fn of(mesh: &Mesh<3>, start: Pose) -> Self {
+        let lowest_quality = mesh.worst_cell().map_or(1.0, |worst| worst.quality);
+        Self { n_cells: mesh.n_cells(), lowest_quality, start }
+    }
+}
+
+impl Scene<3> for Bipyramid {
+    fn gaps(&self) -> &dyn Gaps {
+        &OneBody
+    }
+
+    fn deformed_gaps(&self, _: &BodyShapes) -> Option<Box<dyn Gaps>> {
+        None
+    }
+
+    fn material_position(&self, _: NodeId, _: usize, _: &BodyShapes) -> Option<Vector3<f64>> {
+        None
+    }
+
+    fn side_displacement(&self, _: BoundaryId, _: &Point<3>, _: f64) -> Option<Point<3>> {
+        None
+    }
+
+    fn has_moving_wall(&self) -> bool {
+        false
+    }
+
+    fn lowest_quality(&self) -> f64 {
+        self.lowest_quality
+    }
+
+    fn remesh_reason(&mut self, _: &Mesh<3>, _: &[Pose], _: &BodyShapes) -> Option<String> {
+        (self.n_cells == 2).then(|| "three cells are better".to_owned())
+    }
+
+    fn remesh(
+        &self,
+        poses: &[Pose],
+        _: &BodyShapes,
+        _: PosesByShift<'_>,
+    ) -> Result<Meshed<3>, RemeshError> {
+        let mut mesh = three_tetrahedra();
+        let moved: Point<3> = on_mesh(&(poses[0].center - self.start.center));
+        for node in &mut mesh.nodes {
+            *node += moved;
+        }
+        let scene = Box::new(Self::of(&mesh, self.start));
+        Ok(Meshed { mesh, scene, poses: poses.to_vec(), shifts: vec![Vector3::zeros()] })
+    }
+
+    fn images(&self, _: [&Mesh<3>; 2]) -> Vec<Point<3>> {
+        Vec::new()
+    }
+
+    fn domain_start(&self) -> Point<3> {
+        Point::<3>::zeros()
+    }
+}
+
+/// One body that meets nothing.
+#[derive(Debug)]
+struct OneBody;
+
+impl Gaps for OneBody {
+    fn n_bodies(&self) -> usize {
+        1
+    }
+
+    fn modes(&self) -> Modes {
+        Modes::SPATIAL
+    }
+
+    fn body_name(&self, _: usize) -> &'static str {
+        "body"
+    }
+
+    fn partner_name(&self, _: Partner) -> &'static str {
+        "nothing"
+    }
+
+    fn reach(&self, _: usize) -> f64 {
+        1.0
+    }
+
+    fn pairs(&self, _: &[Pose], _: f64) -> Vec<ContactPair> {
+        Vec::new()
+    }
+
+    fn minimum_gap(&self, _: &[Pose]) -> Option<MinimumGap> {
+        None
+    }
+
+    fn max_step_fraction(&self, _: &[Pose], _: &[Pose]) -> f64 {
+        1.0
+    }
+}
