@@ -1,4 +1,4 @@
-//! `[[body]]`: outline, place, density, motion and gait of one body.
+//! `[[body]]`: outline, pose, density, motion and gait of one body.
 
 use std::collections::BTreeMap;
 
@@ -131,7 +131,7 @@ impl SquirmerGait {
     }
 }
 
-/// `spring`: force -stiffness (place - anchor) - damping velocity, and the same for the turn.
+/// `spring`: force -stiffness (position - anchor) - damping velocity, and the same for the turn.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SpringSpec {
@@ -188,7 +188,7 @@ pub struct Body {
     /// Factor in time for the external force and torque.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub load_factor: Option<TimeFunction>,
-    /// Spring and damper that tie it to a place.
+    /// Spring and damper that tie it to a point.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub spring: Option<SpringSpec>,
     /// Cell size on its surface (m); that of `[mesh]` if absent.

@@ -204,7 +204,7 @@ impl Body {
 }
 
 impl Body {
-    /// Whether the body may change its place.
+    /// Whether the body may translate.
     #[must_use]
     pub fn translates(&self) -> bool {
         match &self.motion {

@@ -276,8 +276,8 @@ fn apply_variant(root: &mut TomlNode, source: &Arc<Source>, name: &str) -> Resul
 /// Sets one `KEY=VALUE` of the command line.
 fn apply_setting(root: &mut TomlNode, setting: &str) -> Result<(), TreeError> {
     let source = Arc::new(Source { name: "--set".to_owned(), text: setting.to_owned() });
-    let place = |span| Origin { source: Arc::clone(&source), span };
-    let whole = place(0..setting.len());
+    let written_at = |span| Origin { source: Arc::clone(&source), span };
+    let whole = written_at(0..setting.len());
     let Some((path, raw)) = setting.split_once('=') else {
         return Err(TreeError {
             origin: whole,
@@ -290,7 +290,7 @@ fn apply_setting(root: &mut TomlNode, setting: &str) -> Result<(), TreeError> {
     let wants_text = root.get(path).and_then(TomlNode::text).is_some();
     let as_text = || TomlNode {
         key: whole.clone(),
-        origin: place(start..setting.len()),
+        origin: written_at(start..setting.len()),
         value: TomlValue::String(raw.trim().to_owned()),
     };
     let mut value = match tree::parse_value(&source, start) {
@@ -303,14 +303,14 @@ fn apply_setting(root: &mut TomlNode, setting: &str) -> Result<(), TreeError> {
         // A word without quotes is a string; what starts like something else is a mistake.
         Err(reason) if raw.trim().is_empty() || raw.trim().starts_with(['[', '{', '"', '\'']) => {
             return Err(TreeError {
-                origin: place(start..setting.len()),
+                origin: written_at(start..setting.len()),
                 message: format!("`{}` is not a TOML value: {reason}", raw.trim()),
                 help: "close every quote and bracket; quote the setting for your shell".to_owned(),
             });
         }
         Err(_) => as_text(),
     };
-    value.key = place(0..start - 1);
+    value.key = written_at(0..start - 1);
     root.set(path, value)
 }
 

@@ -31,7 +31,7 @@ pub struct SwimmerSpec {
     /// Cell size on its surfaces (m); that of `[mesh]` if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub size: Option<f64>,
-    /// Copies of it in other places; one where it is if absent.
+    /// Copies of it in other positions; itself alone if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub copies: Option<Copies>,
     /// Time of one cycle (s); that of its strokes or gait if absent.
@@ -131,7 +131,7 @@ pub enum Copies {
     Random {
         /// How many.
         count: usize,
-        /// The same seed gives the same places on every machine.
+        /// The same seed gives the same positions on every machine.
         seed: u64,
         /// Smallest gap (m).
         gap: f64,

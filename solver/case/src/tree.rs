@@ -110,9 +110,9 @@ pub fn parse_value(source: &Arc<Source>, start: usize) -> Result<TomlNode, Strin
 fn table_value(source: &Arc<Source>, table: &DeTable<'_>) -> Result<TomlValue, TreeError> {
     let mut entries = BTreeMap::new();
     for (key, value) in table {
-        let place = |span| Origin { source: Arc::clone(source), span };
-        let mut entry = node(source, &place(value.span()), value.get_ref())?;
-        entry.key = place(key.span());
+        let written_at = |span| Origin { source: Arc::clone(source), span };
+        let mut entry = node(source, &written_at(value.span()), value.get_ref())?;
+        entry.key = written_at(key.span());
         entries.insert(key.get_ref().to_string(), entry);
     }
     Ok(TomlValue::Table(entries))
@@ -142,8 +142,8 @@ fn node(source: &Arc<Source>, origin: &Origin, value: &DeValue<'_>) -> Result<To
             items
                 .iter()
                 .map(|item| {
-                    let place = Origin { source: Arc::clone(source), span: item.span() };
-                    node(source, &place, item.get_ref())
+                    let origin = Origin { source: Arc::clone(source), span: item.span() };
+                    node(source, &origin, item.get_ref())
                 })
                 .collect::<Result<_, _>>()?,
         ),

@@ -37,7 +37,7 @@ pub enum Mismatch {
     Other(String, String),
 }
 
-/// A mismatch, with its place.
+/// A mismatch, and where it is written.
 #[derive(Debug)]
 pub struct TypeError(Box<Inner>);
 

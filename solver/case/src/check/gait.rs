@@ -46,7 +46,7 @@ pub fn check_shape(findings: &mut Findings<'_>, key: &str, shape: &ShapeSpec) {
         ShapeSpec::Fish(fish) if fish.head_end > fish.head_width => findings.error(
             &format!("{key}.fish.head_end"),
             format!(
-                "the head ends at {} of the length, behind its widest place at {}",
+                "the head ends at {} of the length, behind its widest section at {}",
                 fish.head_end, fish.head_width
             ),
             "head_end must not be larger than head_width, the radius of the head",
@@ -124,13 +124,17 @@ fn fits(findings: &mut Findings<'_>, key: &str, body: &Body, does_fit: bool, wan
 fn carangiform(findings: &mut Findings<'_>, key: &str, gait: &CarangiformGait) {
     findings.positive(&format!("{key}.period"), gait.period);
     findings.not_negative(&format!("{key}.ramp"), gait.ramp.unwrap_or(0.0));
-    let places: Vec<f64> = gait.curvature.iter().map(|row| row[0]).collect();
-    let does_rise = places.windows(2).all(|pair| pair[1] > pair[0]);
-    if places.len() < 2 || !does_rise || places[0] != 0.0 || places[places.len() - 1] != 1.0 {
+    let positions: Vec<f64> = gait.curvature.iter().map(|row| row[0]).collect();
+    let does_rise = positions.windows(2).all(|pair| pair[1] > pair[0]);
+    if positions.len() < 2
+        || !does_rise
+        || positions[0] != 0.0
+        || positions[positions.len() - 1] != 1.0
+    {
         findings.error(
             &format!("{key}.curvature"),
-            format!("the curvature is given at s/L = {places:?}, not from head to tail"),
-            "write [[0.0, K L], ..., [1.0, K L]] with rising places, or leave it out",
+            format!("the curvature is given at s/L = {positions:?}, not from head to tail"),
+            "write [[0.0, K L], ..., [1.0, K L]] with rising positions, or leave it out",
         );
     }
 }

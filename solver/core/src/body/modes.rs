@@ -122,7 +122,7 @@ impl Modes {
         self.iter().filter(|mode| mode.is_rotation())
     }
 
-    /// The place of a motion among them.
+    /// The position of a motion among them.
     #[must_use]
     pub fn position(self, mode: Mode) -> Option<usize> {
         self.0.iter().position(|known| *known == mode)

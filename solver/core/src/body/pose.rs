@@ -1,6 +1,6 @@
 //! `Pose`: centre of mass and orientation of a body; how a pose follows from velocities.
 //!
-//! Displacements between poses are [`RigidVector`]s: the way of the centre, and the rotation vector
+//! Displacements between poses are [`RigidVector`]s: the displacement of the centre, and the rotation vector
 //! phi of the relative rotation, R_b = exp([phi]) R_a. Poses are advanced by backward differences of
 //! these increments, which in the plane is the backward difference of the angle, and in space is of
 //! second order as well: with omega the angular velocity at the new time,
@@ -117,25 +117,25 @@ impl Pose {
         Self { center: self.center + shift, ..*self }
     }
 
-    /// The displacement that leads here from another pose (m, rad): way of the centre and rotation
+    /// The displacement that leads here from another pose (m, rad): displacement of the centre and rotation
     /// vector of the relative rotation; in the plane full turns count.
     #[must_use]
     pub fn displacement_from(&self, start: &Self) -> RigidVector {
-        let way = self.center - start.center;
+        let shift = self.center - start.center;
         let turn = match (self.orientation, start.orientation) {
             (Orientation::Planar(end), Orientation::Planar(begin)) => {
                 Vector3::new(0.0, 0.0, end - begin)
             }
             _ => (self.rotation() * start.rotation().inverse()).scaled_axis(),
         };
-        RigidVector::from_fn(|i, _| if i < 3 { way[i] } else { turn[i - 3] })
+        RigidVector::from_fn(|i, _| if i < 3 { shift[i] } else { turn[i - 3] })
     }
 
     /// The pose a displacement (m, rad) leads to from here. A planar pose stays planar: it has no
     /// part in what turns it about x or y.
     #[must_use]
     pub fn displaced(&self, displacement: &RigidVector) -> Self {
-        let (way, turn) = (displacement.fixed_rows::<3>(0), displacement.fixed_rows::<3>(3));
+        let (shift, turn) = (displacement.fixed_rows::<3>(0), displacement.fixed_rows::<3>(3));
         let orientation = match self.orientation {
             Orientation::Planar(angle) => Orientation::Planar(angle + turn.z),
             Orientation::Spatial(rotation) => {
@@ -144,7 +144,7 @@ impl Pose {
                 Orientation::Spatial(turned)
             }
         };
-        Self { center: self.center + way, orientation }
+        Self { center: self.center + shift, orientation }
     }
 
     /// The pose a body that is here, and was at `previous` one step before, gets to with a velocity at

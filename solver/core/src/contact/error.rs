@@ -59,7 +59,7 @@ pub enum ContactError {
     },
     /// Newton's method did not find the forces.
     #[error(
-        "contact: no forces found in {iterations} iterations: places still change by {change:e}; \
+        "contact: no forces found in {iterations} iterations: poses still change by {change:e}; \
          the smallest gap is {gap:e}, of `{first}` and `{second}`; lower the step"
     )]
     NotConverged {
@@ -69,7 +69,7 @@ pub enum ContactError {
         second: String,
         /// The gap (m).
         gap: f64,
-        /// Change of places in the last iteration (m).
+        /// Change of poses in the last iteration (m).
         change: f64,
         /// Iterations made.
         iterations: usize,

@@ -48,8 +48,8 @@ pub trait Gaps: Debug + Send + Sync {
     /// How far a point of a body moves at most between two poses (m).
     fn displacement_bound(&self, body: usize, from: &Pose, to: &Pose) -> f64 {
         let displacement = to.displacement_from(from);
-        let [way, turn] = [0, 3].map(|first| displacement.fixed_rows::<3>(first).norm());
-        way + turn * self.reach(body)
+        let [distance, turn] = [0, 3].map(|first| displacement.fixed_rows::<3>(first).norm());
+        distance + turn * self.reach(body)
     }
 
     /// The bodies that may come nearer than `range` (m) to anything when each moves from its pose

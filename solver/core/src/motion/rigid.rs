@@ -87,13 +87,13 @@ mod tests {
         for angle in [0.5, -0.5, 3.1, -3.1, 10.0] {
             let to = Pose::planar(-1.0, 2.0, 0.4 + angle);
             let moved = RigidMove::between(&from, &to);
-            let place = Point::<2>::new(1.5, 0.2);
-            let lever = nalgebra::Rotation2::new(angle) * (place - Point::<2>::new(0.3, -0.7));
+            let point = Point::<2>::new(1.5, 0.2);
+            let lever = nalgebra::Rotation2::new(angle) * (point - Point::<2>::new(0.3, -0.7));
             let exact = Point::<2>::new(-1.0, 2.0) + lever;
-            assert!((place + moved.displacement(&place) - exact).norm() < 1e-14);
+            assert!((point + moved.displacement(&point) - exact).norm() < 1e-14);
             let shape = Shape::Ellipse { semi_axes: [2.0, 1.0] };
             let body =
-                PlacedShape { name: "b".into(), shape, center: place, angle: 0.1, size: None };
+                PlacedShape { name: "b".into(), shape, center: point, angle: 0.1, size: None };
             let carried = moved.carry(&body);
             assert!((carried.center - exact).norm() < 1e-14);
             let turned = carried.angle - 0.1 - angle;

@@ -22,12 +22,12 @@ pub(super) fn surface_distances<const D: usize>(
         is_surface[vertex] = true;
         waiting.push_back(vertex);
     }
-    let gap = |place: &Point<D>, source: NodeId| (place - mesh.nodes[source]).norm();
-    let walk = |place: &Point<D>, mut source: NodeId| {
-        let mut least = gap(place, source);
+    let gap = |point: &Point<D>, source: NodeId| (point - mesh.nodes[source]).norm();
+    let walk = |point: &Point<D>, mut source: NodeId| {
+        let mut least = gap(point, source);
         loop {
             let along = neighbours.of(source).iter().filter(|next| is_surface[**next]);
-            let better = along.map(|&next| (gap(place, next), next)).filter(|next| next.0 < least);
+            let better = along.map(|&next| (gap(point, next), next)).filter(|next| next.0 < least);
             match better.min_by(|one, other| one.0.total_cmp(&other.0)) {
                 Some(next) => (least, source) = next,
                 None => return (least, source),
@@ -37,9 +37,9 @@ pub(super) fn surface_distances<const D: usize>(
     while let Some(vertex) = waiting.pop_front() {
         let Some(source) = nearest[vertex] else { continue };
         for &next in neighbours.of(vertex) {
-            let place = &mesh.nodes[next];
-            let known = nearest[next].map_or(f64::INFINITY, |known| gap(place, known));
-            let (found, source) = walk(place, source);
+            let point = &mesh.nodes[next];
+            let known = nearest[next].map_or(f64::INFINITY, |known| gap(point, known));
+            let (found, source) = walk(point, source);
             if found < known {
                 nearest[next] = Some(source);
                 waiting.push_back(next);
