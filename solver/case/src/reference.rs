@@ -195,13 +195,22 @@ impl Reference {
         format!("{} ({statistic})", self.formula())
     }
 
-    /// Body and axis of the force that is compared: `cylinder` and `x` for `cylinder.force.x`.
+    /// The force that is compared: body `cylinder` and axis `x` for `cylinder.force.x`.
     #[must_use]
-    pub fn force_of(&self) -> Option<(&str, &str)> {
+    pub fn force_of(&self) -> Option<ForceComponent<'_>> {
         let (owner, axis) = self.quantity.rsplit_once('.')?;
         let body = owner.strip_suffix(".force").or(owner.strip_suffix(".surface_force"))?;
-        ["x", "y"].contains(&axis).then_some((body, axis))
+        ["x", "y"].contains(&axis).then_some(ForceComponent { body, axis })
     }
+}
+
+/// A component of the force on a body, by name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ForceComponent<'a> {
+    /// The body.
+    pub body: &'a str,
+    /// `x` or `y`.
+    pub axis: &'a str,
 }
 
 fn yes() -> bool {

@@ -42,11 +42,11 @@ impl Kind {
 
     /// The schema, by the rules of JSON Schema.
     pub fn schema(self) -> Value {
-        let wrench = || object(&[("force", vector_schema()), ("torque", vector_schema())]);
+        let wrench = || object([("force", vector_schema()), ("torque", vector_schema())]);
         let mut schema = match self {
-            Self::Transforms => object(&[(
+            Self::Transforms => object([(
                 "transforms",
-                list(object(&[
+                list(object([
                     ("timestamp", timestamp_schema()),
                     ("parent_frame_id", text_schema()),
                     ("child_frame_id", text_schema()),
@@ -55,7 +55,7 @@ impl Kind {
                 ])),
             )]),
             Self::Scene => scene_schema(),
-            Self::Log => object(&[
+            Self::Log => object([
                 ("timestamp", timestamp_schema()),
                 ("level", json!({"type": "integer"})),
                 ("message", text_schema()),
@@ -63,7 +63,7 @@ impl Kind {
                 ("file", text_schema()),
                 ("line", json!({"type": "integer"})),
             ]),
-            Self::Step => object(&[
+            Self::Step => object([
                 ("step", json!({"type": "integer"})),
                 ("time", number_schema()),
                 ("time_step", number_schema()),
@@ -71,18 +71,18 @@ impl Kind {
                 ("n_dofs", json!({"type": "integer"})),
                 ("quantities", json!({"type": "object", "additionalProperties": number_schema()})),
             ]),
-            Self::Body => object(&[
+            Self::Body => object([
                 ("step", json!({"type": "integer"})),
                 ("time", number_schema()),
                 (
                     "pose",
-                    object(&[
+                    object([
                         ("center", vector_schema()),
                         ("rotation", rotation_schema()),
                         ("angle", number_schema()),
                     ]),
                 ),
-                ("twist", object(&[("linear", vector_schema()), ("angular", vector_schema())])),
+                ("twist", object([("linear", vector_schema()), ("angular", vector_schema())])),
                 ("load", wrench()),
                 ("surface_load", wrench()),
                 ("contact", wrench()),
@@ -103,11 +103,11 @@ fn text_schema() -> Value {
 }
 
 fn vector_schema() -> Value {
-    object(&[("x", number_schema()), ("y", number_schema()), ("z", number_schema())])
+    object([("x", number_schema()), ("y", number_schema()), ("z", number_schema())])
 }
 
 fn rotation_schema() -> Value {
-    object(&[
+    object([
         ("x", number_schema()),
         ("y", number_schema()),
         ("z", number_schema()),
@@ -116,21 +116,21 @@ fn rotation_schema() -> Value {
 }
 
 fn scene_schema() -> Value {
-    let pose = || object(&[("position", vector_schema()), ("orientation", rotation_schema())]);
+    let pose = || object([("position", vector_schema()), ("orientation", rotation_schema())]);
     let colour = || {
-        object(&[
+        object([
             ("r", number_schema()),
             ("g", number_schema()),
             ("b", number_schema()),
             ("a", number_schema()),
         ])
     };
-    let solid = || object(&[("pose", pose()), ("size", vector_schema()), ("color", colour())]);
-    object(&[
+    let solid = || object([("pose", pose()), ("size", vector_schema()), ("color", colour())]);
+    object([
         ("deletions", list(json!({"type": "object"}))),
         (
             "entities",
-            list(object(&[
+            list(object([
                 ("timestamp", timestamp_schema()),
                 ("frame_id", text_schema()),
                 ("id", text_schema()),
@@ -260,11 +260,11 @@ fn timestamp(time: f64) -> Value {
 }
 
 fn timestamp_schema() -> Value {
-    object(&[("sec", json!({"type": "integer"})), ("nsec", json!({"type": "integer"}))])
+    object([("sec", json!({"type": "integer"})), ("nsec", json!({"type": "integer"}))])
 }
 
-fn object(properties: &[(&str, Value)]) -> Value {
-    let properties = properties.iter().map(|(name, value)| ((*name).to_owned(), value.clone()));
+fn object<'a>(properties: impl IntoIterator<Item = (&'a str, Value)>) -> Value {
+    let properties = properties.into_iter().map(|(name, value)| (name.to_owned(), value));
     json!({"type": "object", "properties": properties.collect::<serde_json::Map<_, _>>()})
 }
 

@@ -8,7 +8,7 @@ mod tests;
 use self::curve::Curve;
 pub use self::error::StatisticError;
 use super::morison::{self, Oscillation};
-use crate::case::{Case, Reference, Statistic};
+use crate::case::{Case, ForceComponent, Reference, Statistic};
 use crate::simulation::Series;
 
 /// The number that is compared with a reference: its statistic of the run, divided by `per`.
@@ -84,7 +84,8 @@ fn morison_fit(
     reference: &Reference,
 ) -> Result<[f64; 2], StatisticError> {
     let scales = case.scales.ok_or(StatisticError::Missing("[scales]"))?;
-    let (body, axis) = reference.force_of().ok_or(StatisticError::Missing("a force on a body"))?;
+    let ForceComponent { body, axis } =
+        reference.force_of().ok_or(StatisticError::Missing("a force on a body"))?;
     let column = |name: &str| Curve::of(series, name)?.window(case.statistics.window);
     let force = column(&reference.quantity)?;
     let velocity = column(&format!("{body}.velocity.{axis}"))?;
