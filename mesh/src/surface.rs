@@ -1,6 +1,7 @@
 //! `Surface`: what is asked of the surface of a body in the plane or in space.
 
 use crate::Point;
+use crate::box_tree::{Bounds, BoxTree};
 
 /// The point of a surface nearest to another point.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -54,32 +55,59 @@ pub struct NearSurface {
     pub gap: f64,
 }
 
-/// The nearest of several surfaces within reach of a point (m), the images of all included and the
-/// surface `but` itself left out, though not its images.
-///
-/// `images` are the vectors by which a periodic domain repeats (m), zero first.
-pub(crate) fn nearest_surface<const D: usize, S: Surface<D>>(
-    surfaces: &[S],
-    images: &[Point<D>],
-    point: Point<D>,
-    but: Option<usize>,
-    reach: f64,
-) -> Option<NearSurface> {
-    let mut nearest: Option<NearSurface> = None;
-    for (index, surface) in surfaces.iter().enumerate() {
-        for (i, shift) in images.iter().enumerate() {
-            let is_other = i > 0 || but != Some(index);
-            let bound = nearest.map_or(reach, |known| known.gap);
-            let image = point - shift;
-            if is_other && !surface.is_beyond(image, bound) && surface.least_gap(image) < bound {
-                let gap = surface.nearest_point(image).gap;
-                if gap < bound {
-                    nearest = Some(NearSurface { surface: index, gap });
-                }
-            }
-        }
+/// Part of its size by which the box around a surface is larger, so that rounding leaves none out.
+const MARGIN: f64 = 1e-9;
+
+/// Where several surfaces are, to find the nearest of them.
+#[derive(Debug, Clone)]
+pub(crate) struct SurfaceTree<const D: usize>(BoxTree<D>);
+
+impl<const D: usize> SurfaceTree<D> {
+    /// The tree of these surfaces, which are known by their index.
+    pub fn new(surfaces: &[impl Surface<D>]) -> Self {
+        let bounds = |surface: &_| {
+            let (center, reach) = (Surface::center(surface), Surface::reach(surface));
+            let half = Point::repeat(reach * (1.0 + MARGIN));
+            Bounds { min: center - half, max: center + half }
+        };
+        Self(BoxTree::new(&surfaces.iter().map(bounds).collect::<Vec<_>>()))
     }
-    nearest
+
+    /// The nearest of the surfaces of this tree within reach of a point (m), the images of all included
+    /// and the surface `but` itself left out, though not its images; the first of several as near.
+    ///
+    /// `images` are the vectors by which a periodic domain repeats (m), zero first.
+    pub fn nearest(
+        &self,
+        surfaces: &[impl Surface<D>],
+        images: &[Point<D>],
+        point: Point<D>,
+        but: Option<usize>,
+        reach: f64,
+    ) -> Option<NearSurface> {
+        let mut nearest: Option<NearSurface> = None;
+        for (i, shift) in images.iter().enumerate() {
+            let image = point - shift;
+            // A point may be inside a surface, its gap negative
+            let within = nearest.map_or(reach, |known| known.gap).max(0.0);
+            self.0.visit_near(image, within, |index, within| {
+                let surface = &surfaces[index];
+                let bound = nearest.map_or(reach, |known| known.gap);
+                let is_other = i > 0 || but != Some(index);
+                if is_other && !surface.is_beyond(image, bound) && surface.least_gap(image) <= bound
+                {
+                    let gap = surface.nearest_point(image).gap;
+                    let is_first = nearest.is_some_and(|known| index < known.surface);
+                    if gap < bound || (gap == bound && is_first) {
+                        nearest = Some(NearSurface { surface: index, gap });
+                        *within = gap.max(0.0);
+                    }
+                }
+                false
+            });
+        }
+        nearest
+    }
 }
 
 #[cfg(test)]
@@ -127,7 +155,8 @@ mod tests {
         let balls = [ball(0.0), ball(4.0)];
         let images = [0.0, 10.0, -10.0].map(|x| Point::<3>::new(x, 0.0, 0.0));
         let find = |x: f64, but, reach| {
-            nearest_surface(&balls, &images, Point::<3>::new(x, 0.0, 0.0), but, reach)
+            let point = Point::<3>::new(x, 0.0, 0.0);
+            SurfaceTree::new(&balls).nearest(&balls, &images, point, but, reach)
         };
         assert_eq!(find(1.5, None, 9.0), Some(NearSurface { surface: 0, gap: 0.5 }));
         assert_eq!(find(1.5, Some(0), 9.0), Some(NearSurface { surface: 1, gap: 1.5 }));
@@ -135,6 +164,34 @@ mod tests {
         // The image of the first ball at 10
         assert_eq!(find(8.0, Some(0), 9.0), Some(NearSurface { surface: 0, gap: 1.0 }));
         assert_eq!(find(0.5, None, 9.0), Some(NearSurface { surface: 0, gap: -0.5 }));
+        // As far from both
+        assert_eq!(find(2.0, None, 9.0), Some(NearSurface { surface: 0, gap: 1.0 }));
+    }
+
+    #[test]
+    fn the_tree_finds_what_a_look_at_all_balls_and_images_finds() {
+        let part = |i: usize, k: f64| (0.618_034 * k * (i + 1) as f64).fract();
+        let ball = |i: usize| Ball {
+            center: Point::<3>::new(part(i, 1.0), part(i, 7.0), part(i, 31.0)) * 10.0,
+            radius: 0.3 + 0.5 * part(i, 3.0),
+        };
+        let balls: Vec<Ball> = (0..60).map(ball).collect();
+        let images = [0.0, 10.0, -10.0].map(|x| Point::<3>::new(x, 0.0, 0.0));
+        let tree = SurfaceTree::new(&balls);
+        for i in 0..200 {
+            let point = Point::<3>::new(part(i, 11.0), part(i, 5.0), part(i, 17.0)) * 12.0;
+            let (but, reach) = (Some(i % 60), [0.4, 2.0, f64::INFINITY][i % 3]);
+            let gaps = images.iter().enumerate().flat_map(|(nth, shift)| {
+                let others = (0..60).filter(move |ball| nth > 0 || Some(*ball) != but);
+                others
+                    .map(|ball| (balls[ball].nearest_point(point - shift).gap, ball))
+                    .collect::<Vec<_>>()
+            });
+            let least =
+                gaps.filter(|(gap, _)| *gap < reach).min_by(|a, b| a.partial_cmp(b).unwrap());
+            let expected = least.map(|(gap, surface)| NearSurface { surface, gap });
+            assert_eq!(tree.nearest(&balls, &images, point, but, reach), expected);
+        }
     }
 
     /// Coordinates and points are inverse to each other, and normals point out of the body.

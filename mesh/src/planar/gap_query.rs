@@ -1,6 +1,8 @@
 //! `GapQuery`: how far it is from a surface to the surfaces around it.
 
-use crate::surface::nearest_surface;
+use std::sync::OnceLock;
+
+use crate::surface::SurfaceTree;
 use crate::{BoundaryKind, Domain, MeshError, Outline, PlacedShape, Point};
 
 /// A surface that faces a point of a boundary.
@@ -18,6 +20,8 @@ pub struct GapQuery {
     domain: Domain,
     outlines: Vec<Outline>,
     images: Vec<Point<2>>,
+    /// Where the bodies are, found out when first asked for.
+    tree: OnceLock<SurfaceTree<2>>,
 }
 
 impl GapQuery {
@@ -27,7 +31,8 @@ impl GapQuery {
     /// Those of [`Outline::new`].
     pub fn new(domain: &Domain, bodies: &[PlacedShape]) -> Result<Self, MeshError> {
         let outlines = bodies.iter().map(Outline::new).collect::<Result<_, _>>()?;
-        Ok(Self { domain: domain.clone(), outlines, images: domain.images_of(bodies) })
+        let (domain, images) = (domain.clone(), domain.images_of(bodies));
+        Ok(Self { domain, outlines, images, tree: OnceLock::new() })
     }
 
     /// Puts a body, by its index, in another place (m, rad).
@@ -35,6 +40,7 @@ impl GapQuery {
         if let Some(outline) = self.outlines.get_mut(body) {
             *outline = outline.placed_at(center, angle);
         }
+        self.tree.take();
     }
 
     /// Gives a body, by its index, another outline.
@@ -42,6 +48,7 @@ impl GapQuery {
         if let Some(known) = self.outlines.get_mut(body) {
             *known = outline;
         }
+        self.tree.take();
     }
 
     /// The surface that faces a point (m) of boundary `boundary` of a mesh, of kind `kind`, if one
@@ -63,7 +70,9 @@ impl GapQuery {
             BoundaryKind::Side if !self.domain.is_periodic(boundary) => None,
             BoundaryKind::Side | BoundaryKind::Axis => return None,
         };
-        let body = nearest_surface(&self.outlines, &self.images, point, but, reach)
+        let tree = self.tree.get_or_init(|| SurfaceTree::new(&self.outlines));
+        let body = tree
+            .nearest(&self.outlines, &self.images, point, but, reach)
             .map(|near| Facing { boundary: n_sides + near.surface, gap: near.gap });
         let sides = (0..n_sides)
             .filter(|&side| but.is_some() && !self.domain.is_periodic(side))

@@ -5,7 +5,7 @@
 
 use super::tree::SizeSource;
 use crate::planar::boundary::{BoundaryLoops, Curve, Frame};
-use crate::surface::nearest_surface;
+use crate::surface::SurfaceTree;
 use crate::{BoundaryKind, Domain, MeshError, PlacedShape, Point, Sizing};
 
 /// Largest number of samples on the boundary.
@@ -87,6 +87,8 @@ struct Surfaces<'a> {
     /// Largest angle an edge turns by (rad).
     turn: f64,
     images: &'a [Point<2>],
+    /// Where the bodies are.
+    tree: SurfaceTree<2>,
     /// Places and normals of the bodies that may face themselves, empty for the convex ones.
     facing: Vec<Vec<(Point<2>, Point<2>)>>,
 }
@@ -126,7 +128,8 @@ impl<'a> Surfaces<'a> {
         let n_bodies = bodies.len();
         let images = border.images.as_slice();
         let layers = layers_at_surface(sizing.gap_layers, sizing.growth);
-        Self { domain, border, n_bodies, layers, own, turn: sizing.turn, images, facing }
+        let tree = SurfaceTree::new(&border.outlines[..n_bodies]);
+        Self { domain, border, n_bodies, layers, own, turn: sizing.turn, images, facing, tree }
     }
 
     /// Halvings of a piece before its samples are trusted to have seen its bends.
@@ -178,7 +181,8 @@ impl<'a> Surfaces<'a> {
     /// Distance to the nearest body, the images of all and the body itself left out.
     fn gap_to_bodies(&self, point: Point<2>, but: Option<usize>) -> f64 {
         let bodies = &self.border.outlines[..self.n_bodies];
-        nearest_surface(bodies, self.images, point, but, f64::INFINITY)
+        self.tree
+            .nearest(bodies, self.images, point, but, f64::INFINITY)
             .map_or(f64::INFINITY, |near| near.gap)
     }
 
