@@ -89,7 +89,7 @@ pub fn generate(
 /// apart by whole periods.
 ///
 /// # Errors
-/// What [`check_wrapped_placement`] and [`Sizing::check`] refuse, [`MeshError::TooManyCells`],
+/// What [`check_placement`](crate::check_placement) and [`Sizing::check`] refuse, [`MeshError::TooManyCells`],
 /// [`MeshError::Boundary`] and [`MeshError::FoldedCell`].
 pub fn generate_along(
     cut: &Cut,
