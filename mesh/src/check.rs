@@ -194,7 +194,7 @@ mod tests {
     /// Two tetrahedra with a common face, their boundary in one piece.
     fn two_tetrahedra() -> Mesh<3> {
         let corners = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0; 3]];
-        quadratic(corners.map(Point::from).to_vec(), &[[0, 1, 2, 3], [4, 2, 1, 3]])
+        quadratic(&corners.map(Point::from), &[[0, 1, 2, 3], [4, 2, 1, 3]])
     }
 
     fn what(mesh: &Mesh<3>) -> &'static str {
@@ -212,9 +212,9 @@ mod tests {
         let mesh = two_tetrahedra();
         assert_eq!(what(&mesh), FINE);
         let spoil = |change: &dyn Fn(&mut Mesh<3>)| {
-            let mut spoilt = mesh.clone();
-            change(&mut spoilt);
-            what(&spoilt)
+            let mut broken = mesh.clone();
+            change(&mut broken);
+            what(&broken)
         };
         let inverted = spoil(&|mesh| mesh.nodes[4] = Point::<3>::repeat(-1.0));
         assert_eq!(inverted, "a cell has a Jacobian that is not positive");
@@ -231,9 +231,9 @@ mod tests {
         }
         assert_eq!(what(&cube_of_five()), FINE);
         let spoil = |change: &dyn Fn(&mut Mesh<3>)| {
-            let mut spoilt = bulged_cube(0.2);
-            change(&mut spoilt);
-            what(&spoilt)
+            let mut broken = bulged_cube(0.2);
+            change(&mut broken);
+            what(&broken)
         };
         // The inner node of an edge from the centre, the last vertex, is in the interior
         let interior = |mesh: &Mesh<3>| {

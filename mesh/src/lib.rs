@@ -16,6 +16,7 @@ mod planar;
 mod quadrature;
 mod quality;
 mod simplex;
+mod straight;
 mod surface;
 #[cfg(test)]
 mod test_meshes;
@@ -29,12 +30,12 @@ pub use index::{BoundaryId, CellId, FacetId, NodeId};
 pub use locate::{Located, Locator};
 pub use mesh::{Boundary, BoundaryKind, Edge, Facet, Mesh, PeriodicPair, Point};
 pub use planar::{
-    Closest, Cut, Domain, Facing, FishForm, FlagellateForm, GapQuery, Moments, Nearest, Outline,
+    Closest, Cut, Domain, FishForm, FlagellateForm, GapQuery, Moments, Nearest, Outline,
     PlacedShape, Profile, SecondMoments, Shape, SizeBox, SizeField, Sizing, Spline, Station, Wall,
     check_placement, check_wrapped_placement, closest, closest_features, closest_to_wall, generate,
     generate_along, on_meridian, overlap, thickness, wall_features,
 };
 pub use quality::{CellQuality, Quality, WorstCell};
 pub use simplex::{NodeArray, Simplex};
-pub use surface::{NearSurface, Surface, SurfacePoint};
+pub use surface::{Facing, FacingSurfaces, NearSurface, Surface, SurfacePoint};
 pub use vtu::{Array, Precision, write_vtu, write_vtu_as};

@@ -1,7 +1,7 @@
 //! `Surface`: what is asked of the surface of a body in the plane or in space.
 
-use crate::Point;
 use crate::box_tree::{Bounds, BoxTree};
+use crate::{BoundaryKind, Point};
 
 /// The point of a surface nearest to another point.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -44,6 +44,29 @@ pub trait Surface<const D: usize> {
     fn is_beyond(&self, point: Point<D>, bound: f64) -> bool {
         (point - self.center()).amax() > (bound + self.reach()) * (1.0 + 1e-9)
     }
+}
+
+/// A surface that faces a point of a boundary.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Facing {
+    /// Its boundary in the mesh.
+    pub boundary: usize,
+    /// Signed gap (m), negative where the surfaces overlap.
+    pub gap: f64,
+}
+
+/// Surfaces that face each other across the fluid.
+pub trait FacingSurfaces<const D: usize> {
+    /// The surface that faces a point (m) of boundary `boundary` of a mesh, of kind `kind`, if one
+    /// is nearer than `reach` (m).
+    #[must_use]
+    fn facing(
+        &self,
+        boundary: usize,
+        kind: BoundaryKind,
+        point: Point<D>,
+        reach: f64,
+    ) -> Option<Facing>;
 }
 
 /// A surface that is near a point.

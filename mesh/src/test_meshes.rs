@@ -1,8 +1,6 @@
 //! Meshes of a few tetrahedra, straight and curved, for the tests of this crate.
 
-use std::collections::HashMap;
-
-use crate::{Boundary, BoundaryId, BoundaryKind, Facet, Mesh, NodeId, Point, Simplex};
+use crate::{Boundary, BoundaryId, BoundaryKind, Mesh, Point};
 
 /// Corner k of the unit cube has the bits of k as its coordinates.
 fn cube_corners() -> Vec<Point<3>> {
@@ -13,7 +11,7 @@ fn cube_corners() -> Vec<Point<3>> {
 /// The unit cube in five tetrahedra: one in the middle, and one at every second corner.
 pub fn cube_of_five() -> Mesh<3> {
     let cells = [[0, 3, 5, 6], [1, 0, 3, 5], [2, 0, 3, 6], [4, 0, 5, 6], [7, 3, 5, 6]];
-    quadratic(cube_corners(), &cells)
+    quadratic(&cube_corners(), &cells)
 }
 
 /// The unit cube in twelve tetrahedra that meet in its centre: each has one boundary facet.
@@ -28,7 +26,7 @@ pub fn cube_of_twelve() -> Mesh<3> {
             cells.push([base, base | u | v, base | v, 8]);
         }
     }
-    quadratic(vertices, &cells)
+    quadratic(&vertices, &cells)
 }
 
 /// The cube of twelve with the inner nodes of its boundary edges moved away from its centre, by
@@ -49,48 +47,14 @@ pub fn bulged_cube(by: f64) -> Mesh<3> {
     mesh
 }
 
-/// The straight quadratic mesh of tetrahedra with these vertices, made positive where they are
-/// not, its boundary in one piece.
-pub fn quadratic(mut nodes: Vec<Point<3>>, tetrahedra: &[[usize; 4]]) -> Mesh<3> {
-    let n_vertices = nodes.len();
-    let mut middles: HashMap<[usize; 2], NodeId> = HashMap::new();
-    let mut cells = Vec::new();
-    for vertices in tetrahedra {
-        let mut vertices = *vertices;
-        let [u, v, w] = [1, 2, 3].map(|i| nodes[vertices[i]] - nodes[vertices[0]]);
-        if u.cross(&v).dot(&w) < 0.0 {
-            vertices.swap(0, 1);
-        }
-        cells.extend(vertices.map(NodeId::new));
-        for edge in Simplex::<3>::EDGES {
-            let [a, b] = edge.map(|local| vertices[local]);
-            cells.push(*middles.entry([a.min(b), a.max(b)]).or_insert_with(|| {
-                nodes.push((nodes[a] + nodes[b]) * 0.5);
-                NodeId::new(nodes.len() - 1)
-            }));
-        }
-    }
-    let mut mesh = Mesh {
-        nodes,
-        n_vertices,
-        cells,
-        curved: vec![false; tetrahedra.len()],
-        facets: Vec::new(),
-        boundaries: vec![Boundary { name: "all".into(), kind: BoundaryKind::Side }],
-        periodic: Vec::new(),
+/// The straight mesh of tetrahedra with these vertices, made positive where they are not, its
+/// boundary in one piece.
+pub fn quadratic(vertices: &[Point<3>], tetrahedra: &[[usize; 4]]) -> Mesh<3> {
+    let positive = |&[a, b, c, d]: &[usize; 4]| {
+        let [u, v, w] = [b, c, d].map(|vertex| vertices[vertex] - vertices[a]);
+        if u.cross(&v).dot(&w) < 0.0 { [b, a, c, d] } else { [a, b, c, d] }
     };
-    let mut open: HashMap<[NodeId; 3], Facet> = HashMap::new();
-    for cell in mesh.cell_ids() {
-        for side in 0..4 {
-            let facet = Facet { cell, side, boundary: BoundaryId::new(0) };
-            let mut vertices = mesh.facet_vertices(&facet);
-            vertices.sort_unstable();
-            if open.remove(&vertices).is_none() {
-                open.insert(vertices, facet);
-            }
-        }
-    }
-    mesh.facets = open.into_values().collect();
-    mesh.facets.sort_unstable_by_key(|facet| (facet.cell, facet.side));
-    mesh
+    let cells: Vec<_> = tetrahedra.iter().map(positive).collect();
+    let boundary = Boundary { name: "all".into(), kind: BoundaryKind::Side };
+    Mesh::straight(vertices, &cells, vec![boundary], |_| BoundaryId::new(0))
 }

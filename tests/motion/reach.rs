@@ -1,4 +1,4 @@
-//! How far a disc may go before its mesh is spoilt, for each kind of motion.
+//! How far a disc may go before its mesh is degenerate, for each kind of motion.
 
 use alewife_core::body::Pose;
 use alewife_core::motion::{
@@ -8,7 +8,7 @@ use alewife_mesh::{Mesh, Sizing, generate};
 
 use super::{disc, square};
 
-/// Quality at which a mesh counts as spoilt.
+/// Quality at which a mesh counts as degenerate.
 const FLOOR: f64 = 0.3;
 
 /// Largest parameter, in hundredths, up to which all cells keep the quality.

@@ -123,9 +123,9 @@ fn nodes_outside_are_extrapolated_near_the_mesh_and_clamped_far_away() {
     for value in transfer.quadratic(&sample(&old, steep)) {
         assert!(value.amax() < 1.6, "{value}");
     }
-    let mut spoilt = new.clone();
-    spoilt.nodes[3].x = f64::NAN;
-    assert!(Transfer::new(&old, &spoilt, &[]).is_none());
+    let mut broken = new.clone();
+    broken.nodes[3].x = f64::NAN;
+    assert!(Transfer::new(&old, &broken, &[]).is_none());
 }
 
 /// The sides of a periodic mesh move with the bodies; a new mesh has straight ones again.

@@ -1,10 +1,6 @@
 //! Meshes of a few tetrahedra: the smallest that are not one cell.
 
-use std::collections::BTreeMap;
-
-use alewife_mesh::{
-    Boundary, BoundaryId, BoundaryKind, CellId, Facet, Mesh, NodeId, Point, Simplex,
-};
+use alewife_mesh::{Boundary, BoundaryId, BoundaryKind, Mesh, Point};
 
 /// Positions of the vertices of a double pyramid over the triangle 1, 2, 3 (m).
 const VERTICES: [[f64; 3]; 5] =
@@ -26,37 +22,9 @@ pub fn three_tetrahedra() -> Mesh<3> {
 }
 
 fn mesh_of(cells: &[[usize; 4]]) -> Mesh<3> {
-    let mut nodes: Vec<Point<3>> = VERTICES.iter().map(|at| Point::<3>::from(*at)).collect();
-    let mut middles = BTreeMap::new();
-    let mut cell_nodes = Vec::new();
-    let mut facets: BTreeMap<[usize; 3], Vec<Facet>> = BTreeMap::new();
-    for (index, cell) in cells.iter().enumerate() {
-        cell_nodes.extend(cell.map(NodeId::new));
-        for ends in Simplex::<3>::EDGES {
-            let [a, b] = ends.map(|local| cell[local]);
-            cell_nodes.push(*middles.entry([a.min(b), a.max(b)]).or_insert_with(|| {
-                nodes.push((nodes[a] + nodes[b]) / 2.0);
-                NodeId::new(nodes.len() - 1)
-            }));
-        }
-        for side in 0..4 {
-            let local = Simplex::<3>::FACETS[usize::from(side)];
-            let mut vertices = [0, 1, 2].map(|corner| cell[local[corner]]);
-            vertices.sort_unstable();
-            let boundary = BoundaryId::new(usize::from(vertices != ON_BODY));
-            let facet = Facet { cell: CellId::new(index), side, boundary };
-            facets.entry(vertices).or_default().push(facet);
-        }
-    }
     let body = Boundary { name: "body".to_owned(), kind: BoundaryKind::Body(0) };
     let outside = Boundary { name: "outside".to_owned(), kind: BoundaryKind::Side };
-    Mesh {
-        nodes,
-        n_vertices: VERTICES.len(),
-        cells: cell_nodes,
-        curved: vec![false; cells.len()],
-        facets: facets.into_values().filter(|sharing| sharing.len() == 1).flatten().collect(),
-        boundaries: vec![body, outside],
-        periodic: Vec::new(),
-    }
+    Mesh::straight(&VERTICES.map(Point::<3>::from), cells, vec![body, outside], |vertices| {
+        BoundaryId::new(usize::from(vertices != ON_BODY))
+    })
 }

@@ -2,17 +2,8 @@
 
 use std::sync::OnceLock;
 
-use crate::surface::SurfaceTree;
+use crate::surface::{Facing, FacingSurfaces, SurfaceTree};
 use crate::{BoundaryKind, Domain, MeshError, Outline, PlacedShape, Point};
-
-/// A surface that faces a point of a boundary.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Facing {
-    /// Its boundary in the mesh.
-    pub boundary: usize,
-    /// Signed gap (m), negative where the surfaces overlap.
-    pub gap: f64,
-}
 
 /// The exact surfaces of a domain and its bodies in one configuration.
 #[derive(Debug, Clone)]
@@ -50,14 +41,12 @@ impl GapQuery {
         }
         self.tree.take();
     }
+}
 
-    /// The surface that faces a point (m) of boundary `boundary` of a mesh, of kind `kind`, if one
-    /// is nearer than `reach` (m).
-    ///
+impl FacingSurfaces<2> for GapQuery {
     /// Bodies face the sides of the domain, each other and all their periodic images; sides face
     /// bodies. Periodic sides and the axis are no surfaces.
-    #[must_use]
-    pub fn facing(
+    fn facing(
         &self,
         boundary: usize,
         kind: BoundaryKind,

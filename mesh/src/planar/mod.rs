@@ -22,7 +22,7 @@ pub use closest::{
 };
 pub use cut::Cut;
 pub use domain::Domain;
-pub use gap_query::{Facing, GapQuery};
+pub use gap_query::GapQuery;
 pub use generate::{generate, generate_along};
 pub use outline::{Nearest, Outline};
 pub use placement::{check_placement, check_wrapped_placement};

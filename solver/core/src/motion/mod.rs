@@ -12,7 +12,7 @@ pub use boundary_condition::{
     MeshBoundaryCondition, MotionError, PrescribedDisplacement, mesh_boundary_conditions,
 };
 pub use elliptic::MeshMotion;
-pub use remesh::{FacingSurfaces, Fresh, Limits, Reason, needs_remesh};
+pub use remesh::{Fresh, Limits, Reason, needs_remesh};
 pub use rigid::RigidMove;
 pub use stiffness::{MotionKind, Stiffening};
 pub use transfer::{Landing, Transfer, TransferReport};

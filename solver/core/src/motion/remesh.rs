@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use alewife_mesh::{BoundaryKind, CellId, Facet, Facing, GapQuery, Mesh, Point};
+use alewife_mesh::{CellId, Facet, FacingSurfaces, Mesh, Point};
 
 /// Layers left at a surface, over those of the new mesh, below which a new mesh is worth its price:
 /// gaps that were meshed with few layers on purpose do not ask for a mesh at every step.
@@ -82,31 +82,6 @@ impl<const D: usize> fmt::Display for Reason<D> {
 fn coordinates<const D: usize>(point: &Point<D>) -> String {
     let all: Vec<String> = point.iter().map(|x| format!("{x:.6e}")).collect();
     format!("({})", all.join(", "))
-}
-
-/// Surfaces that face each other across the fluid.
-pub trait FacingSurfaces<const D: usize> {
-    /// The surface that faces a point (m) of the boundary of a mesh with this number and kind, if one
-    /// is nearer than `reach` (m).
-    fn facing(
-        &self,
-        boundary: usize,
-        kind: BoundaryKind,
-        point: Point<D>,
-        reach: f64,
-    ) -> Option<Facing>;
-}
-
-impl FacingSurfaces<2> for GapQuery {
-    fn facing(
-        &self,
-        boundary: usize,
-        kind: BoundaryKind,
-        point: Point<2>,
-        reach: f64,
-    ) -> Option<Facing> {
-        Self::facing(self, boundary, kind, point, reach)
-    }
 }
 
 impl Fresh {

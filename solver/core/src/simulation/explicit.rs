@@ -195,10 +195,9 @@ impl<const D: usize> TimeStepper<'_, D> {
         powers: &[Vec<PropulsionPower>],
     ) -> Result<NewLevel<D>, StepError> {
         let time = state.time + size;
-        let mut contact = ContactLoads::none(poses.len());
-        if let Some(gaps) = self.path.gaps_at_time(&self.problem.bodies, time)? {
-            contact.minimum_gap = gaps.minimum_gap(&state.in_own_frame(self.problem, &poses));
-        }
+        let gaps = self.path.gaps_at_time(&self.problem.bodies, time)?;
+        let none = ContactLoads::none(poses.len());
+        let contact = self.with_minimum_gap(none, gaps.as_deref(), state, &poses);
         let twists = flow.solution.twists.iter().zip(&state.now.twists);
         let accelerations = twists
             .map(|(new, old)| Twist::from_vector(&((new.to_vector() - old.to_vector()) / size)));

@@ -1,10 +1,6 @@
 //! Meshes of one or two cells for tests, in the plane and in space.
 
-use std::collections::BTreeMap;
-
-use alewife_mesh::{
-    Boundary, BoundaryId, BoundaryKind, CellId, Facet, Mesh, NodeId, Point, Simplex,
-};
+use alewife_mesh::{Boundary, BoundaryId, BoundaryKind, Mesh, Point};
 
 /// A cell away from the origin, and above the axis.
 pub(crate) fn one_simplex<const D: usize>() -> Mesh<D> {
@@ -44,38 +40,6 @@ fn vertices<const D: usize>() -> Vec<Point<D>> {
 }
 
 fn mesh_of<const D: usize>(vertices: &[Point<D>], cells: &[&[usize]]) -> Mesh<D> {
-    let mut nodes = vertices.to_vec();
-    let mut inner = BTreeMap::new();
-    let mut all = Vec::new();
-    for cell in cells {
-        all.extend(cell.iter().map(|&vertex| NodeId::new(vertex)));
-        for ends in Simplex::<D>::EDGES {
-            let [a, b] = ends.map(|local| cell[local]);
-            all.push(*inner.entry([a.min(b), a.max(b)]).or_insert_with(|| {
-                nodes.push((nodes[a] + nodes[b]) / 2.0);
-                NodeId::new(nodes.len() - 1)
-            }));
-        }
-    }
-    let mut sides: BTreeMap<Vec<usize>, Vec<Facet>> = BTreeMap::new();
-    for (index, cell) in cells.iter().enumerate() {
-        for side in 0..=D {
-            let mut key = Simplex::<D>::facet_vertices(side).map(|local| cell[local]).to_vec();
-            key.sort_unstable();
-            sides.entry(key).or_default().push(Facet {
-                cell: CellId::new(index),
-                side: u8::try_from(side).expect("a cell has few facets"),
-                boundary: BoundaryId::new(0),
-            });
-        }
-    }
-    Mesh {
-        nodes,
-        n_vertices: vertices.len(),
-        cells: all,
-        curved: vec![false; cells.len()],
-        facets: sides.into_values().filter(|sides| sides.len() == 1).flatten().collect(),
-        boundaries: vec![Boundary { name: "wall".to_owned(), kind: BoundaryKind::Side }],
-        periodic: Vec::new(),
-    }
+    let wall = Boundary { name: "wall".to_owned(), kind: BoundaryKind::Side };
+    Mesh::straight(vertices, cells, vec![wall], |_| BoundaryId::new(0))
 }
