@@ -1,6 +1,7 @@
 //! `BoxTree`: axis-parallel boxes in a binary tree, to find those near a point.
 
 use crate::Point;
+use crate::number::index_u32;
 
 /// Levels of the tree of 2^32 boxes.
 const MAX_LEVELS: usize = 33;
@@ -66,7 +67,7 @@ struct Node<const D: usize> {
 impl<const D: usize> BoxTree<D> {
     /// The tree of these boxes, which are known by their index.
     pub fn new(boxes: &[Bounds<D>]) -> Self {
-        let mut tree = Self { nodes: Vec::new(), order: (0..boxes.len() as u32).collect() };
+        let mut tree = Self { nodes: Vec::new(), order: (0..index_u32(boxes.len())).collect() };
         if !boxes.is_empty() {
             tree.split(boxes, 0, boxes.len());
         }
@@ -78,7 +79,7 @@ impl<const D: usize> BoxTree<D> {
         let corners = part.iter().flat_map(|i| [&boxes[*i as usize].min, &boxes[*i as usize].max]);
         let bounds = Bounds::around(corners);
         let index = self.nodes.len();
-        self.nodes.push(Node { bounds, from: from as u32, to: to as u32, right: 0 });
+        self.nodes.push(Node { bounds, from: index_u32(from), to: index_u32(to), right: 0 });
         if part.len() <= LEAF {
             return;
         }
@@ -87,7 +88,7 @@ impl<const D: usize> BoxTree<D> {
         let key = |i: &u32| boxes[*i as usize].min[axis] + boxes[*i as usize].max[axis];
         part.select_nth_unstable_by(middle, |a, b| key(a).total_cmp(&key(b)).then(a.cmp(b)));
         self.split(boxes, from, from + middle);
-        self.nodes[index].right = self.nodes.len() as u32;
+        self.nodes[index].right = index_u32(self.nodes.len());
         self.split(boxes, from + middle, to);
     }
 

@@ -14,6 +14,7 @@ macro_rules! typed_index {
         impl $name {
             /// The index of this number, which must fit the type (checked in debug builds).
             #[must_use]
+            #[expect(clippy::cast_possible_truncation, reason = "checked in debug builds")]
             pub const fn new(index: usize) -> Self {
                 debug_assert!(index <= <$number>::MAX as usize);
                 Self(index as $number)

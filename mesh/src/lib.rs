@@ -12,6 +12,7 @@ mod error;
 mod index;
 mod locate;
 mod mesh;
+mod number;
 mod planar;
 mod quadrature;
 mod quality;
@@ -29,6 +30,7 @@ pub use error::MeshError;
 pub use index::{BoundaryId, CellId, FacetId, NodeId};
 pub use locate::{Located, Locator};
 pub use mesh::{Boundary, BoundaryKind, Edge, Facet, Mesh, PeriodicPair, Point};
+pub use number::whole;
 pub use planar::{
     Closest, Cut, Domain, FishForm, FlagellateForm, GapQuery, Moments, Nearest, Outline,
     PlacedShape, Profile, SecondMoments, Shape, SizeBox, SizeField, Sizing, Spline, Station, Wall,

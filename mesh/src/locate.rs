@@ -8,6 +8,7 @@ use crate::cell_point::{
     CellPoint, invert_quadratic, nearest_in_quadratic, nearest_in_simplex, solve,
 };
 use crate::curved::determinant;
+use crate::number::index_u32;
 use crate::{CellId, Mesh, Point, Simplex};
 
 /// A point this far outside (in sizes of the mesh) still counts as on its boundary.
@@ -68,7 +69,7 @@ impl<const D: usize> Locator<D> {
                         bounds.include(&(middle * 2.0 - (nodes[i] + nodes[j]) * 0.5));
                     }
                 }
-                curved[cell] = quadratic.len() as u32;
+                curved[cell] = index_u32(quadratic.len());
                 quadratic.extend_from_slice(&nodes);
             }
             boxes.push(bounds);

@@ -164,6 +164,7 @@ impl Appended {
             return Err(io::Error::new(io::ErrorKind::InvalidInput, message));
         }
         let (kind, bytes): (_, Vec<u8>) = match precision {
+            #[expect(clippy::cast_possible_truncation, reason = "single precision was asked for")]
             Precision::F32 => {
                 ("Float32", values.iter().flat_map(|v| (*v as f32).to_le_bytes()).collect())
             }
@@ -212,7 +213,8 @@ mod tests {
         assert!(header.contains("NumberOfPoints=\"6\" NumberOfCells=\"1\""));
         // The time comes first: one block whose last, partial size is eight bytes
         let count = |i: usize| {
-            u64::from_le_bytes(out[start + 8 * i..start + 8 * i + 8].try_into().unwrap()) as usize
+            let bytes = out[start + 8 * i..start + 8 * i + 8].try_into().unwrap();
+            usize::try_from(u64::from_le_bytes(bytes)).unwrap()
         };
         assert_eq!([count(0), count(1), count(2)], [1, BLOCK, 8]);
         let mut time = Vec::new();

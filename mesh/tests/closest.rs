@@ -313,9 +313,9 @@ proptest! {
         let center = Point::<2>::new(0.1, 2.0);
         let wall = if is_round { Wall::Circle { center, radius: 2.5 } } else { FLOOR };
         let body = outline(shape, 0.3, height, angle);
-        let n = 4000;
+        let n = 4000_u16;
         let parameter = |i: usize| body.period() * i as f64 / f64::from(n);
-        let gaps: Vec<f64> = (0..n as usize).map(|i| wall.gap(body.at(parameter(i))[0])).collect();
+        let gaps: Vec<f64> = (0..usize::from(n)).map(|i| wall.gap(body.at(parameter(i))[0])).collect();
         let sampled = gaps.iter().copied().fold(f64::INFINITY, f64::min);
         let at = closest_to_wall(&body, &wall);
         prop_assert!(at.gap <= sampled + 1e-14 && at.gap > sampled - 1e-4, "{at:?} {sampled}");

@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 
 use alewife_mesh::{
     Cut, Domain, Mesh, NodeId, PeriodicPair, PlacedShape, Point, Quality, Shape, Sizing,
-    check_mesh, check_placement, check_wrapped_placement, generate_along,
+    check_mesh, check_placement, check_wrapped_placement, generate_along, whole,
 };
 
 /// Smallest angle promised (degrees).
@@ -127,7 +127,7 @@ fn dense_random_placements_on_a_torus_are_cut_open_and_meshed() {
         let height = 4.0 + 6.0 * random.next();
         let periodic = [[true, true], [true, false], [false, true]][(seed % 3) as usize];
         let domain = torus(width, height, periodic);
-        let wanted = (width * height / (1.3 + random.next()) / PI * 1.5) as usize;
+        let wanted = whole(width * height / (1.3 + random.next()) / PI * 1.5);
         let bodies = crowd(&domain, wanted.max(1), &mut random, &|random| match seed / 3 % 3 {
             0 => Shape::Disc { radius: 0.7 },
             1 => Shape::Ellipse { semi_axes: [0.9, 0.3 + 0.3 * random.next()] },

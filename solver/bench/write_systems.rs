@@ -155,7 +155,7 @@ fn write_array(path: &Path, kind: &str, length: usize, bytes: &[u8]) -> std::io:
     header.push('\n');
     let mut file = fs::File::create(path)?;
     file.write_all(b"\x93NUMPY\x01\x00")?;
-    file.write_all(&(padded as u16).to_le_bytes())?;
+    file.write_all(&u16::try_from(padded).expect("the header is short").to_le_bytes())?;
     file.write_all(header.as_bytes())?;
     file.write_all(bytes)
 }

@@ -2,8 +2,6 @@
 //!
 //! The method itself is in `alewife-core`, the case files in `alewife-case`.
 
-#![warn(clippy::cast_possible_truncation, clippy::cast_sign_loss, clippy::cast_possible_wrap)]
-
 pub mod cli;
 pub mod observer;
 pub mod validation;

@@ -9,7 +9,7 @@ use alewife_mesh::{GapQuery, Mesh, Sizing, generate};
 
 use super::{disc, square};
 
-/// A disc in the square, its mesh moved to a pose; the reason to mesh anew, if any.
+/// A disc in the square, its mesh moved to a pose; the reason to remesh, if any.
 fn reason_after(sizing: &Sizing, start: [f64; 2], to: Pose) -> (Mesh<2>, Option<Reason<2>>) {
     let (domain, body) = (square(false, false), disc("disc", start[0], start[1]));
     let mesh = generate(&domain, std::slice::from_ref(&body), sizing).unwrap();

@@ -1,4 +1,4 @@
-//! Bodies that deform, with inertia: balances, meshes made anew in the middle of a beat, states that
+//! Bodies that deform, with inertia: balances, remeshing in the middle of a beat, states that
 //! are gone on from.
 
 use alewife_core::coupling::BodyShapes;

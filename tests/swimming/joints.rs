@@ -1,4 +1,4 @@
-//! What is told of joints: the loads that come through them, by an independent way.
+//! What is reported of joints: the loads that come through them, by an independent way.
 
 use alewife_core::simulation::simulate_from;
 use tests::cases::{case, column, last, run};

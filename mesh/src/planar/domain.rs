@@ -1,5 +1,6 @@
 //! `Domain`: the region the fluid and the bodies share, with its named sides.
 
+use crate::number::whole;
 use crate::planar::lattice::lattice;
 use crate::{PlacedShape, Point};
 
@@ -155,6 +156,6 @@ impl Domain {
             });
             periods[axis].map_or(1.0, |length| 1.0 + ((high - low) / length).floor())
         });
-        lattice(periods, most.fold(1.0, f64::max).min(8.0) as i32)
+        lattice(periods, whole(most.fold(1.0, f64::max).min(8.0)))
     }
 }

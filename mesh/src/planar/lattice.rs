@@ -3,11 +3,11 @@
 use crate::Point;
 
 /// All sums of up to `most` periods along each periodic direction, zero first (m).
-pub(crate) fn lattice(periods: [Option<f64>; 2], most: i32) -> Vec<Point<2>> {
+pub(crate) fn lattice(periods: [Option<f64>; 2], most: usize) -> Vec<Point<2>> {
     let steps = |period: Option<f64>| {
         let mut steps = vec![0.0];
         if let Some(length) = period {
-            steps.extend((1..=most).flat_map(|k| [f64::from(k) * length, -f64::from(k) * length]));
+            steps.extend((1..=most).flat_map(|k| [k as f64 * length, -(k as f64) * length]));
         }
         steps
     };

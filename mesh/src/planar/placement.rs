@@ -1,5 +1,6 @@
 //! Checks that bodies lie inside the domain and apart from each other.
 
+use crate::number::whole;
 use crate::{Domain, MeshError, Outline, PlacedShape, Point, Shape};
 
 /// Gaps below this fraction of a body's size count as contact: no mesh resolves them.
@@ -231,7 +232,7 @@ fn least(outline: &Outline, f: impl Fn(Point<2>) -> f64) -> Least {
     let n = 4 * STARTS;
     let at = |u: f64| {
         let u = u.rem_euclid(4.0);
-        let quarter = (u as usize).min(3);
+        let quarter = whole(u).min(3);
         outline.evaluate(quarter, u - quarter as f64)[0]
     };
     let step = 1.0 / STARTS as f64;

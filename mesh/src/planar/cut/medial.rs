@@ -12,6 +12,7 @@ use super::clearance::Clearance;
 use super::samples::Samples;
 use super::steps::{Steps, displacement, sum};
 use crate::Point;
+use crate::number::index_u32;
 
 /// Copies of the places on each side of the domain in which the triangles are made.
 const COPIES: i32 = 2;
@@ -270,7 +271,7 @@ fn triangles(samples: &Samples) -> Option<Vec<PeriodicTriangle>> {
     if made.num_vertices() != n * copies.len() {
         return None;
     }
-    let corner = |index: usize| Corner { sample: (index % n) as u32, steps: copies[index / n] };
+    let corner = |index: usize| Corner { sample: index_u32(index % n), steps: copies[index / n] };
     let mut triangles = Vec::new();
     let mut number: HashMap<[Corner; 3], usize> = HashMap::new();
     let mut faces = Vec::new();

@@ -27,7 +27,7 @@ use clearance::Clearance;
 use medial::Medial;
 
 /// Whole periods by which a body may have to be moved into the cell.
-const MOST_PERIODS: i32 = 4;
+const MOST_PERIODS: usize = 4;
 
 /// A fundamental cell of a periodic box with curved sides that keep off the bodies.
 ///

@@ -6,6 +6,7 @@ use spade::{CdtEdge, ConstrainedDelaunayTriangulation, Point2, Triangulation as 
 use super::edges::BoundaryEdges;
 use super::front::SizedPoints;
 use super::triangulation::{Triangulation, WALL};
+use crate::number::index_u32;
 use crate::{MeshError, Point, SizeField};
 
 type Delaunay = ConstrainedDelaunayTriangulation<Point2<f64>>;
@@ -67,7 +68,7 @@ impl<'a> Fluid<'a> {
     fn new(cdt: &'a Delaunay, boundary: &BoundaryEdges) -> Result<Self, usize> {
         let mut edge_from = vec![u32::MAX; cdt.num_vertices()];
         for (i, edge) in boundary.edges.iter().enumerate() {
-            edge_from[edge.vertices[0] as usize] = i as u32;
+            edge_from[edge.vertices[0] as usize] = index_u32(i);
         }
         let number = vec![OUTSIDE; cdt.num_all_faces()];
         let mut fluid = Self { faces: Vec::new(), number, edge_from };
@@ -93,14 +94,14 @@ impl<'a> Fluid<'a> {
     fn include(&mut self, face: Face<'a>) {
         let number = &mut self.number[face.index()];
         if *number == OUTSIDE {
-            *number = self.faces.len() as u32;
+            *number = index_u32(self.faces.len());
             self.faces.push(face);
         }
     }
 
     /// Corners of all triangles.
     fn triangles(&self) -> Vec<[u32; 3]> {
-        let corners = |face: &Face<'_>| face.vertices().map(|vertex| vertex.index() as u32);
+        let corners = |face: &Face<'_>| face.vertices().map(|vertex| index_u32(vertex.index()));
         self.faces.iter().map(corners).collect()
     }
 

@@ -1,5 +1,6 @@
 //! Boundary edges: every piece of the border cut by the size field, evenly in arc length over h.
 
+use crate::number::{index_u32, whole};
 use crate::planar::boundary::BoundaryLoops;
 use crate::planar::cut::CopyOf;
 use crate::{MeshError, Point, SizeField};
@@ -53,7 +54,7 @@ impl BoundaryEdges {
         let mut ranges: Vec<std::ops::Range<usize>> = Vec::new();
         for (nth, first) in border.loops.iter().enumerate() {
             let end = border.loops.get(nth + 1).copied().unwrap_or(border.pieces.len());
-            let start = made.points.len() as u32;
+            let start = index_u32(made.points.len());
             for piece in *first..end {
                 let from = made.edges.len();
                 if let Some(CopyOf { original, shift }) = border.pieces[piece].copy_of {
@@ -61,11 +62,11 @@ impl BoundaryEdges {
                 } else {
                     let cuts = cut(border, piece, sizes)?;
                     for pair in cuts.windows(2) {
-                        let vertex = made.points.len() as u32;
+                        let vertex = index_u32(made.points.len());
                         made.points.push(border.point(piece, pair[0]));
                         made.edges.push(BoundaryEdge {
                             vertices: [vertex, vertex + 1],
-                            piece: piece as u32,
+                            piece: index_u32(piece),
                             parameters: [pair[0], pair[1]],
                         });
                     }
@@ -89,11 +90,12 @@ impl BoundaryEdges {
     fn copy(&mut self, piece: usize, original: std::ops::Range<usize>, shift: Point<2>) {
         for edge in original.rev() {
             let BoundaryEdge { vertices, parameters, .. } = self.edges[edge];
-            let vertex = self.points.len() as u32;
-            self.periodic.push(EdgePair { copy: self.edges.len() as u32, original: edge as u32 });
+            let vertex = index_u32(self.points.len());
+            self.periodic
+                .push(EdgePair { copy: index_u32(self.edges.len()), original: index_u32(edge) });
             self.edges.push(BoundaryEdge {
                 vertices: [vertex, vertex + 1],
-                piece: piece as u32,
+                piece: index_u32(piece),
                 parameters: [1.0 - parameters[1], 1.0 - parameters[0]],
             });
             self.points.push(self.points[vertices[1] as usize] + shift);
@@ -130,7 +132,7 @@ fn cut(border: &BoundaryLoops, piece: usize, sizes: &SizeField) -> Result<Vec<f6
         (from, at_from) = (to, at_to);
     }
     // Rounding must not decide between two mirror images
-    let n = ((total - SLACK - 1e-9).ceil()).max(1.0) as usize;
+    let n = whole((total - SLACK - 1e-9).ceil()).max(1);
     let mut cuts = vec![0.0];
     let mut part = 1;
     for k in 1..n {

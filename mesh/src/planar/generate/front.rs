@@ -5,6 +5,7 @@ use std::f64::consts::FRAC_PI_3;
 
 use super::edges::BoundaryEdges;
 use super::point_tree::PointTree;
+use crate::number::index_u32;
 use crate::planar::vector::cross;
 use crate::{MeshError, Point, SizeField};
 
@@ -116,8 +117,8 @@ impl<'a> BoundaryGuard<'a> {
     fn new(boundary: &'a BoundaryEdges) -> Self {
         let mut around = vec![[0; 2]; boundary.points.len()];
         for (i, edge) in boundary.edges.iter().enumerate() {
-            around[edge.vertices[1] as usize][0] = i as u32;
-            around[edge.vertices[0] as usize][1] = i as u32;
+            around[edge.vertices[1] as usize][0] = index_u32(i);
+            around[edge.vertices[0] as usize][1] = index_u32(i);
         }
         Self { boundary, tree: PointTree::new(&boundary.points), around }
     }

@@ -1,5 +1,6 @@
 //! Numbering along a Hilbert curve: what is close in the plane is close in memory.
 
+use crate::number::{index_u32, whole};
 use crate::{CellId, Mesh, NodeId, PeriodicPair, Point};
 
 /// Bits of a coordinate along the curve.
@@ -18,7 +19,7 @@ pub fn renumber(mesh: &Mesh<2>) -> Mesh<2> {
         .cell_ids()
         .map(|cell| {
             let place = (mesh.cell_center(cell) - low) * scale;
-            (along_curve(place[0] as u32, place[1] as u32), cell)
+            (along_curve(index_u32(whole(place[0])), index_u32(whole(place[1]))), cell)
         })
         .collect();
     order.sort_unstable();

@@ -1,6 +1,7 @@
 //! A quadtree of points that grows: is any point within a radius?
 
 use crate::Point;
+use crate::number::index_u32;
 
 /// Points in one leaf before it is split.
 const LEAF: usize = 12;
@@ -51,7 +52,7 @@ impl PointTree {
 
     /// Adds a point; its index is the number of points before it.
     pub fn insert(&mut self, point: Point<2>) {
-        let index = self.points.len() as u32;
+        let index = index_u32(self.points.len());
         self.points.push(point);
         let (mut node, mut center, mut half) = (0, self.center, self.half);
         let mut depth = 0;
@@ -62,7 +63,7 @@ impl PointTree {
             node = first as usize + child;
             depth += 1;
         }
-        let children = self.nodes.len() as u32;
+        let children = index_u32(self.nodes.len());
         let Node::Leaf(held) = &mut self.nodes[node] else {
             unreachable!("the loop ends at a leaf")
         };

@@ -50,7 +50,7 @@ pub fn finish(
                 let piece = edge.piece as usize;
                 facets[index] = Facet {
                     cell: CellId::new(cell),
-                    side: side as u8,
+                    side: u8::try_from(side).expect("a triangle has three sides"),
                     boundary: border.pieces[piece].boundary,
                 };
                 if is_curved && !border.is_straight(piece) {

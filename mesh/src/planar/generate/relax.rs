@@ -2,6 +2,7 @@
 
 use super::triangulation::{Corner, Triangulation, WALL, mean_ratio};
 use crate::Point;
+use crate::number::index_u32;
 
 /// Triangles above this mean ratio may lose a little in favour of their neighbours.
 const GOOD: f64 = 0.85;
@@ -35,7 +36,7 @@ pub fn flip_from(mesh: &mut Triangulation, waiting: &mut Vec<Corner>) {
 /// One sweep of smoothing over all inner vertices.
 pub fn smooth_all(mesh: &mut Triangulation) {
     let mut star = Vec::new();
-    for v in 0..mesh.points.len() as u32 {
+    for v in 0..index_u32(mesh.points.len()) {
         if !mesh.is_fixed(v) && mesh.is_used(v) {
             mesh.star(v, &mut star);
             smooth(mesh, v, &star);

@@ -1,6 +1,7 @@
 //! Material points of a profile: close to each other where it bends and where its curvature jumps.
 
 use super::piece::Piece;
+use crate::number;
 use crate::quadrature::integrate;
 
 /// Longest distance between material points, over the length of the body.
@@ -51,7 +52,7 @@ pub fn spread(pieces: &[Piece], index: usize) -> Vec<f64> {
     }
     let count = steps[steps.len() - 1].ceil().max(2.0);
     let scale = steps[steps.len() - 1] / count;
-    let mut parameters: Vec<f64> = (1..count as usize)
+    let mut parameters: Vec<f64> = (1..number::whole(count))
         .map(|k| {
             let wanted = k as f64 * scale;
             let i = steps.partition_point(|s| *s <= wanted).clamp(1, steps.len() - 1);

@@ -1,6 +1,7 @@
 //! A kd-tree of size sources: the lower envelope of cones, exact by branch and bound.
 
 use crate::Point;
+use crate::number::index_u32;
 
 /// Sources in one leaf.
 const LEAF: usize = 8;
@@ -98,7 +99,7 @@ fn split(sources: &mut [SizeSource], from: usize, to: usize, nodes: &mut Vec<Nod
         smallest = smallest.min(source.size);
     }
     let index = nodes.len();
-    nodes.push(Node { min, max, smallest, from: from as u32, to: to as u32, right: 0 });
+    nodes.push(Node { min, max, smallest, from: index_u32(from), to: index_u32(to), right: 0 });
     if part.len() <= LEAF {
         return;
     }
@@ -106,7 +107,7 @@ fn split(sources: &mut [SizeSource], from: usize, to: usize, nodes: &mut Vec<Nod
     let middle = part.len() / 2;
     part.select_nth_unstable_by(middle, |a, b| a.point[axis].total_cmp(&b.point[axis]));
     split(sources, from, from + middle, nodes);
-    nodes[index].right = nodes.len() as u32;
+    nodes[index].right = index_u32(nodes.len());
     split(sources, from + middle, to, nodes);
 }
 

@@ -4,7 +4,7 @@ use alewife_mesh::{Profile, Station};
 
 use super::number::Number;
 use super::rule::Rule;
-use super::whole::whole;
+use alewife_mesh::whole;
 
 /// Gauss points of a panel.
 const POINTS: usize = 6;

@@ -16,7 +16,6 @@ mod squirmer;
 mod surface_motion;
 #[cfg(test)]
 mod tests;
-mod whole;
 
 pub use deformed_outline::{DeformedOutline, RecoilCorrection, ShapeMotion};
 pub use error::GaitError;

@@ -4,7 +4,7 @@ use std::sync::{Mutex, PoisonError};
 
 use super::error::GaitError;
 use super::rule::Rule;
-use super::whole::whole;
+use alewife_mesh::whole;
 
 /// Intervals of the table in a period.
 const INTERVALS: usize = 16;

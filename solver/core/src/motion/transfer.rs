@@ -1,6 +1,6 @@
 //! Fields of one mesh evaluated at the nodes of another that covers the same region.
 
-use alewife_mesh::{CellId, Locator, Mesh, NodeId, Point, shape_functions};
+use alewife_mesh::{CellId, Locator, Mesh, NodeId, Point, shape_functions, whole};
 use rayon::prelude::*;
 
 use crate::space::{CellValues, Tables};
@@ -225,7 +225,7 @@ fn by_proximity<const D: usize>(points: &[Point<D>]) -> Vec<usize> {
         // Bits of all coordinates in turn
         let bits = (0..u16::BITS as usize).flat_map(|bit| (0..D).map(move |axis| [bit, axis]));
         bits.fold(0_u64, |key, [bit, axis]| {
-            let set = (at[axis] as u64) >> bit & 1;
+            let set = whole(at[axis]) as u64 >> bit & 1;
             key | set << (D * bit + axis)
         })
     };

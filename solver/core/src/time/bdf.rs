@@ -99,7 +99,7 @@ impl Bdf {
     }
 
     /// The error of the new value, over its difference from what [`Self::predict`] gives
-    /// (the idea in @gresho1998, derived anew for these formulas).
+    /// (the idea in @gresho1998, derived here for these formulas).
     #[must_use]
     pub fn error_share(&self) -> f64 {
         (1.0 + self.ratio) / (2.0 + 3.0 * self.ratio)

@@ -6,6 +6,7 @@ mod moves;
 
 use super::edges::BoundaryEdge;
 use crate::Point;
+use crate::number::index_u32;
 use crate::planar::vector::cross;
 
 /// Bit of a neighbour entry that marks a boundary edge; the other bits are its index.
@@ -60,7 +61,7 @@ impl Triangulation {
         let mut incident = vec![0; points.len()];
         for (t, corners) in triangles.iter().enumerate() {
             for v in corners {
-                incident[*v as usize] = t as u32;
+                incident[*v as usize] = index_u32(t);
             }
         }
         let mut fixed = vec![false; points.len()];
@@ -139,7 +140,7 @@ impl Triangulation {
     fn repoint(&mut self, neighbour: u32, from: usize, to: usize) {
         if neighbour & WALL == 0 {
             let slot = self.slot(neighbour as usize, from);
-            self.across[neighbour as usize][slot] = to as u32;
+            self.across[neighbour as usize][slot] = index_u32(to);
         }
     }
 
@@ -154,7 +155,7 @@ impl Triangulation {
         let mut n = 0;
         for (v, new) in vertex.iter_mut().enumerate() {
             if self.incident[v] != u32::MAX {
-                *new = n as u32;
+                *new = index_u32(n);
                 self.points[n] = self.points[v];
                 self.sizes[n] = self.sizes[v];
                 self.fixed[n] = self.fixed[v];
@@ -168,7 +169,7 @@ impl Triangulation {
         let mut n = 0;
         for (t, new) in triangle.iter_mut().enumerate() {
             if self.is_alive(t) {
-                *new = n as u32;
+                *new = index_u32(n);
                 self.triangles[n] = self.triangles[t].map(|v| vertex[v as usize]);
                 self.across[n] = self.across[t];
                 n += 1;
@@ -187,7 +188,7 @@ impl Triangulation {
         self.incident = vec![0; self.points.len()];
         for (t, corners) in self.triangles.iter().enumerate() {
             for v in corners {
-                self.incident[*v as usize] = t as u32;
+                self.incident[*v as usize] = index_u32(t);
             }
         }
     }

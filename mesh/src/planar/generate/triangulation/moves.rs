@@ -2,6 +2,7 @@
 
 use super::{Corner, REMOVED, Triangulation, WALL, mean_ratio};
 use crate::Point;
+use crate::number::index_u32;
 
 impl Triangulation {
     /// Quality of the two triangles that a flip of a side would make, the worse one; `None` when
@@ -25,15 +26,15 @@ impl Triangulation {
         let [bc, ca] = [1, 2].map(|i| self.across[t][(s + i) % 3]);
         let [ad, db] = [1, 2].map(|i| self.across[u][(r + i) % 3]);
         self.triangles[t] = [a, d, c];
-        self.across[t] = [ad, u as u32, ca];
+        self.across[t] = [ad, index_u32(u), ca];
         self.triangles[u] = [d, b, c];
-        self.across[u] = [db, bc, t as u32];
+        self.across[u] = [db, bc, index_u32(t)];
         self.repoint(ad, u, t);
         self.repoint(bc, t, u);
-        self.incident[a as usize] = t as u32;
-        self.incident[b as usize] = u as u32;
-        self.incident[c as usize] = t as u32;
-        self.incident[d as usize] = t as u32;
+        self.incident[a as usize] = index_u32(t);
+        self.incident[b as usize] = index_u32(u);
+        self.incident[c as usize] = index_u32(t);
+        self.incident[d as usize] = index_u32(t);
     }
 
     /// Adds a vertex.
@@ -42,7 +43,7 @@ impl Triangulation {
         self.sizes.push(size);
         self.fixed.push(fixed);
         self.incident.push(0);
-        self.points.len() as u32 - 1
+        index_u32(self.points.len()) - 1
     }
 
     /// Puts a vertex on a side and cuts the triangles next to it in two.
@@ -60,7 +61,7 @@ impl Triangulation {
             self.edges[edge].vertices[1] = m;
             self.edges[edge].parameters[1] = parameter;
             self.edges.push(second);
-            ((edge as u32 | WALL), (self.edges.len() as u32 - 1) | WALL)
+            ((index_u32(edge) | WALL), (index_u32(self.edges.len()) - 1) | WALL)
         } else {
             (0, 0)
         };
@@ -68,10 +69,10 @@ impl Triangulation {
         if let Some((u, r)) = behind {
             let second = self.halve((u, r), m);
             // t keeps the side from a to m, u the one from b to m: they face the new ones
-            self.across[t][s] = second as u32;
-            self.across[second][0] = t as u32;
-            self.across[u][r] = first as u32;
-            self.across[first][0] = u as u32;
+            self.across[t][s] = index_u32(second);
+            self.across[second][0] = index_u32(t);
+            self.across[u][r] = index_u32(first);
+            self.across[first][0] = index_u32(u);
         } else {
             self.across[t][s] = first_half;
             self.across[first][0] = second_half;
@@ -86,13 +87,13 @@ impl Triangulation {
         let bc = self.across[t][(s + 1) % 3];
         let new = self.triangles.len();
         self.triangles.push([m, b, c]);
-        self.across.push([0, bc, t as u32]);
+        self.across.push([0, bc, index_u32(t)]);
         self.triangles[t][(s + 1) % 3] = m;
-        self.across[t][(s + 1) % 3] = new as u32;
+        self.across[t][(s + 1) % 3] = index_u32(new);
         self.repoint(bc, t, new);
-        self.incident[m as usize] = new as u32;
-        self.incident[b as usize] = new as u32;
-        self.incident[c as usize] = new as u32;
+        self.incident[m as usize] = index_u32(new);
+        self.incident[b as usize] = index_u32(new);
+        self.incident[c as usize] = index_u32(new);
         new
     }
 
@@ -105,17 +106,17 @@ impl Triangulation {
         let u = self.triangles.len();
         let w = u + 1;
         self.triangles[t] = [a, b, m];
-        self.across[t] = [ab, u as u32, w as u32];
+        self.across[t] = [ab, index_u32(u), index_u32(w)];
         self.triangles.push([b, c, m]);
-        self.across.push([bc, w as u32, t as u32]);
+        self.across.push([bc, index_u32(w), index_u32(t)]);
         self.triangles.push([c, a, m]);
-        self.across.push([ca, t as u32, u as u32]);
+        self.across.push([ca, index_u32(t), index_u32(u)]);
         self.repoint(bc, t, u);
         self.repoint(ca, t, w);
-        self.incident[a as usize] = t as u32;
-        self.incident[b as usize] = u as u32;
-        self.incident[c as usize] = u as u32;
-        self.incident[m as usize] = t as u32;
+        self.incident[a as usize] = index_u32(t);
+        self.incident[b as usize] = index_u32(u);
+        self.incident[c as usize] = index_u32(u);
+        self.incident[m as usize] = index_u32(t);
         m
     }
 
@@ -160,7 +161,7 @@ impl Triangulation {
             if !self.triangles[*triangle].contains(&into) {
                 let local = self.local(*triangle, v);
                 self.triangles[*triangle][local] = into;
-                self.incident[into as usize] = *triangle as u32;
+                self.incident[into as usize] = index_u32(*triangle);
             }
         }
         for (dying, _) in star {
@@ -236,7 +237,7 @@ mod tests {
         }
         assert!((area - 1.5 * 3.0_f64.sqrt()).abs() < 1e-14, "{area}");
         let mut star = Vec::new();
-        for v in (0..mesh.points.len() as u32).filter(|v| mesh.is_used(*v)) {
+        for v in (0..index_u32(mesh.points.len())).filter(|v| mesh.is_used(*v)) {
             mesh.star(v, &mut star);
             let around = mesh.triangles.iter().filter(|corners| corners.contains(&v)).count();
             assert_eq!(star.len(), around);

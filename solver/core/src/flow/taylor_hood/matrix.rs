@@ -33,9 +33,11 @@ pub fn cell_matrix<S: Simd, const D: usize, const N: usize, const P: usize, cons
     let CellInput { mesh, terms, fields } = input;
     let nodes: &[NodeId; N] = nodes_of(mesh, cell);
     let corners = gather(&mesh.nodes, nodes);
-    matrix.fill(0.0);
-    let mut matrix = LocalMatrix { values: matrix, local };
-    for table in batches {
+    let mut matrix = LocalMatrix { values: matrix, local, is_overwritten: true };
+    matrix.clear_pressure_and_frame();
+    for (index, table) in batches.iter().enumerate() {
+        // Of a straight cell there is one batch only, which the compiler knows.
+        matrix.is_overwritten = index == 0;
         let points = CellPoints::new::<S, N, P>(table, &corners, mesh.curved[cell], metric);
         let gradients = points.gradients::<S, N, P>(table);
         let batch = Batch {
@@ -67,6 +69,8 @@ pub fn cell_matrix<S: Simd, const D: usize, const N: usize, const P: usize, cons
 struct LocalMatrix<'a, const D: usize> {
     values: &'a mut [f64],
     local: LocalLayout<D>,
+    /// Whether momentum and divergence are the first sums written, not added to others.
+    is_overwritten: bool,
 }
 
 impl<const D: usize> LocalMatrix<'_, D> {
@@ -75,6 +79,22 @@ impl<const D: usize> LocalMatrix<'_, D> {
     fn velocity_rows<const N: usize>(&mut self, column: usize, i: usize) -> &mut [f64; N] {
         let start = column * self.local.n_local() + self.local.velocity(0, i);
         self.values[start..].first_chunk_mut().expect("the matrix has rows for all velocities")
+    }
+
+    /// Zero where a pressure meets a pressure, and in the rows and columns of the frame.
+    #[inline(always)]
+    fn clear_pressure_and_frame(&mut self) {
+        let size = self.local.n_local();
+        let n_velocities = self.local.pressure(0);
+        for column in n_velocities..size {
+            let first = if column < self.local.n_fluid() { n_velocities } else { 0 };
+            self.values[column * size + first..(column + 1) * size].fill(0.0);
+        }
+        if self.local.n_frame > 0 {
+            for column in 0..n_velocities {
+                self.values[column * size + self.local.n_fluid()..(column + 1) * size].fill(0.0);
+            }
+        }
     }
 
     /// Adds a block for test functions along axis `i` and trial functions along axis `j`.
@@ -164,6 +184,7 @@ impl<const D: usize, const N: usize, const P: usize, const Q: usize> Batch<'_, D
             }
             shared[b] = sum;
         }
+        let is_overwritten = matrix.is_overwritten;
         for i in 0..D {
             for j in 0..D {
                 for b in 0..N {
@@ -175,7 +196,7 @@ impl<const D: usize, const N: usize, const P: usize, const Q: usize> Batch<'_, D
                         if i == j {
                             sum += shared[b][a];
                         }
-                        rows[a] += sum;
+                        rows[a] = if is_overwritten { sum } else { rows[a] + sum };
                     }
                 }
             }
@@ -230,7 +251,7 @@ impl<const D: usize, const N: usize, const P: usize, const Q: usize> Batch<'_, D
         inverse_radius: &[f64; Q],
         matrix: &mut LocalMatrix<'_, D>,
     ) {
-        let size = matrix.local.n_local();
+        let (size, is_overwritten) = (matrix.local.n_local(), matrix.is_overwritten);
         for axis in 0..D {
             for node in 0..PointTable::<D, N, P, Q>::N_PRESSURES {
                 let weight = product(&self.table.psi_of_node[node], &self.points.dx);
@@ -247,8 +268,10 @@ impl<const D: usize, const N: usize, const P: usize, const Q: usize> Batch<'_, D
                 let pressure = matrix.local.pressure(node);
                 for a in 0..N {
                     let velocity = matrix.local.velocity(a, axis);
-                    matrix.values[pressure * size + velocity] -= divergence[a];
-                    matrix.values[velocity * size + pressure] -= divergence[a];
+                    for entry in [pressure * size + velocity, velocity * size + pressure] {
+                        let value = &mut matrix.values[entry];
+                        *value = if is_overwritten { 0.0 } else { *value } - divergence[a];
+                    }
                 }
             }
         }

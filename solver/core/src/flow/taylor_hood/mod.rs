@@ -9,6 +9,7 @@ mod residual;
 
 use std::any::Any;
 use std::ops::Range;
+use std::slice;
 use std::sync::Arc;
 
 use alewife_mesh::{CellId, Simplex};
@@ -66,14 +67,14 @@ fn spatial_kernel(tables: &Tables<3>, with_frame: bool) -> Arc<dyn CellKernel<3>
     Arc::new(TaylorHood::<3, TETRAHEDRON, TETRAHEDRON_LANES, 16, 16>::new(tables, with_frame))
 }
 
-/// Tables of an element with N nodes a cell, in P lanes, for QS points at a time on straight cells
-/// and QC on curved ones.
+/// Tables of an element with N nodes a cell, in P lanes, for the QS points of straight cells, all at
+/// a time, and for QC at a time of curved ones.
 #[derive(Debug)]
 struct TaylorHood<const D: usize, const N: usize, const P: usize, const QS: usize, const QC: usize>
 {
     metric: Metric,
     local: LocalLayout<D>,
-    straight: Vec<PointTable<D, N, P, QS>>,
+    straight: PointTable<D, N, P, QS>,
     curved: Vec<PointTable<D, N, P, QC>>,
 }
 
@@ -91,7 +92,7 @@ impl<const D: usize, const N: usize, const P: usize, const QS: usize, const QC: 
                 n_pressure_nodes: PointTable::<D, N, P, QS>::N_PRESSURES,
                 n_frame,
             },
-            straight: PointTable::batches(tables.element(), tables.rule(false)),
+            straight: PointTable::of_all(tables.element(), tables.rule(false)),
             curved: PointTable::batches(tables.element(), tables.rule(true)),
         }
     }
@@ -154,6 +155,7 @@ impl<const D: usize, const N: usize, const P: usize, const QS: usize, const QC: 
     fn with_simd<S: Simd>(self, _: S) {
         let Self { kernel, input, cells, stride, matrices } = self;
         let TaylorHood { metric, straight, curved, .. } = kernel;
+        let straight = slice::from_ref(straight);
         let local = kernel.fixed_layout();
         let n_entries = local.n_local() * local.n_local();
         for (cell, matrix) in cells.map(CellId::new).zip(matrices.chunks_exact_mut(stride)) {
@@ -191,6 +193,7 @@ impl<const D: usize, const N: usize, const P: usize, const QS: usize, const QC: 
     fn with_simd<S: Simd>(self, _: S) {
         let Self { kernel, input, cells, residuals } = self;
         let TaylorHood { metric, straight, curved, .. } = kernel;
+        let straight = slice::from_ref(straight);
         let local = kernel.fixed_layout();
         let size = local.n_fluid();
         for (cell, residual) in cells.map(CellId::new).zip(residuals.chunks_exact_mut(size)) {

@@ -42,6 +42,12 @@ impl<const D: usize, const N: usize, const P: usize, const Q: usize> PointTable<
         n_lagrange_nodes(D, degree - 1)
     };
 
+    /// The table of all points of a rule, at most Q.
+    pub fn of_all(element: &Element<D>, rule: &Rule<D>) -> Self {
+        assert!(rule.points.len() <= Q, "the rule does not fit its table");
+        Self::new(element, &rule.points, &rule.weights)
+    }
+
     /// Tables of all points of a rule, Q of them in each.
     pub fn batches(element: &Element<D>, rule: &Rule<D>) -> Vec<Self> {
         let points = rule.points.chunks(Q);

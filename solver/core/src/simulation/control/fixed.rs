@@ -1,5 +1,7 @@
 //! Fixed steps, halved where they must be.
 
+use alewife_mesh::whole;
+
 use super::start::{Piece, count_steps, pieces};
 use super::{SMALLEST_PART, step_size_underflow};
 use crate::case::{Scheme, Unsteady};
@@ -34,7 +36,7 @@ impl<const D: usize> Run<'_, D> {
     ) -> Result<usize, RunError> {
         let n_steps = count_steps(settings);
         // A resumed run may be anywhere within a step
-        let first = (self.simulation.state.time / settings.step + 1e-9).floor() as usize;
+        let first = whole(self.simulation.state.time / settings.step + 1e-9);
         for index in first..n_steps {
             let started = self.simulation.state.time;
             let target = ((index + 1) as f64 * settings.step).min(settings.end);

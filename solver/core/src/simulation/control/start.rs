@@ -1,6 +1,8 @@
 //! The pieces of a first step, and of steps in which rates jump.
 
 use super::NEAR;
+use alewife_mesh::whole;
+
 use crate::case::{Scheme, Unsteady};
 use crate::simulation::advance::Simulation;
 
@@ -19,7 +21,7 @@ pub(super) struct Piece {
 
 /// Number of steps to the end; rounding of their ratio makes no step more.
 pub(super) fn count_steps(settings: &Unsteady) -> usize {
-    (settings.end / settings.step - 1e-9).ceil().max(1.0) as usize
+    whole((settings.end / settings.step - 1e-9).ceil()).max(1)
 }
 
 /// The pieces of a step to a time (s), cut where rates of gaits jump.

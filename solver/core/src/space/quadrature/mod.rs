@@ -57,7 +57,7 @@ mod tests {
     #[test]
     fn triangle_rules_integrate_every_monomial_up_to_their_degree() {
         for degree in 1..=12 {
-            let rule = simplex_rule::<2>(degree as usize);
+            let rule = simplex_rule::<2>(usize::try_from(degree).unwrap());
             for i in 0..=degree {
                 for j in 0..=(degree - i) {
                     let sum: f64 = rule
@@ -76,7 +76,7 @@ mod tests {
     #[test]
     fn tetrahedron_rules_integrate_every_monomial_up_to_their_degree() {
         for degree in 1..=8 {
-            let rule = simplex_rule::<3>(degree as usize);
+            let rule = simplex_rule::<3>(usize::try_from(degree).unwrap());
             for i in 0..=degree {
                 for j in 0..=(degree - i) {
                     for k in 0..=(degree - i - j) {
