@@ -1,9 +1,9 @@
 //! Runs that go on from the state another one left.
 
-use alewife_core::case::Model;
+use alewife_core::case::{Model, TimeSettings};
 use alewife_core::simulation::{RunSummary, simulate_from};
 use tests::cases::{case, last, run};
-use tests::stopped;
+use tests::{stopped, stopped_within_a_step};
 
 fn two_bodies(adaptive: &str) -> Model {
     case(&format!(
@@ -56,6 +56,27 @@ fn a_run_that_goes_on_ends_where_it_would_have_ended() {
             }
             let (first, end) = (rest.series.times[0], rest.series.times.last().copied());
             assert!(first > saved.time && end == Some(2.0), "{first} {end:?}");
+        }
+    }
+}
+
+/// Signals come at any time: every step is reported once, before the stop or after it.
+#[test]
+fn no_step_is_lost_where_a_run_is_stopped() {
+    for scheme in ["", ", scheme = \"bdf1\"", ", adaptive = { tolerance = 5e-3, largest = 0.04 }"] {
+        let mut case = two_bodies(scheme);
+        if let TimeSettings::Unsteady(unsteady) = &mut case.case.time {
+            unsteady.end = 0.2;
+        }
+        let whole = run(&case).series.times;
+        for after in [1, 4] {
+            let stopped = stopped_within_a_step(&case, after);
+            let rest = simulate_from(&case, stopped.state.as_ref(), &mut []).expect("it goes on");
+            let joined: Vec<f64> = stopped.times.into_iter().chain(rest.series.times).collect();
+            assert_eq!(joined.len(), whole.len(), "{joined:?} {whole:?}");
+            if !scheme.contains("adaptive") {
+                assert_eq!(joined, whole);
+            }
         }
     }
 }

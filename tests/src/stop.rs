@@ -1,25 +1,41 @@
 //! Runs that are stopped on the way.
 
+use std::cell::Cell;
 use std::sync::{Arc, Mutex};
 
 use alewife_core::case::Model;
 use alewife_core::simulation::{LastState, Observer, RunError, SavedState, Snapshot, simulate};
 
-/// Stops a run after some steps and keeps the state it leaves.
+/// What a stopped run leaves.
+#[derive(Debug, Clone, Default)]
+pub struct Stopped {
+    /// Its last state.
+    pub state: Option<SavedState<2>>,
+    /// Times of the steps that were reported (s).
+    pub times: Vec<f64>,
+}
+
+/// Stops a run after some steps and keeps what it leaves.
 struct Stopper {
     after: usize,
     steps: usize,
-    left: Arc<Mutex<Option<SavedState<2>>>>,
+    /// How often the run may still ask whether to stop before it is to.
+    spared: Cell<usize>,
+    left: Arc<Mutex<Stopped>>,
 }
 
 impl Observer<2> for Stopper {
     fn on_step(&mut self, snapshot: &Snapshot<'_, 2>) -> std::io::Result<()> {
         self.steps = snapshot.step;
+        self.left.lock().expect("nobody else holds it").times.push(snapshot.time);
         Ok(())
     }
 
     fn wants_stop(&self) -> bool {
-        self.steps >= self.after
+        let is_due = self.steps >= self.after;
+        let spared = self.spared.get();
+        self.spared.set(spared.saturating_sub(usize::from(is_due)));
+        is_due && spared == 0
     }
 
     fn on_failure(
@@ -27,10 +43,30 @@ impl Observer<2> for Stopper {
         _error: &RunError,
         remains: Option<&LastState<'_, 2>>,
     ) -> std::io::Result<()> {
-        *self.left.lock().expect("nobody else holds it") =
+        self.left.lock().expect("nobody else holds it").state =
             remains.and_then(|remains| remains.saved.cloned());
         Ok(())
     }
+}
+
+/// Stops a run after some steps, at the first question whether to stop but for some that are spared.
+fn stop(model: &Model, after: usize, spared: usize) -> Stopped {
+    let left = Arc::new(Mutex::new(Stopped::default()));
+    let stopper = Stopper { after, steps: 0, spared: Cell::new(spared), left: Arc::clone(&left) };
+    let error = simulate(model, &mut [Box::new(stopper)]).expect_err("it is stopped");
+    assert!(matches!(error, RunError::Stopped { .. }), "{error}");
+    let stopped = left.lock().expect("the run is over").clone();
+    assert!(stopped.state.is_some(), "there is a state");
+    stopped
+}
+
+/// What a run leaves that is asked to stop in the middle of the step after some.
+///
+/// # Panics
+/// When the run fails before.
+#[must_use]
+pub fn stopped_within_a_step(model: &Model, after: usize) -> Stopped {
+    stop(model, after, 1)
 }
 
 /// The state of a run after some steps, through the text it is written as.
@@ -39,11 +75,7 @@ impl Observer<2> for Stopper {
 /// When the run fails before, or the text is not the state.
 #[must_use]
 pub fn stopped(model: &Model, after: usize) -> SavedState<2> {
-    let left = Arc::new(Mutex::new(None));
-    let stopper = Stopper { after, steps: 0, left: Arc::clone(&left) };
-    let error = simulate(model, &mut [Box::new(stopper)]).expect_err("it is stopped");
-    assert!(matches!(error, RunError::Stopped { .. }), "{error}");
-    let saved = left.lock().expect("the run is over").take().expect("there is a state");
+    let saved = stop(model, after, 0).state.expect("there is a state");
     let text = serde_json::to_string(&saved).expect("it is written");
     let read: SavedState<2> = serde_json::from_str(&text).expect("it is read");
     assert!(read == saved, "not a bit is lost");

@@ -20,8 +20,6 @@ pub enum Exit {
     Diverged = 10,
     /// The mesh could not be made.
     Mesh = 11,
-    /// Bodies came to overlap.
-    Overlap = 12,
     /// A result is outside its tolerance.
     OutsideTolerance = 20,
     /// The case is wrong.

@@ -36,7 +36,7 @@ Examples:
 
 A CASE is the path of a .toml file, the name of a shipped case, or either with /VARIANT behind it.
 
-Exit codes: 0 done; 2 usage; 10 solver diverged; 11 mesh; 12 bodies overlap; 20 outside tolerance;
+Exit codes: 0 done; 2 usage; 10 solver diverged; 11 mesh; 20 outside tolerance;
 65 bad case; 66 no such case; 70 bug in alewife; 74 input or output; 75 stopped by a signal.";
 
 /// Swimmers in viscous fluid: Taylor-Hood finite elements on body-fitted meshes.

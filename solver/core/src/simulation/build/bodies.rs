@@ -106,7 +106,16 @@ fn rigid_spring(spring: &SpringSpec, pose: &Pose) -> Spring {
 
 /// Slip of the surface; gaits that deform the body are in `shape_motion`.
 fn slip(body: &Body, metric: Metric) -> Option<Box<dyn Gait>> {
-    let Some(GaitSpec::Squirmer(squirmer)) = &body.gait else { return None };
+    let squirmer = match &body.gait {
+        Some(GaitSpec::Squirmer(squirmer)) => squirmer,
+        None
+        | Some(
+            GaitSpec::Carangiform(_)
+            | GaitSpec::Anguilliform(_)
+            | GaitSpec::Flagellum(_)
+            | GaitSpec::Pulsating(_),
+        ) => return None,
+    };
     // On the axis the heading is 0 or pi, and must be so to the last bit
     let axis = if metric.is_revolved() {
         Vector3::x() * if (squirmer.heading.abs() - PI).abs() < 1e-3 { -1.0 } else { 1.0 }

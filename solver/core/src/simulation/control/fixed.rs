@@ -41,7 +41,11 @@ impl<const D: usize> Run<'_, D> {
             let started = self.simulation.state.time;
             let target = ((index + 1) as f64 * settings.step).min(settings.end);
             let mut tally = StepTally::default();
-            for piece in pieces(settings, &self.simulation, target) {
+            for (done, piece) in pieces(settings, &self.simulation, target).into_iter().enumerate()
+            {
+                if done > 0 {
+                    self.check_signals(false)?;
+                }
                 self.fixed_piece(settings, index, piece, &mut tally)?;
             }
             // Counted, not summed, so that rounding does not pile up
@@ -89,8 +93,11 @@ impl<const D: usize> Run<'_, D> {
                 }
                 Attempt::Rejected(_) => to_do.extend([0.5 * size; 2]),
             }
-            // A step in many pieces may take long
-            self.check_signals(false)?;
+            // A step in many pieces may take long. After the last one the step is reported first: a
+            // resumed run begins behind it.
+            if !to_do.is_empty() {
+                self.check_signals(false)?;
+            }
         }
         Ok(())
     }

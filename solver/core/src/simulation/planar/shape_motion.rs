@@ -15,8 +15,10 @@ use crate::simulation::RunError;
 /// When the gait does not fit the shape, or moves the body as no body can.
 pub fn shape_motion(body: &Body) -> Result<Option<Arc<dyn ShapeMotion>>, RunError> {
     let refuse = |why: &str| RunError::Unsupported(format!("body `{}`: {why}", body.name));
+    if !body.deforms() {
+        return Ok(None);
+    }
     let midline = match (&body.gait, &body.shape) {
-        (None | Some(GaitSpec::Squirmer(_)), _) => return Ok(None),
         (
             Some(GaitSpec::Pulsating(gait)),
             ShapeSpec::Disc { radius } | ShapeSpec::Sphere { radius },
