@@ -1,4 +1,4 @@
-//! `check`: what a case is, what follows from it, and what it would cost; no solve is made.
+//! `check`: what a case is, what follows from it, and what it would cost; nothing is solved.
 
 use std::fmt::Write as _;
 
@@ -63,7 +63,7 @@ fn check_one(argument: &str, settings: &[String], has_mesh: bool) -> Result<(), 
         style::complain(&format!("\n{}", style::diagnostic(warning)));
     }
     check_variants(argument, &file, settings)?;
-    say("\nno solve is made");
+    say("\nnothing was solved");
     Ok(())
 }
 
@@ -77,7 +77,7 @@ fn check_variants(argument: &str, file: &CaseFile, settings: &[String]) -> Resul
         })?;
     }
     if !file.case().variant.is_empty() {
-        say(&format!("\n{} variants are right, too", file.case().variant.len()));
+        say(&format!("\n{} variants are valid, too", file.case().variant.len()));
     }
     Ok(())
 }
