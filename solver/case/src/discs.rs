@@ -1,6 +1,6 @@
 //! `DiscGrid`: which discs may meet, by the cells of a grid they lie in.
 
-use alewife_mesh::Point;
+use alewife_mesh::{Point, whole};
 
 /// Most cells along an axis.
 const MOST_CELLS: usize = 1024;
@@ -31,7 +31,7 @@ impl DiscGrid {
     pub fn new(min: [f64; 2], max: [f64; 2], expected: usize) -> Self {
         let size = [0, 1].map(|axis| max[axis] - min[axis]);
         let spacing = (size[0] * size[1] / expected.max(1) as f64).sqrt();
-        let counts = size.map(|length| 1 + rounded_down(length / spacing, MOST_CELLS - 1));
+        let counts = size.map(|length| 1 + whole(length / spacing).min(MOST_CELLS - 1));
         let density = [0, 1].map(|axis| counts[axis] as f64 / size[axis]);
         Self { min, density, counts, cells: vec![Vec::new(); counts[0] * counts[1]] }
     }
@@ -59,21 +59,11 @@ impl DiscGrid {
         let radius = radius * (1.0 + ROUNDING);
         [0, 1].map(|axis| {
             let cell = |x: f64| {
-                rounded_down((x - self.min[axis]) * self.density[axis], self.counts[axis] - 1)
+                whole((x - self.min[axis]) * self.density[axis]).min(self.counts[axis] - 1)
             };
             cell(center[axis] - radius)..=cell(center[axis] + radius)
         })
     }
-}
-
-/// The largest whole number that is not above a value, from 0 to `most`; 0 for what is no number.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "the value is clamped to the range first"
-)]
-pub fn rounded_down(value: f64, most: usize) -> usize {
-    if value.is_nan() { 0 } else { value.clamp(0.0, most as f64) as usize }
 }
 
 #[cfg(test)]

@@ -2,9 +2,9 @@
 
 use std::fmt::Write as _;
 
-use alewife_mesh::Point;
+use alewife_mesh::{Point, whole};
 
-use super::discs::{Disc, DiscGrid, rounded_down};
+use super::discs::{Disc, DiscGrid};
 use super::{
     Body, Case, FlowModel, GaitSpec, Geometry, Model, ShapeSpec, SquirmerGait, SwimmerModel,
     TimeSettings,
@@ -239,7 +239,7 @@ pub fn number_table(model: &Model) -> String {
 pub fn significant(value: f64) -> String {
     let size = value.abs();
     if value == 0.0 || (1e-3..1e6).contains(&size) {
-        let digits = if value == 0.0 { 1 } else { rounded_down(5.0 - size.log10().floor(), 9) };
+        let digits = if value == 0.0 { 1 } else { whole(5.0 - size.log10().floor()).min(9) };
         let text = format!("{value:.digits$}");
         if text.contains('.') {
             text.trim_end_matches('0').trim_end_matches('.').to_owned()

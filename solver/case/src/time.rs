@@ -1,5 +1,6 @@
 //! `[time]`: a steady solution, or time steps.
 
+use alewife_mesh::whole;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -45,6 +46,14 @@ pub struct Unsteady {
     /// Steps chosen by the error they make; fixed steps if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub adaptive: Option<Adaptive>,
+}
+
+impl Unsteady {
+    /// Number of fixed steps to the end; rounding of their ratio makes no step more.
+    #[must_use]
+    pub fn n_steps(&self) -> usize {
+        whole((self.end / self.step - 1e-9).ceil()).max(1)
+    }
 }
 
 /// `[time.unsteady.adaptive]`: steps as long as the error of a step, the mesh and the gaps allow.

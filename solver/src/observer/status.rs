@@ -87,14 +87,8 @@ impl StatusFile {
         let (steps, end) = match &case.time {
             TimeSettings::Steady(_) => (None, None),
             TimeSettings::Unsteady(settings) => {
-                // Of an end that is a multiple of the step, rounding shall not make one step more.
-                #[expect(
-                    clippy::cast_possible_truncation,
-                    clippy::cast_sign_loss,
-                    reason = "saturates"
-                )]
-                let steps = (settings.end / settings.step - 1e-9).ceil().max(0.0) as usize;
-                (settings.adaptive.is_none().then_some(steps), Some(settings.end))
+                let steps = settings.adaptive.is_none().then(|| settings.n_steps());
+                (steps, Some(settings.end))
             }
         };
         let status = Status {

@@ -2,7 +2,7 @@
 
 use alewife_mesh::whole;
 
-use super::start::{Piece, count_steps, pieces};
+use super::start::{Piece, pieces};
 use super::{SMALLEST_PART, step_size_underflow};
 use crate::case::{Scheme, Unsteady};
 use crate::coupling::BodyLoads;
@@ -34,7 +34,7 @@ impl<const D: usize> Run<'_, D> {
         &mut self,
         settings: &Unsteady,
     ) -> Result<usize, RunError> {
-        let n_steps = count_steps(settings);
+        let n_steps = settings.n_steps();
         // A resumed run may be anywhere within a step
         let first = whole(self.simulation.state.time / settings.step + 1e-9);
         for index in first..n_steps {

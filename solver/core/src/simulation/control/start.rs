@@ -1,8 +1,6 @@
 //! The pieces of a first step, and of steps in which rates jump.
 
 use super::NEAR;
-use alewife_mesh::whole;
-
 use crate::case::{Scheme, Unsteady};
 use crate::simulation::advance::Simulation;
 
@@ -17,11 +15,6 @@ pub(super) struct Piece {
     pub size: f64,
     /// Whether rates jump at its beginning, so that what was before does not count.
     pub is_restart: bool,
-}
-
-/// Number of steps to the end; rounding of their ratio makes no step more.
-pub(super) fn count_steps(settings: &Unsteady) -> usize {
-    whole((settings.end / settings.step - 1e-9).ceil()).max(1)
 }
 
 /// The pieces of a step to a time (s), cut where rates of gaits jump.
@@ -76,7 +69,7 @@ mod tests {
             initial: Initial::Rest,
             adaptive: None,
         };
-        assert_eq!(count_steps(&settings), 10);
+        assert_eq!(settings.n_steps(), 10);
         let pieces = start_pieces(settings.scheme, true, 0.1);
         assert!((pieces.iter().sum::<f64>() - 0.1).abs() < 1e-14);
         for pair in pieces.windows(2) {
