@@ -6,4 +6,4 @@ pub mod cli;
 pub mod observer;
 pub mod validation;
 
-pub use alewife_core::{body, case, coupling, simulation, timing};
+pub use alewife_core::{body, case, coupling, flow, simulation, timing};

@@ -32,7 +32,7 @@ const ROOMS: [(&str, &[&str]); 18] = [
             "time", "timing",
         ],
     ),
-    ("observer", &["body", "case", "simulation"]),
+    ("observer", &["body", "case", "flow", "simulation"]),
     ("validation", &["case", "simulation"]),
     ("cli", &["case", "coupling", "observer", "simulation", "validation"]),
     ("main", &["cli"]),

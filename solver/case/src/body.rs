@@ -2,7 +2,6 @@
 
 use std::collections::BTreeMap;
 
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::domain::TimeFunction;
@@ -11,7 +10,8 @@ use super::gait::{
 };
 
 /// `shape`: one of these, in the body's own frame.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum ShapeSpec {
     /// Disc (planar).
@@ -46,7 +46,8 @@ pub enum ShapeSpec {
 }
 
 /// How a body moves as a whole.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Motion {
     /// It does not move.
@@ -58,7 +59,8 @@ pub enum Motion {
 }
 
 /// A rigid velocity given as a function of time.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct ImposedMotion {
     /// Velocity (m/s), one number per dimension.
@@ -73,7 +75,8 @@ pub struct ImposedMotion {
 }
 
 /// A motion a free body may not make.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Lock {
     /// Along x.
@@ -85,7 +88,8 @@ pub enum Lock {
 }
 
 /// How a swimmer's surface moves by itself.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum GaitSpec {
     /// Tangential slip of a spherical or circular squirmer.
@@ -104,7 +108,8 @@ pub enum GaitSpec {
 ///
 /// V_n = 2/(n(n+1)) sin(theta) P_n'(cos theta) on a sphere (V_1 = sin, V_2 = sin cos);
 /// V_n = sin(n theta) on a disc.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct SquirmerGait {
     /// B_1, B_2, ... (m/s).
@@ -132,7 +137,8 @@ impl SquirmerGait {
 }
 
 /// `spring`: force -stiffness (position - anchor) - damping velocity, and the same for the turn.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct SpringSpec {
     /// Stiffness along x and y (N/m; N/m2 planar).
@@ -156,7 +162,8 @@ pub struct SpringSpec {
 }
 
 /// `[[body]]`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Body {
     /// Name, used in outputs, references and as the name of its boundary.

@@ -1,10 +1,10 @@
 //! `[contact]`: the short-range force that keeps bodies apart from each other and from walls.
 
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// `[contact.quadratic]` or `[contact.barrier]`.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum ContactSpec {
     /// Force (range - gap)^2 / epsilon where the gap is below the range; finite at contact.

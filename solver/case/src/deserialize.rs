@@ -1,6 +1,6 @@
 //! Typing a `TomlNode`: serde over the tree, with errors that say where and what is accepted.
 
-use std::collections::btree_map;
+use std::collections::{BTreeMap, btree_map};
 use std::slice;
 
 use serde::de::value::StrDeserializer;
@@ -9,7 +9,7 @@ use serde::forward_to_deserialize_any;
 
 use super::source::Origin;
 use super::tree::{TomlNode, TomlValue};
-use super::type_error::{Mismatch, TypeError, suggestion};
+use super::type_error::{Mismatch, TypeError};
 
 /// The alternative that a plain number stands for.
 const CONSTANT: &str = "constant";
@@ -23,18 +23,12 @@ impl<'de> de::Deserializer<'de> for &TomlNode {
             TomlValue::Integer(number) => visitor.visit_i64(*number),
             TomlValue::Float(number) => visitor.visit_f64(*number),
             TomlValue::Boolean(value) => visitor.visit_bool(*value),
-            TomlValue::Date(date) => Err(TypeError::new(Mismatch::Other(
-                format!("it is the date {date}"),
-                "no key of a case takes a date: put text in quotes".to_owned(),
-            ))),
+            TomlValue::Date(date) => Err(no_date(&date.to_string())),
             TomlValue::Array(items) => {
                 let mut access = ItemAccess { items: items.iter(), index: 0 };
                 let value = visitor.visit_seq(&mut access);
                 match (value, access.index) {
-                    (Ok(_), seen) if seen < items.len() => {
-                        let wanted = format!("an array of length {seen}");
-                        Err(de::Error::invalid_length(items.len(), &wanted.as_str()))
-                    }
+                    (Ok(_), seen) if seen < items.len() => Err(too_long(items.len(), seen)),
                     (value, _) => value,
                 }
             }
@@ -63,39 +57,24 @@ impl<'de> de::Deserializer<'de> for &TomlNode {
         alternatives: &'static [&'static str],
         visitor: V,
     ) -> Result<V::Value, TypeError> {
-        let other = |message: String, help: String| {
-            TypeError::new(Mismatch::Other(message, help)).at(&self.origin)
-        };
         match &self.value {
             TomlValue::String(text) => {
                 visitor.visit_enum(Alternative { tag: text, at: &self.origin, content: None })
             }
-            TomlValue::Table(entries) if entries.len() == 1 => {
-                let Some((tag, content)) = entries.iter().next() else {
-                    return Err(other("empty table".to_owned(), suggestion("", alternatives)));
-                };
-                visitor.visit_enum(Alternative { tag, at: &content.key, content: Some(content) })
-            }
-            TomlValue::Table(entries) => {
-                let found = match entries.keys().cloned().collect::<Vec<_>>().join("`, `") {
-                    keys if keys.is_empty() => "the table is empty".to_owned(),
-                    keys => format!("it has `{keys}`"),
-                };
-                let list = alternatives.join(", ");
-                Err(other(
-                    format!("{found} where exactly one alternative is wanted"),
-                    format!("give one of: {list}"),
-                ))
-            }
+            TomlValue::Table(entries) => match (entries.len(), entries.iter().next()) {
+                (1, Some((tag, content))) => visitor.visit_enum(Alternative {
+                    tag,
+                    at: &content.key,
+                    content: Some(content),
+                }),
+                _ => Err(not_one_alternative(entries, alternatives)),
+            },
             // What may change in time may be a plain number, too
             TomlValue::Integer(_) | TomlValue::Float(_) if alternatives.contains(&CONSTANT) => {
                 let content = Some(self);
                 visitor.visit_enum(Alternative { tag: CONSTANT, at: &self.origin, content })
             }
-            _ => Err(other(
-                "this is not one of its alternatives".to_owned(),
-                format!("give one of: {}", alternatives.join(", ")),
-            )),
+            _ => Err(no_alternative(alternatives)),
         }
         .map_err(|error| error.at(&self.origin))
     }
@@ -104,6 +83,38 @@ impl<'de> de::Deserializer<'de> for &TomlNode {
         bool i8 i16 i32 i64 i128 u8 u16 u32 u64 u128 f32 f64 char str string bytes byte_buf unit
         unit_struct seq tuple tuple_struct map struct identifier ignored_any
     }
+}
+
+// Errors, apart from the functions above: these are compiled once for each type of a case.
+
+fn no_date(date: &str) -> TypeError {
+    TypeError::new(Mismatch::Other(
+        format!("it is the date {date}"),
+        "no key of a case takes a date: put text in quotes".to_owned(),
+    ))
+}
+
+fn too_long(length: usize, wanted: usize) -> TypeError {
+    let wanted = format!("an array of length {wanted}");
+    de::Error::invalid_length(length, &wanted.as_str())
+}
+
+fn not_one_alternative(entries: &BTreeMap<String, TomlNode>, alternatives: &[&str]) -> TypeError {
+    let found = match entries.keys().cloned().collect::<Vec<_>>().join("`, `") {
+        keys if keys.is_empty() => "the table is empty".to_owned(),
+        keys => format!("it has `{keys}`"),
+    };
+    TypeError::new(Mismatch::Other(
+        format!("{found} where exactly one alternative is wanted"),
+        format!("give one of: {}", alternatives.join(", ")),
+    ))
+}
+
+fn no_alternative(alternatives: &[&str]) -> TypeError {
+    TypeError::new(Mismatch::Other(
+        "this is not one of its alternatives".to_owned(),
+        format!("give one of: {}", alternatives.join(", ")),
+    ))
 }
 
 struct ItemAccess<'a> {

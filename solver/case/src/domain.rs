@@ -1,10 +1,10 @@
 //! `[domain]` and `[boundary]`: the region, its sides, and what holds on them.
 
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Dimension and symmetry of the problem.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Geometry {
     /// Two dimensions; loads are per unit length.
@@ -14,7 +14,8 @@ pub enum Geometry {
 }
 
 /// `[domain]`: one of these.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum DomainSpec {
     /// Rectangle with sides `left`, `right`, `bottom`, `top` (planar).
@@ -58,7 +59,8 @@ pub enum DomainSpec {
 }
 
 /// A named function of time (1), used as a factor.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum TimeFunction {
     /// From 0 to 1 over the duration, linearly, then 1.
@@ -94,7 +96,8 @@ fn one() -> f64 {
 }
 
 /// What holds on a side of the domain.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum BoundaryCondition {
     /// Zero velocity.

@@ -1,10 +1,10 @@
 //! `[fluid]`: density, viscosity, gravity and which equations hold.
 
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Which equations the fluid obeys.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum FlowModel {
     /// Quasi-steady: no inertia of fluid or bodies.
@@ -16,7 +16,8 @@ pub enum FlowModel {
 }
 
 /// `[fluid]`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Fluid {
     /// Which equations hold.

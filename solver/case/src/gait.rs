@@ -1,12 +1,12 @@
 //! `shape` and `gait` of swimmers that deform: fish, flagellates, and bodies that pulsate.
 
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// `shape.fish`: straight along the body's x, head towards +x, origin in the centre of area.
 ///
 /// All lengths but the first are over the length.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct FishShape {
     /// Length (m), up to the point in which the sides of the tail would meet.
@@ -32,7 +32,8 @@ pub struct FishShape {
 }
 
 /// `shape.flagellate`: straight along the body's x, head towards +x, origin in the centre of area.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct FlagellateShape {
     /// Semi-axes of the elliptic head, along the body and across it (m).
@@ -47,7 +48,8 @@ pub struct FlagellateShape {
 }
 
 /// `gait.carangiform`: a wave of curvature K(s) (sin(2 pi (t/T + phase - s/L)) + bending).
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct CarangiformGait {
     /// Period T (s).
@@ -67,7 +69,8 @@ pub struct CarangiformGait {
 }
 
 /// `gait.anguilliform`: a wave amplitude (s + offset L) sin(2 pi (s/L - t/T - phase)).
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct AnguilliformGait {
     /// Period T (s).
@@ -87,7 +90,8 @@ pub struct AnguilliformGait {
 }
 
 /// `gait.flagellum`: a wave along the tail, with an amplitude that grows with the distance.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct FlagellumGait {
     /// Period (s).
@@ -111,7 +115,8 @@ pub struct FlagellumGait {
 }
 
 /// `gait.pulsating`: a round body whose area (planar) or volume is a function of time.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct PulsatingGait {
     /// Area or volume over that at rest is 1 + amplitude sin(2 pi (t / period + phase)).

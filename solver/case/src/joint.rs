@@ -2,13 +2,13 @@
 
 use alewife_mesh::Point;
 use nalgebra::Rotation2;
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::stroke::Stroke;
 
 /// `[[joint]]`: the child hangs on the parent; bodies and joints make trees.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Joint {
     /// Name of the body it hangs on.
@@ -26,7 +26,8 @@ pub struct Joint {
 }
 
 /// What a joint lets its child do.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum JointKind {
     /// An arm of given length from the joint of the parent to that of the child; it turns with the
@@ -107,7 +108,8 @@ pub(crate) fn child_pose(
 }
 
 /// `hinge`.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Hinge {
     /// Torque per angle (N m/rad; N/rad planar).

@@ -1,10 +1,10 @@
 //! `[output]` and `[[probe]]`: what is written, how often, and where the flow is measured.
 
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// How often something is written.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Cadence {
     /// Never.
@@ -18,7 +18,8 @@ pub enum Cadence {
 }
 
 /// Floating-point numbers in field files.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Precision {
     /// Four bytes.
@@ -29,7 +30,8 @@ pub enum Precision {
 }
 
 /// `[output]`.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Output {
     /// Velocity, pressure and vorticity as VTU files.
@@ -58,7 +60,8 @@ fn every_step() -> Cadence {
 }
 
 /// `[[probe]]`: velocity and pressure at a point, or their difference between two points.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Probe {
     /// Name, used in outputs and references.

@@ -2,13 +2,13 @@
 
 use std::collections::BTreeMap;
 
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// `[scales]`: what makes coefficients and numbers dimensionless.
 ///
 /// Force coefficient c = 2 F / (density velocity^2 area), with area = length in planar cases.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Scales {
     /// Length (m).
@@ -22,7 +22,8 @@ pub struct Scales {
 }
 
 /// `[numbers]`: dimensionless numbers the author expects.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Numbers {
     /// density * scales.velocity * scales.length / viscosity.
@@ -34,7 +35,8 @@ pub struct Numbers {
 }
 
 /// How a time series becomes one number.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum Statistic {
     /// The last value.
@@ -90,7 +92,8 @@ impl Statistic {
 }
 
 /// `[statistics]`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Statistics {
     /// Start and end of the window (s); the whole run if absent.
@@ -112,7 +115,8 @@ impl Default for Statistics {
 }
 
 /// `[[reference]]`: a published value, where it comes from and how near we should be.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Reference {
     /// What is compared: a column of `series.csv`, such as `cylinder.drag_coefficient`.
@@ -151,14 +155,15 @@ pub struct Reference {
 }
 
 /// `[[variant]]`: the same case with some keys set.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Variant {
     /// Name; `alewife run CASE/NAME` runs it.
     pub name: String,
     /// Keys to set, written as on the command line: `"body.0.center" = [2.0, 0.0]`.
     #[serde(default)]
-    #[schemars(with = "BTreeMap<String, serde_json::Value>")]
+    #[cfg_attr(test, schemars(with = "BTreeMap<String, serde_json::Value>"))]
     pub set: BTreeMap<String, toml::Value>,
     /// Whether `alewife validate --quick` runs it.
     #[serde(default)]

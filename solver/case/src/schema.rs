@@ -1,40 +1,61 @@
 //! JSON Schema of case files, for editors: `#:schema alewife.schema.json` in the first line.
 
-use serde_json::{Value, json};
-
-use super::Case;
-
-/// The schema: that of `Case`, and `extends`, which only reading knows.
+/// The schema as JSON text.
+///
+/// It is derived from the types of a case once, by a test, and not in each build of the program.
 #[must_use]
-pub fn schema() -> Value {
-    let mut schema = schemars::schema_for!(Case).to_value();
-    schema["title"] = json!("alewife case");
-    schema["properties"]["extends"] = json!({
-        "type": "string",
-        "description": "The case this one starts from: the relative path of a case file, or the \
-                        name of a shipped case. Tables are merged, everything else is replaced; \
-                        reference, variant and quick are not inherited.",
-    });
-    // A plain number is a stroke, too
-    if let Some(strokes) = schema["$defs"]["Stroke"]["oneOf"].as_array_mut() {
-        strokes.push(json!({ "type": "number", "description": "The same as `constant`." }));
-    }
-    // What is needed may stand in the extended file.
-    let required = schema["required"].take();
-    if let Some(object) = schema.as_object_mut() {
-        object.remove("required");
-        object.insert(
-            "anyOf".to_owned(),
-            json!([{ "required": ["extends"] }, { "required": required }]),
-        );
-    }
-    schema
+pub fn schema() -> &'static str {
+    include_str!("../alewife.schema.json")
 }
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use std::path::Path;
+    use std::{env, fs};
+
+    use serde_json::{Value, json};
+
+    use super::schema;
+    use crate::Case;
     use crate::tree::CHOICES;
+
+    /// The schema of `Case`, and `extends`, which only reading knows.
+    fn derived() -> Value {
+        let mut schema = schemars::schema_for!(Case).to_value();
+        schema["title"] = json!("alewife case");
+        schema["properties"]["extends"] = json!({
+            "type": "string",
+            "description": "The case this one starts from: the relative path of a case file, or the \
+                            name of a shipped case. Tables are merged, everything else is replaced; \
+                            reference, variant and quick are not inherited.",
+        });
+        // A plain number is a stroke, too
+        if let Some(strokes) = schema["$defs"]["Stroke"]["oneOf"].as_array_mut() {
+            strokes.push(json!({ "type": "number", "description": "The same as `constant`." }));
+        }
+        // What is needed may stand in the extended file.
+        let required = schema["required"].take();
+        if let Some(object) = schema.as_object_mut() {
+            object.remove("required");
+            object.insert(
+                "anyOf".to_owned(),
+                json!([{ "required": ["extends"] }, { "required": required }]),
+            );
+        }
+        schema
+    }
+
+    /// To write the file again: `ALEWIFE_UPDATE=1 cargo test --release --workspace schema`.
+    #[test]
+    fn the_schema_is_that_of_the_types() {
+        let text = format!("{:#}\n", derived());
+        if env::var_os("ALEWIFE_UPDATE").is_some() {
+            let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("alewife.schema.json");
+            fs::write(file, &text).unwrap();
+            return;
+        }
+        assert!(text == schema(), "alewife.schema.json is not up to date");
+    }
 
     /// The schema a `$ref` leads to.
     fn resolved<'a>(root: &'a Value, schema: &'a Value) -> &'a Value {
@@ -62,13 +83,13 @@ mod tests {
 
     #[test]
     fn a_stroke_may_be_a_number() {
-        let strokes = schema()["$defs"]["Stroke"]["oneOf"].as_array().cloned().unwrap();
+        let strokes = derived()["$defs"]["Stroke"]["oneOf"].as_array().cloned().unwrap();
         assert!(strokes.iter().any(|stroke| stroke["type"] == "number"));
     }
 
     #[test]
     fn every_table_of_alternatives_is_known_to_merging() {
-        let root = schema();
+        let root = derived();
         let mut found = Vec::new();
         let structs = root["$defs"].as_object().unwrap().values().chain([&root]);
         for definition in structs {
@@ -100,7 +121,7 @@ mod tests {
 
     #[test]
     fn unknown_keys_are_refused_and_extends_is_known() {
-        let root = schema();
+        let root = derived();
         assert_eq!(root["additionalProperties"], false);
         assert!(root["properties"]["extends"].is_object());
         assert!(root.get("required").is_none());

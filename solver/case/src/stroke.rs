@@ -3,11 +3,11 @@
 use std::f64::consts::{PI, TAU};
 use std::iter::successors;
 
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// A number given in time: how long an arm is, how far a joint is bent.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Stroke {
     /// The same at all times.

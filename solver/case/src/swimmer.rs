@@ -1,6 +1,5 @@
 //! `[[swimmer]]`: bodies and joints made by kind, one or many at a time, and what they do together.
 
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::body::{GaitSpec, Motion, ShapeSpec};
@@ -8,7 +7,8 @@ use super::joint::{Hinge, JointKind};
 use super::stroke::Stroke;
 
 /// `[[swimmer]]`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct SwimmerSpec {
     /// Name; its bodies are called NAME-1, NAME-2, ..., copies NAME-1, NAME-2 and their bodies
@@ -44,7 +44,8 @@ pub struct SwimmerSpec {
 }
 
 /// `kind`: one of these.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum SwimmerKind {
     /// One body with a gait, or without one.
@@ -94,7 +95,8 @@ pub enum SwimmerKind {
 }
 
 /// A pivot between the links of a chain.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Pivot {
     /// Bent by a given angle (rad).
@@ -116,7 +118,8 @@ impl From<Pivot> for JointKind {
 }
 
 /// Where copies of a swimmer go.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Copies {
     /// In rows and columns, the first at `center`.

@@ -1,11 +1,11 @@
 //! `[time]`: a steady solution, or time steps.
 
 use alewife_mesh::whole;
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// `[time.steady]` or `[time.unsteady]`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum TimeSettings {
     /// Steady flow, or the instantaneous flow of the `stokes` model.
@@ -15,7 +15,8 @@ pub enum TimeSettings {
 }
 
 /// `[time.steady]`: Newton's method, with continuation in the Reynolds number when it stalls.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Steady {
     /// Largest residual relative to the first one (1).
@@ -27,7 +28,8 @@ pub struct Steady {
 }
 
 /// `[time.unsteady]`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Unsteady {
     /// Step (s); the first one where steps are adaptive.
@@ -57,7 +59,8 @@ impl Unsteady {
 }
 
 /// `[time.unsteady.adaptive]`: steps as long as the error of a step, the mesh and the gaps allow.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Adaptive {
     /// Largest error of one step, relative to the size of the velocities (1).
@@ -78,7 +81,8 @@ pub struct Adaptive {
 }
 
 /// Time scheme.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Scheme {
     /// Backward Euler.
@@ -92,7 +96,8 @@ pub enum Scheme {
 }
 
 /// Treatment of the convection within a step.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Convection {
     /// Extrapolated to the new time: one linear system a step.
@@ -103,7 +108,8 @@ pub enum Convection {
 }
 
 /// The state at time zero.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Initial {
     /// Fluid and bodies at rest.

@@ -126,9 +126,7 @@ fn dispatch(command: Command) -> Result<Exit, Failure> {
         Command::Run(options) => run::run(&options),
         Command::Validate(options) => validate::validate(&options),
         Command::Schema => {
-            let text = serde_json::to_string_pretty(&crate::case::schema())
-                .map_err(|error| Failure::new(Exit::Bug, error.to_string()))?;
-            say(&text);
+            say(crate::case::schema().trim_end());
             Ok(Exit::Done)
         }
         Command::Completions { shell } => {

@@ -1,19 +1,18 @@
 //! `fields/*.vtu` and `fields.pvd`: velocity, pressure and vorticity on the mesh, for ParaView.
 //!
-//! All three are given at the P2 nodes of quadratic triangles. The pressure is linear in a cell,
-//! so that its value at a mid-edge node is the mean of the edge's ends.
+//! All three are given at the P2 nodes of quadratic triangles.
 
 use std::fmt::Write as _;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use alewife_mesh::{Array, Mesh, Point, Simplex, write_vtu_as};
+use alewife_mesh::{Array, Mesh, Point, write_vtu_as};
 
 use super::atomic::write_atomic;
 use super::schedule::Schedule;
-use super::vorticity::nodal_vorticity;
 use crate::case::{Case, Precision};
+use crate::flow::{nodal_pressure, nodal_vorticity};
 use crate::simulation::{LastState, Observer, RunError, Snapshot};
 
 /// The last state of a run that ended before its time, for `--resume`.
@@ -117,31 +116,5 @@ impl Observer<2> for FieldFiles {
             write_atomic(&folder.join(STATE_FILE), &state)?;
         }
         write_atomic(&folder.join("flow.vtu"), &bytes)
-    }
-}
-
-/// Pressure at all nodes from that at the vertices.
-fn nodal_pressure(mesh: &Mesh<2>, at_vertices: &[f64]) -> Vec<f64> {
-    let mut pressure = vec![0.0; mesh.n_nodes()];
-    pressure[..mesh.n_vertices].copy_from_slice(&at_vertices[..mesh.n_vertices]);
-    for edge in mesh.cell_ids().flat_map(|cell| mesh.cell_edges(cell)) {
-        let [start, end] = edge.ends.map(|vertex| at_vertices[vertex]);
-        for (&node, parameter) in edge.inner.iter().zip(Simplex::<2>::EDGE_PARAMETERS) {
-            pressure[node] = (1.0 - parameter) * start + parameter * end;
-        }
-    }
-    pressure
-}
-
-#[cfg(test)]
-mod tests {
-    use super::super::tests::two_triangles;
-    use super::*;
-
-    #[test]
-    fn a_linear_pressure_is_exact_at_every_node() {
-        let mesh = two_triangles();
-        let exact: Vec<f64> = mesh.nodes.iter().map(|x| 1.0 + x.x - 3.0 * x.y).collect();
-        assert_eq!(nodal_pressure(&mesh, &exact[..mesh.n_vertices]), exact);
     }
 }

@@ -30,7 +30,6 @@ mod status;
 mod terminal;
 #[cfg(test)]
 mod tests;
-mod vorticity;
 
 use crate::case::Model;
 use crate::simulation::Observer;

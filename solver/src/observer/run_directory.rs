@@ -97,7 +97,7 @@ impl RunDirectory {
         }
         clear(path).map_err(failed)?;
 
-        let case_text = toml::to_string_pretty(case)?;
+        let case_text = case.to_toml()?;
         let provenance = Provenance::of_this_process(&case_text, threads);
         let mut provenance_text =
             serde_json::to_vec_pretty(&provenance).map_err(|error| failed(error.into()))?;

@@ -37,7 +37,7 @@ fields = { steps = 10 }
 "#;
 
 /// The unit square, split from its lower left to its upper right corner.
-pub fn two_triangles() -> Mesh<2> {
+fn two_triangles() -> Mesh<2> {
     let nodes = [
         [0.0, 0.0],
         [1.0, 0.0],

@@ -2,6 +2,7 @@
 
 mod assemble;
 mod kernel;
+mod nodal;
 mod open_side;
 mod parallel;
 mod taylor_hood;
@@ -10,4 +11,5 @@ mod terms;
 mod tests;
 
 pub use assemble::{Assembly, assemble, pressure_unknowns, residual};
+pub use nodal::{nodal_pressure, nodal_vorticity};
 pub use terms::{BodyForce, Convection, Fields, FlowTerms};
