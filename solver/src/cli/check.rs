@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use alewife_mesh::{Mesh, Quality};
+use alewife_mesh::Mesh;
 
 use super::engine;
 use super::exit::{Exit, Failure};
@@ -50,7 +50,7 @@ fn check_one(argument: &str, settings: &[String], has_mesh: bool) -> Result<(), 
     if has_mesh {
         let mesh = engine::build_mesh(&file.model)?;
         say(&format!("\n{}", on_stdout(Ink::Bold, "mesh")));
-        for line in Quality::of(&mesh).to_string().lines() {
+        for line in engine::mesh_quality(&mesh).to_string().lines() {
             say(&format!("  {line}"));
         }
         say(&format!(

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use alewife_mesh::Mesh;
+use alewife_mesh::{Mesh, Quality};
 
 use super::signal::SignalWatch;
 use crate::case::{Model, TimeSettings};
@@ -12,6 +12,11 @@ use crate::simulation::{self, RunError, RunSummary, SavedState};
 /// The mesh of a case.
 pub fn build_mesh(model: &Model) -> Result<Mesh<2>, RunError> {
     simulation::build_mesh(model)
+}
+
+/// How good a mesh is.
+pub fn mesh_quality(mesh: &Mesh<2>) -> Quality<2> {
+    simulation::mesh_quality(mesh)
 }
 
 /// Runs a case without observers.

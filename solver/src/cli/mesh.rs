@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::BufWriter;
 use std::path::PathBuf;
 
-use alewife_mesh::{Quality, write_vtu};
+use alewife_mesh::write_vtu;
 
 use super::engine;
 use super::exit::{Exit, Failure};
@@ -22,7 +22,7 @@ pub fn mesh(argument: &str, settings: &[String], out: Option<PathBuf>) -> Result
     };
     let writer = BufWriter::new(File::create(&path).map_err(failed)?);
     write_vtu(writer, &mesh, None, &[], &[]).map_err(failed)?;
-    say(Quality::of(&mesh).to_string().trim_end());
+    say(engine::mesh_quality(&mesh).to_string().trim_end());
     say(&format!("written to {}", path.display()));
     Ok(Exit::Done)
 }

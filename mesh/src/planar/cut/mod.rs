@@ -54,7 +54,7 @@ impl Cut {
             return Err(MeshError::NoCut { reason: "the domain is no box" });
         };
         let periods = domain.periods();
-        let clearance = Clearance { outlines: &outlines, periods };
+        let clearance = Clearance::new(&outlines, periods, (min + max) * 0.5);
         let found = (0..4).find_map(|attempt| {
             let samples = samples::samples(domain, &clearance, attempt)?;
             let medial = Medial::new(&samples, &clearance)?;

@@ -130,7 +130,12 @@ impl<'a> Loop<'a> {
     fn shortest(medial: &'a Medial) -> Option<Self> {
         let mut least = f64::INFINITY;
         let mut best: Option<Vec<Visit>> = None;
+        // What goes around takes a corridor into another period
+        let leaves = |leg: &CorridorEnd| medial.follow(*leg).steps[1] != 0;
         for base in 0..medial.junctions.len() {
+            if !medial.junctions[base].arms.iter().any(leaves) {
+                continue;
+            }
             let Some(turn) = loop_through(medial, base, least) else { continue };
             let visit = |&leg: &CorridorEnd| Visit { junction: medial.start(leg).junction, leg };
             let visits: Vec<Visit> = turn.legs.iter().map(visit).collect();

@@ -1,5 +1,8 @@
 //! `Search`: the cheapest way along corridors, by Dijkstra's method.
 
+use std::cmp::Ordering;
+use std::collections::BinaryHeap;
+
 use super::medial::{Arrival, CorridorEnd, JunctionArm, Medial};
 use super::steps::{Steps, sum};
 
@@ -15,21 +18,48 @@ pub struct Reached {
     leg: Option<CorridorEnd>,
 }
 
-/// Dijkstra's method; few enough junctions for a plain list.
+/// What was reached and not followed yet, the cheapest first, of two as cheap the earlier.
+#[derive(Debug, Clone, Copy)]
+struct Open {
+    cost: f64,
+    at: usize,
+}
+
+impl Ord for Open {
+    fn cmp(&self, other: &Self) -> Ordering {
+        other.cost.total_cmp(&self.cost).then(other.at.cmp(&self.at))
+    }
+}
+
+impl PartialOrd for Open {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl PartialEq for Open {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other).is_eq()
+    }
+}
+
+impl Eq for Open {}
+
+/// Dijkstra's method.
 pub struct Search {
     pub reached: Vec<Reached>,
-    open: Vec<usize>,
+    open: BinaryHeap<Open>,
     settled: Vec<bool>,
 }
 
 impl Search {
     pub fn new(n_states: usize) -> Self {
-        Self { reached: Vec::new(), open: Vec::new(), settled: vec![false; n_states] }
+        Self { reached: Vec::new(), open: BinaryHeap::new(), settled: vec![false; n_states] }
     }
 
     pub fn start(&mut self, junction: usize) {
-        self.open.push(self.reached.len());
         let (steps, cost) = ([0, 0], 0.0);
+        self.open.push(Open { cost, at: self.reached.len() });
         self.reached.push(Reached { junction, arm: 3, steps, cost, before: None, leg: None });
     }
 
@@ -56,16 +86,13 @@ impl Search {
     ) {
         let Arrival { at: JunctionArm { junction, arm }, steps: gone } = medial.follow(leg);
         let (steps, cost) = (sum(steps, gone), cost + medial.corridors[leg.corridor].cost);
-        self.open.push(self.reached.len());
+        self.open.push(Open { cost, at: self.reached.len() });
         self.reached.push(Reached { junction, arm, steps, cost, before, leg: Some(leg) });
     }
 
     /// The cheapest of what is open.
     pub fn next(&mut self) -> Option<usize> {
-        let cost = |at: &usize| self.reached[*at].cost;
-        let order = |a: &(usize, &usize), b: &(usize, &usize)| cost(a.1).total_cmp(&cost(b.1));
-        let (place, _) = self.open.iter().enumerate().min_by(order)?;
-        Some(self.open.swap_remove(place))
+        Some(self.open.pop()?.at)
     }
 
     /// Whether a state is settled for the first time.

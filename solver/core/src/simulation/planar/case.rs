@@ -1,6 +1,6 @@
 //! What a planar or axisymmetric case says of meshes: domain, sizes, bodies, sheets.
 
-use alewife_mesh::{Domain, Mesh, PlacedShape, SizeBox, Sizing};
+use alewife_mesh::{Domain, Mesh, PlacedShape, Quality, SizeBox, Sizing};
 
 use super::periodic_cell::{PeriodicCell, initial_cell};
 use super::shape_motion::shape_motion;
@@ -85,6 +85,15 @@ impl PlanarCase {
 /// When a body does not fit, or the mesh cannot be generated.
 pub fn build_mesh(model: &Model) -> Result<Mesh<2>, RunError> {
     Ok(initial_mesh(model)?.mesh)
+}
+
+/// How good a mesh is.
+///
+/// [`Quality::of`] is generic: called here it is compiled here, with all optimisation, and not in the
+/// program, which has little.
+#[must_use]
+pub fn mesh_quality(mesh: &Mesh<2>) -> Quality<2> {
+    Quality::of(mesh)
 }
 
 /// The mesh of a case at time zero, with its domain and bodies as they are meshed.

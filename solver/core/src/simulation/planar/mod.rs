@@ -8,7 +8,7 @@ mod shape_motion;
 mod sides;
 mod start;
 
-pub use case::{build_mesh, sizing};
+pub use case::{build_mesh, mesh_quality, sizing};
 pub use shape_motion::shape_motion;
 pub use sides::build_problem;
 pub use start::simulation_on;
