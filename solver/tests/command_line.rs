@@ -131,21 +131,20 @@ fn completions_are_printed_and_colours_are_not() {
     assert!(!done(directory.path(), &["show", "squirmer-alone"]).contains('\x1b'));
 }
 
-/// A run far too long to end by itself, stopped once it has written rows.
+/// A run of a falling sphere far too long to end by itself, stopped in `fall` once it has written rows;
+/// what it says.
 #[cfg(unix)]
-#[test]
-fn a_signal_ends_a_run_after_its_step_with_all_files_complete() {
-    let directory = tempfile::tempdir().unwrap();
+fn stopped_fall(directory: &Path) -> String {
     let mut run = Command::new(env!("CARGO_BIN_EXE_alewife"))
         .args(["run", "sphere-free-fall", "--out", "fall", "--quiet", "--threads", "1"])
         .args(["--set", "time.unsteady.end=1e6", "--set", "mesh.scale=2"])
-        .current_dir(directory.path())
+        .current_dir(directory)
+        .stderr(std::process::Stdio::piped())
         .spawn()
         .unwrap();
-    let out = directory.path().join("fall");
     let has_begun = || {
-        std::fs::read_to_string(out.join("status.json"))
-            .is_ok_and(|text| !text.contains("\"dofs\": 0"))
+        std::fs::read_to_string(directory.join("fall/series.csv"))
+            .is_ok_and(|text| text.lines().count() > 2)
     };
     while !has_begun() {
         assert!(run.try_wait().unwrap().is_none(), "the run ended by itself");
@@ -153,10 +152,83 @@ fn a_signal_ends_a_run_after_its_step_with_all_files_complete() {
     }
     let killed = Command::new("kill").args(["-INT", &run.id().to_string()]).status().unwrap();
     assert!(killed.success());
-    assert_eq!(run.wait().unwrap().code(), Some(75));
+    let output = run.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(75));
+    String::from_utf8(output.stderr).unwrap()
+}
+
+#[cfg(unix)]
+#[test]
+fn a_signal_ends_a_run_after_its_step_with_all_files_complete() {
+    let directory = tempfile::tempdir().unwrap();
+    let told = stopped_fall(directory.path());
+    let command = "alewife run sphere-free-fall --out fall --quiet --threads 1 --set \
+                   time.unsteady.end=1e6 --set mesh.scale=2 --resume fall/state.json";
+    assert!(told.contains(command), "{told}");
+    let out = directory.path().join("fall");
     let status = std::fs::read_to_string(out.join("status.json")).unwrap();
     assert!(status.contains("\"stopped\""), "{status}");
     assert!(out.join("fields/stopped.vtu").is_file());
     let series = std::fs::read_to_string(out.join("series.csv")).unwrap();
     assert!(series.ends_with('\n') && series.lines().count() > 1);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_run_that_resumes_in_its_directory_goes_on_with_its_series() {
+    let directory = tempfile::tempdir().unwrap();
+    stopped_fall(directory.path());
+    let read = |file: &str| std::fs::read_to_string(directory.path().join(file)).unwrap();
+    let before = read("fall/series.csv");
+    let time = |line: &str| -> f64 { line.split(',').next().unwrap().parse().unwrap() };
+    let times: Vec<f64> = before.lines().skip(1).map(time).collect();
+    let end = format!("time.unsteady.end={}", times[times.len() - 1] + 3.0 * (times[2] - times[1]));
+    let arguments = |out: &'static str| {
+        let mut all = vec!["run", "sphere-free-fall", "--out", out, "--quiet", "--threads", "1"];
+        all.extend(["--set", "mesh.scale=2", "--set", "reference=[]", "--set", "variant=[]"]);
+        all
+    };
+    let with = |mut all: Vec<&'static str>, more: &[&str]| {
+        let more = more.iter().map(|word| (*word).to_owned());
+        let all: Vec<String> = all.drain(..).map(str::to_owned).chain(more).collect();
+        alewife(directory.path(), &all.iter().map(String::as_str).collect::<Vec<_>>())
+    };
+    // The state is not lost by a run that was meant to resume
+    let refused = with(arguments("fall"), &["--set", &end]);
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&refused.stderr).contains("--resume fall/state.json"));
+    assert_eq!(read("fall/series.csv"), before);
+
+    let resumed = with(arguments("fall"), &["--set", &end, "--resume", "fall/state.json"]);
+    assert_eq!(resumed.status.code(), Some(0), "{}", String::from_utf8_lossy(&resumed.stderr));
+    let whole = with(arguments("whole"), &["--set", &end]);
+    assert_eq!(whole.status.code(), Some(0), "{}", String::from_utf8_lossy(&whole.stderr));
+    let (resumed, whole) = (read("fall/series.csv"), read("whole/series.csv"));
+    assert!(resumed.starts_with(&before) && resumed.len() > before.len());
+    assert_eq!(resumed.lines().count(), whole.lines().count());
+    let speed = |line: &str| -> f64 { line.split(',').nth(4).unwrap().parse().unwrap_or(f64::NAN) };
+    for (one, other) in resumed.lines().zip(whole.lines()).skip(1) {
+        assert_eq!(time(one), time(other));
+        assert!((speed(one) - speed(other)).abs() <= 1e-9 * speed(other).abs(), "{one}\n{other}");
+    }
+    assert!(!directory.path().join("fall/state.json").exists());
+    assert!(!read("fall/fields.pvd").contains("stopped"));
+}
+
+#[test]
+fn files_of_others_are_never_replaced() {
+    let directory = tempfile::tempdir().unwrap();
+    let text = done(directory.path(), &["show", "squirmer-alone", "--source"]);
+    std::fs::write(directory.path().join("case.toml"), &text).unwrap();
+    let refused = alewife(directory.path(), &["run", "case.toml", "--out", ".", "--overwrite"]);
+    assert_eq!(refused.status.code(), Some(2));
+    let case = || std::fs::read_to_string(directory.path().join("case.toml")).unwrap();
+    assert_eq!(case(), text);
+    let own = ["run", "squirmer-alone", "--out", "own", "--set", "mesh.scale=2", "--quiet"];
+    done(directory.path(), &own);
+    let of_run = ["run", "own/case.toml", "--out", "own", "--overwrite"];
+    let refused = alewife(directory.path(), &of_run);
+    assert_eq!(refused.status.code(), Some(2));
+    let told = String::from_utf8_lossy(&refused.stderr);
+    assert!(told.contains("own/case.toml lies in own"), "{told}");
 }

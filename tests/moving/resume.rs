@@ -1,9 +1,9 @@
 //! Runs that go on from the state another one left.
 
 use alewife_core::case::{Model, TimeSettings};
-use alewife_core::simulation::{RunSummary, simulate_from};
+use alewife_core::simulation::RunSummary;
 use tests::cases::{case, last, run};
-use tests::{stopped, stopped_within_a_step};
+use tests::{resumed, stopped, stopped_within_a_step};
 
 fn two_bodies(adaptive: &str) -> Model {
     case(&format!(
@@ -47,7 +47,7 @@ fn a_run_that_goes_on_ends_where_it_would_have_ended() {
         assert!(last(&whole, "flow.remeshes") >= 1.0);
         for after in [3, 60] {
             let saved = stopped(&case, after);
-            let rest = simulate_from(&case, Some(&saved), &mut []).expect("it goes on");
+            let rest = resumed(&case, &saved).expect("it goes on");
             let ends = (poses(&whole), poses(&rest));
             if adaptive.is_empty() {
                 for (one, other) in ends.0.iter().zip(&ends.1) {
@@ -71,7 +71,8 @@ fn no_step_is_lost_where_a_run_is_stopped() {
         let whole = run(&case).series.times;
         for after in [1, 4] {
             let stopped = stopped_within_a_step(&case, after);
-            let rest = simulate_from(&case, stopped.state.as_ref(), &mut []).expect("it goes on");
+            let rest = resumed(&case, stopped.state.as_ref().expect("it left a state"))
+                .expect("it goes on");
             let joined: Vec<f64> = stopped.times.into_iter().chain(rest.series.times).collect();
             assert_eq!(joined.len(), whole.len(), "{joined:?} {whole:?}");
             if !scheme.contains("adaptive") {
@@ -86,6 +87,6 @@ fn a_state_of_other_bodies_is_refused() {
     let saved = stopped(&two_bodies(""), 2);
     let mut other = two_bodies("");
     other.bodies[1].name = "ball".to_owned();
-    let error = simulate_from(&other, Some(&saved), &mut []).expect_err("other bodies");
+    let error = resumed(&other, &saved).expect_err("other bodies");
     assert!(error.to_string().contains("its bodies are [\"ellipse\", \"disc\"]"), "{error}");
 }

@@ -15,7 +15,7 @@ pub use moved::Moved;
 pub use norms::{Errors, errors};
 pub use setup::{fluid_only, rest, sides};
 pub use stepping::{Stepping, steady, steady_with, workspace};
-pub use stop::{Stopped, stopped, stopped_within_a_step};
+pub use stop::{Stopped, resumed, stopped, stopped_within_a_step};
 pub use study::Study;
 pub use swim::Swim;
 pub use tetrahedra::{three_tetrahedra, two_tetrahedra};

@@ -4,7 +4,10 @@ use std::cell::Cell;
 use std::sync::{Arc, Mutex};
 
 use alewife_core::case::Model;
-use alewife_core::simulation::{LastState, Observer, RunError, SavedState, Snapshot, simulate};
+use alewife_core::simulation::{
+    LastState, Observer, Resume, RunError, RunSummary, SavedState, Snapshot, simulate,
+    simulate_from,
+};
 
 /// What a stopped run leaves.
 #[derive(Debug, Clone, Default)]
@@ -80,4 +83,12 @@ pub fn stopped(model: &Model, after: usize) -> SavedState<2> {
     let read: SavedState<2> = serde_json::from_str(&text).expect("it is read");
     assert!(read == saved, "not a bit is lost");
     read
+}
+
+/// Goes on from a state, without what was measured before.
+///
+/// # Errors
+/// Those of [`simulate_from`].
+pub fn resumed(model: &Model, state: &SavedState<2>) -> Result<RunSummary, RunError> {
+    simulate_from(model, Some(&Resume { state, series: None }), &mut [])
 }

@@ -2,11 +2,9 @@
 //! are gone on from.
 
 use alewife_core::coupling::BodyShapes;
-use alewife_core::simulation::{
-    RunError, RunSummary, build_mesh, build_problem, simulate, simulate_from,
-};
+use alewife_core::simulation::{RunError, RunSummary, build_mesh, build_problem, simulate};
 use tests::cases::{case, column, last, run};
-use tests::stopped;
+use tests::{resumed, stopped};
 
 /// A stout fish in a closed box; `gait` may be empty.
 fn fish(gait: &str, time: &str, mesh: &str) -> String {
@@ -157,7 +155,7 @@ fn a_swimmer_that_goes_on_from_a_state_ends_where_it_would_have_ended() {
     let ends = |outcome: &RunSummary| names.map(|name| last(outcome, name));
     for after in [5, 24] {
         let saved = stopped(&case, after);
-        let rest = simulate_from(&case, Some(&saved), &mut []).expect("it goes on");
+        let rest = resumed(&case, &saved).expect("it goes on");
         for (one, other) in ends(&whole).iter().zip(ends(&rest)) {
             assert!((one - other).abs() < 1e-8, "{:?} {:?}", ends(&whole), ends(&rest));
         }
@@ -169,7 +167,7 @@ fn a_state_of_another_gait_is_refused() {
     let with = |beat: &str| case(&fish(beat, "step = 0.02, end = 0.6", COARSE));
     let saved = stopped(&with(BEAT), 24);
     let other = with(&BEAT.replace("period = 1.0", "period = 11.0"));
-    let error = simulate_from(&other, Some(&saved), &mut []).expect_err("another gait");
+    let error = resumed(&other, &saved).expect_err("another gait");
     let told = error.to_string();
     assert!(told.contains("a run resumes with the gait it began with"), "{told}");
 }

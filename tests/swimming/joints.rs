@@ -1,8 +1,7 @@
 //! What is reported of joints: the loads that come through them, by an independent way.
 
-use alewife_core::simulation::simulate_from;
 use tests::cases::{case, column, last, run};
-use tests::stopped;
+use tests::{resumed, stopped};
 
 /// Three hinged links with weights in a fluid: torques through the hinges less those of spring, damper
 /// and motor there, over the largest torque.
@@ -171,8 +170,8 @@ fn a_state_of_other_strokes_is_refused() {
         ))
     };
     let saved = stopped(&with(0.1), 3);
-    assert!(simulate_from(&with(0.1), Some(&saved), &mut []).is_ok());
-    let error = simulate_from(&with(0.2), Some(&saved), &mut []).expect_err("other strokes");
+    assert!(resumed(&with(0.1), &saved).is_ok());
+    let error = resumed(&with(0.2), &saved).expect_err("other strokes");
     let told = error.to_string();
     assert!(told.contains("body `three-3` was left at"), "{told}");
     assert!(told.contains("a run resumes with the strokes it began with"), "{told}");

@@ -99,7 +99,9 @@ impl From<RunError> for Failure {
 impl From<RunDirectoryError> for Failure {
     fn from(error: RunDirectoryError) -> Self {
         let exit = match error {
-            RunDirectoryError::Finished { .. } | RunDirectoryError::NotARun { .. } => Exit::Usage,
+            RunDirectoryError::Finished { .. }
+            | RunDirectoryError::Resumable { .. }
+            | RunDirectoryError::NotARun { .. } => Exit::Usage,
             _ => Exit::InputOutput,
         };
         Self::new(exit, error.to_string())

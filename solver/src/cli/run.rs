@@ -4,13 +4,14 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
+use super::engine::Resumed;
 use super::exit::{Exit, Failure};
 use super::read::{Settings, read_case};
 use super::style::{Ink, on_stdout, say};
 use super::{engine, threads};
 use crate::case::{Case, Model, TimeSettings, significant};
-use crate::observer::{RunDirectory, write_atomic};
-use crate::simulation::{RunSummary, SavedState};
+use crate::observer::{Earlier, History, RunDirectory, run_of_state, write_atomic};
+use crate::simulation::{RunError, RunSummary, SavedState};
 use crate::validation::{Comparison, Verdict, compare, comparison_table, comparisons_to_json};
 
 /// File of a run that holds its comparison with published values.
@@ -54,15 +55,33 @@ pub struct Options {
 /// Runs a case.
 pub fn run(options: &Options) -> Result<Exit, Failure> {
     let file = read_case(&options.case, &options.settings.set)?;
-    let saved = options.resume.as_deref().map(|path| read_state(path, file.case())).transpose()?;
-    let n_threads = threads::start(options.threads)?;
     let name = file.full_name();
     let out = options.out.clone().unwrap_or_else(|| Path::new("runs").join(name.replace('/', "-")));
-    let directory = RunDirectory::create(&out, file.case(), n_threads, options.overwrite)?;
+    let resumed =
+        options.resume.as_deref().map(|path| read_resumed(path, file.case(), &out)).transpose()?;
+    let earlier = match &resumed {
+        Some(resumed) if resumed.is_in_place => Earlier::Continue,
+        _ if options.overwrite => Earlier::Replace,
+        _ => Earlier::Keep,
+    };
+    if earlier != Earlier::Continue && is_inside(Path::new(&file.file), &out) {
+        let (file, out) = (&file.file, out.display());
+        return Err(Failure::new(
+            Exit::Usage,
+            format!("{file} lies in {out}, which a new run would clear; give another --out"),
+        ));
+    }
+    let n_threads = threads::start(options.threads)?;
+    let directory = RunDirectory::create(&out, file.case(), n_threads, earlier)?;
     let verbosity = i8::try_from(options.verbose).unwrap_or(i8::MAX) - i8::from(options.quiet);
     engine::start_log(Some(&out), verbosity)?;
 
-    let outcome = engine::simulate_into(&file.model, saved.as_ref(), &directory, options.quiet)?;
+    let resumed = resumed.map(|resumed| resumed.from);
+    let outcome = engine::simulate_into(&file.model, resumed.as_ref(), &directory, options.quiet)
+        .map_err(|error| match error {
+        RunError::Stopped { .. } => stopped(&error, &out),
+        other => other.into(),
+    })?;
     let comparisons = compare(&name, file.case(), &outcome);
     if !comparisons.is_empty() {
         let text = format!("{:#}\n", comparisons_to_json(&comparisons));
@@ -75,7 +94,8 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
     let seconds: f64 = outcome.timing.cpu.iter().sum();
     let remeshes = outcome.series.column("flow.remeshes").and_then(|all| all.last().copied());
     let moving = remeshes.map_or_else(String::new, |remeshes| {
-        format!(", {:.3} s a step, {remeshes} remeshings", seconds / outcome.steps.max(1) as f64)
+        let steps = outcome.steps - resumed.as_ref().map_or(0, |resumed| resumed.state.step);
+        format!(", {:.3} s a step, {remeshes} remeshings", seconds / steps.max(1) as f64)
     });
     say(&format!(
         "{} unknowns, {} steps, {seconds:.2} s of CPU time{moving}; written to {}",
@@ -84,6 +104,61 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
         out.display()
     ));
     Ok(Exit::Done)
+}
+
+/// Whether a file lies in a directory.
+fn is_inside(file: &Path, directory: &Path) -> bool {
+    match (file.canonicalize(), directory.canonicalize()) {
+        (Ok(file), Ok(directory)) => file.starts_with(directory),
+        _ => false,
+    }
+}
+
+/// A run that a signal stopped: what to type to go on.
+fn stopped(error: &RunError, out: &Path) -> Failure {
+    let mut command = vec!["alewife".to_owned()];
+    let mut arguments = std::env::args().skip(1);
+    while let Some(argument) = arguments.next() {
+        match argument.as_str() {
+            "--resume" => drop(arguments.next()),
+            "--overwrite" => {}
+            other if other.starts_with("--resume=") => {}
+            other => command.push(quoted(other)),
+        }
+    }
+    let state = out.join("state.json");
+    command.extend(["--resume".to_owned(), quoted(&state.to_string_lossy())]);
+    let message = format!("{error}; it resumes with\n  {}", command.join(" "));
+    Failure::new(Exit::Stopped, message)
+}
+
+/// A word as a shell reads it.
+fn quoted(word: &str) -> String {
+    let is_plain = |c: char| c.is_ascii_alphanumeric() || "-_./=,:+@%".contains(c);
+    if !word.is_empty() && word.chars().all(is_plain) {
+        word.to_owned()
+    } else {
+        format!("'{}'", word.replace('\'', r"'\''"))
+    }
+}
+
+/// A state, and whether the run it is of goes on in its own directory.
+struct Resuming {
+    from: Resumed,
+    is_in_place: bool,
+}
+
+/// Reads a state, and what the run it lies in has written up to there.
+fn read_resumed(path: &Path, case: &Case, out: &Path) -> Result<Resuming, Failure> {
+    let state = read_state(path, case)?;
+    let run = run_of_state(path);
+    let is_in_place = run.is_some_and(|run| is_inside(run, out) && is_inside(out, run));
+    let mut history = run.map(|run| History::read(run, state.time)).transpose()?;
+    if let Some(history) = history.as_mut().filter(|_| !is_in_place) {
+        // The field files stay where they are
+        history.frames.clear();
+    }
+    Ok(Resuming { from: Resumed { state, history }, is_in_place })
 }
 
 /// Reads the state a run left.

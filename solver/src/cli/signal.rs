@@ -1,11 +1,11 @@
-//! Signals that end a run after its present step: Ctrl-C, SIGTERM and SIGUSR1.
+//! Signals that end a run after its present step: Ctrl-C, SIGTERM, SIGHUP, SIGXCPU and SIGUSR1.
 
 use std::io;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-use signal_hook::consts::{SIGINT, SIGTERM, SIGUSR1};
+use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM, SIGUSR1, SIGXCPU, SIGXFSZ};
 use signal_hook::flag;
 
 use crate::simulation::{Observer, Snapshot};
@@ -22,7 +22,7 @@ pub struct SignalWatch {
 }
 
 impl SignalWatch {
-    /// Watches from now on. A second Ctrl-C or SIGTERM ends the program at once, unless it comes
+    /// Watches from now on. A second Ctrl-C, SIGTERM or SIGHUP ends the program at once, unless it comes
     /// together with the first: some programs signal a process and then its whole group.
     ///
     /// # Errors
@@ -30,11 +30,13 @@ impl SignalWatch {
     pub fn start() -> io::Result<Self> {
         let (has_come, is_past) =
             (Arc::new(AtomicBool::new(false)), Arc::new(AtomicBool::new(false)));
-        for signal in [SIGINT, SIGTERM] {
+        for signal in [SIGINT, SIGTERM, SIGHUP] {
             flag::register_conditional_shutdown(signal, 128 + signal, Arc::clone(&is_past))?;
             flag::register(signal, Arc::clone(&has_come))?;
         }
-        flag::register(SIGUSR1, Arc::clone(&has_come))?;
+        for signal in [SIGUSR1, SIGXCPU] {
+            flag::register(signal, Arc::clone(&has_come))?;
+        }
         let first = Arc::clone(&has_come);
         std::thread::spawn(move || {
             while !first.load(Ordering::Relaxed) {
@@ -45,6 +47,15 @@ impl SignalWatch {
         });
         Ok(Self { has_come })
     }
+}
+
+/// Makes a file that grows beyond what the system allows an error of that file: the signal that comes
+/// with it would end the program.
+///
+/// # Errors
+/// When the system refuses.
+pub fn outlive_file_size_limit() -> io::Result<()> {
+    flag::register(SIGXFSZ, Arc::new(AtomicBool::new(false))).map(drop)
 }
 
 impl Observer<2> for SignalWatch {

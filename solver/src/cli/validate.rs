@@ -9,7 +9,7 @@ use super::read::read_and_check;
 use super::style::{Ink, complain, on_stdout, say};
 use super::{engine, run, threads};
 use crate::case::{Cadence, Case, Numbers, Statistics, library};
-use crate::observer::{RunDirectory, read_outcome};
+use crate::observer::{Earlier, RunDirectory, RunState, Status, read_outcome};
 use crate::simulation::{RunError, RunSummary};
 use crate::validation::{
     Comparison, Verdict, compare, comparison_page, comparisons_to_json, not_computed,
@@ -109,7 +109,12 @@ fn validate_one(
     let of_run = name.replace('/', "-");
     let outcome = match (&options.out, &options.from) {
         (Some(out), _) => {
-            let directory = RunDirectory::create(&out.join(of_run), file.case(), n_threads, false)?;
+            let place = out.join(of_run);
+            // A validation that was stopped runs the case it stopped in again
+            let is_finished =
+                Status::read(&place).is_ok_and(|status| status.state == RunState::Finished);
+            let earlier = if is_finished { Earlier::Keep } else { Earlier::Replace };
+            let directory = RunDirectory::create(&place, file.case(), n_threads, earlier)?;
             engine::simulate_into(&file.model, None, &directory, true)
         }
         (None, Some(from)) => Ok(kept(&from.join(of_run), file.case())?),

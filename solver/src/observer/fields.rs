@@ -10,13 +10,14 @@ use std::path::{Path, PathBuf};
 use alewife_mesh::{Array, Mesh, Point, write_vtu_as};
 
 use super::atomic::write_atomic;
+use super::history::{Frame, History};
+use super::run_directory::{
+    FAILURE_FLOW, FAILURE_FOLDER, STATE_FILE, remove_failure, remove_state,
+};
 use super::schedule::Schedule;
 use crate::case::{Case, Precision};
 use crate::flow::{nodal_pressure, nodal_vorticity};
-use crate::simulation::{LastState, Observer, RunError, Snapshot};
-
-/// The last state of a run that ended before its time, for `--resume`.
-const STATE_FILE: &str = "state.json";
+use crate::simulation::{LastState, Observer, RunError, Snapshot, Timing};
 
 /// The files written so far.
 #[derive(Debug)]
@@ -24,22 +25,26 @@ pub struct FieldFiles {
     directory: PathBuf,
     schedule: Schedule,
     precision: alewife_mesh::Precision,
-    /// Time and name of each file, relative to the run directory.
-    frames: Vec<(f64, String)>,
+    frames: Vec<Frame>,
 }
 
 impl FieldFiles {
-    /// Field files in `directory`; none are written before the first step that is due.
+    /// Field files in `directory`, after those of a run that resumes there; none are written before
+    /// the first step that is due.
     #[must_use]
-    pub fn new(directory: &Path, case: &Case) -> Self {
+    pub fn new(directory: &Path, case: &Case, history: Option<&History>) -> Self {
+        let cadence = case.output.fields;
         Self {
             directory: directory.to_owned(),
-            schedule: Schedule::new(case.output.fields),
+            schedule: history.map_or_else(
+                || Schedule::new(cadence),
+                |history| Schedule::resumed(cadence, history.time),
+            ),
             precision: match case.output.precision {
                 Precision::F32 => alewife_mesh::Precision::F32,
                 Precision::F64 => alewife_mesh::Precision::F64,
             },
-            frames: Vec::new(),
+            frames: history.map(|history| history.frames.clone()).unwrap_or_default(),
         }
     }
 
@@ -70,7 +75,7 @@ impl FieldFiles {
             "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" \
              byte_order=\"LittleEndian\">\n<Collection>\n",
         );
-        for (time, file) in &self.frames {
+        for Frame { time, file } in &self.frames {
             // Writing to a string cannot fail.
             let _ = writeln!(text, "<DataSet timestep=\"{time:?}\" part=\"0\" file=\"{file}\"/>");
         }
@@ -90,10 +95,16 @@ impl Observer<2> for FieldFiles {
             self.frame(snapshot.time, snapshot.mesh, snapshot.velocity, snapshot.pressure)?;
         let name = format!("fields/{:06}.vtu", snapshot.step);
         write_atomic(&self.directory.join(&name), &bytes)?;
-        self.frames.push((snapshot.time, name));
+        self.frames.push(Frame { time: snapshot.time, file: name });
         // The list names a file only once it is there, and is itself replaced as a whole: a list
         // without its last line cannot be read at all.
         write_atomic(&self.directory.join("fields.pvd"), self.collection().as_bytes())
+    }
+
+    fn on_end(&mut self, _timing: &Timing) -> io::Result<()> {
+        // What a run was resumed from is of no use after its end
+        remove_state(&self.directory)?;
+        remove_failure(&self.directory)
     }
 
     fn on_failure(&mut self, error: &RunError, last: Option<&LastState<'_, 2>>) -> io::Result<()> {
@@ -103,18 +114,20 @@ impl Observer<2> for FieldFiles {
         if matches!(error, RunError::Stopped { .. }) {
             if let Some(state) = state {
                 write_atomic(&self.directory.join(STATE_FILE), &state)?;
+                remove_failure(&self.directory)?;
             }
             let name = "fields/stopped.vtu".to_owned();
             fs::create_dir_all(self.directory.join("fields"))?;
             write_atomic(&self.directory.join(&name), &bytes)?;
-            self.frames.push((last.time, name));
+            self.frames.push(Frame { time: last.time, file: name });
             return write_atomic(&self.directory.join("fields.pvd"), self.collection().as_bytes());
         }
-        let folder = self.directory.join("failure");
+        let folder = self.directory.join(FAILURE_FOLDER);
         fs::create_dir_all(&folder)?;
         if let Some(state) = state {
             write_atomic(&folder.join(STATE_FILE), &state)?;
+            remove_state(&self.directory)?;
         }
-        write_atomic(&folder.join("flow.vtu"), &bytes)
+        write_atomic(&folder.join(FAILURE_FLOW), &bytes)
     }
 }

@@ -29,7 +29,7 @@ pub fn read_outcome(directory: &Path) -> io::Result<RunSummary> {
 }
 
 /// The series in a text; the number of the first bad line otherwise.
-fn read_series(text: &str) -> Result<Series, usize> {
+pub(super) fn read_series(text: &str) -> Result<Series, usize> {
     let mut lines = text.lines();
     let header = lines.next().ok_or(1_usize)?;
     let names: Vec<String> = header.split(',').skip(1).map(str::to_owned).collect();

@@ -46,7 +46,10 @@ pub fn start_log(directory: Option<&Path>, verbosity: i8) -> io::Result<()> {
     let json = fmt::layer().json().with_writer(|| ToFile).with_filter(filter(1)?);
     *the_file() = match directory {
         None => None,
-        Some(directory) => Some(File::create(directory.join("log.jsonl"))?),
+        Some(directory) => Some(
+            // A run that resumes in its own directory goes on with its log
+            File::options().append(true).create(true).open(directory.join("log.jsonl"))?,
+        ),
     };
     let _ = tracing_subscriber::registry().with(text).with(json).with(Latest).try_init();
     Ok(())

@@ -9,11 +9,14 @@ use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::{self, BufWriter};
 
+use mcap::read::Options;
 use mcap::records::{MessageHeader, Metadata};
-use mcap::{Attachment, Compression, McapError, WriteOptions, Writer};
+use mcap::{Attachment, Compression, McapError, MessageStream, WriteOptions, Writer};
 use serde_json::Value;
 
+use super::atomic::unfinished_file;
 use super::foxglove::{self, Kind, Severity};
+use super::history::History;
 use super::run_directory::RunDirectory;
 use super::schedule::Schedule;
 use crate::case::{Body, Geometry, Model};
@@ -40,12 +43,20 @@ pub struct MessageFile {
 }
 
 impl MessageFile {
-    /// `run.mcap` in `directory`, with the case as attachment and the provenance as metadata.
+    /// `run.mcap` in `directory`, with the case as attachment, the provenance as metadata, and the
+    /// messages of a run that resumes.
     ///
     /// # Errors
     /// When it cannot be written.
-    pub fn create(directory: &RunDirectory, model: &Model) -> io::Result<Self> {
-        let file = BufWriter::new(File::create(directory.path().join("run.mcap"))?);
+    pub fn create(
+        directory: &RunDirectory,
+        model: &Model,
+        history: Option<&History>,
+    ) -> io::Result<Self> {
+        let cadence = model.case.output.series;
+        // The file that is there, if any, is replaced once all its messages are in the new one
+        let unfinished = unfinished_file(directory.path())?;
+        let file = BufWriter::new(unfinished.reopen()?);
         let mut writer = WriteOptions::new()
             .library(concat!("alewife ", env!("CARGO_PKG_VERSION")))
             .compression(Some(Compression::Zstd))
@@ -69,17 +80,61 @@ impl MessageFile {
                 data: Cow::Borrowed(directory.case_text().as_bytes()),
             })
             .map_err(to_io)?;
-        writer.flush().map_err(to_io)?;
-        Ok(Self {
+        let mut made = Self {
             writer: Some(writer),
-            schedule: Schedule::new(model.case.output.series),
+            schedule: Schedule::new(cadence),
             channels: BTreeMap::new(),
             sequence: 0,
             title: model.case.title.clone(),
             bodies: model.bodies.clone(),
             geometry: model.case.geometry,
             time: 0.0,
-        })
+        };
+        if let Some(history) = history {
+            made.schedule = Schedule::resumed(cadence, history.time);
+            made.copy(&history.messages, history.time)?;
+            made.time = history.time;
+            made.log(Severity::Info, "resumed")?;
+        }
+        if let Some(writer) = &mut made.writer {
+            writer.flush().map_err(to_io)?;
+        }
+        unfinished.persist(directory.path().join("run.mcap"))?;
+        Ok(made)
+    }
+
+    /// Copies the messages of another file up to a time (s); what a killed run left half written is
+    /// not there.
+    fn copy(&mut self, bytes: &[u8], time: f64) -> io::Result<()> {
+        let Some(writer) = &mut self.writer else { return Ok(()) };
+        let options = Options::IgnoreEndMagic.into();
+        let Ok(messages) = MessageStream::new_with_options(bytes, options) else { return Ok(()) };
+        let last = foxglove::nanoseconds(time);
+        for message in messages.map_while(Result::ok).filter(|message| message.log_time <= last) {
+            let topic = &message.channel.topic;
+            let channel_id = match self.channels.get(topic) {
+                Some(&id) => id,
+                None => {
+                    let schema_id = match &message.channel.schema {
+                        Some(known) => writer
+                            .add_schema(&known.name, &known.encoding, &known.data)
+                            .map_err(to_io)?,
+                        None => 0,
+                    };
+                    let id = writer
+                        .add_channel(schema_id, topic, "json", &BTreeMap::new())
+                        .map_err(to_io)?;
+                    self.channels.insert(topic.clone(), id);
+                    id
+                }
+            };
+            let (log_time, publish_time) = (message.log_time, message.publish_time);
+            let header =
+                MessageHeader { channel_id, sequence: self.sequence, log_time, publish_time };
+            self.sequence = self.sequence.wrapping_add(1);
+            writer.write_to_known_channel(&header, &message.data).map_err(to_io)?;
+        }
+        Ok(())
     }
 
     fn send(&mut self, topic: &str, kind: Kind, message: &Value) -> io::Result<()> {

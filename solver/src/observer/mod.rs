@@ -18,6 +18,7 @@ mod atomic;
 mod csv;
 mod fields;
 mod foxglove;
+mod history;
 mod kept;
 mod log;
 mod mcap;
@@ -37,15 +38,17 @@ use crate::simulation::Observer;
 pub use atomic::write_atomic;
 pub use csv::SeriesFile;
 pub use fields::FieldFiles;
+pub use history::History;
 pub use kept::read_outcome;
 pub use log::start_log;
 pub use mcap::MessageFile;
 pub use progress::Progress;
 pub use provenance::Provenance;
-pub use run_directory::{RunDirectory, RunDirectoryError};
+pub use run_directory::{Earlier, RunDirectory, RunDirectoryError, run_of_state};
 pub use status::{RunState, Status, StatusFile};
 
-/// All observers of a run in `directory`; with `quiet`, without progress on the terminal.
+/// All observers of a run in `directory`, which goes on after a `history` if there is one; with
+/// `quiet`, without progress on the terminal.
 ///
 /// Make them before the mesh is generated: `status.json` shows the run from then on, and they are
 /// notified if the simulation cannot be built.
@@ -55,13 +58,14 @@ pub use status::{RunState, Status, StatusFile};
 pub fn observers(
     model: &Model,
     directory: &RunDirectory,
+    history: Option<&History>,
     quiet: bool,
 ) -> std::io::Result<Vec<Box<dyn Observer<2>>>> {
     let case = &model.case;
     let mut everyone: Vec<Box<dyn Observer<2>>> = vec![
-        Box::new(SeriesFile::create(directory.path(), case)?),
-        Box::new(MessageFile::create(directory, model)?),
-        Box::new(FieldFiles::new(directory.path(), case)),
+        Box::new(SeriesFile::create(directory.path(), case, history)?),
+        Box::new(MessageFile::create(directory, model, history)?),
+        Box::new(FieldFiles::new(directory.path(), case, history)),
     ];
     if !quiet {
         everyone.push(Box::new(Progress::new(case)));

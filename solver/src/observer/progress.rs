@@ -19,6 +19,8 @@ pub struct Progress {
     bar: Option<ProgressBar>,
     /// End of the run (s); nothing for a steady solution.
     end: Option<f64>,
+    /// Time at which this process began (s), once known.
+    start: Option<f64>,
     started: Instant,
     last_line: Option<Instant>,
 }
@@ -46,7 +48,7 @@ impl Progress {
         if bar.is_none() {
             TERMINAL.show_lines();
         }
-        Self { bar, end, started: Instant::now(), last_line: None }
+        Self { bar, end, start: None, started: Instant::now(), last_line: None }
     }
 
     /// One line on the step, with the time left at the pace so far.
@@ -62,7 +64,9 @@ impl Progress {
             "step {}  t {:.4}/{end}  dt {:.3e}  iterations {iterations}",
             snapshot.step, snapshot.time, snapshot.time_step
         );
-        let done = snapshot.time / end;
+        // A run that resumed has not made what was before
+        let start = self.start.unwrap_or(0.0);
+        let done = (snapshot.time - start) / (end - start);
         if snapshot.step > 0 && done > 0.0 && !snapshot.is_last {
             let left = self.started.elapsed().mul_f64(((1.0 - done) / done).clamp(0.0, 1e9));
             line += &format!("  {:#} left", HumanDuration(left));
@@ -80,6 +84,7 @@ impl Progress {
 
 impl<const D: usize> Observer<D> for Progress {
     fn on_step(&mut self, snapshot: &Snapshot<'_, D>) -> io::Result<()> {
+        self.start.get_or_insert(snapshot.time - snapshot.time_step);
         if let Some(bar) = &self.bar {
             if let Some(end) = self.end {
                 #[expect(

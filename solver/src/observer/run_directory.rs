@@ -6,26 +6,49 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
-use super::atomic::write_atomic;
+use super::atomic::{UNFINISHED, write_atomic};
 use super::provenance::Provenance;
 use super::status::{RunState, Status};
 use crate::case::Case;
 
-/// Files and directories a run makes; nothing else is ever removed.
-const MADE_BY_A_RUN: [&str; 12] = [
+/// The file by which a run directory is known.
+const MARKER_FILE: &str = ".alewife-run";
+
+/// What it says.
+const MARKER: &str = "This directory holds a run of alewife; another run may replace its files.\n";
+
+/// Files of a run. Only these, and those of its folders, are ever removed.
+const FILES: [&str; 9] = [
     "case.toml",
     "provenance.json",
     "status.json",
     "log.jsonl",
     "series.csv",
     "run.mcap",
-    "fields",
     "fields.pvd",
     "comparison.json",
-    "checkpoint.a",
-    "checkpoint.b",
-    "failure",
+    STATE_FILE,
 ];
+
+/// The state from which a run that was stopped resumes.
+pub(super) const STATE_FILE: &str = "state.json";
+
+/// The folder of a run that failed: its last state, and the flow then.
+pub(super) const FAILURE_FOLDER: &str = "failure";
+
+/// The flow of a run that failed, in [`FAILURE_FOLDER`].
+pub(super) const FAILURE_FLOW: &str = "flow.vtu";
+
+/// What a new run does with one that is in its directory.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Earlier {
+    /// Replaces it unless it came to its end, or left a state to resume from.
+    Keep,
+    /// Replaces it.
+    Replace,
+    /// Goes on where it ended.
+    Continue,
+}
 
 /// Why a run may not use a directory.
 #[derive(Debug, Error)]
@@ -42,8 +65,19 @@ pub enum RunDirectoryError {
         /// The directory.
         path: PathBuf,
     },
+    /// It holds a run that can be resumed.
+    #[error(
+        "{path} holds a run that can be resumed; give --resume {state}, another directory with \
+         --out, or --overwrite it"
+    )]
+    Resumable {
+        /// The directory.
+        path: PathBuf,
+        /// The state it left.
+        state: PathBuf,
+    },
     /// It holds files that are not those of a run.
-    #[error("{path} is not empty and holds no run; give another directory with --out")]
+    #[error("{path} is not empty and holds no run of alewife; give another directory with --out")]
     NotARun {
         /// The directory.
         path: PathBuf,
@@ -74,28 +108,34 @@ pub struct RunDirectory {
 impl RunDirectory {
     /// Makes the directory, with `case.toml` and `provenance.json` in it.
     ///
-    /// An unfinished run that is there already is replaced, a finished one only if `overwrite`.
-    ///
     /// # Errors
-    /// [`RunDirectoryError`]: another run has it, it holds other files, or it cannot be written.
+    /// [`RunDirectoryError`]: another run has it, it holds a run that is to be kept or other files, or
+    /// it cannot be written.
     pub fn create(
         path: &Path,
         case: &Case,
         threads: usize,
-        overwrite: bool,
+        earlier: Earlier,
     ) -> Result<Self, RunDirectoryError> {
         let failed = |source| RunDirectoryError::Io { path: path.to_owned(), source };
         fs::create_dir_all(path).map_err(failed)?;
-        if !is_empty(path).map_err(failed)? && !is_a_run(path) {
-            return Err(RunDirectoryError::NotARun { path: path.to_owned() });
+        if !is_a_run(path) {
+            if fs::read_dir(path).map_err(failed)?.next().is_some() {
+                return Err(RunDirectoryError::NotARun { path: path.to_owned() });
+            }
+            write_atomic(&path.join(MARKER_FILE), MARKER.as_bytes()).map_err(failed)?;
         }
         let Some(lock) = lock(&path.join("lock")).map_err(failed)? else {
             return Err(RunDirectoryError::InUse { path: path.to_owned() });
         };
-        if Status::read(path).is_ok_and(|status| status.state == RunState::Finished) && !overwrite {
-            return Err(RunDirectoryError::Finished { path: path.to_owned() });
+        if earlier == Earlier::Keep {
+            check_replaceable(path)?;
         }
-        clear(path).map_err(failed)?;
+        if earlier == Earlier::Continue {
+            remove_unfinished(path).map_err(failed)?;
+        } else {
+            clear(path).map_err(failed)?;
+        }
 
         let case_text = case.to_toml()?;
         let provenance = Provenance::of_this_process(&case_text, threads);
@@ -126,12 +166,35 @@ impl RunDirectory {
     }
 }
 
-fn is_empty(path: &Path) -> io::Result<bool> {
-    Ok(fs::read_dir(path)?.next().is_none())
+/// Whether the marker of a run is there.
+fn is_a_run(path: &Path) -> bool {
+    let marker = path.join(MARKER_FILE);
+    fs::symlink_metadata(&marker).is_ok_and(|found| found.is_file())
+        && fs::read(&marker).is_ok_and(|text| text == MARKER.as_bytes())
 }
 
-fn is_a_run(path: &Path) -> bool {
-    ["lock", "case.toml", "status.json"].iter().any(|name| path.join(name).is_file())
+/// Whether the run in a directory, if there is one, may go without being asked for.
+fn check_replaceable(path: &Path) -> Result<(), RunDirectoryError> {
+    let Ok(status) = Status::read(path) else { return Ok(()) };
+    if status.state == RunState::Finished {
+        return Err(RunDirectoryError::Finished { path: path.to_owned() });
+    }
+    let states = [path.join(STATE_FILE), path.join(FAILURE_FOLDER).join(STATE_FILE)];
+    // A run that made no step loses nothing
+    match states.into_iter().find(|state| status.step > 0 && state.is_file()) {
+        Some(state) => Err(RunDirectoryError::Resumable { path: path.to_owned(), state }),
+        None => Ok(()),
+    }
+}
+
+/// The run directory that a state is in.
+///
+/// `None` if it is elsewhere.
+pub fn run_of_state(state: &Path) -> Option<&Path> {
+    let folder = state.parent()?;
+    let folder = if folder.ends_with(FAILURE_FOLDER) { folder.parent()? } else { folder };
+    let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    is_a_run(folder).then_some(folder)
 }
 
 /// The lock file, locked; nothing if another process has it.
@@ -150,17 +213,176 @@ fn lock(path: &Path) -> io::Result<Option<File>> {
 
 /// Removes what an earlier run left, and nothing else.
 fn clear(path: &Path) -> io::Result<()> {
-    for name in MADE_BY_A_RUN {
-        let victim = path.join(name);
-        let removed = if victim.is_dir() && !victim.is_symlink() {
-            fs::remove_dir_all(&victim)
-        } else {
-            fs::remove_file(&victim)
-        };
-        match removed {
-            Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),
-            _ => {}
+    for name in FILES {
+        remove_if_there(&path.join(name))?;
+    }
+    remove_unfinished(path)?;
+    for folder in [path.join("fields"), path.join(FAILURE_FOLDER)] {
+        for name in names_in(&folder)? {
+            if is_of_a_run(&folder, &name) {
+                remove_if_there(&folder.join(name))?;
+            }
+        }
+        remove_if_empty(&folder)?;
+    }
+    Ok(())
+}
+
+/// Removes the state of a run that was stopped, once its end or a newer state is safe on the disk.
+pub(super) fn remove_state(path: &Path) -> io::Result<()> {
+    remove_if_there(&path.join(STATE_FILE))
+}
+
+/// Removes the state and the flow of a run that failed, once its end or a newer state is safe on the disk.
+pub(super) fn remove_failure(path: &Path) -> io::Result<()> {
+    let folder = path.join(FAILURE_FOLDER);
+    for name in [STATE_FILE, FAILURE_FLOW] {
+        remove_if_there(&folder.join(name))?;
+    }
+    remove_if_empty(&folder)
+}
+
+/// Removes the temporary files of a process that was killed.
+fn remove_unfinished(path: &Path) -> io::Result<()> {
+    for folder in [path.to_owned(), path.join("fields"), path.join(FAILURE_FOLDER)] {
+        for name in names_in(&folder)? {
+            if name.starts_with(UNFINISHED) {
+                remove_if_there(&folder.join(name))?;
+            }
         }
     }
     Ok(())
+}
+
+/// Whether a file in a folder of a run is one that runs write there.
+fn is_of_a_run(folder: &Path, name: &str) -> bool {
+    if folder.ends_with(FAILURE_FOLDER) {
+        return name == STATE_FILE || name == FAILURE_FLOW;
+    }
+    let is_number = |stem: &str| stem.len() >= 6 && stem.bytes().all(|byte| byte.is_ascii_digit());
+    name.strip_suffix(".vtu").is_some_and(|stem| stem == "stopped" || is_number(stem))
+}
+
+/// Names of the files of a folder, none if it is a link or is not there.
+fn names_in(folder: &Path) -> io::Result<Vec<String>> {
+    if !fs::symlink_metadata(folder).is_ok_and(|found| found.is_dir()) {
+        return Ok(Vec::new());
+    }
+    let name = |entry: io::Result<fs::DirEntry>| entry.map(|e| e.file_name().into_string().ok());
+    fs::read_dir(folder)?.filter_map(|entry| name(entry).transpose()).collect()
+}
+
+fn remove_if_there(file: &Path) -> io::Result<()> {
+    match fs::remove_file(file) {
+        Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
+        _ => Ok(()),
+    }
+}
+
+fn remove_if_empty(folder: &Path) -> io::Result<()> {
+    use io::ErrorKind::{DirectoryNotEmpty, NotADirectory, NotFound};
+    match fs::remove_dir(folder) {
+        Err(error) if !matches!(error.kind(), DirectoryNotEmpty | NotADirectory | NotFound) => {
+            Err(error)
+        }
+        _ => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::Model;
+
+    fn case() -> Case {
+        let text = include_str!("../../../cases/three-disc-2d/case.toml");
+        Model::new(toml::from_str(text).unwrap()).unwrap().case
+    }
+
+    fn create(path: &Path, earlier: Earlier) -> Result<RunDirectory, RunDirectoryError> {
+        RunDirectory::create(path, &case(), 1, earlier)
+    }
+
+    fn put(path: &Path, files: &[&str]) {
+        for file in files {
+            let file = path.join(file);
+            fs::create_dir_all(file.parent().unwrap()).unwrap();
+            fs::write(file, "of somebody").unwrap();
+        }
+    }
+
+    /// Files that are still as [`put`] left them.
+    fn n_left(path: &Path, files: &[&str]) -> usize {
+        let is_left = |file: &&&str| fs::read(path.join(file)).is_ok_and(|t| t == b"of somebody");
+        files.iter().filter(is_left).count()
+    }
+
+    #[test]
+    fn a_directory_that_is_no_run_is_refused_whatever_it_holds() {
+        let theirs = ["case.toml", "lock", "status.json", "fields/thesis.tex", "failure/notes.txt"];
+        for earlier in [Earlier::Keep, Earlier::Replace, Earlier::Continue] {
+            for file in theirs {
+                let place = tempfile::tempdir().unwrap();
+                put(place.path(), &[file]);
+                let refused = create(place.path(), earlier);
+                assert!(matches!(refused, Err(RunDirectoryError::NotARun { .. })), "{file}");
+                assert_eq!(n_left(place.path(), &[file]), 1, "{file}");
+            }
+        }
+    }
+
+    #[test]
+    fn files_of_others_in_a_run_stay_and_those_of_the_run_go() {
+        let place = tempfile::tempdir().unwrap();
+        drop(create(place.path(), Earlier::Keep).unwrap());
+        let ours = [
+            "series.csv",
+            "run.mcap",
+            STATE_FILE,
+            "fields/000010.vtu",
+            "fields/1234567.vtu",
+            "fields/stopped.vtu",
+            "fields/.unfinished-Ab12",
+            "failure/state.json",
+            "failure/flow.vtu",
+            ".unfinished-Cd34",
+        ];
+        let theirs = [
+            "thesis.tex",
+            "checkpoint.a",
+            "fields/thesis.tex",
+            "fields/10.vtu",
+            "fields/deep/000010.vtu",
+            "failure/notes.txt",
+        ];
+        put(place.path(), &ours);
+        put(place.path(), &theirs);
+        drop(create(place.path(), Earlier::Replace).unwrap());
+        assert_eq!(n_left(place.path(), &ours), 0);
+        assert_eq!(n_left(place.path(), &theirs), theirs.len());
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn links_are_not_followed() {
+        let (place, other) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
+        drop(create(place.path(), Earlier::Keep).unwrap());
+        put(other.path(), &["000001.vtu", "series"]);
+        std::os::unix::fs::symlink(other.path(), place.path().join("fields")).unwrap();
+        let series = place.path().join("series.csv");
+        std::os::unix::fs::symlink(other.path().join("series"), series).unwrap();
+        drop(create(place.path(), Earlier::Replace).unwrap());
+        assert_eq!(n_left(other.path(), &["000001.vtu", "series"]), 2);
+        assert!(!place.path().join("series.csv").is_symlink());
+    }
+
+    #[test]
+    fn a_state_belongs_to_the_run_it_lies_in() {
+        let place = tempfile::tempdir().unwrap();
+        drop(create(place.path(), Earlier::Keep).unwrap());
+        let run = Some(place.path());
+        assert_eq!(run_of_state(&place.path().join("state.json")), run);
+        assert_eq!(run_of_state(&place.path().join("failure/state.json")), run);
+        assert_eq!(run_of_state(&place.path().join("other/state.json")), None);
+    }
 }

@@ -15,6 +15,13 @@ impl Schedule {
         Self { cadence, last_multiple: None }
     }
 
+    /// A schedule that was asked up to a time (s), as that of a run that resumes there.
+    pub fn resumed(cadence: Cadence, time: f64) -> Self {
+        let mut schedule = Self::new(cadence);
+        schedule.is_due(0, time, false);
+        schedule
+    }
+
     /// Whether this step is written. Ask once for each step.
     pub fn is_due(&mut self, step: usize, time: f64, is_last: bool) -> bool {
         match self.cadence {
@@ -43,6 +50,14 @@ mod tests {
         let due: Vec<usize> =
             (0..=10).filter(|&step| schedule.is_due(step, step as f64 * 0.1, false)).collect();
         assert_eq!(due, [0, 3, 6, 9]);
+    }
+
+    #[test]
+    fn a_resumed_schedule_goes_on_where_it_was() {
+        let mut schedule = Schedule::resumed(Cadence::Time(0.3), 0.4);
+        let due: Vec<usize> =
+            (5..=10).filter(|&step| schedule.is_due(step, step as f64 * 0.1, false)).collect();
+        assert_eq!(due, [6, 9]);
     }
 
     #[test]

@@ -129,8 +129,8 @@ impl Run {
 
     /// A complete run in `path`.
     fn complete(&self, path: &Path) {
-        let directory = RunDirectory::create(path, &self.model.case, 1, false).unwrap();
-        let mut everyone = observers(&self.model, &directory, true).unwrap();
+        let directory = RunDirectory::create(path, &self.model.case, 1, Earlier::Keep).unwrap();
+        let mut everyone = observers(&self.model, &directory, None, true).unwrap();
         (0..=STEPS).for_each(|step| self.step(&mut everyone, step));
     }
 }
@@ -186,6 +186,7 @@ fn a_run_leaves_exactly_the_promised_files() {
     assert_eq!(
         names,
         [
+            ".alewife-run",
             "case.toml",
             "fields/000000.vtu",
             "fields/000010.vtu",
@@ -231,8 +232,8 @@ fn the_series_reads_back_to_the_last_bit() {
 fn the_status_tells_state_and_cost() {
     let place = tempfile::tempdir().unwrap();
     let run = Run::new();
-    let directory = RunDirectory::create(place.path(), &run.model.case, 1, false).unwrap();
-    let mut everyone = observers(&run.model, &directory, true).unwrap();
+    let directory = RunDirectory::create(place.path(), &run.model.case, 1, Earlier::Keep).unwrap();
+    let mut everyone = observers(&run.model, &directory, None, true).unwrap();
     let before = Status::read(place.path()).unwrap();
     assert_eq!((before.state, before.step, before.steps), (RunState::Running, 0, Some(40)));
 
@@ -249,8 +250,8 @@ fn the_status_tells_state_and_cost() {
 fn a_failure_is_told_with_its_reason() {
     let place = tempfile::tempdir().unwrap();
     let run = Run::new();
-    let directory = RunDirectory::create(place.path(), &run.model.case, 1, false).unwrap();
-    let mut everyone = observers(&run.model, &directory, true).unwrap();
+    let directory = RunDirectory::create(place.path(), &run.model.case, 1, Earlier::Keep).unwrap();
+    let mut everyone = observers(&run.model, &directory, None, true).unwrap();
     run.step(&mut everyone, 0);
     let error = RunError::Unsupported("mesh: no room between the bodies".to_owned());
     everyone.iter_mut().for_each(|observer| observer.on_failure(&error, None).unwrap());
@@ -273,8 +274,8 @@ fn a_failure_is_told_with_its_reason() {
 fn a_killed_run_leaves_whole_files_and_readable_messages() {
     let place = tempfile::tempdir().unwrap();
     let run = Run::new();
-    let directory = RunDirectory::create(place.path(), &run.model.case, 1, false).unwrap();
-    let mut everyone = observers(&run.model, &directory, true).unwrap();
+    let directory = RunDirectory::create(place.path(), &run.model.case, 1, Earlier::Keep).unwrap();
+    let mut everyone = observers(&run.model, &directory, None, true).unwrap();
     (0..20).for_each(|step| run.step(&mut everyone, step));
 
     // What is on the disk now is what a kill would leave: nothing of this process is written any
@@ -355,22 +356,41 @@ fn the_list_of_frames_names_every_frame_and_is_closed() {
 fn a_finished_run_is_refused_and_an_unfinished_one_replaced() {
     let place = tempfile::tempdir().unwrap();
     let run = Run::new();
-    let create = |overwrite| RunDirectory::create(place.path(), &run.model.case, 1, overwrite);
-    let held = create(false).unwrap();
-    assert!(matches!(create(true), Err(RunDirectoryError::InUse { .. })));
+    let create = |earlier| RunDirectory::create(place.path(), &run.model.case, 1, earlier);
+    let held = create(Earlier::Keep).unwrap();
+    assert!(matches!(create(Earlier::Replace), Err(RunDirectoryError::InUse { .. })));
     drop(held);
     run.complete(place.path());
-    assert!(matches!(create(false), Err(RunDirectoryError::Finished { .. })));
+    assert!(matches!(create(Earlier::Keep), Err(RunDirectoryError::Finished { .. })));
     assert!(place.path().join("series.csv").exists());
-    drop(create(true).unwrap());
+    drop(create(Earlier::Replace).unwrap());
     assert!(!place.path().join("series.csv").exists());
 }
 
 #[test]
-fn files_of_others_are_never_touched() {
-    let place = tempfile::tempdir().unwrap();
-    std::fs::write(place.path().join("thesis.tex"), "text").unwrap();
-    let refused = RunDirectory::create(place.path(), &Run::new().model.case, 1, true);
-    assert!(matches!(refused, Err(RunDirectoryError::NotARun { .. })));
-    assert_eq!(files(place.path()).len(), 1);
+fn a_run_that_resumes_goes_on_in_its_files() {
+    let (whole, halves) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
+    let run = Run::new();
+    run.complete(whole.path());
+    let begin = |earlier| RunDirectory::create(halves.path(), &run.model.case, 1, earlier).unwrap();
+    let mut everyone = observers(&run.model, &begin(Earlier::Keep), None, true).unwrap();
+    (0..=17).for_each(|step| run.step(&mut everyone, step));
+    let time = 17.0 * 0.1;
+    let error = RunError::Stopped { step: 17, time };
+    everyone.iter_mut().for_each(|observer| observer.on_failure(&error, None).unwrap());
+
+    let history = History::read(halves.path(), time).unwrap();
+    let directory = begin(Earlier::Continue);
+    let mut everyone = observers(&run.model, &directory, Some(&history), true).unwrap();
+    (18..=STEPS).for_each(|step| run.step(&mut everyone, step));
+    for file in ["series.csv", "fields.pvd"] {
+        let read = |place: &Path| std::fs::read_to_string(place.join(file)).unwrap();
+        assert_eq!(read(whole.path()), read(halves.path()), "{file}");
+    }
+    let told = |place: &Path| {
+        let mut found = messages(&std::fs::read(place.join("run.mcap")).unwrap());
+        found.all.retain(|message| message.topic != "/log");
+        found
+    };
+    assert_eq!(told(whole.path()), told(halves.path()));
 }

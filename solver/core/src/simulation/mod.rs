@@ -40,7 +40,7 @@ pub use mesh_path::{MeshPath, NodePath};
 pub use moving_mesh::{MotionSettings, MovingMesh};
 pub use planar::{build_mesh, build_problem, mesh_quality, shape_motion, simulation_on, sizing};
 pub use resume::{ResumeError, SavedState};
-pub use run::{RunSummary, simulate, simulate_from};
+pub use run::{Resume, RunSummary, simulate, simulate_from};
 pub use scene::{Meshed, PosesByShift, RemeshError, Scene};
 pub use series::Series;
 pub use snapshot::{BodyReport, LastState, Observer, Snapshot};

@@ -34,25 +34,39 @@ pub fn simulate(
     simulate_from(model, None, observers)
 }
 
+/// What a run resumes from.
+#[derive(Debug, Clone, Copy)]
+pub struct Resume<'a> {
+    /// Everything that evolves.
+    pub state: &'a SavedState<2>,
+    /// What was measured up to there, if that is known; the series of the whole run goes on from it.
+    pub series: Option<&'a Series>,
+}
+
 /// Runs a case to its end, from a saved state if there is one.
 ///
 /// # Errors
 /// Whatever stops the run; observers are notified before it is returned.
 pub fn simulate_from(
     model: &Model,
-    saved: Option<&SavedState<2>>,
+    resume: Option<&Resume<'_>>,
     observers: &mut [Box<dyn Observer<2>>],
 ) -> Result<RunSummary, RunError> {
+    let saved = resume.map(|resume| resume.state);
     let Prepared { simulation, measure } = match prepare(model, saved) {
         Ok(prepared) => prepared,
         Err(error) => {
-            for observer in observers.iter_mut() {
-                observer.on_failure(&error, None)?;
-            }
+            notify_all(observers, &error, None)?;
             return Err(error);
         }
     };
-    let series = Series { names: measure.names().to_vec(), ..Series::default() };
+    let mut series = Series { names: measure.names().to_vec(), ..Series::default() };
+    if let Some(resume) = resume {
+        match resume.series {
+            Some(earlier) if earlier.names == series.names => series = earlier.clone(),
+            _ => tracing::warn!("no series of the steps before: statistics begin where it resumes"),
+        }
+    }
     let case = &model.case;
     let mut run = Run { case, observers, series, simulation, measure };
     let result = run.make(saved.is_some());
@@ -118,11 +132,21 @@ impl<const D: usize> Run<'_, D> {
             velocity: &state.now.velocity,
             pressure: &state.now.pressure,
         };
-        for observer in self.observers.iter_mut() {
-            observer.on_failure(error, Some(&last))?;
-        }
-        Ok(())
+        Ok(notify_all(self.observers, error, Some(&last))?)
     }
+}
+
+/// Tells all observers why a run ends; the first error of one that cannot write of it.
+fn notify_all<const D: usize>(
+    observers: &mut [Box<dyn Observer<D>>],
+    error: &RunError,
+    last: Option<&LastState<'_, D>>,
+) -> std::io::Result<()> {
+    let mut outcome = Ok(());
+    for observer in observers.iter_mut() {
+        outcome = outcome.and(observer.on_failure(error, last));
+    }
+    outcome
 }
 
 impl<const D: usize> Run<'_, D> {

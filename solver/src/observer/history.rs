@@ -1,0 +1,98 @@
+//! `History`: what a run wrote before it stopped, for the run that resumes it to go on with.
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use super::kept::read_series;
+use crate::simulation::Series;
+
+/// One field file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Frame {
+    /// Time (s).
+    pub time: f64,
+    /// Its name relative to the run directory.
+    pub file: String,
+}
+
+/// What the files of a run hold up to the time of its last state.
+#[derive(Debug, Clone, Default)]
+pub struct History {
+    /// Time of the state (s).
+    pub time: f64,
+    /// The rows of `series.csv`.
+    pub series: Series,
+    /// The files in `fields/`; none of them if the run goes on in another directory.
+    pub frames: Vec<Frame>,
+    /// The content of `run.mcap`.
+    pub messages: Vec<u8>,
+}
+
+impl History {
+    /// What the run in `directory` wrote up to a time (s).
+    ///
+    /// # Errors
+    /// When its files cannot be read, or are damaged.
+    pub fn read(directory: &Path, time: f64) -> io::Result<Self> {
+        let named = |name: &str, error: io::Error| {
+            let path: PathBuf = directory.join(name);
+            io::Error::new(error.kind(), format!("{}: {error}", path.display()))
+        };
+        let read = |name: &str| match fs::read(directory.join(name)) {
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(Vec::new()),
+            other => other.map_err(|error| named(name, error)),
+        };
+        let text = String::from_utf8_lossy(&read("series.csv")?).into_owned();
+        // A row without its end is one that was being written
+        let whole = text.rfind('\n').map_or("", |end| &text[..=end]);
+        let mut series = match whole {
+            "" => Series::default(),
+            whole => read_series(whole).map_err(|line| {
+                named("series.csv", io::Error::other(format!("line {line} is damaged")))
+            })?,
+        };
+        let n_rows = series.times.partition_point(|&then| then <= time);
+        series.times.truncate(n_rows);
+        series.rows.truncate(n_rows);
+        let list = String::from_utf8_lossy(&read("fields.pvd")?).into_owned();
+        let frames = list.lines().filter_map(frame).filter(|frame| {
+            let is_step = !frame.file.ends_with("stopped.vtu");
+            frame.time <= time && is_step && directory.join(&frame.file).is_file()
+        });
+        Ok(Self { time, series, frames: frames.collect(), messages: read("run.mcap")? })
+    }
+}
+
+/// The field file of a line of `fields.pvd`.
+fn frame(line: &str) -> Option<Frame> {
+    let value = |key: &str| line.split_once(&format!("{key}=\""))?.1.split('"').next();
+    Some(Frame { time: value("timestep")?.parse().ok()?, file: value("file")?.to_owned() })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_was_written_after_the_state_is_left_out() {
+        let place = tempfile::tempdir().unwrap();
+        let write = |name: &str, text: &str| fs::write(place.path().join(name), text).unwrap();
+        write("series.csv", "time,a\n0.0,1.0\n0.1,2.0\n0.2,3.0\n0.3,4.");
+        fs::create_dir(place.path().join("fields")).unwrap();
+        write("fields/000000.vtu", "");
+        write("fields/000002.vtu", "");
+        let line = |time: &str, file: &str| {
+            format!("<DataSet timestep=\"{time}\" part=\"0\" file=\"fields/{file}.vtu\"/>\n")
+        };
+        let lines = [("0.0", "000000"), ("0.1", "000001"), ("0.1", "stopped"), ("0.2", "000002")];
+        write("fields.pvd", &lines.map(|(time, file)| line(time, file)).concat());
+        let history = History::read(place.path(), 0.1).unwrap();
+        assert_eq!(history.series.times, [0.0, 0.1]);
+        assert_eq!(history.series.rows, [[1.0], [2.0]]);
+        assert_eq!(history.frames, [Frame { time: 0.0, file: "fields/000000.vtu".to_owned() }]);
+        write("series.csv", "time,a\n0.0,1.0,2.0\n");
+        let told = History::read(place.path(), 0.1).unwrap_err().to_string();
+        assert!(told.ends_with("series.csv: line 2 is damaged"), "{told}");
+    }
+}
