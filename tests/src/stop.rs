@@ -85,7 +85,7 @@ pub fn stopped(model: &Model, after: usize) -> SavedState<2> {
     read
 }
 
-/// Goes on from a state, without what was measured before.
+/// Resumes from a state, without the quantities of the steps before it.
 ///
 /// # Errors
 /// Those of [`simulate_from`].

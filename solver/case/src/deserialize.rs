@@ -85,7 +85,7 @@ impl<'de> de::Deserializer<'de> for &TomlNode {
     }
 }
 
-// Errors, apart from the functions above: these are compiled once for each type of a case.
+// Errors of the functions above, which are compiled anew for each type of a case; these are not.
 
 fn no_date(date: &str) -> TypeError {
     TypeError::new(Mismatch::Other(

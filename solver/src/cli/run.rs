@@ -153,7 +153,7 @@ fn read_resumed(path: &Path, case: &Case, out: &Path) -> Result<Resuming, Failur
     let state = read_state(path, case)?;
     let run = run_of_state(path);
     let is_in_place = run.is_some_and(|run| is_inside(run, out) && is_inside(out, run));
-    let mut history = run.map(|run| History::read(run, state.time)).transpose()?;
+    let mut history = run.map(|run| History::read(run, state.step, state.time)).transpose()?;
     if let Some(history) = history.as_mut().filter(|_| !is_in_place) {
         // The field files stay where they are
         history.frames.clear();

@@ -19,6 +19,8 @@ pub struct Frame {
 /// What the files of a run hold up to the time of its last state.
 #[derive(Debug, Clone, Default)]
 pub struct History {
+    /// Steps made up to the state.
+    pub step: usize,
     /// Time of the state (s).
     pub time: f64,
     /// The rows of `series.csv`.
@@ -30,11 +32,11 @@ pub struct History {
 }
 
 impl History {
-    /// What the run in `directory` wrote up to a time (s).
+    /// What the run in `directory` wrote up to a step and its time (s).
     ///
     /// # Errors
     /// When its files cannot be read, or are damaged.
-    pub fn read(directory: &Path, time: f64) -> io::Result<Self> {
+    pub fn read(directory: &Path, step: usize, time: f64) -> io::Result<Self> {
         let named = |name: &str, error: io::Error| {
             let path: PathBuf = directory.join(name);
             io::Error::new(error.kind(), format!("{}: {error}", path.display()))
@@ -60,7 +62,7 @@ impl History {
             let is_step = !frame.file.ends_with("stopped.vtu");
             frame.time <= time && is_step && directory.join(&frame.file).is_file()
         });
-        Ok(Self { time, series, frames: frames.collect(), messages: read("run.mcap")? })
+        Ok(Self { step, time, series, frames: frames.collect(), messages: read("run.mcap")? })
     }
 }
 
@@ -87,12 +89,12 @@ mod tests {
         };
         let lines = [("0.0", "000000"), ("0.1", "000001"), ("0.1", "stopped"), ("0.2", "000002")];
         write("fields.pvd", &lines.map(|(time, file)| line(time, file)).concat());
-        let history = History::read(place.path(), 0.1).unwrap();
+        let history = History::read(place.path(), 1, 0.1).unwrap();
         assert_eq!(history.series.times, [0.0, 0.1]);
         assert_eq!(history.series.rows, [[1.0], [2.0]]);
         assert_eq!(history.frames, [Frame { time: 0.0, file: "fields/000000.vtu".to_owned() }]);
         write("series.csv", "time,a\n0.0,1.0,2.0\n");
-        let told = History::read(place.path(), 0.1).unwrap_err().to_string();
+        let told = History::read(place.path(), 1, 0.1).unwrap_err().to_string();
         assert!(told.ends_with("series.csv: line 2 is damaged"), "{told}");
     }
 }

@@ -71,6 +71,6 @@ pub fn observers(
         everyone.push(Box::new(Progress::new(case)));
     }
     // The status comes last: when it says `finished`, all other files are complete.
-    everyone.push(Box::new(StatusFile::create(directory.path(), case)?));
+    everyone.push(Box::new(StatusFile::create(directory.path(), case, history)?));
     Ok(everyone)
 }

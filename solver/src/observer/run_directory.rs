@@ -175,13 +175,14 @@ fn is_a_run(path: &Path) -> bool {
 
 /// Whether the run in a directory, if there is one, may go without being asked for.
 fn check_replaceable(path: &Path) -> Result<(), RunDirectoryError> {
-    let Ok(status) = Status::read(path) else { return Ok(()) };
-    if status.state == RunState::Finished {
+    let status = Status::read(path).ok();
+    if status.as_ref().is_some_and(|status| status.state == RunState::Finished) {
         return Err(RunDirectoryError::Finished { path: path.to_owned() });
     }
     let states = [path.join(STATE_FILE), path.join(FAILURE_FOLDER).join(STATE_FILE)];
     // A run that made no step loses nothing
-    match states.into_iter().find(|state| status.step > 0 && state.is_file()) {
+    let has_steps = status.is_none_or(|status| status.step > 0);
+    match states.into_iter().find(|state| has_steps && state.is_file()) {
         Some(state) => Err(RunDirectoryError::Resumable { path: path.to_owned(), state }),
         None => Ok(()),
     }

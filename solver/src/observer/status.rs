@@ -8,6 +8,7 @@ use std::time::{Duration, Instant};
 use serde::{Deserialize, Serialize};
 
 use super::atomic::write_atomic;
+use super::history::History;
 use super::process;
 use crate::case::{Case, TimeSettings};
 use crate::simulation::{LastState, Observer, RunError, Snapshot, Stage, Timing, cpu_seconds};
@@ -83,7 +84,7 @@ impl StatusFile {
     ///
     /// # Errors
     /// When the file cannot be written.
-    pub fn create(directory: &Path, case: &Case) -> io::Result<Self> {
+    pub fn create(directory: &Path, case: &Case, history: Option<&History>) -> io::Result<Self> {
         let (steps, end) = match &case.time {
             TimeSettings::Steady(_) => (None, None),
             TimeSettings::Unsteady(settings) => {
@@ -94,9 +95,9 @@ impl StatusFile {
         let status = Status {
             state: RunState::Running,
             reason: None,
-            step: 0,
+            step: history.map_or(0, |history| history.step),
             steps,
-            time: 0.0,
+            time: history.map_or(0.0, |history| history.time),
             end,
             dofs: 0,
             cpu_seconds: BTreeMap::new(),

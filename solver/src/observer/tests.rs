@@ -379,9 +379,11 @@ fn a_run_that_resumes_goes_on_in_its_files() {
     let error = RunError::Stopped { step: 17, time };
     everyone.iter_mut().for_each(|observer| observer.on_failure(&error, None).unwrap());
 
-    let history = History::read(halves.path(), time).unwrap();
+    let history = History::read(halves.path(), 17, time).unwrap();
     let directory = begin(Earlier::Continue);
     let mut everyone = observers(&run.model, &directory, Some(&history), true).unwrap();
+    // A run that is killed at once still says that it has made steps
+    assert_eq!(Status::read(halves.path()).unwrap().step, 17);
     (18..=STEPS).for_each(|step| run.step(&mut everyone, step));
     for file in ["series.csv", "fields.pvd"] {
         let read = |place: &Path| std::fs::read_to_string(place.join(file)).unwrap();

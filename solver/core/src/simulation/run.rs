@@ -39,7 +39,7 @@ pub fn simulate(
 pub struct Resume<'a> {
     /// Everything that evolves.
     pub state: &'a SavedState<2>,
-    /// What was measured up to there, if that is known; the series of the whole run goes on from it.
+    /// Quantities of all steps up to the state, if they are known.
     pub series: Option<&'a Series>,
 }
 
