@@ -4,7 +4,6 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use super::kept::read_series;
 use crate::simulation::Series;
 
 /// One field file.
@@ -72,6 +71,25 @@ fn frame(line: &str) -> Option<Frame> {
     Some(Frame { time: value("timestep")?.parse().ok()?, file: value("file")?.to_owned() })
 }
 
+/// The series in a text; the number of the first bad line otherwise.
+pub(super) fn read_series(text: &str) -> Result<Series, usize> {
+    let mut lines = text.lines();
+    let header = lines.next().ok_or(1_usize)?;
+    let names: Vec<String> = header.split(',').skip(1).map(str::to_owned).collect();
+    let mut series = Series { names, ..Series::default() };
+    for (index, line) in lines.enumerate() {
+        let numbers: Result<Vec<f64>, _> = line.split(',').map(str::parse).collect();
+        match numbers.as_deref() {
+            Ok([time, values @ ..]) if values.len() == series.names.len() => {
+                series.times.push(*time);
+                series.rows.push(values.to_vec());
+            }
+            _ => return Err(index + 2),
+        }
+    }
+    Ok(series)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -96,5 +114,16 @@ mod tests {
         write("series.csv", "time,a\n0.0,1.0,2.0\n");
         let told = History::read(place.path(), 1, 0.1).unwrap_err().to_string();
         assert!(told.ends_with("series.csv: line 2 is damaged"), "{told}");
+    }
+
+    #[test]
+    fn a_series_is_read_as_it_was_written() {
+        let series = read_series("time,a.x,b.y\n0.0,1.5,NaN\n0.1,-2e-5,inf\n").unwrap();
+        assert_eq!(series.names, ["a.x", "b.y"]);
+        assert_eq!(series.times, [0.0, 0.1]);
+        assert_eq!(series.column("a.x"), Some(vec![1.5, -2e-5]));
+        assert!(series.rows[0][1].is_nan() && series.rows[1][1] == f64::INFINITY);
+        assert_eq!(read_series("time,a.x\n0.0,1.0\n0.1\n"), Err(3));
+        assert_eq!(read_series("time,a.x\n0.0,one\n"), Err(2));
     }
 }

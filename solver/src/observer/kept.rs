@@ -3,8 +3,9 @@
 use std::io;
 use std::path::Path;
 
+use super::history::read_series;
 use super::status::{RunState, Status};
-use crate::simulation::{RunSummary, Series, Stage, Timing};
+use crate::simulation::{RunSummary, Stage, Timing};
 
 /// What the run in `directory` left: its series, its time and its size.
 ///
@@ -26,39 +27,4 @@ pub fn read_outcome(directory: &Path) -> io::Result<RunSummary> {
     let series = read_series(&std::fs::read_to_string(directory.join("series.csv"))?)
         .map_err(|line| io::Error::other(format!("line {line} of series.csv is damaged")))?;
     Ok(RunSummary { series, timing, n_dofs: status.dofs, steps: status.step })
-}
-
-/// The series in a text; the number of the first bad line otherwise.
-pub(super) fn read_series(text: &str) -> Result<Series, usize> {
-    let mut lines = text.lines();
-    let header = lines.next().ok_or(1_usize)?;
-    let names: Vec<String> = header.split(',').skip(1).map(str::to_owned).collect();
-    let mut series = Series { names, ..Series::default() };
-    for (index, line) in lines.enumerate() {
-        let numbers: Result<Vec<f64>, _> = line.split(',').map(str::parse).collect();
-        match numbers.as_deref() {
-            Ok([time, values @ ..]) if values.len() == series.names.len() => {
-                series.times.push(*time);
-                series.rows.push(values.to_vec());
-            }
-            _ => return Err(index + 2),
-        }
-    }
-    Ok(series)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_series_is_read_as_it_was_written() {
-        let series = read_series("time,a.x,b.y\n0.0,1.5,NaN\n0.1,-2e-5,inf\n").unwrap();
-        assert_eq!(series.names, ["a.x", "b.y"]);
-        assert_eq!(series.times, [0.0, 0.1]);
-        assert_eq!(series.column("a.x"), Some(vec![1.5, -2e-5]));
-        assert!(series.rows[0][1].is_nan() && series.rows[1][1] == f64::INFINITY);
-        assert_eq!(read_series("time,a.x\n0.0,1.0\n0.1\n"), Err(3));
-        assert_eq!(read_series("time,a.x\n0.0,one\n"), Err(2));
-    }
 }
