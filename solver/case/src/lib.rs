@@ -15,6 +15,7 @@ mod gait;
 mod geometry;
 mod joint;
 pub mod library;
+mod mean_flow;
 mod mesh;
 mod model;
 mod nearest;
@@ -45,6 +46,7 @@ pub use gait::{
 };
 pub use geometry::opposite;
 pub use joint::{Hinge, Joint, JointKind};
+pub use mean_flow::MeanFlowSpec;
 pub use mesh::{MeshEquation, MeshSettings, MovingMesh, RefinementBox};
 pub use model::{Model, SwimmerModel};
 pub use nearest::nearest;

@@ -11,6 +11,7 @@ mod fluid;
 mod gait;
 mod general;
 mod joints;
+mod mean_flow;
 mod mesh;
 mod placement;
 mod references;
@@ -38,6 +39,7 @@ pub fn check(file: &CaseFile) -> Vec<Diagnostic> {
     general::check(&mut findings);
     fluid::check(&mut findings);
     boundary::check(&mut findings);
+    mean_flow::check(&mut findings);
     bodies::check(&mut findings);
     joints::check(&mut findings);
     swimmers::check(&mut findings);

@@ -8,6 +8,7 @@ mod joint_loads;
 mod kinematics;
 mod linear_system;
 mod loads;
+mod mean_flow;
 mod mobility;
 mod nullspace;
 mod pressure_mean;
@@ -25,10 +26,11 @@ pub use constrain::{BodiesAt, BoundaryValues, impose_boundary_values};
 pub use error::{SolveError, coordinates};
 pub use joint_loads::{BodyStates, JointReport, joint_reports};
 pub use loads::{BodyLoads, ResidualOnMesh, body_loads};
+pub use mean_flow::MeanFlowReport;
 pub use mobility::BodyLoad;
 pub use problem::{
-    Arm, Drive, Group, Joint, MovingValue, Pivot, Problem, RateDiscontinuities, RigidBody, Side,
-    Spring, TimeValue, Turn, VelocityProfile, second_moments,
+    Arm, Drive, Group, Joint, MeanFlow, MeanFlowAlong, MeanFlowAt, MovingValue, Pivot, Problem,
+    RateDiscontinuities, RigidBody, Side, Spring, TimeValue, Turn, VelocityProfile, second_moments,
 };
 pub use projection::DivergenceFreeProjection;
 pub use propulsion::{

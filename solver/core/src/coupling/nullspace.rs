@@ -62,14 +62,18 @@ impl<const D: usize> TranslationNullspace<D> {
         self.subtract(&velocity, solution);
     }
 
-    /// Makes the mean velocity of fluid and bodies zero.
-    pub fn center(&self, solution: &mut Solution<D>) {
-        let mean =
-            self.weights.iter().fold(Point::<D>::zeros(), |sum, NodeWeights { node, weights }| {
-                let velocity = &solution.velocity[*node];
-                sum + Point::<D>::from_fn(|axis, _| weights.column(axis).dot(velocity))
-            });
-        self.subtract(&mean, solution);
+    /// Gives fluid and bodies a mean velocity (m/s).
+    pub fn center(&self, solution: &mut Solution<D>, mean: &Point<D>) {
+        let excess = self.mean(solution) - mean;
+        self.subtract(&excess, solution);
+    }
+
+    /// The mean velocity of fluid and bodies (m/s).
+    pub fn mean(&self, solution: &Solution<D>) -> Point<D> {
+        self.weights.iter().fold(Point::<D>::zeros(), |sum, NodeWeights { node, weights }| {
+            let velocity = &solution.velocity[*node];
+            sum + Point::<D>::from_fn(|axis, _| weights.column(axis).dot(velocity))
+        })
     }
 
     fn subtract(&self, velocity: &Point<D>, solution: &mut Solution<D>) {

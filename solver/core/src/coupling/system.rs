@@ -7,25 +7,31 @@
 
 use std::sync::Arc;
 
-use alewife_mesh::Mesh;
+use alewife_mesh::{Mesh, Point};
 
 use super::boundaries::Boundaries;
 use super::constrain::{BodiesAt, Constrainer};
 use super::error::SolveError;
 use super::linear_system::{LinearSystem, unknowns};
 use super::loads::{BodyLoads, ResidualOnMesh, body_loads};
+use super::mean_flow::{
+    CellIntegrals, MeanFlowReport, MeanFlowResponse, ResponseSystem, with_given_gradients,
+};
 use super::nullspace::TranslationNullspace;
 use super::pressure_mean::PressureMean;
-use super::problem::Problem;
+use super::problem::{MeanFlowAt, Problem};
 use super::rigid_equations::{RigidBodyEquations, rotations};
 use super::shapes::BodyShapes;
 use super::solution::Solution;
 use super::surface_load::SurfaceStress;
 use crate::algebra::{Accuracy, AffineConstraints, Term, Unknowns};
-use crate::body::{Modes, Pose};
+use crate::body::{Modes, Pose, Wrench, in_space};
 use crate::flow::{Assembly, FlowTerms, assemble, residual};
 use crate::space::{DofLayout, FacetRule, Tables};
 use crate::timing::{Stage, Timing};
+
+/// Difference of a mean velocity from the given one that is rounding.
+const MEAN_VELOCITY: f64 = 1e-10;
 
 /// Everything that defines the system on one configuration of the mesh.
 #[derive(Clone, Copy)]
@@ -38,6 +44,8 @@ pub struct Configuration<'a, const D: usize> {
     pub constraints: &'a AffineConstraints,
     /// Newton's and Euler's equations.
     pub bodies: &'a RigidBodyEquations,
+    /// What is given of the mean flow.
+    pub mean_flow: MeanFlowAt<D>,
 }
 
 /// Pattern, factorisation and workspace for the systems on one mesh.
@@ -54,7 +62,11 @@ pub struct FluidSystem<const D: usize> {
     pub(super) linear: LinearSystem,
     pressure: PressureMean,
     /// The common velocity of fluid and bodies, where nothing holds them.
-    nullspace: Option<TranslationNullspace<D>>,
+    pub(super) nullspace: Option<TranslationNullspace<D>>,
+    /// Integrals over a cell with a mean flow.
+    cell: Option<CellIntegrals<D>>,
+    /// How the flow answered to pressure gradients in the last step of Newton's method.
+    pub(super) response: MeanFlowResponse,
 }
 
 impl<const D: usize> FluidSystem<D> {
@@ -79,6 +91,8 @@ impl<const D: usize> FluidSystem<D> {
             frame,
         );
         let pressure = PressureMean::new(mesh, assembly.tables());
+        let driven = problem.mean_flow.as_ref();
+        let cell = driven.map(|_| CellIntegrals::new(problem, mesh, assembly.tables()));
         let linear =
             LinearSystem::new(Arc::clone(assembly.pattern()), unknowns(&layout, &constraints));
         Self {
@@ -91,6 +105,8 @@ impl<const D: usize> FluidSystem<D> {
             linear,
             pressure,
             nullspace: TranslationNullspace::new(problem, mesh),
+            cell,
+            response: MeanFlowResponse::default(),
         }
     }
 
@@ -152,7 +168,39 @@ impl<const D: usize> FluidSystem<D> {
             velocity: &solution.velocity,
             residual,
         };
-        body_loads(problem, poses, &flow)
+        let mut loads = body_loads(problem, poses, &flow);
+        if self.cell.is_some() {
+            for (body, (loads, twist)) in loads.iter_mut().zip(&solution.twists).enumerate() {
+                let mean = self.mean_load(body, solution);
+                loads.power -= mean.force.dot(&twist.linear);
+                loads.load = loads.load + mean;
+            }
+        }
+        loads
+    }
+
+    /// Load of the mean pressure gradient on a body, as that of gravity on the fluid it displaces.
+    #[must_use]
+    pub fn mean_load(&self, body: usize, solution: &Solution<D>) -> Wrench {
+        let Some(cell) = &self.cell else { return Wrench::default() };
+        let force = -in_space(&solution.pressure_gradient) * cell.body_volume(body);
+        Wrench { force, ..Wrench::default() }
+    }
+
+    /// The mean flow of a solution, where one is given.
+    #[must_use]
+    pub fn mean_flow(
+        &self,
+        given: &MeanFlowAt<D>,
+        solution: &Solution<D>,
+    ) -> Option<MeanFlowReport> {
+        let cell = self.cell.as_ref()?;
+        let (velocity, pressure_gradient) =
+            (cell.mean_velocity(solution), solution.pressure_gradient);
+        let power = given.body_force.dot(&cell.fluid_integral(solution))
+            - pressure_gradient.dot(&velocity) * cell.volume();
+        let [pressure_gradient, velocity] = [pressure_gradient, velocity].map(|v| in_space(&v));
+        Some(MeanFlowReport { pressure_gradient, velocity, power })
     }
 
     /// Constraints with bodies at these poses, at the time of their shapes.
@@ -172,17 +220,35 @@ impl<const D: usize> FluidSystem<D> {
             self.pressure = PressureMean::new(mesh, self.assembly.tables());
         }
         self.nullspace = TranslationNullspace::new(problem, mesh);
+        if problem.mean_flow.is_some() {
+            self.cell = Some(CellIntegrals::new(problem, mesh, self.assembly.tables()));
+        }
     }
 
     /// The raw residual of the fluid's equations at a solution.
     #[must_use]
     pub fn fluid_residual(
         &self,
-        mesh: &Mesh<D>,
+        at: &Configuration<'_, D>,
         terms: &FlowTerms<'_, D>,
         solution: &Solution<D>,
     ) -> Vec<f64> {
-        residual(&self.assembly, mesh, terms, &solution.fields())
+        let mut raw = residual(&self.assembly, at.mesh, terms, &solution.fields());
+        if let Some(cell) = &self.cell {
+            let force = solution.pressure_gradient - at.mean_flow.body_force;
+            cell.add(&self.layout, self.modes, [&force, &Point::<D>::zeros()], &mut raw);
+        }
+        raw
+    }
+
+    /// A solution with the pressure gradients that are given.
+    #[must_use]
+    pub fn with_given_gradients(
+        &self,
+        at: &Configuration<'_, D>,
+        solution: Solution<D>,
+    ) -> Solution<D> {
+        if self.cell.is_some() { with_given_gradients(solution, &at.mean_flow) } else { solution }
     }
 
     /// P^T R: the residual of fluid and bodies on the free unknowns, from that of the fluid.
@@ -199,6 +265,10 @@ impl<const D: usize> FluidSystem<D> {
         }
         let row = |body: usize, position: usize| self.layout.rigid(body, position);
         at.bodies.add_residual(&solution.twists, self.modes, row, &mut raw);
+        if let Some(cell) = &self.cell {
+            let force = solution.pressure_gradient;
+            cell.add(&self.layout, self.modes, [&Point::<D>::zeros(), &force], &mut raw);
+        }
         at.constraints.restrict(&raw)
     }
 
@@ -230,13 +300,71 @@ impl<const D: usize> FluidSystem<D> {
         for (value, correction) in free.iter_mut().zip(&step) {
             *value += correction;
         }
+        let pressure_gradient =
+            solution.pressure_gradient + self.meet_mean_velocity(at, &mut free, timing)?;
         let raw = at.constraints.expand(&free);
         if let Some(index) = raw.iter().position(|value| !value.is_finite()) {
             let node = (index / D).min(self.layout.n_nodes - 1);
             let near = at.mesh.nodes[node].as_slice().to_vec();
             return Err(SolveError::NotFinite { near });
         }
-        Ok(self.centered(Solution::from_raw(&self.layout, self.modes, &raw)))
+        let next = Solution::from_raw(&self.layout, self.modes, &raw);
+        let mean = Point::<D>::from_fn(|axis, _| at.mean_flow.velocity(axis).unwrap_or(0.0));
+        Ok(self.centered(Solution { pressure_gradient, ..next }, &mean))
+    }
+
+    /// Largest force of the mean pressure gradient on a node (N; N/m planar).
+    #[must_use]
+    pub fn mean_force(&self, solution: &Solution<D>) -> f64 {
+        let gradient = solution.pressure_gradient.amax();
+        self.cell.as_ref().map_or(0.0, |cell| gradient * cell.largest_node())
+    }
+
+    /// Whether a solution has the mean velocities that are given where something holds the fluid.
+    #[must_use]
+    pub fn meets_mean_velocity(&self, at: &Configuration<'_, D>, solution: &Solution<D>) -> bool {
+        let Some(cell) = &self.cell else { return true };
+        let mean = cell.mean_velocity(solution);
+        let held = at.problem.free_translations().map(|is_free| !is_free);
+        let mut given = (0..D).filter_map(|axis| {
+            at.mean_flow.velocity(axis).filter(|_| held[axis]).map(|velocity| (axis, velocity))
+        });
+        given.all(|(axis, velocity)| {
+            (mean[axis] - velocity).abs() <= MEAN_VELOCITY * velocity.abs().max(mean.norm())
+        })
+    }
+
+    /// Gives the free unknowns the mean velocities that are given where something holds the fluid; the
+    /// change of the pressure gradient that does.
+    fn meet_mean_velocity(
+        &mut self,
+        at: &Configuration<'_, D>,
+        free: &mut [f64],
+        timing: &mut Timing,
+    ) -> Result<Point<D>, SolveError> {
+        let mut change = Point::<D>::zeros();
+        let Some(cell) = &self.cell else { return Ok(change) };
+        let held = at.problem.free_translations().map(|is_free| !is_free);
+        let given = |axis: usize| at.mean_flow.velocity(axis).filter(|_| held[axis]);
+        let axes: Vec<usize> = (0..D).filter(|&axis| given(axis).is_some()).collect();
+        let (layout, modes) = (self.layout, self.modes);
+        let system =
+            ResponseSystem { cell, layout: &layout, modes, constraints: at.constraints, axes };
+        self.response.update(&system, &mut self.linear, timing)?;
+        if self.response.is_empty() {
+            return Ok(change);
+        }
+        let raw = at.constraints.expand(free);
+        let mean = cell.mean_velocity(&Solution::from_raw(&layout, modes, &raw));
+        let axes = || self.response.axes().iter();
+        let excess = axes().filter_map(|&axis| {
+            given(axis).map(|velocity| (mean[axis] - velocity) * cell.volume())
+        });
+        let gradients = self.response.gradients(&excess.collect::<Vec<f64>>());
+        let gradients = gradients.ok_or(SolveError::NoResistance)?;
+        self.response.subtract(&gradients, free);
+        axes().zip(&gradients).for_each(|(&axis, gradient)| change[axis] = *gradient);
+        Ok(change)
     }
 
     /// The solution seen from where the system holds fluid and bodies.
@@ -248,10 +376,10 @@ impl<const D: usize> FluidSystem<D> {
         pinned
     }
 
-    /// The solution with the mean velocity that is asked for where nothing holds it.
-    pub(super) fn centered(&self, mut solution: Solution<D>) -> Solution<D> {
+    /// The solution with a mean velocity (m/s) where nothing holds fluid and bodies.
+    pub(super) fn centered(&self, mut solution: Solution<D>, mean: &Point<D>) -> Solution<D> {
         if let Some(nullspace) = &self.nullspace {
-            nullspace.center(&mut solution);
+            nullspace.center(&mut solution, mean);
         }
         solution
     }
@@ -294,7 +422,11 @@ impl<const D: usize> FluidSystem<D> {
     #[must_use]
     pub fn constrained(&self, constraints: &AffineConstraints, from: &Solution<D>) -> Solution<D> {
         let free = constraints.pick(&self.pinned(from).to_raw(self.modes));
-        Solution::from_raw(&self.layout, self.modes, &constraints.expand(&free))
+        let raw = constraints.expand(&free);
+        Solution {
+            pressure_gradient: from.pressure_gradient,
+            ..Solution::from_raw(&self.layout, self.modes, &raw)
+        }
     }
 
     /// Shifts the pressure of an enclosed flow to zero mean.
