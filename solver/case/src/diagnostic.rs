@@ -40,6 +40,23 @@ impl Diagnostic {
     }
 }
 
+/// A text of a file as it may be shown on a terminal: control characters, which could move the cursor
+/// or change colours, are written out (`\u{1b}`).
+#[must_use]
+pub fn printable(text: &str) -> String {
+    let is_plain = |c: char| !c.is_control() || c == '\n' || c == '\t';
+    let mut shown = String::with_capacity(text.len());
+    for c in text.chars() {
+        if is_plain(c) { shown.push(c) } else { shown.extend(c.escape_unicode()) }
+    }
+    shown
+}
+
+/// A character that stands for one that cannot be shown.
+fn visible(c: char) -> char {
+    if c.is_control() && c != '\t' { char::REPLACEMENT_CHARACTER } else { c }
+}
+
 /// `error: ...`, the location, the line with a caret below, and the help.
 impl fmt::Display for Diagnostic {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -47,13 +64,15 @@ impl fmt::Display for Diagnostic {
             Severity::Error => "error",
             Severity::Warning => "warning",
         };
-        write!(f, "{severity}: {}", self.message)?;
+        write!(f, "{severity}: {}", printable(&self.message))?;
         let margin = match &self.location {
             Some(location) => {
                 let number = location.line.to_string();
                 let margin = " ".repeat(number.len());
-                write!(f, "\n{margin}--> {location}")?;
-                write!(f, "\n{margin} |\n{number} | {}", location.text)?;
+                write!(f, "\n{margin}--> {}", printable(&location.to_string()))?;
+                // One character for another, so that columns stay
+                let line: String = location.text.chars().map(visible).collect();
+                write!(f, "\n{margin} |\n{number} | {line}")?;
                 // Tabs stay tabs, so that the caret stands below what it points at.
                 let indent: String = location
                     .text
@@ -66,7 +85,11 @@ impl fmt::Display for Diagnostic {
             }
             None => String::new(),
         };
-        if self.help.is_empty() { Ok(()) } else { write!(f, "\n{margin} = {}", self.help) }
+        if self.help.is_empty() {
+            Ok(())
+        } else {
+            write!(f, "\n{margin} = {}", printable(&self.help))
+        }
     }
 }
 
@@ -104,4 +127,21 @@ impl CaseError {
 /// All diagnostics, one below the other.
 fn listing(diagnostics: &[Diagnostic]) -> String {
     diagnostics.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n\n")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn control_characters_do_not_reach_the_terminal() {
+        assert_eq!(printable("a\u{1b}[31mb\tc\nd"), "a\\u{1b}[31mb\tc\nd");
+        let text = "title = \"\u{1b}[2J\"".to_owned();
+        let location = Location { file: "a.toml".to_owned(), line: 1, column: 9, width: 3, text };
+        let mut diagnostic = Diagnostic::error("title", "bad \u{7}".to_owned(), "");
+        diagnostic.location = Some(location);
+        let shown = diagnostic.to_string();
+        assert!(!shown.chars().any(|c| c.is_control() && c != '\n'), "{shown:?}");
+        assert!(shown.contains("bad \\u{7}") && shown.contains("\"\u{fffd}[2J\""), "{shown}");
+    }
 }

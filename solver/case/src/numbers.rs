@@ -13,6 +13,9 @@ use super::{
 /// Gaps that are listed: of many bodies those of the closest pairs.
 const MOST_GAPS: usize = 3;
 
+/// Widest column of names in a table (characters).
+const WIDEST_COLUMN: usize = 200;
+
 /// density * velocity * length / viscosity of `[scales]`; 0 in Stokes flow.
 #[must_use]
 pub fn reynolds(case: &Case) -> Option<f64> {
@@ -226,6 +229,7 @@ fn gaps(model: &Model) -> Vec<DerivedNumber> {
 pub fn number_table(model: &Model) -> String {
     let numbers = derived_numbers(model);
     let width = numbers.iter().map(|number| number.name.chars().count()).max().unwrap_or(0);
+    let width = width.min(WIDEST_COLUMN);
     let mut text = String::new();
     for DerivedNumber { name, value, formula } in numbers {
         // Writing to a String cannot fail.

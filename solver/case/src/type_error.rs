@@ -1,5 +1,6 @@
 //! `TypeError`: why a value of a case cannot be typed, where it is, and what is accepted.
 
+use std::collections::HashSet;
 use std::fmt::{self, Display};
 
 use serde::de::{self, Expected, Unexpected};
@@ -126,10 +127,15 @@ const MOST_WORDS: usize = 100;
 
 /// "did you mean ...? accepted: ..." for a word that is not known.
 pub fn suggestion<S: AsRef<str>>(found: &str, accepted: &[S]) -> String {
-    let words: Vec<&str> = accepted.iter().take(MOST_WORDS).map(AsRef::as_ref).collect();
+    let mut words: Vec<&str> = Vec::new();
+    let mut seen = HashSet::new();
+    // What is offered twice, such as a body and the swimmer it is, is one word
+    words.extend(accepted.iter().map(AsRef::as_ref).filter(|word| seen.insert(*word)));
+    let more = words.len().saturating_sub(MOST_WORDS);
+    words.truncate(MOST_WORDS);
     let mut list = words.join(", ");
-    if accepted.len() > MOST_WORDS {
-        list += &format!(" and {} more", accepted.len() - MOST_WORDS);
+    if more > 0 {
+        list += &format!(" and {more} more");
     }
     match nearest(found, accepted) {
         Some(word) => format!("did you mean `{word}`? accepted: {list}"),

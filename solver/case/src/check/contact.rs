@@ -99,7 +99,7 @@ fn check_strength(findings: &mut Findings<'_>, contact: &Option<ContactSpec>) {
         let Some(moments) = body.shape.outline().moments() else { continue };
         let excess = body.density.unwrap_or(case.fluid.density) - case.fluid.density;
         let weight = excess.abs() * moments.measure * gravity;
-        if body.motion == Motion::Free && greatest < weight {
+        if body.motion == Motion::Free && greatest > 0.0 && greatest < weight {
             findings.warning(
                 key,
                 format!(

@@ -10,6 +10,9 @@ const FEWEST_EDGES: f64 = 8.0;
 /// Layers of cells across a gap that a moving mesh may ask for, however few a new one has.
 const MODEST_LAYERS: f64 = 2.0;
 
+/// Layers of cells across a gap below which it is warned about.
+const FEW_LAYERS: f64 = 1.5;
+
 pub fn check(findings: &mut Findings<'_>) {
     let case = findings.case();
     let mesh = &case.mesh;
@@ -36,6 +39,7 @@ pub fn check(findings: &mut Findings<'_>) {
             findings.error(&key, format!("this domain has no side `{side}`"), &help);
         }
     }
+    let [domain_min, domain_max] = case.domain.extent();
     for (index, refined) in mesh.boxes.iter().enumerate() {
         let key = format!("mesh.box.{index}");
         findings.positive(&format!("{key}.size"), refined.size);
@@ -45,7 +49,28 @@ pub fn check(findings: &mut Findings<'_>) {
                 format!("the box from {:?} to {:?} is empty", refined.min, refined.max),
                 "both numbers of `max` must be larger than those of `min`",
             );
+        } else if (0..2).any(|axis| {
+            refined.max[axis] <= domain_min[axis] || refined.min[axis] >= domain_max[axis]
+        }) {
+            findings.warning(
+                &key,
+                format!(
+                    "the box from {:?} to {:?} lies outside the domain and refines nothing",
+                    refined.min, refined.max
+                ),
+                &format!("the domain reaches from {domain_min:?} to {domain_max:?}"),
+            );
         }
+    }
+    if mesh.gap_layers / mesh.scale < FEW_LAYERS {
+        findings.warning(
+            "mesh.gap_layers",
+            format!(
+                "gaps get {} layers of cells: too few for the pressure in them",
+                mesh.gap_layers / mesh.scale
+            ),
+            "4 are usual",
+        );
     }
     check_moving(findings);
     for (index, body) in findings.model().bodies.iter().enumerate() {

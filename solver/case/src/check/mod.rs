@@ -6,6 +6,7 @@
 mod bodies;
 mod boundary;
 mod contact;
+mod extremes;
 mod findings;
 mod fluid;
 mod gait;
@@ -28,12 +29,9 @@ use findings::Findings;
 #[must_use]
 pub fn check(file: &CaseFile) -> Vec<Diagnostic> {
     let mut findings = Findings::new(file);
-    for path in file.not_finite() {
-        findings.error(
-            &path,
-            format!("`{path}` is not a finite number"),
-            "write a number such as 0.5 or 1e-3",
-        );
+    extremes::check_numbers(&mut findings, file);
+    if !findings.has_no_error() {
+        return findings.into_diagnostics();
     }
     general::check(&mut findings);
     fluid::check(&mut findings);
@@ -45,6 +43,7 @@ pub fn check(file: &CaseFile) -> Vec<Diagnostic> {
     mesh::check(&mut findings);
     time::check(&mut findings);
     references::check(&mut findings);
+    extremes::check(&mut findings, file);
     if findings.has_no_error() {
         placement::check(&mut findings);
     }

@@ -59,8 +59,9 @@ impl From<MotionError> for StepError {
 pub enum RunError {
     /// Newton's method did not converge.
     #[error(
-        "{}: Newton's method stopped at residual {residual:.3e} after {iterations} iterations; {}",
+        "{}: Newton's method stopped at residual {residual:.3e} after {iterations} iteration{}; {}",
         if *step == 0 { "steady flow".to_owned() } else { format!("step {step} (t = {time})") },
+        if *iterations == 1 { "" } else { "s" },
         if *step == 0 {
             "refine the mesh, raise time.steady.max_iterations, or lower the Reynolds number: \
              there may be no steady flow"
