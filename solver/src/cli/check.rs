@@ -11,7 +11,7 @@ use super::style::{self, Ink, on_stdout, say};
 use crate::case::{
     BoundaryCondition, Cadence, Case, CaseFile, Diagnostic, DomainSpec, FlowModel, GaitSpec, Joint,
     JointKind, Model, Motion, Precision, Scheme, ShapeSpec, Stroke, SwimmerModel, TimeSettings,
-    geometry_name, known_quantities, number_table, significant,
+    geometry_name, known_quantities, number_table, printable, significant,
 };
 use crate::coupling::memory_estimate;
 
@@ -40,7 +40,8 @@ pub fn check(cases: &[String], settings: &[String], has_mesh: bool) -> Result<Ex
 
 fn check_one(argument: &str, settings: &[String], has_mesh: bool) -> Result<(), Failure> {
     let CheckedCase { file, warnings } = read_and_check(argument, settings)?;
-    let mut text = format!("{}  {}\n", on_stdout(Ink::Bold, &file.full_name()), file.case().title);
+    let mut text =
+        format!("{}  {}\n", on_stdout(Ink::Bold, &file.full_name()), one_line(&file.case().title));
     text += &facts(&file);
     let numbers = number_table(&file.model);
     if !numbers.is_empty() {
@@ -59,8 +60,8 @@ fn check_one(argument: &str, settings: &[String], has_mesh: bool) -> Result<(), 
             costs(&file.model, &mesh)
         ));
     }
-    for warning in &warnings {
-        style::complain(&format!("\n{}", style::diagnostic(warning)));
+    if !warnings.is_empty() {
+        style::complain(&format!("\n{}", style::diagnostics(&warnings)));
     }
     check_variants(argument, &file, settings)?;
     say("\nnothing was solved");
@@ -82,6 +83,11 @@ fn check_variants(argument: &str, file: &CaseFile, settings: &[String]) -> Resul
     Ok(())
 }
 
+/// A text that is meant to be one line, as it may be shown on a terminal.
+pub fn one_line(text: &str) -> String {
+    printable(&text.split_whitespace().collect::<Vec<_>>().join(" "))
+}
+
 /// What a case consists of, as lines `what  value`.
 pub fn facts(file: &CaseFile) -> String {
     let (case, model) = (file.case(), &file.model);
@@ -90,8 +96,8 @@ pub fn facts(file: &CaseFile) -> String {
         // Writing to a String cannot fail.
         let _ = writeln!(text, "  {what:<10} {value}");
     };
-    line("file", file.file.clone());
-    let units = format!("{}, units: {}", geometry_name(case.geometry), case.units);
+    line("file", printable(&file.file));
+    let units = format!("{}, units: {}", geometry_name(case.geometry), one_line(&case.units));
     line("geometry", units);
     line("fluid", fluid(case));
     line("domain", domain(&case.domain));
@@ -145,10 +151,13 @@ fn fluid(case: &Case) -> String {
 fn domain(domain: &DomainSpec) -> String {
     match domain {
         DomainSpec::Box { min, max } => format!("box from {min:?} to {max:?}"),
-        DomainSpec::Channel { length, height } => format!("channel {length} long, {height} high"),
-        DomainSpec::Disc { radius, .. } => format!("disc of radius {radius}"),
-        DomainSpec::HalfDisc { radius, .. } => format!("ball of radius {radius}"),
-        DomainSpec::Cylinder { x: [start, end], radius } => {
+        DomainSpec::Channel { length, height } => {
+            format!("channel {} long, {} high", significant(*length), significant(*height))
+        }
+        DomainSpec::Disc { radius, .. } => format!("disc of radius {}", significant(*radius)),
+        DomainSpec::HalfDisc { radius, .. } => format!("ball of radius {}", significant(*radius)),
+        DomainSpec::Cylinder { x, radius } => {
+            let [start, end, radius] = [x[0], x[1], *radius].map(significant);
             format!("cylinder from x = {start} to {end} of radius {radius}")
         }
     }
@@ -172,15 +181,16 @@ fn condition_name(condition: &BoundaryCondition) -> &'static str {
 fn body_line(case: &Case, body: &crate::case::Body) -> String {
     let shape = match &body.shape {
         ShapeSpec::Disc { radius } | ShapeSpec::Sphere { radius } => {
-            format!("{} of radius {radius}", body.shape.name())
+            format!("{} of radius {}", body.shape.name(), significant(*radius))
         }
         ShapeSpec::Ellipse { semi_axes } | ShapeSpec::Spheroid { semi_axes } => {
             format!("{} with semi-axes {semi_axes:?}", body.shape.name())
         }
         ShapeSpec::Spline { points } => format!("spline through {} points", points.len()),
-        ShapeSpec::Fish(fish) => format!("fish of length {}", fish.length),
+        ShapeSpec::Fish(fish) => format!("fish of length {}", significant(fish.length)),
         ShapeSpec::Flagellate(flagellate) => {
-            format!("flagellate with a tail of length {}", flagellate.tail_length)
+            let length = significant(flagellate.tail_length);
+            format!("flagellate with a tail of length {length}")
         }
     };
     let motion = match &body.motion {
@@ -200,7 +210,7 @@ fn body_line(case: &Case, body: &crate::case::Body) -> String {
     let edges = body.shape.perimeter() / size;
     let at: Vec<String> = body.center.iter().map(|value| significant(*value)).collect();
     let at = at.join(", ");
-    format!("{}: {shape} at [{at}], {motion}{gait}, about {edges:.0} edges", body.name)
+    format!("{}: {shape} at [{at}], {motion}{gait}, about {} edges", body.name, count(edges))
 }
 
 fn joint_line(joint: &Joint) -> String {
@@ -249,7 +259,7 @@ fn time(case: &Case) -> String {
         }
         TimeSettings::Unsteady(time) => format!(
             "{} steps of {} to {}",
-            (time.end / time.step).ceil(),
+            count((time.end / time.step).ceil()),
             significant(time.step),
             significant(time.end)
         ),
@@ -297,7 +307,7 @@ fn costs(model: &Model, mesh: &Mesh<2>) -> String {
         format!("{} for each linear system; their number depends on the steps", duration(seconds))
     } else {
         let plural = if systems == 1.0 { "" } else { "s" };
-        format!("{} for {systems} linear system{plural}", duration(systems * seconds))
+        format!("{} for {} linear system{plural}", duration(systems * seconds), count(systems))
     };
     let _ = writeln!(text, "  {:<16} {cost}", "CPU time");
     let _ = write!(text, "  {:<16} {}", "output", bytes(output));
@@ -341,7 +351,15 @@ fn output_size(model: &Model, mesh: &Mesh<2>) -> f64 {
     times(case.output.fields) * frame + times(case.output.series) * row
 }
 
+/// A number of things, in powers of ten where there are many.
+fn count(number: f64) -> String {
+    if number < 1e7 { format!("{number:.0}") } else { format!("{number:.1e}") }
+}
+
 fn bytes(size: f64) -> String {
+    if size.is_nan() || size >= 1e16 {
+        return "more than any disk holds".to_owned();
+    }
     let larger = ["kB", "MB", "GB", "TB"];
     let (mut number, mut unit) = (size, None);
     for name in larger {
@@ -357,7 +375,9 @@ fn duration(seconds: f64) -> String {
         s if s < 1.0 => "less than a second".to_owned(),
         s if s < 120.0 => format!("{s:.0} s"),
         s if s < 7200.0 => format!("{:.0} min", s / 60.0),
-        s => format!("{:.1} h", s / 3600.0),
+        s if s < 1e6 => format!("{:.1} h", s / 3600.0),
+        s if s < 3e9 => format!("{:.0} days", s / 86400.0),
+        _ => "more than a century".to_owned(),
     }
 }
 
@@ -371,5 +391,9 @@ mod tests {
         assert_eq!(bytes(1.5e6), "1.5 MB");
         assert_eq!(duration(90.0), "90 s");
         assert_eq!(duration(9000.0), "2.5 h");
+        assert_eq!(duration(2e6), "23 days");
+        assert_eq!(duration(f64::INFINITY), "more than a century");
+        assert_eq!(bytes(f64::INFINITY), "more than any disk holds");
+        assert_eq!([count(64.4), count(2.5e9)], ["64", "2.5e9"]);
     }
 }

@@ -57,8 +57,7 @@ impl Failure {
 
     /// A case that is wrong, with all its diagnostics.
     pub fn wrong(diagnostics: &[Diagnostic]) -> Self {
-        let texts: Vec<String> = diagnostics.iter().map(style::diagnostic).collect();
-        Self { exit: Exit::BadCase, message: texts.join("\n\n") }
+        Self { exit: Exit::BadCase, message: style::diagnostics(diagnostics) }
     }
 }
 

@@ -146,7 +146,7 @@ fn factors_belong_to_modes_and_axes_turn_in_the_plane_only() {
     refused(
         motion,
         &swimmer("factors = { 2 = { sine = { frequency = 1.0 } } }"),
-        &["has 1 modes, and none is `2`", "by the number of their mode"],
+        &["has 1 mode, and none is `2`", "by the number of their mode"],
     );
     refused(
         motion,
@@ -169,4 +169,58 @@ fn factors_belong_to_modes_and_axes_turn_in_the_plane_only() {
         gait.squirmer = { modes = [1.0], turn.ramp.duration = 1.0 }
     "#;
     assert_refused(&check(ball, &[]), &["breaks the symmetry", "to swim to and fro"]);
+}
+
+#[test]
+fn names_have_at_most_64_letters() {
+    let name = |n: usize| format!("name = \"{}\"", "d".repeat(n));
+    for n in [65, 65_536] {
+        let told = [format!("has {n} characters"), "at most 64".to_owned()];
+        let told: Vec<&str> = told.iter().map(String::as_str).collect();
+        refused("name = \"drop\"", &name(n), &told);
+        refused("name = \"disc\"", &name(n), &told);
+    }
+    let text = edited("name = \"drop\"", &name(64));
+    assert_accepted(&check(&text, &[]));
+}
+
+#[test]
+fn gaps_too_thin_for_a_mesh_are_told_with_the_threshold() {
+    let told = ["from the boundary", "gaps below 1e-7 of the size of a body cannot be meshed"];
+    refused("center = [0.2, 0.2]", "center = [0.2, 0.050000000001]", &told);
+    let second = "[[body]]\nname = \"other\"\nshape = { disc = { radius = 0.05 } }\n\
+                  center = [0.300000000001, 0.2]\nmotion = \"held\"\n\n[mesh]";
+    refused("[mesh]", second, &["are 1.0", "apart at", "gaps below 1e-7"]);
+}
+
+#[test]
+fn what_is_lost_to_rounding_is_refused() {
+    let thin = ["\"disc\" is 1.000e-20 thin in a domain of", "lost to rounding", "wrong.toml:21:9"];
+    refused("radius = 0.05", "radius = 1e-20", &thin);
+    refused("radius = 0.05", "radius = 1e-100", &["beyond what can be computed with"]);
+    refused("length = 2.2", "length = 1e200", &["beyond what can be computed with", "1e200"]);
+    let far = "domain.box = { min = [1e12, 0.0], max = [1000000000002.2, 0.41] }\n[mesh]";
+    let text =
+        edited("[domain.channel]\nlength = 2.2\nheight = 0.41\n", "").replace("[mesh]", "[MESH]");
+    let text = text
+        .replacen("[fluid]", &far.replace("\n[mesh]", "\n[fluid]"), 1)
+        .replace("[MESH]", "[mesh]");
+    assert_refused(&check(&text, &[]), &["from the origin", "move domain and bodies"]);
+}
+
+#[test]
+fn what_is_hardly_meant_is_warned_about() {
+    let warned = |text: &str, settings: &[&str], wanted: &str| {
+        let said = check(text, settings);
+        assert_accepted(&said);
+        assert!(said.stderr.contains(wanted), "`{wanted}` is not in:\n{}", said.stderr);
+    };
+    let free = unsteady("");
+    warned(&free, &["--set", "body.0.locked=['x', 'y', 'rotation']"], "all its motions are locked");
+    warned(&free, &["--set", "body.0.density=7e9"], "7.000e9 times the density of the fluid");
+    warned(&free, &["--set", "mesh.gap_layers=1"], "too few for the pressure");
+    let outside = "mesh.box=[{ min = [3, 0], max = [4, 1], size = 0.1 }]";
+    warned(&free, &["--set", outside], "lies outside the domain and refines nothing");
+    let modes = format!("body.0.gait.squirmer.modes=[{}]", vec!["1.0"; 100].join(", "));
+    warned(&free, &["--set", &modes], "mode 100 of \"disc\" is not resolved");
 }

@@ -67,3 +67,16 @@ fn unsteady_stokes_is_not_steady() {
         &["no steady solution", "wrong.toml:29:7", "[time.unsteady]"],
     );
 }
+
+#[test]
+fn steps_and_cycles_are_of_a_number_that_can_be_made() {
+    let text = unsteady("");
+    assert_refused(
+        &check(&text, &["--set", "time.unsteady.step=1e-12"]),
+        &["the run would have 1.0e12 steps", "--> --set:1:"],
+    );
+    // A step that is none is one mistake, not two
+    let said = check(&text, &["--set", "time.unsteady.step=-0.1"]);
+    assert_refused(&said, &["must be positive"]);
+    assert!(!said.stderr.contains("warning"), "{}", said.stderr);
+}
