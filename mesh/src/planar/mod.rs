@@ -28,6 +28,6 @@ pub use outline::{Nearest, Outline};
 pub use placement::{SMALLEST_GAP, check_placement, check_wrapped_placement};
 pub use profile::{FishForm, FlagellateForm, Profile, Station};
 pub use shape::{Moments, PlacedShape, SecondMoments, Shape};
-pub use size_field::SizeField;
+pub use size_field::{SizeField, estimate_cells};
 pub use sizing::{SizeBox, Sizing};
 pub use spline::Spline;

@@ -107,8 +107,10 @@ impl TypeError {
     /// What to do, in one line.
     pub fn help(&self) -> String {
         match self.mismatch() {
-            Mismatch::UnknownKey { key: found, accepted }
-            | Mismatch::UnknownAlternative { found, accepted } => suggestion(found, accepted),
+            Mismatch::UnknownKey { key, accepted } => {
+                renamed(key, accepted).unwrap_or_else(|| suggestion(key, accepted))
+            }
+            Mismatch::UnknownAlternative { found, accepted } => suggestion(found, accepted),
             Mismatch::MissingKey(key) => format!("add `{key} = ...` there"),
             Mismatch::WrongType { found, wanted } => {
                 if found.starts_with("the string") && wanted.contains("number") {
@@ -120,6 +122,16 @@ impl TypeError {
             Mismatch::Other(_, help) => help.clone(),
         }
     }
+}
+
+/// What has become of a key that is told in another way now, or is told so elsewhere.
+fn renamed(key: &str, accepted: &[String]) -> Option<String> {
+    let (new, how) = match key {
+        "frequency" => ("period", "the inverse of the frequency"),
+        "start_phase" => ("phase", "a part of the period"),
+        _ => return None,
+    };
+    accepted.iter().any(|word| word == new).then(|| format!("write `{new} = ...`, {how}"))
 }
 
 /// Most words a suggestion lists.

@@ -199,31 +199,47 @@ fn body_line(case: &Case, body: &crate::case::Body) -> String {
         Motion::Imposed(_) => "imposed motion",
     };
     let gait = match &body.gait {
-        Some(GaitSpec::Squirmer(_)) => ", squirmer",
-        Some(GaitSpec::Carangiform(_)) => ", carangiform",
-        Some(GaitSpec::Anguilliform(_)) => ", anguilliform",
-        Some(GaitSpec::Flagellum(_)) => ", flagellum",
-        Some(GaitSpec::Pulsating(_)) => ", pulsating",
-        None => "",
+        Some(GaitSpec::Squirmer(gait)) => {
+            // The axis turns with the body, and both may be given
+            format!(", squirmer heading {}", angle_in_words(body.angle + gait.heading))
+        }
+        Some(GaitSpec::Carangiform(_)) => ", carangiform".to_owned(),
+        Some(GaitSpec::Anguilliform(_)) => ", anguilliform".to_owned(),
+        Some(GaitSpec::Flagellum(_)) => ", flagellum".to_owned(),
+        Some(GaitSpec::Pulsating(_)) => ", pulsating".to_owned(),
+        None => String::new(),
     };
     let size = body.size.or(case.mesh.surface).unwrap_or(case.mesh.size) * case.mesh.scale;
     let edges = body.shape.perimeter() / size;
     let at: Vec<String> = body.center.iter().map(|value| significant(*value)).collect();
     let at = at.join(", ");
-    format!("{}: {shape} at [{at}], {motion}{gait}, about {} edges", body.name, count(edges))
+    let turned = match (body.angle, body.is_round()) {
+        (0.0, _) | (_, true) => String::new(),
+        (angle, false) => format!(", turned by {}", angle_in_words(angle)),
+    };
+    format!(
+        "{}: {shape} at [{at}]{turned}, {motion}{gait}, about {} edges",
+        body.name,
+        count(edges)
+    )
+}
+
+/// An angle in radians and degrees.
+fn angle_in_words(angle: f64) -> String {
+    format!("{} rad ({:.1} degrees)", significant(angle), angle.to_degrees())
 }
 
 fn joint_line(joint: &Joint) -> String {
-    let stroke = |stroke: &Stroke| match stroke {
-        Stroke::Constant(value) => significant(*value),
-        _ => {
-            let [least, most] = stroke.range();
-            format!("{} to {}", significant(least), significant(most))
-        }
+    let range = |stroke: &Stroke, number: fn(f64) -> String| match stroke {
+        Stroke::Constant(value) => number(*value),
+        _ => stroke.range().map(number).join(" to "),
     };
+    let stroke = |stroke: &Stroke| range(stroke, significant);
     let what = match &joint.kind {
-        JointKind::Arm { length, .. } => format!("arm of length {}", stroke(length)),
-        JointKind::Bent { angle } => format!("bent by {}", stroke(angle)),
+        JointKind::Arm { length, direction } => {
+            format!("arm of length {}, direction {}", stroke(length), angle_in_words(*direction))
+        }
+        JointKind::Bent { angle } => format!("bent by {}", range(angle, angle_in_words)),
         JointKind::Hinge(hinge) => {
             let motor = hinge.torque.as_ref().map(|torque| format!(", torque {}", stroke(torque)));
             format!(

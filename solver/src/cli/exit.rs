@@ -82,7 +82,8 @@ pub fn exit_of(error: &RunError) -> Exit {
         RunError::Unsupported(_)
         | RunError::Resume(_)
         | RunError::Shape(_)
-        | RunError::TooLarge { .. } => Exit::BadCase,
+        | RunError::TooLarge { .. }
+        | RunError::TooManyCells { .. } => Exit::BadCase,
         RunError::Mesh(_) | RunError::MeshMotion(_) | RunError::Remesh { .. } => Exit::Mesh,
         RunError::Output(_) => Exit::InputOutput,
         RunError::Stopped { .. } => Exit::Stopped,

@@ -99,7 +99,7 @@ center = [0.0, 0.0]
 motion = "free"
 spring = { stiffness = [1.0, 0.0], damping = [0.1, 0.0], anchor = [0.1, 0.0] }
 force = [1.0, 0.0]
-load_factor.sine = { frequency = 1.0 }
+load_factor.sine = { period = 1.0 }
 "#;
     assert_accepted(&check(text, &[]));
     for (setting, wanted) in [
@@ -107,7 +107,7 @@ load_factor.sine = { frequency = 1.0 }
         ("body.0.spring.damping.1=1", "the damping across the axis"),
         ("body.0.spring.anchor.1=1", "the anchor off the axis"),
         ("body.0.spring.torsion=1", "the torsion of \"sphere\" breaks the symmetry"),
-        ("body.0.load_factor.sine.frequency=0", "must be positive"),
+        ("body.0.load_factor.sine.period=0", "must be positive"),
         ("body.0.load_factor.table=[[1, 0], [0, 1]]", "must rise"),
     ] {
         assert_refused(&check(text, &["--set", setting]), &[wanted]);
@@ -145,7 +145,7 @@ fn factors_belong_to_modes_and_axes_turn_in_the_plane_only() {
         |gait: &str| format!("motion = \"free\"\ngait.squirmer = {{ modes = [1.0], {gait} }}");
     refused(
         motion,
-        &swimmer("factors = { 2 = { sine = { frequency = 1.0 } } }"),
+        &swimmer("factors = { 2 = { sine = { period = 1.0 } } }"),
         &["has 1 mode, and none is `2`", "by the number of their mode"],
     );
     refused(

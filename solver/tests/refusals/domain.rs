@@ -126,7 +126,7 @@ fn a_sheet_waves_on_the_bottom_of_a_periodic_box_and_alone() {
             [boundary.bottom.waving-sheet]
             amplitude = 0.05
             wavelength = {wavelength}
-            frequency = 1.0
+            period = 1.0
             {more}
             "#
         );
@@ -139,7 +139,7 @@ fn a_sheet_waves_on_the_bottom_of_a_periodic_box_and_alone() {
     assert_refused(&sheet("1.0", "[time.steady]"), &["the solution is steady"]);
     refused(
         "bottom = \"no-slip\"",
-        "bottom.waving-sheet = { amplitude = 0.01, wavelength = 1.0, frequency = 1.0 }",
+        "bottom.waving-sheet = { amplitude = 0.01, wavelength = 1.0, period = 1.0 }",
         &["the bottom of a box that is periodic along x"],
     );
 }

@@ -3,8 +3,10 @@
 //! Reading has made sure of keys and types. Here every number is compared with what it stands for,
 //! and every name against what it names. Nothing is meshed or solved.
 
+mod angles;
 mod bodies;
 mod boundary;
+mod cells;
 mod contact;
 mod extremes;
 mod findings;
@@ -13,11 +15,13 @@ mod gait;
 mod general;
 mod joints;
 mod mesh;
+mod near;
 mod placement;
 mod references;
 mod spring;
 mod strokes;
 mod swimmers;
+mod swing;
 mod time;
 
 use super::diagnostic::Diagnostic;
@@ -44,11 +48,16 @@ pub fn check(file: &CaseFile) -> Vec<Diagnostic> {
     time::check(&mut findings);
     references::check(&mut findings);
     extremes::check(&mut findings, file);
+    angles::check(&mut findings, file);
+    if findings.has_no_error() {
+        cells::check(&mut findings);
+    }
     if findings.has_no_error() {
         placement::check(&mut findings);
     }
     if findings.has_no_error() {
         strokes::check(&mut findings);
+        near::check(&mut findings);
     }
     findings.into_diagnostics()
 }

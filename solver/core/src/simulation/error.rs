@@ -116,6 +116,22 @@ pub enum RunError {
         /// Free memory (GB).
         available: f64,
     },
+    /// The mesh would not fit into memory; it has not been made.
+    #[error(
+        "the cell sizes ask for {n_cells:.1e} cells or more, which need {needed:.0} GB of memory, and \
+         {available:.0} GB are free; raise mesh.size, mesh.surface or mesh.growth, or lower \
+         mesh.gap_layers: cells {coarser:.1} times as large would fit"
+    )]
+    TooManyCells {
+        /// Estimate, or where it ended.
+        n_cells: f64,
+        /// Memory of a system on them (GB).
+        needed: f64,
+        /// Free memory (GB).
+        available: f64,
+        /// Factor on all sizes with which it would fit.
+        coarser: f64,
+    },
     /// A request the solver cannot meet (a case that `check` should have refused).
     #[error("{0}")]
     Unsupported(String),
