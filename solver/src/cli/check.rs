@@ -13,7 +13,8 @@ use crate::case::{
     JointKind, Model, Motion, Precision, Scheme, ShapeSpec, Stroke, SwimmerModel, TimeSettings,
     geometry_name, known_quantities, number_table, printable, significant,
 };
-use crate::coupling::memory_estimate;
+use crate::coupling::{FluidSystem, memory_estimate};
+use crate::simulation::build_problem;
 
 /// Output above which a warning is given (bytes).
 const LARGE_OUTPUT: f64 = 2e9;
@@ -57,7 +58,7 @@ fn check_one(argument: &str, settings: &[String], has_mesh: bool) -> Result<(), 
         say(&format!(
             "\n{}\n{}",
             on_stdout(Ink::Bold, "cost (a rough guess)"),
-            costs(&file.model, &mesh)
+            costs(&file.model, &mesh)?
         ));
     }
     if !warnings.is_empty() {
@@ -302,9 +303,11 @@ fn n_systems(model: &Model) -> f64 {
 }
 
 /// Unknowns, memory, time and files of a run.
-fn costs(model: &Model, mesh: &Mesh<2>) -> String {
-    let n_dofs = (2 * mesh.n_nodes() + mesh.n_vertices) as f64;
-    let memory = memory_estimate(2 * mesh.n_nodes() + mesh.n_vertices);
+fn costs(model: &Model, mesh: &Mesh<2>) -> Result<String, Failure> {
+    let on_mesh = 2 * mesh.n_nodes() + mesh.n_vertices;
+    let free = FluidSystem::count_unknowns(&build_problem(model, mesh)?, mesh);
+    let n_dofs = free as f64;
+    let memory = memory_estimate(on_mesh);
     // Measured on planar runs with 1.1 10^4 to 2 10^5 unknowns on one core, all systems factorised.
     let factorisation = 0.0095 * (n_dofs / 1e4).powf(1.4);
     // What follows the bodies: the mesh, its quality, contact, measurements, remeshing.
@@ -313,7 +316,8 @@ fn costs(model: &Model, mesh: &Mesh<2>) -> String {
     let systems = n_systems(model);
     let output = output_size(model, mesh);
     let mut text = String::new();
-    let _ = writeln!(text, "  {:<16} {n_dofs}", "unknowns");
+    let unknowns = format!("{free} free ones; {on_mesh} velocities and pressures on the mesh");
+    let _ = writeln!(text, "  {:<16} {unknowns}", "unknowns");
     let _ =
         writeln!(text, "  {:<16} {}, most of it for the factorisation", "memory", bytes(memory));
     let seconds = (factorisation + assembly) * (1.0 + following);
@@ -339,7 +343,7 @@ fn costs(model: &Model, mesh: &Mesh<2>) -> String {
         };
         style::complain(&style::diagnostic(&warning));
     }
-    text
+    Ok(text)
 }
 
 /// Files of a run (bytes).

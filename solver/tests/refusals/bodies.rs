@@ -224,3 +224,38 @@ fn what_is_hardly_meant_is_warned_about() {
     let modes = format!("body.0.gait.squirmer.modes=[{}]", vec!["1.0"; 100].join(", "));
     warned(&free, &["--set", &modes], "mode 100 of \"disc\" is not resolved");
 }
+
+#[test]
+fn bodies_that_may_meet_are_told_of_contact() {
+    let hinted = |text: &str, settings: &[&str], wanted: &str| {
+        let said = check(text, settings);
+        assert_accepted(&said);
+        for wanted in [wanted, "nothing keeps them apart", "if they may meet, add contact.barrier"]
+        {
+            assert!(said.stderr.contains(wanted), "`{wanted}` is not in:\n{}", said.stderr);
+        }
+    };
+    let text = unsteady("");
+    let near_wall = ["--set", "body.0.center=[0.2, 0.0505]"];
+    hinted(&text, &near_wall, "\"disc\" comes within 5.0e-4 of the side `bottom`");
+    let contact = "[contact.barrier]\nrange = 0.02\nstiffness = 1.0\n\n[mesh]";
+    let with_contact = check(&text.replace("[mesh]", contact), &near_wall);
+    assert_eq!(with_contact.stderr, "");
+    // An open side is no wall, and a body that is held does not come nearer
+    assert_eq!(check(&text, &["--set", "body.0.center=[2.1495, 0.2]"]).stderr, "");
+    let held = [&near_wall[..], &["--set", "body.0.motion=held"]].concat();
+    assert_eq!(check(&text, &held).stderr, "");
+    let second = "[[body]]\nname = \"other\"\nshape = { disc = { radius = 0.05 } }\n\
+                  center = [0.301, 0.2]\nmotion = \"held\"\n\n[mesh]";
+    hinted(&text.replace("[mesh]", second), &[], "\"other\" comes within 1.0e-3 of \"disc\"");
+    // A gait brings the wall near
+    let fish = unsteady("gait.anguilliform = { period = 1.0 }")
+        .replace("{ disc = { radius = 0.05 } }", "{ fish = { length = 1.0 } }")
+        .replace("center = [0.2, 0.2]", "center = [1.0, 0.2]");
+    assert_eq!(
+        check(&fish, &["--set", "domain.channel.height=1.0", "--set", "body.0.center.1=0.5"])
+            .stderr,
+        ""
+    );
+    hinted(&fish, &["--set", "body.0.center.1=0.16"], "of the side `bottom`");
+}
