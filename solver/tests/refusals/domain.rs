@@ -169,7 +169,7 @@ fn sizes_that_ask_for_too_many_cells_are_refused_before_the_mesh_is_made() {
     refused(
         "surface = 0.02",
         "surface = 0.02\nscale = 1e-6",
-        &["times mesh.scale = 0.000001", asks],
+        &["with `mesh.scale` = 1e-6, `mesh.size` = 1e-1 asks", asks],
     );
     refused(
         "surface = 0.02",

@@ -244,3 +244,13 @@ fn strokes_that_lead_to_a_wall_are_told_of_contact() {
     assert_accepted(&said);
     assert!(said.stderr.contains("of the side `bottom`, and nothing keeps"), "{}", said.stderr);
 }
+
+#[test]
+fn copies_that_are_wrong_in_the_same_way_are_not_told_of_one_by_one() {
+    let copies = "name = \"chain\"\ncopies.lattice = { counts = [3, 3], spacing = [1.5, 1.5] }\ndensity = -1.0";
+    let text = SWIMMING.replacen("name = \"chain\"", copies, 1);
+    let said = check(&text, &["--set", "mesh.surface=1.0"]);
+    assert_refused(&said, &["must not be negative"]);
+    assert_eq!(said.stderr.matches("must not be negative").count(), 3, "{}", said.stderr);
+    assert_eq!(said.stderr.matches("outline of \"chain").count(), 1, "{}", said.stderr);
+}

@@ -63,22 +63,32 @@ pub fn check(findings: &mut Findings<'_>) {
     }
 }
 
-/// Refuses a size that asks for too many cells, whose number falls with a power of it.
+/// Refuses a size that asks for too many cells, whose number falls with a power of it; where the scale
+/// of the mesh is to blame, that.
 fn refuse(findings: &mut Findings<'_>, key: &str, size: f64, cells: f64, power: f64) {
-    if cells.is_nan() || cells > MOST_CELLS {
-        let fitting = size * (cells / MOST_CELLS).powf(1.0 / power);
-        let scale = findings.case().mesh.scale;
-        let scaled =
-            if scale == 1.0 { String::new() } else { format!(" times mesh.scale = {scale}") };
-        findings.error(
-            key,
-            format!(
-                "`{key}` is {size:e}{scaled} and asks for about {cells:.1e} cells, more than \
-                 {MOST_CELLS:e}"
-            ),
-            &format!("write {fitting:.1e} or more, or make the domain smaller"),
-        );
+    if cells <= MOST_CELLS {
+        return;
     }
+    let scale = findings.case().mesh.scale;
+    if scale < 1.0 && cells * scale * scale <= MOST_CELLS {
+        findings.error(
+            "mesh.scale",
+            format!(
+                "with `mesh.scale` = {scale:e}, `{key}` = {size:e} asks for about {cells:.1e} cells, \
+                 more than {MOST_CELLS:e}"
+            ),
+            &format!("write {:.1e} or more", scale * (cells / MOST_CELLS).sqrt()),
+        );
+        return;
+    }
+    let fitting = size * (cells / MOST_CELLS).powf(1.0 / power);
+    findings.error(
+        key,
+        format!(
+            "`{key}` is {size:e} and asks for about {cells:.1e} cells, more than {MOST_CELLS:e}"
+        ),
+        &format!("write {fitting:.1e} or more, or make the domain smaller"),
+    );
 }
 
 /// Area of a domain (m2), of an axisymmetric one in its half plane.

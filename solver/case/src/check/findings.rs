@@ -7,6 +7,9 @@ use crate::{Case, Model};
 /// Numbers a point or a velocity has; axisymmetric cases are computed in their half plane.
 const DIMENSIONS: usize = 2;
 
+/// Diagnostics of the same kind on bodies that are made for the same swimmer.
+const MOST_ALIKE: usize = 3;
+
 /// Digits of a number that are written out; longer ones are powers of ten.
 const MOST_DIGITS: usize = 18;
 
@@ -61,7 +64,13 @@ impl<'a> Findings<'a> {
     }
 
     fn add(&mut self, severity: Severity, key: &str, message: String, help: &str) {
-        let key = &self.written(key);
+        let made = self.written(key);
+        // Copies of a swimmer are all wrong in the same way
+        let is_same = |one: &&Diagnostic| one.key == made && one.help == help;
+        if made != key && self.diagnostics.iter().filter(is_same).count() >= MOST_ALIKE {
+            return;
+        }
+        let key = &made;
         let location = self.file.location(key);
         let (key, message, help) = (key.to_owned(), readable(&message), readable(help));
         self.diagnostics.push(Diagnostic { severity, key, message, help, location });

@@ -1,5 +1,7 @@
 //! Problems of `[mesh]`, `[output]` and cells too coarse for a body.
 
+use std::collections::HashSet;
+
 use super::Findings;
 use crate::type_error::suggestion;
 use crate::{Cadence, MovingMesh};
@@ -73,6 +75,7 @@ pub fn check(findings: &mut Findings<'_>) {
         );
     }
     check_moving(findings);
+    let mut coarse: HashSet<(Option<usize>, String)> = HashSet::new();
     for (index, body) in findings.model().bodies.iter().enumerate() {
         let (key, declared) = match (body.size, mesh.surface) {
             (Some(size), _) => (format!("body.{index}.size"), size),
@@ -82,6 +85,11 @@ pub fn check(findings: &mut Findings<'_>) {
         let size = declared * mesh.scale;
         let edges = body.shape.perimeter() / size;
         if size > 0.0 && edges > 0.0 && edges < FEWEST_EDGES {
+            // Of copies that are all alike the first says it
+            let swimmer = findings.model().swimmer_of_body(index);
+            if swimmer.is_some() && !coarse.insert((swimmer, format!("{edges:.3}"))) {
+                continue;
+            }
             findings.warning(
                 &key,
                 format!("the outline of \"{}\" is about {edges:.1} edges long", body.name),
