@@ -2,8 +2,8 @@
 
 use std::fmt::Write as _;
 
-use super::check::one_line;
 use super::exit::{Exit, Failure};
+use super::facts::{facts, one_line};
 use super::style::{Ink, on_stdout, say};
 use crate::case::{
     Case, CaseFile, Reference, check, library, number_table, printable, significant,
@@ -63,7 +63,7 @@ fn summary(file: &CaseFile) -> String {
     if !case.description.trim().is_empty() {
         let _ = writeln!(text, "{}\n", printable(case.description.trim()));
     }
-    text += &super::check::facts(file);
+    text += &facts(file);
     let numbers = number_table(&file.model);
     if !numbers.is_empty() {
         let _ = write!(text, "\n{}\n{numbers}", on_stdout(Ink::Bold, "derived numbers"));

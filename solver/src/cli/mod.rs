@@ -3,6 +3,7 @@
 mod check;
 mod engine;
 mod exit;
+mod facts;
 mod library;
 mod mesh;
 mod panic;

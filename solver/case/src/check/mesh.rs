@@ -41,8 +41,27 @@ pub fn check(findings: &mut Findings<'_>) {
             findings.error(&key, format!("this domain has no side `{side}`"), &help);
         }
     }
+    check_boxes(findings);
+    if mesh.gap_layers > 0.0 && mesh.gap_layers / mesh.scale < FEW_LAYERS {
+        findings.warning(
+            "mesh.gap_layers",
+            format!(
+                "gaps get {} layers of cells: too few for the pressure in them",
+                mesh.gap_layers / mesh.scale
+            ),
+            "4 are usual",
+        );
+    }
+    check_moving(findings);
+    check_edges(findings);
+    check_output(findings);
+}
+
+/// Refinement boxes have an inside, and part of the domain in it.
+fn check_boxes(findings: &mut Findings<'_>) {
+    let case = findings.case();
     let [domain_min, domain_max] = case.domain.extent();
-    for (index, refined) in mesh.boxes.iter().enumerate() {
+    for (index, refined) in case.mesh.boxes.iter().enumerate() {
         let key = format!("mesh.box.{index}");
         findings.positive(&format!("{key}.size"), refined.size);
         if (0..2).any(|axis| refined.max[axis] <= refined.min[axis]) {
@@ -64,17 +83,11 @@ pub fn check(findings: &mut Findings<'_>) {
             );
         }
     }
-    if mesh.gap_layers / mesh.scale < FEW_LAYERS {
-        findings.warning(
-            "mesh.gap_layers",
-            format!(
-                "gaps get {} layers of cells: too few for the pressure in them",
-                mesh.gap_layers / mesh.scale
-            ),
-            "4 are usual",
-        );
-    }
-    check_moving(findings);
+}
+
+/// Outlines with few edges.
+fn check_edges(findings: &mut Findings<'_>) {
+    let mesh = &findings.case().mesh;
     let mut coarse: HashSet<(Option<usize>, String)> = HashSet::new();
     for (index, body) in findings.model().bodies.iter().enumerate() {
         let (key, declared) = match (body.size, mesh.surface) {
@@ -100,7 +113,6 @@ pub fn check(findings: &mut Findings<'_>) {
             );
         }
     }
-    check_output(findings);
 }
 
 /// How often results are written.

@@ -91,9 +91,9 @@ impl<'a> Surroundings<'a> {
                 continue;
             }
             let tree = Tree::new(model, &children, root);
-            for (body, way) in tree.ways(TIMES) {
-                roots[body] = root;
-                swings[body] += way;
+            for way in tree.ways(TIMES) {
+                roots[way.body] = root;
+                swings[way.body] += way.length;
             }
             trees.push(tree);
         }

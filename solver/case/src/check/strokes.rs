@@ -80,6 +80,14 @@ pub(super) struct Tree<'a> {
     joints: Vec<Link<'a>>,
 }
 
+/// How far a body goes in a cycle.
+pub(super) struct Way {
+    /// Its number in the model.
+    pub body: usize,
+    /// Largest displacement of its surface relative to the root (m).
+    pub length: f64,
+}
+
 /// A joint between bodies of a tree, by their positions in it.
 struct Link<'a> {
     parent: usize,
@@ -114,16 +122,17 @@ impl<'a> Tree<'a> {
 
     /// How far each body is taken from its place relative to the root in a cycle (m), with its number:
     /// the displacement of its centre and what its rotation adds.
-    pub(super) fn ways(&self, times: u32) -> Vec<(usize, f64)> {
+    pub(super) fn ways(&self, times: u32) -> Vec<Way> {
         let start = self.at(0.0);
-        let mut ways: Vec<(usize, f64)> = self.indices.iter().map(|body| (*body, 0.0)).collect();
+        let way = |body: &usize| Way { body: *body, length: 0.0 };
+        let mut ways: Vec<Way> = self.indices.iter().map(way).collect();
         let end = cycle_of(self);
         for nth in 1..=times {
             let time = end * f64::from(nth) / f64::from(times);
             for ((way, body), before) in ways.iter_mut().zip(self.at(time)).zip(&start) {
-                let reach = self.reach_of(way.0);
+                let reach = self.reach_of(way.body);
                 let turned = (body.angle - before.angle).abs().min(2.0);
-                way.1 = way.1.max((body.center - before.center).norm() + reach * turned);
+                way.length = way.length.max((body.center - before.center).norm() + reach * turned);
             }
         }
         ways
