@@ -173,6 +173,58 @@ fn a_signal_ends_a_run_after_its_step_with_all_files_complete() {
     assert!(series.ends_with('\n') && series.lines().count() > 1);
 }
 
+#[test]
+fn steps_too_long_for_extrapolated_convection_are_told() {
+    let directory = tempfile::tempdir().unwrap();
+    let run = |convection: &str| {
+        let mut command = vec!["run", "dfg-2d-2", "--overwrite", "--threads", "1"];
+        for setting in [
+            "mesh.scale=4",
+            "time.unsteady.step=0.1",
+            "time.unsteady.end=0.3",
+            "reference=[]",
+            "statistics={}",
+            convection,
+        ] {
+            command.extend(["--set", setting]);
+        }
+        let output = alewife(directory.path(), &command);
+        assert_eq!(output.status.code(), Some(0));
+        let said = String::from_utf8_lossy(&output.stdout).into_owned();
+        assert!(said.contains("CFL number up to"), "{said}");
+        String::from_utf8_lossy(&output.stderr).into_owned()
+    };
+    let warned = run("time.unsteady.convection=\"extrapolated\"");
+    assert!(warned.contains("extrapolated convection was shown to hold up to 5"), "{warned}");
+    assert!(!run("time.unsteady.convection=\"newton\"").contains("CFL"));
+}
+
+#[cfg(unix)]
+#[test]
+fn a_steady_run_that_is_stopped_says_so() {
+    let directory = tempfile::tempdir().unwrap();
+    // A cavity that takes seconds on any machine
+    let mut run = Command::new(env!("CARGO_BIN_EXE_alewife"))
+        .args(["run", "lid-driven-cavity", "--out", "cavity", "--threads", "1"])
+        .args(["--set", "mesh.size=0.008", "--set", "reference=[]"])
+        .current_dir(directory.path())
+        .stderr(std::process::Stdio::piped())
+        .spawn()
+        .unwrap();
+    let log = directory.path().join("cavity/log.jsonl");
+    while !std::fs::read_to_string(&log).is_ok_and(|text| text.contains("newton")) {
+        assert!(run.try_wait().unwrap().is_none(), "the run ended by itself");
+        std::thread::sleep(std::time::Duration::from_millis(20));
+    }
+    assert!(Command::new("kill").arg(run.id().to_string()).status().unwrap().success());
+    let output = run.wait_with_output().unwrap();
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(75), "{told}");
+    assert!(told.contains("it left no state to resume from"), "{told}");
+    let status = std::fs::read_to_string(directory.path().join("cavity/status.json")).unwrap();
+    assert!(status.contains("\"stopped\""), "{status}");
+}
+
 #[cfg(unix)]
 #[test]
 fn a_run_that_resumes_in_its_directory_goes_on_with_its_series() {
@@ -251,4 +303,42 @@ fn check_counts_the_unknowns_of_the_run() {
         let counted = number_before(&checked, " free ones");
         assert_eq!(counted, number_before(&ran, " unknowns, "), "{case}: {ran}");
     }
+}
+
+/// The system lets no file grow beyond a size: what a full disk does, without one.
+#[cfg(unix)]
+#[test]
+fn a_file_that_cannot_grow_is_named_and_the_run_failed() {
+    let directory = tempfile::tempdir().unwrap();
+    let mut named = std::collections::BTreeSet::new();
+    for blocks in [2, 8, 24, 64, 300] {
+        let out = format!("fall-{blocks}");
+        let script = format!(
+            "ulimit -f {blocks}; exec {} run sphere-free-fall --out {out} --quiet --threads 1 \
+             --set time.unsteady.end=1e6 --set mesh.scale=2 --set output.fields.steps=40",
+            env!("CARGO_BIN_EXE_alewife")
+        );
+        let output = Command::new("sh")
+            .args(["-c", &script])
+            .current_dir(directory.path())
+            .output()
+            .unwrap();
+        let told = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(74), "{blocks}: {told}");
+        assert!(told.contains("File too large"), "{told}");
+        let start = told.find(&format!("{out}/")).unwrap();
+        named.insert(told[start + out.len()..].split([':', ' ']).next().unwrap().to_owned());
+        let out = directory.path().join(out);
+        let status = std::fs::read_to_string(out.join("status.json")).unwrap_or_default();
+        assert!(status.is_empty() || status.contains("\"failed\""), "{blocks}: {status}");
+        let series = std::fs::read_to_string(out.join("series.csv")).unwrap_or_default();
+        let mut lines = series.lines();
+        let n_columns = lines.next().map_or(0, |header| header.split(',').count());
+        assert!(series.is_empty() || series.ends_with('\n'), "{blocks}: a row is not whole");
+        assert!(lines.all(|line| line.split(',').count() == n_columns), "{blocks}");
+        let left = std::fs::read_dir(&out).unwrap().map(|entry| entry.unwrap().file_name());
+        let unfinished = left.filter(|name| name.to_string_lossy().starts_with(".unfinished-"));
+        assert_eq!(unfinished.count(), 0, "{blocks}");
+    }
+    assert!(named.len() > 1, "{named:?}");
 }
