@@ -55,6 +55,10 @@ pub fn locate(argument: &str) -> Result<Located, CaseError> {
     if directory.is_file() {
         return read_file(&directory).map(without_variant);
     }
+    // A pipe or a device is refused with the reason; a directory may be named like case and variant
+    if Path::new(argument).exists() && !Path::new(argument).is_dir() {
+        return read_file(Path::new(argument)).map(without_variant);
+    }
     let Some((case, variant)) = argument.rsplit_once('/') else {
         return Err(no_such_case(argument));
     };
@@ -133,7 +137,7 @@ fn read_text(path: &Path) -> Result<String, CaseError> {
         let kind = if metadata.is_dir() { "a directory" } else { "a pipe or a device" };
         return Err(refused(
             format!("{} is {kind}, not a file", path.display()),
-            "give the path of a case file",
+            "give the path of a case file, or of a directory with a case.toml",
         ));
     }
     if metadata.len() > LARGEST_FILE {

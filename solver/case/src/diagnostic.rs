@@ -52,6 +52,34 @@ pub fn printable(text: &str) -> String {
     shown
 }
 
+/// Characters of a line that are shown before and from the place on that is meant.
+const SHOWN: [usize; 2] = [100, 120];
+
+/// The part of a line that is shown.
+struct Excerpt {
+    text: String,
+    /// Characters before the place that is meant.
+    column: usize,
+    /// Characters it covers.
+    width: usize,
+}
+
+/// The part of a line around a place, all of it if it is short.
+fn excerpt(location: &Location) -> Excerpt {
+    let [before, after] = SHOWN;
+    let place = location.column - 1;
+    // One character for another, so that columns stay
+    let mut text = location.text.chars().map(visible);
+    let left_out = place.saturating_sub(before);
+    let mut shown = if left_out > 0 { "...".to_owned() } else { String::new() };
+    let column = place - left_out + shown.len();
+    shown.extend(text.by_ref().skip(left_out).take(place - left_out + after));
+    if text.next().is_some() {
+        shown += "...";
+    }
+    Excerpt { text: shown, column, width: location.width.min(after) }
+}
+
 /// A character that stands for one that cannot be shown.
 fn visible(c: char) -> char {
     if c.is_control() && c != '\t' { char::REPLACEMENT_CHARACTER } else { c }
@@ -70,17 +98,12 @@ impl fmt::Display for Diagnostic {
                 let number = location.line.to_string();
                 let margin = " ".repeat(number.len());
                 write!(f, "\n{margin}--> {}", printable(&location.to_string()))?;
-                // One character for another, so that columns stay
-                let line: String = location.text.chars().map(visible).collect();
-                write!(f, "\n{margin} |\n{number} | {line}")?;
+                let Excerpt { text, column, width } = excerpt(location);
+                write!(f, "\n{margin} |\n{number} | {text}")?;
                 // Tabs stay tabs, so that the caret stands below what it points at.
-                let indent: String = location
-                    .text
-                    .chars()
-                    .take(location.column - 1)
-                    .map(|c| if c == '\t' { '\t' } else { ' ' })
-                    .collect();
-                write!(f, "\n{margin} | {indent}{}", "^".repeat(location.width))?;
+                let before = text.chars().take(column);
+                let indent: String = before.map(|c| if c == '\t' { '\t' } else { ' ' }).collect();
+                write!(f, "\n{margin} | {indent}{}", "^".repeat(width))?;
                 margin
             }
             None => String::new(),
@@ -132,6 +155,20 @@ fn listing(diagnostics: &[Diagnostic]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn of_a_long_line_the_place_that_is_meant_is_shown() {
+        let text = format!("{}HERE{}", "a".repeat(5000), "b".repeat(5000));
+        let location =
+            Location { file: "a.toml".to_owned(), line: 1, column: 5001, width: 4, text };
+        let mut diagnostic = Diagnostic::error("a", "wrong".to_owned(), "");
+        diagnostic.location = Some(location);
+        let shown = diagnostic.to_string();
+        let lines: Vec<&str> = shown.lines().collect();
+        let place = lines[3].find("HERE").unwrap();
+        assert_eq!(lines[4].find("^^^^"), Some(place), "{shown}");
+        assert!(lines[3].len() < 260 && lines[3].ends_with("..."), "{shown}");
+    }
 
     #[test]
     fn control_characters_do_not_reach_the_terminal() {

@@ -68,6 +68,13 @@ impl Model {
             joint_above: Vec::new(),
             case,
         };
+        if model.bodies.len() > MOST_BODIES {
+            let message = format!(
+                "{} bodies are more than the {MOST_BODIES} a case may have",
+                model.bodies.len()
+            );
+            return Err(CaseError::at("body", message, "leave some out"));
+        }
         for body in 0..model.bodies.len() {
             model.register_name(body);
         }

@@ -7,7 +7,7 @@ use std::sync::mpsc::{self, RecvTimeoutError};
 use std::thread;
 use std::time::Duration;
 
-use alewife_case::{Case, CaseError, Severity, check, library, number_table};
+use alewife_case::{Case, CaseError, Severity, check, known_quantities, library, number_table};
 
 /// Mutants tried, unless the variable `ALEWIFE_MUTANTS` says otherwise.
 const MUTANTS: usize = 400;
@@ -153,6 +153,7 @@ fn fate(text: &str) -> Fate {
     let judged = catch_unwind(AssertUnwindSafe(|| match Case::parse("mutant.toml", text, &[]) {
         Ok(file) => {
             let mut said = number_table(&file.model);
+            said += &known_quantities(&file.model).join("\n");
             let found = check(&file);
             for diagnostic in &found {
                 let _ = writeln!(said, "{diagnostic}");

@@ -214,6 +214,8 @@ fn what_is_no_file_of_text_is_refused_at_once() {
     assert_refused(&said, &["d.toml is a directory, not a file"]);
     #[cfg(unix)]
     {
+        let said = alewife(directory.path(), &["check", "/dev/zero"]);
+        assert_refused(&said, &["/dev/zero is a pipe or a device, not a file"]);
         let made =
             std::process::Command::new("mkfifo").arg(directory.path().join("p.toml")).status();
         assert!(made.unwrap().success());

@@ -75,6 +75,11 @@ fn steps_and_cycles_are_of_a_number_that_can_be_made() {
         &check(&text, &["--set", "time.unsteady.step=1e-12"]),
         &["the run would have 1.0e12 steps", "--> --set:1:"],
     );
+    let fast = unsteady("torque = 1.0\nload_factor.sine = { period = 1e-7 }");
+    let fast = fast.replace("end = 1.0", "end = 1.0\nadaptive = {}");
+    let told =
+        ["`body.0.load_factor.sine.period` is 1e-7: 1.0e7 cycles to the end", "wrong.toml:25:"];
+    assert_refused(&check(&fast, &[]), &told);
     // A step that is none is one mistake, not two
     let said = check(&text, &["--set", "time.unsteady.step=-0.1"]);
     assert_refused(&said, &["must be positive"]);

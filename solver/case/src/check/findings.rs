@@ -10,6 +10,9 @@ const DIMENSIONS: usize = 2;
 /// Diagnostics of the same kind on bodies that are made for the same swimmer.
 const MOST_ALIKE: usize = 3;
 
+/// Errors, and warnings, that are located in their file.
+const MOST_LOCATED: usize = 100;
+
 /// Digits of a number that are written out; longer ones are powers of ten.
 const MOST_DIGITS: usize = 18;
 
@@ -71,7 +74,9 @@ impl<'a> Findings<'a> {
             return;
         }
         let key = &made;
-        let location = self.file.location(key);
+        // Lines are counted from the start of the file, and of so many only the first ones are read
+        let n_before = self.diagnostics.iter().filter(|one| one.severity == severity).count();
+        let location = if n_before < MOST_LOCATED { self.file.location(key) } else { None };
         let (key, message, help) = (key.to_owned(), readable(&message), readable(help));
         self.diagnostics.push(Diagnostic { severity, key, message, help, location });
     }

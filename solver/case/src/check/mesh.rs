@@ -12,6 +12,9 @@ const FEWEST_EDGES: f64 = 8.0;
 /// Layers of cells across a gap that a moving mesh may ask for, however few a new one has.
 const MODEST_LAYERS: f64 = 2.0;
 
+/// Most refinement boxes.
+const MOST_BOXES: usize = 1000;
+
 /// Layers of cells across a gap below which it is warned about.
 const FEW_LAYERS: f64 = 1.5;
 
@@ -60,6 +63,14 @@ pub fn check(findings: &mut Findings<'_>) {
 /// Refinement boxes have an inside, and part of the domain in it.
 fn check_boxes(findings: &mut Findings<'_>) {
     let case = findings.case();
+    if case.mesh.boxes.len() > MOST_BOXES {
+        findings.error(
+            "mesh.box",
+            format!("{} refinement boxes are more than {MOST_BOXES}", case.mesh.boxes.len()),
+            "join neighbouring ones: every size is compared with each of them",
+        );
+        return;
+    }
     let [domain_min, domain_max] = case.domain.extent();
     for (index, refined) in case.mesh.boxes.iter().enumerate() {
         let key = format!("mesh.box.{index}");
