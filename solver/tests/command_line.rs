@@ -285,6 +285,26 @@ fn files_of_others_are_never_replaced() {
     assert!(told.contains("own/case.toml lies in own"), "{told}");
 }
 
+/// The free unknowns `check` tells are those of the run, be the domain closed, periodic or cut.
+#[test]
+fn check_counts_the_unknowns_of_the_run() {
+    let directory = tempfile::tempdir().unwrap();
+    let number_before = |text: &str, word: &str| -> usize {
+        let before = text.split(word).next().unwrap().trim_end();
+        let digits = before.rsplit(|c: char| !c.is_ascii_digit()).next().unwrap();
+        digits.parse().unwrap()
+    };
+    for case in ["squirmer-alone", "neutral-squirmer-2d", "lid-driven-cavity"] {
+        let coarse = ["--set", "mesh.scale=2"];
+        let checked = done(directory.path(), &[&["check", case], &coarse[..]].concat());
+        let arguments = [&["run", case, "--threads", "1", "--quiet"], &coarse[..]].concat();
+        let run = alewife(directory.path(), &arguments);
+        let ran = String::from_utf8(run.stdout).unwrap();
+        let counted = number_before(&checked, " free ones");
+        assert_eq!(counted, number_before(&ran, " unknowns, "), "{case}: {ran}");
+    }
+}
+
 /// The system lets no file grow beyond a size: what a full disk does, without one.
 #[cfg(unix)]
 #[test]

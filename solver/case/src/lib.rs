@@ -18,6 +18,7 @@ pub mod library;
 mod mean_flow;
 mod mesh;
 mod model;
+mod names;
 mod nearest;
 mod numbers;
 mod output;
@@ -33,12 +34,13 @@ mod swimmer;
 mod time;
 mod tree;
 mod type_error;
+mod variants;
 
 pub use body::{Body, GaitSpec, ImposedMotion, Lock, Motion, ShapeSpec, SpringSpec, SquirmerGait};
 pub use case::Case;
 pub use check::check;
 pub use contact::ContactSpec;
-pub use diagnostic::{CaseError, Diagnostic, Severity};
+pub use diagnostic::{CaseError, Diagnostic, Severity, printable};
 pub use domain::{BoundaryCondition, DomainSpec, Geometry, TimeFunction};
 pub use fluid::{FlowModel, Fluid};
 pub use gait::{

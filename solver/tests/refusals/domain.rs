@@ -126,7 +126,7 @@ fn a_sheet_waves_on_the_bottom_of_a_periodic_box_and_alone() {
             [boundary.bottom.waving-sheet]
             amplitude = 0.05
             wavelength = {wavelength}
-            frequency = 1.0
+            period = 1.0
             {more}
             "#
         );
@@ -139,7 +139,51 @@ fn a_sheet_waves_on_the_bottom_of_a_periodic_box_and_alone() {
     assert_refused(&sheet("1.0", "[time.steady]"), &["the solution is steady"]);
     refused(
         "bottom = \"no-slip\"",
-        "bottom.waving-sheet = { amplitude = 0.01, wavelength = 1.0, frequency = 1.0 }",
+        "bottom.waving-sheet = { amplitude = 0.01, wavelength = 1.0, period = 1.0 }",
         &["the bottom of a box that is periodic along x"],
     );
+}
+
+#[test]
+fn sizes_that_ask_for_too_many_cells_are_refused_before_the_mesh_is_made() {
+    let started = std::time::Instant::now();
+    let asks = "cells, more than 5e6";
+    refused(
+        "surface = 0.02",
+        "surface = 1e-9",
+        &["`mesh.surface` is 1e-9", asks, "wrong.toml:27:11", "write 7"],
+    );
+    refused(
+        "size = 0.1",
+        "size = 1e-6",
+        &["`mesh.size` is 1e-6", asks, "wrong.toml:26:8", "write 6.5e-4"],
+    );
+    refused(
+        "length = 2.2",
+        "length = 4e6",
+        &["`mesh.size` is 1e-1", asks, "make the domain smaller"],
+    );
+    let refined = "[[mesh.box]]\nmin = [0.0, 0.0]\nmax = [1.0, 0.4]\nsize = 1e-6\n\n[time.steady]";
+    refused("[time.steady]", refined, &["`mesh.box.0.size` is 1e-6", asks, "wrong.toml:32:8"]);
+    refused("surface = 0.02", "sides.top = 1e-12", &["`mesh.sides.top` is 1e-12", asks]);
+    refused(
+        "surface = 0.02",
+        "surface = 0.02\nscale = 1e-6",
+        &["with `mesh.scale` = 1e-6, `mesh.size` = 1e-1 asks", asks],
+    );
+    refused(
+        "surface = 0.02",
+        "gap_layers = 1e6",
+        &["gaps would get 1000000 layers", "4 are usual"],
+    );
+    assert!(started.elapsed().as_secs() < 10, "{:?}", started.elapsed());
+    // What only all sizes together ask for is found before the mesh is made, too
+    let directory = tempfile::tempdir().unwrap();
+    std::fs::write(
+        directory.path().join("wrong.toml"),
+        edited("surface = 0.02", "gap_layers = 150"),
+    )
+    .unwrap();
+    let said = super::alewife(directory.path(), &["check", "wrong.toml"]);
+    assert_refused(&said, &["the cell sizes ask for", "times as large would fit"]);
 }

@@ -26,9 +26,9 @@ pub struct WavingSheet {
 }
 
 impl WavingSheet {
-    /// A sheet of an amplitude (m), a wavelength (m) and a frequency (1/s).
+    /// A sheet of an amplitude (m), a wavelength (m) and a period (s).
     #[must_use]
-    pub fn new(amplitude: f64, wavelength: f64, frequency: f64, is_extensible: bool) -> Self {
+    pub fn new(amplitude: f64, wavelength: f64, period: f64, is_extensible: bool) -> Self {
         let wavenumber = TAU / wavelength;
         let arc = |index: u32| {
             let phase = TAU * f64::from(index) / f64::from(ARC_POINTS);
@@ -38,7 +38,7 @@ impl WavingSheet {
         Self {
             amplitude,
             wavenumber,
-            angular_frequency: TAU * frequency,
+            angular_frequency: TAU / period,
             stretch: (!is_extensible).then_some(stretch),
         }
     }
