@@ -6,8 +6,8 @@ use super::copies::{Individual, individuals};
 use super::diagnostic::CaseError;
 use super::parts::{Part, parts, poses};
 use super::{
-    Body, BoundaryCondition, Case, GaitSpec, Geometry, Joint, Motion, SwimmerKind, SwimmerSpec,
-    TimeSettings,
+    Body, BoundaryCondition, Case, FlowModel, GaitSpec, Geometry, Joint, Motion, SwimmerKind,
+    SwimmerSpec, TimeSettings,
 };
 
 /// What a case describes: the case as it is written, and the bodies, joints and swimmers that
@@ -269,17 +269,17 @@ impl Model {
     }
 
     /// Whether all work on the fluid is that of the bodies, so that it balances dissipation and the
-    /// rate of the kinetic energy.
+    /// rate of the kinetic energy. No work is done where there is no traction, but with inertia
+    /// the fluid that leaves there takes its kinetic energy along.
     #[must_use]
     pub fn balances_energy(&self) -> bool {
-        let is_idle = |condition: &BoundaryCondition| {
-            matches!(
-                condition,
-                BoundaryCondition::NoSlip
-                    | BoundaryCondition::Symmetry
-                    | BoundaryCondition::Axis
-                    | BoundaryCondition::Periodic(_)
-            )
+        let is_idle = |condition: &BoundaryCondition| match condition {
+            BoundaryCondition::NoSlip
+            | BoundaryCondition::Symmetry
+            | BoundaryCondition::Axis
+            | BoundaryCondition::Periodic(_) => true,
+            BoundaryCondition::TractionFree => self.case.fluid.model == FlowModel::Stokes,
+            _ => false,
         };
         !self.bodies.is_empty() && self.case.boundary.values().all(is_idle)
     }

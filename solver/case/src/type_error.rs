@@ -5,6 +5,7 @@ use std::fmt::{self, Display};
 use serde::de::{self, Expected, Unexpected};
 
 use super::nearest::nearest;
+use super::reference::ReferenceKind;
 use super::source::Origin;
 
 /// What a value cannot be typed for.
@@ -108,6 +109,11 @@ impl TypeError {
         match self.mismatch() {
             Mismatch::UnknownKey { key: found, accepted }
             | Mismatch::UnknownAlternative { found, accepted } => suggestion(found, accepted),
+            // What a word may be is known from the key and its table only
+            Mismatch::MissingKey(key) if key == "kind" && self.path().contains("reference") => {
+                let kinds = ReferenceKind::ALL.map(ReferenceKind::name).join(", ");
+                format!("add `kind = \"...\"` there: {kinds}")
+            }
             Mismatch::MissingKey(key) => format!("add `{key} = ...` there"),
             Mismatch::WrongType { found, wanted } => {
                 if found.starts_with("the string") && wanted.contains("number") {

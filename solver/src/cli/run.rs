@@ -1,4 +1,4 @@
-//! `run`: one case, its files, and how it compares with what was published.
+//! `run`: one case, its files, and how it compares with its references.
 
 use std::path::{Path, PathBuf};
 
@@ -14,7 +14,7 @@ use crate::observer::{Earlier, History, RunDirectory, run_of_state, write_atomic
 use crate::simulation::{RunError, RunSummary, SavedState};
 use crate::validation::{Comparison, Verdict, compare, comparison_table, comparisons_to_json};
 
-/// File of a run that holds its comparison with published values.
+/// File of a run that holds its comparison with the references.
 const COMPARISON_FILE: &str = "comparison.json";
 
 /// What `run` is asked for.
@@ -186,7 +186,7 @@ fn read_state(path: &Path, case: &Case) -> Result<SavedState<2>, Failure> {
     Ok(saved)
 }
 
-/// Prints how the bodies ended, for a case without published values.
+/// Prints how the bodies ended, for a case without references.
 fn tell_last_values(model: &Model, outcome: &RunSummary) {
     let Some(last) = outcome.series.rows.last() else { return };
     // Of the many bodies of a swimmer only what they do together.
@@ -220,13 +220,17 @@ pub fn print_comparisons(comparisons: &[Comparison]) {
     for (line, comparison) in lines.zip(comparisons) {
         let ink = match comparison.verdict {
             Verdict::Within => Ink::Green,
-            Verdict::Outside | Verdict::NotComputed => Ink::Red,
+            Verdict::KnownOutside => Ink::Yellow,
+            Verdict::Outside | Verdict::NoLongerOutside | Verdict::NotComputed => Ink::Red,
         };
         let word = comparison.verdict.name();
         let start = line.len() - word.len();
         say(&format!("{}{}", &line[..start], on_stdout(ink, word)));
         if let Err(reason) = &comparison.computed {
             say(&format!("    {reason}"));
+        }
+        if let Some(reason) = &comparison.reference.outside {
+            say(&format!("    known to be outside: {reason}"));
         }
     }
 }

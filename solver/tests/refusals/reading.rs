@@ -90,7 +90,7 @@ fn an_unknown_variant_is_refused_with_the_known_ones() {
     let directory = tempfile::tempdir().unwrap();
     std::fs::write(directory.path().join("wrong.toml"), RIGHT).unwrap();
     let said = alewife(directory.path(), &["check", "--no-mesh", "wrong.toml/slaw"]);
-    assert_refused(&said, &["there is no variant `slaw`", "wrong.toml:49:", "`slow`?"]);
+    assert_refused(&said, &["there is no variant `slaw`", "wrong.toml:50:", "`slow`?"]);
     assert_accepted(&alewife(directory.path(), &["check", "--no-mesh", "wrong.toml/slow"]));
 }
 
@@ -99,7 +99,7 @@ fn a_variant_that_is_wrong_is_found_from_its_case() {
     refused(
         "\"numbers.reynolds\" = 2.0",
         "\"numbers.reynolds\" = 3.0",
-        &["in variant wrong.toml/slow", "declared as 3", "wrong.toml:51:"],
+        &["in variant wrong.toml/slow", "declared as 3", "wrong.toml:52:"],
     );
 }
 
