@@ -178,6 +178,32 @@ fn a_signal_ends_a_run_after_its_step_with_all_files_complete() {
 
 #[cfg(unix)]
 #[test]
+fn a_steady_run_that_is_stopped_says_so() {
+    let directory = tempfile::tempdir().unwrap();
+    // A cavity that takes seconds on any machine
+    let mut run = Command::new(env!("CARGO_BIN_EXE_alewife"))
+        .args(["run", "lid-driven-cavity", "--out", "cavity", "--threads", "1"])
+        .args(["--set", "mesh.size=0.008", "--set", "reference=[]"])
+        .current_dir(directory.path())
+        .stderr(std::process::Stdio::piped())
+        .spawn()
+        .unwrap();
+    let log = directory.path().join("cavity/log.jsonl");
+    while !std::fs::read_to_string(&log).is_ok_and(|text| text.contains("newton")) {
+        assert!(run.try_wait().unwrap().is_none(), "the run ended by itself");
+        std::thread::sleep(std::time::Duration::from_millis(20));
+    }
+    assert!(Command::new("kill").arg(run.id().to_string()).status().unwrap().success());
+    let output = run.wait_with_output().unwrap();
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(75), "{told}");
+    assert!(told.contains("it left no state to resume from"), "{told}");
+    let status = std::fs::read_to_string(directory.path().join("cavity/status.json")).unwrap();
+    assert!(status.contains("\"stopped\""), "{status}");
+}
+
+#[cfg(unix)]
+#[test]
 fn a_run_that_resumes_in_its_directory_goes_on_with_its_series() {
     let directory = tempfile::tempdir().unwrap();
     stopped_fall(directory.path());
@@ -234,4 +260,42 @@ fn files_of_others_are_never_replaced() {
     assert_eq!(refused.status.code(), Some(2));
     let told = String::from_utf8_lossy(&refused.stderr);
     assert!(told.contains("own/case.toml lies in own"), "{told}");
+}
+
+/// The system lets no file grow beyond a size: what a full disk does, without one.
+#[cfg(unix)]
+#[test]
+fn a_file_that_cannot_grow_is_named_and_the_run_failed() {
+    let directory = tempfile::tempdir().unwrap();
+    let mut named = std::collections::BTreeSet::new();
+    for blocks in [2, 8, 24, 64, 300] {
+        let out = format!("fall-{blocks}");
+        let script = format!(
+            "ulimit -f {blocks}; exec {} run sphere-free-fall --out {out} --quiet --threads 1 \
+             --set time.unsteady.end=1e6 --set mesh.scale=2 --set output.fields.steps=40",
+            env!("CARGO_BIN_EXE_alewife")
+        );
+        let output = Command::new("sh")
+            .args(["-c", &script])
+            .current_dir(directory.path())
+            .output()
+            .unwrap();
+        let told = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(74), "{blocks}: {told}");
+        assert!(told.contains("File too large"), "{told}");
+        let start = told.find(&format!("{out}/")).unwrap();
+        named.insert(told[start + out.len()..].split([':', ' ']).next().unwrap().to_owned());
+        let out = directory.path().join(out);
+        let status = std::fs::read_to_string(out.join("status.json")).unwrap_or_default();
+        assert!(status.is_empty() || status.contains("\"failed\""), "{blocks}: {status}");
+        let series = std::fs::read_to_string(out.join("series.csv")).unwrap_or_default();
+        let mut lines = series.lines();
+        let n_columns = lines.next().map_or(0, |header| header.split(',').count());
+        assert!(series.is_empty() || series.ends_with('\n'), "{blocks}: a row is not whole");
+        assert!(lines.all(|line| line.split(',').count() == n_columns), "{blocks}");
+        let left = std::fs::read_dir(&out).unwrap().map(|entry| entry.unwrap().file_name());
+        let unfinished = left.filter(|name| name.to_string_lossy().starts_with(".unfinished-"));
+        assert_eq!(unfinished.count(), 0, "{blocks}");
+    }
+    assert!(named.len() > 1, "{named:?}");
 }

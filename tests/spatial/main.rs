@@ -110,7 +110,7 @@ fn in_uniform_flow(velocity: &Vector3<f64>, convection: Convection) -> Simulatio
     let moving = MovingMesh::new(&mesh, scene, settings, poses, 0.0).expect("the mesh can move");
     let scheme = StepScheme { method: Scheme::Bdf2, convection, unknown_frame: false };
     let moving_mesh = Some(moving);
-    Simulation { problem, state, work, moving_mesh, law: None, scheme, is_fresh: true }
+    Simulation { problem, state, work, moving_mesh, law: None, scheme, is_fresh: true, stop: None }
 }
 
 #[test]

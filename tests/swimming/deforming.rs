@@ -169,7 +169,7 @@ fn a_state_of_another_gait_is_refused() {
     let other = with(&BEAT.replace("period = 1.0", "period = 11.0"));
     let error = resumed(&other, &saved).expect_err("another gait");
     let told = error.to_string();
-    assert!(told.contains("a run resumes with the gait it began with"), "{told}");
+    assert!(told.contains("body.0.gait.") && told.contains(".period = 1.0"), "{told}");
 }
 
 /// Its outline crosses itself between the times at which the gait is evaluated before the run.

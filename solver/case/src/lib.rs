@@ -21,6 +21,7 @@ mod nearest;
 mod numbers;
 mod output;
 mod parts;
+mod problem_keys;
 mod quantity;
 mod read;
 mod reference;

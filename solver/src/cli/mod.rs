@@ -116,6 +116,7 @@ pub fn run() -> ExitCode {
 }
 
 fn dispatch(command: Command) -> Result<Exit, Failure> {
+    signal::outlive_file_size_limit()?;
     match command {
         Command::List { long } => library::list(long),
         Command::Show { case, source } => library::show(&case, source),

@@ -4,6 +4,7 @@ use super::error::{RunError, StepError};
 use super::mesh_path::MeshPath;
 use super::moving_mesh::MovingMesh;
 use super::remesh::remesh;
+use super::snapshot::StopRequest;
 use super::state::State;
 use super::stepper::{StepReport, StepResult, TimeStepper};
 use super::workspace::Workspace;
@@ -32,6 +33,8 @@ pub struct Simulation<const D: usize> {
     pub scheme: StepScheme,
     /// Whether no step has been made on this mesh.
     pub is_fresh: bool,
+    /// What to ask whether the run is to end.
+    pub stop: Option<StopRequest>,
 }
 
 /// How steps are made.
@@ -100,12 +103,13 @@ impl<const D: usize> Simulation<D> {
 
     /// Makes a step, or leaves the state where it is.
     fn attempt(&mut self, size: f64, tolerance: f64) -> Result<StepReport, StepError> {
-        let Self { problem, state, work, moving_mesh, law, scheme, .. } = self;
+        let Self { problem, state, work, moving_mesh, law, scheme, stop, .. } = self;
         let stepper = TimeStepper {
             problem,
             convection: scheme.convection,
             path: moving_mesh.as_ref().map_or(MeshPath::Fixed, MeshPath::FollowsBodies),
             contact: law.as_ref(),
+            stop: stop.as_ref(),
         };
         let StepResult { level, report } = match scheme.method {
             Scheme::Rk3 => {

@@ -170,6 +170,7 @@ impl<const D: usize> TimeStepper<'_, D> {
         at: Instant,
         guess: &Solution<D>,
     ) -> Result<InstantaneousFlow<D>, StepError> {
+        self.check_stop(state)?;
         let history = StepHistory::instantaneous(self.problem, poses, at.time, at.rates_at)?;
         let nodes = self.path.move_mesh(work, self.problem, state, poses, &history.shapes)?;
         let placement = Placement { nodes: nodes.clone(), poses: poses.to_vec() };

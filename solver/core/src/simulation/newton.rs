@@ -17,6 +17,11 @@ pub(super) trait FlowEquations<const D: usize> {
 
     /// Called with each residual, relative to the scale of the criterion.
     fn on_iteration(&self, _iteration: usize, _residual: f64) {}
+
+    /// Whether the run is to end; asked in each iteration.
+    fn wants_stop(&self) -> bool {
+        false
+    }
 }
 
 /// The raw residual of the fluid at a solution.
@@ -95,10 +100,21 @@ pub(super) struct Iterate<const D: usize> {
     pub scale: f64,
 }
 
+/// What stops Newton's method before a solution.
+#[derive(Debug)]
+pub(super) enum NewtonStop {
+    /// The residual did not get small.
+    Stalled,
+    /// A linear system could not be solved.
+    Solve(SolveError),
+    /// The run is to end.
+    Requested,
+}
+
 /// Why Newton's method ended without a solution.
 pub(super) struct NewtonFailure<const D: usize> {
-    /// The linear system that could not be solved; `None` where the residual did not get small.
-    pub error: Option<SolveError>,
+    /// What stopped it.
+    pub reason: NewtonStop,
     /// The last iterate.
     pub end: Box<Iterate<D>>,
 }
@@ -108,9 +124,12 @@ impl<const D: usize> NewtonFailure<D> {
     pub fn in_step(self, step: &Step) -> RunError {
         let Step { number, time, .. } = *step;
         let Iterate { residual, iterations, .. } = *self.end;
-        match self.error {
-            Some(error) => RunError::from_solve(error, number, time),
-            None => RunError::NewtonStalled { step: number, time, residual, iterations },
+        match self.reason {
+            NewtonStop::Solve(error) => RunError::from_solve(error, number, time),
+            NewtonStop::Stalled => {
+                RunError::NewtonStalled { step: number, time, residual, iterations }
+            }
+            NewtonStop::Requested => RunError::Stopped { step: number, time },
         }
     }
 }
@@ -148,13 +167,20 @@ pub(super) fn newton<const D: usize>(
             Box::new(Iterate { solution, residual: relative, iterations, scale })
         };
         if progress.is_hopeless(relative) {
-            return Err(NewtonFailure { error: None, end: end(solution, iterations) });
+            return Err(NewtonFailure {
+                reason: NewtonStop::Stalled,
+                end: end(solution, iterations),
+            });
+        }
+        if equations.wants_stop() {
+            let end = end(solution, iterations);
+            return Err(NewtonFailure { reason: NewtonStop::Requested, end });
         }
         let next = match system.newton_step(at, &terms, &solution, &reduced, timing) {
             Ok(next) => next,
             Err(error) => {
                 let end = end(solution, iterations + 1);
-                return Err(NewtonFailure { error: Some(error), end });
+                return Err(NewtonFailure { reason: NewtonStop::Solve(error), end });
             }
         };
         progress.take(relative, &solution, &next);

@@ -1,5 +1,7 @@
 //! `Snapshot`: what an observer sees of a run; `Observer`: who looks on.
 
+use std::sync::Arc;
+
 use alewife_mesh::{Mesh, Point};
 
 use super::{RunError, SavedState, Timing};
@@ -74,6 +76,10 @@ pub struct LastState<'a, const D: usize> {
     pub saved: Option<&'a SavedState<D>>,
 }
 
+/// Whether a run is to end, asked between steps and within long ones; what is not yet a whole step is
+/// then left out.
+pub type StopRequest = Arc<dyn Fn() -> bool + Send + Sync>;
+
 /// Sees everything, changes nothing.
 pub trait Observer<const D: usize> {
     /// Called once for the initial state and once for each accepted step.
@@ -82,9 +88,9 @@ pub trait Observer<const D: usize> {
     /// When a file cannot be written; the run stops with it.
     fn on_step(&mut self, snapshot: &Snapshot<'_, D>) -> std::io::Result<()>;
 
-    /// Whether the run is to end after the present step, asked once a step.
-    fn wants_stop(&self) -> bool {
-        false
+    /// What to ask whether the run is to end, once at its beginning.
+    fn stop_request(&self) -> Option<StopRequest> {
+        None
     }
 
     /// Called once after the last step of a run that reached its end, with all its time.

@@ -1,6 +1,8 @@
 //! `TimeStepper`: what makes steps; what a step starts from, works with and leaves.
 
+use super::error::{RunError, StepError};
 use super::mesh_path::MeshPath;
+use super::snapshot::StopRequest;
 use super::state::{NewLevel, State};
 use crate::case::Convection;
 use crate::contact::Law;
@@ -18,6 +20,23 @@ pub struct TimeStepper<'a, const D: usize> {
     pub path: MeshPath<'a, D>,
     /// The law of contact, if any.
     pub contact: Option<&'a Law>,
+    /// What to ask whether the run is to end.
+    pub stop: Option<&'a StopRequest>,
+}
+
+impl<const D: usize> TimeStepper<'_, D> {
+    /// Ends a step where the run is to end.
+    ///
+    /// # Errors
+    /// When it is.
+    pub(super) fn check_stop(&self, state: &State<D>) -> Result<(), StepError> {
+        match self.stop {
+            Some(stop) if stop() => {
+                Err(RunError::Stopped { step: state.step, time: state.time }.into())
+            }
+            _ => Ok(()),
+        }
+    }
 }
 
 /// A step in time.
