@@ -185,6 +185,13 @@ mod tests {
         let expected = [of("pair-1", body), of("pair-1", coefficients), of("pair-1", contact)];
         assert_eq!(loaded[..21], expected.concat());
 
+        let open = names(&["boundary.left=traction-free"]);
+        assert!(open.contains(&"flow.energy_defect".to_owned()), "no work without traction");
+        let given = names(&["boundary.left={ velocity = { velocity = [0.1, 0.0] } }"]);
+        assert!(!given.contains(&"flow.energy_defect".to_owned()), "that side works, too");
+        let sheet = Case::read("taylor-sheet", &[]).unwrap().model;
+        assert!(known_quantities(&sheet).contains(&"flow.energy_defect".to_owned()));
+
         let steady = names(&["time.steady={}"]);
         assert!(
             !steady.iter().any(|name| name.contains(".cycle.") || name.contains("minimum_gap"))

@@ -36,7 +36,7 @@ pub enum When {
     TowedCycles,
     /// Its resistance is known, but it has no cycles.
     TowedWithoutCycles,
-    /// All work on the fluid is that of bodies.
+    /// All work on the fluid is that of bodies and waving sheets.
     IdleSides,
     /// The mesh moves.
     MovingMesh,
@@ -56,7 +56,7 @@ impl When {
             Self::Cycles => "a period",
             Self::TowedCycles => "a period and `resistance`",
             Self::TowedWithoutCycles => "`resistance`, no period",
-            Self::IdleSides => "bodies, and sides that do no work",
+            Self::IdleSides => "bodies or a waving sheet, and other sides that do no work",
             Self::MovingMesh => "a moving mesh",
         }
     }

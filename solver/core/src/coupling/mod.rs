@@ -24,7 +24,7 @@ pub use boundaries::{Boundaries, BoundaryNode};
 pub use constrain::{BodiesAt, BoundaryValues, impose_boundary_values};
 pub use error::{SolveError, coordinates};
 pub use joint_loads::{BodyStates, JointReport, joint_reports};
-pub use loads::{BodyLoads, ResidualOnMesh, body_loads};
+pub use loads::{BodyLoads, ResidualOnMesh, SurfaceLoads, surface_loads};
 pub use mobility::BodyLoad;
 pub use problem::{
     Arm, Drive, Group, Joint, MovingValue, Pivot, Problem, RateDiscontinuities, RigidBody, Side,

@@ -13,7 +13,7 @@ use super::boundaries::Boundaries;
 use super::constrain::{BodiesAt, Constrainer};
 use super::error::SolveError;
 use super::linear_system::{LinearSystem, unknowns};
-use super::loads::{BodyLoads, ResidualOnMesh, body_loads};
+use super::loads::{ResidualOnMesh, SurfaceLoads, surface_loads};
 use super::nullspace::TranslationNullspace;
 use super::pressure_mean::PressureMean;
 use super::problem::Problem;
@@ -135,16 +135,17 @@ impl<const D: usize> FluidSystem<D> {
         }
     }
 
-    /// Loads of a flow on the bodies at these poses in the mesh, from the raw residual at it.
+    /// Loads of a flow on the bodies at these poses in the mesh, and the work of the sides, from the
+    /// raw residual at it.
     #[must_use]
-    pub fn body_loads(
+    pub fn surface_loads(
         &self,
         problem: &Problem<D>,
         mesh: &Mesh<D>,
         poses: &[Pose],
         solution: &Solution<D>,
         residual: &[f64],
-    ) -> Vec<BodyLoads> {
+    ) -> SurfaceLoads {
         let flow = ResidualOnMesh {
             mesh,
             layout: &self.layout,
@@ -152,7 +153,7 @@ impl<const D: usize> FluidSystem<D> {
             velocity: &solution.velocity,
             residual,
         };
-        body_loads(problem, poses, &flow)
+        surface_loads(problem, poses, &flow)
     }
 
     /// Constraints with bodies at these poses, at the time of their shapes.

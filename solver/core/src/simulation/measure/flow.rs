@@ -4,7 +4,7 @@ use alewife_mesh::Point;
 use nalgebra::SMatrix;
 
 use crate::case::FlowQuantity;
-use crate::coupling::{BodyLoads, Problem};
+use crate::coupling::{Problem, SurfaceLoads};
 use crate::simulation::energy::EnergyRecord;
 use crate::simulation::state::State;
 use crate::space::{CellValues, Tables};
@@ -63,10 +63,10 @@ impl FlowMeasurement {
     }
 
     /// What the energy balance records at a time (s).
-    pub(super) fn energy_record(&self, time: f64, loads: &[BodyLoads]) -> EnergyRecord {
+    pub(super) fn energy_record(&self, time: f64, loads: &SurfaceLoads) -> EnergyRecord {
         EnergyRecord {
             time,
-            power: loads.iter().map(|load| load.power).sum(),
+            power: loads.power(),
             dissipation: self.dissipation,
             kinetic_energy: self.kinetic_energy,
         }
