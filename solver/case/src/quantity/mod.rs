@@ -187,7 +187,7 @@ mod tests {
 
         let open = names(&["boundary.left=traction-free"]);
         assert!(open.contains(&"flow.energy_defect".to_owned()), "no work without traction");
-        let given = names(&["boundary.left={ velocity = { velocity = [0.1, 0.0] } }"]);
+        let given = names(&["boundary.left={ velocity = { value = [0.1, 0.0] } }"]);
         assert!(!given.contains(&"flow.energy_defect".to_owned()), "that side works, too");
         let sheet = Case::read("taylor-sheet", &[]).unwrap().model;
         assert!(known_quantities(&sheet).contains(&"flow.energy_defect".to_owned()));
