@@ -75,12 +75,15 @@ fn a_run_leaves_its_files_and_is_not_replaced_unasked() {
 fn validation_judges_and_its_json_has_all_there_is_to_know() {
     let directory = tempfile::tempdir().unwrap();
     let json = done(directory.path(), &["validate", "squirmer-alone", "--json", "--threads", "1"]);
-    let rows: serde_json::Value = serde_json::from_str(&json).unwrap();
+    let json: serde_json::Value = serde_json::from_str(&json).unwrap();
+    assert_eq!(json["counts"]["exact"]["values"], json["counts"]["exact"]["within"]);
+    let rows = &json["comparisons"];
     let keys = [
         "case",
         "quantity",
         "computed",
-        "published",
+        "reference",
+        "kind",
         "tolerance",
         "source",
         "verdict",
@@ -92,7 +95,7 @@ fn validation_judges_and_its_json_has_all_there_is_to_know() {
     }
     assert_eq!(rows[0]["verdict"], "within");
 
-    // The same with a wrong published value.
+    // The same with a wrong reference.
     let text = done(directory.path(), &["show", "squirmer-alone", "--source"]);
     let wrong = text.replace("value = 0.997524975", "value = 1.05");
     std::fs::write(directory.path().join("wrong.toml"), wrong).unwrap();

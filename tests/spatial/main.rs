@@ -71,7 +71,7 @@ fn a_load_on_a_free_body_becomes_momentum_of_body_and_fluid() {
     let [part, turned] = [fluid.force.norm(), fluid.torque.norm()].map(|sum| sum / step);
     assert!(part > 0.01 && turned > 0.01, "the fluid takes {part} N and {turned} N m");
     // What the fluid gains, the body loses
-    let on_body = report.loads[0].load;
+    let on_body = report.loads.bodies[0].load;
     assert!((on_body.force + fluid.force / step).norm() < 1e-12);
     assert!((on_body.torque + fluid.torque / step).norm() < 1e-12);
 }

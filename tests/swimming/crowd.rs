@@ -115,7 +115,7 @@ fn swimmers_driven_together_do_not_overlap() {
         "#;
     let outcome = run(&case(text));
     let mut carried = 0.0f64;
-    let gaps = outcome.series.column("flow.least_gap").expect("the mesh moves");
+    let gaps = outcome.series.column("flow.minimum_gap").expect("the mesh moves");
     let least = gaps.iter().copied().fold(f64::INFINITY, f64::min);
     // Contact and fluid carry the weight of each swimmer, all parts of its tree together.
     for swimmer in ["swimmer-1", "swimmer-2"] {

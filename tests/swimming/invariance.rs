@@ -270,7 +270,7 @@ fn gaits_with_inertia_are_the_same_turned_mirrored_and_in_a_frame_that_travels()
                 swim.step(0.02);
             }
             // Work that is done on the fluid as a whole belongs to the frame.
-            let force: Point<2> = swim.loads.iter().map(|load| load.load.force.xy()).sum();
+            let force: Point<2> = swim.loads.bodies.iter().map(|load| load.load.force.xy()).sum();
             (seen_back(&swim, moved, stream), swim.power() + force.dot(&stream))
         };
         let start = at(&Moved::default(), Point::<2>::zeros());

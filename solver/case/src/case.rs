@@ -69,7 +69,7 @@ pub struct Case {
     /// The stretch of time over which statistics are taken.
     #[serde(default)]
     pub statistics: Statistics,
-    /// Published values this case is compared with.
+    /// What the case is compared with.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub reference: Vec<Reference>,
     /// Whether `alewife validate --quick` runs the case (its variants say so themselves).

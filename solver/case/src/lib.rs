@@ -59,7 +59,9 @@ pub use quantity::{
     SwimmerQuantity, When, columns, known_quantities,
 };
 pub use read::CaseFile;
-pub use reference::{ForceComponent, Numbers, Reference, Scales, Statistic, Statistics, Variant};
+pub use reference::{
+    ForceComponent, Numbers, Reference, ReferenceKind, Scales, Statistic, Statistics, Variant,
+};
 pub use schema::schema;
 pub use source::Location;
 pub use stroke::{Stroke, smooth_ramp};

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{BoundaryCondition, Case, TimeFunction};
+use super::TimeFunction;
 
 /// `[flow]`: a mean pressure gradient or a mean velocity along periodic directions, one number per
 /// dimension and zero along the others.
@@ -24,14 +24,4 @@ pub struct MeanFlowSpec {
     /// Factor of all of them in time.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub factor: Option<TimeFunction>,
-}
-
-impl Case {
-    /// Along which coordinates the domain is periodic.
-    #[must_use]
-    pub fn periodic_axes(&self) -> [bool; 3] {
-        let is_periodic =
-            |side: &str| matches!(self.boundary.get(side), Some(BoundaryCondition::Periodic(_)));
-        [is_periodic("left"), is_periodic("bottom"), false]
-    }
 }

@@ -6,8 +6,8 @@ use super::copies::{Individual, individuals};
 use super::diagnostic::CaseError;
 use super::parts::{Part, parts, poses};
 use super::{
-    Body, BoundaryCondition, Case, Copies, GaitSpec, Geometry, Joint, Motion, SwimmerKind,
-    SwimmerSpec, TimeSettings,
+    Body, BoundaryCondition, Case, Copies, FlowModel, GaitSpec, Geometry, Joint, Motion,
+    SwimmerKind, SwimmerSpec, TimeSettings,
 };
 
 /// Most bodies of a case; a run with a tenth of it takes days.
@@ -308,19 +308,21 @@ impl Model {
         matches!(case.time, TimeSettings::Unsteady(_)) && any
     }
 
-    /// Whether all work on the fluid is that of the bodies, so that it balances dissipation and the
-    /// rate of the kinetic energy.
+    /// Whether all work on the fluid is that of bodies and waving sheets, so that it balances
+    /// dissipation and the rate of the kinetic energy. No work is done where there is no traction,
+    /// but with inertia the fluid that leaves there takes its kinetic energy along.
     #[must_use]
     pub fn balances_energy(&self) -> bool {
-        let is_idle = |condition: &BoundaryCondition| {
-            matches!(
-                condition,
-                BoundaryCondition::NoSlip
-                    | BoundaryCondition::Symmetry
-                    | BoundaryCondition::Axis
-                    | BoundaryCondition::Periodic(_)
-            )
+        let is_balanced = |condition: &BoundaryCondition| match condition {
+            BoundaryCondition::NoSlip
+            | BoundaryCondition::Symmetry
+            | BoundaryCondition::Axis
+            | BoundaryCondition::Periodic(_)
+            | BoundaryCondition::WavingSheet { .. } => true,
+            BoundaryCondition::TractionFree => self.case.fluid.model == FlowModel::Stokes,
+            _ => false,
         };
-        !self.bodies.is_empty() && self.case.boundary.values().all(is_idle)
+        let does_work = !self.bodies.is_empty() || self.case.has_waving_sheet();
+        does_work && self.case.boundary.values().all(is_balanced)
     }
 }

@@ -2,8 +2,8 @@
 //!
 //! A case is put together in this order, the later over the earlier: the file it `extends`, the
 //! file itself, the variant, the settings of the command line. Tables are merged, everything else
-//! is replaced. `reference`, `variant` and `quick` of an extended file are not inherited: what was
-//! published for one problem does not hold for another.
+//! is replaced. `reference`, `variant` and `quick` of an extended file are not inherited: what is
+//! known of one problem does not hold for another.
 
 use std::sync::Arc;
 

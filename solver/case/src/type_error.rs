@@ -6,6 +6,7 @@ use std::fmt::{self, Display};
 use serde::de::{self, Expected, Unexpected};
 
 use super::nearest::nearest;
+use super::reference::ReferenceKind;
 use super::source::Origin;
 
 /// What a value cannot be typed for.
@@ -111,6 +112,11 @@ impl TypeError {
                 renamed(key, accepted).unwrap_or_else(|| suggestion(key, accepted))
             }
             Mismatch::UnknownAlternative { found, accepted } => suggestion(found, accepted),
+            // What a word may be is known from the key and its table only
+            Mismatch::MissingKey(key) if key == "kind" && self.path().contains("reference") => {
+                let kinds = ReferenceKind::ALL.map(ReferenceKind::name).join(", ");
+                format!("add `kind = \"...\"` there: {kinds}")
+            }
             Mismatch::MissingKey(key) => format!("add `{key} = ...` there"),
             Mismatch::WrongType { found, wanted } => {
                 if found.starts_with("the string") && wanted.contains("number") {

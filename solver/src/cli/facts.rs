@@ -49,9 +49,9 @@ pub fn facts(file: &CaseFile) -> String {
         "reference",
         match (n, in_variants) {
             (0, 0) => "none: the result is not compared with anything".to_owned(),
-            (1, 0) => "1 published value".to_owned(),
-            (n, 0) => format!("{n} published values"),
-            (n, more) => format!("{} published values, {more} of them in variants", n + more),
+            (1, 0) => "1 reference".to_owned(),
+            (n, 0) => format!("{n} references"),
+            (n, more) => format!("{} references, {more} of them in variants", n + more),
         },
     );
     text

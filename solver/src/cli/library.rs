@@ -69,10 +69,11 @@ fn summary(file: &CaseFile) -> String {
         let _ = write!(text, "\n{}\n{numbers}", on_stdout(Ink::Bold, "derived numbers"));
     }
     if !case.reference.is_empty() {
-        let _ = writeln!(text, "\n{}", on_stdout(Ink::Bold, "published values"));
+        let _ = writeln!(text, "\n{}", on_stdout(Ink::Bold, "references"));
         for reference in &case.reference {
             let _ = writeln!(text, "  {}", reference_line(reference));
-            let _ = writeln!(text, "    {}", printable(&reference.source));
+            let source = printable(&reference.source);
+            let _ = writeln!(text, "    {}: {source}", reference.kind.name());
             if let Some(note) = &reference.note {
                 let _ = writeln!(text, "    note: {}", printable(note));
             }

@@ -1,4 +1,4 @@
-//! `run`: one case, its files, and how it compares with what was published.
+//! `run`: one case, its files, and how it compares with its references.
 
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
@@ -17,7 +17,7 @@ use crate::observer::{
 use crate::simulation::{RunError, RunSummary, SavedState};
 use crate::validation::{Comparison, Verdict, compare, comparison_table, comparisons_to_json};
 
-/// File of a run that holds its comparison with published values.
+/// File of a run that holds its comparison with the references.
 const COMPARISON_FILE: &str = "comparison.json";
 
 /// What `run` is asked for.
@@ -202,7 +202,7 @@ fn tell_cell_numbers(outcome: &RunSummary) {
     }
 }
 
-/// Prints how the bodies ended, for a case without published values.
+/// Prints how the bodies ended, for a case without references.
 fn tell_last_values(model: &Model, outcome: &RunSummary) {
     let Some(last) = outcome.series.rows.last() else { return };
     // Of the many bodies of a swimmer only what they do together.
@@ -236,13 +236,17 @@ pub fn print_comparisons(comparisons: &[Comparison]) {
     for (line, comparison) in lines.zip(comparisons) {
         let ink = match comparison.verdict {
             Verdict::Within => Ink::Green,
-            Verdict::Outside | Verdict::NotComputed => Ink::Red,
+            Verdict::KnownOutside => Ink::Yellow,
+            Verdict::Outside | Verdict::NoLongerOutside | Verdict::NotComputed => Ink::Red,
         };
         let word = comparison.verdict.name();
         let start = line.len() - word.len();
         say(&format!("{}{}", &line[..start], on_stdout(ink, word)));
         if let Err(reason) = &comparison.computed {
             say(&format!("    {reason}"));
+        }
+        if let Some(reason) = &comparison.reference.outside {
+            say(&format!("    known to be outside: {reason}"));
         }
     }
 }

@@ -187,3 +187,58 @@ fn sizes_that_ask_for_too_many_cells_are_refused_before_the_mesh_is_made() {
     let said = super::alewife(directory.path(), &["check", "wrong.toml"]);
     assert_refused(&said, &["the cell sizes ask for", "times as large would fit"]);
 }
+
+/// A cell of a periodic array, with a disc.
+fn cell(flow: &str, sides: &str, motion: &str) -> String {
+    format!(
+        r#"
+        title = "a cell of an array"
+        geometry = "planar"
+        fluid = {{ model = "stokes", viscosity = 1.0 }}
+        {flow}
+        domain.box = {{ min = [-1.0, -1.0], max = [1.0, 1.0] }}
+        mesh.size = 0.2
+        time.steady = {{}}
+        boundary = {{ left.periodic = "right", right.periodic = "left", {sides} }}
+        [[body]]
+        name = "disc"
+        shape.disc.radius = 0.3
+        center = [0.0, 0.0]
+        motion = "{motion}"
+        "#
+    )
+}
+
+#[test]
+fn a_periodic_box_without_walls_needs_a_mean_flow_where_a_body_is_held() {
+    let [periodic, walls] = [
+        "bottom.periodic = \"top\", top.periodic = \"bottom\"",
+        "bottom = \"no-slip\", top = \"no-slip\"",
+    ];
+    let mean = "flow.mean_velocity = [1.0, 0.0]";
+    for (flow, sides, motion, told) in [
+        ("", periodic, "held", "nothing determines the mean flow along x"),
+        ("flow = {}", walls, "held", "`flow` drives nothing"),
+        ("flow.pressure_gradient = [1.0, 0.0]", periodic, "free", "nothing resists the flow"),
+        ("flow.mean_velocity = [1.0, 2.0]", walls, "held", "2 along y, where the domain is not"),
+        ("flow.mean_velocity = [1.0]", walls, "held", "has 1 number"),
+        (
+            "flow = { mean_velocity = [1.0, 0.0], pressure_gradient = [1.0, 0.0] }",
+            walls,
+            "held",
+            "one follows from the other",
+        ),
+    ] {
+        assert_refused(&check(&cell(flow, sides, motion), &[]), &[told]);
+    }
+    for (flow, sides, motion) in [
+        ("", periodic, "free"),
+        ("", walls, "held"),
+        (mean, periodic, "held"),
+        (mean, periodic, "free"),
+        (mean, walls, "free"),
+        ("flow.pressure_gradient = [-1.0, 0.0]", walls, "free"),
+    ] {
+        assert_accepted(&check(&cell(flow, sides, motion), &[]));
+    }
+}

@@ -90,7 +90,7 @@ fn an_unknown_variant_is_refused_with_the_known_ones() {
     let directory = tempfile::tempdir().unwrap();
     std::fs::write(directory.path().join("wrong.toml"), RIGHT).unwrap();
     let said = alewife(directory.path(), &["check", "--no-mesh", "wrong.toml/slaw"]);
-    assert_refused(&said, &["there is no variant `slaw`", "wrong.toml:49:", "`slow`?"]);
+    assert_refused(&said, &["there is no variant `slaw`", "wrong.toml:50:", "`slow`?"]);
     assert_accepted(&alewife(directory.path(), &["check", "--no-mesh", "wrong.toml/slow"]));
 }
 
@@ -99,7 +99,7 @@ fn a_variant_that_is_wrong_is_found_from_its_case() {
     refused(
         "\"numbers.reynolds\" = 2.0",
         "\"numbers.reynolds\" = 3.0",
-        &["in variant wrong.toml/slow", "declared as 3", "wrong.toml:51:"],
+        &["in variant wrong.toml/slow", "declared as 3", "wrong.toml:52:"],
     );
 }
 
@@ -175,11 +175,11 @@ fn variants_have_names_that_can_be_asked_for() {
         ("\"..\"", "stands for a directory"),
         (&format!("\"{}\"", "n".repeat(65)), "65 characters, more than 64"),
     ] {
-        let wanted = ["cannot be the name of a variant", why, "wrong.toml:50:8"];
+        let wanted = ["cannot be the name of a variant", why, "wrong.toml:51:8"];
         refused(slow, &format!("name = {name}"), &wanted);
     }
     let twice = "name = \"slow\"\n\n[[variant]]\nname = \"slow\"";
-    refused(slow, twice, &["\"slow\" is taken by a variant above", "wrong.toml:53:8"]);
+    refused(slow, twice, &["\"slow\" is taken by a variant above", "wrong.toml:54:8"]);
 }
 
 /// Checks a file of these bytes.

@@ -36,7 +36,7 @@ pub enum When {
     TowedCycles,
     /// Its resistance is known, but it has no cycles.
     TowedWithoutCycles,
-    /// All work on the fluid is that of bodies.
+    /// All work on the fluid is that of bodies and waving sheets.
     IdleSides,
     /// There is `[flow]`.
     MeanFlow,
@@ -62,7 +62,7 @@ impl When {
             Self::Cycles => "a period",
             Self::TowedCycles => "a period and `resistance`",
             Self::TowedWithoutCycles => "`resistance`, no period",
-            Self::IdleSides => "bodies, and sides that do no work",
+            Self::IdleSides => "bodies or a waving sheet, and other sides that do no work",
             Self::MeanFlow => "[`flow`](#flow)",
             Self::Convection => "`navier-stokes`",
             Self::UnsteadyConvection => "`navier-stokes`, unsteady",

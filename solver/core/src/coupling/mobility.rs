@@ -1,6 +1,5 @@
 //! How bodies in a flow answer to loads: their mobility, and the change of the flow.
 
-use alewife_mesh::Point;
 use nalgebra::DMatrix;
 
 use super::error::SolveError;
@@ -114,13 +113,13 @@ impl<const D: usize> FluidSystem<D> {
             let axes = self.response.axes().iter();
             axes.zip(&gradients).for_each(|(&axis, gradient)| pressure_gradient[axis] += gradient);
         }
-        let mean = self.nullspace.as_ref().map(|nullspace| nullspace.mean(solution));
+        let mean = self.mean_velocity(solution);
         let mut free = constraints.pick(&self.pinned(solution).to_raw(self.modes));
         free.iter_mut().zip(&change).for_each(|(value, change)| *value += change);
         let raw = constraints.expand(&free);
         let next = Solution::from_raw(&self.layout, self.modes, &raw);
         let next = Solution { pressure_gradient, ..next };
-        *solution = self.centered(next, &mean.unwrap_or_else(Point::<D>::zeros));
+        *solution = self.centered(next, &mean);
         Ok(())
     }
 }

@@ -3,6 +3,7 @@
 mod boundaries;
 mod constrain;
 mod diagnosis;
+mod driven;
 mod error;
 mod joint_loads;
 mod kinematics;
@@ -25,7 +26,7 @@ pub use boundaries::{Boundaries, BoundaryNode};
 pub use constrain::{BodiesAt, BoundaryValues, impose_boundary_values};
 pub use error::{SolveError, coordinates};
 pub use joint_loads::{BodyStates, JointReport, joint_reports};
-pub use loads::{BodyLoads, ResidualOnMesh, body_loads};
+pub use loads::{BodyLoads, ResidualOnMesh, SurfaceLoads, surface_loads};
 pub use mean_flow::MeanFlowReport;
 pub use mobility::BodyLoad;
 pub use problem::{

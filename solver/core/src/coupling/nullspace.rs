@@ -62,12 +62,6 @@ impl<const D: usize> TranslationNullspace<D> {
         self.subtract(&velocity, solution);
     }
 
-    /// Gives fluid and bodies a mean velocity (m/s).
-    pub fn center(&self, solution: &mut Solution<D>, mean: &Point<D>) {
-        let excess = self.mean(solution) - mean;
-        self.subtract(&excess, solution);
-    }
-
     /// The mean velocity of fluid and bodies (m/s).
     pub fn mean(&self, solution: &Solution<D>) -> Point<D> {
         self.weights.iter().fold(Point::<D>::zeros(), |sum, NodeWeights { node, weights }| {
@@ -76,7 +70,8 @@ impl<const D: usize> TranslationNullspace<D> {
         })
     }
 
-    fn subtract(&self, velocity: &Point<D>, solution: &mut Solution<D>) {
+    /// Takes a velocity (m/s) off fluid and bodies, along the free axes.
+    pub fn subtract(&self, velocity: &Point<D>, solution: &mut Solution<D>) {
         let common =
             Point::<D>::from_fn(|axis, _| if self.axes[axis] { velocity[axis] } else { 0.0 });
         for velocity in &mut solution.velocity {

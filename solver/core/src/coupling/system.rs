@@ -13,10 +13,8 @@ use super::boundaries::Boundaries;
 use super::constrain::{BodiesAt, Constrainer};
 use super::error::SolveError;
 use super::linear_system::{LinearSystem, unknowns};
-use super::loads::{BodyLoads, ResidualOnMesh, body_loads};
-use super::mean_flow::{
-    CellIntegrals, MeanFlowReport, MeanFlowResponse, ResponseSystem, with_given_gradients,
-};
+use super::loads::{ResidualOnMesh, SurfaceLoads, surface_loads};
+use super::mean_flow::{CellIntegrals, MeanFlowResponse};
 use super::nullspace::TranslationNullspace;
 use super::pressure_mean::PressureMean;
 use super::problem::{MeanFlowAt, Problem};
@@ -25,13 +23,10 @@ use super::shapes::BodyShapes;
 use super::solution::Solution;
 use super::surface_load::SurfaceStress;
 use crate::algebra::{Accuracy, AffineConstraints, Term, Unknowns};
-use crate::body::{Modes, Pose, Wrench, in_space};
+use crate::body::{Modes, Pose};
 use crate::flow::{Assembly, FlowTerms, assemble, residual};
 use crate::space::{DofLayout, FacetRule, Tables};
 use crate::timing::{Stage, Timing};
-
-/// Difference of a mean velocity from the given one that is rounding.
-const MEAN_VELOCITY: f64 = 1e-10;
 
 /// Everything that defines the system on one configuration of the mesh.
 #[derive(Clone, Copy)]
@@ -64,7 +59,7 @@ pub struct FluidSystem<const D: usize> {
     /// The common velocity of fluid and bodies, where nothing holds them.
     pub(super) nullspace: Option<TranslationNullspace<D>>,
     /// Integrals over a cell with a mean flow.
-    cell: Option<CellIntegrals<D>>,
+    pub(super) cell: Option<CellIntegrals<D>>,
     /// How the flow answered to pressure gradients in the last step of Newton's method.
     pub(super) response: MeanFlowResponse,
 }
@@ -162,16 +157,17 @@ impl<const D: usize> FluidSystem<D> {
         }
     }
 
-    /// Loads of a flow on the bodies at these poses in the mesh, from the raw residual at it.
+    /// Loads of a flow on the bodies at these poses in the mesh, and the work of the sides, from the
+    /// raw residual at it.
     #[must_use]
-    pub fn body_loads(
+    pub fn surface_loads(
         &self,
         problem: &Problem<D>,
         mesh: &Mesh<D>,
         poses: &[Pose],
         solution: &Solution<D>,
         residual: &[f64],
-    ) -> Vec<BodyLoads> {
+    ) -> SurfaceLoads {
         let flow = ResidualOnMesh {
             mesh,
             layout: &self.layout,
@@ -179,39 +175,16 @@ impl<const D: usize> FluidSystem<D> {
             velocity: &solution.velocity,
             residual,
         };
-        let mut loads = body_loads(problem, poses, &flow);
+        let mut loads = surface_loads(problem, poses, &flow);
         if self.cell.is_some() {
-            for (body, (loads, twist)) in loads.iter_mut().zip(&solution.twists).enumerate() {
+            for (body, (loads, twist)) in loads.bodies.iter_mut().zip(&solution.twists).enumerate()
+            {
                 let mean = self.mean_load(body, solution);
                 loads.power -= mean.force.dot(&twist.linear);
                 loads.load = loads.load + mean;
             }
         }
         loads
-    }
-
-    /// Load of the mean pressure gradient on a body, as that of gravity on the fluid it displaces.
-    #[must_use]
-    pub fn mean_load(&self, body: usize, solution: &Solution<D>) -> Wrench {
-        let Some(cell) = &self.cell else { return Wrench::default() };
-        let force = -in_space(&solution.pressure_gradient) * cell.body_volume(body);
-        Wrench { force, ..Wrench::default() }
-    }
-
-    /// The mean flow of a solution, where one is given.
-    #[must_use]
-    pub fn mean_flow(
-        &self,
-        given: &MeanFlowAt<D>,
-        solution: &Solution<D>,
-    ) -> Option<MeanFlowReport> {
-        let cell = self.cell.as_ref()?;
-        let (velocity, pressure_gradient) =
-            (cell.mean_velocity(solution), solution.pressure_gradient);
-        let power = given.body_force.dot(&cell.fluid_integral(solution))
-            - pressure_gradient.dot(&velocity) * cell.volume();
-        let [pressure_gradient, velocity] = [pressure_gradient, velocity].map(|v| in_space(&v));
-        Some(MeanFlowReport { pressure_gradient, velocity, power })
     }
 
     /// Constraints with bodies at these poses, at the time of their shapes.
@@ -250,16 +223,6 @@ impl<const D: usize> FluidSystem<D> {
             cell.add(&self.layout, self.modes, [&force, &Point::<D>::zeros()], &mut raw);
         }
         raw
-    }
-
-    /// A solution with the pressure gradients that are given.
-    #[must_use]
-    pub fn with_given_gradients(
-        &self,
-        at: &Configuration<'_, D>,
-        solution: Solution<D>,
-    ) -> Solution<D> {
-        if self.cell.is_some() { with_given_gradients(solution, &at.mean_flow) } else { solution }
     }
 
     /// P^T R: the residual of fluid and bodies on the free unknowns, from that of the fluid.
@@ -324,60 +287,6 @@ impl<const D: usize> FluidSystem<D> {
         Ok(self.centered(Solution { pressure_gradient, ..next }, &mean))
     }
 
-    /// Largest force of the mean pressure gradient on a node (N; N/m planar).
-    #[must_use]
-    pub fn mean_force(&self, solution: &Solution<D>) -> f64 {
-        let gradient = solution.pressure_gradient.amax();
-        self.cell.as_ref().map_or(0.0, |cell| gradient * cell.largest_node())
-    }
-
-    /// Whether a solution has the mean velocities that are given where something holds the fluid.
-    #[must_use]
-    pub fn meets_mean_velocity(&self, at: &Configuration<'_, D>, solution: &Solution<D>) -> bool {
-        let Some(cell) = &self.cell else { return true };
-        let mean = cell.mean_velocity(solution);
-        let held = at.problem.free_translations().map(|is_free| !is_free);
-        let mut given = (0..D).filter_map(|axis| {
-            at.mean_flow.velocity(axis).filter(|_| held[axis]).map(|velocity| (axis, velocity))
-        });
-        given.all(|(axis, velocity)| {
-            (mean[axis] - velocity).abs() <= MEAN_VELOCITY * velocity.abs().max(mean.norm())
-        })
-    }
-
-    /// Gives the free unknowns the mean velocities that are given where something holds the fluid; the
-    /// change of the pressure gradient that does.
-    fn meet_mean_velocity(
-        &mut self,
-        at: &Configuration<'_, D>,
-        free: &mut [f64],
-        timing: &mut Timing,
-    ) -> Result<Point<D>, SolveError> {
-        let mut change = Point::<D>::zeros();
-        let Some(cell) = &self.cell else { return Ok(change) };
-        let held = at.problem.free_translations().map(|is_free| !is_free);
-        let given = |axis: usize| at.mean_flow.velocity(axis).filter(|_| held[axis]);
-        let axes: Vec<usize> = (0..D).filter(|&axis| given(axis).is_some()).collect();
-        let (layout, modes) = (self.layout, self.modes);
-        let system =
-            ResponseSystem { cell, layout: &layout, modes, constraints: at.constraints, axes };
-        self.response.update(&system, &mut self.linear, timing)?;
-        if self.response.is_empty() {
-            return Ok(change);
-        }
-        let raw = at.constraints.expand(free);
-        let mean = cell.mean_velocity(&Solution::from_raw(&layout, modes, &raw));
-        let axes = || self.response.axes().iter();
-        let excess = axes().filter_map(|&axis| {
-            given(axis).map(|velocity| (mean[axis] - velocity) * cell.volume())
-        });
-        let gradients = self.response.gradients(&excess.collect::<Vec<f64>>());
-        let gradients = gradients.ok_or(SolveError::NoResistance)?;
-        self.response.subtract(&gradients, free);
-        axes().zip(&gradients).for_each(|(&axis, gradient)| change[axis] = *gradient);
-        Ok(change)
-    }
-
     /// The solution seen from where the system holds fluid and bodies.
     pub(super) fn pinned(&self, solution: &Solution<D>) -> Solution<D> {
         let mut pinned = solution.clone();
@@ -390,7 +299,7 @@ impl<const D: usize> FluidSystem<D> {
     /// The solution with a mean velocity (m/s) where nothing holds fluid and bodies.
     pub(super) fn centered(&self, mut solution: Solution<D>, mean: &Point<D>) -> Solution<D> {
         if let Some(nullspace) = &self.nullspace {
-            nullspace.center(&mut solution, mean);
+            nullspace.subtract(&(self.mean_velocity(&solution) - mean), &mut solution);
         }
         solution
     }

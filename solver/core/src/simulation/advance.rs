@@ -11,7 +11,7 @@ use super::workspace::Workspace;
 use super::{Stage, Timing};
 use crate::case::{Convection, Scheme};
 use crate::contact::{ContactError, Law};
-use crate::coupling::{BodyLoads, BodyShapes, FluidSystem, Problem, mean_motion};
+use crate::coupling::{BodyLoads, BodyShapes, FluidSystem, Problem, SurfaceLoads, mean_motion};
 use crate::time::Bdf;
 
 /// Error over the tolerance above which a step is rejected.
@@ -182,10 +182,10 @@ impl<const D: usize> Simulation<D> {
 
     /// Loads of the fluid by the raw residual at the present solution.
     #[must_use]
-    pub fn loads(&self, residual: &[f64]) -> Vec<BodyLoads> {
+    pub fn loads(&self, residual: &[f64]) -> SurfaceLoads {
         let Self { problem, state, work, .. } = self;
         let poses = state.in_mesh(&state.poses);
-        work.system.body_loads(problem, &state.mesh, &poses, &state.now, residual)
+        work.system.surface_loads(problem, &state.mesh, &poses, &state.now, residual)
     }
 
     /// How fast the fluid crosses the cells.

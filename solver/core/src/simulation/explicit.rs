@@ -15,7 +15,7 @@ use super::stepper::{StepReport, StepResult, TimeStepper};
 use super::workspace::Workspace;
 use crate::body::{Pose, RigidVector, Twist};
 use crate::contact::ContactLoads;
-use crate::coupling::{BodyLoads, PropulsionPower, Solution};
+use crate::coupling::{PropulsionPower, Solution, SurfaceLoads};
 
 /// A stage after the first.
 struct Stage {
@@ -54,7 +54,7 @@ struct Instant {
 /// A flow that belongs to bodies at their poses.
 struct InstantaneousFlow<const D: usize> {
     solution: Solution<D>,
-    loads: Vec<BodyLoads>,
+    loads: SurfaceLoads,
     powers: Vec<PropulsionPower>,
     nodes: Vec<Point<D>>,
     iterations: usize,
@@ -180,7 +180,7 @@ impl<const D: usize> TimeStepper<'_, D> {
         let loads = self.loads(work, state, &equations, &mut flow);
         Ok(InstantaneousFlow {
             solution: flow.solution,
-            loads: loads.bodies,
+            loads: loads.surfaces,
             powers: loads.propulsion,
             nodes,
             iterations: flow.iterations,

@@ -8,7 +8,7 @@ use super::snapshot::{LastState, Observer, Snapshot};
 use super::steady::{SteadyFlow, SteadyTask, solve_steady};
 use super::{RunError, Series, Stage, Timing};
 use crate::case::{Case, Initial, Model, Steady, TimeSettings, Unsteady};
-use crate::coupling::{BodiesAt, BodyLoads, BodyShapes, RigidBodyEquations};
+use crate::coupling::{BodiesAt, BodyShapes, RigidBodyEquations, SurfaceLoads};
 
 /// What a finished run leaves in memory.
 #[derive(Debug, Clone)]
@@ -190,7 +190,7 @@ impl<const D: usize> Run<'_, D> {
     /// The flow an unsteady run starts from.
     fn begin(&mut self, settings: &Unsteady) -> Result<(), RunError> {
         let n_bodies = self.simulation.problem.bodies.len();
-        let mut loads = vec![BodyLoads::default(); n_bodies];
+        let mut loads = SurfaceLoads::none(n_bodies);
         let has_inertia = self.simulation.problem.has_inertia;
         // Without inertia the flow has no memory, and is that of the bodies' poses at any time
         if settings.initial == Initial::Stokes || !has_inertia {
@@ -222,10 +222,10 @@ impl<const D: usize> Run<'_, D> {
     /// Measures the present state and shows it to the observers.
     pub(super) fn report(
         &mut self,
-        loads: &[BodyLoads],
+        loads: &SurfaceLoads,
         summary: StepSummary,
     ) -> Result<(), RunError> {
-        self.simulation.record_propulsion(loads);
+        self.simulation.record_propulsion(&loads.bodies);
         let Self { case, observers, series, simulation, measure, .. } = self;
         let measured = measure.measure(case, simulation, loads)?;
         let Simulation { state, work, .. } = simulation;

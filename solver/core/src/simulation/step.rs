@@ -66,7 +66,7 @@ impl<const D: usize> TimeStepper<'_, D> {
                 let contact = self.with_minimum_gap(contact, gaps, state, &reached);
                 let end = Arrival { poses: reached, solution: flow.solution, contact };
                 let level = self.new_level(work, state, &history, &pass, end, &loads.propulsion)?;
-                let report = StepReport { loads: loads.bodies, iterations, error };
+                let report = StepReport { loads: loads.surfaces, iterations, error };
                 return Ok(StepResult { level, report });
             }
             (apart, poses, guess) = (pass.poses, reached, flow.solution);

@@ -6,7 +6,7 @@ use super::state::{NewLevel, State};
 use super::stop_request::StopRequest;
 use crate::case::Convection;
 use crate::contact::Law;
-use crate::coupling::{BodyLoads, Problem};
+use crate::coupling::{Problem, SurfaceLoads};
 use crate::time::Bdf;
 
 /// What stays the same from step to step while the mesh lasts.
@@ -62,7 +62,7 @@ impl Step {
 #[derive(Debug, Clone)]
 pub struct StepReport {
     /// Loads of the fluid on the bodies, where the flow was solved for.
-    pub loads: Vec<BodyLoads>,
+    pub loads: SurfaceLoads,
     /// Linear systems solved.
     pub iterations: usize,
     /// Estimate of the error of the step, relative to the size of the velocities; zero for a step of

@@ -4,7 +4,7 @@ use alewife_mesh::Point;
 use nalgebra::SMatrix;
 
 use crate::case::FlowQuantity;
-use crate::coupling::{BodyLoads, MeanFlowReport};
+use crate::coupling::{MeanFlowReport, SurfaceLoads};
 use crate::simulation::advance::{CellCrossing, Simulation};
 use crate::simulation::energy::EnergyRecord;
 use crate::space::CellValues;
@@ -77,11 +77,10 @@ impl FlowMeasurement {
     }
 
     /// What the energy balance records at a time (s).
-    pub(super) fn energy_record(&self, time: f64, loads: &[BodyLoads]) -> EnergyRecord {
+    pub(super) fn energy_record(&self, time: f64, loads: &SurfaceLoads) -> EnergyRecord {
         EnergyRecord {
             time,
-            power: loads.iter().map(|load| load.power).sum::<f64>()
-                + self.mean_flow.map_or(0.0, |report| report.power),
+            power: loads.power() + self.mean_flow.map_or(0.0, |report| report.power),
             dissipation: self.dissipation,
             kinetic_energy: self.kinetic_energy,
         }

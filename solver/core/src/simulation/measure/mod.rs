@@ -18,7 +18,7 @@ use super::advance::Simulation;
 use super::snapshot::BodyReport;
 use super::{RunError, Stage};
 use crate::case::{Case, Column, Model, Source, TimeSettings, columns};
-use crate::coupling::BodyLoads;
+use crate::coupling::SurfaceLoads;
 
 /// Measures a run; made once a mesh.
 pub(super) struct Measure<const D: usize> {
@@ -80,7 +80,7 @@ impl<const D: usize> Measure<D> {
         &mut self,
         case: &Case,
         simulation: &mut Simulation<D>,
-        loads: &[BodyLoads],
+        loads: &SurfaceLoads,
     ) -> Result<Measured, RunError> {
         let Simulation { state, work, moving_mesh, .. } = simulation;
         if let Some(moving) = moving_mesh.as_ref().filter(|_| !self.probes.is_empty()) {
@@ -99,15 +99,17 @@ impl<const D: usize> Measure<D> {
     fn values(
         &self,
         simulation: &mut Simulation<D>,
-        loads: &[BodyLoads],
+        loads: &SurfaceLoads,
     ) -> Result<Measured, RunError> {
-        let bodies = body_reports(simulation, loads);
+        let bodies = body_reports(simulation, &loads.bodies);
         let mut flow = FlowMeasurement::new(simulation);
         let Simulation { problem, state, .. } = simulation;
-        let joints = measure_joints(problem, state, loads)?;
+        let joints = measure_joints(problem, state, &loads.bodies)?;
         let groups = problem.groups.iter().zip(&state.propulsion);
         let swimmers: Vec<_> = groups
-            .map(|(group, history)| SwimmerMeasurement::new(problem, state, group, history, loads))
+            .map(|(group, history)| {
+                SwimmerMeasurement::new(problem, state, group, history, &loads.bodies)
+            })
             .collect();
         let probes = self.probes.values(state);
         if self.balances_energy {
