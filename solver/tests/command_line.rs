@@ -176,6 +176,32 @@ fn a_signal_ends_a_run_after_its_step_with_all_files_complete() {
     assert!(series.ends_with('\n') && series.lines().count() > 1);
 }
 
+#[test]
+fn steps_too_long_for_extrapolated_convection_are_told() {
+    let directory = tempfile::tempdir().unwrap();
+    let run = |convection: &str| {
+        let mut command = vec!["run", "dfg-2d-2", "--overwrite", "--threads", "1"];
+        for setting in [
+            "mesh.scale=4",
+            "time.unsteady.step=0.1",
+            "time.unsteady.end=0.3",
+            "reference=[]",
+            "statistics={}",
+            convection,
+        ] {
+            command.extend(["--set", setting]);
+        }
+        let output = alewife(directory.path(), &command);
+        assert_eq!(output.status.code(), Some(0));
+        let said = String::from_utf8_lossy(&output.stdout).into_owned();
+        assert!(said.contains("CFL number up to"), "{said}");
+        String::from_utf8_lossy(&output.stderr).into_owned()
+    };
+    let warned = run("time.unsteady.convection=\"extrapolated\"");
+    assert!(warned.contains("extrapolated convection was shown to hold up to 5"), "{warned}");
+    assert!(!run("time.unsteady.convection=\"newton\"").contains("CFL"));
+}
+
 #[cfg(unix)]
 #[test]
 fn a_steady_run_that_is_stopped_says_so() {

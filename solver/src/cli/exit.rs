@@ -79,6 +79,7 @@ pub fn exit_of(error: &RunError) -> Exit {
         | RunError::StepSizeUnderflow { .. }
         | RunError::Contact { .. }
         | RunError::NotFinite { .. }
+        | RunError::BlownUp { .. }
         | RunError::Singular { .. } => Exit::Diverged,
         RunError::Unsupported(_)
         | RunError::Resume(_)

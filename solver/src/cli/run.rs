@@ -105,6 +105,7 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
         outcome.steps,
         out.display()
     ));
+    tell_cell_numbers(&outcome);
     Ok(Exit::Done)
 }
 
@@ -184,6 +185,21 @@ fn read_unfinished(path: &Path, case: &Case) -> Result<SavedState<2>, Failure> {
         return Err(refuse(Exit::BadCase, reason));
     }
     Ok(saved)
+}
+
+/// Prints by how much the flow crosses cells at most, for a flow with convection.
+fn tell_cell_numbers(outcome: &RunSummary) {
+    let most = |name: &str| {
+        let column = outcome.series.column(name)?;
+        Some(column.into_iter().fold(0.0, f64::max))
+    };
+    match (most("flow.cfl"), most("flow.cell_reynolds")) {
+        (Some(cfl), Some(reynolds)) => {
+            say(&format!("CFL number up to {cfl:.2}, cell Reynolds number up to {reynolds:.1}"));
+        }
+        (None, Some(reynolds)) => say(&format!("cell Reynolds number up to {reynolds:.1}")),
+        _ => {}
+    }
 }
 
 /// Prints how the bodies ended, for a case without references.

@@ -5,7 +5,7 @@
 mod row;
 mod table;
 
-use super::{JointKind, Model, TimeSettings};
+use super::{FlowModel, JointKind, Model, TimeSettings};
 
 use self::row::Circumstances;
 pub use self::row::{Quantity, When};
@@ -39,10 +39,13 @@ pub struct Column {
 #[must_use]
 pub fn columns(model: &Model) -> Vec<Column> {
     let case = &model.case;
+    let is_unsteady = matches!(case.time, TimeSettings::Unsteady(_));
     let of_case = Circumstances {
         has_coefficients: case.has_coefficients(),
         has_contact: case.contact.is_some(),
         balances_energy: model.balances_energy(),
+        has_convection: case.fluid.model == FlowModel::NavierStokes,
+        is_unsteady,
         mesh_moves: model.mesh_moves(),
         ..Circumstances::default()
     };
@@ -60,7 +63,6 @@ pub fn columns(model: &Model) -> Vec<Column> {
         let known = Circumstances { is_arm, ..of_case.clone() };
         add(&mut columns, &child.name, JointQuantity::TABLE, &known, source);
     }
-    let is_unsteady = matches!(case.time, TimeSettings::Unsteady(_));
     for (nth, swimmer) in model.swimmers.iter().enumerate() {
         let source = |quantity| Source::Swimmer(nth, quantity);
         let known = Circumstances {

@@ -153,6 +153,12 @@ quantities! {
             "Work of bodies and waving sheets less dissipation and growth of the kinetic energy, over the work, \
              since the start (`stokes` and steady flows: of the current rates): the error of the \
              energy balance";
+        Cfl: "cfl", "1", UnsteadyConvection,
+            "CFL number: largest velocity relative to the mesh times the step over the shortest edge \
+             of a cell";
+        CellReynolds: "cell_reynolds", "1", Convection,
+            "Cell Reynolds number: largest density times velocity relative to the mesh times longest \
+             edge of a cell, over the viscosity";
         MinimumGap: "minimum_gap", "m", MovingMesh,
             "Minimum gap between two bodies or a body and a wall";
         Cells: "cells", "1", MovingMesh, "Cells of the mesh";

@@ -4,9 +4,9 @@ use super::error::{RunError, StepError};
 use super::mesh_path::MeshPath;
 use super::moving_mesh::MovingMesh;
 use super::remesh::remesh;
-use super::snapshot::StopRequest;
 use super::state::State;
 use super::stepper::{StepReport, StepResult, TimeStepper};
+use super::stop_request::StopRequest;
 use super::workspace::Workspace;
 use super::{Stage, Timing};
 use crate::case::{Convection, Scheme};
@@ -46,6 +46,15 @@ pub struct StepScheme {
     pub convection: Convection,
     /// Whether the frame's velocity is an unknown of the convection.
     pub unknown_frame: bool,
+}
+
+/// How fast the fluid crosses the cells, seen from the mesh.
+#[derive(Debug, Clone, Copy)]
+pub struct CellCrossing {
+    /// Largest velocity over the shortest edge of a cell (1/s).
+    pub rate: f64,
+    /// Largest velocity times the longest edge of a cell (m2/s).
+    pub reach: f64,
 }
 
 /// What came of an attempt to make a step.
@@ -179,24 +188,31 @@ impl<const D: usize> Simulation<D> {
         work.system.surface_loads(problem, &state.mesh, &poses, &state.now, residual)
     }
 
-    /// Cells the fluid crosses in a second at most (1/s).
+    /// How fast the fluid crosses the cells.
     #[must_use]
-    pub fn crossing_rate(&self) -> f64 {
+    pub fn cell_crossing(&self) -> CellCrossing {
         let state = &self.state;
         let frame = state.origin_at(&self.problem, &state.poses)
             - state.origin_at(&self.problem, &state.previous_poses);
         let frame = crate::body::on_mesh::<D>(&frame);
-        let mut most = f64::MIN_POSITIVE;
+        let mut most = CellCrossing { rate: f64::MIN_POSITIVE, reach: 0.0 };
         for cell in state.mesh.cell_ids() {
             let length = |edge: alewife_mesh::Edge<'_>| {
                 let [from, to] = edge.ends;
                 (state.nodes[to] - state.nodes[from]).norm()
             };
-            let shortest = state.mesh.cell_edges(cell).map(length).fold(f64::INFINITY, f64::min);
+            let (mut shortest, mut longest) = (f64::INFINITY, 0.0f64);
+            for length in state.mesh.cell_edges(cell).map(length) {
+                (shortest, longest) = (shortest.min(length), longest.max(length));
+            }
             for &node in state.mesh.cell(cell) {
-                let way = state.nodes[node] - state.nodes_before[node] + frame;
-                let passing = state.now.velocity[node] - way / state.last_step;
-                most = most.max(passing.norm() / shortest);
+                let mut passing = state.now.velocity[node];
+                if state.last_step > 0.0 {
+                    let way = state.nodes[node] - state.nodes_before[node] + frame;
+                    passing -= way / state.last_step;
+                }
+                most.rate = most.rate.max(passing.norm() / shortest);
+                most.reach = most.reach.max(passing.norm() * longest);
             }
         }
         most

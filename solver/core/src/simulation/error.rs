@@ -92,6 +92,28 @@ pub enum RunError {
         /// Where (m).
         near: Vec<f64>,
     },
+    /// The fluid is far faster than what drives it.
+    #[error(
+        "step {step} (t = {time}): the flow has blown up: on average it is {times:.0} times as fast as \
+         the fastest boundary ever was, most near {}; CFL number {cfl:.3e}, cell Reynolds number \
+         {cell_reynolds:.3e}; refine the mesh there, lower time.unsteady.step, or set \
+         time.unsteady.convection = \"newton\"",
+        coordinates(.near)
+    )]
+    BlownUp {
+        /// Step.
+        step: usize,
+        /// Time (s).
+        time: f64,
+        /// Root mean square of the velocity over the largest speed of a boundary so far.
+        times: f64,
+        /// CFL number of the step.
+        cfl: f64,
+        /// Largest cell Reynolds number.
+        cell_reynolds: f64,
+        /// Where the fluid is fastest (m).
+        near: Vec<f64>,
+    },
     /// The linear system is singular.
     #[error("step {step} (t = {time}): the linear system cannot be solved: {reason}")]
     Singular {

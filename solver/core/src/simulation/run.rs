@@ -61,7 +61,7 @@ pub fn simulate_from(
     }
     simulation.stop = observers.iter().find_map(|observer| observer.stop_request());
     let case = &model.case;
-    let mut run = Run { case, observers, series, simulation, measure };
+    let mut run = Run { case, observers, series, simulation, measure, has_warned: false };
     let result = run.make(saved.is_some());
     if let Err(error) = &result {
         run.notify_of_failure(error);
@@ -82,6 +82,8 @@ pub(super) struct Run<'a, const D: usize> {
     series: Series,
     pub simulation: Simulation<D>,
     measure: Measure<D>,
+    /// Whether it was said that steps are too long for the convection.
+    pub has_warned: bool,
 }
 
 /// What is reported of a step besides loads.
@@ -224,7 +226,7 @@ impl<const D: usize> Run<'_, D> {
         summary: StepSummary,
     ) -> Result<(), RunError> {
         self.simulation.record_propulsion(&loads.bodies);
-        let Self { case, observers, series, simulation, measure } = self;
+        let Self { case, observers, series, simulation, measure, .. } = self;
         let measured = measure.measure(case, simulation, loads)?;
         let Simulation { state, work, .. } = simulation;
         series.times.push(state.time);
@@ -249,6 +251,6 @@ impl<const D: usize> Run<'_, D> {
             observers.iter_mut().try_for_each(|observer| observer.on_step(&snapshot))
         })?;
         series.rows.push(measured.values);
-        Ok(())
+        self.check_soundness(&measured.flow)
     }
 }

@@ -1,10 +1,8 @@
 //! `Snapshot`: what an observer sees of a run; `Observer`: who looks on.
 
-use std::sync::Arc;
-
 use alewife_mesh::{Mesh, Point};
 
-use super::{RunError, SavedState, Timing};
+use super::{RunError, SavedState, StopRequest, Timing};
 use crate::body::{Pose, Twist, Wrench};
 use crate::case::Case;
 
@@ -75,10 +73,6 @@ pub struct LastState<'a, const D: usize> {
     /// All that evolves, for a run that resumes; none of a steady solution.
     pub saved: Option<&'a SavedState<D>>,
 }
-
-/// Whether a run is to end, asked between steps and within long ones; what is not yet a whole step is
-/// then left out.
-pub type StopRequest = Arc<dyn Fn() -> bool + Send + Sync>;
 
 /// Sees everything, changes nothing.
 pub trait Observer<const D: usize> {

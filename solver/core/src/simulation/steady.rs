@@ -10,7 +10,7 @@ use super::RunError;
 use super::newton::{
     Criterion, Flow, FlowEquations, Iterate, NewtonFailure, NewtonStop, flow_residual, newton,
 };
-use super::snapshot::StopRequest;
+use super::stop_request::StopRequest;
 use super::workspace::Workspace;
 use crate::case::Steady;
 use crate::coupling::{BodiesAt, Configuration, Problem, RigidBodyEquations, Solution, SolveError};

@@ -2,8 +2,8 @@
 
 use super::error::{RunError, StepError};
 use super::mesh_path::MeshPath;
-use super::snapshot::StopRequest;
 use super::state::{NewLevel, State};
+use super::stop_request::StopRequest;
 use crate::case::Convection;
 use crate::contact::Law;
 use crate::coupling::{Problem, SurfaceLoads};

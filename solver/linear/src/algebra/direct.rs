@@ -103,7 +103,12 @@ impl LinearSolver for DirectSolver {
             return Err(LinearError::NotFinite);
         }
         self.factors.factorise(&self.analysis, matrix)?;
-        tracing::debug!(delayed_fronts = self.factors.n_delayed_fronts(), "factorised");
+        tracing::debug!(
+            delayed_fronts = self.factors.n_delayed_fronts(),
+            delayed_pivots = self.factors.n_delayed_pivots(),
+            entries = self.factors.n_entries(&self.analysis),
+            "factorised"
+        );
         self.factorised = hash;
         Ok(())
     }

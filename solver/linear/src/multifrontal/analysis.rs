@@ -65,8 +65,12 @@ impl Analysis {
             sequence: &sequence,
             unknowns: Buckets::new(&vertices.of_unknown, vertices.n),
         };
-        let mut layout = Layout::new(&tree.supernodes, &members, &unknowns.is_pressure);
+        let mut dense: Vec<u32> = unknowns.dense.iter().map(|&unknown| to_u32(unknown)).collect();
+        dense.sort_unstable();
+        let kinds = Kinds { is_pressure: &unknowns.is_pressure, dense: &dense };
+        let mut layout = Layout::new(&tree.supernodes, &members, kinds);
         let border = layout.borders(&tree.supernodes, &members);
+        layout.count_dense(&border, kinds);
         let Layout { mut fronts, unknown_at, position_of, n_values } = layout;
         let (children, relative) = (list_children(&mut fronts), relative_indices(&fronts, &border));
         let is_pressure_at: Vec<bool> =
@@ -82,8 +86,6 @@ impl Analysis {
         };
         let subtrees = tree.subtree_sizes.iter().map(|&size| next_subtree(size)).collect();
         let top = next_subtree(tree.n_above);
-        let mut dense: Vec<u32> = unknowns.dense.iter().map(|&unknown| to_u32(unknown)).collect();
-        dense.sort_unstable();
         Self {
             n_entries: pattern.n_entries(),
             diagonal: diagonal(pattern, &unknown_at),
@@ -166,6 +168,26 @@ impl Members<'_> {
     }
 }
 
+/// What the unknowns are.
+#[derive(Debug, Clone, Copy)]
+struct Kinds<'a> {
+    is_pressure: &'a [bool],
+    /// Unknowns with dense rows, ascending.
+    dense: &'a [u32],
+}
+
+impl Kinds<'_> {
+    fn is_dense(self, unknown: u32) -> bool {
+        self.dense.binary_search(&unknown).is_ok()
+    }
+
+    /// Unknowns of a front are eliminated by ascending rank. Velocities first: a pressure has no pivot
+    /// before its velocities are eliminated. Rigid velocities last, as in the fronts below.
+    fn rank(self, unknown: u32) -> u8 {
+        if self.is_dense(unknown) { 2 } else { u8::from(self.is_pressure[unknown as usize]) }
+    }
+}
+
 /// The fronts of supernodes, and the order of elimination that they give.
 struct Layout {
     fronts: Vec<Front>,
@@ -175,18 +197,14 @@ struct Layout {
 }
 
 impl Layout {
-    fn new(supernodes: &[Supernode], members: &Members<'_>, is_pressure: &[bool]) -> Self {
-        let n = is_pressure.len();
+    fn new(supernodes: &[Supernode], members: &Members<'_>, kinds: Kinds<'_>) -> Self {
+        let n = kinds.is_pressure.len();
         let mut unknown_at: Vec<u32> = Vec::with_capacity(n);
         let mut fronts = Vec::with_capacity(supernodes.len());
         for node in supernodes {
             let start = unknown_at.len();
-            // Velocities first: a pressure has no pivot before its velocities are eliminated.
-            for pressures in [false, true] {
-                let own = members.of(&node.own);
-                unknown_at
-                    .extend(own.filter(|&unknown| is_pressure[unknown as usize] == pressures));
-            }
+            unknown_at.extend(members.of(&node.own));
+            unknown_at[start..].sort_by_key(|&unknown| kinds.rank(unknown));
             let parent = node.parent.map(|parent| parent as usize);
             fronts.push(Front::new(start, unknown_at.len() - start, node.r, parent));
         }
@@ -212,6 +230,15 @@ impl Layout {
             border[front.border_start..].sort_unstable();
         }
         border
+    }
+
+    /// Counts the unknowns with dense rows at the end of each border.
+    fn count_dense(&mut self, border: &[u32], kinds: Kinds<'_>) {
+        for front in &mut self.fronts {
+            let from_the_end = border[front.border()].iter().rev();
+            let is_dense = |&&at: &&u32| kinds.is_dense(self.unknown_at[at as usize]);
+            front.n_dense = from_the_end.take_while(is_dense).count();
+        }
     }
 }
 

@@ -40,13 +40,29 @@ pub(super) struct PanelShape {
     pub stride: usize,
 }
 
-/// LU of a panel with partial pivoting among its first `pivot_rows` rows; `swaps[j]` is how far below
-/// row j the pivot was found.
+/// What the rows of a panel are to its pivots, from the first row on.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct PivotRows {
+    /// Number of rows that pivots are taken from.
+    pub candidates: usize,
+    /// Number of rows, these included, whose entries a pivot has to be large enough against.
+    pub tested: usize,
+}
+
+impl PivotRows {
+    /// Without the first rows.
+    fn after(self, rows: usize) -> Self {
+        Self { candidates: self.candidates - rows, tested: self.tested - rows }
+    }
+}
+
+/// LU of a panel with partial pivoting among its first rows; `swaps[j]` is how far below row j the
+/// pivot was found.
 pub(super) fn lu(
     arch: pulp::Arch,
     a: &mut [f64],
     shape: PanelShape,
-    pivot_rows: usize,
+    pivot_rows: PivotRows,
     swaps: &mut [u32],
 ) -> Result<(), NoPivot> {
     let PanelShape { rows, columns, stride } = shape;
@@ -72,7 +88,7 @@ pub(super) fn lu(
         matmul(lower, Accum::Add, multipliers, upper.as_ref(), -1.0, Par::Seq);
     }
     let below = PanelShape { rows: rows - half, columns: others, stride };
-    lu(arch, &mut right[half..], below, pivot_rows - half, right_swaps)?;
+    lu(arch, &mut right[half..], below, pivot_rows.after(half), right_swaps)?;
     swap_rows(&mut left[half..], half, stride, right_swaps);
     Ok(())
 }
@@ -90,7 +106,7 @@ pub(super) fn swap_rows(a: &mut [f64], columns: usize, stride: usize, swaps: &[u
 struct Narrow<'a> {
     a: &'a mut [f64],
     shape: PanelShape,
-    pivot_rows: usize,
+    pivot_rows: PivotRows,
     swaps: &'a mut [u32],
 }
 
@@ -107,16 +123,17 @@ impl pulp::WithSimd for Narrow<'_> {
 fn lu_narrow(
     a: &mut [f64],
     shape: PanelShape,
-    pivot_rows: usize,
+    pivot_rows: PivotRows,
     swaps: &mut [u32],
 ) -> Result<(), NoPivot> {
     let PanelShape { rows, columns, stride } = shape;
+    let PivotRows { candidates, tested } = pivot_rows;
     for j in 0..columns {
         let end = a.len().min((j + 1) * stride);
         let (done, later) = a.split_at_mut(end);
         let column = &mut done[j * stride..j * stride + rows];
-        let Largest { index: below, size } = largest(&column[j..pivot_rows]).ok_or(NoPivot)?;
-        if largest_size(&column[pivot_rows..]) * THRESHOLD > size {
+        let Largest { index: below, size } = largest(&column[j..candidates]).ok_or(NoPivot)?;
+        if largest_size(&column[candidates..tested]) * THRESHOLD > size {
             return Err(NoPivot);
         }
         swaps[j] = to_u32(below);
@@ -211,9 +228,16 @@ pub(super) struct PartialLu {
     pub columns: Vec<u32>,
 }
 
-/// LU with a free choice of pivot columns: as many of the k fully summed columns of the m x k panel
-/// as have a pivot above `pivot_floors[column]` and large enough against the rest of its column.
-pub(super) fn lu_delaying(l: &mut [f64], m: usize, k: usize, pivot_floors: &[f64]) -> PartialLu {
+/// LU with a free choice of pivot columns: as many of the k fully summed columns of the panel of m
+/// rows as have a pivot above `pivot_floors[column]` and large enough against the tested rest of its
+/// column.
+pub(super) fn lu_delaying(
+    l: &mut [f64],
+    m: usize,
+    pivot_rows: PivotRows,
+    pivot_floors: &[f64],
+) -> PartialLu {
+    let PivotRows { candidates: k, tested } = pivot_rows;
     let mut rows: Vec<u32> = (0..to_u32(k)).collect();
     let mut columns = rows.clone();
     let mut pivots = 0;
@@ -222,7 +246,7 @@ pub(super) fn lu_delaying(l: &mut [f64], m: usize, k: usize, pivot_floors: &[f64
             let values = &l[column * m..(column + 1) * m];
             let Largest { index: below, size } = largest(&values[pivots..k])?;
             let is_acceptable = size > pivot_floors[columns[column] as usize]
-                && size >= THRESHOLD * largest_size(&values[k..]);
+                && size >= THRESHOLD * largest_size(&values[k..tested]);
             is_acceptable.then_some((column, pivots + below))
         });
         let Some((column, row)) = candidate else { break };

@@ -6,7 +6,7 @@ use std::ops::Range;
 use faer::Accum;
 
 use super::analysis::Analysis;
-use super::dense::{self, NoPivot, PanelShape};
+use super::dense::{self, NoPivot, PanelShape, PivotRows};
 use super::front::Front;
 use crate::sparse::index::to_u32;
 
@@ -79,6 +79,8 @@ pub(super) struct DelayedPivotFactors {
     pub columns: Vec<u32>,
     /// p.
     pub n_pivots: usize,
+    /// Number of unknowns that might have been eliminated in the front.
+    pub n_candidates: usize,
 }
 
 /// A front eliminated with delayed pivots.
@@ -110,6 +112,8 @@ struct FrontMatrix<'a> {
     c: &'a mut [f64],
     k: usize,
     m: usize,
+    /// Number of unknowns with dense rows at the end of the border.
+    n_dense: usize,
 }
 
 /// Assembles and eliminates a front of the size that the analysis foresaw.
@@ -134,7 +138,7 @@ pub(super) fn factorise_static<'a>(
         }
     }
     let (l, u) = panel.split_at_mut(m * k);
-    let mut matrix = FrontMatrix { l, u, c: contribution, k, m };
+    let mut matrix = FrontMatrix { l, u, c: contribution, k, m, n_dense: front.n_dense };
     for child in children {
         matrix.extend_add(child.relative, child.values);
     }
@@ -161,7 +165,7 @@ pub(super) fn factorise_delayed<'a>(
     let mut rows: Vec<u32> = (to_u32(front.start)..).take(front.k).collect();
     let mut columns = rows.clone();
     let (mut l, mut u, mut c) = (vec![0.0; m * k], vec![0.0; k * r], vec![0.0; r * r]);
-    let mut matrix = FrontMatrix { l: &mut l, u: &mut u, c: &mut c, k, m };
+    let mut matrix = FrontMatrix { l: &mut l, u: &mut u, c: &mut c, k, m, n_dense: front.n_dense };
     matrix.add_entries(context, front, n_delayed);
     for child in children {
         let first = to_u32(rows.len());
@@ -174,7 +178,7 @@ pub(super) fn factorise_delayed<'a>(
     }
     let pivot_floors: Vec<f64> =
         columns.iter().map(|&position| context.pivot_floors[position as usize]).collect();
-    let partial = dense::lu_delaying(matrix.l, m, k, &pivot_floors);
+    let partial = dense::lu_delaying(matrix.l, m, matrix.pivot_rows(), &pivot_floors);
     let p = partial.pivots;
     matrix.permute_border_rows(&partial.rows);
     matrix.eliminate_from_border(p);
@@ -192,7 +196,7 @@ pub(super) fn factorise_delayed<'a>(
     let upper = matrix.upper(p);
     l.truncate(m * p);
     l.shrink_to_fit();
-    let factors = DelayedPivotFactors { l, u: upper, rows, columns, n_pivots: p };
+    let factors = DelayedPivotFactors { l, u: upper, rows, columns, n_pivots: p, n_candidates: k };
     DelayedElimination { factors, contribution }
 }
 
@@ -205,6 +209,10 @@ fn shifted(index: usize, front: &Front, n_delayed: usize) -> usize {
 impl FrontMatrix<'_> {
     fn r(&self) -> usize {
         self.m - self.k
+    }
+
+    fn pivot_rows(&self) -> PivotRows {
+        PivotRows { candidates: self.k, tested: self.m - self.n_dense }
     }
 
     /// Adds the entries of the matrix to a front with some delayed unknowns.
@@ -234,7 +242,7 @@ impl FrontMatrix<'_> {
     /// Adds a child's contribution; `map` gives the index in the front of each of its unknowns, those
     /// that are fully summed (below k) first.
     fn extend_add(&mut self, map: &[u32], values: &[f64]) {
-        let Self { l, u, c, k, m } = self;
+        let Self { l, u, c, k, m, .. } = self;
         let (k, m, r) = (*k, *m, self.m - self.k);
         let n_summed = map.iter().take_while(|&&index| (index as usize) < k).count();
         for (&column, source) in map.iter().zip(values.chunks(map.len())) {
@@ -270,7 +278,7 @@ impl FrontMatrix<'_> {
         use rayon::prelude::*;
         let (k, m, r) = (self.k, self.m, self.r());
         let shape = PanelShape { rows: m, columns: k, stride: m };
-        dense::lu(context.arch, self.l, shape, k, swaps)?;
+        dense::lu(context.arch, self.l, shape, self.pivot_rows(), swaps)?;
         let pivots = (0..k).map(|column| self.l[column * m + column].abs());
         if pivots.zip(pivot_floors).any(|(pivot, floor)| pivot <= *floor) {
             return Err(NoPivot);
@@ -305,7 +313,7 @@ impl FrontMatrix<'_> {
 
     /// Eliminates p pivots from the columns of the border, in delayed rows too.
     fn eliminate_from_border(&mut self, p: usize) {
-        let Self { l, u, c, k, m } = self;
+        let Self { l, u, c, k, m, .. } = self;
         let (k, m, r) = (*k, *m, self.m - self.k);
         for column in 0..r {
             let u = &mut u[column * k..(column + 1) * k];

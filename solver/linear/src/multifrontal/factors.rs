@@ -73,6 +73,24 @@ impl Factors {
         self.delayed.len()
     }
 
+    /// Number of pivots that were delayed, once for each front they were delayed in.
+    #[must_use]
+    pub fn n_delayed_pivots(&self) -> usize {
+        let delayed_in = |own: &DelayedPivotFactors| own.n_candidates - own.n_pivots;
+        self.delayed.values().map(delayed_in).sum()
+    }
+
+    /// Number of entries of L and U, those of delayed pivots included.
+    #[must_use]
+    pub fn n_entries(&self, analysis: &Analysis) -> usize {
+        let foreseen = |front: &usize| analysis.fronts[*front].n_values();
+        let (planned, actual) =
+            self.delayed.iter().fold((0, 0), |(planned, actual), (front, own)| {
+                (planned + foreseen(front), actual + own.l.len() + own.u.len())
+            });
+        analysis.n_values - planned + actual
+    }
+
     /// Factor of each equation that makes those of pressures as large as those of velocities.
     #[must_use]
     pub fn row_scales(&self, analysis: &Analysis) -> Vec<f64> {

@@ -12,6 +12,8 @@ pub(super) struct Front {
     pub k: usize,
     /// Number of unknowns of the border.
     pub r: usize,
+    /// Number of unknowns with dense rows at the end of the border.
+    pub n_dense: usize,
     /// The front its contribution goes to.
     pub parent: Option<usize>,
     /// Its part of the list of all children.
@@ -38,6 +40,7 @@ impl Front {
             start,
             k,
             r,
+            n_dense: 0,
             parent,
             children: 0..0,
             border_start: 0,

@@ -145,7 +145,7 @@ impl<const D: usize> Run<'_, D> {
     /// which the smallest gap closes.
     fn propose(&self, adaptive: &Adaptive, size: f64, factor: f64, gap: Option<f64>) -> f64 {
         let simulation = &self.simulation;
-        let proposed = (size * factor).min(adaptive.cfl / simulation.crossing_rate());
+        let proposed = (size * factor).min(adaptive.cfl / simulation.cell_crossing().rate);
         match (gap, simulation.state.contact.minimum_gap) {
             (Some(before), Some(now)) => {
                 let rate = (now.gap - before).abs() / size;

@@ -11,7 +11,7 @@ mod swimmers;
 use alewife_mesh::{Mesh, Point};
 
 use self::bodies::{BodyMotion, Coefficients, body_reports, joint_value, measure_joints};
-use self::flow::FlowMeasurement;
+pub(super) use self::flow::FlowMeasurement;
 use self::probes::Probes;
 use self::swimmers::SwimmerMeasurement;
 use super::advance::Simulation;
@@ -36,6 +36,8 @@ pub(super) struct Measured {
     pub bodies: Vec<BodyReport>,
     /// The values of all quantities, in the order of their names.
     pub values: Vec<f64>,
+    /// The whole flow.
+    pub flow: FlowMeasurement,
 }
 
 impl<const D: usize> Measure<D> {
@@ -100,7 +102,8 @@ impl<const D: usize> Measure<D> {
         loads: &SurfaceLoads,
     ) -> Result<Measured, RunError> {
         let bodies = body_reports(simulation, &loads.bodies);
-        let Simulation { problem, state, work, .. } = simulation;
+        let mut flow = FlowMeasurement::new(simulation);
+        let Simulation { problem, state, .. } = simulation;
         let joints = measure_joints(problem, state, &loads.bodies)?;
         let groups = problem.groups.iter().zip(&state.propulsion);
         let swimmers: Vec<_> = groups
@@ -109,7 +112,6 @@ impl<const D: usize> Measure<D> {
             })
             .collect();
         let probes = self.probes.values(state);
-        let mut flow = FlowMeasurement::new(work.system.tables(), problem, state);
         if self.balances_energy {
             let has_memory = self.is_unsteady && problem.has_inertia;
             flow.energy_defect =
@@ -129,6 +131,6 @@ impl<const D: usize> Measure<D> {
             Source::Flow(quantity) => flow.value(quantity),
         };
         let values = self.sources.iter().map(value).collect();
-        Ok(Measured { bodies, values })
+        Ok(Measured { bodies, values, flow })
     }
 }
