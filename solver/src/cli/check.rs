@@ -13,7 +13,7 @@ use crate::case::{
     Cadence, CaseFile, Diagnostic, FlowModel, Model, Precision, Scheme, TimeSettings,
     known_quantities, number_table,
 };
-use crate::coupling::{FluidSystem, memory_estimate};
+use crate::coupling::{count_unknowns, memory_estimate};
 use crate::simulation::build_problem;
 
 /// Output above which a warning is given (bytes).
@@ -106,7 +106,7 @@ fn n_systems(model: &Model) -> f64 {
 /// Unknowns, memory, time and files of a run.
 fn costs(model: &Model, mesh: &Mesh<2>) -> Result<String, Failure> {
     let on_mesh = 2 * mesh.n_nodes() + mesh.n_vertices;
-    let free = FluidSystem::count_unknowns(&build_problem(model, mesh)?, mesh);
+    let free = count_unknowns(&build_problem(model, mesh)?, mesh);
     let n_dofs = free as f64;
     let memory = memory_estimate(on_mesh);
     // Measured on planar runs with 1.1 10^4 to 2 10^5 unknowns on one core, all systems factorised.

@@ -23,7 +23,7 @@ mod surface_load;
 mod system;
 
 pub use boundaries::{Boundaries, BoundaryNode};
-pub use constrain::{BodiesAt, BoundaryValues, impose_boundary_values};
+pub use constrain::{BodiesAt, BoundaryValues, count_unknowns, impose_boundary_values};
 pub use error::{SolveError, coordinates};
 pub use joint_loads::{BodyStates, JointReport, joint_reports};
 pub use loads::{BodyLoads, ResidualOnMesh, SurfaceLoads, surface_loads};

@@ -105,17 +105,6 @@ impl<const D: usize> FluidSystem<D> {
         }
     }
 
-    /// Number of free unknowns of a problem on a mesh, without analysing its system.
-    #[must_use]
-    pub fn count_unknowns(problem: &Problem<D>, mesh: &Mesh<D>) -> usize {
-        let poses: Vec<Pose> = problem.bodies.iter().map(|body| body.pose).collect();
-        let layout = DofLayout::new(mesh, problem.bodies.len(), problem.modes().len());
-        let shapes = BodyShapes::rigid(problem.bodies.len());
-        let at = BodiesAt { poses: &poses, shapes: &shapes };
-        let boundaries = Boundaries::new(mesh);
-        Constrainer { problem, mesh, layout: &layout }.constraints(&boundaries, at).n_unknowns()
-    }
-
     /// Entries of the matrix.
     #[must_use]
     pub fn n_entries(&self) -> usize {

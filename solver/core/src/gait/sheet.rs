@@ -76,7 +76,7 @@ mod tests {
     #[test]
     fn material_stays_on_the_curve_and_keeps_its_length() {
         for is_extensible in [false, true] {
-            let sheet = WavingSheet::new(0.3, 2.0, 0.5, is_extensible);
+            let sheet = WavingSheet::new(0.3, 2.0, 2.0, is_extensible);
             let steps = 4000;
             let step = 2.0 / f64::from(steps);
             let mut points = [0.1_f64, 0.5].map(|x| Vector2::new(x, sheet.height(x, 0.0)));
