@@ -111,7 +111,7 @@ impl<const D: usize> TimeStepper<'_, D> {
         let report = StepReport {
             loads: flow.loads.clone(),
             iterations: stages.iterations,
-            error: self.explicit_error(&stages.rates),
+            error: self.explicit_error(state, &poses, &stages.rates, size)?,
         };
         let level = self.explicit_level(state, size, flow, poses, &stages.powers)?;
         Ok(StepResult { level, report })
@@ -220,19 +220,29 @@ impl<const D: usize> TimeStepper<'_, D> {
         })
     }
 
-    /// Error of the new poses over the largest velocity of a step, at most.
-    fn explicit_error(&self, rates: &[Vec<RigidVector>]) -> f64 {
+    /// Error of the new poses over the largest velocity of a step, at most, or that of the smallest gap.
+    fn explicit_error(
+        &self,
+        state: &State<D>,
+        poses: &[Pose],
+        rates: &[Vec<RigidVector>],
+        size: f64,
+    ) -> Result<f64, StepError> {
+        let errors: Vec<RigidVector> = (0..poses.len())
+            .map(|body| rates.iter().zip(ERROR).map(|(rate, weight)| rate[body] * weight).sum())
+            .collect();
         let (mut error, mut scale) = (0.0f64, 0.0f64);
-        for body in 0..self.problem.bodies.len() {
+        for (body, of_body) in errors.iter().enumerate() {
             for mode in self.problem.modes().iter() {
                 let length = self.path.length_of(body, mode);
-                let weighted =
-                    rates.iter().zip(ERROR).map(|(rate, weight)| weight * rate[body][mode]);
-                error = error.max(length * weighted.sum::<f64>().abs());
+                error = error.max(length * of_body[mode].abs());
                 scale =
                     rates.iter().map(|rate| length * rate[body][mode].abs()).fold(scale, f64::max);
             }
         }
-        if scale > 0.0 { error / scale } else { 0.0 }
+        let of_velocities = if scale > 0.0 { error / scale } else { 0.0 };
+        let gaps = self.path.gaps_at_time(&self.problem.bodies, state.time + size)?;
+        let errors: Vec<RigidVector> = errors.into_iter().map(|error| error * size).collect();
+        Ok(of_velocities.max(self.gap_error(gaps.as_deref(), state, poses, &errors)))
     }
 }
