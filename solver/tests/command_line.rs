@@ -232,3 +232,63 @@ fn files_of_others_are_never_replaced() {
     let told = String::from_utf8_lossy(&refused.stderr);
     assert!(told.contains("own/case.toml lies in own"), "{told}");
 }
+
+/// Three links above a wall, their joints bent in quadrature, at steps of a size.
+const THREE_LINKS: &str = r#"
+title = "three links above a wall"
+geometry = "planar"
+fluid = { model = "stokes", viscosity = 1.0 }
+domain.box = { min = [-4.0, 0.0], max = [4.0, 4.0] }
+boundary = { left = "no-slip", right = "no-slip", bottom = "no-slip", top = "no-slip" }
+mesh = { size = 1.5, surface = 0.2, growth = 0.5, gap_layers = 1 }
+time.unsteady = { step = 0.05, end = 1.0 }
+[[swimmer]]
+name = "links"
+center = [0.0, 1.0]
+[swimmer.kind.chain]
+links = [[0.5, 0.12], [0.5, 0.12], [0.5, 0.12]]
+gap = 0.3
+joints = [
+    { bent = { angle = { sine = { amplitude = 0.7, period = 1.0 } } } },
+    { bent = { angle = { sine = { amplitude = 0.7, period = 1.0, phase = 1.5707963 } } } },
+]
+"#;
+
+#[test]
+fn a_run_warns_of_the_error_of_a_stroke() {
+    let directory = tempfile::tempdir().unwrap();
+    std::fs::write(directory.path().join("links.toml"), THREE_LINKS).unwrap();
+    let swim = |scheme: &str, steps: usize| -> ([f64; 2], Option<f64>) {
+        let scheme = format!("time.unsteady.scheme={scheme}");
+        let step = format!("time.unsteady.step={}", 1.0 / steps as f64);
+        let replace = ["run", "links.toml", "--overwrite", "--threads", "1"];
+        let output = alewife(
+            directory.path(),
+            &[&replace[..], &["--set", &scheme, "--set", &step]].concat(),
+        );
+        let told = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(0), "{told}");
+        let series = std::fs::read_to_string(directory.path().join("runs/links/series.csv"));
+        let series = series.unwrap();
+        let row = |line: &str| line.split(',').map(str::to_owned).collect::<Vec<_>>();
+        let (names, values) =
+            (row(series.lines().next().unwrap()), row(series.lines().last().unwrap()));
+        let value = |name: &str| -> f64 {
+            let column = names.iter().position(|known| known == name).unwrap();
+            values[column].parse().unwrap()
+        };
+        let percent = told.split("uncertain by about ").nth(1);
+        let percent = percent.map(|rest| rest.split(' ').next().unwrap().parse().unwrap());
+        (["links.cycle.x", "links.cycle.y"].map(value), percent)
+    };
+    let (exact, none) = swim("rk3", 40);
+    assert_eq!(none, None);
+    for (scheme, steps) in [("bdf2", 5), ("bdf2", 10), ("bdf2", 20)] {
+        let ([x, y], percent) = swim(scheme, steps);
+        let error = (x - exact[0]).hypot(y - exact[1]) / x.hypot(y);
+        let percent = percent.expect("an error is warned of");
+        println!("{scheme}, {steps} steps: {:.2} % off, {percent} % estimated", 100.0 * error);
+        assert!(percent > 50.0 * error && percent < 200.0 * error, "{steps}: {error}, {percent} %");
+    }
+    assert_eq!(swim("rk3", 10).1, None);
+}

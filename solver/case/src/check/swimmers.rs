@@ -218,7 +218,7 @@ fn short_steps(findings: &mut Findings<'_>) {
 /// Steps of a cycle below which you are warned.
 const FEWEST_STEPS: f64 = 10.0;
 
-/// The explicit method has no inertia, no contact and nothing stiff.
+/// The explicit method has no inertia and nothing stiff.
 fn explicit_scheme(findings: &mut Findings<'_>) {
     let case = findings.case();
     let TimeSettings::Unsteady(unsteady) = &case.time else { return };
@@ -232,7 +232,6 @@ fn explicit_scheme(findings: &mut Findings<'_>) {
         .any(|joint| matches!(&joint.kind, JointKind::Hinge(hinge) if hinge.stiffness > 0.0));
     let hinders = [
         (case.fluid.model != FlowModel::Stokes, "the model has inertia"),
-        (case.contact.is_some(), "there is [contact]"),
         (model.bodies.iter().any(|body| body.spring.is_some()), "there are springs"),
         (is_stiff, "there are hinges with stiffness"),
     ];
@@ -240,7 +239,7 @@ fn explicit_scheme(findings: &mut Findings<'_>) {
         findings.error(
             "time.unsteady.scheme",
             format!("the scheme `rk3` cannot be used: {why}"),
-            "leave it out for `bdf2`, or write model = \"stokes\" without contact, springs and stiffness",
+            "leave it out for `bdf2`, or write model = \"stokes\" without springs and stiffness",
         );
     }
 }

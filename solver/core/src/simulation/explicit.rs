@@ -7,6 +7,7 @@
 use alewife_mesh::Point;
 
 use super::error::StepError;
+use super::explicit_contact::StageContact;
 use super::history::{INSIDE, StepHistory};
 use super::pass::{Pass, PassEquations, Placement};
 use super::propulsion_history::{PowerShare, PropulsionStep};
@@ -30,7 +31,7 @@ impl Stage {
     fn instant<const D: usize>(&self, state: &State<D>, size: f64) -> Instant {
         let time = state.time + self.part * size;
         let rates_at = if self.part < 1.0 { time } else { time - INSIDE * size };
-        Instant { time, rates_at }
+        Instant { step: size, time, rates_at }
     }
 }
 
@@ -42,9 +43,11 @@ const STAGES: [Stage; 3] = [
 /// Weights of the stages in the error of the new poses.
 const ERROR: [f64; 4] = [-5.0 / 72.0, 1.0 / 12.0, 1.0 / 9.0, -1.0 / 8.0];
 
-/// When a flow is instantaneous.
+/// When a flow is instantaneous, and in which step.
 #[derive(Debug, Clone, Copy)]
 struct Instant {
+    /// Size of the step (s).
+    step: f64,
     /// Time of the shapes (s).
     time: f64,
     /// Time at which rates of gaits and boundary values are taken (s).
@@ -56,6 +59,7 @@ struct InstantaneousFlow<const D: usize> {
     solution: Solution<D>,
     loads: Vec<BodyLoads>,
     powers: Vec<PropulsionPower>,
+    contact: ContactLoads,
     nodes: Vec<Point<D>>,
     iterations: usize,
 }
@@ -117,7 +121,7 @@ impl<const D: usize> TimeStepper<'_, D> {
         Ok(StepResult { level, report })
     }
 
-    /// The flow at the beginning, which is that of the state unless rates jump.
+    /// The flow at the beginning, which is that of the state unless rates or loads jump.
     fn first_stage(
         &self,
         work: &mut Workspace<D>,
@@ -132,7 +136,8 @@ impl<const D: usize> TimeStepper<'_, D> {
             iterations: 0,
         };
         if rates_jump {
-            let at = Instant { time: state.time, rates_at: state.time + INSIDE * size };
+            let rates_at = state.time + INSIDE * size;
+            let at = Instant { step: size, time: state.time, rates_at };
             let flow = self.flow_at(work, state, &state.poses, at, &state.now)?;
             stages.push(&flow);
         } else {
@@ -171,16 +176,24 @@ impl<const D: usize> TimeStepper<'_, D> {
         guess: &Solution<D>,
     ) -> Result<InstantaneousFlow<D>, StepError> {
         let history = StepHistory::instantaneous(self.problem, poses, at.time, at.rates_at)?;
+        let gaps = self.path.gaps(&history.shapes);
+        let seen = state.in_own_frame(self.problem, poses);
+        let contact = StageContact::new(self.contact, gaps.as_deref(), &seen)?;
         let nodes = self.path.move_mesh(work, self.problem, state, poses, &history.shapes)?;
         let placement = Placement { nodes: nodes.clone(), poses: poses.to_vec() };
         let pass = Pass::new(self, work, state, &history, placement);
         let equations = PassEquations::new(self, &history, &pass);
         let mut flow = self.solve(work, &equations, guess.clone())?;
+        if let Some(contact) = &contact {
+            contact.apply(work, self, &equations, at.step, &mut flow)?;
+        }
         let loads = self.loads(work, state, &equations, &mut flow);
         Ok(InstantaneousFlow {
             solution: flow.solution,
             loads: loads.bodies,
             powers: loads.propulsion,
+            contact: contact
+                .map_or_else(|| ContactLoads::none(poses.len()), |contact| contact.loads),
             nodes,
             iterations: flow.iterations,
         })
@@ -196,8 +209,7 @@ impl<const D: usize> TimeStepper<'_, D> {
     ) -> Result<NewLevel<D>, StepError> {
         let time = state.time + size;
         let gaps = self.path.gaps_at_time(&self.problem.bodies, time)?;
-        let none = ContactLoads::none(poses.len());
-        let contact = self.with_minimum_gap(none, gaps.as_deref(), state, &poses);
+        let contact = self.with_minimum_gap(flow.contact, gaps.as_deref(), state, &poses);
         let twists = flow.solution.twists.iter().zip(&state.now.twists);
         let accelerations = twists
             .map(|(new, old)| Twist::from_vector(&((new.to_vector() - old.to_vector()) / size)));

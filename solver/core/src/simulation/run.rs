@@ -1,6 +1,7 @@
 //! The run: build, solve or step in time, measure, notify the observers.
 
 use super::advance::Simulation;
+use super::cycle_error::OtherSteps;
 use super::measure::Measure;
 use super::planar::{Prepared, prepare};
 use super::resume::SavedState;
@@ -68,7 +69,19 @@ pub fn simulate_from(
         }
     }
     let case = &model.case;
-    let mut run = Run { case, observers, series, simulation, measure };
+    let mut run = Run {
+        case,
+        observers,
+        series,
+        simulation,
+        measure,
+        other_steps: None,
+        is_trial: false,
+        rejections: 0,
+    };
+    if saved.is_none() {
+        run.try_other_steps(model);
+    }
     let result = run.make(saved.is_some());
     if let Err(error) = &result {
         run.notify_of_failure(error)?;
@@ -89,6 +102,12 @@ pub(super) struct Run<'a, const D: usize> {
     series: Series,
     pub simulation: Simulation<D>,
     measure: Measure<D>,
+    /// What the error of the first cycle is told by, until it is.
+    pub other_steps: Option<OtherSteps>,
+    /// Whether nothing is measured or shown.
+    pub is_trial: bool,
+    /// Fixed steps that were halved.
+    pub rejections: usize,
 }
 
 /// What is reported of a step besides loads.
@@ -184,7 +203,7 @@ impl<const D: usize> Run<'_, D> {
     }
 
     /// The flow an unsteady run starts from.
-    fn begin(&mut self, settings: &Unsteady) -> Result<(), RunError> {
+    pub(super) fn begin(&mut self, settings: &Unsteady) -> Result<(), RunError> {
         let n_bodies = self.simulation.problem.bodies.len();
         let mut loads = vec![BodyLoads::default(); n_bodies];
         let has_inertia = self.simulation.problem.has_inertia;
@@ -222,7 +241,13 @@ impl<const D: usize> Run<'_, D> {
         summary: StepSummary,
     ) -> Result<(), RunError> {
         self.simulation.record_propulsion(loads);
-        let Self { case, observers, series, simulation, measure } = self;
+        if self.is_trial {
+            return Ok(());
+        }
+        if let Some(other) = self.other_steps.take_if(|own| own.is_due(&self.simulation)) {
+            other.compare(&self.simulation);
+        }
+        let Self { case, observers, series, simulation, measure, .. } = self;
         let measured = measure.measure(case, simulation, loads)?;
         let Simulation { state, work, .. } = simulation;
         series.times.push(state.time);
