@@ -183,8 +183,6 @@ fn explicit_steps_have_no_inertia_and_nothing_stiff() {
         "stiffness = 0.1",
         &[&why("there are hinges with stiffness")],
     );
-    let contact = "contact.barrier = { range = 0.1, stiffness = 1.0 }\n[[body]]";
-    refused_swimming("[[body]]", contact, &[&why("there is [contact]")]);
     let spring = "motion = \"free\"\nspring.stiffness = [1.0, 1.0]";
     refused_swimming("motion = \"free\"", spring, &[&why("there are springs")]);
 }

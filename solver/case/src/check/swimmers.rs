@@ -222,7 +222,7 @@ fn short_steps(findings: &mut Findings<'_>) {
 /// Steps of a cycle below which you are warned.
 const FEWEST_STEPS: f64 = 10.0;
 
-/// The explicit method has no inertia, no contact and nothing stiff.
+/// The explicit method has no inertia and nothing stiff.
 fn explicit_scheme(findings: &mut Findings<'_>) {
     let case = findings.case();
     let TimeSettings::Unsteady(unsteady) = &case.time else { return };
@@ -239,11 +239,6 @@ fn explicit_scheme(findings: &mut Findings<'_>) {
             case.fluid.model != FlowModel::Stokes,
             "the model has inertia",
             "leave `scheme` out for `bdf2`, or write model = \"stokes\"",
-        ),
-        (
-            case.contact.is_some(),
-            "there is [contact]",
-            "leave `scheme` out for `bdf2`, or leave [contact] out",
         ),
         (
             model.bodies.iter().any(|body| body.spring.is_some()),

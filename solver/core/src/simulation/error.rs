@@ -34,6 +34,17 @@ pub enum StepError {
         /// What is accepted.
         tolerance: f64,
     },
+    /// Contact is stiff in an explicit step.
+    #[error(
+        "contact moves the bodies back within {time_scale:.2e}, too fast for a step of {size:.2e} of \
+         the scheme `rk3`; lower the step, soften the contact, or write scheme = \"bdf2\""
+    )]
+    StiffContact {
+        /// Size of the step (s).
+        size: f64,
+        /// Time in which it does (s).
+        time_scale: f64,
+    },
     /// Poses of bodies and flow do not come to agree.
     #[error("bodies are not where the flow was solved for after {passes} passes")]
     CouplingNotConverged {
