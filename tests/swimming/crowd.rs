@@ -107,7 +107,7 @@ fn swimmers_driven_together_do_not_overlap() {
         radii = [0.2, 0.2, 0.2]
         arms = [
             { sine = { mean = 0.6, amplitude = 0.1, period = 1.0 } },
-            { sine = { mean = 0.6, amplitude = 0.1, period = 1.0, phase = 1.5 } },
+            { sine = { mean = 0.6, amplitude = 0.1, period = 1.0, phase = 0.238732 } },
         ]
         [swimmer.copies.lattice]
         counts = [2, 1]

@@ -71,7 +71,7 @@ fn without_inertia_joints_work_on_the_fluid_alone() {
         gap = 0.3
         joints = [
             { bent = { angle = { sine = { amplitude = 0.5, period = 1.0 } } } },
-            { bent = { angle = { sine = { amplitude = 0.6, period = 1.0, phase = 0.25 } } } },
+            { bent = { angle = { sine = { amplitude = 0.6, period = 1.0, phase = 0.0397887 } } } },
         ]
         "#;
     let axisymmetric = r#"
@@ -84,7 +84,7 @@ fn without_inertia_joints_work_on_the_fluid_alone() {
         radii = [0.5, 0.4, 0.5]
         arms = [
             { sine = { mean = 1.6, amplitude = 0.3, period = 1.0 } },
-            { sine = { mean = 1.7, amplitude = 0.2, period = 1.0, phase = 0.25 } },
+            { sine = { mean = 1.7, amplitude = 0.2, period = 1.0, phase = 0.0397887 } },
         ]
         "#;
     for scene in [planar, axisymmetric] {

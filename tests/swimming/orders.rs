@@ -1,13 +1,18 @@
 //! Orders in time of swimmers without inertia, on one mesh, with smooth strokes and with strokes whose
 //! rates jump.
 
-use alewife_core::simulation::RunSummary;
+use alewife_core::simulation::{RunSummary, simulate};
 use tests::Study;
 use tests::cases::{case, last, run};
 
 /// Three discs of different sizes, off the middle of a box and turned, so that they move and turn in
 /// every way there is.
 fn three_discs(scheme: &str, step: f64, arms: [&str; 2]) -> RunSummary {
+    three_discs_with("", scheme, step, arms)
+}
+
+/// The same with another line in the case.
+fn three_discs_with(line: &str, scheme: &str, step: f64, arms: [&str; 2]) -> RunSummary {
     let text = format!(
         r#"
         title = "three discs"
@@ -17,6 +22,7 @@ fn three_discs(scheme: &str, step: f64, arms: [&str; 2]) -> RunSummary {
         boundary = {{ left = "no-slip", right = "no-slip", bottom = "no-slip", top = "no-slip" }}
         mesh = {{ size = 0.8, surface = 0.2, growth = 0.4, gap_layers = 1, moving.layers = 1, moving.quality = 0.05 }}
         time.unsteady = {{ step = {step:e}, end = 0.8, scheme = "{scheme}" }}
+        {line}
         [[swimmer]]
         name = "swimmer"
         center = [0.2, -0.3]
@@ -41,8 +47,8 @@ fn distance(one: &[f64; 3], other: &[f64; 3]) -> f64 {
 }
 
 const SMOOTH: [&str; 2] = [
-    "{ sine = { mean = 0.9, amplitude = 0.2, period = 1.0, phase = 0.3 } }",
-    "{ sine = { mean = 0.8, amplitude = 0.15, period = 1.0, phase = 1.7 } }",
+    "{ sine = { mean = 0.9, amplitude = 0.2, period = 1.0, phase = 0.0477465 } }",
+    "{ sine = { mean = 0.8, amplitude = 0.15, period = 1.0, phase = 0.270563 } }",
 ];
 /// Knots where no step ends.
 const KINKED: [&str; 2] = [
@@ -60,6 +66,52 @@ fn explicit_steps_are_of_third_order_whether_strokes_are_smooth_or_not() {
         println!("rk3, {name}: order {:.3}, {:?}", study.order(), study.errors);
         assert!(study.order() > 2.7, "{name}: {study:?}");
     }
+}
+
+/// The walls are within the range all the time, and never touched.
+#[test]
+fn explicit_steps_are_of_third_order_with_contact_in_range() {
+    let contact = "contact.barrier = { range = 1.0, stiffness = 0.5 }";
+    let run = |scheme: &str, step: f64| pose(&three_discs_with(contact, scheme, step, SMOOTH));
+    let fine = run("rk3", 0.8 / 48.0);
+    let study =
+        Study::run(&[0.8 / 3.0, 0.8 / 6.0, 0.8 / 12.0], |step| distance(&run("rk3", step), &fine));
+    let implicit = distance(&run("bdf2", 0.8 / 48.0), &fine);
+    let without = distance(&pose(&three_discs("rk3", 0.8 / 12.0, SMOOTH)), &fine);
+    println!("order {:.3}, {:?}, bdf2 {implicit:e}, {without:e}", study.order(), study.errors);
+    assert!(study.order() > 2.7, "{study:?}");
+    assert!(implicit < 0.02 * without, "bdf2 is {implicit:e} off, and contact makes {without:e}");
+    assert!(study.errors[2] < implicit, "twelve explicit steps and 48 implicit ones: {study:?}");
+}
+
+/// A barrier that would push the discs back within a small part of a step.
+#[test]
+fn stiff_contact_is_no_matter_of_explicit_steps() {
+    let run = |line: &str| {
+        let text = format!(
+            r#"
+            title = "a disc pressed on to a wall"
+            geometry = "planar"
+            fluid = {{ model = "stokes", viscosity = 1.0 }}
+            domain.box = {{ min = [-2.0, 0.0], max = [2.0, 2.0] }}
+            boundary = {{ left = "no-slip", right = "no-slip", bottom = "no-slip", top = "no-slip" }}
+            mesh = {{ size = 0.8, surface = 0.2, growth = 0.4, gap_layers = 1 }}
+            time.unsteady = {{ step = 0.1, end = 0.2, scheme = "rk3" }}
+            {line}
+            [[body]]
+            name = "disc"
+            shape.disc.radius = 0.5
+            center = [0.0, 0.6]
+            motion = "free"
+            force = [0.0, -5.0]
+            "#
+        );
+        simulate(&case(&text), &mut [])
+    };
+    assert!(run("contact.barrier = { range = 0.15, stiffness = 50.0 }").is_ok());
+    let error = run("contact.barrier = { range = 0.15, stiffness = 1e9 }").unwrap_err();
+    let told = error.to_string();
+    assert!(told.contains("too fast for a step") && told.contains("bdf2"), "{told}");
 }
 
 /// One arm of each: what comes of the smooth one is larger than the trifle to which places settle.

@@ -7,8 +7,8 @@ use serde_json::Value;
 use super::Case;
 
 /// What may differ besides these is how the problem is solved, and what is reported of it.
-const TABLES: [&str; 8] =
-    ["geometry", "frame", "fluid", "domain", "boundary", "body", "joint", "swimmer"];
+const TABLES: [&str; 9] =
+    ["geometry", "frame", "fluid", "flow", "domain", "boundary", "body", "joint", "swimmer"];
 
 impl Case {
     /// Geometry, fluid, boundary conditions, bodies and what moves them: the value of each key, by its

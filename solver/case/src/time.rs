@@ -90,8 +90,7 @@ pub enum Scheme {
     /// Second-order backward differences.
     #[default]
     Bdf2,
-    /// Explicit Runge-Kutta method of third order; `stokes` without contact, springs and stiff
-    /// hinges.
+    /// Explicit Runge-Kutta method of third order; `stokes` without springs and stiff hinges.
     Rk3,
 }
 

@@ -3,6 +3,7 @@
 mod check;
 mod engine;
 mod exit;
+mod facts;
 mod library;
 mod mesh;
 mod panic;
@@ -107,7 +108,14 @@ enum Command {
 pub fn run() -> ExitCode {
     let command_line = CommandLine::parse();
     match dispatch(command_line.command) {
-        Ok(exit) => exit.into(),
+        Ok(exit) => match style::stdout_error() {
+            // What was asked for was done, but nobody can read it
+            Some(error) => {
+                complain(&style::error(&format!("cannot write standard output: {error}")));
+                Exit::InputOutput.into()
+            }
+            None => exit.into(),
+        },
         Err(failure) => {
             complain(&failure.message);
             failure.exit.into()

@@ -44,6 +44,7 @@ pub fn columns(model: &Model) -> Vec<Column> {
         has_coefficients: case.has_coefficients(),
         has_contact: case.contact.is_some(),
         balances_energy: model.balances_energy(),
+        has_mean_flow: case.flow.is_some(),
         has_convection: case.fluid.model == FlowModel::NavierStokes,
         is_unsteady,
         mesh_moves: model.mesh_moves(),

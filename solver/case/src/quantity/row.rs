@@ -38,6 +38,8 @@ pub enum When {
     TowedWithoutCycles,
     /// All work on the fluid is that of bodies and waving sheets.
     IdleSides,
+    /// There is `[flow]`.
+    MeanFlow,
     /// The fluid is convected.
     Convection,
     /// The same, and the run is unsteady.
@@ -61,6 +63,7 @@ impl When {
             Self::TowedCycles => "a period and `resistance`",
             Self::TowedWithoutCycles => "`resistance`, no period",
             Self::IdleSides => "bodies or a waving sheet, and other sides that do no work",
+            Self::MeanFlow => "[`flow`](#flow)",
             Self::Convection => "`navier-stokes`",
             Self::UnsteadyConvection => "`navier-stokes`, unsteady",
             Self::MovingMesh => "a moving mesh",
@@ -79,6 +82,7 @@ impl When {
             Self::TowedCycles => known.has_cycles && known.has_resistance,
             Self::TowedWithoutCycles => !known.has_cycles && known.has_resistance,
             Self::IdleSides => known.balances_energy,
+            Self::MeanFlow => known.has_mean_flow,
             Self::Convection => known.has_convection,
             Self::UnsteadyConvection => known.has_convection && known.is_unsteady,
             Self::MovingMesh => known.mesh_moves,
@@ -96,6 +100,7 @@ pub(super) struct Circumstances {
     pub has_cycles: bool,
     pub has_resistance: bool,
     pub balances_energy: bool,
+    pub has_mean_flow: bool,
     pub has_convection: bool,
     pub is_unsteady: bool,
     pub mesh_moves: bool,

@@ -153,6 +153,12 @@ quantities! {
             "Work of bodies and waving sheets less dissipation and growth of the kinetic energy, over the work, \
              since the start (`stokes` and steady flows: of the current rates): the error of the \
              energy balance";
+        PressureGradientX: "pressure_gradient.x", "Pa/m", MeanFlow,
+            "Mean pressure gradient along x, given or what brings a mean velocity about";
+        PressureGradientY: "pressure_gradient.y", "Pa/m", MeanFlow, "The same along y";
+        MeanVelocityX: "mean_velocity.x", "m/s", MeanFlow,
+            "Mean velocity of fluid and bodies along x: the flux over the cross section of the cell";
+        MeanVelocityY: "mean_velocity.y", "m/s", MeanFlow, "The same along y";
         Cfl: "cfl", "1", UnsteadyConvection,
             "CFL number: largest velocity relative to the mesh times the step over the shortest edge \
              of a cell";

@@ -122,7 +122,9 @@ impl<const D: usize> Simulation<D> {
         };
         let StepResult { level, report } = match scheme.method {
             Scheme::Rk3 => {
-                let rates_jump = state.last_step == 0.0 && state.time > 0.0;
+                // The first flow of a run knows nothing of contact
+                let is_known = state.time == 0.0 && law.is_none();
+                let rates_jump = state.last_step == 0.0 && !is_known;
                 stepper.advance_explicitly(work, state, size, rates_jump)?
             }
             Scheme::Bdf2 if state.last_step > 0.0 => {

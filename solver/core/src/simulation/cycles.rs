@@ -55,6 +55,17 @@ impl Cycles {
         self.records.drain(..first.saturating_sub(2));
     }
 
+    /// How far the records are from the last one, at most (m).
+    #[must_use]
+    pub fn extent(&self) -> f64 {
+        let Some(last) = self.records.last() else { return 0.0 };
+        let distance = |record: &Record| {
+            let [x, y, _] = record.position;
+            (x - last.position[0]).hypot(y - last.position[1])
+        };
+        self.records.iter().map(distance).fold(0.0, f64::max)
+    }
+
     /// The record of a time, between records by a parabola through three of them.
     fn at(&self, time: f64, period: f64) -> Option<Record> {
         let near = SAME * period;

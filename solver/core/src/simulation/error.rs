@@ -34,6 +34,17 @@ pub enum StepError {
         /// What is accepted.
         tolerance: f64,
     },
+    /// Contact is stiff in an explicit step.
+    #[error(
+        "contact moves the bodies back within {time_scale:.2e}, too fast for a step of {size:.2e} of \
+         the scheme `rk3`; lower the step, soften the contact, or write scheme = \"bdf2\""
+    )]
+    StiffContact {
+        /// Size of the step (s).
+        size: f64,
+        /// Time in which it does (s).
+        time_scale: f64,
+    },
     /// Poses of bodies and flow do not come to agree.
     #[error("bodies are not where the flow was solved for after {passes} passes")]
     CouplingNotConverged {
@@ -59,8 +70,9 @@ impl From<MotionError> for StepError {
 pub enum RunError {
     /// Newton's method did not converge.
     #[error(
-        "{}: Newton's method stopped at residual {residual:.3e} after {iterations} iterations; {}",
+        "{}: Newton's method stopped at residual {residual:.3e} after {iterations} iteration{}; {}",
         if *step == 0 { "steady flow".to_owned() } else { format!("step {step} (t = {time})") },
+        if *iterations == 1 { "" } else { "s" },
         if *step == 0 {
             "refine the mesh, raise time.steady.max_iterations, or lower the Reynolds number: \
              there may be no steady flow"
@@ -136,6 +148,22 @@ pub enum RunError {
         needed: f64,
         /// Free memory (GB).
         available: f64,
+    },
+    /// The mesh would not fit into memory; it has not been made.
+    #[error(
+        "the cell sizes ask for {n_cells:.1e} cells or more, which need {needed:.0} GB of memory, and \
+         {available:.0} GB are free; raise mesh.size, mesh.surface or mesh.growth, or lower \
+         mesh.gap_layers: cells {coarser:.1} times as large would fit"
+    )]
+    TooManyCells {
+        /// Estimate, or where it ended.
+        n_cells: f64,
+        /// Memory of a system on them (GB).
+        needed: f64,
+        /// Free memory (GB).
+        available: f64,
+        /// Factor on all sizes with which it would fit.
+        coarser: f64,
     },
     /// A request the solver cannot meet (a case that `check` should have refused).
     #[error("{0}")]

@@ -2,8 +2,14 @@
 
 use super::state::State;
 use super::stepper::{Step, TimeStepper};
-use crate::body::Mode;
+use crate::body::{Mode, Pose, RigidVector};
+use crate::contact::Gaps;
 use crate::coupling::Solution;
+
+/// An error of the smallest gap, relative to it, counts as one of the velocities so many times as
+/// large: while a gap closes its errors have one sign and add up, over some seventy steps from a
+/// radius to a hundredth of it.
+const WEIGHT_OF_GAPS: f64 = 10.0;
 
 /// Speed over the largest so far below which the error of a step is no longer relative to it.
 const NEARLY_AT_REST: f64 = 1e-3;
@@ -44,6 +50,48 @@ pub(super) fn local_error<const D: usize>(
         }
     }
     bdf.error_share() * largest / scale
+}
+
+/// Estimate of the errors of the poses that a step of BDF2 leads to.
+pub(super) fn pose_errors<const D: usize>(
+    state: &State<D>,
+    step: &Step,
+    reached: &[Pose],
+) -> Vec<RigidVector> {
+    let bdf = &step.bdf;
+    let error = |(body, reached): (usize, &Pose)| {
+        let (now, before) = (&state.poses[body], &state.previous_poses[body]);
+        let last = now.displacement_from(before);
+        let rate = state.now.twists[body].to_vector();
+        let predicted = bdf.predict(RigidVector::zeros(), -last, rate);
+        (reached.displacement_from(now) - predicted) * bdf.error_share()
+    };
+    reached.iter().enumerate().map(error).collect()
+}
+
+impl<const D: usize> TimeStepper<'_, D> {
+    /// The change of the smallest gap by errors of poses, relative to it or to the range of contact
+    /// where that is larger, as it counts beside errors of velocities.
+    pub(super) fn gap_error(
+        &self,
+        gaps: Option<&dyn Gaps>,
+        state: &State<D>,
+        poses: &[Pose],
+        errors: &[RigidVector],
+    ) -> f64 {
+        let Some(gaps) = gaps else { return 0.0 };
+        let gap = |poses: &[Pose]| gaps.minimum_gap(&state.in_own_frame(self.problem, poses));
+        let corrected: Vec<Pose> = poses
+            .iter()
+            .zip(errors)
+            .enumerate()
+            .map(|(body, (pose, error))| pose.displaced(&self.restricted(body, &-error)))
+            .collect();
+        let (Some(found), Some(corrected)) = (gap(poses), gap(&corrected)) else { return 0.0 };
+        let range = self.contact.map_or(0.0, |law| law.range());
+        let size = found.gap.max(range);
+        if size > 0.0 { WEIGHT_OF_GAPS * (found.gap - corrected.gap).abs() / size } else { 0.0 }
+    }
 }
 
 impl<const D: usize> super::mesh_path::MeshPath<'_, D> {

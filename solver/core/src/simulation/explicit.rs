@@ -7,6 +7,7 @@
 use alewife_mesh::Point;
 
 use super::error::StepError;
+use super::explicit_contact::StageContact;
 use super::history::{INSIDE, StepHistory};
 use super::pass::{Pass, PassEquations, Placement};
 use super::propulsion_history::{PowerShare, PropulsionStep};
@@ -30,7 +31,7 @@ impl Stage {
     fn instant<const D: usize>(&self, state: &State<D>, size: f64) -> Instant {
         let time = state.time + self.part * size;
         let rates_at = if self.part < 1.0 { time } else { time - INSIDE * size };
-        Instant { time, rates_at }
+        Instant { step: size, time, rates_at }
     }
 }
 
@@ -42,9 +43,11 @@ const STAGES: [Stage; 3] = [
 /// Weights of the stages in the error of the new poses.
 const ERROR: [f64; 4] = [-5.0 / 72.0, 1.0 / 12.0, 1.0 / 9.0, -1.0 / 8.0];
 
-/// When a flow is instantaneous.
+/// When a flow is instantaneous, and in which step.
 #[derive(Debug, Clone, Copy)]
 struct Instant {
+    /// Size of the step (s).
+    step: f64,
     /// Time of the shapes (s).
     time: f64,
     /// Time at which rates of gaits and boundary values are taken (s).
@@ -56,6 +59,7 @@ struct InstantaneousFlow<const D: usize> {
     solution: Solution<D>,
     loads: SurfaceLoads,
     powers: Vec<PropulsionPower>,
+    contact: ContactLoads,
     nodes: Vec<Point<D>>,
     iterations: usize,
 }
@@ -111,13 +115,13 @@ impl<const D: usize> TimeStepper<'_, D> {
         let report = StepReport {
             loads: flow.loads.clone(),
             iterations: stages.iterations,
-            error: self.explicit_error(&stages.rates),
+            error: self.explicit_error(state, &poses, &stages.rates, size)?,
         };
         let level = self.explicit_level(state, size, flow, poses, &stages.powers)?;
         Ok(StepResult { level, report })
     }
 
-    /// The flow at the beginning, which is that of the state unless rates jump.
+    /// The flow at the beginning, which is that of the state unless rates or loads jump.
     fn first_stage(
         &self,
         work: &mut Workspace<D>,
@@ -132,7 +136,8 @@ impl<const D: usize> TimeStepper<'_, D> {
             iterations: 0,
         };
         if rates_jump {
-            let at = Instant { time: state.time, rates_at: state.time + INSIDE * size };
+            let rates_at = state.time + INSIDE * size;
+            let at = Instant { step: size, time: state.time, rates_at };
             let flow = self.flow_at(work, state, &state.poses, at, &state.now)?;
             stages.push(&flow);
         } else {
@@ -172,16 +177,24 @@ impl<const D: usize> TimeStepper<'_, D> {
     ) -> Result<InstantaneousFlow<D>, StepError> {
         self.check_stop(state)?;
         let history = StepHistory::instantaneous(self.problem, poses, at.time, at.rates_at)?;
+        let gaps = self.path.gaps(&history.shapes);
+        let seen = state.in_own_frame(self.problem, poses);
+        let contact = StageContact::new(self.contact, gaps.as_deref(), &seen)?;
         let nodes = self.path.move_mesh(work, self.problem, state, poses, &history.shapes)?;
         let placement = Placement { nodes: nodes.clone(), poses: poses.to_vec() };
         let pass = Pass::new(self, work, state, &history, placement);
         let equations = PassEquations::new(self, &history, &pass);
         let mut flow = self.solve(work, &equations, guess.clone())?;
+        if let Some(contact) = &contact {
+            contact.apply(work, self, &equations, at.step, &mut flow)?;
+        }
         let loads = self.loads(work, state, &equations, &mut flow);
         Ok(InstantaneousFlow {
             solution: flow.solution,
             loads: loads.surfaces,
             powers: loads.propulsion,
+            contact: contact
+                .map_or_else(|| ContactLoads::none(poses.len()), |contact| contact.loads),
             nodes,
             iterations: flow.iterations,
         })
@@ -197,8 +210,7 @@ impl<const D: usize> TimeStepper<'_, D> {
     ) -> Result<NewLevel<D>, StepError> {
         let time = state.time + size;
         let gaps = self.path.gaps_at_time(&self.problem.bodies, time)?;
-        let none = ContactLoads::none(poses.len());
-        let contact = self.with_minimum_gap(none, gaps.as_deref(), state, &poses);
+        let contact = self.with_minimum_gap(flow.contact, gaps.as_deref(), state, &poses);
         let twists = flow.solution.twists.iter().zip(&state.now.twists);
         let accelerations = twists
             .map(|(new, old)| Twist::from_vector(&((new.to_vector() - old.to_vector()) / size)));
@@ -221,19 +233,29 @@ impl<const D: usize> TimeStepper<'_, D> {
         })
     }
 
-    /// Error of the new poses over the largest velocity of a step, at most.
-    fn explicit_error(&self, rates: &[Vec<RigidVector>]) -> f64 {
+    /// Error of the new poses over the largest velocity of a step, at most, or that of the smallest gap.
+    fn explicit_error(
+        &self,
+        state: &State<D>,
+        poses: &[Pose],
+        rates: &[Vec<RigidVector>],
+        size: f64,
+    ) -> Result<f64, StepError> {
+        let errors: Vec<RigidVector> = (0..poses.len())
+            .map(|body| rates.iter().zip(ERROR).map(|(rate, weight)| rate[body] * weight).sum())
+            .collect();
         let (mut error, mut scale) = (0.0f64, 0.0f64);
-        for body in 0..self.problem.bodies.len() {
+        for (body, of_body) in errors.iter().enumerate() {
             for mode in self.problem.modes().iter() {
                 let length = self.path.length_of(body, mode);
-                let weighted =
-                    rates.iter().zip(ERROR).map(|(rate, weight)| weight * rate[body][mode]);
-                error = error.max(length * weighted.sum::<f64>().abs());
+                error = error.max(length * of_body[mode].abs());
                 scale =
                     rates.iter().map(|rate| length * rate[body][mode].abs()).fold(scale, f64::max);
             }
         }
-        if scale > 0.0 { error / scale } else { 0.0 }
+        let of_velocities = if scale > 0.0 { error / scale } else { 0.0 };
+        let gaps = self.path.gaps_at_time(&self.problem.bodies, state.time + size)?;
+        let errors: Vec<RigidVector> = errors.into_iter().map(|error| error * size).collect();
+        Ok(of_velocities.max(self.gap_error(gaps.as_deref(), state, poses, &errors)))
     }
 }

@@ -32,7 +32,7 @@ pub(super) fn flow_residual<const D: usize>(
     solution: &Solution<D>,
 ) -> Vec<f64> {
     let convecting_velocity = equations.convecting_velocity(solution);
-    system.fluid_residual(at.mesh, &equations.terms(&convecting_velocity), solution)
+    system.fluid_residual(at, &equations.terms(&convecting_velocity), solution)
 }
 
 /// When Newton's method ends.
@@ -143,7 +143,7 @@ pub(super) fn newton<const D: usize>(
     criterion: &Criterion,
     start: Solution<D>,
 ) -> Result<Flow<D>, NewtonFailure<D>> {
-    let mut solution = start;
+    let mut solution = system.with_given_gradients(at, start);
     let mut progress = Progress::new(criterion);
     loop {
         let iterations = progress.iterations;
@@ -152,15 +152,15 @@ pub(super) fn newton<const D: usize>(
         // The second residual of a linear system is for the loads only
         let is_for_loads = criterion.is_linear && iterations == 1;
         let stage = if is_for_loads { Stage::Loads } else { Stage::Assembly };
-        let residual = timing.measure(stage, || system.fluid_residual(at.mesh, &terms, &solution));
+        let residual = timing.measure(stage, || system.fluid_residual(at, &terms, &solution));
         if is_for_loads {
             return Ok(Flow { solution, residual, iterations, scale: progress.scale() });
         }
         let reduced = system.reduced_residual(at, &solution, &residual);
-        let relative = progress.relative(&reduced);
+        let relative = progress.relative(&reduced, system.mean_force(&solution));
         equations.on_iteration(iterations, relative);
         let scale = progress.scale();
-        if progress.is_converged(relative) {
+        if progress.is_converged(relative) && system.meets_mean_velocity(at, &solution) {
             return Ok(Flow { solution, residual, iterations, scale });
         }
         let end = |solution, iterations| {
@@ -210,10 +210,14 @@ impl<'a> Progress<'a> {
         }
     }
 
-    /// The largest entry of a residual relative to the scale.
-    fn relative(&mut self, reduced: &[f64]) -> f64 {
+    /// The largest entry of a residual relative to the scale; `mean_force` is the largest one of the mean
+    /// pressure gradient.
+    fn relative(&mut self, reduced: &[f64], mean_force: f64) -> f64 {
         let size = reduced.iter().fold(0.0f64, |most, value| most.max(value.abs()));
-        let scale = *self.scale.get_or_insert(size);
+        // A fluid at rest has no residual where a mean velocity is given: the force that brings it
+        // about is the measure then
+        let known = self.scale.filter(|scale| *scale > 0.0);
+        let scale = *self.scale.insert(known.unwrap_or(size.max(mean_force)));
         if scale > 0.0 { size / scale } else { 0.0 }
     }
 

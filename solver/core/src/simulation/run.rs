@@ -1,6 +1,7 @@
 //! The run: build, solve or step in time, measure, notify the observers.
 
 use super::advance::Simulation;
+use super::cycle_error::OtherSteps;
 use super::measure::Measure;
 use super::planar::{Prepared, prepare};
 use super::resume::SavedState;
@@ -61,7 +62,20 @@ pub fn simulate_from(
     }
     simulation.stop = observers.iter().find_map(|observer| observer.stop_request());
     let case = &model.case;
-    let mut run = Run { case, observers, series, simulation, measure, has_warned: false };
+    let mut run = Run {
+        case,
+        observers,
+        series,
+        simulation,
+        measure,
+        has_warned: false,
+        other_steps: None,
+        is_trial: false,
+        rejections: 0,
+    };
+    if saved.is_none() {
+        run.try_other_steps(model);
+    }
     let result = run.make(saved.is_some());
     if let Err(error) = &result {
         run.notify_of_failure(error);
@@ -84,6 +98,12 @@ pub(super) struct Run<'a, const D: usize> {
     measure: Measure<D>,
     /// Whether it was said that steps are too long for the convection.
     pub has_warned: bool,
+    /// What the error of the first cycle is told by, until it is.
+    pub other_steps: Option<OtherSteps>,
+    /// Whether nothing is measured or shown.
+    pub is_trial: bool,
+    /// Fixed steps that were halved.
+    pub rejections: usize,
 }
 
 /// What is reported of a step besides loads.
@@ -188,7 +208,7 @@ impl<const D: usize> Run<'_, D> {
     }
 
     /// The flow an unsteady run starts from.
-    fn begin(&mut self, settings: &Unsteady) -> Result<(), RunError> {
+    pub(super) fn begin(&mut self, settings: &Unsteady) -> Result<(), RunError> {
         let n_bodies = self.simulation.problem.bodies.len();
         let mut loads = SurfaceLoads::none(n_bodies);
         let has_inertia = self.simulation.problem.has_inertia;
@@ -226,6 +246,12 @@ impl<const D: usize> Run<'_, D> {
         summary: StepSummary,
     ) -> Result<(), RunError> {
         self.simulation.record_propulsion(&loads.bodies);
+        if self.is_trial {
+            return Ok(());
+        }
+        if let Some(other) = self.other_steps.take_if(|own| own.is_due(&self.simulation)) {
+            other.compare(&self.simulation);
+        }
         let Self { case, observers, series, simulation, measure, .. } = self;
         let measured = measure.measure(case, simulation, loads)?;
         let Simulation { state, work, .. } = simulation;

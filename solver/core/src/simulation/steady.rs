@@ -111,8 +111,9 @@ pub fn solve_steady<const D: usize>(
     let constraints = work.system.constraints(problem, &work.mesh, task.bodies);
     let mut continuation = Continuation { problem, task, scale: None, iterations: 0 };
     let mesh = work.mesh.clone();
-    let at =
-        Configuration { problem, mesh: &mesh, constraints: &constraints, bodies: task.equations };
+    let mean_flow = problem.mean_flow_at(task.bodies.shapes.time());
+    let (constraints, bodies) = (&constraints, task.equations);
+    let at = Configuration { problem, mesh: &mesh, constraints, bodies, mean_flow };
     let mut flow = continuation.solve(work, &at)?;
     work.system.center_pressure(problem, &mut flow.solution);
     if problem.power_depends_on_pressure_level() {

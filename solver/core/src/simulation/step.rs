@@ -12,7 +12,7 @@
 
 use super::contact_step::PassContact;
 use super::error::StepError;
-use super::error_estimate::local_error;
+use super::error_estimate::{local_error, pose_errors};
 use super::fluid_loads::{FluidLoads, SolvedConfiguration};
 use super::history::StepHistory;
 use super::new_level::Arrival;
@@ -62,7 +62,11 @@ impl<const D: usize> TimeStepper<'_, D> {
             let reached = integrate_poses(self, state, &step, &flow.solution.twists);
             if self.path.resolves(&pass.poses, &reached) {
                 let loads = self.loads(work, state, &equations, &mut flow);
-                let error = local_error(self, state, &step, &flow.solution);
+                let mut error = local_error(self, state, &step, &flow.solution);
+                if step.bdf.is_second_order() {
+                    let errors = pose_errors(state, &step, &reached);
+                    error = error.max(self.gap_error(gaps, state, &reached, &errors));
+                }
                 let contact = self.with_minimum_gap(contact, gaps, state, &reached);
                 let end = Arrival { poses: reached, solution: flow.solution, contact };
                 let level = self.new_level(work, state, &history, &pass, end, &loads.propulsion)?;

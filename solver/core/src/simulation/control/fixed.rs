@@ -91,7 +91,10 @@ impl<const D: usize> Run<'_, D> {
                 Attempt::Rejected(error) if size <= smallest => {
                     return Err(step_size_underflow(&self.simulation, size, &error));
                 }
-                Attempt::Rejected(_) => to_do.extend([0.5 * size; 2]),
+                Attempt::Rejected(_) => {
+                    self.rejections += 1;
+                    to_do.extend([0.5 * size; 2]);
+                }
             }
             // A step in many pieces may take long. After the last one the step is reported first: a
             // resumed run begins behind it.

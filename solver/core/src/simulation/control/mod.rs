@@ -1,8 +1,9 @@
-//! Control of the step size: fixed steps, steps by their error, and the pieces of a first step.
+//! Control of the step size: fixed steps, steps by their error, first steps, trials of other sizes.
 
 mod adaptive;
 mod fixed;
 mod start;
+mod trial;
 
 use super::advance::Simulation;
 use super::error::{RunError, StepError};

@@ -4,7 +4,7 @@ use alewife_mesh::Point;
 use nalgebra::SMatrix;
 
 use crate::case::FlowQuantity;
-use crate::coupling::SurfaceLoads;
+use crate::coupling::{MeanFlowReport, SurfaceLoads};
 use crate::simulation::advance::{CellCrossing, Simulation};
 use crate::simulation::energy::EnergyRecord;
 use crate::space::CellValues;
@@ -21,6 +21,8 @@ pub(in crate::simulation) struct FlowMeasurement {
     pub energy_defect: f64,
     /// Area or volume (m2, m3).
     volume: f64,
+    /// The mean flow, where one is given.
+    mean_flow: Option<MeanFlowReport>,
     /// How fast the fluid crosses the cells, if it is convected.
     crossing: Option<CellCrossing>,
     /// The last step (s).
@@ -43,6 +45,7 @@ impl FlowMeasurement {
             mass_defect: 0.0,
             energy_defect: f64::NAN,
             volume: 0.0,
+            mean_flow: work.system.mean_flow(&problem.mean_flow_at(state.time), &state.now),
             crossing: problem.has_convection.then(|| simulation.cell_crossing()),
             last_step: state.last_step,
             density_over_viscosity: problem.density / problem.viscosity,
@@ -77,10 +80,18 @@ impl FlowMeasurement {
     pub(super) fn energy_record(&self, time: f64, loads: &SurfaceLoads) -> EnergyRecord {
         EnergyRecord {
             time,
-            power: loads.power(),
+            power: loads.power() + self.mean_flow.map_or(0.0, |report| report.power),
             dissipation: self.dissipation,
             kinetic_energy: self.kinetic_energy,
         }
+    }
+
+    fn pressure_gradient(&self, axis: usize) -> f64 {
+        self.mean_flow.map_or(0.0, |report| report.pressure_gradient[axis])
+    }
+
+    fn mean_velocity(&self, axis: usize) -> f64 {
+        self.mean_flow.map_or(0.0, |report| report.velocity[axis])
     }
 
     /// Cells the fluid crosses in the last step at most.
@@ -104,6 +115,10 @@ impl FlowMeasurement {
             FlowQuantity::KineticEnergy => self.kinetic_energy,
             FlowQuantity::MassDefect => self.mass_defect,
             FlowQuantity::EnergyDefect => self.energy_defect,
+            FlowQuantity::PressureGradientX => self.pressure_gradient(0),
+            FlowQuantity::PressureGradientY => self.pressure_gradient(1),
+            FlowQuantity::MeanVelocityX => self.mean_velocity(0),
+            FlowQuantity::MeanVelocityY => self.mean_velocity(1),
             FlowQuantity::Cfl => self.cfl(),
             FlowQuantity::CellReynolds => self.cell_reynolds(),
             FlowQuantity::MinimumGap => self.minimum_gap,

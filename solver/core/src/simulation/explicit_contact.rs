@@ -1,0 +1,134 @@
+//! Contact in the flow of a stage of explicit steps: the force at the gaps as they are there.
+//!
+//! An explicit step is sound as long as contact is not stiff in it: the rates at which contact alone
+//! would move the bodies back, the eigenvalues of M K with the mobility M and the stiffness K of
+//! the contacts, have to be below a limit over the step. Where they are not, the step is refused,
+//! so that it is halved; bodies that are pressed together for long are for BDF2.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::error::StepError;
+use super::newton::{Flow, flow_residual};
+use super::pass::PassEquations;
+use super::stepper::TimeStepper;
+use super::workspace::Workspace;
+use super::{RunError, Stage};
+use crate::body::{Pose, RigidVector};
+use crate::contact::{ContactError, ContactLoads, ContactPair, Gaps, Law, Partner};
+use crate::coupling::{BodyLoad, SolveError};
+
+/// Largest rate at which contact moves bodies back, times the step; explicit steps are stable up to
+/// 2.5, and at 1 the factor exp(-1) of what decays is 0.333.
+const LARGEST_DECAY: f64 = 1.0;
+
+/// What contact does at the poses of a stage.
+pub(super) struct StageContact<'a> {
+    law: &'a Law,
+    /// Pairs within the range.
+    pairs: Vec<ContactPair>,
+    /// Their loads.
+    pub loads: ContactLoads,
+}
+
+impl<'a> StageContact<'a> {
+    /// Contact of bodies at poses as seen in the mesh; none without a law.
+    ///
+    /// # Errors
+    /// When bodies overlap there.
+    pub fn new(
+        law: Option<&'a Law>,
+        gaps: Option<&dyn Gaps>,
+        seen: &[Pose],
+    ) -> Result<Option<Self>, StepError> {
+        let (Some(law), Some(gaps)) = (law, gaps) else { return Ok(None) };
+        let pairs = gaps.pairs(seen, law.range());
+        if let Some(touching) = pairs.iter().find(|pair| pair.gap <= 0.0) {
+            return Err(StepError::Contact(ContactError::Overlap {
+                first: gaps.body_name(touching.body).to_owned(),
+                second: gaps.partner_name(touching.partner).to_owned(),
+                gap: touching.gap,
+            }));
+        }
+        Ok(Some(Self { law, pairs, loads: ContactLoads::new(gaps, law, seen) }))
+    }
+
+    /// Adds contact to a flow found without it, as long as it is not stiff in a step of a size (s).
+    ///
+    /// # Errors
+    /// When it is, or the linear system cannot be solved.
+    pub fn apply<const D: usize>(
+        &self,
+        work: &mut Workspace<D>,
+        stepper: &TimeStepper<'_, D>,
+        equations: &PassEquations<'_, D>,
+        size: f64,
+        flow: &mut Flow<D>,
+    ) -> Result<(), StepError> {
+        if self.pairs.is_empty() {
+            return Ok(());
+        }
+        let bodies = self.bodies();
+        let Workspace { system, mesh, timing } = work;
+        let step = &equations.history.step;
+        let fail = |error: SolveError| RunError::from_solve(error, step.number, step.time);
+        let constraints = &equations.pass.constraints;
+        let mobility = system.mobility(constraints, &bodies, timing).map_err(fail)?;
+        let rate = self.fastest_decay(&bodies, stepper, &mobility);
+        if rate * size > LARGEST_DECAY {
+            return Err(StepError::StiffContact { size, time_scale: 1.0 / rate });
+        }
+        let on_body =
+            |&body: &usize| BodyLoad { body, load: self.loads.wrenches[body].to_vector() };
+        let on_bodies: Vec<BodyLoad> = bodies.iter().map(on_body).collect();
+        let solution = &mut flow.solution;
+        system.apply_body_loads(constraints, &on_bodies, solution, timing).map_err(fail)?;
+        let at = equations.pass.at(stepper.problem, mesh);
+        flow.residual =
+            timing.measure(Stage::Loads, || flow_residual(system, &at, equations, &flow.solution));
+        Ok(())
+    }
+
+    /// The bodies in contact, ascending.
+    fn bodies(&self) -> Vec<usize> {
+        let of_pair = |pair: &ContactPair| match pair.partner {
+            Partner::Body(other) => vec![pair.body, other],
+            Partner::Wall(_) => vec![pair.body],
+        };
+        let mut bodies: Vec<usize> = self.pairs.iter().flat_map(of_pair).collect();
+        bodies.sort_unstable();
+        bodies.dedup();
+        bodies
+    }
+
+    /// The largest rate (1/s) at which contact alone brings the bodies back to where its forces vanish:
+    /// the largest eigenvalue of G^T M G, the columns of G being gradients of gaps times the square
+    /// roots of their stiffness.
+    fn fastest_decay<const D: usize>(
+        &self,
+        bodies: &[usize],
+        stepper: &TimeStepper<'_, D>,
+        mobility: &DMatrix<f64>,
+    ) -> f64 {
+        let modes = stepper.problem.modes();
+        let column = |pair: &ContactPair| {
+            let stiffness = -pair.weight * self.law.slope(pair.gap);
+            let [on_body, on_partner] = pair.gradient();
+            let mut column = DVector::zeros(bodies.len() * modes.len());
+            let mut add = |body: usize, gradient: &RigidVector| {
+                let Ok(index) = bodies.binary_search(&body) else { return };
+                for (position, mode) in modes.iter().enumerate() {
+                    column[index * modes.len() + position] += gradient[mode] * stiffness.sqrt();
+                }
+            };
+            add(pair.body, &on_body);
+            if let Partner::Body(other) = pair.partner {
+                add(other, &on_partner);
+            }
+            column
+        };
+        let columns: Vec<DVector<f64>> = self.pairs.iter().map(column).collect();
+        let gradients = DMatrix::from_columns(&columns);
+        let rates = gradients.transpose() * mobility * &gradients;
+        rates.symmetric_eigenvalues().max()
+    }
+}
