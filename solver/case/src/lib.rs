@@ -29,6 +29,7 @@ mod read;
 mod reference;
 mod schema;
 mod source;
+mod speed;
 mod stroke;
 mod swimmer;
 mod time;

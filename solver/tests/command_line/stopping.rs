@@ -148,3 +148,27 @@ fn a_file_that_cannot_grow_is_named_and_the_run_failed() {
     }
     assert!(named.len() > 1, "{named:?}");
 }
+
+/// Its status cannot be written any more.
+#[test]
+fn a_run_whose_directory_vanishes_ends_with_its_name() {
+    let directory = tempfile::tempdir().unwrap();
+    let mut run = Command::new(env!("CARGO_BIN_EXE_alewife"))
+        .args(["run", "sphere-free-fall", "--out", "fall", "--quiet", "--threads", "1"])
+        .args(["--set", "time.unsteady.end=1e6", "--set", "mesh.scale=2"])
+        .current_dir(directory.path())
+        .stderr(std::process::Stdio::piped())
+        .spawn()
+        .unwrap();
+    let out = directory.path().join("fall");
+    while !out.join("series.csv").is_file() {
+        assert!(run.try_wait().unwrap().is_none(), "the run ended by itself");
+        std::thread::sleep(std::time::Duration::from_millis(20));
+    }
+    // Files may be made while others are removed
+    while std::fs::remove_dir_all(&out).is_err() {}
+    let output = run.wait_with_output().unwrap();
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(74), "{told}");
+    assert!(told.contains("fall/status.json: "), "{told}");
+}
