@@ -20,7 +20,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 # What makes a comparison the same one in both files, besides its number among equal ones.
-IDENTITY = ("case", "quantity", "minus", "statistic", "at", "level", "of", "published")
+IDENTITY = ("case", "quantity", "minus", "statistic", "at", "level", "of", "reference")
 
 Row = dict[str, Any]
 Key = tuple[Any, ...]
@@ -53,7 +53,7 @@ def by_identity(rows: list[Row]) -> dict[Key, Row]:
 
 def allowed(row: Row, tolerance: float) -> float:
     """Largest difference from the value of a comparison: a part of it, or of its tolerance."""
-    accepted = (row.get("tolerance") or 0.0) * (abs(row["published"]) if row["is_relative"] else 1)
+    accepted = (row.get("tolerance") or 0.0) * (abs(row["reference"]) if row["is_relative"] else 1)
     return tolerance * max(abs(row["computed"]), accepted)
 
 
@@ -104,7 +104,7 @@ def main(arguments: list[str] | None = None) -> int:
     options = parser.parse_args(arguments)
     try:
         before, after = (json.loads(path.read_text()) for path in (options.before, options.after))
-        report = compare(before, after, options.tolerance)
+        report = compare(before["comparisons"], after["comparisons"], options.tolerance)
     except (OSError, ValueError, KeyError, TypeError) as error:
         print(f"error: not two files of `alewife validate --json`: {error!r}", file=sys.stderr)
         return 2

@@ -224,7 +224,7 @@ impl<const D: usize> fmt::Display for Quality<D> {
         writeln!(f, "Taylor-Hood dofs {:>12}", self.n_dofs)?;
         writeln!(
             f,
-            "edges (m)        {:>12.4e}  to {:.4e}",
+            "edge lengths     {:>12.4e}  to {:.4e}",
             self.shortest_edge, self.longest_edge
         )?;
         writeln!(

@@ -43,6 +43,7 @@ statistic = "max"
 value = 0.5
 per = 2.0
 relative = 0.1
+kind = "literature"
 source = "nobody2000"
 """
 

@@ -32,7 +32,7 @@ def row(computed: float | None, **changes: Any) -> dict[str, Any]:  # noqa: ANN4
         "level": None,
         "of": None,
         "computed": computed,
-        "published": 2.0,
+        "reference": 2.0,
         "tolerance": 0.01,
         "is_relative": True,
         "reason": None if computed is not None else "it diverged",
@@ -53,7 +53,7 @@ def test_a_value_may_differ_by_a_part_of_itself(script: ModuleType) -> None:
 
 
 def test_a_value_near_zero_may_differ_by_a_part_of_its_tolerance(script: ModuleType) -> None:
-    zero = {"published": 0.0, "tolerance": 1e-3, "is_relative": False}
+    zero = {"reference": 0.0, "tolerance": 1e-3, "is_relative": False}
     assert not script.compare([row(1e-15, **zero)], [row(9e-13, **zero)]).failures
     assert script.compare([row(1e-15, **zero)], [row(2e-12, **zero)]).failures
 
@@ -87,7 +87,7 @@ def test_the_exit_code_says_whether_files_agree(
 ) -> None:
     files = {"a": [row(2.0)], "b": [row(2.1)]}
     for name, rows in files.items():
-        (tmp_path / name).write_text(json.dumps(rows))
+        (tmp_path / name).write_text(json.dumps({"comparisons": rows}))
     a, b = (str(tmp_path / name) for name in files)
     assert script.main([a, a]) == 0
     assert script.main([a, b]) == 1

@@ -90,12 +90,12 @@ def test_a_frame_that_moves_with_a_body_loses_its_velocity(planar_run: Run) -> N
     assert drawn.axes[1].get_ylabel() == "speed (m/s) relative to disc"
 
 
-def test_a_series_shows_the_published_interval(planar_run: Run, tmp_path: Path) -> None:
+def test_a_series_shows_the_interval_of_a_reference(planar_run: Run, tmp_path: Path) -> None:
     drawn = figure.series_figure(planar_run, ["disc.speed"])
     (axes,) = drawn.axes
     (text,) = axes.get_legend().get_texts()
     # value 0.5 times per 2.0, within a tenth
-    assert text.get_text() == "max, published: 1 ± 0.1 (nobody2000)"
+    assert text.get_text() == "max, literature: 1 ± 0.1 (nobody2000)"
     (band,) = axes.collections
     corners = band.get_paths()[0].vertices
     np.testing.assert_allclose([corners.min(axis=0), corners.max(axis=0)], [[2, 0.9], [4, 1.1]])

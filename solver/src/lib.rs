@@ -1,4 +1,4 @@
-//! The program: its command line, what it writes, and how it compares with published values.
+//! The program: its command line, what it writes, and how it compares with references.
 //!
 //! The method itself is in `alewife-core`, the case files in `alewife-case`.
 

@@ -77,3 +77,29 @@ fn a_system_without_a_solution_names_what_is_not_determined() {
     assert!(message.contains("velocity of body \"disc\""), "{message}");
     assert!(message.contains("a wall, a given velocity"), "{message}");
 }
+
+#[test]
+fn a_flow_that_blows_up_stops_the_run_with_the_place() {
+    let case = case(
+        r#"
+        title = "a disc in a stream that its mesh does not resolve"
+        geometry = "planar"
+        fluid = { model = "navier-stokes", density = 1.0, viscosity = 1e-6 }
+        domain.channel = { length = 2.2, height = 0.41 }
+        boundary = { left.parabolic.peak = 1.5, right = "do-nothing", bottom = "no-slip", top = "no-slip" }
+        mesh = { size = 0.05, surface = 0.02 }
+        time.unsteady = { step = 0.01, end = 2.0 }
+        [[body]]
+        name = "disc"
+        shape.disc.radius = 0.05
+        center = [0.2, 0.2]
+        motion = "held"
+        "#,
+    );
+    let error = simulate(&case, &mut []).expect_err("it blows up");
+    let RunError::BlownUp { time, times, near, cell_reynolds, .. } = &error else {
+        panic!("{error}");
+    };
+    assert!(*time < 1.5 && *times > 30.0 && near.len() == 2 && *cell_reynolds > 1e3, "{error}");
+    assert!(error.to_string().contains("the flow has blown up"), "{error}");
+}

@@ -137,7 +137,7 @@ fn a_squirmer_follows_the_factors_of_its_modes_and_the_turn_of_its_axis() {
     let alone = sphere("heading = 0.0", 0.1);
     // (1 - 5/2 l^3 + 3/2 l^5) / (1 - l^5) at l = 1/4
     assert!((alone - 0.963_342_907).abs() < 1e-3, "{alone}");
-    let factors = "factors = { 1.sine = { mean = 0.5, frequency = 0.25 }, 2.ramp.duration = 2.0 }";
+    let factors = "factors = { 1.sine = { mean = 0.5, period = 4.0 }, 2.ramp.duration = 2.0 }";
     let expected = alone * (0.5 + (0.5 * std::f64::consts::PI * 0.6).sin());
     let found = sphere(factors, 0.6);
     assert!((found - expected).abs() < 1e-3 * expected, "{found}, {expected}");

@@ -3,4 +3,5 @@
 mod failure;
 mod free;
 mod loads;
+mod mean_flow;
 mod threads;

@@ -184,7 +184,7 @@ fn an_imposed_motion_goes_where_it_should() {
         name = "disc"
         shape = { disc = { radius = 0.3 } }
         center = [0.0, 0.0]
-        motion.imposed = { velocity = [0.0, 1.256637061435917], factor.sine = { frequency = 1.0 } }
+        motion.imposed = { velocity = [0.0, 1.256637061435917], factor.sine = { period = 1.0 } }
         "#;
     let [x, y, _] = pose(&run(&case(&text)), "disc");
     // 0.2 (1 - cos(2 pi t)) at half a period.

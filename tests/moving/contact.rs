@@ -27,7 +27,7 @@ fn a_pile_comes_to_rest_and_its_forces_balance() {
     let mesh = "size = 0.3, surface = 0.1, gap_layers = 2.5";
     let text = tank("navier-stokes", "step = 0.02, end = 4.0", mesh) + DISCS;
     let outcome = run(&case(&text));
-    let gap = outcome.series.column("flow.least_gap").expect("the mesh moves");
+    let gap = outcome.series.column("flow.minimum_gap").expect("the mesh moves");
     assert!(gap.iter().all(|gap| *gap > 0.0));
     for (name, net) in [("low", 1.0), ("high", 0.5)] {
         let weight = net * 10.0 * std::f64::consts::PI * 0.0625;

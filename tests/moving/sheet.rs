@@ -5,7 +5,7 @@ use tests::cases::{case, last, run};
 /// One wavelength of 2 pi under a box of twice that height, amplitude over wavelength 0.2 / 2 pi;
 /// the speed far above over that of the wave.
 fn speed(frequency: f64, extensible: bool, top: f64, step: f64) -> f64 {
-    let end = 4.0 * step;
+    let (end, period) = (4.0 * step, 1.0 / frequency);
     let text = format!(
         r#"
         title = "a waving sheet"
@@ -20,7 +20,7 @@ fn speed(frequency: f64, extensible: bool, top: f64, step: f64) -> f64 {
         [boundary.bottom.waving-sheet]
         amplitude = 0.2
         wavelength = 6.283185307179586
-        frequency = {frequency}
+        period = {period}
         extensible = {extensible}
         [[probe]]
         name = "far"

@@ -79,7 +79,7 @@ fn swimmers_moved_by_half_a_cell_swim_alike() {
             let all = column(name);
             all.iter().map(|x| x - all[0]).collect::<Vec<f64>>()
         };
-        let gap = column("flow.least_gap".into()).into_iter().fold(f64::INFINITY, f64::min);
+        let gap = column("flow.minimum_gap".into()).into_iter().fold(f64::INFINITY, f64::min);
         let ways: Vec<f64> = (0..SWIMMERS.len())
             .flat_map(|i| ["x", "y", "angle"].map(|q| way(format!("s{i}.{q}"))))
             .flatten()

@@ -71,7 +71,7 @@ fn a_load_on_a_free_body_becomes_momentum_of_body_and_fluid() {
     let [part, turned] = [fluid.force.norm(), fluid.torque.norm()].map(|sum| sum / step);
     assert!(part > 0.01 && turned > 0.01, "the fluid takes {part} N and {turned} N m");
     // What the fluid gains, the body loses
-    let on_body = report.loads[0].load;
+    let on_body = report.loads.bodies[0].load;
     assert!((on_body.force + fluid.force / step).norm() < 1e-12);
     assert!((on_body.torque + fluid.torque / step).norm() < 1e-12);
 }
@@ -110,7 +110,7 @@ fn in_uniform_flow(velocity: &Vector3<f64>, convection: Convection) -> Simulatio
     let moving = MovingMesh::new(&mesh, scene, settings, poses, 0.0).expect("the mesh can move");
     let scheme = StepScheme { method: Scheme::Bdf2, convection, unknown_frame: false };
     let moving_mesh = Some(moving);
-    Simulation { problem, state, work, moving_mesh, law: None, scheme, is_fresh: true }
+    Simulation { problem, state, work, moving_mesh, law: None, scheme, is_fresh: true, stop: None }
 }
 
 #[test]

@@ -53,6 +53,7 @@ pub fn fluid_only<const D: usize>(
         bodies: bodies.collect(),
         groups: Vec::new(),
         frame: None,
+        mean_flow: None,
         body_force: None,
         rate_discontinuities: None,
     }

@@ -52,7 +52,7 @@ pub fn steady_with<const D: usize>(
     let shapes = BodyShapes::at(&problem.bodies, 0.0).expect("gaits have shapes");
     let equations = RigidBodyEquations::steady(problem, &poses, 0.0);
     let bodies = BodiesAt { poses: &poses, shapes: &shapes };
-    let task = SteadyTask { bodies, equations: &equations, settings, has_convection };
+    let task = SteadyTask { bodies, equations: &equations, settings, has_convection, stop: None };
     solve_steady(work, problem, &task).map_err(|failure| failure.error).expect("the flow converges")
 }
 
@@ -74,7 +74,7 @@ impl<'a, const D: usize> Stepping<'a, D> {
         convection: Convection,
         path: MeshPath<'a, D>,
     ) -> Self {
-        let stepper = TimeStepper { problem, convection, path, contact: None };
+        let stepper = TimeStepper { problem, convection, path, contact: None, stop: None };
         let state = State::at_rest(problem, mesh.clone());
         Self { stepper, state, work: workspace(problem, mesh) }
     }

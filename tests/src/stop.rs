@@ -1,11 +1,11 @@
 //! Runs that are stopped on the way.
 
-use std::cell::Cell;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};
 
 use alewife_core::case::Model;
 use alewife_core::simulation::{
-    LastState, Observer, Resume, RunError, RunSummary, SavedState, Snapshot, simulate,
+    LastState, Observer, RunError, RunSummary, SavedState, Snapshot, StopRequest, simulate,
     simulate_from,
 };
 
@@ -21,24 +21,25 @@ pub struct Stopped {
 /// Stops a run after some steps and keeps what it leaves.
 struct Stopper {
     after: usize,
-    steps: usize,
-    /// How often the run may still ask whether to stop before it is to.
-    spared: Cell<usize>,
+    /// How often the run may ask after these steps whether to stop before it is to.
+    spared: usize,
     left: Arc<Mutex<Stopped>>,
 }
 
 impl Observer<2> for Stopper {
     fn on_step(&mut self, snapshot: &Snapshot<'_, 2>) -> std::io::Result<()> {
-        self.steps = snapshot.step;
         self.left.lock().expect("nobody else holds it").times.push(snapshot.time);
         Ok(())
     }
 
-    fn wants_stop(&self) -> bool {
-        let is_due = self.steps >= self.after;
-        let spared = self.spared.get();
-        self.spared.set(spared.saturating_sub(usize::from(is_due)));
-        is_due && spared == 0
+    fn stop_request(&self) -> Option<StopRequest> {
+        let (after, spared, left) = (self.after, self.spared, Arc::clone(&self.left));
+        let asked = AtomicUsize::new(0);
+        Some(Arc::new(move || {
+            // The start is reported, too
+            let is_due = left.lock().expect("nobody else holds it").times.len() > after;
+            is_due && asked.fetch_add(1, Ordering::Relaxed) >= spared
+        }))
     }
 
     fn on_failure(
@@ -55,7 +56,7 @@ impl Observer<2> for Stopper {
 /// Stops a run after some steps, at the first question whether to stop but for some that are spared.
 fn stop(model: &Model, after: usize, spared: usize) -> Stopped {
     let left = Arc::new(Mutex::new(Stopped::default()));
-    let stopper = Stopper { after, steps: 0, spared: Cell::new(spared), left: Arc::clone(&left) };
+    let stopper = Stopper { after, spared, left: Arc::clone(&left) };
     let error = simulate(model, &mut [Box::new(stopper)]).expect_err("it is stopped");
     assert!(matches!(error, RunError::Stopped { .. }), "{error}");
     let stopped = left.lock().expect("the run is over").clone();
@@ -63,13 +64,14 @@ fn stop(model: &Model, after: usize, spared: usize) -> Stopped {
     stopped
 }
 
-/// What a run leaves that is asked to stop in the middle of the step after some.
+/// What a run leaves that is asked to stop after some steps, and goes on for as many more questions
+/// whether to stop as it is `spared`.
 ///
 /// # Panics
 /// When the run fails before.
 #[must_use]
-pub fn stopped_within_a_step(model: &Model, after: usize) -> Stopped {
-    stop(model, after, 1)
+pub fn stopped_within_a_step(model: &Model, after: usize, spared: usize) -> Stopped {
+    stop(model, after, spared)
 }
 
 /// The state of a run after some steps, through the text it is written as.
@@ -85,10 +87,10 @@ pub fn stopped(model: &Model, after: usize) -> SavedState<2> {
     read
 }
 
-/// Resumes from a state, without the quantities of the steps before it.
+/// Resumes from a state.
 ///
 /// # Errors
 /// Those of [`simulate_from`].
 pub fn resumed(model: &Model, state: &SavedState<2>) -> Result<RunSummary, RunError> {
-    simulate_from(model, Some(&Resume { state, series: None }), &mut [])
+    simulate_from(model, Some(state), &mut [])
 }

@@ -2,7 +2,7 @@
 
 use alewife_core::body::Twist;
 use alewife_core::case::{Convection, Model, Scheme, Steady};
-use alewife_core::coupling::{BodyLoads, Problem};
+use alewife_core::coupling::{Problem, SurfaceLoads};
 use alewife_core::simulation::{Simulation, State, simulation_on};
 use alewife_mesh::{Mesh, Point};
 use nalgebra::Vector3;
@@ -14,7 +14,7 @@ pub struct Swim {
     /// What is solved and what evolves.
     pub simulation: Simulation<2>,
     /// Loads of the fluid after the last step.
-    pub loads: Vec<BodyLoads>,
+    pub loads: SurfaceLoads,
 }
 
 impl Swim {
@@ -28,7 +28,7 @@ impl Swim {
         simulation.scheme.convection = Convection::Extrapolated;
         simulation.scheme.method =
             if simulation.problem.has_inertia { Scheme::Bdf2 } else { Scheme::Rk3 };
-        let loads = vec![BodyLoads::default(); simulation.problem.bodies.len()];
+        let loads = SurfaceLoads::none(simulation.problem.bodies.len());
         Self { simulation, loads }
     }
 
@@ -81,6 +81,6 @@ impl Swim {
     /// Rate of work of all bodies on the fluid (W).
     #[must_use]
     pub fn power(&self) -> f64 {
-        self.loads.iter().map(|load| load.power).sum()
+        self.loads.bodies.iter().map(|load| load.power).sum()
     }
 }

@@ -272,8 +272,8 @@ fn the_momentum_of_a_swimmer_changes_by_the_force_of_the_fluid() {
             radii = [0.2, 0.25, 0.2]
             arms = [
                 {{ sine = {{ mean = 1.0, amplitude = 0.3, period = 1.0, ramp = 0.4 }} }},
-                {{ sine = {{ mean = 0.9, amplitude = 0.2, period = 1.0, phase = 1.5, ramp = 0.4 }} }},
-                {{ sine = {{ mean = 1.1, amplitude = 0.3, period = 1.0, phase = 3.0, ramp = 0.4 }} }},
+                {{ sine = {{ mean = 0.9, amplitude = 0.2, period = 1.0, phase = 0.238732, ramp = 0.4 }} }},
+                {{ sine = {{ mean = 1.1, amplitude = 0.3, period = 1.0, phase = 0.477465, ramp = 0.4 }} }},
             ]
             "#
         )));

@@ -169,7 +169,7 @@ fn a_state_of_another_gait_is_refused() {
     let other = with(&BEAT.replace("period = 1.0", "period = 11.0"));
     let error = resumed(&other, &saved).expect_err("another gait");
     let told = error.to_string();
-    assert!(told.contains("a run resumes with the gait it began with"), "{told}");
+    assert!(told.contains("body.0.gait.") && told.contains(".period = 1.0"), "{told}");
 }
 
 /// Its outline crosses itself between the times at which the gait is evaluated before the run.
@@ -189,7 +189,7 @@ fn a_gait_that_fails_in_a_run_stops_it_with_the_body_and_the_time() {
         shape.fish = { length = 1.0, tip_radius = 1e-3 }
         center = [0.0, 0.0]
         motion = "free"
-        gait.carangiform = { period = 1.0, ramp = 0.01, bending = 1.683, start_phase = 0.7291666666666666 }
+        gait.carangiform = { period = 1.0, ramp = 0.01, bending = 1.683, phase = 0.7291666666666666 }
         "#,
     );
     let error = simulate(&case, &mut []).expect_err("the outline crosses itself");

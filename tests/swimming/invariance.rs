@@ -31,8 +31,8 @@ const SWIMMERS: [Swimmer; 8] = [
         kind: |_| {
             format!(
                 "linked-spheres = {{ radii = [0.3, 0.2, 0.25], arms = [{}, {}] }}",
-                arm(1.0, 0.3),
-                arm(0.9, 1.7)
+                arm(1.0, 0.048),
+                arm(0.9, 0.27)
             )
         },
         root: "swimmer-2",
@@ -45,9 +45,9 @@ const SWIMMERS: [Swimmer; 8] = [
             format!(
                 "star = {{ radius = 0.3, radii = [0.2, 0.2, 0.2], arms = [{}, {}, {}], \
                  directions = {directions:?} }}",
-                arm(1.0, 0.3),
-                arm(0.9, 1.7),
-                arm(1.1, 2.9)
+                arm(1.0, 0.048),
+                arm(0.9, 0.27),
+                arm(1.1, 0.46)
             )
         },
         root: "swimmer-1",
@@ -66,8 +66,8 @@ const SWIMMERS: [Swimmer; 8] = [
             format!(
                 "chain = {{ links = [[0.4, 0.08], [0.3, 0.08], [0.4, 0.1]], gap = 0.3, \
                  joints = [{}, {}] }}",
-                bent(0.2, 0.4),
-                bent(-0.1, 1.9)
+                bent(0.2, 0.06),
+                bent(-0.1, 0.3)
             )
         },
         root: "swimmer-2",
@@ -80,7 +80,7 @@ const SWIMMERS: [Swimmer; 8] = [
             format!(
                 "body = {{ shape = {{ flagellate = {{ head = [0.3, 0.2], tail_length = 1.2, \
                  thickness = 0.12 }} }}, gait = {{ flagellum = {{ period = 1.0, wavelength = 1.0, \
-                 amplitude = 0.15, ramp = 0.1, start_phase = {phase} }} }} }}"
+                 amplitude = 0.15, ramp = 0.1, phase = {phase} }} }} }}"
             )
         },
         root: "swimmer",
@@ -121,7 +121,7 @@ const SWIMMERS: [Swimmer; 8] = [
             };
             format!(
                 "linked-spheres = {{ radii = [0.3, 0.3], arms = [{}], gaits = [{}, {}] }}",
-                arm(1.0, 0.3),
+                arm(1.0, 0.048),
                 pulse(0.4),
                 pulse(-0.4)
             )
@@ -137,7 +137,7 @@ fn fish(gait: &str, moved: &Moved) -> String {
     format!(
         "body = {{ shape = {{ fish = {{ length = 1.6, head_width = 0.08, head_end = 0.08, \
          tail_width = 0.04, tip_radius = 0.01, corner_radius = 0.05 }} }}, gait = {{ {gait} = {{ \
-         period = 1.0, ramp = 0.0, start_phase = {phase} }} }} }}"
+         period = 1.0, ramp = 0.0, phase = {phase} }} }} }}"
     )
 }
 
@@ -270,7 +270,7 @@ fn gaits_with_inertia_are_the_same_turned_mirrored_and_in_a_frame_that_travels()
                 swim.step(0.02);
             }
             // Work that is done on the fluid as a whole belongs to the frame.
-            let force: Point<2> = swim.loads.iter().map(|load| load.load.force.xy()).sum();
+            let force: Point<2> = swim.loads.bodies.iter().map(|load| load.load.force.xy()).sum();
             (seen_back(&swim, moved, stream), swim.power() + force.dot(&stream))
         };
         let start = at(&Moved::default(), Point::<2>::zeros());

@@ -47,8 +47,8 @@ fn distance(one: &[f64; 3], other: &[f64; 3]) -> f64 {
 }
 
 const SMOOTH: [&str; 2] = [
-    "{ sine = { mean = 0.9, amplitude = 0.2, period = 1.0, phase = 0.3 } }",
-    "{ sine = { mean = 0.8, amplitude = 0.15, period = 1.0, phase = 1.7 } }",
+    "{ sine = { mean = 0.9, amplitude = 0.2, period = 1.0, phase = 0.0477465 } }",
+    "{ sine = { mean = 0.8, amplitude = 0.15, period = 1.0, phase = 0.270563 } }",
 ];
 /// Knots where no step ends.
 const KINKED: [&str; 2] = [

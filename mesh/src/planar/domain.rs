@@ -62,6 +62,23 @@ impl Domain {
         }
     }
 
+    /// Lower left and upper right corner of the smallest rectangle around it (m).
+    #[must_use]
+    pub fn corners(&self) -> [Point<2>; 2] {
+        match *self {
+            Self::Box { min, max, .. } => [min, max],
+            Self::Disc { center, radius } => {
+                [center - Point::<2>::repeat(radius), center + Point::<2>::repeat(radius)]
+            }
+            Self::HalfDisc { center, radius } => {
+                [Point::<2>::new(center - radius, 0.0), Point::<2>::new(center + radius, radius)]
+            }
+            Self::Cylinder { x, radius, .. } => {
+                [Point::<2>::new(x[0], 0.0), Point::<2>::new(x[1], radius)]
+            }
+        }
+    }
+
     /// Distance from a point to the nearest side, the axis left out (m); negative outside.
     #[must_use]
     pub fn clearance(&self, point: Point<2>) -> f64 {

@@ -4,7 +4,7 @@ use crate::number::whole;
 use crate::{Domain, MeshError, Outline, PlacedShape, Point, Shape};
 
 /// Gaps below this fraction of a body's size count as contact: no mesh resolves them.
-const SMALLEST_GAP: f64 = 1e-7;
+pub const SMALLEST_GAP: f64 = 1e-7;
 
 /// Places per quarter at which the search for the smallest gap starts.
 const STARTS: usize = 32;

@@ -41,7 +41,7 @@ def picture(arguments: list[str] | None = None) -> int:
 
 
 def series(arguments: list[str] | None = None) -> int:
-    """Write a figure of quantities over time, with the published values of the case."""
+    """Write a figure of quantities over time, with the references of the case."""
     parser = argparse.ArgumentParser("alewife-series", description=series.__doc__)
     _common(parser)
     parser.add_argument("--quantity", action="append", required=True, help="may be given again")

@@ -1,4 +1,4 @@
-"""The figures: a snapshot with its axes and colour bar; time series with published values."""
+"""The figures: a snapshot with its axes and colour bar; time series with references."""
 
 from __future__ import annotations
 
@@ -220,7 +220,7 @@ def _colour_bar(
 def series_figure(
     run: Run, names: list[str], *, window: tuple[float, float] | None = None
 ) -> Figure:
-    """Quantities over time, one panel each, with the published values of the case as bands."""
+    """Quantities over time, one panel each, with the references of the case as bands."""
     style.use()
     missing = [name for name in names if name not in run.series]
     if missing:
@@ -235,7 +235,7 @@ def series_figure(
             shown = (time >= window[0]) & (time <= window[1])
         marker = "o" if shown.sum() < 2 else ""
         axes.plot(time[shown], run.series[name][shown], color=colour, lw=1.0, marker=marker)
-        draw_published(axes, run.case, name)
+        draw_references(axes, run.case, name)
         axes.set_ylabel(name.replace(".", "\n", 1).replace("_", " "))
         axes.margins(x=0.01)
         axes.spines[["top", "right"]].set_visible(False)
@@ -244,8 +244,8 @@ def series_figure(
     return figure
 
 
-def draw_published(axes: Axes, case: dict[str, Any], name: str) -> None:
-    """The interval each published value allows, over the stretch of time it speaks of."""
+def draw_references(axes: Axes, case: dict[str, Any], name: str) -> None:
+    """The interval each reference allows, over the stretch of time it speaks of."""
     same_unit = {"final", "max", "min", "mean", "at"}
     window = case.get("statistics", {}).get("window")
     drawn = False
@@ -259,11 +259,12 @@ def draw_published(axes: Axes, case: dict[str, Any], name: str) -> None:
         half = abs(scale * reference.get("absolute", 0.0))
         half = half or abs(value) * reference.get("relative", 0.0)
         start, end = window or axes.get_xlim()
-        label = f"{statistic}, published: {value:.4g} ± {half:.2g} ({reference['source']})"
+        kind = reference.get("kind", "reference")
+        label = f"{statistic}, {kind}: {value:.4g} ± {half:.2g} ({reference['source']})"
         axes.fill_between(
-            [start, end], value - half, value + half, color=style.PUBLISHED, alpha=0.25, lw=0
+            [start, end], value - half, value + half, color=style.REFERENCE, alpha=0.25, lw=0
         )
-        axes.plot([start, end], [value, value], color=style.PUBLISHED, lw=0.8, ls="--", label=label)
+        axes.plot([start, end], [value, value], color=style.REFERENCE, lw=0.8, ls="--", label=label)
         drawn = True
     if drawn:
         # Above the panel, where no curve can be.

@@ -18,7 +18,7 @@ EDGE = "#5b6b7a"
 STREAMLINE = "#ffffff"
 STREAMLINE_ON_LIGHT = "#30363d"
 SERIES = ("#1f5f99", "#3f8f5f", "#8a5a9e", "#b08900", "#4f8a8b")
-PUBLISHED = "#c8553d"
+REFERENCE = "#c8553d"
 
 DPI = 200
 LARGEST = (7.2, 5.2)

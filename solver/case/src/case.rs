@@ -5,8 +5,9 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use super::{
-    Body, BoundaryCondition, ContactSpec, DomainSpec, Fluid, Geometry, Joint, MeshSettings,
-    Numbers, Output, Probe, Reference, Scales, Statistics, SwimmerSpec, TimeSettings, Variant,
+    Body, BoundaryCondition, ContactSpec, DomainSpec, Fluid, Geometry, Joint, MeanFlowSpec,
+    MeshSettings, Numbers, Output, Probe, Reference, Scales, Statistics, SwimmerSpec, TimeSettings,
+    Variant,
 };
 
 /// A problem to solve: what one case file declares, after `extends`, variants and `--set`.
@@ -34,6 +35,9 @@ pub struct Case {
     /// What holds on each side of the domain, by the side's name.
     #[serde(default)]
     pub boundary: BTreeMap<String, BoundaryCondition>,
+    /// What drives the fluid along periodic directions.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub flow: Option<MeanFlowSpec>,
     /// The bodies in the fluid, but for those of swimmers.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub body: Vec<Body>,
@@ -65,7 +69,7 @@ pub struct Case {
     /// The stretch of time over which statistics are taken.
     #[serde(default)]
     pub statistics: Statistics,
-    /// Published values this case is compared with.
+    /// What the case is compared with.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub reference: Vec<Reference>,
     /// Whether `alewife validate --quick` runs the case (its variants say so themselves).

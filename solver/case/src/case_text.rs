@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use super::diagnostic::CaseError;
 use super::library;
-use super::nearest::nearest;
+use super::nearest::several_nearest;
 use super::source::Source;
 
 /// The text of a case before it is understood.
@@ -55,6 +55,10 @@ pub fn locate(argument: &str) -> Result<Located, CaseError> {
     if directory.is_file() {
         return read_file(&directory).map(without_variant);
     }
+    // A pipe or a device is refused with the reason; a directory may be named like case and variant
+    if Path::new(argument).exists() && !Path::new(argument).is_dir() {
+        return read_file(Path::new(argument)).map(without_variant);
+    }
     let Some((case, variant)) = argument.rsplit_once('/') else {
         return Err(no_such_case(argument));
     };
@@ -73,11 +77,13 @@ pub fn locate(argument: &str) -> Result<Located, CaseError> {
 /// There is no case of that name.
 pub fn no_such_case(name: &str) -> CaseError {
     let known: Vec<&str> = library::list().iter().map(|case| case.name).collect();
-    let mut help = match nearest(name, &known) {
-        Some(word) => format!("did you mean `{word}`? "),
-        None => String::new(),
+    let near = several_nearest(name, &known);
+    let mut help = match near.len() {
+        0 => String::new(),
+        1 => format!("did you mean `{}`? ", near[0]),
+        _ => format!("did you mean one of `{}`? ", near.join("`, `")),
     };
-    help += &format!("shipped cases: {}; a file of your own ends in .toml", known.join(", "));
+    help += "`alewife list` lists the shipped cases; a file of your own ends in .toml";
     CaseError::NotFound { what: format!("there is no case `{name}`"), help }
 }
 
@@ -87,22 +93,77 @@ pub fn shipped_text(case: &library::Shipped) -> CaseText {
     CaseText { name: case.name.to_owned(), directory: None, source: Arc::new(source) }
 }
 
+/// Largest file that is read (bytes); the largest shipped case has a thousandth of it.
+const LARGEST_FILE: u64 = 16_000_000;
+
 /// The text of a file.
 ///
 /// # Errors
-/// When there is no such file, or it cannot be read.
+/// When there is no such file, or it cannot be read, is no text, or gives the case no usable name.
 pub fn read_file(path: &Path) -> Result<CaseText, CaseError> {
-    let text = fs::read_to_string(path).map_err(|error| match error.kind() {
+    let text = read_text(path)?;
+    let name = stem(&path.canonicalize().unwrap_or_else(|_| path.to_owned()).to_string_lossy());
+    let is_dots = name.is_empty() || name.chars().all(|c| c == '.');
+    if is_dots || name.chars().any(char::is_control) {
+        return Err(CaseError::at(
+            "",
+            format!(
+                "{} gives its case the name {name:?}, which no directory can have",
+                path.display()
+            ),
+            "rename the file: the run gets a directory of its name, such as runs/mine for mine.toml",
+        ));
+    }
+    Ok(CaseText {
+        name,
+        directory: Some(path.parent().unwrap_or(Path::new("")).to_owned()),
+        source: Arc::new(Source { name: path.display().to_string(), text }),
+    })
+}
+
+/// The text of a file that is one: no pipe or device, of a size a case can have, and in UTF-8.
+fn read_text(path: &Path) -> Result<String, CaseError> {
+    let failed = |error: std::io::Error| match error.kind() {
         std::io::ErrorKind::NotFound => CaseError::NotFound {
             what: format!("there is no file {}", path.display()),
             help: "give the path of a case file, or a name from `alewife list`".to_owned(),
         },
         _ => CaseError::Unreadable { path: path.to_owned(), source: error },
-    })?;
-    let name = path.display().to_string();
-    Ok(CaseText {
-        name: stem(&path.canonicalize().unwrap_or_else(|_| path.to_owned()).to_string_lossy()),
-        directory: Some(path.parent().unwrap_or(Path::new("")).to_owned()),
-        source: Arc::new(Source { name, text }),
+    };
+    // Asked before it is opened: opening a pipe waits for somebody to write into it
+    let metadata = fs::metadata(path).map_err(failed)?;
+    let refused = |what: String, help: &str| CaseError::at("", what, help);
+    if !metadata.is_file() {
+        let kind = if metadata.is_dir() { "a directory" } else { "a pipe or a device" };
+        return Err(refused(
+            format!("{} is {kind}, not a file", path.display()),
+            "give the path of a case file, or of a directory with a case.toml",
+        ));
+    }
+    if metadata.len() > LARGEST_FILE {
+        return Err(refused(
+            format!(
+                "{} has {:.1} MB, more than the {} MB a case may have",
+                path.display(),
+                metadata.len() as f64 / 1e6,
+                LARGEST_FILE / 1_000_000
+            ),
+            "is it a case file? A table of that length can be thinned out",
+        ));
+    }
+    let bytes = fs::read(path).map_err(failed)?;
+    String::from_utf8(bytes).map_err(|error| {
+        let at = error.utf8_error().valid_up_to();
+        let bytes = error.as_bytes();
+        let line = bytes[..at].iter().filter(|byte| **byte == b'\n').count() + 1;
+        refused(
+            format!(
+                "{} is not text in UTF-8: byte {} (in line {line}) is 0x{:02X}",
+                path.display(),
+                at + 1,
+                bytes[at]
+            ),
+            "save it as UTF-8 in your editor, or convert it: iconv -f latin1 -t utf-8",
+        )
     })
 }

@@ -73,7 +73,7 @@ pub enum TimeFunction {
         /// Time until the full value (s).
         duration: f64,
     },
-    /// mean + amplitude sin(2 pi frequency t + phase).
+    /// mean + amplitude sin(2 pi (t / period + phase)).
     Sine {
         /// Mean value (1).
         #[serde(default)]
@@ -81,9 +81,9 @@ pub enum TimeFunction {
         /// Amplitude (1).
         #[serde(default = "one")]
         amplitude: f64,
-        /// Frequency (1/s).
-        frequency: f64,
-        /// Phase (rad).
+        /// Period (s).
+        period: f64,
+        /// Phase (periods).
         #[serde(default)]
         phase: f64,
     },
@@ -138,15 +138,15 @@ pub enum BoundaryCondition {
         #[serde(default, skip_serializing_if = "Option::is_none")]
         factor: Option<TimeFunction>,
     },
-    /// A sheet that waves as y = amplitude sin(2 pi (x / wavelength - frequency t)), and the mesh
+    /// A sheet that waves as y = amplitude sin(2 pi (x / wavelength - t / period)), and the mesh
     /// with it (planar, `bottom` only, unsteady runs).
     WavingSheet {
         /// Amplitude (m).
         amplitude: f64,
         /// Wavelength (m); divides the length of the side.
         wavelength: f64,
-        /// Frequency (1/s); positive ones send the wave towards +x.
-        frequency: f64,
+        /// Period (s); positive ones send the wave towards +x, negative ones towards -x.
+        period: f64,
         /// Whether its material moves up and down only; otherwise it keeps its length.
         #[serde(default)]
         extensible: bool,

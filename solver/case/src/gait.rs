@@ -63,9 +63,9 @@ pub struct CarangiformGait {
     /// Duration of the ramp at the start (s); a period if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub ramp: Option<f64>,
-    /// Start in the period (periods).
+    /// Phase at the start (periods).
     #[serde(default)]
-    pub start_phase: f64,
+    pub phase: f64,
 }
 
 /// `gait.anguilliform`: a wave amplitude (s + offset L) sin(2 pi (s/L - t/T - phase)).
@@ -84,9 +84,9 @@ pub struct AnguilliformGait {
     /// Duration of the ramp at the start (s); a period if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub ramp: Option<f64>,
-    /// Start in the period (periods).
+    /// Phase at the start (periods).
     #[serde(default)]
-    pub start_phase: f64,
+    pub phase: f64,
 }
 
 /// `gait.flagellum`: a wave along the tail, with an amplitude that grows with the distance.
@@ -103,9 +103,9 @@ pub struct FlagellumGait {
     /// Time constant of the ramp 1 - exp(-t / ramp) (s); a period if absent, 0 for none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub ramp: Option<f64>,
-    /// Start in the period (periods).
+    /// Phase at the start (periods).
     #[serde(default)]
-    pub start_phase: f64,
+    pub phase: f64,
     /// Length over which the tail begins to bend (m); a twentieth of the tail if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub joint: Option<f64>,
@@ -125,7 +125,7 @@ pub struct PulsatingGait {
     /// Period (s); a table without it is not repeated.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub period: Option<f64>,
-    /// Start in the period (periods), with `amplitude`.
+    /// Phase at the start (periods), with `amplitude`.
     #[serde(default)]
     pub phase: f64,
     /// [time (s), area or volume over that at rest], joined by straight lines.

@@ -251,6 +251,14 @@ impl Body {
 }
 
 impl Case {
+    /// Along which coordinates the domain is periodic.
+    #[must_use]
+    pub fn periodic_axes(&self) -> [bool; 3] {
+        let is_periodic =
+            |side: &str| matches!(self.boundary.get(side), Some(BoundaryCondition::Periodic(_)));
+        [is_periodic("left"), is_periodic("bottom"), false]
+    }
+
     /// Whether a side of the domain waves.
     #[must_use]
     pub fn has_waving_sheet(&self) -> bool {

@@ -15,12 +15,15 @@ mod gait;
 mod geometry;
 mod joint;
 pub mod library;
+mod mean_flow;
 mod mesh;
 mod model;
+mod names;
 mod nearest;
 mod numbers;
 mod output;
 mod parts;
+mod problem_keys;
 mod quantity;
 mod read;
 mod reference;
@@ -31,12 +34,13 @@ mod swimmer;
 mod time;
 mod tree;
 mod type_error;
+mod variants;
 
 pub use body::{Body, GaitSpec, ImposedMotion, Lock, Motion, ShapeSpec, SpringSpec, SquirmerGait};
 pub use case::Case;
 pub use check::check;
 pub use contact::ContactSpec;
-pub use diagnostic::{CaseError, Diagnostic, Severity};
+pub use diagnostic::{CaseError, Diagnostic, Severity, printable};
 pub use domain::{BoundaryCondition, DomainSpec, Geometry, TimeFunction};
 pub use fluid::{FlowModel, Fluid};
 pub use gait::{
@@ -44,6 +48,7 @@ pub use gait::{
 };
 pub use geometry::opposite;
 pub use joint::{Hinge, Joint, JointKind};
+pub use mean_flow::MeanFlowSpec;
 pub use mesh::{MeshEquation, MeshSettings, MovingMesh, RefinementBox};
 pub use model::{Model, SwimmerModel};
 pub use nearest::nearest;
@@ -54,7 +59,9 @@ pub use quantity::{
     SwimmerQuantity, When, columns, known_quantities,
 };
 pub use read::CaseFile;
-pub use reference::{ForceComponent, Numbers, Reference, Scales, Statistic, Statistics, Variant};
+pub use reference::{
+    ForceComponent, Numbers, Reference, ReferenceKind, Scales, Statistic, Statistics, Variant,
+};
 pub use schema::schema;
 pub use source::Location;
 pub use stroke::{Stroke, smooth_ramp};

@@ -6,9 +6,12 @@ use super::copies::{Individual, individuals};
 use super::diagnostic::CaseError;
 use super::parts::{Part, parts, poses};
 use super::{
-    Body, BoundaryCondition, Case, GaitSpec, Geometry, Joint, Motion, SwimmerKind, SwimmerSpec,
-    TimeSettings,
+    Body, BoundaryCondition, Case, Copies, FlowModel, GaitSpec, Geometry, Joint, Motion,
+    SwimmerKind, SwimmerSpec, TimeSettings,
 };
+
+/// Most bodies of a case; a run with a tenth of it takes days.
+const MOST_BODIES: usize = 20_000;
 
 /// What a case describes: the case as it is written, and the bodies, joints and swimmers that
 /// follow from it.
@@ -65,6 +68,13 @@ impl Model {
             joint_above: Vec::new(),
             case,
         };
+        if model.bodies.len() > MOST_BODIES {
+            let message = format!(
+                "{} bodies are more than the {MOST_BODIES} a case may have",
+                model.bodies.len()
+            );
+            return Err(CaseError::at("body", message, "leave some out"));
+        }
         for body in 0..model.bodies.len() {
             model.register_name(body);
         }
@@ -134,10 +144,40 @@ impl Model {
     fn add_individuals(&mut self, index: usize, swimmer: &SwimmerSpec) -> Result<(), CaseError> {
         let key = format!("swimmer.{index}");
         let parts = parts(&key, &swimmer.kind, self.case.geometry)?;
+        self.has_room_for(&key, swimmer, parts.len())?;
         for individual in individuals(&self.case, &key, swimmer, &parts, &self.bodies)? {
             self.add_individual(index, swimmer, &parts, individual);
         }
         Ok(())
+    }
+
+    /// Refuses copies that would make more bodies than a run can have, before they are made.
+    fn has_room_for(
+        &self,
+        key: &str,
+        swimmer: &SwimmerSpec,
+        n_parts: usize,
+    ) -> Result<(), CaseError> {
+        let (name, written, count) = match &swimmer.copies {
+            None => return Ok(()),
+            Some(Copies::Lattice { counts: [columns, rows], .. }) => {
+                ("lattice.counts", format!("{columns} x {rows}"), columns.checked_mul(*rows))
+            }
+            Some(Copies::Random { count, .. }) => ("random.count", count.to_string(), Some(*count)),
+        };
+        let bodies = count.and_then(|count| count.checked_mul(n_parts.max(1)));
+        let room = MOST_BODIES.saturating_sub(self.bodies.len());
+        if bodies.is_some_and(|bodies| bodies <= room) {
+            return Ok(());
+        }
+        Err(CaseError::at(
+            &format!("{key}.copies.{name}"),
+            format!(
+                "{written} copies of \"{}\" make more than the {MOST_BODIES} bodies a case may have",
+                swimmer.name
+            ),
+            &format!("ask for at most {} copies", room / n_parts.max(1)),
+        ))
     }
 
     fn add_individual(
@@ -268,19 +308,21 @@ impl Model {
         matches!(case.time, TimeSettings::Unsteady(_)) && any
     }
 
-    /// Whether all work on the fluid is that of the bodies, so that it balances dissipation and the
-    /// rate of the kinetic energy.
+    /// Whether all work on the fluid is that of bodies and waving sheets, so that it balances
+    /// dissipation and the rate of the kinetic energy. No work is done where there is no traction,
+    /// but with inertia the fluid that leaves there takes its kinetic energy along.
     #[must_use]
     pub fn balances_energy(&self) -> bool {
-        let is_idle = |condition: &BoundaryCondition| {
-            matches!(
-                condition,
-                BoundaryCondition::NoSlip
-                    | BoundaryCondition::Symmetry
-                    | BoundaryCondition::Axis
-                    | BoundaryCondition::Periodic(_)
-            )
+        let is_balanced = |condition: &BoundaryCondition| match condition {
+            BoundaryCondition::NoSlip
+            | BoundaryCondition::Symmetry
+            | BoundaryCondition::Axis
+            | BoundaryCondition::Periodic(_)
+            | BoundaryCondition::WavingSheet { .. } => true,
+            BoundaryCondition::TractionFree => self.case.fluid.model == FlowModel::Stokes,
+            _ => false,
         };
-        !self.bodies.is_empty() && self.case.boundary.values().all(is_idle)
+        let does_work = !self.bodies.is_empty() || self.case.has_waving_sheet();
+        does_work && self.case.boundary.values().all(is_balanced)
     }
 }

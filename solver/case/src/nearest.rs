@@ -15,6 +15,31 @@ pub fn nearest<'a, S: AsRef<str>>(word: &str, known: &'a [S]) -> Option<&'a str>
     (edits <= 1 + length / 3).then_some(candidate)
 }
 
+/// Most words that are offered for one that is not known.
+const MOST_OFFERED: usize = 4;
+
+/// The words of `known` near a misspelt one: the nearest one, and those that hold it or begin with
+/// its first part.
+#[must_use]
+pub fn several_nearest<'a>(word: &str, known: &[&'a str]) -> Vec<&'a str> {
+    let lower = word.to_lowercase();
+    let first = lower.split('-').next().unwrap_or_default();
+    let is_alike = |candidate: &&&str| {
+        lower.len() > 2 && candidate.contains(&lower)
+            || first.len() > 2 && candidate.split('-').any(|part| part == first)
+    };
+    let mut found: Vec<&str> =
+        known.iter().filter(|one| nearest(word, &[**one]).is_some()).copied().collect();
+    found.sort_by_key(|one| strsim::osa_distance(&lower, one));
+    for alike in known.iter().filter(is_alike) {
+        if !found.contains(alike) {
+            found.push(alike);
+        }
+    }
+    found.truncate(MOST_OFFERED);
+    found
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -25,6 +50,15 @@ mod tests {
         assert_eq!(nearest("viscoisty", &known), Some("viscosity"));
         assert_eq!(nearest("Viscocity", &known), Some("viscosity"));
         assert_eq!(nearest("densty", &known), Some("density"));
+    }
+
+    #[test]
+    fn a_few_words_are_offered_the_nearest_first() {
+        let known = ["sphere-in-tube", "squirmer-alone", "squirmer-pair", "three-sphere"];
+        assert_eq!(several_nearest("squirmer-par", &known)[0], "squirmer-pair");
+        assert_eq!(several_nearest("squirmer", &known), ["squirmer-pair", "squirmer-alone"]);
+        assert_eq!(several_nearest("sphere", &known), ["sphere-in-tube", "three-sphere"]);
+        assert!(several_nearest("robot", &known).is_empty());
     }
 
     #[test]

@@ -50,7 +50,13 @@ pub fn parts(key: &str, kind: &SwimmerKind, geometry: Geometry) -> Result<Vec<Pa
         if found == wanted {
             return Ok(());
         }
-        let message = format!("{found} {what} are given, and {wanted} are wanted");
+        let verb = |count: usize| if count == 1 { "is" } else { "are" };
+        let found_what = if found == 1 { what.trim_end_matches('s') } else { what };
+        let message = format!(
+            "{found} {found_what} {} given, and {wanted} {} wanted",
+            verb(found),
+            verb(wanted)
+        );
         Err(CaseError::at(&format!("{key}.kind"), message, "give one for each"))
     };
     match kind {

@@ -2,10 +2,9 @@
 //!
 //! A case is put together in this order, the later over the earlier: the file it `extends`, the
 //! file itself, the variant, the settings of the command line. Tables are merged, everything else
-//! is replaced. `reference`, `variant` and `quick` of an extended file are not inherited: what was
-//! published for one problem does not hold for another.
+//! is replaced. `reference`, `variant` and `quick` of an extended file are not inherited: what is
+//! known of one problem does not hold for another.
 
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use serde::Deserialize;
@@ -16,7 +15,8 @@ use super::geometry::opposite;
 use super::nearest::nearest;
 use super::source::{Location, Origin, Source};
 use super::tree::{self, Found, TomlNode, TomlValue, TreeError};
-use super::type_error::{Mismatch, TypeError, suggestion};
+use super::type_error::{Mismatch, TypeError};
+use super::variants::{apply_variant, check_names, variant_names};
 use super::{BoundaryCondition, Case, Model, library};
 
 /// Keys of a file that those who extend it do not inherit.
@@ -41,6 +41,15 @@ pub struct CaseFile {
     root: TomlNode,
 }
 
+/// A number as it is written.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct WrittenNumber {
+    /// Its key, with its tables.
+    pub path: String,
+    /// The number.
+    pub value: f64,
+}
+
 impl CaseFile {
     /// The case as it is written, with `extends`, variant and settings applied.
     #[must_use]
@@ -54,11 +63,15 @@ impl CaseFile {
         location(&self.root, path)
     }
 
-    /// Paths of all numbers that are infinite or not a number.
-    pub(super) fn not_finite(&self) -> Vec<String> {
-        let mut paths = Vec::new();
-        collect_not_finite(&self.root, String::new(), &mut paths);
-        paths
+    /// All numbers that are written, but for those of variants.
+    pub(super) fn numbers(&self) -> Vec<WrittenNumber> {
+        let mut numbers = Vec::new();
+        for (key, node) in self.root.table().into_iter().flatten() {
+            if key != "variant" {
+                collect_numbers(node, key.clone(), &mut numbers);
+            }
+        }
+        numbers
     }
 
     /// Name and variant: `sphere-in-tube/free-0.5`.
@@ -101,19 +114,20 @@ impl Case {
     }
 }
 
-fn collect_not_finite(node: &TomlNode, path: String, paths: &mut Vec<String>) {
-    let below =
-        |step: &str| if path.is_empty() { step.to_owned() } else { format!("{path}.{step}") };
+fn collect_numbers(node: &TomlNode, path: String, numbers: &mut Vec<WrittenNumber>) {
     match &node.value {
-        TomlValue::Float(number) if !number.is_finite() => paths.push(path),
+        TomlValue::Float(value) => numbers.push(WrittenNumber { path, value: *value }),
+        TomlValue::Integer(value) => {
+            numbers.push(WrittenNumber { path, value: *value as f64 });
+        }
         TomlValue::Array(items) => {
             for (index, item) in items.iter().enumerate() {
-                collect_not_finite(item, below(&index.to_string()), paths);
+                collect_numbers(item, format!("{path}.{index}"), numbers);
             }
         }
         TomlValue::Table(entries) => {
             for (key, entry) in entries {
-                collect_not_finite(entry, below(key), paths);
+                collect_numbers(entry, format!("{path}.{key}"), numbers);
             }
         }
         _ => {}
@@ -128,6 +142,7 @@ fn assemble(
 ) -> Result<CaseFile, CaseError> {
     let mut root = extended(text)?;
     let variants = variant_names(&root);
+    check_names(&root)?;
     if let Some(variant) = variant {
         apply_variant(&mut root, &text.source, variant).map_err(wrong)?;
     }
@@ -220,57 +235,6 @@ fn extended(text: &CaseText) -> Result<TomlNode, CaseError> {
     }
     base.merge(root);
     Ok(base)
-}
-
-fn variant_tables(root: &TomlNode) -> impl Iterator<Item = &BTreeMap<String, TomlNode>> {
-    let items = root.get("variant").and_then(TomlNode::array).unwrap_or_default();
-    items.iter().filter_map(TomlNode::table)
-}
-
-fn variant_names(root: &TomlNode) -> Vec<String> {
-    variant_tables(root)
-        .filter_map(|table| table.get("name")?.text().map(ToOwned::to_owned))
-        .collect()
-}
-
-/// Sets what a variant sets, adds its references, and forgets all variants.
-fn apply_variant(root: &mut TomlNode, source: &Arc<Source>, name: &str) -> Result<(), TreeError> {
-    let table = variant_tables(root)
-        .find(|table| table.get("name").and_then(TomlNode::text) == Some(name))
-        .cloned();
-    let Some(table) = table else {
-        let known = variant_names(root);
-        let first = root.get("variant").and_then(TomlNode::array).and_then(<[TomlNode]>::first);
-        let start = Origin { source: Arc::clone(source), span: 0..0 };
-        return Err(TreeError {
-            origin: first.map_or(start, |node| node.origin.clone()),
-            message: format!("there is no variant `{name}`"),
-            help: if known.is_empty() {
-                "this case has no [[variant]]; leave out what follows the /".to_owned()
-            } else {
-                suggestion(name, &known)
-            },
-        });
-    };
-    if let Some(entries) = root.table_mut() {
-        entries.remove("variant");
-        match table.get("quick") {
-            Some(quick) => entries.insert("quick".to_owned(), quick.clone()),
-            None => entries.remove("quick"),
-        };
-        if let Some(TomlValue::Array(more)) = table.get("reference").map(|node| &node.value) {
-            match entries.get_mut("reference").map(|node| &mut node.value) {
-                Some(TomlValue::Array(references)) => references.extend(more.iter().cloned()),
-                _ => {
-                    entries.insert("reference".to_owned(), table["reference"].clone());
-                }
-            }
-        }
-    }
-    for (path, value) in table.get("set").and_then(TomlNode::table).into_iter().flatten() {
-        root.set(path, value.clone())?;
-    }
-    Ok(())
 }
 
 /// Sets one `KEY=VALUE` of the command line.

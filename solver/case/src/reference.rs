@@ -1,4 +1,4 @@
-//! `[[reference]]`, `[[variant]]`, `[scales]`, `[numbers]`, `[statistics]`: published values.
+//! `[[reference]]`, `[[variant]]`, `[scales]`, `[numbers]`, `[statistics]`: what a run is compared with.
 
 use std::collections::BTreeMap;
 
@@ -114,7 +114,64 @@ impl Default for Statistics {
     }
 }
 
-/// `[[reference]]`: a published value, where it comes from and how near we should be.
+/// What kind of evidence a reference is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(rename_all = "kebab-case")]
+pub enum ReferenceKind {
+    /// Measured in an experiment, and published.
+    Measured,
+    /// Computed by others, and published.
+    Literature,
+    /// A formula or a series, evaluated.
+    Exact,
+    /// Computed by another method or code.
+    Independent,
+    /// What must hold whatever the numbers are: zero, symmetry, balance, an interval.
+    Property,
+    /// An earlier value of this program: shows that something has changed, not that it is right.
+    Regression,
+}
+
+impl ReferenceKind {
+    /// All of them, the strongest evidence first.
+    pub const ALL: [Self; 6] = [
+        Self::Measured,
+        Self::Literature,
+        Self::Exact,
+        Self::Independent,
+        Self::Property,
+        Self::Regression,
+    ];
+
+    /// Name in the case file.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Measured => "measured",
+            Self::Literature => "literature",
+            Self::Exact => "exact",
+            Self::Independent => "independent",
+            Self::Property => "property",
+            Self::Regression => "regression",
+        }
+    }
+
+    /// What values of this kind are, in a few words.
+    #[must_use]
+    pub fn meaning(self) -> &'static str {
+        match self {
+            Self::Measured => "published, of an experiment",
+            Self::Literature => "published, of a computation by others",
+            Self::Exact => "a formula or series, evaluated",
+            Self::Independent => "computed with another method or code",
+            Self::Property => "what must hold: zero, symmetry, balance, an interval",
+            Self::Regression => "an earlier value of this program",
+        }
+    }
+}
+
+/// `[[reference]]`: a value to compare with, where it comes from and how near we should be.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -136,7 +193,7 @@ pub struct Reference {
     /// The quantity statistic `when` waits for.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub of: Option<String>,
-    /// The published value.
+    /// The value.
     pub value: f64,
     /// What the computed quantity is divided by before it is compared (say, 6 pi mu a U).
     #[serde(default = "one")]
@@ -147,8 +204,20 @@ pub struct Reference {
     /// Accepted difference; this or `relative`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub absolute: Option<f64>,
-    /// Where the value was published.
+    /// The value's own uncertainty, relative to it if the tolerance is `relative`; of a
+    /// `regression`, what refinement of mesh and step changes.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub uncertainty: Option<f64>,
+    /// What kind of evidence the value is.
+    pub kind: ReferenceKind,
+    /// Who published the value and where, or how it follows.
     pub source: String,
+    /// Day on which a `regression` was computed: year-month-day.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub date: Option<String>,
+    /// Why the computed value is known to be outside the tolerance; an error once it is within.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub outside: Option<String>,
     /// What a reader should know: disagreements in words.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub note: Option<String>,
@@ -168,7 +237,7 @@ pub struct Variant {
     /// Whether `alewife validate --quick` runs it.
     #[serde(default)]
     pub quick: bool,
-    /// Its published values, besides those of the case.
+    /// Its references, besides those of the case.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub reference: Vec<Reference>,
 }

@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 pub enum Stroke {
     /// The same at all times.
     Constant(f64),
-    /// mean + amplitude sin(2 pi t / period + phase).
+    /// mean + amplitude sin(2 pi (t / period + phase)).
     Sine {
         /// Mean value.
         #[serde(default)]
@@ -21,7 +21,7 @@ pub enum Stroke {
         amplitude: f64,
         /// Period (s).
         period: f64,
-        /// Phase (rad).
+        /// Phase (periods).
         #[serde(default)]
         phase: f64,
         /// Time over which the amplitude grows from 0, twice continuously differentiable (s); 0 for
@@ -53,7 +53,7 @@ impl Stroke {
             Self::Constant(value) => [*value, 0.0],
             Self::Sine { mean, amplitude, period, phase, ramp } => {
                 let rate = TAU / period;
-                let (sin, cos) = (rate * time + phase).sin_cos();
+                let (sin, cos) = (TAU * (time / period + phase)).sin_cos();
                 let [part, growth] = smooth_ramp(time, *ramp);
                 [mean + amplitude * part * sin, amplitude * (part * rate * cos + growth * sin)]
             }

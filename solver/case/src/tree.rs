@@ -88,8 +88,12 @@ pub fn parse(source: &Arc<Source>) -> Result<TomlNode, TreeError> {
         TreeError {
             origin: Origin { source: Arc::clone(source), span },
             message: format!("this is not TOML: {}", error.message()),
-            help: "strings stand in quotes, arrays in [ ], tables in { } or under a [header]"
-                .to_owned(),
+            help: if error.message().contains("duplicate key") {
+                "it is given above already: keep one of the two".to_owned()
+            } else {
+                "strings stand in quotes, arrays in [ ], tables in { } or under a [header]"
+                    .to_owned()
+            },
         }
     })?;
     let start = Origin { source: Arc::clone(source), span: 0..0 };

@@ -1,10 +1,12 @@
 //! `TypeError`: why a value of a case cannot be typed, where it is, and what is accepted.
 
+use std::collections::HashSet;
 use std::fmt::{self, Display};
 
 use serde::de::{self, Expected, Unexpected};
 
 use super::nearest::nearest;
+use super::reference::ReferenceKind;
 use super::source::Origin;
 
 /// What a value cannot be typed for.
@@ -106,8 +108,15 @@ impl TypeError {
     /// What to do, in one line.
     pub fn help(&self) -> String {
         match self.mismatch() {
-            Mismatch::UnknownKey { key: found, accepted }
-            | Mismatch::UnknownAlternative { found, accepted } => suggestion(found, accepted),
+            Mismatch::UnknownKey { key, accepted } => {
+                renamed(key, accepted).unwrap_or_else(|| suggestion(key, accepted))
+            }
+            Mismatch::UnknownAlternative { found, accepted } => suggestion(found, accepted),
+            // What a word may be is known from the key and its table only
+            Mismatch::MissingKey(key) if key == "kind" && self.path().contains("reference") => {
+                let kinds = ReferenceKind::ALL.map(ReferenceKind::name).join(", ");
+                format!("add `kind = \"...\"` there: {kinds}")
+            }
             Mismatch::MissingKey(key) => format!("add `{key} = ...` there"),
             Mismatch::WrongType { found, wanted } => {
                 if found.starts_with("the string") && wanted.contains("number") {
@@ -121,15 +130,30 @@ impl TypeError {
     }
 }
 
+/// What has become of a key that is told in another way now, or is told so elsewhere.
+fn renamed(key: &str, accepted: &[String]) -> Option<String> {
+    let (new, how) = match key {
+        "frequency" => ("period", "the inverse of the frequency"),
+        "start_phase" => ("phase", "a part of the period"),
+        _ => return None,
+    };
+    accepted.iter().any(|word| word == new).then(|| format!("write `{new} = ...`, {how}"))
+}
+
 /// Most words a suggestion lists.
 const MOST_WORDS: usize = 100;
 
 /// "did you mean ...? accepted: ..." for a word that is not known.
 pub fn suggestion<S: AsRef<str>>(found: &str, accepted: &[S]) -> String {
-    let words: Vec<&str> = accepted.iter().take(MOST_WORDS).map(AsRef::as_ref).collect();
+    let mut words: Vec<&str> = Vec::new();
+    let mut seen = HashSet::new();
+    // What is offered twice, such as a body and the swimmer it is, is one word
+    words.extend(accepted.iter().map(AsRef::as_ref).filter(|word| seen.insert(*word)));
+    let more = words.len().saturating_sub(MOST_WORDS);
+    words.truncate(MOST_WORDS);
     let mut list = words.join(", ");
-    if accepted.len() > MOST_WORDS {
-        list += &format!(" and {} more", accepted.len() - MOST_WORDS);
+    if more > 0 {
+        list += &format!(" and {more} more");
     }
     match nearest(found, accepted) {
         Some(word) => format!("did you mean `{word}`? accepted: {list}"),

@@ -6,14 +6,15 @@ use alewife_mesh::Mesh;
 
 use super::engine;
 use super::exit::{Exit, Failure};
+use super::facts::{count, facts, one_line};
 use super::read::{CheckedCase, read_and_check};
 use super::style::{self, Ink, on_stdout, say};
 use crate::case::{
-    BoundaryCondition, Cadence, Case, CaseFile, Diagnostic, DomainSpec, FlowModel, GaitSpec, Joint,
-    JointKind, Model, Motion, Precision, Scheme, ShapeSpec, Stroke, SwimmerModel, TimeSettings,
-    geometry_name, known_quantities, number_table, significant,
+    Cadence, CaseFile, Diagnostic, FlowModel, Model, Precision, Scheme, TimeSettings,
+    known_quantities, number_table,
 };
-use crate::coupling::memory_estimate;
+use crate::coupling::{count_unknowns, memory_estimate};
+use crate::simulation::build_problem;
 
 /// Output above which a warning is given (bytes).
 const LARGE_OUTPUT: f64 = 2e9;
@@ -40,7 +41,8 @@ pub fn check(cases: &[String], settings: &[String], has_mesh: bool) -> Result<Ex
 
 fn check_one(argument: &str, settings: &[String], has_mesh: bool) -> Result<(), Failure> {
     let CheckedCase { file, warnings } = read_and_check(argument, settings)?;
-    let mut text = format!("{}  {}\n", on_stdout(Ink::Bold, &file.full_name()), file.case().title);
+    let mut text =
+        format!("{}  {}\n", on_stdout(Ink::Bold, &file.full_name()), one_line(&file.case().title));
     text += &facts(&file);
     let numbers = number_table(&file.model);
     if !numbers.is_empty() {
@@ -56,11 +58,11 @@ fn check_one(argument: &str, settings: &[String], has_mesh: bool) -> Result<(), 
         say(&format!(
             "\n{}\n{}",
             on_stdout(Ink::Bold, "cost (a rough guess)"),
-            costs(&file.model, &mesh)
+            costs(&file.model, &mesh)?
         ));
     }
-    for warning in &warnings {
-        style::complain(&format!("\n{}", style::diagnostic(warning)));
+    if !warnings.is_empty() {
+        style::complain(&format!("\n{}", style::diagnostics(&warnings)));
     }
     check_variants(argument, &file, settings)?;
     say("\nnothing was solved");
@@ -80,180 +82,6 @@ fn check_variants(argument: &str, file: &CaseFile, settings: &[String]) -> Resul
         say(&format!("\n{} variants are valid, too", file.case().variant.len()));
     }
     Ok(())
-}
-
-/// What a case consists of, as lines `what  value`.
-pub fn facts(file: &CaseFile) -> String {
-    let (case, model) = (file.case(), &file.model);
-    let mut text = String::new();
-    let mut line = |what: &str, value: String| {
-        // Writing to a String cannot fail.
-        let _ = writeln!(text, "  {what:<10} {value}");
-    };
-    line("file", file.file.clone());
-    let units = format!("{}, units: {}", geometry_name(case.geometry), case.units);
-    line("geometry", units);
-    line("fluid", fluid(case));
-    line("domain", domain(&case.domain));
-    let sides = case.domain.sides().iter().filter(|side| **side != "axis").map(|side| {
-        let condition = case.boundary.get(*side).map_or("nothing", condition_name);
-        format!("{side} {condition}")
-    });
-    line("boundary", sides.collect::<Vec<_>>().join(", "));
-    for body in &model.bodies {
-        line("body", body_line(case, body));
-    }
-    for joint in &model.joints {
-        line("joint", joint_line(joint));
-    }
-    for swimmer in &model.swimmers {
-        line("swimmer", swimmer_line(model, swimmer));
-    }
-    line("time", time(case));
-    if let Some(frame) = &case.frame {
-        line("frame", format!("travels with {frame}"));
-    }
-    let n = case.reference.len();
-    let in_variants: usize = case.variant.iter().map(|variant| variant.reference.len()).sum();
-    line(
-        "reference",
-        match (n, in_variants) {
-            (0, 0) => "none: the result is not compared with anything".to_owned(),
-            (1, 0) => "1 published value".to_owned(),
-            (n, 0) => format!("{n} published values"),
-            (n, more) => format!("{} published values, {more} of them in variants", n + more),
-        },
-    );
-    text
-}
-
-fn fluid(case: &Case) -> String {
-    let fluid = &case.fluid;
-    let model = match fluid.model {
-        FlowModel::Stokes => "Stokes",
-        FlowModel::UnsteadyStokes => "unsteady Stokes",
-        FlowModel::NavierStokes => "Navier-Stokes",
-    };
-    let density = if fluid.density > 0.0 {
-        format!(", density {}", significant(fluid.density))
-    } else {
-        String::new()
-    };
-    format!("{model}, viscosity {}{density}", significant(fluid.viscosity))
-}
-
-fn domain(domain: &DomainSpec) -> String {
-    match domain {
-        DomainSpec::Box { min, max } => format!("box from {min:?} to {max:?}"),
-        DomainSpec::Channel { length, height } => format!("channel {length} long, {height} high"),
-        DomainSpec::Disc { radius, .. } => format!("disc of radius {radius}"),
-        DomainSpec::HalfDisc { radius, .. } => format!("ball of radius {radius}"),
-        DomainSpec::Cylinder { x: [start, end], radius } => {
-            format!("cylinder from x = {start} to {end} of radius {radius}")
-        }
-    }
-}
-
-fn condition_name(condition: &BoundaryCondition) -> &'static str {
-    match condition {
-        BoundaryCondition::NoSlip => "no-slip",
-        BoundaryCondition::DoNothing => "do-nothing",
-        BoundaryCondition::TractionFree => "traction-free",
-        BoundaryCondition::Symmetry => "symmetry",
-        BoundaryCondition::Axis => "axis",
-        BoundaryCondition::Velocity { .. } => "velocity",
-        BoundaryCondition::Parabolic { .. } => "parabolic",
-        BoundaryCondition::Shear { .. } => "shear",
-        BoundaryCondition::WavingSheet { .. } => "waving-sheet",
-        BoundaryCondition::Periodic(_) => "periodic",
-    }
-}
-
-fn body_line(case: &Case, body: &crate::case::Body) -> String {
-    let shape = match &body.shape {
-        ShapeSpec::Disc { radius } | ShapeSpec::Sphere { radius } => {
-            format!("{} of radius {radius}", body.shape.name())
-        }
-        ShapeSpec::Ellipse { semi_axes } | ShapeSpec::Spheroid { semi_axes } => {
-            format!("{} with semi-axes {semi_axes:?}", body.shape.name())
-        }
-        ShapeSpec::Spline { points } => format!("spline through {} points", points.len()),
-        ShapeSpec::Fish(fish) => format!("fish of length {}", fish.length),
-        ShapeSpec::Flagellate(flagellate) => {
-            format!("flagellate with a tail of length {}", flagellate.tail_length)
-        }
-    };
-    let motion = match &body.motion {
-        Motion::Held => "held",
-        Motion::Free => "free",
-        Motion::Imposed(_) => "imposed motion",
-    };
-    let gait = match &body.gait {
-        Some(GaitSpec::Squirmer(_)) => ", squirmer",
-        Some(GaitSpec::Carangiform(_)) => ", carangiform",
-        Some(GaitSpec::Anguilliform(_)) => ", anguilliform",
-        Some(GaitSpec::Flagellum(_)) => ", flagellum",
-        Some(GaitSpec::Pulsating(_)) => ", pulsating",
-        None => "",
-    };
-    let size = body.size.or(case.mesh.surface).unwrap_or(case.mesh.size) * case.mesh.scale;
-    let edges = body.shape.perimeter() / size;
-    let at: Vec<String> = body.center.iter().map(|value| significant(*value)).collect();
-    let at = at.join(", ");
-    format!("{}: {shape} at [{at}], {motion}{gait}, about {edges:.0} edges", body.name)
-}
-
-fn joint_line(joint: &Joint) -> String {
-    let stroke = |stroke: &Stroke| match stroke {
-        Stroke::Constant(value) => significant(*value),
-        _ => {
-            let [least, most] = stroke.range();
-            format!("{} to {}", significant(least), significant(most))
-        }
-    };
-    let what = match &joint.kind {
-        JointKind::Arm { length, .. } => format!("arm of length {}", stroke(length)),
-        JointKind::Bent { angle } => format!("bent by {}", stroke(angle)),
-        JointKind::Hinge(hinge) => {
-            let motor = hinge.torque.as_ref().map(|torque| format!(", torque {}", stroke(torque)));
-            format!(
-                "hinge, stiffness {}, damping {}{}",
-                significant(hinge.stiffness),
-                significant(hinge.damping),
-                motor.unwrap_or_default()
-            )
-        }
-    };
-    format!("{} is attached to {}: {what}", joint.child, joint.parent)
-}
-
-fn swimmer_line(model: &Model, swimmer: &SwimmerModel) -> String {
-    let bodies = match swimmer.bodies.len() {
-        1 => "1 body".to_owned(),
-        n => format!("{n} bodies, reported as one"),
-    };
-    let period = swimmer.period.map(|period| format!(", period {}", significant(period)));
-    let motion = match swimmer.bodies.iter().all(|body| model.bodies[*body].motion == Motion::Free)
-    {
-        true => ", swims freely",
-        false => "",
-    };
-    format!("{}: {bodies}{}{motion}", swimmer.name, period.unwrap_or_default())
-}
-
-fn time(case: &Case) -> String {
-    match &case.time {
-        TimeSettings::Steady(_) => "steady".to_owned(),
-        TimeSettings::Unsteady(time) if time.adaptive.is_some() => {
-            format!("adaptive steps from {} to {}", significant(time.step), significant(time.end))
-        }
-        TimeSettings::Unsteady(time) => format!(
-            "{} steps of {} to {}",
-            (time.end / time.step).ceil(),
-            significant(time.step),
-            significant(time.end)
-        ),
-    }
 }
 
 /// Linear systems a run solves: exact for steady Stokes flow, a usual number otherwise.
@@ -276,9 +104,11 @@ fn n_systems(model: &Model) -> f64 {
 }
 
 /// Unknowns, memory, time and files of a run.
-fn costs(model: &Model, mesh: &Mesh<2>) -> String {
-    let n_dofs = (2 * mesh.n_nodes() + mesh.n_vertices) as f64;
-    let memory = memory_estimate(2 * mesh.n_nodes() + mesh.n_vertices);
+fn costs(model: &Model, mesh: &Mesh<2>) -> Result<String, Failure> {
+    let on_mesh = 2 * mesh.n_nodes() + mesh.n_vertices;
+    let free = count_unknowns(&build_problem(model, mesh)?, mesh);
+    let n_dofs = free as f64;
+    let memory = memory_estimate(on_mesh);
     // Measured on planar runs with 1.1 10^4 to 2 10^5 unknowns on one core, all systems factorised.
     let factorisation = 0.0095 * (n_dofs / 1e4).powf(1.4);
     // What follows the bodies: the mesh, its quality, contact, measurements, remeshing.
@@ -287,7 +117,8 @@ fn costs(model: &Model, mesh: &Mesh<2>) -> String {
     let systems = n_systems(model);
     let output = output_size(model, mesh);
     let mut text = String::new();
-    let _ = writeln!(text, "  {:<16} {n_dofs}", "unknowns");
+    let unknowns = format!("{free} free ones; {on_mesh} velocities and pressures on the mesh");
+    let _ = writeln!(text, "  {:<16} {unknowns}", "unknowns");
     let _ =
         writeln!(text, "  {:<16} {}, most of it for the factorisation", "memory", bytes(memory));
     let seconds = (factorisation + assembly) * (1.0 + following);
@@ -297,7 +128,7 @@ fn costs(model: &Model, mesh: &Mesh<2>) -> String {
         format!("{} for each linear system; their number depends on the steps", duration(seconds))
     } else {
         let plural = if systems == 1.0 { "" } else { "s" };
-        format!("{} for {systems} linear system{plural}", duration(systems * seconds))
+        format!("{} for {} linear system{plural}", duration(systems * seconds), count(systems))
     };
     let _ = writeln!(text, "  {:<16} {cost}", "CPU time");
     let _ = write!(text, "  {:<16} {}", "output", bytes(output));
@@ -313,7 +144,7 @@ fn costs(model: &Model, mesh: &Mesh<2>) -> String {
         };
         style::complain(&style::diagnostic(&warning));
     }
-    text
+    Ok(text)
 }
 
 /// Files of a run (bytes).
@@ -342,6 +173,9 @@ fn output_size(model: &Model, mesh: &Mesh<2>) -> f64 {
 }
 
 fn bytes(size: f64) -> String {
+    if size.is_nan() || size >= 1e16 {
+        return "more than any disk holds".to_owned();
+    }
     let larger = ["kB", "MB", "GB", "TB"];
     let (mut number, mut unit) = (size, None);
     for name in larger {
@@ -357,7 +191,9 @@ fn duration(seconds: f64) -> String {
         s if s < 1.0 => "less than a second".to_owned(),
         s if s < 120.0 => format!("{s:.0} s"),
         s if s < 7200.0 => format!("{:.0} min", s / 60.0),
-        s => format!("{:.1} h", s / 3600.0),
+        s if s < 1e6 => format!("{:.1} h", s / 3600.0),
+        s if s < 3e9 => format!("{:.0} days", s / 86400.0),
+        _ => "more than a century".to_owned(),
     }
 }
 
@@ -371,5 +207,8 @@ mod tests {
         assert_eq!(bytes(1.5e6), "1.5 MB");
         assert_eq!(duration(90.0), "90 s");
         assert_eq!(duration(9000.0), "2.5 h");
+        assert_eq!(duration(2e6), "23 days");
+        assert_eq!(duration(f64::INFINITY), "more than a century");
+        assert_eq!(bytes(f64::INFINITY), "more than any disk holds");
     }
 }

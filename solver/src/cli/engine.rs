@@ -4,10 +4,10 @@ use std::path::Path;
 
 use alewife_mesh::{Mesh, Quality};
 
-use super::signal::{SignalWatch, outlive_file_size_limit};
-use crate::case::{Model, TimeSettings};
+use super::signal::SignalWatch;
+use crate::case::Model;
 use crate::observer::{self, History, RunDirectory};
-use crate::simulation::{self, Resume, RunError, RunSummary, SavedState};
+use crate::simulation::{self, RunError, RunSummary, SavedState};
 
 /// The mesh of a case.
 pub fn build_mesh(model: &Model) -> Result<Mesh<2>, RunError> {
@@ -31,6 +31,8 @@ pub struct Resumed {
     pub state: SavedState<2>,
     /// What was written up to there, if the state lies in a run.
     pub history: Option<History>,
+    /// Whether the run goes on in its own directory.
+    pub is_in_place: bool,
 }
 
 /// Runs a case, from a saved state if there is one, with its files in `directory`; with `quiet`,
@@ -41,18 +43,10 @@ pub fn simulate_into(
     directory: &RunDirectory,
     quiet: bool,
 ) -> Result<RunSummary, RunError> {
-    outlive_file_size_limit()?;
     let history = resumed.and_then(|resumed| resumed.history.as_ref());
     let mut observers = observer::observers(model, directory, history, quiet)?;
-    // Newton's method is not left halfway: a steady run ends by the signal itself.
-    if matches!(model.case.time, TimeSettings::Unsteady(_)) {
-        observers.push(Box::new(SignalWatch::start()?));
-    }
-    let resume = resumed.map(|resumed| Resume {
-        state: &resumed.state,
-        series: history.map(|history| &history.series),
-    });
-    simulation::simulate_from(model, resume.as_ref(), &mut observers)
+    observers.push(Box::new(SignalWatch::start()?));
+    simulation::simulate_from(model, resumed.map(|resumed| &resumed.state), &mut observers)
 }
 
 /// Starts the log: to standard error, and to `log.jsonl` of a run.

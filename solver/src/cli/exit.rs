@@ -57,8 +57,7 @@ impl Failure {
 
     /// A case that is wrong, with all its diagnostics.
     pub fn wrong(diagnostics: &[Diagnostic]) -> Self {
-        let texts: Vec<String> = diagnostics.iter().map(style::diagnostic).collect();
-        Self { exit: Exit::BadCase, message: texts.join("\n\n") }
+        Self { exit: Exit::BadCase, message: style::diagnostics(diagnostics) }
     }
 }
 
@@ -79,11 +78,13 @@ pub fn exit_of(error: &RunError) -> Exit {
         | RunError::StepSizeUnderflow { .. }
         | RunError::Contact { .. }
         | RunError::NotFinite { .. }
+        | RunError::BlownUp { .. }
         | RunError::Singular { .. } => Exit::Diverged,
         RunError::Unsupported(_)
         | RunError::Resume(_)
         | RunError::Shape(_)
-        | RunError::TooLarge { .. } => Exit::BadCase,
+        | RunError::TooLarge { .. }
+        | RunError::TooManyCells { .. } => Exit::BadCase,
         RunError::Mesh(_) | RunError::MeshMotion(_) | RunError::Remesh { .. } => Exit::Mesh,
         RunError::Output(_) => Exit::InputOutput,
         RunError::Stopped { .. } => Exit::Stopped,

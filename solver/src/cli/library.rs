@@ -3,8 +3,11 @@
 use std::fmt::Write as _;
 
 use super::exit::{Exit, Failure};
+use super::facts::{facts, one_line};
 use super::style::{Ink, on_stdout, say};
-use crate::case::{Case, CaseFile, Reference, check, library, number_table, significant};
+use crate::case::{
+    Case, CaseFile, Reference, check, library, number_table, printable, significant,
+};
 
 /// Lists the shipped cases.
 pub fn list(is_long: bool) -> Result<Exit, Failure> {
@@ -19,7 +22,7 @@ pub fn list(is_long: bool) -> Result<Exit, Failure> {
             1 => " (1 variant)".to_owned(),
             n => format!(" ({n} variants)"),
         };
-        say(&format!("{name}  {}{variants}", case.title));
+        say(&format!("{name}  {}{variants}", one_line(&case.title)));
         if is_long {
             for reference in &case.reference {
                 say(&format!("{:width$}    {}", "", reference_line(reference)));
@@ -56,22 +59,23 @@ fn summary(file: &CaseFile) -> String {
     let case = file.case();
     let mut text = format!("{}\n", on_stdout(Ink::Bold, &file.full_name()));
     // Writing to a String cannot fail.
-    let _ = writeln!(text, "{}\n", case.title);
+    let _ = writeln!(text, "{}\n", one_line(&case.title));
     if !case.description.trim().is_empty() {
-        let _ = writeln!(text, "{}\n", case.description.trim());
+        let _ = writeln!(text, "{}\n", printable(case.description.trim()));
     }
-    text += &super::check::facts(file);
+    text += &facts(file);
     let numbers = number_table(&file.model);
     if !numbers.is_empty() {
         let _ = write!(text, "\n{}\n{numbers}", on_stdout(Ink::Bold, "derived numbers"));
     }
     if !case.reference.is_empty() {
-        let _ = writeln!(text, "\n{}", on_stdout(Ink::Bold, "published values"));
+        let _ = writeln!(text, "\n{}", on_stdout(Ink::Bold, "references"));
         for reference in &case.reference {
             let _ = writeln!(text, "  {}", reference_line(reference));
-            let _ = writeln!(text, "    {}", reference.source);
+            let source = printable(&reference.source);
+            let _ = writeln!(text, "    {}: {source}", reference.kind.name());
             if let Some(note) = &reference.note {
-                let _ = writeln!(text, "    note: {note}");
+                let _ = writeln!(text, "    note: {}", printable(note));
             }
         }
     }
@@ -80,12 +84,15 @@ fn summary(file: &CaseFile) -> String {
         for variant in &case.variant {
             let set: Vec<String> =
                 variant.set.iter().map(|(key, value)| format!("{key} = {value}")).collect();
-            let _ = writeln!(text, "  {}/{}  {}", file.name, variant.name, set.join(", "));
+            let set = printable(&set.join(", "));
+            let _ = writeln!(text, "  {}/{}  {set}", file.name, variant.name);
         }
     }
     let n_problems = check(file).len();
     if n_problems > 0 {
-        let _ = writeln!(text, "\n{n_problems} remarks: see `alewife check {}`", file.full_name());
+        let remarks = if n_problems == 1 { "remark" } else { "remarks" };
+        let _ =
+            writeln!(text, "\n{n_problems} {remarks}: see `alewife check {}`", file.full_name());
     }
     text.trim_end().to_owned()
 }

@@ -3,6 +3,7 @@
 mod check;
 mod engine;
 mod exit;
+mod facts;
 mod library;
 mod mesh;
 mod panic;
@@ -32,7 +33,7 @@ Examples:
   alewife show squirmer-alone --source > my.toml
   alewife check my.toml                         read it, mesh it, estimate the cost; no solve
   alewife run my.toml --set mesh.scale=0.5      the same on a mesh twice as fine
-  alewife validate --quick                      do the shipped cases give the published numbers?
+  alewife validate --quick                      do the shipped cases agree with their references?
 
 A CASE is the path of a .toml file, the name of a shipped case, or either with /VARIANT behind it.
 
@@ -51,11 +52,11 @@ struct CommandLine {
 enum Command {
     /// List the shipped cases
     List {
-        /// With their variants and published values
+        /// With their variants and references
         #[arg(long, short)]
         long: bool,
     },
-    /// Show what a case is about: physics, derived numbers, published values, variants
+    /// Show what a case is about: physics, derived numbers, references, variants
     Show {
         /// Which case
         case: String,
@@ -84,9 +85,9 @@ enum Command {
         #[arg(long, short, value_name = "FILE")]
         out: Option<PathBuf>,
     },
-    /// Run a case and compare it with what was published
+    /// Run a case and compare it with its references
     Run(run::Options),
-    /// Run shipped cases and hold them against published values
+    /// Run shipped cases and compare them with their references
     Validate(validate::Options),
     /// Print the JSON Schema of case files
     ///
@@ -107,7 +108,14 @@ enum Command {
 pub fn run() -> ExitCode {
     let command_line = CommandLine::parse();
     match dispatch(command_line.command) {
-        Ok(exit) => exit.into(),
+        Ok(exit) => match style::stdout_error() {
+            // What was asked for was done, but nobody can read it
+            Some(error) => {
+                complain(&style::error(&format!("cannot write standard output: {error}")));
+                Exit::InputOutput.into()
+            }
+            None => exit.into(),
+        },
         Err(failure) => {
             complain(&failure.message);
             failure.exit.into()
@@ -116,6 +124,7 @@ pub fn run() -> ExitCode {
 }
 
 fn dispatch(command: Command) -> Result<Exit, Failure> {
+    signal::outlive_file_size_limit()?;
     match command {
         Command::List { long } => library::list(long),
         Command::Show { case, source } => library::show(&case, source),

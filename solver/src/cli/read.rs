@@ -18,8 +18,8 @@ pub struct Settings {
 /// Reads a case and refuses it if it is wrong; warnings are reported and let through.
 pub fn read_case(argument: &str, settings: &[String]) -> Result<CaseFile, Failure> {
     let CheckedCase { file, warnings } = read_and_check(argument, settings)?;
-    for warning in &warnings {
-        complain(&style::diagnostic(warning));
+    if !warnings.is_empty() {
+        complain(&style::diagnostics(&warnings));
     }
     Ok(file)
 }

@@ -1,5 +1,6 @@
-//! `run`: one case, its files, and how it compares with what was published.
+//! `run`: one case, its files, and how it compares with its references.
 
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
@@ -10,11 +11,13 @@ use super::read::{Settings, read_case};
 use super::style::{Ink, on_stdout, say};
 use super::{engine, threads};
 use crate::case::{Case, Model, TimeSettings, significant};
-use crate::observer::{Earlier, History, RunDirectory, run_of_state, write_atomic};
+use crate::observer::{
+    Earlier, History, RunDirectory, STATE_FILE, read_state, run_of_state, write_atomic,
+};
 use crate::simulation::{RunError, RunSummary, SavedState};
 use crate::validation::{Comparison, Verdict, compare, comparison_table, comparisons_to_json};
 
-/// File of a run that holds its comparison with published values.
+/// File of a run that holds its comparison with the references.
 const COMPARISON_FILE: &str = "comparison.json";
 
 /// What `run` is asked for.
@@ -76,7 +79,6 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
     let verbosity = i8::try_from(options.verbose).unwrap_or(i8::MAX) - i8::from(options.quiet);
     engine::start_log(Some(&out), verbosity)?;
 
-    let resumed = resumed.map(|resumed| resumed.from);
     let outcome = engine::simulate_into(&file.model, resumed.as_ref(), &directory, options.quiet)
         .map_err(|error| match error {
         RunError::Stopped { .. } => stopped(&error, &out),
@@ -103,6 +105,7 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
         outcome.steps,
         out.display()
     ));
+    tell_cell_numbers(&outcome);
     Ok(Exit::Done)
 }
 
@@ -126,10 +129,14 @@ fn stopped(error: &RunError, out: &Path) -> Failure {
             other => command.push(quoted(other)),
         }
     }
-    let state = out.join("state.json");
+    let state = out.join(STATE_FILE);
     command.extend(["--resume".to_owned(), quoted(&state.to_string_lossy())]);
-    let message = format!("{error}; it resumes with\n  {}", command.join(" "));
-    Failure::new(Exit::Stopped, message)
+    let remedy = if state.is_file() {
+        format!("it resumes with\n  {}", command.join(" "))
+    } else {
+        "it left no state to resume from".to_owned()
+    };
+    Failure::new(Exit::Stopped, format!("{error}; {remedy}"))
 }
 
 /// A word as a shell reads it.
@@ -142,15 +149,9 @@ fn quoted(word: &str) -> String {
     }
 }
 
-/// A state, and whether the run it is of goes on in its own directory.
-struct Resuming {
-    from: Resumed,
-    is_in_place: bool,
-}
-
 /// Reads a state, and what the run it lies in has written up to there.
-fn read_resumed(path: &Path, case: &Case, out: &Path) -> Result<Resuming, Failure> {
-    let state = read_state(path, case)?;
+fn read_resumed(path: &Path, case: &Case, out: &Path) -> Result<Resumed, Failure> {
+    let state = read_unfinished(path, case)?;
     let run = run_of_state(path);
     let is_in_place = run.is_some_and(|run| is_inside(run, out) && is_inside(out, run));
     let mut history = run.map(|run| History::read(run, state.step, state.time)).transpose()?;
@@ -158,35 +159,50 @@ fn read_resumed(path: &Path, case: &Case, out: &Path) -> Result<Resuming, Failur
         // The field files stay where they are
         history.frames.clear();
     }
-    Ok(Resuming { from: Resumed { state, history }, is_in_place })
+    Ok(Resumed { state, history, is_in_place })
 }
 
-/// Reads the state a run left.
-fn read_state(path: &Path, case: &Case) -> Result<SavedState<2>, Failure> {
+/// Reads the state a run left before the end of a case.
+fn read_unfinished(path: &Path, case: &Case) -> Result<SavedState<2>, Failure> {
     let refuse = |exit, reason: String| {
-        let path = path.display();
-        Failure::new(
-            exit,
-            format!(
-                "--resume {path}: {reason}; a run that stopped leaves state.json, \
-                                    one that failed failure/state.json"
-            ),
-        )
+        let leaves = "a run that stopped leaves state.json, one that failed failure/state.json";
+        Failure::new(exit, format!("--resume: {reason}; {leaves}"))
     };
     let TimeSettings::Unsteady(settings) = &case.time else {
         return Err(refuse(Exit::Usage, "a steady solution cannot be resumed".to_owned()));
     };
-    let text = std::fs::read(path).map_err(|error| refuse(Exit::NoInput, error.to_string()))?;
-    let saved: SavedState<2> = serde_json::from_slice(&text)
-        .map_err(|error| refuse(Exit::BadCase, format!("this is no state of a run: {error}")))?;
+    let saved = read_state(path).map_err(|error| match error.kind() {
+        ErrorKind::InvalidData => refuse(Exit::BadCase, error.to_string()),
+        _ => refuse(Exit::NoInput, error.to_string()),
+    })?;
     if saved.time >= settings.end {
-        let reason = format!("it is at time {}, and the case ends at {}", saved.time, settings.end);
+        let reason = format!(
+            "{} is at time {}, and the case ends at {}",
+            path.display(),
+            saved.time,
+            settings.end
+        );
         return Err(refuse(Exit::BadCase, reason));
     }
     Ok(saved)
 }
 
-/// Prints how the bodies ended, for a case without published values.
+/// Prints by how much the flow crosses cells at most, for a flow with convection.
+fn tell_cell_numbers(outcome: &RunSummary) {
+    let most = |name: &str| {
+        let column = outcome.series.column(name)?;
+        Some(column.into_iter().fold(0.0, f64::max))
+    };
+    match (most("flow.cfl"), most("flow.cell_reynolds")) {
+        (Some(cfl), Some(reynolds)) => {
+            say(&format!("CFL number up to {cfl:.2}, cell Reynolds number up to {reynolds:.1}"));
+        }
+        (None, Some(reynolds)) => say(&format!("cell Reynolds number up to {reynolds:.1}")),
+        _ => {}
+    }
+}
+
+/// Prints how the bodies ended, for a case without references.
 fn tell_last_values(model: &Model, outcome: &RunSummary) {
     let Some(last) = outcome.series.rows.last() else { return };
     // Of the many bodies of a swimmer only what they do together.
@@ -220,13 +236,17 @@ pub fn print_comparisons(comparisons: &[Comparison]) {
     for (line, comparison) in lines.zip(comparisons) {
         let ink = match comparison.verdict {
             Verdict::Within => Ink::Green,
-            Verdict::Outside | Verdict::NotComputed => Ink::Red,
+            Verdict::KnownOutside => Ink::Yellow,
+            Verdict::Outside | Verdict::NoLongerOutside | Verdict::NotComputed => Ink::Red,
         };
         let word = comparison.verdict.name();
         let start = line.len() - word.len();
         say(&format!("{}{}", &line[..start], on_stdout(ink, word)));
         if let Err(reason) = &comparison.computed {
             say(&format!("    {reason}"));
+        }
+        if let Some(reason) = &comparison.reference.outside {
+            say(&format!("    known to be outside: {reason}"));
         }
     }
 }

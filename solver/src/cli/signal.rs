@@ -1,4 +1,4 @@
-//! Signals that end a run after its present step: Ctrl-C, SIGTERM, SIGHUP, SIGXCPU and SIGUSR1.
+//! Signals that end a run before its next step: Ctrl-C, SIGTERM, SIGHUP, SIGXCPU and SIGUSR1.
 
 use std::io;
 use std::sync::Arc;
@@ -8,7 +8,7 @@ use std::time::Duration;
 use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM, SIGUSR1, SIGXCPU, SIGXFSZ};
 use signal_hook::flag;
 
-use crate::simulation::{Observer, Snapshot};
+use crate::simulation::{Observer, Snapshot, StopRequest};
 
 /// How often it is looked whether a first signal has come.
 const LOOK_EVERY: Duration = Duration::from_millis(100);
@@ -63,7 +63,8 @@ impl Observer<2> for SignalWatch {
         Ok(())
     }
 
-    fn wants_stop(&self) -> bool {
-        self.has_come.load(Ordering::Relaxed)
+    fn stop_request(&self) -> Option<StopRequest> {
+        let has_come = Arc::clone(&self.has_come);
+        Some(Arc::new(move || has_come.load(Ordering::Relaxed)))
     }
 }

@@ -1,8 +1,12 @@
 //! What is written to the terminal: colours only there, and none with `NO_COLOR`.
 
 use std::io::{self, IsTerminal, Write};
+use std::sync::OnceLock;
 
 use crate::case::{Diagnostic, Severity};
+
+/// Errors, and warnings, that are listed at once.
+const MOST_DIAGNOSTICS: usize = 20;
 
 /// A way to write text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -65,9 +69,42 @@ pub fn error(message: &str) -> String {
     format!("{}: {message}", on_stderr(Ink::Red, "error"))
 }
 
-/// Writes lines to standard output. A reader that has gone away is no reason to complain.
+/// Diagnostics one below the other, errors first; of many of a kind the first ones.
+pub fn diagnostics(found: &[Diagnostic]) -> String {
+    let mut texts = Vec::new();
+    for (severity, many) in [(Severity::Error, "errors"), (Severity::Warning, "warnings")] {
+        let of_kind = || found.iter().filter(|one| one.severity == severity);
+        texts.extend(of_kind().take(MOST_DIAGNOSTICS).map(diagnostic));
+        let n = of_kind().count();
+        if n > MOST_DIAGNOSTICS {
+            texts.push(format!("... and {} more {many}", n - MOST_DIAGNOSTICS));
+        }
+    }
+    texts.join("\n\n")
+}
+
+/// Why standard output could not be written, if it could not.
+static STDOUT_ERROR: OnceLock<io::Error> = OnceLock::new();
+
+/// Writes lines to standard output. A reader that has gone away is no reason to complain; a full disk
+/// is one, and decides the exit code in the end.
 pub fn say(text: &str) {
-    let _ = writeln!(io::stdout().lock(), "{text}");
+    if let Err(error) = writeln!(io::stdout().lock(), "{text}")
+        && error.kind() != io::ErrorKind::BrokenPipe
+    {
+        // The first one says what is wrong
+        let _ = STDOUT_ERROR.set(error);
+    }
+}
+
+/// Why something was not written to standard output, if it was not.
+pub fn stdout_error() -> Option<&'static io::Error> {
+    if let Err(error) = io::stdout().lock().flush()
+        && error.kind() != io::ErrorKind::BrokenPipe
+    {
+        let _ = STDOUT_ERROR.set(error);
+    }
+    STDOUT_ERROR.get()
 }
 
 /// Writes lines to standard error.

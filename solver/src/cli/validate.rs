@@ -1,4 +1,4 @@
-//! `validate`: shipped cases against published values, as a table or as JSON, with an exit code.
+//! `validate`: shipped cases against their references, as a table or as JSON, with an exit code.
 
 use std::path::{Path, PathBuf};
 
@@ -12,7 +12,7 @@ use crate::case::{Cadence, Case, Numbers, Statistics, library};
 use crate::observer::{Earlier, RunDirectory, RunState, Status, read_outcome};
 use crate::simulation::{RunError, RunSummary};
 use crate::validation::{
-    Comparison, Verdict, compare, comparison_page, comparisons_to_json, not_computed,
+    Comparison, compare, comparison_page, comparisons_to_json, count_table, not_computed, summary,
 };
 
 /// What `validate` is asked for.
@@ -25,7 +25,8 @@ Examples:
   alewife validate three-sphere --out runs      keep the runs; later, with other references,
   alewife validate three-sphere --from runs     compare them again
 
-The exit code is 20 if a value is outside its tolerance or could not be computed.")]
+The exit code is 20 if a value is outside its tolerance or could not be computed. A value that is
+known to be outside, for a reason that its reference gives, fails once it is within.")]
 pub struct Options {
     /// Which cases, with all their variants; all shipped ones if absent
     cases: Vec<String>,
@@ -49,7 +50,7 @@ pub struct Options {
     threads: Option<usize>,
 }
 
-/// Runs cases and compares them with what was published.
+/// Runs cases and compares them with their references.
 pub fn validate(options: &Options) -> Result<Exit, Failure> {
     let names = if options.cases.is_empty() {
         library::list().iter().map(|case| case.name.to_owned()).collect()
@@ -67,18 +68,17 @@ pub fn validate(options: &Options) -> Result<Exit, Failure> {
         complain(&format!("[{}/{}] {member}", index + 1, members.len()));
         comparisons.extend(validate_one(member, options, n_threads)?);
     }
-    let n_bad = comparisons.iter().filter(|row| row.verdict != Verdict::Within).count();
+    let is_good = !comparisons.iter().any(|row| row.verdict.is_failure());
     if options.json {
         say(&format!("{:#}", comparisons_to_json(&comparisons)));
     } else if options.markdown {
         say(comparison_page(&comparisons).trim_end());
     } else {
+        say(&format!("{}\n", count_table(&comparisons).join("\n")));
         run::print_comparisons(&comparisons);
-        let n_good = comparisons.len() - n_bad;
-        let words = format!("{n_good} of {} values within their tolerance", comparisons.len());
-        say(&on_stdout(if n_bad == 0 { Ink::Green } else { Ink::Red }, &words));
+        say(&on_stdout(if is_good { Ink::Green } else { Ink::Red }, &summary(&comparisons)));
     }
-    Ok(if n_bad == 0 { Exit::Done } else { Exit::OutsideTolerance })
+    Ok(if is_good { Exit::Done } else { Exit::OutsideTolerance })
 }
 
 /// The case and its variants that have something to be compared with.

@@ -9,17 +9,39 @@ use tempfile::NamedTempFile;
 /// How the names of files begin that are not whole yet.
 pub(super) const UNFINISHED: &str = ".unfinished-";
 
+/// An error of the file system that names the file.
+pub(super) trait AtPath<T> {
+    /// The same with the path in front of it, once.
+    fn at(self, path: &Path) -> io::Result<T>;
+}
+
+impl<T> AtPath<T> for io::Result<T> {
+    fn at(self, path: &Path) -> io::Result<T> {
+        self.map_err(|error| {
+            let path = path.display().to_string();
+            let told = error.to_string();
+            let told = if told.starts_with(&path) { told } else { format!("{path}: {told}") };
+            io::Error::new(error.kind(), told)
+        })
+    }
+}
+
 /// Writes a file that is seen whole or not at all, even after a power cut.
 ///
 /// # Errors
-/// When the file system refuses; the old file is then still there.
+/// When the file system refuses, with the path; the old file is then still there.
 pub fn write_atomic(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    replace(path, bytes).at(path)
+}
+
+fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let directory =
         path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let mut file = unfinished_file(directory)?;
-    file.write_all(bytes)?;
+    // The temporary name tells nobody anything
+    file.as_file_mut().write_all(bytes)?;
     file.as_file().sync_all()?;
-    file.persist(path)?;
+    file.persist(path).map_err(|refused| refused.error)?;
     // The new name is on the disk only once the directory is.
     #[cfg(unix)]
     File::open(directory)?.sync_all()?;

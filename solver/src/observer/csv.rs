@@ -5,10 +5,10 @@
 use std::fmt::Write as _;
 use std::fs::File;
 use std::io::{self, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use super::atomic::write_atomic;
+use super::atomic::{AtPath, write_atomic};
 use super::history::History;
 use super::schedule::Schedule;
 use crate::case::Case;
@@ -21,6 +21,7 @@ const INTERVAL: Duration = Duration::from_secs(1);
 #[derive(Debug)]
 pub struct SeriesFile {
     file: File,
+    path: PathBuf,
     schedule: Schedule,
     /// Bytes of whole rows in the file.
     length: u64,
@@ -37,76 +38,73 @@ impl SeriesFile {
     /// When it cannot be made.
     pub fn create(directory: &Path, case: &Case, history: Option<&History>) -> io::Result<Self> {
         let path = directory.join("series.csv");
-        let cadence = case.output.series;
-        let mut made = Self {
-            file: File::options().append(true).create(true).open(&path)?,
-            schedule: Schedule::new(cadence),
-            length: 0,
-            has_header: false,
-            pending: String::new(),
-            flushed: Instant::now(),
-        };
-        if let Some(history) = history.filter(|history| !history.series.names.is_empty()) {
-            made.schedule = Schedule::resumed(cadence, history.time);
-            made.header(&history.series.names);
-            for (&time, row) in history.series.times.iter().zip(&history.series.rows) {
-                made.row(time, row);
+        let mut text = String::new();
+        if let Some(History { series, .. }) = history
+            && !series.names.is_empty()
+        {
+            header(&mut text, &series.names);
+            for (&time, values) in series.times.iter().zip(&series.rows) {
+                row(&mut text, time, values);
             }
         }
         // What is there already is replaced as a whole, and never lost
-        write_atomic(&path, made.pending.as_bytes())?;
-        made.file = File::options().append(true).open(&path)?;
-        made.length = made.pending.len() as u64;
-        made.pending.clear();
-        Ok(made)
-    }
-
-    fn header(&mut self, names: &[String]) {
-        self.pending.push_str("time");
-        for name in names {
-            self.pending.push(',');
-            self.pending.push_str(name);
-        }
-        self.pending.push('\n');
-        self.has_header = true;
-    }
-
-    fn row(&mut self, time: f64, values: &[f64]) {
-        // `{:?}` is the shortest text that reads back as the same number; writing to a string cannot
-        // fail.
-        let _ = write!(self.pending, "{time:?}");
-        for value in values {
-            let _ = write!(self.pending, ",{value:?}");
-        }
-        self.pending.push('\n');
+        write_atomic(&path, text.as_bytes())?;
+        Ok(Self {
+            file: File::options().append(true).open(&path).at(&path)?,
+            path,
+            schedule: Schedule::new(case.output.series, history.map(|history| history.time)),
+            length: text.len() as u64,
+            has_header: !text.is_empty(),
+            pending: String::new(),
+            flushed: Instant::now(),
+        })
     }
 
     fn flush(&mut self) -> io::Result<()> {
-        let written = self.file.write_all(self.pending.as_bytes());
-        if written.is_ok() {
-            self.length += self.pending.len() as u64;
-        } else {
-            // On a full disk the last row may be half there
-            self.file.set_len(self.length)?;
-        }
-        self.pending.clear();
         self.flushed = Instant::now();
-        written
+        if let Err(error) = self.file.write_all(self.pending.as_bytes()) {
+            // On a full disk the last row may be half there
+            self.file.set_len(self.length).at(&self.path)?;
+            return Err(error).at(&self.path);
+        }
+        self.length += self.pending.len() as u64;
+        self.pending.clear();
+        Ok(())
     }
+}
+
+fn header(text: &mut String, names: &[String]) {
+    text.push_str("time");
+    for name in names {
+        text.push(',');
+        text.push_str(name);
+    }
+    text.push('\n');
+}
+
+fn row(text: &mut String, time: f64, values: &[f64]) {
+    // `{:?}` is the shortest text that reads back as the same number; writing to a string cannot
+    // fail.
+    let _ = write!(text, "{time:?}");
+    for value in values {
+        let _ = write!(text, ",{value:?}");
+    }
+    text.push('\n');
 }
 
 impl<const D: usize> Observer<D> for SeriesFile {
     fn on_step(&mut self, snapshot: &Snapshot<'_, D>) -> io::Result<()> {
         if self.schedule.is_due(snapshot.step, snapshot.time, snapshot.is_last) {
             if !self.has_header {
-                self.header(snapshot.names);
+                header(&mut self.pending, snapshot.names);
+                self.has_header = true;
             }
-            self.row(snapshot.time, snapshot.values);
+            row(&mut self.pending, snapshot.time, snapshot.values);
         }
         if snapshot.is_last || self.flushed.elapsed() >= INTERVAL {
             self.flush()?;
         }
-        if snapshot.is_last { self.file.sync_all() } else { Ok(()) }
+        if snapshot.is_last { self.file.sync_all().at(&self.path) } else { Ok(()) }
     }
 
     fn on_failure(
@@ -115,6 +113,6 @@ impl<const D: usize> Observer<D> for SeriesFile {
         _last: Option<&LastState<'_, D>>,
     ) -> io::Result<()> {
         self.flush()?;
-        self.file.sync_all()
+        self.file.sync_all().at(&self.path)
     }
 }

@@ -9,12 +9,13 @@ use std::path::{Path, PathBuf};
 
 use alewife_mesh::{Array, Mesh, Point, write_vtu_as};
 
-use super::atomic::write_atomic;
+use super::atomic::{AtPath, write_atomic};
 use super::history::{Frame, History};
 use super::run_directory::{
     FAILURE_FLOW, FAILURE_FOLDER, STATE_FILE, remove_failure, remove_state,
 };
 use super::schedule::Schedule;
+use super::state_file::write_state;
 use crate::case::{Case, Precision};
 use crate::flow::{nodal_pressure, nodal_vorticity};
 use crate::simulation::{LastState, Observer, RunError, Snapshot, Timing};
@@ -33,19 +34,22 @@ impl FieldFiles {
     /// the first step that is due.
     #[must_use]
     pub fn new(directory: &Path, case: &Case, history: Option<&History>) -> Self {
-        let cadence = case.output.fields;
         Self {
             directory: directory.to_owned(),
-            schedule: history.map_or_else(
-                || Schedule::new(cadence),
-                |history| Schedule::resumed(cadence, history.time),
-            ),
+            schedule: Schedule::new(case.output.fields, history.map(|history| history.time)),
             precision: match case.output.precision {
                 Precision::F32 => alewife_mesh::Precision::F32,
                 Precision::F64 => alewife_mesh::Precision::F64,
             },
             frames: history.map(|history| history.frames.clone()).unwrap_or_default(),
         }
+    }
+
+    /// A folder of the run, made if it is not there.
+    fn create_folder(&self, name: &str) -> io::Result<PathBuf> {
+        let folder = self.directory.join(name);
+        fs::create_dir_all(&folder).at(&folder)?;
+        Ok(folder)
     }
 
     /// The content of one field file.
@@ -89,7 +93,7 @@ impl Observer<2> for FieldFiles {
             return Ok(());
         }
         if self.frames.is_empty() {
-            fs::create_dir_all(self.directory.join("fields"))?;
+            self.create_folder("fields")?;
         }
         let bytes =
             self.frame(snapshot.time, snapshot.mesh, snapshot.velocity, snapshot.pressure)?;
@@ -110,22 +114,20 @@ impl Observer<2> for FieldFiles {
     fn on_failure(&mut self, error: &RunError, last: Option<&LastState<'_, 2>>) -> io::Result<()> {
         let Some(last) = last else { return Ok(()) };
         let bytes = self.frame(last.time, last.mesh, last.velocity, last.pressure)?;
-        let state = last.saved.map(serde_json::to_vec).transpose()?;
         if matches!(error, RunError::Stopped { .. }) {
-            if let Some(state) = state {
-                write_atomic(&self.directory.join(STATE_FILE), &state)?;
+            if let Some(state) = last.saved {
+                write_state(&self.directory.join(STATE_FILE), state)?;
                 remove_failure(&self.directory)?;
             }
             let name = "fields/stopped.vtu".to_owned();
-            fs::create_dir_all(self.directory.join("fields"))?;
+            self.create_folder("fields")?;
             write_atomic(&self.directory.join(&name), &bytes)?;
             self.frames.push(Frame { time: last.time, file: name });
             return write_atomic(&self.directory.join("fields.pvd"), self.collection().as_bytes());
         }
-        let folder = self.directory.join(FAILURE_FOLDER);
-        fs::create_dir_all(&folder)?;
-        if let Some(state) = state {
-            write_atomic(&folder.join(STATE_FILE), &state)?;
+        let folder = self.create_folder(FAILURE_FOLDER)?;
+        if let Some(state) = last.saved {
+            write_state(&folder.join(STATE_FILE), state)?;
             remove_state(&self.directory)?;
         }
         write_atomic(&folder.join(FAILURE_FLOW), &bytes)

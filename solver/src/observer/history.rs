@@ -4,6 +4,7 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use super::atomic::AtPath;
 use crate::simulation::Series;
 
 /// One field file.
@@ -26,8 +27,8 @@ pub struct History {
     pub series: Series,
     /// The files in `fields/`; none of them if the run goes on in another directory.
     pub frames: Vec<Frame>,
-    /// The content of `run.mcap`.
-    pub messages: Vec<u8>,
+    /// The directory it wrote to.
+    pub directory: PathBuf,
 }
 
 impl History {
@@ -36,32 +37,32 @@ impl History {
     /// # Errors
     /// When its files cannot be read, or are damaged.
     pub fn read(directory: &Path, step: usize, time: f64) -> io::Result<Self> {
-        let named = |name: &str, error: io::Error| {
-            let path: PathBuf = directory.join(name);
-            io::Error::new(error.kind(), format!("{}: {error}", path.display()))
-        };
-        let read = |name: &str| match fs::read(directory.join(name)) {
-            Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(Vec::new()),
-            other => other.map_err(|error| named(name, error)),
-        };
-        let text = String::from_utf8_lossy(&read("series.csv")?).into_owned();
+        let text = read_text(&directory.join("series.csv"))?;
         // A row without its end is one that was being written
         let whole = text.rfind('\n').map_or("", |end| &text[..=end]);
         let mut series = match whole {
             "" => Series::default(),
-            whole => read_series(whole).map_err(|line| {
-                named("series.csv", io::Error::other(format!("line {line} is damaged")))
-            })?,
+            whole => read_series(whole)
+                .map_err(|line| io::Error::other(format!("line {line} is damaged")))
+                .at(&directory.join("series.csv"))?,
         };
         let n_rows = series.times.partition_point(|&then| then <= time);
         series.times.truncate(n_rows);
         series.rows.truncate(n_rows);
-        let list = String::from_utf8_lossy(&read("fields.pvd")?).into_owned();
+        let list = read_text(&directory.join("fields.pvd"))?;
         let frames = list.lines().filter_map(frame).filter(|frame| {
             let is_step = !frame.file.ends_with("stopped.vtu");
             frame.time <= time && is_step && directory.join(&frame.file).is_file()
         });
-        Ok(Self { step, time, series, frames: frames.collect(), messages: read("run.mcap")? })
+        Ok(Self { step, time, series, frames: frames.collect(), directory: directory.to_owned() })
+    }
+}
+
+/// The text of a file, empty if there is none.
+fn read_text(path: &Path) -> io::Result<String> {
+    match fs::read(path) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(String::new()),
+        read => Ok(String::from_utf8_lossy(&read.at(path)?).into_owned()),
     }
 }
 

@@ -3,6 +3,7 @@
 use std::io;
 use std::path::Path;
 
+use super::atomic::AtPath;
 use super::history::read_series;
 use super::status::{RunState, Status};
 use crate::simulation::{RunSummary, Stage, Timing};
@@ -24,7 +25,9 @@ pub fn read_outcome(directory: &Path) -> io::Result<RunSummary> {
         timing.cpu[stage as usize] = of(&status.cpu_seconds);
         timing.wall[stage as usize] = of(&status.wall_seconds);
     }
-    let series = read_series(&std::fs::read_to_string(directory.join("series.csv"))?)
-        .map_err(|line| io::Error::other(format!("line {line} of series.csv is damaged")))?;
+    let path = directory.join("series.csv");
+    let series = read_series(&std::fs::read_to_string(&path).at(&path)?)
+        .map_err(|line| io::Error::other(format!("line {line} is damaged")))
+        .at(&path)?;
     Ok(RunSummary { series, timing, n_dofs: status.dofs, steps: status.step })
 }

@@ -13,6 +13,7 @@ use tracing_subscriber::fmt;
 use tracing_subscriber::layer::{Context, Layer, SubscriberExt};
 use tracing_subscriber::util::SubscriberInitExt;
 
+use super::atomic::AtPath;
 use super::terminal::{AboveBars, TERMINAL};
 
 /// The file JSON lines go to just now. One process has one log, but may make several runs.
@@ -43,13 +44,19 @@ pub fn start_log(directory: Option<&Path>, verbosity: i8) -> io::Result<()> {
         .with_target(false)
         .without_time()
         .with_filter(filter(i8::MIN)?);
-    let json = fmt::layer().json().with_writer(|| ToFile).with_filter(filter(1)?);
+    // A full disk is reported once, by the file that stops the run
+    let json = fmt::layer()
+        .json()
+        .log_internal_errors(false)
+        .with_writer(|| ToFile)
+        .with_filter(filter(1)?);
     *the_file() = match directory {
         None => None,
-        Some(directory) => Some(
+        Some(directory) => {
+            let path = directory.join("log.jsonl");
             // A run that resumes in its own directory goes on with its log
-            File::options().append(true).create(true).open(directory.join("log.jsonl"))?,
-        ),
+            Some(File::options().append(true).create(true).open(&path).at(&path)?)
+        }
     };
     let _ = tracing_subscriber::registry().with(text).with(json).with(Latest).try_init();
     Ok(())

@@ -8,13 +8,14 @@ use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::{self, BufWriter};
+use std::path::PathBuf;
 
 use mcap::read::Options;
 use mcap::records::{MessageHeader, Metadata};
-use mcap::{Attachment, Compression, McapError, MessageStream, WriteOptions, Writer};
+use mcap::{Attachment, Compression, McapError, MessageStream, Schema, WriteOptions, Writer};
 use serde_json::Value;
 
-use super::atomic::unfinished_file;
+use super::atomic::{AtPath, unfinished_file};
 use super::foxglove::{self, Kind, Severity};
 use super::history::History;
 use super::run_directory::RunDirectory;
@@ -33,6 +34,7 @@ const FLUSH_STEPS: usize = 16;
 pub struct MessageFile {
     /// Nothing once the file is finished.
     writer: Option<Writer<BufWriter<File>>>,
+    path: PathBuf,
     schedule: Schedule,
     channels: BTreeMap<String, u16>,
     sequence: u32,
@@ -82,7 +84,8 @@ impl MessageFile {
             .map_err(to_io)?;
         let mut made = Self {
             writer: Some(writer),
-            schedule: Schedule::new(cadence),
+            schedule: Schedule::new(cadence, history.map(|history| history.time)),
+            path: directory.path().join("run.mcap"),
             channels: BTreeMap::new(),
             sequence: 0,
             title: model.case.title.clone(),
@@ -91,76 +94,71 @@ impl MessageFile {
             time: 0.0,
         };
         if let Some(history) = history {
-            made.schedule = Schedule::resumed(cadence, history.time);
-            made.copy(&history.messages, history.time)?;
+            let earlier = history.directory.join("run.mcap");
+            match std::fs::read(&earlier) {
+                Err(error) if error.kind() == io::ErrorKind::NotFound => {}
+                read => made.copy(&read.at(&earlier)?, history.time)?,
+            }
             made.time = history.time;
             made.log(Severity::Info, "resumed")?;
         }
         if let Some(writer) = &mut made.writer {
             writer.flush().map_err(to_io)?;
         }
-        unfinished.persist(directory.path().join("run.mcap"))?;
+        unfinished.persist(&made.path).map_err(|refused| refused.error).at(&made.path)?;
         Ok(made)
     }
 
     /// Copies the messages of another file up to a time (s); what a killed run left half written is
     /// not there.
     fn copy(&mut self, bytes: &[u8], time: f64) -> io::Result<()> {
-        let Some(writer) = &mut self.writer else { return Ok(()) };
         let options = Options::IgnoreEndMagic.into();
         let Ok(messages) = MessageStream::new_with_options(bytes, options) else { return Ok(()) };
         let last = foxglove::nanoseconds(time);
         for message in messages.map_while(Result::ok).filter(|message| message.log_time <= last) {
+            let Some(schema) = &message.channel.schema else { continue };
             let topic = &message.channel.topic;
-            let channel_id = match self.channels.get(topic) {
-                Some(&id) => id,
-                None => {
-                    let schema_id = match &message.channel.schema {
-                        Some(known) => writer
-                            .add_schema(&known.name, &known.encoding, &known.data)
-                            .map_err(to_io)?,
-                        None => 0,
-                    };
-                    let id = writer
-                        .add_channel(schema_id, topic, "json", &BTreeMap::new())
-                        .map_err(to_io)?;
-                    self.channels.insert(topic.clone(), id);
-                    id
-                }
-            };
-            let (log_time, publish_time) = (message.log_time, message.publish_time);
-            let header =
-                MessageHeader { channel_id, sequence: self.sequence, log_time, publish_time };
-            self.sequence = self.sequence.wrapping_add(1);
-            writer.write_to_known_channel(&header, &message.data).map_err(to_io)?;
+            let channel = self.channel(topic, || Ok(Schema::clone(schema)))?;
+            self.write(channel, message.log_time, &message.data)?;
         }
         Ok(())
     }
 
     fn send(&mut self, topic: &str, kind: Kind, message: &Value) -> io::Result<()> {
+        let channel = self.channel(topic, || {
+            Ok(Schema {
+                id: 0,
+                name: kind.schema_name().to_owned(),
+                encoding: "jsonschema".to_owned(),
+                data: Cow::Owned(serde_json::to_vec(&kind.schema())?),
+            })
+        })?;
+        self.write(channel, foxglove::nanoseconds(self.time), &serde_json::to_vec(message)?)
+    }
+
+    /// The channel of a topic, made with its schema when it is first asked for.
+    fn channel<'a>(
+        &mut self,
+        topic: &str,
+        schema: impl FnOnce() -> io::Result<Schema<'a>>,
+    ) -> io::Result<u16> {
+        if let Some(&id) = self.channels.get(topic) {
+            return Ok(id);
+        }
+        let Some(writer) = &mut self.writer else { return Ok(0) };
+        let Schema { name, encoding, data, .. } = schema()?;
+        let schema = writer.add_schema(&name, &encoding, &data).map_err(to_io)?;
+        let id = writer.add_channel(schema, topic, "json", &BTreeMap::new()).map_err(to_io)?;
+        self.channels.insert(topic.to_owned(), id);
+        Ok(id)
+    }
+
+    fn write(&mut self, channel_id: u16, time: u64, data: &[u8]) -> io::Result<()> {
         let Some(writer) = &mut self.writer else { return Ok(()) };
-        let channel_id = match self.channels.get(topic) {
-            Some(&id) => id,
-            None => {
-                let schema = serde_json::to_vec(&kind.schema())?;
-                let schema_id =
-                    writer.add_schema(kind.schema_name(), "jsonschema", &schema).map_err(to_io)?;
-                let id = writer
-                    .add_channel(schema_id, topic, "json", &BTreeMap::new())
-                    .map_err(to_io)?;
-                self.channels.insert(topic.to_owned(), id);
-                id
-            }
-        };
-        let time = foxglove::nanoseconds(self.time);
-        let header = MessageHeader {
-            channel_id,
-            sequence: self.sequence,
-            log_time: time,
-            publish_time: time,
-        };
+        let sequence = self.sequence;
+        let header = MessageHeader { channel_id, sequence, log_time: time, publish_time: time };
         self.sequence = self.sequence.wrapping_add(1);
-        writer.write_to_known_channel(&header, &serde_json::to_vec(message)?).map_err(to_io)
+        writer.write_to_known_channel(&header, data).map_err(to_io)
     }
 
     fn log(&mut self, severity: Severity, message: &str) -> io::Result<()> {
@@ -176,6 +174,17 @@ impl MessageFile {
 
 impl<const D: usize> Observer<D> for MessageFile {
     fn on_step(&mut self, snapshot: &Snapshot<'_, D>) -> io::Result<()> {
+        self.step(snapshot).at(&self.path)
+    }
+
+    fn on_failure(&mut self, error: &RunError, _last: Option<&LastState<'_, D>>) -> io::Result<()> {
+        self.log(Severity::Error, &error.to_string()).at(&self.path)?;
+        self.finish().at(&self.path)
+    }
+}
+
+impl MessageFile {
+    fn step<const D: usize>(&mut self, snapshot: &Snapshot<'_, D>) -> io::Result<()> {
         self.time = snapshot.time;
         let is_first = self.sequence == 0;
         if is_first {
@@ -202,11 +211,6 @@ impl<const D: usize> Observer<D> for MessageFile {
             Some(writer) if is_due => writer.flush().map_err(to_io),
             _ => Ok(()),
         }
-    }
-
-    fn on_failure(&mut self, error: &RunError, _last: Option<&LastState<'_, D>>) -> io::Result<()> {
-        self.log(Severity::Error, &error.to_string())?;
-        self.finish()
     }
 }
 

@@ -11,7 +11,7 @@
 //! | `series.csv` | One row a step | flushed every second |
 //! | `run.mcap` | Bodies and quantities as messages | flushed every few steps |
 //! | `fields/*.vtu`, `fields.pvd` | Velocity, pressure, vorticity | whole files only |
-//! | `comparison.json` | Computed against published values, by the command line | at the end |
+//! | `comparison.json` | Computed against references, by the command line | at the end |
 //! | `lock` | Held while the run is under way | – |
 
 mod atomic;
@@ -27,6 +27,7 @@ mod progress;
 mod provenance;
 mod run_directory;
 mod schedule;
+mod state_file;
 mod status;
 mod terminal;
 #[cfg(test)]
@@ -44,7 +45,8 @@ pub use log::start_log;
 pub use mcap::MessageFile;
 pub use progress::Progress;
 pub use provenance::Provenance;
-pub use run_directory::{Earlier, RunDirectory, RunDirectoryError, run_of_state};
+pub use run_directory::{Earlier, RunDirectory, RunDirectoryError, STATE_FILE, run_of_state};
+pub use state_file::read_state;
 pub use status::{RunState, Status, StatusFile};
 
 /// All observers of a run in `directory`, which goes on after a `history` if there is one; with

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
-use super::atomic::{UNFINISHED, write_atomic};
+use super::atomic::{AtPath, UNFINISHED, write_atomic};
 use super::provenance::Provenance;
 use super::status::{RunState, Status};
 use crate::case::Case;
@@ -31,7 +31,7 @@ const FILES: [&str; 9] = [
 ];
 
 /// The state from which a run that was stopped resumes.
-pub(super) const STATE_FILE: &str = "state.json";
+pub const STATE_FILE: &str = "state.json";
 
 /// The folder of a run that failed: its last state, and the flow then.
 pub(super) const FAILURE_FOLDER: &str = "failure";
@@ -86,13 +86,8 @@ pub enum RunDirectoryError {
     #[error("the case cannot be written to case.toml: {0}")]
     Case(#[from] toml::ser::Error),
     /// The file system refused.
-    #[error("{path}: {source}")]
-    Io {
-        /// The directory.
-        path: PathBuf,
-        /// What it said.
-        source: io::Error,
-    },
+    #[error(transparent)]
+    Io(#[from] io::Error),
 }
 
 /// The directory of one run, locked for this process as long as the value lives.
@@ -117,33 +112,32 @@ impl RunDirectory {
         threads: usize,
         earlier: Earlier,
     ) -> Result<Self, RunDirectoryError> {
-        let failed = |source| RunDirectoryError::Io { path: path.to_owned(), source };
-        fs::create_dir_all(path).map_err(failed)?;
+        fs::create_dir_all(path).at(path)?;
         if !is_a_run(path) {
-            if fs::read_dir(path).map_err(failed)?.next().is_some() {
+            if fs::read_dir(path).at(path)?.next().is_some() {
                 return Err(RunDirectoryError::NotARun { path: path.to_owned() });
             }
-            write_atomic(&path.join(MARKER_FILE), MARKER.as_bytes()).map_err(failed)?;
+            write_atomic(&path.join(MARKER_FILE), MARKER.as_bytes())?;
         }
-        let Some(lock) = lock(&path.join("lock")).map_err(failed)? else {
+        let Some(lock) = lock(&path.join("lock")).at(&path.join("lock"))? else {
             return Err(RunDirectoryError::InUse { path: path.to_owned() });
         };
         if earlier == Earlier::Keep {
             check_replaceable(path)?;
         }
         if earlier == Earlier::Continue {
-            remove_unfinished(path).map_err(failed)?;
+            remove_unfinished(path).at(path)?;
         } else {
-            clear(path).map_err(failed)?;
+            clear(path).at(path)?;
         }
 
         let case_text = case.to_toml()?;
         let provenance = Provenance::of_this_process(&case_text, threads);
         let mut provenance_text =
-            serde_json::to_vec_pretty(&provenance).map_err(|error| failed(error.into()))?;
+            serde_json::to_vec_pretty(&provenance).map_err(io::Error::from)?;
         provenance_text.push(b'\n');
-        write_atomic(&path.join("case.toml"), case_text.as_bytes()).map_err(failed)?;
-        write_atomic(&path.join("provenance.json"), &provenance_text).map_err(failed)?;
+        write_atomic(&path.join("case.toml"), case_text.as_bytes())?;
+        write_atomic(&path.join("provenance.json"), &provenance_text)?;
         Ok(Self { path: path.to_owned(), case_text, provenance, _lock: lock })
     }
 
@@ -275,7 +269,7 @@ fn names_in(folder: &Path) -> io::Result<Vec<String>> {
 
 fn remove_if_there(file: &Path) -> io::Result<()> {
     match fs::remove_file(file) {
-        Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
+        Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error).at(file),
         _ => Ok(()),
     }
 }
@@ -284,7 +278,7 @@ fn remove_if_empty(folder: &Path) -> io::Result<()> {
     use io::ErrorKind::{DirectoryNotEmpty, NotADirectory, NotFound};
     match fs::remove_dir(folder) {
         Err(error) if !matches!(error.kind(), DirectoryNotEmpty | NotADirectory | NotFound) => {
-            Err(error)
+            Err(error).at(folder)
         }
         _ => Ok(()),
     }

@@ -10,15 +10,12 @@ pub struct Schedule {
 }
 
 impl Schedule {
-    /// A schedule that has seen nothing yet.
-    pub fn new(cadence: Cadence) -> Self {
-        Self { cadence, last_multiple: None }
-    }
-
-    /// A schedule that was asked up to a time (s), as that of a run that resumes there.
-    pub fn resumed(cadence: Cadence, time: f64) -> Self {
-        let mut schedule = Self::new(cadence);
-        schedule.is_due(0, time, false);
+    /// A schedule that has seen nothing yet, or all up to the time (s) at which a run resumes.
+    pub fn new(cadence: Cadence, resumed_at: Option<f64>) -> Self {
+        let mut schedule = Self { cadence, last_multiple: None };
+        if let Some(time) = resumed_at {
+            schedule.is_due(0, time, false);
+        }
         schedule
     }
 
@@ -46,7 +43,7 @@ mod tests {
 
     #[test]
     fn multiples_of_a_time_are_met_once_each_in_spite_of_rounding() {
-        let mut schedule = Schedule::new(Cadence::Time(0.3));
+        let mut schedule = Schedule::new(Cadence::Time(0.3), None);
         let due: Vec<usize> =
             (0..=10).filter(|&step| schedule.is_due(step, step as f64 * 0.1, false)).collect();
         assert_eq!(due, [0, 3, 6, 9]);
@@ -54,7 +51,7 @@ mod tests {
 
     #[test]
     fn a_resumed_schedule_goes_on_where_it_was() {
-        let mut schedule = Schedule::resumed(Cadence::Time(0.3), 0.4);
+        let mut schedule = Schedule::new(Cadence::Time(0.3), Some(0.4));
         let due: Vec<usize> =
             (5..=10).filter(|&step| schedule.is_due(step, step as f64 * 0.1, false)).collect();
         assert_eq!(due, [6, 9]);
@@ -62,8 +59,8 @@ mod tests {
 
     #[test]
     fn the_last_step_is_written_unless_never() {
-        assert!(Schedule::new(Cadence::Steps(7)).is_due(3, 0.0, true));
-        assert!(Schedule::new(Cadence::End).is_due(3, 0.0, true));
-        assert!(!Schedule::new(Cadence::Never).is_due(3, 0.0, true));
+        assert!(Schedule::new(Cadence::Steps(7), None).is_due(3, 0.0, true));
+        assert!(Schedule::new(Cadence::End, None).is_due(3, 0.0, true));
+        assert!(!Schedule::new(Cadence::Never, None).is_due(3, 0.0, true));
     }
 }

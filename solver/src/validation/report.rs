@@ -1,177 +1,97 @@
-//! Table of computed, published, difference, verdict.
+//! Tables of comparisons: computed, reference, kind, difference, verdict; with counts by kind.
 
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 
-use super::statistic::measured_value;
-use crate::case::{Case, Reference, significant};
-use crate::simulation::RunSummary;
+use super::comparison::{Comparison, Verdict};
+use crate::case::{ReferenceKind, significant};
 
-/// What a comparison came to.
+/// The rule the tolerances of the shipped cases follow, for the page.
+const RULE: &str = "\
+A tolerance is at most five times the difference that the shipped mesh and step leave, or the own
+uncertainty of the reference where that is larger. Where the difference is small by chance, it is the
+size of the differences of the same quantity in the case; a value that is zero but for rounding has a
+tolerance far above rounding and far below anything that matters.";
+
+/// How many comparisons of one kind came to which verdict.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Verdict {
-    /// Within the tolerance.
-    Within,
-    /// Outside the tolerance.
-    Outside,
-    /// There is nothing to compare.
-    NotComputed,
+struct Count {
+    kind: ReferenceKind,
+    /// In the order of `Verdict::ALL`.
+    of_verdict: [usize; Verdict::ALL.len()],
 }
 
-impl Verdict {
-    /// Name in reports.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Within => "within",
-            Self::Outside => "OUTSIDE",
-            Self::NotComputed => "NOT COMPUTED",
-        }
+impl Count {
+    fn total(&self) -> usize {
+        self.of_verdict.iter().sum()
     }
 }
 
-/// A published value beside what was computed.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Comparison {
-    /// Name of the case, with its variant.
-    pub case: String,
-    /// Which quantity, with its statistic unless that is the final value.
-    pub quantity: String,
-    /// What was computed, or why it was not.
-    pub computed: Result<f64, String>,
-    /// What was published, where, and how near we should be.
-    pub reference: Reference,
-    /// The verdict.
-    pub verdict: Verdict,
-    /// Unknowns of the linear system; 0 if it was not made.
-    pub dofs: usize,
-    /// CPU seconds of the run.
-    pub cpu_seconds: f64,
-}
-
-/// Compares a run with all references of its case.
-#[must_use]
-pub fn compare(name: &str, case: &Case, outcome: &RunSummary) -> Vec<Comparison> {
-    let cpu_seconds = outcome.timing.cpu.iter().sum();
-    case.reference
-        .iter()
-        .map(|reference| {
-            let computed =
-                measured_value(&outcome.series, case, reference).map_err(|error| error.to_string());
-            let computed = computed.and_then(|value| {
-                let is_of_cycle = reference.quantity.contains(".cycle.");
-                match value {
-                    value if value.is_finite() => Ok(value),
-                    _ if is_of_cycle => Err(format!(
-                        "{} is not a number: no whole cycle had ended by then",
-                        reference.quantity
-                    )),
-                    value => Err(format!("{} is {value}", reference.quantity)),
-                }
-            });
-            judge(name, reference, computed, outcome.n_dofs, cpu_seconds)
-        })
-        .collect()
-}
-
-/// The references of a case that could not be run, and why.
-#[must_use]
-pub fn not_computed(name: &str, case: &Case, reason: &str) -> Vec<Comparison> {
-    case.reference
-        .iter()
-        .map(|reference| judge(name, reference, Err(reason.to_owned()), 0, 0.0))
-        .collect()
-}
-
-fn judge(
-    name: &str,
-    reference: &Reference,
-    computed: Result<f64, String>,
-    dofs: usize,
-    cpu_seconds: f64,
-) -> Comparison {
-    let verdict = match &computed {
-        Err(_) => Verdict::NotComputed,
-        // Written so that a value that is not a number is outside, too.
-        Ok(value) if (value - reference.value).abs() <= allowed(reference) => Verdict::Within,
-        Ok(_) => Verdict::Outside,
+/// Counts of the kinds that occur.
+fn counts(comparisons: &[Comparison]) -> Vec<Count> {
+    let count = |kind| Count {
+        kind,
+        of_verdict: Verdict::ALL.map(|verdict| {
+            let is_it = |row: &&Comparison| row.reference.kind == kind && row.verdict == verdict;
+            comparisons.iter().filter(is_it).count()
+        }),
     };
-    Comparison {
-        case: name.to_owned(),
-        quantity: reference.label(),
-        computed,
-        reference: reference.clone(),
-        verdict,
-        dofs,
-        cpu_seconds,
-    }
+    ReferenceKind::ALL.map(count).into_iter().filter(|count| count.total() > 0).collect()
 }
 
-/// Largest accepted difference.
-fn allowed(reference: &Reference) -> f64 {
-    match (reference.relative, reference.absolute) {
-        (Some(relative), _) => relative * reference.value.abs(),
-        (None, Some(absolute)) => absolute,
-        (None, None) => 0.0,
-    }
+/// Counts by kind, one line a kind, a header first.
+#[must_use]
+pub fn count_table(comparisons: &[Comparison]) -> Vec<String> {
+    let mut rows = vec![count_header()];
+    rows.extend(counts(comparisons).iter().map(count_cells));
+    aligned(&rows, &[1, 2, 3, 4, 5, 6])
+}
+
+fn count_header() -> Vec<String> {
+    let verdicts = Verdict::ALL.iter().map(|verdict| verdict.name().to_lowercase());
+    ["kind".to_owned(), "values".to_owned()].into_iter().chain(verdicts).collect()
+}
+
+fn count_cells(count: &Count) -> Vec<String> {
+    let numbers = count.of_verdict.iter().map(ToString::to_string);
+    [count.kind.name().to_owned(), count.total().to_string()].into_iter().chain(numbers).collect()
+}
+
+/// How many values are within their tolerance, and how many are known not to be.
+#[must_use]
+pub fn summary(comparisons: &[Comparison]) -> String {
+    let number = |verdict| comparisons.iter().filter(|row| row.verdict == verdict).count();
+    let known = match number(Verdict::KnownOutside) {
+        0 => String::new(),
+        n => format!(", {n} outside for a known reason"),
+    };
+    let (n_within, n) = (number(Verdict::Within), comparisons.len());
+    format!("{n_within} of {n} values within their tolerance{known}")
 }
 
 impl Comparison {
-    /// Computed less published, relative if the tolerance is.
-    #[must_use]
-    pub fn difference(&self) -> Option<f64> {
-        let difference = self.computed.as_ref().ok()? - self.reference.value;
-        Some(match self.reference.relative {
-            Some(_) => difference / self.reference.value.abs(),
-            None => difference,
-        })
-    }
-
-    /// The comparison as an object: numbers as numbers, `null` where there is none.
-    #[must_use]
-    pub fn to_json(&self) -> Value {
-        json!({
-            "case": self.case,
-            "quantity": self.reference.quantity,
-            "minus": self.reference.minus,
-            "statistic": self.reference.statistic.name(),
-            "at": self.reference.at,
-            "level": self.reference.level,
-            "of": self.reference.of,
-            "computed": self.computed.as_ref().ok(),
-            "published": self.reference.value,
-            "difference": self.difference(),
-            "tolerance": self.reference.relative.or(self.reference.absolute),
-            "is_relative": self.reference.relative.is_some(),
-            "source": self.reference.source,
-            "note": self.reference.note,
-            "verdict": match self.verdict {
-                Verdict::Within => "within",
-                Verdict::Outside => "outside",
-                Verdict::NotComputed => "not computed",
-            },
-            "reason": self.computed.as_ref().err(),
-            "dofs": self.dofs,
-            "cpu_seconds": self.cpu_seconds,
-        })
-    }
-
-    fn cells(&self) -> [String; 7] {
-        let is_relative = self.reference.relative.is_some();
-        let share = |value: f64| {
-            if is_relative { format!("{}%", two_digits(100.0 * value)) } else { two_digits(value) }
-        };
+    fn cells(&self) -> [String; 8] {
         let tolerance = self.reference.relative.or(self.reference.absolute).unwrap_or(0.0);
         [
             self.case.clone(),
             self.quantity.clone(),
             self.computed.as_ref().map_or("-".to_owned(), |value| significant(*value)),
             significant(self.reference.value),
+            self.reference.kind.name().to_owned(),
             self.difference().map_or("-".to_owned(), |difference| {
-                format!("{}{}", if difference < 0.0 { "" } else { "+" }, share(difference))
+                format!("{}{}", if difference < 0.0 { "" } else { "+" }, self.share(difference))
             }),
-            share(tolerance),
+            self.share(tolerance),
             self.verdict.name().to_owned(),
         ]
+    }
+
+    /// A difference from the reference, in per cent where its tolerance is relative.
+    fn share(&self, value: f64) -> String {
+        if self.reference.relative.is_some() {
+            format!("{}%", two_digits(100.0 * value))
+        } else {
+            two_digits(value)
+        }
     }
 }
 
@@ -188,69 +108,121 @@ fn two_digits(value: f64) -> String {
     }
 }
 
-/// All comparisons as a JSON array.
+/// All comparisons as a JSON object, with their counts by kind.
 #[must_use]
 pub fn comparisons_to_json(comparisons: &[Comparison]) -> Value {
-    Value::Array(comparisons.iter().map(Comparison::to_json).collect())
+    let of_kind = |count: &Count| {
+        let verdicts = Verdict::ALL.iter().zip(count.of_verdict);
+        let numbers = verdicts.map(|(verdict, n)| (verdict.name().to_lowercase(), n.into()));
+        let all = [("values".to_owned(), Value::from(count.total()))].into_iter().chain(numbers);
+        (count.kind.name().to_owned(), Value::Object(all.collect()))
+    };
+    let counts: Map<String, Value> = counts(comparisons).iter().map(of_kind).collect();
+    let rows: Vec<Value> = comparisons.iter().map(Comparison::to_json).collect();
+    json!({ "counts": counts, "comparisons": rows })
 }
 
-/// The comparisons as a page of Markdown: one table a case, with sources and notes.
+/// The comparisons as a page of Markdown: counts by kind, then a table a case, with sources, notes
+/// and reasons.
 #[must_use]
 pub fn comparison_page(comparisons: &[Comparison]) -> String {
-    let n_within = comparisons.iter().filter(|row| row.verdict == Verdict::Within).count();
     let mut page = format!(
         "# Validation\n\nWritten by `alewife validate --markdown` of version {}; not edited by \
-         hand. {n_within} of {} values are within their tolerance.\n",
+         hand. {}.\n\n{RULE}\n\n",
         env!("CARGO_PKG_VERSION"),
-        comparisons.len()
+        summary(comparisons)
     );
+    let mut header = count_header();
+    header.insert(1, "what it is".to_owned());
+    page += &markdown_row(&header);
+    page += &markdown_row(&vec!["---".to_owned(); header.len()]);
+    for count in counts(comparisons) {
+        let mut cells = count_cells(&count);
+        cells.insert(1, count.kind.meaning().to_owned());
+        page += &markdown_row(&cells);
+    }
     let case_of = |row: &Comparison| row.case.split('/').next().unwrap_or_default().to_owned();
     for rows in comparisons.chunk_by(|one, other| case_of(one) == case_of(other)) {
-        page += &format!("\n## {}\n\n", case_of(&rows[0]));
-        page += "| variant | quantity | computed | published | difference | tolerance | verdict \
-                 | unknowns | CPU (s) |\n";
-        page += "|---|---|---|---|---|---|---|---|---|\n";
-        for row in rows {
-            let [case, quantity, computed, published, difference, tolerance, verdict] = row.cells();
-            let variant = case.split_once('/').map_or("", |(_, variant)| variant);
-            page += &format!(
-                "| {variant} | {quantity} | {computed} | {published} | {difference} | {tolerance} \
-                 | {verdict} | {} | {:.2} |\n",
-                row.dofs, row.cpu_seconds
-            );
-        }
-        let mut listed = Vec::new();
-        for row in rows {
-            let note =
-                row.reference.note.as_ref().map_or(String::new(), |note| format!(" ({note})"));
-            let line = format!("{}{note}", row.reference.source);
-            if !listed.contains(&line) {
-                listed.push(line);
-            }
-        }
-        page += &format!("\nSources: {}.\n", listed.join("; "));
+        page += &format!("\n## {}\n\n{}", case_of(&rows[0]), case_table(rows));
     }
     page
+}
+
+fn markdown_row(cells: &[String]) -> String {
+    format!("| {} |\n", cells.join(" | "))
+}
+
+/// The table of one case, with its sources and the reasons of values outside.
+fn case_table(rows: &[Comparison]) -> String {
+    let mut page = "| variant | quantity | computed | reference | kind | uncertainty | difference \
+                    | tolerance | verdict | unknowns | CPU (s) |\n\
+                    |---|---|---|---|---|---|---|---|---|---|---|\n"
+        .to_owned();
+    for row in rows {
+        let [case, quantity, computed, reference, kind, difference, tolerance, verdict] =
+            row.cells();
+        let variant = case.split_once('/').map_or("", |(_, variant)| variant).to_owned();
+        let uncertainty = row.reference.uncertainty.map_or("-".to_owned(), |own| row.share(own));
+        page += &markdown_row(&[
+            variant,
+            quantity,
+            computed,
+            reference,
+            kind,
+            uncertainty,
+            difference,
+            tolerance,
+            verdict,
+            row.dofs.to_string(),
+            format!("{:.2}", row.cpu_seconds),
+        ]);
+    }
+    let sources = each_once(rows.iter().map(|row| {
+        let date = row.reference.date.as_ref().map_or(String::new(), |date| format!(", {date}"));
+        let note = row.reference.note.as_ref().map_or(String::new(), |note| format!(" ({note})"));
+        format!("{}{date}{note}", row.reference.source)
+    }));
+    page += &format!("\nSources: {}.\n", sources.join("; "));
+    let reasons = each_once(rows.iter().filter_map(|row| row.reference.outside.clone()));
+    for reason in reasons {
+        page += &format!("\nOutside, known: {reason}.\n");
+    }
+    page
+}
+
+/// Lines in their order, each the first time only.
+fn each_once(lines: impl Iterator<Item = String>) -> Vec<String> {
+    let mut listed = Vec::new();
+    for line in lines {
+        if !listed.contains(&line) {
+            listed.push(line);
+        }
+    }
+    listed
 }
 
 /// The table, its header first, one line a comparison in their order.
 #[must_use]
 pub fn comparison_table(comparisons: &[Comparison]) -> Vec<String> {
     let header =
-        ["case", "quantity", "computed", "published", "difference", "tolerance", "verdict"];
-    let mut rows = vec![header.map(ToOwned::to_owned)];
-    rows.extend(comparisons.iter().map(Comparison::cells));
-    let width: Vec<usize> = (0..header.len())
+        ["case", "quantity", "computed", "reference", "kind", "difference", "tolerance", "verdict"];
+    let mut rows = vec![header.map(ToOwned::to_owned).to_vec()];
+    rows.extend(comparisons.iter().map(|row| row.cells().to_vec()));
+    aligned(&rows, &[2, 3, 5, 6])
+}
+
+/// Lines of cells in columns: words to the left, the columns of numbers to the right.
+fn aligned(rows: &[Vec<String>], numbers: &[usize]) -> Vec<String> {
+    let n_columns = rows.iter().map(Vec::len).max().unwrap_or(0);
+    let width: Vec<usize> = (0..n_columns)
         .map(|column| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0))
         .collect();
     rows.iter()
         .map(|row| {
             let mut line = String::new();
             for (column, cell) in row.iter().enumerate() {
-                // Words to the left, numbers to the right.
                 let padding = " ".repeat(width[column] - cell.chars().count());
-                let is_number = (2..6).contains(&column);
-                line += &if is_number {
+                line += &if numbers.contains(&column) {
                     format!("{padding}{cell}  ")
                 } else {
                     format!("{cell}{padding}  ")
@@ -263,8 +235,9 @@ pub fn comparison_table(comparisons: &[Comparison]) -> Vec<String> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::comparison::judge;
     use super::*;
-    use crate::case::Statistic;
+    use crate::case::{Reference, Statistic};
 
     fn reference(relative: Option<f64>, absolute: Option<f64>) -> Reference {
         Reference {
@@ -278,7 +251,11 @@ mod tests {
             per: 1.0,
             relative,
             absolute,
+            uncertainty: None,
+            kind: ReferenceKind::Literature,
             source: "somebody".to_owned(),
+            date: None,
+            outside: None,
             note: None,
         }
     }
@@ -336,10 +313,48 @@ mod tests {
         assert_eq!(table[0].find("verdict"), table[1].find("within"));
         let page = comparison_page(&rows);
         assert!(page.contains("1 of 2 values") && page.contains("## long-name"), "{page}");
-        assert!(page.contains("| variant | body.force.x (max) | -2.01"), "{page}");
-        let json = comparisons_to_json(&rows);
+        assert!(
+            page.contains("| variant | body.force.x (max) | -2.01 | -2 | literature"),
+            "{page}"
+        );
+        let json = &comparisons_to_json(&rows)["comparisons"];
         assert_eq!(json[0]["computed"], -2.01);
         assert_eq!(json[1]["reason"], "it diverged");
         assert!(json[1]["computed"].is_null());
+    }
+
+    #[test]
+    fn values_are_counted_by_kind() {
+        let own = Reference { kind: ReferenceKind::Regression, ..reference(Some(0.01), None) };
+        let rows = [
+            judge("c", &own, Ok(-2.0), 1, 0.0),
+            judge("c", &reference(Some(0.01), None), Ok(-2.01), 1, 0.0),
+            judge("c", &own, Ok(-3.0), 1, 0.0),
+        ];
+        let json = comparisons_to_json(&rows);
+        assert_eq!(json["counts"]["literature"]["values"], 1);
+        assert_eq!(json["counts"]["regression"]["values"], 2);
+        assert_eq!(json["counts"]["regression"]["outside"], 1);
+        assert!(json["counts"]["measured"].is_null());
+        let table = count_table(&rows);
+        assert_eq!(table.len(), 3);
+        assert!(table[1].starts_with("literature") && table[2].starts_with("regression"));
+        assert!(!comparison_page(&rows).to_lowercase().contains("| published |"));
+    }
+
+    #[test]
+    fn a_value_known_to_be_outside_fails_only_once_it_is_not() {
+        let outside = Some("they sum up less".to_owned());
+        let known = Reference { outside, ..reference(Some(0.01), None) };
+        let row = |computed| judge("c", &known, computed, 1, 0.0);
+        assert_eq!(row(Ok(-2.5)).verdict, Verdict::KnownOutside);
+        assert_eq!(row(Ok(-2.0)).verdict, Verdict::NoLongerOutside);
+        assert_eq!(row(Ok(f64::NAN)).verdict, Verdict::Outside);
+        assert_eq!(row(Err("it diverged".to_owned())).verdict, Verdict::NotComputed);
+        let failures = Verdict::ALL.map(Verdict::is_failure);
+        assert_eq!(failures, [false, false, true, true, true]);
+        let page = comparison_page(&[row(Ok(-2.5))]);
+        assert!(page.contains("1 outside for a known reason"), "{page}");
+        assert!(page.contains("OUTSIDE, known") && page.contains("they sum up less"), "{page}");
     }
 }

@@ -99,7 +99,7 @@ center = [0.0, 0.0]
 motion = "free"
 spring = { stiffness = [1.0, 0.0], damping = [0.1, 0.0], anchor = [0.1, 0.0] }
 force = [1.0, 0.0]
-load_factor.sine = { frequency = 1.0 }
+load_factor.sine = { period = 1.0 }
 "#;
     assert_accepted(&check(text, &[]));
     for (setting, wanted) in [
@@ -107,7 +107,7 @@ load_factor.sine = { frequency = 1.0 }
         ("body.0.spring.damping.1=1", "the damping across the axis"),
         ("body.0.spring.anchor.1=1", "the anchor off the axis"),
         ("body.0.spring.torsion=1", "the torsion of \"sphere\" breaks the symmetry"),
-        ("body.0.load_factor.sine.frequency=0", "must be positive"),
+        ("body.0.load_factor.sine.period=0", "must be positive"),
         ("body.0.load_factor.table=[[1, 0], [0, 1]]", "must rise"),
     ] {
         assert_refused(&check(text, &["--set", setting]), &[wanted]);
@@ -145,8 +145,8 @@ fn factors_belong_to_modes_and_axes_turn_in_the_plane_only() {
         |gait: &str| format!("motion = \"free\"\ngait.squirmer = {{ modes = [1.0], {gait} }}");
     refused(
         motion,
-        &swimmer("factors = { 2 = { sine = { frequency = 1.0 } } }"),
-        &["has 1 modes, and none is `2`", "by the number of their mode"],
+        &swimmer("factors = { 2 = { sine = { period = 1.0 } } }"),
+        &["has 1 mode, and none is `2`", "by the number of their mode"],
     );
     refused(
         motion,
@@ -169,4 +169,93 @@ fn factors_belong_to_modes_and_axes_turn_in_the_plane_only() {
         gait.squirmer = { modes = [1.0], turn.ramp.duration = 1.0 }
     "#;
     assert_refused(&check(ball, &[]), &["breaks the symmetry", "to swim to and fro"]);
+}
+
+#[test]
+fn names_have_at_most_64_letters() {
+    let name = |n: usize| format!("name = \"{}\"", "d".repeat(n));
+    for n in [65, 65_536] {
+        let told = [format!("has {n} characters"), "at most 64".to_owned()];
+        let told: Vec<&str> = told.iter().map(String::as_str).collect();
+        refused("name = \"drop\"", &name(n), &told);
+        refused("name = \"disc\"", &name(n), &told);
+    }
+    let text = edited("name = \"drop\"", &name(64));
+    assert_accepted(&check(&text, &[]));
+}
+
+#[test]
+fn gaps_too_thin_for_a_mesh_are_told_with_the_threshold() {
+    let told = ["from the boundary", "gaps below 1e-7 of the size of a body cannot be meshed"];
+    refused("center = [0.2, 0.2]", "center = [0.2, 0.050000000001]", &told);
+    let second = "[[body]]\nname = \"other\"\nshape = { disc = { radius = 0.05 } }\n\
+                  center = [0.300000000001, 0.2]\nmotion = \"held\"\n\n[mesh]";
+    refused("[mesh]", second, &["are 1.0", "apart at", "gaps below 1e-7"]);
+}
+
+#[test]
+fn what_is_lost_to_rounding_is_refused() {
+    let thin = ["\"disc\" is 1.000e-20 thin in a domain of", "lost to rounding", "wrong.toml:21:9"];
+    refused("radius = 0.05", "radius = 1e-20", &thin);
+    refused("radius = 0.05", "radius = 1e-100", &["beyond what can be computed with"]);
+    refused("length = 2.2", "length = 1e200", &["beyond what can be computed with", "1e200"]);
+    let far = "domain.box = { min = [1e12, 0.0], max = [1000000000002.2, 0.41] }\n[mesh]";
+    let text =
+        edited("[domain.channel]\nlength = 2.2\nheight = 0.41\n", "").replace("[mesh]", "[MESH]");
+    let text = text
+        .replacen("[fluid]", &far.replace("\n[mesh]", "\n[fluid]"), 1)
+        .replace("[MESH]", "[mesh]");
+    assert_refused(&check(&text, &[]), &["from the origin", "move domain and bodies"]);
+}
+
+#[test]
+fn what_is_hardly_meant_is_warned_about() {
+    let warned = |text: &str, settings: &[&str], wanted: &str| {
+        let said = check(text, settings);
+        assert_accepted(&said);
+        assert!(said.stderr.contains(wanted), "`{wanted}` is not in:\n{}", said.stderr);
+    };
+    let free = unsteady("");
+    warned(&free, &["--set", "body.0.locked=['x', 'y', 'rotation']"], "all its motions are locked");
+    warned(&free, &["--set", "body.0.density=7e9"], "7.000e9 times the density of the fluid");
+    warned(&free, &["--set", "mesh.gap_layers=1"], "too few for the pressure");
+    let outside = "mesh.box=[{ min = [3, 0], max = [4, 1], size = 0.1 }]";
+    warned(&free, &["--set", outside], "lies outside the domain and refines nothing");
+    let modes = format!("body.0.gait.squirmer.modes=[{}]", vec!["1.0"; 100].join(", "));
+    warned(&free, &["--set", &modes], "mode 100 of \"disc\" is not resolved");
+}
+
+#[test]
+fn bodies_that_may_meet_are_told_of_contact() {
+    let hinted = |text: &str, settings: &[&str], wanted: &str| {
+        let said = check(text, settings);
+        assert_accepted(&said);
+        for wanted in [wanted, "nothing keeps them apart", "if they may meet, add contact.barrier"]
+        {
+            assert!(said.stderr.contains(wanted), "`{wanted}` is not in:\n{}", said.stderr);
+        }
+    };
+    let text = unsteady("");
+    let near_wall = ["--set", "body.0.center=[0.2, 0.0505]"];
+    hinted(&text, &near_wall, "\"disc\" comes within 5.0e-4 of the side `bottom`");
+    let contact = "[contact.barrier]\nrange = 0.02\nstiffness = 1.0\n\n[mesh]";
+    let with_contact = check(&text.replace("[mesh]", contact), &near_wall);
+    assert_eq!(with_contact.stderr, "");
+    // An open side is no wall, and a body that is held does not come nearer
+    assert_eq!(check(&text, &["--set", "body.0.center=[2.1495, 0.2]"]).stderr, "");
+    let held = [&near_wall[..], &["--set", "body.0.motion=held"]].concat();
+    assert_eq!(check(&text, &held).stderr, "");
+    let second = "[[body]]\nname = \"other\"\nshape = { disc = { radius = 0.05 } }\n\
+                  center = [0.301, 0.2]\nmotion = \"held\"\n\n[mesh]";
+    hinted(&text.replace("[mesh]", second), &[], "\"other\" comes within 1.0e-3 of \"disc\"");
+    // A gait brings the wall near
+    let fish = unsteady("gait.anguilliform = { period = 1.0 }")
+        .replace("{ disc = { radius = 0.05 } }", "{ fish = { length = 1.0 } }")
+        .replace("center = [0.2, 0.2]", "center = [1.0, 0.2]");
+    assert_eq!(
+        check(&fish, &["--set", "domain.channel.height=1.0", "--set", "body.0.center.1=0.5"])
+            .stderr,
+        ""
+    );
+    hinted(&fish, &["--set", "body.0.center.1=0.16"], "of the side `bottom`");
 }

@@ -126,7 +126,7 @@ fn a_sheet_waves_on_the_bottom_of_a_periodic_box_and_alone() {
             [boundary.bottom.waving-sheet]
             amplitude = 0.05
             wavelength = {wavelength}
-            frequency = 1.0
+            period = 1.0
             {more}
             "#
         );
@@ -139,7 +139,106 @@ fn a_sheet_waves_on_the_bottom_of_a_periodic_box_and_alone() {
     assert_refused(&sheet("1.0", "[time.steady]"), &["the solution is steady"]);
     refused(
         "bottom = \"no-slip\"",
-        "bottom.waving-sheet = { amplitude = 0.01, wavelength = 1.0, frequency = 1.0 }",
+        "bottom.waving-sheet = { amplitude = 0.01, wavelength = 1.0, period = 1.0 }",
         &["the bottom of a box that is periodic along x"],
     );
+}
+
+#[test]
+fn sizes_that_ask_for_too_many_cells_are_refused_before_the_mesh_is_made() {
+    let started = std::time::Instant::now();
+    let asks = "cells, more than 5e6";
+    refused(
+        "surface = 0.02",
+        "surface = 1e-9",
+        &["`mesh.surface` is 1e-9", asks, "wrong.toml:27:11", "write 7"],
+    );
+    refused(
+        "size = 0.1",
+        "size = 1e-6",
+        &["`mesh.size` is 1e-6", asks, "wrong.toml:26:8", "write 6.5e-4"],
+    );
+    refused(
+        "length = 2.2",
+        "length = 4e6",
+        &["`mesh.size` is 1e-1", asks, "make the domain smaller"],
+    );
+    let refined = "[[mesh.box]]\nmin = [0.0, 0.0]\nmax = [1.0, 0.4]\nsize = 1e-6\n\n[time.steady]";
+    refused("[time.steady]", refined, &["`mesh.box.0.size` is 1e-6", asks, "wrong.toml:32:8"]);
+    refused("surface = 0.02", "sides.top = 1e-12", &["`mesh.sides.top` is 1e-12", asks]);
+    refused(
+        "surface = 0.02",
+        "surface = 0.02\nscale = 1e-6",
+        &["with `mesh.scale` = 1e-6, `mesh.size` = 1e-1 asks", asks],
+    );
+    refused(
+        "surface = 0.02",
+        "gap_layers = 1e6",
+        &["gaps would get 1000000 layers", "4 are usual"],
+    );
+    assert!(started.elapsed().as_secs() < 10, "{:?}", started.elapsed());
+    // What only all sizes together ask for is found before the mesh is made, too
+    let directory = tempfile::tempdir().unwrap();
+    std::fs::write(
+        directory.path().join("wrong.toml"),
+        edited("surface = 0.02", "gap_layers = 150"),
+    )
+    .unwrap();
+    let said = super::alewife(directory.path(), &["check", "wrong.toml"]);
+    assert_refused(&said, &["the cell sizes ask for", "times as large would fit"]);
+}
+
+/// A cell of a periodic array, with a disc.
+fn cell(flow: &str, sides: &str, motion: &str) -> String {
+    format!(
+        r#"
+        title = "a cell of an array"
+        geometry = "planar"
+        fluid = {{ model = "stokes", viscosity = 1.0 }}
+        {flow}
+        domain.box = {{ min = [-1.0, -1.0], max = [1.0, 1.0] }}
+        mesh.size = 0.2
+        time.steady = {{}}
+        boundary = {{ left.periodic = "right", right.periodic = "left", {sides} }}
+        [[body]]
+        name = "disc"
+        shape.disc.radius = 0.3
+        center = [0.0, 0.0]
+        motion = "{motion}"
+        "#
+    )
+}
+
+#[test]
+fn a_periodic_box_without_walls_needs_a_mean_flow_where_a_body_is_held() {
+    let [periodic, walls] = [
+        "bottom.periodic = \"top\", top.periodic = \"bottom\"",
+        "bottom = \"no-slip\", top = \"no-slip\"",
+    ];
+    let mean = "flow.mean_velocity = [1.0, 0.0]";
+    for (flow, sides, motion, told) in [
+        ("", periodic, "held", "nothing determines the mean flow along x"),
+        ("flow = {}", walls, "held", "`flow` drives nothing"),
+        ("flow.pressure_gradient = [1.0, 0.0]", periodic, "free", "nothing resists the flow"),
+        ("flow.mean_velocity = [1.0, 2.0]", walls, "held", "2 along y, where the domain is not"),
+        ("flow.mean_velocity = [1.0]", walls, "held", "has 1 number"),
+        (
+            "flow = { mean_velocity = [1.0, 0.0], pressure_gradient = [1.0, 0.0] }",
+            walls,
+            "held",
+            "one follows from the other",
+        ),
+    ] {
+        assert_refused(&check(&cell(flow, sides, motion), &[]), &[told]);
+    }
+    for (flow, sides, motion) in [
+        ("", periodic, "free"),
+        ("", walls, "held"),
+        (mean, periodic, "held"),
+        (mean, periodic, "free"),
+        (mean, walls, "free"),
+        ("flow.pressure_gradient = [-1.0, 0.0]", walls, "free"),
+    ] {
+        assert_accepted(&check(&cell(flow, sides, motion), &[]));
+    }
 }

@@ -58,6 +58,7 @@ minus = [0.25, 0.2]
 quantity = "disc.drag_coefficient"
 value = 5.579535
 relative = 0.05
+kind = "literature"
 source = "a published benchmark"
 
 [[variant]]

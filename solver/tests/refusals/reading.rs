@@ -90,7 +90,7 @@ fn an_unknown_variant_is_refused_with_the_known_ones() {
     let directory = tempfile::tempdir().unwrap();
     std::fs::write(directory.path().join("wrong.toml"), RIGHT).unwrap();
     let said = alewife(directory.path(), &["check", "--no-mesh", "wrong.toml/slaw"]);
-    assert_refused(&said, &["there is no variant `slaw`", "wrong.toml:49:", "`slow`?"]);
+    assert_refused(&said, &["there is no variant `slaw`", "wrong.toml:50:", "`slow`?"]);
     assert_accepted(&alewife(directory.path(), &["check", "--no-mesh", "wrong.toml/slow"]));
 }
 
@@ -99,7 +99,7 @@ fn a_variant_that_is_wrong_is_found_from_its_case() {
     refused(
         "\"numbers.reynolds\" = 2.0",
         "\"numbers.reynolds\" = 3.0",
-        &["in variant wrong.toml/slow", "declared as 3", "wrong.toml:51:"],
+        &["in variant wrong.toml/slow", "declared as 3", "wrong.toml:52:"],
     );
 }
 
@@ -154,7 +154,7 @@ fn what_is_not_there_is_exit_code_66() {
     assert_eq!(said.code, 66, "{}", said.stderr);
     let said = alewife(directory.path(), &["show", "squirmer-alon"]);
     assert_eq!(said.code, 66);
-    assert!(said.stderr.contains("did you mean `squirmer-alone`?"), "{}", said.stderr);
+    assert!(said.stderr.contains("did you mean one of `squirmer-alone`"), "{}", said.stderr);
 }
 
 #[test]
@@ -162,4 +162,122 @@ fn usage_is_exit_code_2() {
     let directory = tempfile::tempdir().unwrap();
     assert_eq!(alewife(directory.path(), &["fly"]).code, 2);
     assert_eq!(alewife(directory.path(), &["run"]).code, 2);
+}
+
+#[test]
+fn variants_have_names_that_can_be_asked_for() {
+    let slow = "name = \"slow\"";
+    for (name, why) in [
+        ("\"\"", "it is empty"),
+        ("\"a/b\"", "it has a slash"),
+        ("'a\\b'", "it has a slash"),
+        ("\"a\\nb\"", "a control character"),
+        ("\"..\"", "stands for a directory"),
+        (&format!("\"{}\"", "n".repeat(65)), "65 characters, more than 64"),
+    ] {
+        let wanted = ["cannot be the name of a variant", why, "wrong.toml:51:8"];
+        refused(slow, &format!("name = {name}"), &wanted);
+    }
+    let twice = "name = \"slow\"\n\n[[variant]]\nname = \"slow\"";
+    refused(slow, twice, &["\"slow\" is taken by a variant above", "wrong.toml:54:8"]);
+}
+
+/// Checks a file of these bytes.
+fn check_bytes(name: &str, bytes: &[u8]) -> super::Said {
+    let directory = tempfile::tempdir().unwrap();
+    std::fs::write(directory.path().join(name), bytes).unwrap();
+    alewife(directory.path(), &["check", "--no-mesh", name])
+}
+
+#[test]
+fn what_is_no_file_of_text_is_refused_at_once() {
+    let mut latin = RIGHT.as_bytes().to_vec();
+    let at = RIGHT.find("disc in").unwrap();
+    latin[at] = 0xe9;
+    let said = check_bytes("wrong.toml", &latin);
+    assert_refused(
+        &said,
+        &["wrong.toml is not text in UTF-8: byte 12 (in line 1) is 0xE9", "save"],
+    );
+    let long = vec![b'#'; 16_000_001];
+    assert_refused(
+        &check_bytes("long.toml", &long),
+        &["long.toml has 16.0 MB, more than the 16 MB"],
+    );
+    assert_refused(
+        &check_bytes("..toml", RIGHT.as_bytes()),
+        &["the name \".\"", "rename the file"],
+    );
+    let directory = tempfile::tempdir().unwrap();
+    std::fs::create_dir(directory.path().join("d.toml")).unwrap();
+    let said = alewife(directory.path(), &["check", "d.toml"]);
+    assert_refused(&said, &["d.toml is a directory, not a file"]);
+    #[cfg(unix)]
+    {
+        let said = alewife(directory.path(), &["check", "/dev/zero"]);
+        assert_refused(&said, &["/dev/zero is a pipe or a device, not a file"]);
+        let made =
+            std::process::Command::new("mkfifo").arg(directory.path().join("p.toml")).status();
+        assert!(made.unwrap().success());
+        let said = alewife(directory.path(), &["check", "p.toml"]);
+        assert_refused(&said, &["p.toml is a pipe or a device, not a file"]);
+    }
+}
+
+#[test]
+fn an_unknown_case_leads_to_a_few_and_to_the_list() {
+    let directory = tempfile::tempdir().unwrap();
+    let said = alewife(directory.path(), &["check", "squirmer-alon"]);
+    assert_eq!(said.code, 66);
+    assert!(said.stderr.contains("`squirmer-alone`"), "{}", said.stderr);
+    assert!(said.stderr.contains("`alewife list`"), "{}", said.stderr);
+    assert!(said.stderr.len() < 250, "{}", said.stderr);
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn output_that_cannot_be_written_is_an_error() {
+    for arguments in [["list", "--long"], ["check", "squirmer-alone"], ["show", "squirmer-alone"]] {
+        let full = std::fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
+        let said = std::process::Command::new(env!("CARGO_BIN_EXE_alewife"))
+            .args(arguments)
+            .stdout(full)
+            .output()
+            .unwrap();
+        assert_eq!(said.status.code(), Some(74), "{arguments:?}");
+        assert!(String::from_utf8_lossy(&said.stderr).contains("cannot write standard output"));
+    }
+}
+
+#[test]
+fn control_characters_of_a_file_stay_off_the_terminal() {
+    let said = check(&edited("A disc in", "A \\u001b[31mdisc\\n in"), &[]);
+    assert_accepted(&said);
+    assert!(said.stdout.contains("A \\u{1b}[31mdisc in a channel"), "{}", said.stdout);
+    let said = check(&edited("name = \"disc\"", "name = \"\\u001bdisc\""), &[]);
+    assert_refused(&said, &["\"\\u{1b}disc\" cannot be a name"]);
+}
+
+#[test]
+fn many_diagnostics_are_cut_short_and_errors_come_first() {
+    let boxes: String = (0..50)
+        .map(|_| "[[mesh.box]]\nmin = [9.0, 9.0]\nmax = [10.0, 10.0]\nsize = 0.1\n")
+        .collect();
+    let text = edited("[time.steady]", &format!("{boxes}[time.steady]"));
+    let said = check(&text, &[]);
+    assert_accepted(&said);
+    assert_eq!(said.stderr.matches("warning:").count(), 20);
+    assert!(said.stderr.contains("... and 30 more warnings"), "{}", said.stderr);
+    let said = check(&text, &["--set", "fluid.viscosity=-1"]);
+    assert_refused(&said, &["must be positive"]);
+    assert!(said.stderr.starts_with("error:"), "{}", said.stderr);
+}
+
+#[test]
+fn a_key_given_twice_is_to_be_given_once() {
+    refused(
+        "density = 1.0",
+        "density = 1.0\ndensity = 2.0",
+        &["duplicate key", "keep one of the two"],
+    );
 }

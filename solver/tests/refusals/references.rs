@@ -1,6 +1,6 @@
 //! Wrong references, statistics and numbers.
 
-use super::{assert_accepted, assert_refused, check, refused, unsteady};
+use super::{RIGHT, assert_accepted, assert_refused, check, refused, unsteady};
 
 #[test]
 fn a_reynolds_number_that_disagrees_is_shown_with_the_derived_one() {
@@ -37,6 +37,35 @@ fn a_reference_has_one_tolerance_and_a_statistic_has_what_it_needs() {
     refused("relative = 0.05", "relative = 0.05\nabsolute = 1.0", &["both", "wrong.toml:47:12"]);
     refused("relative = 0.05", "relative = 0.05\nstatistic = \"at\"", &["add at = ..."]);
     refused("relative = 0.05", "relative = 0.05\nstatistic = \"strouhal\"", &["no period"]);
+}
+
+#[test]
+fn a_reference_says_what_kind_of_evidence_it_is() {
+    let kind = "kind = \"literature\"";
+    refused(kind, "", &["missing key `kind`", "wrong.toml:43:", "measured, literature, exact"]);
+    refused(kind, "kind = \"exakt\"", &["did you mean `exact`?", "wrong.toml:47:8"]);
+    refused(kind, "kind = \"regression\"", &["add uncertainty = ...", "add date = "]);
+    let regression = "kind = \"regression\"\ndate = \"2026-11-21\"\nuncertainty = 0.01";
+    assert_accepted(&check(&RIGHT.replace(kind, regression), &[]));
+    refused(kind, &regression.replace("0.01", "0.06"), &["not within 0 and the tolerance 0.05"]);
+    refused(kind, &regression.replace("2026-11-21", "21.11.2026"), &["is no date"]);
+    refused(kind, &regression.replace("2026-11-21", "2026-13-21"), &["is no date"]);
+    refused(kind, &format!("{kind}\ndate = \"2026-11-21\""), &["\"regression\" only"]);
+    refused(kind, &format!("{kind}\noutside = \"\""), &["known to be outside is empty"]);
+}
+
+#[test]
+fn a_quantity_by_its_old_name_is_refused_with_the_new_one() {
+    for (old, new) in
+        [("flow.least_gap", "flow.minimum_gap"), ("fish.spent_power", "fish.expended_power")]
+    {
+        let quantity = format!("quantity = \"{old}\"");
+        refused(
+            "quantity = \"disc.drag_coefficient\"",
+            &quantity,
+            &[&format!("it is called `{new}`")],
+        );
+    }
 }
 
 #[test]

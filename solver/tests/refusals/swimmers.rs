@@ -92,7 +92,11 @@ fn links_that_meet_in_their_strokes_are_foreseen() {
 fn bodies_and_joints_make_trees() {
     let back = "[[joint]]\nparent = \"leaf\"\nchild = \"root\"\n\
                 kind.arm = { length.constant = 1.0, direction = 3.141592653589793 }\n[[swimmer]]";
-    refused_swimming("[[swimmer]]", back, &["the joints make a circle", "must hang on nothing"]);
+    let told =
+        ["the joints make a loop: \"root\" hangs on \"leaf\" hangs on \"root\"", "hang on nothing"];
+    refused_swimming("[[swimmer]]", back, &told);
+    // Where the loop cannot close either, it is the loop that is wrong
+    refused_swimming("[[swimmer]]", &back.replace("1.0, dir", "1.5, dir"), &told);
     refused_swimming(
         "child = \"leaf\"",
         "child = \"root\"",
@@ -121,7 +125,7 @@ fn swimmers_have_names_of_their_own_and_parts_that_fit() {
     refused_swimming(
         "radii = [0.2, 0.2, 0.2]",
         "radii = [0.2, 0.2]",
-        &["2 arms are given, and 1 are wanted"],
+        &["2 arms are given, and 1 is wanted"],
     );
     refused_swimming(
         "joints = [{",
@@ -181,4 +185,70 @@ fn explicit_steps_have_no_inertia_and_nothing_stiff() {
     );
     let spring = "motion = \"free\"\nspring.stiffness = [1.0, 1.0]";
     refused_swimming("motion = \"free\"", spring, &[&why("there are springs")]);
+}
+
+#[test]
+fn numbers_of_copies_are_limited() {
+    for counts in ["[100000, 100000]", "[9223372036854775807, 9223372036854775807]"] {
+        let lattice =
+            format!("name = \"chain\"\ncopies.lattice = {{ counts = {counts}, spacing = [2, 2] }}");
+        let told = ["make more than the 20000 bodies a case may have", "lattice", "at most 9997"];
+        refused_swimming("name = \"chain\"", &lattice, &told);
+    }
+    let lattice = "name = \"chain\"\ncopies.lattice = { counts = [4294967296, 4294967296], spacing = [2, 2] }";
+    refused_swimming("name = \"chain\"", lattice, &["make more than", "counts"]);
+    let random = "name = \"chain\"\ncopies.random = { count = 1000000000, seed = 1, gap = 0.5 }";
+    refused_swimming(
+        "name = \"chain\"",
+        random,
+        &["1000000000 copies of \"chain\" make more than"],
+    );
+}
+
+#[test]
+fn names_of_swimmers_are_words_of_some_length() {
+    refused_swimming(
+        "name = \"chain\"",
+        "name = \"a chain\"",
+        &["cannot be a name", "wrong.toml:"],
+    );
+    let long = format!("name = \"{}\"", "c".repeat(65_536));
+    refused_swimming("name = \"chain\"", &long, &["has 65536 characters", "at most 64"]);
+}
+
+#[test]
+fn cycles_are_longer_than_steps() {
+    let told = ["1e-9, shorter than a step of 1e-1", "lower time.unsteady.step", "wrong.toml:"];
+    refused_swimming(
+        "legs = { period = 1.0, knots = [[0.0, 1.0], [0.5, 0.8]]",
+        "legs = { period = 1e-9, knots = [[0.0, 1.0], [5e-10, 0.8]]",
+        &told,
+    );
+}
+
+#[test]
+fn strokes_that_lead_to_a_wall_are_told_of_contact() {
+    // The arm of the leaf, 1 long and 1.2 at most, points at the bottom, 2 - 0.3 away
+    let away = "kind.arm = { direction = -1.5707963267948966, length.sine = { mean = 1.0, amplitude = 0.2, period = 1.0 } }\n#";
+    let text = SWIMMING.replacen("kind.arm", away, 1).replacen(
+        "center = [-2.0, -3.0]",
+        "center = [-3.0, -4.0]",
+        1,
+    );
+    let said = check(&text, &[]);
+    assert_accepted(&said);
+    assert_eq!(said.stderr, "");
+    let said = check(&text, &["--set", "domain.box.min.1=-4.505"]);
+    assert_accepted(&said);
+    assert!(said.stderr.contains("of the side `bottom`, and nothing keeps"), "{}", said.stderr);
+}
+
+#[test]
+fn copies_that_are_wrong_in_the_same_way_are_not_told_of_one_by_one() {
+    let copies = "name = \"chain\"\ncopies.lattice = { counts = [3, 3], spacing = [1.5, 1.5] }\ndensity = -1.0";
+    let text = SWIMMING.replacen("name = \"chain\"", copies, 1);
+    let said = check(&text, &["--set", "mesh.surface=1.0"]);
+    assert_refused(&said, &["must not be negative"]);
+    assert_eq!(said.stderr.matches("must not be negative").count(), 3, "{}", said.stderr);
+    assert_eq!(said.stderr.matches("outline of \"chain").count(), 1, "{}", said.stderr);
 }

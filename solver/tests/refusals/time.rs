@@ -67,3 +67,68 @@ fn unsteady_stokes_is_not_steady() {
         &["no steady solution", "wrong.toml:29:7", "[time.unsteady]"],
     );
 }
+
+#[test]
+fn steps_and_cycles_are_of_a_number_that_can_be_made() {
+    let text = unsteady("");
+    assert_refused(
+        &check(&text, &["--set", "time.unsteady.step=1e-12"]),
+        &["the run would have 1.0e12 steps", "--> --set:1:"],
+    );
+    let fast = unsteady("torque = 1.0\nload_factor.sine = { period = 1e-7 }");
+    let fast = fast.replace("end = 1.0", "end = 1.0\nadaptive = {}");
+    let told =
+        ["`body.0.load_factor.sine.period` is 1e-7: 1.0e7 cycles to the end", "wrong.toml:25:"];
+    assert_refused(&check(&fast, &[]), &told);
+    // A step that is none is one mistake, not two
+    let said = check(&text, &["--set", "time.unsteady.step=-0.1"]);
+    assert_refused(&said, &["must be positive"]);
+    assert!(!said.stderr.contains("warning"), "{}", said.stderr);
+}
+
+#[test]
+fn degrees_and_phases_in_radians_are_warned_about() {
+    let ellipse = unsteady("angle = 0.5\ngait.pulsating = { amplitude = 0.1, period = 1.0 }");
+    let text = unsteady("torque = 1.0\nload_factor.sine = { period = 1.0 }");
+    assert!(!check(&ellipse, &[]).stderr.contains("radians"));
+    for (setting, wanted) in [
+        (
+            "body.0.angle=45",
+            ["`body.0.angle` is 45: angles are in radians", "degrees write 0.785398"],
+        ),
+        ("body.0.angle=-180", ["is -180: angles are in radians", "write -3.14159"]),
+        (
+            "body.0.load_factor.sine.phase=1.5707963",
+            ["phases are parts of a period", "for 1.5707963 rad write 0.25"],
+        ),
+        (
+            "body.0.gait.squirmer={modes=[1.0], turn={table=[[0.0, 0.0], [60.0, 90.0]]}}",
+            ["`body.0.gait.squirmer.turn.table.1.1` is 90", "write 1.5708"],
+        ),
+        (
+            "body.0.gait.squirmer={modes=[1.0], heading=180.0}",
+            ["`body.0.gait.squirmer.heading` is 180", "write 3.14159"],
+        ),
+    ] {
+        let said = check(&text, &["--set", setting]);
+        assert_accepted(&said);
+        for wanted in wanted {
+            assert!(said.stderr.contains(wanted), "`{wanted}` is not in:\n{}", said.stderr);
+        }
+    }
+    // More than a turn in time is one
+    let turning = "body.0.gait.squirmer={modes=[1.0], turn={table=[[0.0, 0.0], [60.0, 12.5]]}}";
+    assert_eq!(check(&text, &["--set", turning]).stderr, "");
+    let said = check(&text, &["--set", "body.0.gait.squirmer={modes=[1.0], heading=0.785398}"]);
+    assert!(said.stdout.contains("heading 0.785398 rad (45.0 degrees)"), "{}", said.stdout);
+}
+
+#[test]
+fn a_key_of_another_name_leads_to_the_one_there_is() {
+    let text = unsteady("torque = 1.0\nload_factor.sine = { frequency = 2.0 }");
+    let told = ["unknown key `frequency`", "write `period = ...`, the inverse of the frequency"];
+    assert_refused(&check(&text, &[]), &told);
+    let fish = unsteady("gait.carangiform = { period = 1.0, start_phase = 0.5 }");
+    let told = ["unknown key `start_phase`", "write `phase = ...`, a part of the period"];
+    assert_refused(&check(&fish, &[]), &told);
+}

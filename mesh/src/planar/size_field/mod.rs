@@ -1,7 +1,10 @@
 //! `SizeField`: the wanted cell size h(x) of a domain with its bodies.
 
+mod count;
 mod sources;
 mod tree;
+
+pub use count::estimate_cells;
 
 use sources::surface_sizes;
 use tree::SizeTree;

@@ -9,7 +9,7 @@ use crate::surface::SurfaceTree;
 use crate::{BoundaryKind, Domain, MeshError, PlacedShape, Point, Sizing};
 
 /// Largest number of samples on the boundary.
-const MOST_SAMPLES: usize = 4_000_000;
+const MOST_SAMPLES: usize = 1_000_000;
 
 /// Two parts of one curve face each other when their normals enclose a cosine below this.
 const FACING: f64 = -0.5;
@@ -20,7 +20,7 @@ const FACING_SAMPLES: usize = 96;
 /// Places on the boundary, close enough to each other, with the size wanted there (m).
 ///
 /// # Errors
-/// [`MeshError::TooManyCells`] when a gap is so small that millions of places are needed.
+/// [`MeshError::TooManyCells`] when a gap is so small that a million places are needed.
 pub fn surface_sizes(
     domain: &Domain,
     bodies: &[PlacedShape],

@@ -6,10 +6,14 @@ use std::f64::consts::PI;
 use super::Findings;
 use super::boundary::check_factor;
 use super::{gait, spring};
-use crate::{Body, GaitSpec, Geometry, Motion, ShapeSpec};
+use crate::names::{LONGEST_NAME, is_word};
+use crate::{Body, GaitSpec, Geometry, Lock, Motion, ShapeSpec};
 
 /// Largest difference between a heading and the axis that is taken for rounding (rad).
 const HEADING_ROUNDING: f64 = 1e-3;
+
+/// Density over that of the fluid, or its inverse, that is warned about; a million is lead in air.
+const DENSEST: f64 = 1e6;
 
 /// Names that stand for something else in `series.csv`.
 const RESERVED: [&str; 2] = ["flow", "time"];
@@ -19,6 +23,10 @@ pub fn check(findings: &mut Findings<'_>) {
     let mut taken: HashSet<&str> = HashSet::new();
     for (index, body) in findings.model().bodies.iter().enumerate() {
         let key = format!("body.{index}");
+        // Names of bodies that are made follow from that of their swimmer
+        if findings.model().swimmer_of_body(index).is_none() {
+            check_word(findings, &format!("{key}.name"), &body.name);
+        }
         check_name(findings, &format!("{key}.name"), &body.name, &taken);
         taken.insert(&body.name);
         check_shape(findings, &format!("{key}.shape"), &body.shape);
@@ -32,6 +40,7 @@ pub fn check(findings: &mut Findings<'_>) {
         if !body.force.is_empty() {
             findings.vector(&format!("{key}.force"), &body.force);
         }
+        check_density(findings, &key, body);
         check_motion(findings, &key, body);
         spring::check(findings, &key, body);
         gait::check(findings, &key, body);
@@ -40,23 +49,34 @@ pub fn check(findings: &mut Findings<'_>) {
         }
     }
     for (index, probe) in case.probe.iter().enumerate() {
+        check_word(findings, &format!("probe.{index}.name"), &probe.name);
         check_name(findings, &format!("probe.{index}.name"), &probe.name, &taken);
         taken.insert(&probe.name);
     }
 }
 
-/// A name is one word, and means one thing.
-fn check_name(findings: &mut Findings<'_>, key: &str, name: &str, taken: &HashSet<&str>) {
-    let sides = findings.case().domain.sides();
-    let is_word =
-        !name.is_empty() && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '-' || c == '_');
-    if !is_word {
+/// A name is one word, and no novel.
+pub(super) fn check_word(findings: &mut Findings<'_>, key: &str, name: &str) {
+    let n = name.chars().count();
+    if n > LONGEST_NAME {
+        let start: String = name.chars().take(20).collect();
+        findings.error(
+            key,
+            format!("the name \"{start}...\" has {n} characters"),
+            &format!("names have at most {LONGEST_NAME}"),
+        );
+    } else if !is_word(name) {
         findings.error(
             key,
             format!("\"{name}\" cannot be a name"),
             "write one word of the letters a-z, digits, - and _",
         );
     }
+}
+
+/// A name means one thing.
+fn check_name(findings: &mut Findings<'_>, key: &str, name: &str, taken: &HashSet<&str>) {
+    let sides = findings.case().domain.sides();
     if taken.contains(name) {
         findings.error(
             key,
@@ -126,6 +146,24 @@ fn check_shape(findings: &mut Findings<'_>, key: &str, shape: &ShapeSpec) {
     }
 }
 
+/// A density that is hardly meant: of another unit, or a slip of the exponent.
+fn check_density(findings: &mut Findings<'_>, key: &str, body: &Body) {
+    let fluid = findings.case().fluid.density;
+    let Some(own) = body.density else { return };
+    let is_absurd = own > DENSEST * fluid || (own > 0.0 && own * DENSEST < fluid);
+    if fluid > 0.0 && body.motion == Motion::Free && is_absurd {
+        findings.warning(
+            &format!("{key}.density"),
+            format!(
+                "\"{}\" has {:.3e} times the density of the fluid: is that its unit?",
+                body.name,
+                own / fluid
+            ),
+            "densities are those of the fluid, in the same units; 0.0 is a massless body",
+        );
+    }
+}
+
 /// Area of a polygon (m2), positive if its corners run counter-clockwise.
 fn signed_area(points: &[[f64; 2]]) -> f64 {
     let n = points.len();
@@ -150,6 +188,17 @@ fn check_motion(findings: &mut Findings<'_>, key: &str, body: &Body) {
     }
     if let Some(factor) = &body.load_factor {
         check_factor(findings, &format!("{key}.load_factor"), factor);
+    }
+    let all: &[Lock] = match findings.case().geometry {
+        Geometry::Planar => &[Lock::X, Lock::Y, Lock::Rotation],
+        Geometry::Axisymmetric => &[Lock::X],
+    };
+    if body.motion == Motion::Free && all.iter().all(|lock| body.locked.contains(lock)) {
+        findings.warning(
+            &format!("{key}.locked"),
+            format!("\"{}\" is free, but all its motions are locked", body.name),
+            "write motion = \"held\", or take a lock away",
+        );
     }
     let is_pulled = body.force.iter().any(|part| *part != 0.0);
     if body.motion == Motion::Free {

@@ -108,7 +108,7 @@ const WHOLE: f64 = 1e-6;
 
 /// Whether a side can wave, and the mesh with it.
 fn check_sheet(findings: &mut Findings<'_>, key: &str, side: &str, condition: &BoundaryCondition) {
-    let BoundaryCondition::WavingSheet { amplitude, wavelength, frequency, .. } = *condition else {
+    let BoundaryCondition::WavingSheet { amplitude, wavelength, period, .. } = *condition else {
         return;
     };
     let case = findings.case();
@@ -125,11 +125,11 @@ fn check_sheet(findings: &mut Findings<'_>, key: &str, side: &str, condition: &B
     }
     findings.positive(&format!("{key}.amplitude"), amplitude);
     findings.positive(&format!("{key}.wavelength"), wavelength);
-    if frequency == 0.0 {
+    if period == 0.0 {
         findings.error(
-            &format!("{key}.frequency"),
-            "a sheet of frequency 0 does not wave".to_owned(),
-            "write a frequency above 0 for a wave towards +x, below 0 towards -x",
+            &format!("{key}.period"),
+            "a wave has no period of 0".to_owned(),
+            "write a period above 0 for a wave towards +x, below 0 towards -x",
         );
     }
     let [[x0, y0], [x1, y1]] = case.domain.extent();
@@ -178,8 +178,8 @@ pub(super) fn check_factor(findings: &mut Findings<'_>, key: &str, factor: &Time
         TimeFunction::SmoothRamp { duration } => {
             findings.positive(&format!("{key}.smooth-ramp.duration"), *duration);
         }
-        TimeFunction::Sine { frequency, .. } => {
-            findings.positive(&format!("{key}.sine.frequency"), *frequency);
+        TimeFunction::Sine { period, .. } => {
+            findings.positive(&format!("{key}.sine.period"), *period);
         }
         TimeFunction::Table(knots) => {
             let is_rising = knots.windows(2).all(|pair| pair[1][0] > pair[0][0]);

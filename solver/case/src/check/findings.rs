@@ -7,6 +7,33 @@ use crate::{Case, Model};
 /// Numbers a point or a velocity has; axisymmetric cases are computed in their half plane.
 const DIMENSIONS: usize = 2;
 
+/// Diagnostics of the same kind on bodies that are made for the same swimmer.
+const MOST_ALIKE: usize = 3;
+
+/// Errors, and warnings, that are located in their file.
+const MOST_LOCATED: usize = 100;
+
+/// Digits of a number that are written out; longer ones are powers of ten.
+const MOST_DIGITS: usize = 18;
+
+/// A message whose numbers have no endless digits: 1e308 stays 1e308.
+fn readable(message: &str) -> String {
+    let mut text = String::with_capacity(message.len());
+    let mut rest = message;
+    while let Some(start) = rest.find(|c: char| c.is_ascii_digit()) {
+        let after = &rest[start..];
+        let length = after.find(|c: char| !c.is_ascii_digit() && c != '.').unwrap_or(after.len());
+        let number = after[..length].trim_end_matches('.');
+        text += &rest[..start];
+        match number.parse::<f64>() {
+            Ok(value) if number.len() > MOST_DIGITS => text += &format!("{value:e}"),
+            _ => text += number,
+        }
+        rest = &after[number.len()..];
+    }
+    text + rest
+}
+
 /// The diagnostics found so far.
 pub struct Findings<'a> {
     file: &'a CaseFile,
@@ -40,9 +67,17 @@ impl<'a> Findings<'a> {
     }
 
     fn add(&mut self, severity: Severity, key: &str, message: String, help: &str) {
-        let key = &self.written(key);
-        let location = self.file.location(key);
-        let (key, help) = (key.to_owned(), help.to_owned());
+        let made = self.written(key);
+        // Copies of a swimmer are all wrong in the same way
+        let is_same = |one: &&Diagnostic| one.key == made && one.help == help;
+        if made != key && self.diagnostics.iter().filter(is_same).count() >= MOST_ALIKE {
+            return;
+        }
+        let key = &made;
+        // Lines are counted from the start of the file, and of so many only the first ones are read
+        let n_before = self.diagnostics.iter().filter(|one| one.severity == severity).count();
+        let location = if n_before < MOST_LOCATED { self.file.location(key) } else { None };
+        let (key, message, help) = (key.to_owned(), readable(&message), readable(help));
         self.diagnostics.push(Diagnostic { severity, key, message, help, location });
     }
 
@@ -98,5 +133,19 @@ impl<'a> Findings<'a> {
             );
         }
         is_vector
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::readable;
+
+    #[test]
+    fn numbers_with_endless_digits_become_powers_of_ten() {
+        let huge = f64::MAX;
+        let tiny = -1e-300;
+        assert_eq!(readable(&format!("`a.0.b` is {huge}.")), "`a.0.b` is 1.7976931348623157e308.");
+        assert_eq!(readable(&format!("[{tiny}, 0.125]")), "[-1e-300, 0.125]");
+        assert_eq!(readable("3.141592653589793, body-12, v1."), "3.141592653589793, body-12, v1.");
     }
 }

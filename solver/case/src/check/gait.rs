@@ -251,6 +251,7 @@ fn squirmer(findings: &mut Findings<'_>, key: &str, body: &Body, squirmer: &Squi
             "write modes = [B1, B2, ...]",
         );
     }
+    resolved_modes(findings, key, body, squirmer);
     let n_modes = squirmer.modes.len();
     for (mode, factor) in &squirmer.factors {
         let factor_key = format!("{key}.gait.squirmer.factors.{mode}");
@@ -258,7 +259,11 @@ fn squirmer(findings: &mut Findings<'_>, key: &str, body: &Body, squirmer: &Squi
         if !(1..=n_modes).any(|number| number.to_string() == *mode) {
             findings.error(
                 &factor_key,
-                format!("the squirmer \"{}\" has {n_modes} modes, and none is `{mode}`", body.name),
+                format!(
+                    "the squirmer \"{}\" has {n_modes} mode{}, and none is `{mode}`",
+                    body.name,
+                    if n_modes == 1 { "" } else { "s" }
+                ),
                 "name factors by the number of their mode: factors = { 1 = ..., 2 = ... }",
             );
         }
@@ -266,6 +271,29 @@ fn squirmer(findings: &mut Findings<'_>, key: &str, body: &Body, squirmer: &Squi
     }
     if let Some(turn) = &squirmer.turn {
         check_factor(findings, &format!("{key}.gait.squirmer.turn"), turn);
+    }
+}
+
+/// Modes whose waves are shorter than the edges on the body.
+fn resolved_modes(findings: &mut Findings<'_>, key: &str, body: &Body, squirmer: &SquirmerGait) {
+    let mesh = &findings.case().mesh;
+    let size = body.size.or(mesh.surface).unwrap_or(mesh.size) * mesh.scale;
+    // Mode n has n half waves from pole to pole of a sphere, n waves around a disc
+    let half_waves = match body.shape {
+        ShapeSpec::Sphere { .. } => 1.0,
+        _ => 2.0,
+    };
+    let most = body.shape.perimeter() / size / half_waves;
+    let highest = squirmer.modes.iter().rposition(|mode| *mode != 0.0).map_or(0, |last| last + 1);
+    if highest as f64 > most.max(2.0) {
+        findings.warning(
+            &format!("{key}.gait.squirmer.modes"),
+            format!(
+                "mode {highest} of \"{}\" is not resolved: half a wave of it is shorter than an edge",
+                body.name
+            ),
+            &format!("leave out modes above {most:.0}, or lower the edge length on the body"),
+        );
     }
 }
 

@@ -13,10 +13,10 @@ const ROUNDING: f64 = 1e-6;
 pub fn check(findings: &mut Findings<'_>) {
     let model = findings.model();
     let mut parents: Vec<Option<usize>> = vec![None; model.bodies.len()];
+    let mut attached = Vec::new();
     for (index, joint) in model.joints.iter().enumerate() {
         let key = format!("joint.{index}");
-        let is_written = model.swimmer_of_joint(index).is_none();
-        if is_written {
+        if model.swimmer_of_joint(index).is_none() {
             stroke_of_joint(findings, &key, &joint.kind);
         }
         let Some(ends) = ends(findings, &key, joint) else { continue };
@@ -29,21 +29,39 @@ pub fn check(findings: &mut Findings<'_>) {
             continue;
         }
         parents[ends.child] = Some(ends.parent);
-        if is_written {
+        attached.push((index, ends));
+    }
+    // Within a loop no body is where its joint puts it
+    if let Some(bodies) = find_loop(&parents) {
+        loop_of_joints(findings, &bodies);
+        return;
+    }
+    for (index, ends) in attached {
+        if model.swimmer_of_joint(index).is_none() {
+            let (key, joint) = (format!("joint.{index}"), &model.joints[index]);
             motion_of_child(findings, &key, joint, ends);
             pose_of_child(findings, &key, joint, ends);
         }
     }
-    if has_circle(&parents) {
-        findings.error(
-            "joint",
-            "the joints make a circle".to_owned(),
-            "bodies make trees: one of them must hang on nothing",
-        );
-    }
     if findings.case().geometry == Geometry::Axisymmetric {
         along_the_axis(findings);
     }
+}
+
+/// Bodies that hang on each other in a loop.
+fn loop_of_joints(findings: &mut Findings<'_>, bodies: &[usize]) {
+    let model = findings.model();
+    let names: Vec<String> = bodies
+        .iter()
+        .chain(bodies.first())
+        .map(|body| format!("\"{}\"", model.bodies[*body].name))
+        .collect();
+    let joint = bodies.iter().find_map(|body| model.joint_above(*body));
+    findings.error(
+        &joint.map_or_else(|| "joint".to_owned(), |joint| format!("joint.{joint}")),
+        format!("the joints make a loop: {}", names.join(" hangs on ")),
+        "bodies make trees: one of them must hang on nothing; leave out one of these joints",
+    );
 }
 
 /// Indices of the bodies a joint is between.
@@ -127,25 +145,27 @@ fn start(model: &Model, body: usize) -> PlanarPose {
     PlanarPose { center: [at(0), at(1)].into(), angle: body.angle }
 }
 
-/// Whether a body is among those it hangs on.
-fn has_circle(parents: &[Option<usize>]) -> bool {
+/// Bodies each of which hangs on the next, and the last one on the first.
+fn find_loop(parents: &[Option<usize>]) -> Option<Vec<usize>> {
     // Known to lead to a body that hangs on nothing
     let mut is_safe = vec![false; parents.len()];
-    (0..parents.len()).any(|start| {
+    let mut is_on_path = vec![false; parents.len()];
+    for start in 0..parents.len() {
         let mut path = Vec::new();
         let mut above = Some(start);
         while let Some(body) = above.filter(|body| !is_safe[*body]) {
-            if path.len() == parents.len() {
-                return true;
+            if is_on_path[body] {
+                return Some(path.into_iter().skip_while(|first| *first != body).collect());
             }
+            is_on_path[body] = true;
             path.push(body);
             above = parents[body];
         }
         for body in path {
             is_safe[body] = true;
         }
-        false
-    })
+    }
+    None
 }
 
 /// Axisymmetric bodies hang on arms along the axis.
@@ -234,13 +254,14 @@ pub(super) fn stroke(findings: &mut Findings<'_>, key: &str, stroke: &Stroke) {
 
 #[cfg(test)]
 mod tests {
-    use super::has_circle;
+    use super::find_loop;
 
     #[test]
-    fn circles_are_told_from_trees() {
-        assert!(!has_circle(&[None, Some(0), Some(1), Some(1), None]));
-        assert!(!has_circle(&[Some(1), Some(2), Some(3), None]));
-        assert!(has_circle(&[None, Some(2), Some(3), Some(1)]));
-        assert!(has_circle(&[Some(1), Some(0)]));
+    fn loops_are_told_from_trees() {
+        assert_eq!(find_loop(&[None, Some(0), Some(1), Some(1), None]), None);
+        assert_eq!(find_loop(&[Some(1), Some(2), Some(3), None]), None);
+        assert_eq!(find_loop(&[None, Some(2), Some(3), Some(1)]), Some(vec![1, 2, 3]));
+        assert_eq!(find_loop(&[Some(2), Some(0), Some(3), Some(2)]), Some(vec![2, 3]));
+        assert_eq!(find_loop(&[Some(1), Some(0)]), Some(vec![0, 1]));
     }
 }

@@ -1,5 +1,7 @@
 //! Problems of `[mesh]`, `[output]` and cells too coarse for a body.
 
+use std::collections::HashSet;
+
 use super::Findings;
 use crate::type_error::suggestion;
 use crate::{Cadence, MovingMesh};
@@ -9,6 +11,12 @@ const FEWEST_EDGES: f64 = 8.0;
 
 /// Layers of cells across a gap that a moving mesh may ask for, however few a new one has.
 const MODEST_LAYERS: f64 = 2.0;
+
+/// Most refinement boxes.
+const MOST_BOXES: usize = 1000;
+
+/// Layers of cells across a gap below which it is warned about.
+const FEW_LAYERS: f64 = 1.5;
 
 pub fn check(findings: &mut Findings<'_>) {
     let case = findings.case();
@@ -36,7 +44,35 @@ pub fn check(findings: &mut Findings<'_>) {
             findings.error(&key, format!("this domain has no side `{side}`"), &help);
         }
     }
-    for (index, refined) in mesh.boxes.iter().enumerate() {
+    check_boxes(findings);
+    if mesh.gap_layers > 0.0 && mesh.gap_layers / mesh.scale < FEW_LAYERS {
+        findings.warning(
+            "mesh.gap_layers",
+            format!(
+                "gaps get {} layers of cells: too few for the pressure in them",
+                mesh.gap_layers / mesh.scale
+            ),
+            "4 are usual",
+        );
+    }
+    check_moving(findings);
+    check_edges(findings);
+    check_output(findings);
+}
+
+/// Refinement boxes have an inside, and part of the domain in it.
+fn check_boxes(findings: &mut Findings<'_>) {
+    let case = findings.case();
+    if case.mesh.boxes.len() > MOST_BOXES {
+        findings.error(
+            "mesh.box",
+            format!("{} refinement boxes are more than {MOST_BOXES}", case.mesh.boxes.len()),
+            "join neighbouring ones: every size is compared with each of them",
+        );
+        return;
+    }
+    let [domain_min, domain_max] = case.domain.extent();
+    for (index, refined) in case.mesh.boxes.iter().enumerate() {
         let key = format!("mesh.box.{index}");
         findings.positive(&format!("{key}.size"), refined.size);
         if (0..2).any(|axis| refined.max[axis] <= refined.min[axis]) {
@@ -45,9 +81,25 @@ pub fn check(findings: &mut Findings<'_>) {
                 format!("the box from {:?} to {:?} is empty", refined.min, refined.max),
                 "both numbers of `max` must be larger than those of `min`",
             );
+        } else if (0..2).any(|axis| {
+            refined.max[axis] <= domain_min[axis] || refined.min[axis] >= domain_max[axis]
+        }) {
+            findings.warning(
+                &key,
+                format!(
+                    "the box from {:?} to {:?} lies outside the domain and refines nothing",
+                    refined.min, refined.max
+                ),
+                &format!("the domain reaches from {domain_min:?} to {domain_max:?}"),
+            );
         }
     }
-    check_moving(findings);
+}
+
+/// Outlines with few edges.
+fn check_edges(findings: &mut Findings<'_>) {
+    let mesh = &findings.case().mesh;
+    let mut coarse: HashSet<(Option<usize>, String)> = HashSet::new();
     for (index, body) in findings.model().bodies.iter().enumerate() {
         let (key, declared) = match (body.size, mesh.surface) {
             (Some(size), _) => (format!("body.{index}.size"), size),
@@ -57,6 +109,11 @@ pub fn check(findings: &mut Findings<'_>) {
         let size = declared * mesh.scale;
         let edges = body.shape.perimeter() / size;
         if size > 0.0 && edges > 0.0 && edges < FEWEST_EDGES {
+            // Of copies that are all alike the first says it
+            let swimmer = findings.model().swimmer_of_body(index);
+            if swimmer.is_some() && !coarse.insert((swimmer, format!("{edges:.3}"))) {
+                continue;
+            }
             findings.warning(
                 &key,
                 format!("the outline of \"{}\" is about {edges:.1} edges long", body.name),
@@ -67,7 +124,6 @@ pub fn check(findings: &mut Findings<'_>) {
             );
         }
     }
-    check_output(findings);
 }
 
 /// How often results are written.

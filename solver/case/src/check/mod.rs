@@ -3,20 +3,26 @@
 //! Reading has made sure of keys and types. Here every number is compared with what it stands for,
 //! and every name against what it names. Nothing is meshed or solved.
 
+mod angles;
 mod bodies;
 mod boundary;
+mod cells;
 mod contact;
+mod extremes;
 mod findings;
 mod fluid;
 mod gait;
 mod general;
 mod joints;
+mod mean_flow;
 mod mesh;
+mod near;
 mod placement;
 mod references;
 mod spring;
 mod strokes;
 mod swimmers;
+mod swing;
 mod time;
 
 use super::diagnostic::Diagnostic;
@@ -28,16 +34,14 @@ use findings::Findings;
 #[must_use]
 pub fn check(file: &CaseFile) -> Vec<Diagnostic> {
     let mut findings = Findings::new(file);
-    for path in file.not_finite() {
-        findings.error(
-            &path,
-            format!("`{path}` is not a finite number"),
-            "write a number such as 0.5 or 1e-3",
-        );
+    extremes::check_numbers(&mut findings, file);
+    if !findings.has_no_error() {
+        return findings.into_diagnostics();
     }
     general::check(&mut findings);
     fluid::check(&mut findings);
     boundary::check(&mut findings);
+    mean_flow::check(&mut findings);
     bodies::check(&mut findings);
     joints::check(&mut findings);
     swimmers::check(&mut findings);
@@ -45,11 +49,17 @@ pub fn check(file: &CaseFile) -> Vec<Diagnostic> {
     mesh::check(&mut findings);
     time::check(&mut findings);
     references::check(&mut findings);
+    extremes::check(&mut findings, file);
+    angles::check(&mut findings, file);
+    if findings.has_no_error() {
+        cells::check(&mut findings);
+    }
     if findings.has_no_error() {
         placement::check(&mut findings);
     }
     if findings.has_no_error() {
         strokes::check(&mut findings);
+        near::check(&mut findings);
     }
     findings.into_diagnostics()
 }

@@ -1,6 +1,8 @@
 //! Bodies that overlap or leave the domain, and probes that are not in the fluid.
 
-use alewife_mesh::{Domain, MeshError, Outline, PlacedShape, Point, check_wrapped_placement};
+use alewife_mesh::{
+    Domain, MeshError, Outline, PlacedShape, Point, SMALLEST_GAP, check_wrapped_placement,
+};
 
 use super::Findings;
 use crate::discs::{Disc, DiscGrid};
@@ -43,8 +45,18 @@ pub fn check(findings: &mut Findings<'_>) {
 /// What is wrong with where a body is.
 fn message(error: &MeshError) -> String {
     match error {
+        MeshError::Outside { body, gap, x, y } if *gap > 0.0 => {
+            format!(
+                "body \"{body}\" is {gap:.3e} from the boundary at ({x:.4}, {y:.4}): {}",
+                thin()
+            )
+        }
         MeshError::Outside { body, gap, x, y } => format!(
             "body \"{body}\" touches or leaves the domain at ({x:.4}, {y:.4}): gap {gap:.3e}"
+        ),
+        MeshError::Overlap { first, second, gap, x, y } if *gap > 0.0 => format!(
+            "bodies \"{first}\" and \"{second}\" are {gap:.3e} apart at ({x:.4}, {y:.4}): {}",
+            thin()
         ),
         MeshError::Overlap { first, second, gap, x, y } => format!(
             "bodies \"{first}\" and \"{second}\" touch or overlap at ({x:.4}, {y:.4}): \
@@ -52,6 +64,11 @@ fn message(error: &MeshError) -> String {
         ),
         other => other.to_string(),
     }
+}
+
+/// What is said of a gap that is too small.
+fn thin() -> String {
+    format!("gaps below {SMALLEST_GAP:e} of the size of a body cannot be meshed")
 }
 
 /// What to do about it.

@@ -1,9 +1,9 @@
 //! Problems of `[[reference]]` and `[statistics]`: quantities, statistics and tolerances.
 
 use super::Findings;
-use crate::quantity::{When, conditions_of, known_quantities};
+use crate::quantity::{When, conditions_of, known_quantities, renamed};
 use crate::type_error::suggestion;
-use crate::{Geometry, Reference, Statistic, TimeSettings};
+use crate::{Geometry, Reference, ReferenceKind, Statistic, TimeSettings};
 
 pub fn check(findings: &mut Findings<'_>) {
     let case = findings.case();
@@ -41,6 +41,7 @@ pub fn check(findings: &mut Findings<'_>) {
             );
         }
         check_tolerance(findings, &key, reference);
+        check_evidence(findings, &key, reference);
         check_statistic(findings, &key, reference, end);
         if reference.per == 0.0 {
             let help = "leave it out, or write the scale the quantity is divided by";
@@ -56,12 +57,79 @@ pub fn check(findings: &mut Findings<'_>) {
     }
 }
 
+/// Whether the value says how certain it is, and a regression when it was made.
+fn check_evidence(findings: &mut Findings<'_>, key: &str, reference: &Reference) {
+    let is_regression = reference.kind == ReferenceKind::Regression;
+    if let Some(uncertainty) = reference.uncertainty {
+        let tolerance = reference.relative.or(reference.absolute).unwrap_or(f64::INFINITY);
+        if !(uncertainty >= 0.0 && uncertainty <= tolerance) {
+            findings.error(
+                &format!("{key}.uncertainty"),
+                format!(
+                    "the uncertainty {uncertainty} is not within 0 and the tolerance {tolerance}"
+                ),
+                "write it like the tolerance, relative to the value if that is `relative`, and a \
+                 tolerance that is not below it",
+            );
+        }
+    } else if is_regression {
+        findings.error(
+            key,
+            "a regression does not say how certain its value is".to_owned(),
+            "add uncertainty = ...: what a finer mesh and a shorter step change, relative to the \
+             value if the tolerance is `relative`",
+        );
+    }
+    match &reference.date {
+        Some(_) if !is_regression => findings.error(
+            &format!("{key}.date"),
+            format!(
+                "`date` goes with the kind \"regression\" only, not \"{}\"",
+                reference.kind.name()
+            ),
+            "leave it out",
+        ),
+        Some(date) if !is_date(date) => findings.error(
+            &format!("{key}.date"),
+            format!("`{date}` is no date"),
+            "write date = \"year-month-day\", such as \"2026-01-31\"",
+        ),
+        None if is_regression => findings.error(
+            key,
+            "a regression does not say when its value was computed".to_owned(),
+            "add date = \"year-month-day\"",
+        ),
+        _ => {}
+    }
+    if reference.outside.as_ref().is_some_and(|reason| reason.trim().is_empty()) {
+        findings.error(
+            &format!("{key}.outside"),
+            "the reason why the value is known to be outside is empty".to_owned(),
+            "say why, or leave `outside` out",
+        );
+    }
+}
+
+/// Whether a text is a day written as year-month-day.
+fn is_date(text: &str) -> bool {
+    let numbers: Vec<Option<u32>> = text
+        .split('-')
+        .map(|part| part.chars().all(|c| c.is_ascii_digit()).then(|| part.parse().ok()).flatten())
+        .collect();
+    let has_form = text.len() == 10 && text.as_bytes()[4] == b'-' && text.as_bytes()[7] == b'-';
+    has_form
+        && matches!(numbers[..], [Some(_), Some(month), Some(day)]
+            if (1..=12).contains(&month) && (1..=31).contains(&day))
+}
+
 fn check_quantity(findings: &mut Findings<'_>, key: &str, quantity: &str, known: &[String]) {
     if known.iter().any(|name| name == quantity) {
         return;
     }
     let missing = conditions_of(quantity);
-    let help = if missing.contains(&When::Scales) && !findings.case().has_coefficients() {
+    let help = if let Some(new) = renamed(quantity) {
+        format!("it is called `{new}`")
+    } else if missing.contains(&When::Scales) && !findings.case().has_coefficients() {
         "coefficients need [scales] with length and velocity, and a fluid density".to_owned()
     } else if quantity.ends_with("lighthill_efficiency") {
         "this efficiency needs `resistance` of the [[swimmer]]".to_owned()

@@ -3,6 +3,7 @@
 use std::collections::HashSet;
 
 use super::Findings;
+use super::bodies::check_word;
 use super::joints::{arm, hinge, stroke};
 use crate::{
     Copies, FlowModel, Geometry, JointKind, Motion, Pivot, Scheme, Stroke, SwimmerKind,
@@ -12,6 +13,7 @@ use crate::{
 pub fn check(findings: &mut Findings<'_>) {
     for (index, swimmer) in findings.case().swimmer.iter().enumerate() {
         let key = format!("swimmer.{index}");
+        check_word(findings, &format!("{key}.name"), &swimmer.name);
         if let Some(period) = swimmer.period {
             findings.positive(&format!("{key}.period"), period);
         }
@@ -127,7 +129,8 @@ fn copies(findings: &mut Findings<'_>, key: &str, swimmer: &SwimmerSpec) {
             none(findings, &format!("{key}.copies.random.count"), *count);
         }
         Some(Copies::Lattice { counts, .. }) => {
-            none(findings, &format!("{key}.copies.lattice.counts"), counts[0] * counts[1]);
+            let count = counts[0].saturating_mul(counts[1]);
+            none(findings, &format!("{key}.copies.lattice.counts"), count);
         }
         None => {}
     }
@@ -201,7 +204,8 @@ fn periods(findings: &mut Findings<'_>, key: &str, kind: &SwimmerKind, named: Op
 fn short_steps(findings: &mut Findings<'_>) {
     let case = findings.case();
     let TimeSettings::Unsteady(unsteady) = &case.time else { return };
-    if unsteady.adaptive.is_some() {
+    // Steps that are none are refused elsewhere
+    if unsteady.adaptive.is_some() || unsteady.step <= 0.0 {
         return;
     }
     let periods = findings.model().swimmers.iter().filter_map(|group| group.period);
@@ -231,15 +235,27 @@ fn explicit_scheme(findings: &mut Findings<'_>) {
         .iter()
         .any(|joint| matches!(&joint.kind, JointKind::Hinge(hinge) if hinge.stiffness > 0.0));
     let hinders = [
-        (case.fluid.model != FlowModel::Stokes, "the model has inertia"),
-        (model.bodies.iter().any(|body| body.spring.is_some()), "there are springs"),
-        (is_stiff, "there are hinges with stiffness"),
+        (
+            case.fluid.model != FlowModel::Stokes,
+            "the model has inertia",
+            "leave `scheme` out for `bdf2`, or write model = \"stokes\"",
+        ),
+        (
+            model.bodies.iter().any(|body| body.spring.is_some()),
+            "there are springs",
+            "leave `scheme` out for `bdf2`, or leave the springs out",
+        ),
+        (
+            is_stiff,
+            "there are hinges with stiffness",
+            "leave `scheme` out for `bdf2`, or write stiffness = 0.0",
+        ),
     ];
-    for (_, why) in hinders.iter().filter(|(hinders, _)| *hinders) {
+    for (_, why, remedy) in hinders.iter().filter(|(hinders, _, _)| *hinders) {
         findings.error(
             "time.unsteady.scheme",
             format!("the scheme `rk3` cannot be used: {why}"),
-            "leave it out for `bdf2`, or write model = \"stokes\" without springs and stiffness",
+            remedy,
         );
     }
 }

@@ -47,6 +47,7 @@ pub fn check(findings: &mut Findings<'_>) {
                     "lower the step, or raise time.unsteady.end",
                 );
             } else if unsteady.adaptive.is_none()
+                && steps > 0.0
                 && steps.is_finite()
                 && (steps - steps.round()).abs() > WHOLE_STEPS * steps
             {

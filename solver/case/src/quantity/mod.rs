@@ -5,7 +5,7 @@
 mod row;
 mod table;
 
-use super::{JointKind, Model, TimeSettings};
+use super::{FlowModel, JointKind, Model, TimeSettings};
 
 use self::row::Circumstances;
 pub use self::row::{Quantity, When};
@@ -39,10 +39,14 @@ pub struct Column {
 #[must_use]
 pub fn columns(model: &Model) -> Vec<Column> {
     let case = &model.case;
+    let is_unsteady = matches!(case.time, TimeSettings::Unsteady(_));
     let of_case = Circumstances {
         has_coefficients: case.has_coefficients(),
         has_contact: case.contact.is_some(),
         balances_energy: model.balances_energy(),
+        has_mean_flow: case.flow.is_some(),
+        has_convection: case.fluid.model == FlowModel::NavierStokes,
+        is_unsteady,
         mesh_moves: model.mesh_moves(),
         ..Circumstances::default()
     };
@@ -60,7 +64,6 @@ pub fn columns(model: &Model) -> Vec<Column> {
         let known = Circumstances { is_arm, ..of_case.clone() };
         add(&mut columns, &child.name, JointQuantity::TABLE, &known, source);
     }
-    let is_unsteady = matches!(case.time, TimeSettings::Unsteady(_));
     for (nth, swimmer) in model.swimmers.iter().enumerate() {
         let source = |quantity| Source::Swimmer(nth, quantity);
         let known = Circumstances {
@@ -99,6 +102,17 @@ fn add<T: Copy>(
 #[must_use]
 pub fn known_quantities(model: &Model) -> Vec<String> {
     columns(model).into_iter().map(|column| column.name).collect()
+}
+
+/// Quantities that had another name once, and what they are called.
+const RENAMED: [(&str, &str); 2] =
+    [("least_gap", "minimum_gap"), ("spent_power", "expended_power")];
+
+/// The name by which a quantity of an old name is known now.
+pub(crate) fn renamed(name: &str) -> Option<String> {
+    let (owner, quantity) = name.rsplit_once('.')?;
+    let (_, new) = RENAMED.iter().find(|(old, _)| *old == quantity)?;
+    Some(format!("{owner}.{new}"))
 }
 
 /// The conditions under which quantities of a name exist, whatever the case.
@@ -149,7 +163,7 @@ mod tests {
         };
         let arm = "joint.length joint.rate joint.force joint.power";
         let group = "x y angle velocity.x velocity.y angular_velocity force.x force.y torque power \
-                     shape_power spent_power thrust drag";
+                     shape_power expended_power thrust drag";
         let cycle = "cycle.x cycle.y cycle.angle cycle.speed cycle.power cycle.cost_of_transport \
                      cycle.efficiency cycle.drift cycle.lighthill_efficiency";
         let flow = "dissipation kinetic_energy mass_defect energy_defect";
@@ -161,7 +175,7 @@ mod tests {
             of("pair", cycle),
             of("point", "velocity.x velocity.y pressure"),
             of("flow", flow),
-            of("flow", "least_gap cells remeshes"),
+            of("flow", "minimum_gap cells remeshes"),
         ];
         assert_eq!(names(&[]), expected.concat());
 
@@ -174,8 +188,17 @@ mod tests {
         let expected = [of("pair-1", body), of("pair-1", coefficients), of("pair-1", contact)];
         assert_eq!(loaded[..21], expected.concat());
 
+        let open = names(&["boundary.left=traction-free"]);
+        assert!(open.contains(&"flow.energy_defect".to_owned()), "no work without traction");
+        let given = names(&["boundary.left={ velocity = { value = [0.1, 0.0] } }"]);
+        assert!(!given.contains(&"flow.energy_defect".to_owned()), "that side works, too");
+        let sheet = Case::read("taylor-sheet", &[]).unwrap().model;
+        assert!(known_quantities(&sheet).contains(&"flow.energy_defect".to_owned()));
+
         let steady = names(&["time.steady={}"]);
-        assert!(!steady.iter().any(|name| name.contains(".cycle.") || name.contains("least_gap")));
+        assert!(
+            !steady.iter().any(|name| name.contains(".cycle.") || name.contains("minimum_gap"))
+        );
         assert!(steady.contains(&"pair.lighthill_efficiency".to_owned()), "{steady:?}");
     }
 }

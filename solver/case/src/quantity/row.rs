@@ -36,8 +36,14 @@ pub enum When {
     TowedCycles,
     /// Its resistance is known, but it has no cycles.
     TowedWithoutCycles,
-    /// All work on the fluid is that of bodies.
+    /// All work on the fluid is that of bodies and waving sheets.
     IdleSides,
+    /// There is `[flow]`.
+    MeanFlow,
+    /// The fluid is convected.
+    Convection,
+    /// The same, and the run is unsteady.
+    UnsteadyConvection,
     /// The mesh moves.
     MovingMesh,
 }
@@ -56,7 +62,10 @@ impl When {
             Self::Cycles => "a period",
             Self::TowedCycles => "a period and `resistance`",
             Self::TowedWithoutCycles => "`resistance`, no period",
-            Self::IdleSides => "bodies, and sides that do no work",
+            Self::IdleSides => "bodies or a waving sheet, and other sides that do no work",
+            Self::MeanFlow => "[`flow`](#flow)",
+            Self::Convection => "`navier-stokes`",
+            Self::UnsteadyConvection => "`navier-stokes`, unsteady",
             Self::MovingMesh => "a moving mesh",
         }
     }
@@ -73,6 +82,9 @@ impl When {
             Self::TowedCycles => known.has_cycles && known.has_resistance,
             Self::TowedWithoutCycles => !known.has_cycles && known.has_resistance,
             Self::IdleSides => known.balances_energy,
+            Self::MeanFlow => known.has_mean_flow,
+            Self::Convection => known.has_convection,
+            Self::UnsteadyConvection => known.has_convection && known.is_unsteady,
             Self::MovingMesh => known.mesh_moves,
         }
     }
@@ -88,5 +100,8 @@ pub(super) struct Circumstances {
     pub has_cycles: bool,
     pub has_resistance: bool,
     pub balances_energy: bool,
+    pub has_mean_flow: bool,
+    pub has_convection: bool,
+    pub is_unsteady: bool,
     pub mesh_moves: bool,
 }

@@ -100,7 +100,7 @@ quantities! {
         ShapePower: "shape_power", "W (W/m)", Always,
             "Work of the motion of the shape (and slip) on the fluid: `power` without that of the \
              mean rigid motion";
-        ExpendedPower: "spent_power", "W (W/m)", Always,
+        ExpendedPower: "expended_power", "W (W/m)", Always,
             "Expended power, without recovery: the same without those parts of the surface where \
              the fluid does work on the body; by integrating the stress, so on coarse meshes it \
              may come out below `shape_power`";
@@ -150,10 +150,22 @@ quantities! {
         MassDefect: "mass_defect", "m3/s (m2/s)", Always,
             "Integral of div u: the net flux of interpolated boundary values";
         EnergyDefect: "energy_defect", "1", IdleSides,
-            "Work of the bodies less dissipation and growth of the kinetic energy, over the work, \
+            "Work of bodies and waving sheets less dissipation and growth of the kinetic energy, over the work, \
              since the start (`stokes` and steady flows: of the current rates): the error of the \
              energy balance";
-        MinimumGap: "least_gap", "m", MovingMesh,
+        PressureGradientX: "pressure_gradient.x", "Pa/m", MeanFlow,
+            "Mean pressure gradient along x, given or what brings a mean velocity about";
+        PressureGradientY: "pressure_gradient.y", "Pa/m", MeanFlow, "The same along y";
+        MeanVelocityX: "mean_velocity.x", "m/s", MeanFlow,
+            "Mean velocity of fluid and bodies along x: the flux over the cross section of the cell";
+        MeanVelocityY: "mean_velocity.y", "m/s", MeanFlow, "The same along y";
+        Cfl: "cfl", "1", UnsteadyConvection,
+            "CFL number: largest velocity relative to the mesh times the step over the shortest edge \
+             of a cell";
+        CellReynolds: "cell_reynolds", "1", Convection,
+            "Cell Reynolds number: largest density times velocity relative to the mesh times longest \
+             edge of a cell, over the viscosity";
+        MinimumGap: "minimum_gap", "m", MovingMesh,
             "Minimum gap between two bodies or a body and a wall";
         Cells: "cells", "1", MovingMesh, "Cells of the mesh";
         Remeshes: "remeshes", "1", MovingMesh, "Number of remeshings since the start";

@@ -31,6 +31,9 @@ pub enum SolveError {
         /// The sum (N).
         sum: f64,
     },
+    /// A mean velocity is given, and no pressure gradient brings it about.
+    #[error("the mean velocity does not depend on the pressure gradient: nothing resists the flow")]
+    NoResistance,
     /// No accurate solution.
     #[error(transparent)]
     Linear(#[from] LinearError),

@@ -64,6 +64,16 @@ impl LinearSystem {
         Ok(())
     }
 
+    /// Solves with factors of the matrix, in place.
+    pub(super) fn solve(
+        &mut self,
+        rhs: &mut [f64],
+        timing: &mut Timing,
+    ) -> Result<(), LinearError> {
+        let Factorised { matrix, solver } = self.factorised(timing)?;
+        timing.measure(Stage::Solve, || solver.solve(matrix, rhs)).map(drop)
+    }
+
     /// The solver with factors of the matrix.
     pub(super) fn factorised(
         &mut self,

@@ -3,10 +3,10 @@
 //! The residual tested with a function that is 1 on the body is minus the fluid's force on it;
 //! for P2-P1 it converges about twice as fast as an integral of the stress (@babuska1984).
 
-use alewife_mesh::{Mesh, Point};
+use alewife_mesh::{BoundaryId, Mesh, Point};
 
-use super::boundaries::Boundaries;
-use super::problem::Problem;
+use super::boundaries::{Boundaries, BoundaryNode};
+use super::problem::{Problem, Side};
 use crate::body::{Pose, Wrench, on_mesh};
 use crate::space::DofLayout;
 
@@ -17,6 +17,29 @@ pub struct BodyLoads {
     pub load: Wrench,
     /// Rate of work of the body's surface on the fluid (W).
     pub power: f64,
+}
+
+/// What the fluid and its boundary do to each other.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct SurfaceLoads {
+    /// Of each body.
+    pub bodies: Vec<BodyLoads>,
+    /// Rate of work of the sides with a given velocity on the fluid (W).
+    pub sides_power: f64,
+}
+
+impl SurfaceLoads {
+    /// No loads on so many bodies.
+    #[must_use]
+    pub fn none(n_bodies: usize) -> Self {
+        Self { bodies: vec![BodyLoads::default(); n_bodies], sides_power: 0.0 }
+    }
+
+    /// Rate of work of bodies and sides on the fluid (W).
+    #[must_use]
+    pub fn power(&self) -> f64 {
+        self.bodies.iter().map(|load| load.power).sum::<f64>() + self.sides_power
+    }
 }
 
 /// A flow on a mesh with the raw residual of the fluid's equations at it.
@@ -34,9 +57,18 @@ pub struct ResidualOnMesh<'a, const D: usize> {
     pub residual: &'a [f64],
 }
 
-/// Loads of all bodies at these poses in the mesh.
+/// Loads of all bodies at these poses in the mesh, and the work of the sides.
 #[must_use]
-pub fn body_loads<const D: usize>(
+pub fn surface_loads<const D: usize>(
+    problem: &Problem<D>,
+    poses: &[Pose],
+    flow: &ResidualOnMesh<'_, D>,
+) -> SurfaceLoads {
+    let bodies = body_loads(problem, poses, flow);
+    SurfaceLoads { bodies, sides_power: sides_power(problem, flow) }
+}
+
+fn body_loads<const D: usize>(
     problem: &Problem<D>,
     poses: &[Pose],
     flow: &ResidualOnMesh<'_, D>,
@@ -55,4 +87,19 @@ pub fn body_loads<const D: usize>(
         loads
     });
     loads.collect()
+}
+
+/// Work of the sides with a given velocity, each node once.
+fn sides_power<const D: usize>(problem: &Problem<D>, flow: &ResidualOnMesh<'_, D>) -> f64 {
+    let is_given =
+        |boundary: BoundaryId| matches!(problem.sides[boundary], Some(Side::Velocity { .. }));
+    let nodes = flow.boundaries.nodes();
+    nodes
+        .filter(|node| node.boundaries.iter().any(|&boundary| is_given(boundary)))
+        .map(|BoundaryNode { node, .. }| {
+            let force =
+                Point::<D>::from_fn(|axis, _| flow.residual[flow.layout.velocity(node, axis)]);
+            force.dot(&flow.velocity[node])
+        })
+        .sum()
 }

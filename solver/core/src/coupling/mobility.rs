@@ -52,7 +52,34 @@ impl<const D: usize> FluidSystem<D> {
                 }
             }
         }
-        Ok(&weights * inverse * weights.transpose())
+        let mobility = &weights * inverse * weights.transpose();
+        Ok(self.at_mean_velocity(mobility, &rows))
+    }
+
+    /// A mobility at constant mean velocity: loads change the pressure gradient where that is given. By
+    /// reciprocity, which convection breaks a little, what a gradient does to bodies is what loads
+    /// do to the mean velocity.
+    fn at_mean_velocity(&self, mobility: DMatrix<f64>, rows: &[&[Term<u32>]]) -> DMatrix<f64> {
+        if self.response.is_empty() {
+            return mobility;
+        }
+        let of_body = |answer: &Vec<f64>, row: &[Term<u32>]| -> f64 {
+            row.iter().map(|term| term.weight * answer[term.unknown as usize]).sum()
+        };
+        let answers = self.response.answers();
+        let by_gradient =
+            DMatrix::from_fn(rows.len(), answers.len(), |i, j| of_body(&answers[j], rows[i]));
+        let mut constrained = mobility;
+        for load in 0..rows.len() {
+            let flows: Vec<f64> = by_gradient.row(load).iter().copied().collect();
+            let Some(gradients) = self.response.gradients(&flows) else { continue };
+            for (axis, gradient) in gradients.iter().enumerate() {
+                for body in 0..rows.len() {
+                    constrained[(body, load)] -= gradient * by_gradient[(body, axis)];
+                }
+            }
+        }
+        constrained
     }
 
     /// Adds to a solution what further loads (N, N m) on some bodies change, with the matrix last
@@ -77,10 +104,22 @@ impl<const D: usize> FluidSystem<D> {
         }
         let Factorised { matrix, solver } = self.linear.factorised(timing)?;
         timing.measure(Stage::Solve, || solver.solve(matrix, &mut change))?;
+        let mut pressure_gradient = solution.pressure_gradient;
+        if !self.response.is_empty() {
+            // Loads leave a given mean velocity as it is
+            let flows = self.response.flows(&change);
+            let gradients = self.response.gradients(&flows).ok_or(SolveError::NoResistance)?;
+            self.response.subtract(&gradients, &mut change);
+            let axes = self.response.axes().iter();
+            axes.zip(&gradients).for_each(|(&axis, gradient)| pressure_gradient[axis] += gradient);
+        }
+        let mean = self.mean_velocity(solution);
         let mut free = constraints.pick(&self.pinned(solution).to_raw(self.modes));
         free.iter_mut().zip(&change).for_each(|(value, change)| *value += change);
         let raw = constraints.expand(&free);
-        *solution = self.centered(Solution::from_raw(&self.layout, self.modes, &raw));
+        let next = Solution::from_raw(&self.layout, self.modes, &raw);
+        let next = Solution { pressure_gradient, ..next };
+        *solution = self.centered(next, &mean);
         Ok(())
     }
 }

@@ -3,11 +3,13 @@
 mod boundaries;
 mod constrain;
 mod diagnosis;
+mod driven;
 mod error;
 mod joint_loads;
 mod kinematics;
 mod linear_system;
 mod loads;
+mod mean_flow;
 mod mobility;
 mod nullspace;
 mod pressure_mean;
@@ -21,14 +23,15 @@ mod surface_load;
 mod system;
 
 pub use boundaries::{Boundaries, BoundaryNode};
-pub use constrain::{BodiesAt, BoundaryValues, impose_boundary_values};
+pub use constrain::{BodiesAt, BoundaryValues, count_unknowns, impose_boundary_values};
 pub use error::{SolveError, coordinates};
 pub use joint_loads::{BodyStates, JointReport, joint_reports};
-pub use loads::{BodyLoads, ResidualOnMesh, body_loads};
+pub use loads::{BodyLoads, ResidualOnMesh, SurfaceLoads, surface_loads};
+pub use mean_flow::MeanFlowReport;
 pub use mobility::BodyLoad;
 pub use problem::{
-    Arm, Drive, Group, Joint, MovingValue, Pivot, Problem, RateDiscontinuities, RigidBody, Side,
-    Spring, TimeValue, Turn, VelocityProfile, second_moments,
+    Arm, Drive, Group, Joint, MeanFlow, MeanFlowAlong, MeanFlowAt, MovingValue, Pivot, Problem,
+    RateDiscontinuities, RigidBody, Side, Spring, TimeValue, Turn, VelocityProfile, second_moments,
 };
 pub use projection::DivergenceFreeProjection;
 pub use propulsion::{

@@ -62,17 +62,16 @@ impl<const D: usize> TranslationNullspace<D> {
         self.subtract(&velocity, solution);
     }
 
-    /// Makes the mean velocity of fluid and bodies zero.
-    pub fn center(&self, solution: &mut Solution<D>) {
-        let mean =
-            self.weights.iter().fold(Point::<D>::zeros(), |sum, NodeWeights { node, weights }| {
-                let velocity = &solution.velocity[*node];
-                sum + Point::<D>::from_fn(|axis, _| weights.column(axis).dot(velocity))
-            });
-        self.subtract(&mean, solution);
+    /// The mean velocity of fluid and bodies (m/s).
+    pub fn mean(&self, solution: &Solution<D>) -> Point<D> {
+        self.weights.iter().fold(Point::<D>::zeros(), |sum, NodeWeights { node, weights }| {
+            let velocity = &solution.velocity[*node];
+            sum + Point::<D>::from_fn(|axis, _| weights.column(axis).dot(velocity))
+        })
     }
 
-    fn subtract(&self, velocity: &Point<D>, solution: &mut Solution<D>) {
+    /// Takes a velocity (m/s) off fluid and bodies, along the free axes.
+    pub fn subtract(&self, velocity: &Point<D>, solution: &mut Solution<D>) {
         let common =
             Point::<D>::from_fn(|axis, _| if self.axes[axis] { velocity[axis] } else { 0.0 });
         for velocity in &mut solution.velocity {

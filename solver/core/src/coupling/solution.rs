@@ -15,6 +15,8 @@ pub struct Solution<const D: usize> {
     pub pressure: Vec<f64>,
     /// Rigid velocities of the bodies.
     pub twists: Vec<Twist>,
+    /// Mean pressure gradient along periodic directions (Pa/m), which is no part of `pressure`.
+    pub pressure_gradient: Point<D>,
 }
 
 impl<const D: usize> Solution<D> {
@@ -25,10 +27,11 @@ impl<const D: usize> Solution<D> {
             velocity: vec![Point::<D>::zeros(); layout.n_nodes],
             pressure: vec![0.0; layout.n_vertices],
             twists: vec![Twist::default(); layout.n_bodies],
+            pressure_gradient: Point::<D>::zeros(),
         }
     }
 
-    /// From a vector of raw unknowns, with the rigid motions `modes` of the bodies.
+    /// From a vector of raw unknowns and no mean pressure gradient, with the rigid motions `modes` of the bodies.
     #[must_use]
     pub fn from_raw(layout: &DofLayout<D>, modes: Modes, raw: &[f64]) -> Self {
         let velocities = raw[..layout.pressures().start].chunks_exact(D);
@@ -43,6 +46,7 @@ impl<const D: usize> Solution<D> {
             velocity: velocities.map(Point::<D>::from_column_slice).collect(),
             pressure: raw[layout.pressures()].to_vec(),
             twists: (0..layout.n_bodies).map(twist).collect(),
+            pressure_gradient: Point::<D>::zeros(),
         }
     }
 

@@ -7,16 +7,17 @@
 
 use std::sync::Arc;
 
-use alewife_mesh::Mesh;
+use alewife_mesh::{Mesh, Point};
 
 use super::boundaries::Boundaries;
 use super::constrain::{BodiesAt, Constrainer};
 use super::error::SolveError;
 use super::linear_system::{LinearSystem, unknowns};
-use super::loads::{BodyLoads, ResidualOnMesh, body_loads};
+use super::loads::{ResidualOnMesh, SurfaceLoads, surface_loads};
+use super::mean_flow::{CellIntegrals, MeanFlowResponse};
 use super::nullspace::TranslationNullspace;
 use super::pressure_mean::PressureMean;
-use super::problem::Problem;
+use super::problem::{MeanFlowAt, Problem};
 use super::rigid_equations::{RigidBodyEquations, rotations};
 use super::shapes::BodyShapes;
 use super::solution::Solution;
@@ -38,6 +39,8 @@ pub struct Configuration<'a, const D: usize> {
     pub constraints: &'a AffineConstraints,
     /// Newton's and Euler's equations.
     pub bodies: &'a RigidBodyEquations,
+    /// What is given of the mean flow.
+    pub mean_flow: MeanFlowAt<D>,
 }
 
 /// Pattern, factorisation and workspace for the systems on one mesh.
@@ -54,7 +57,11 @@ pub struct FluidSystem<const D: usize> {
     pub(super) linear: LinearSystem,
     pressure: PressureMean,
     /// The common velocity of fluid and bodies, where nothing holds them.
-    nullspace: Option<TranslationNullspace<D>>,
+    pub(super) nullspace: Option<TranslationNullspace<D>>,
+    /// Integrals over a cell with a mean flow.
+    pub(super) cell: Option<CellIntegrals<D>>,
+    /// How the flow answered to pressure gradients in the last step of Newton's method.
+    pub(super) response: MeanFlowResponse,
 }
 
 impl<const D: usize> FluidSystem<D> {
@@ -79,6 +86,8 @@ impl<const D: usize> FluidSystem<D> {
             frame,
         );
         let pressure = PressureMean::new(mesh, assembly.tables());
+        let driven = problem.mean_flow.as_ref();
+        let cell = driven.map(|_| CellIntegrals::new(problem, mesh, assembly.tables()));
         let linear =
             LinearSystem::new(Arc::clone(assembly.pattern()), unknowns(&layout, &constraints));
         Self {
@@ -91,6 +100,8 @@ impl<const D: usize> FluidSystem<D> {
             linear,
             pressure,
             nullspace: TranslationNullspace::new(problem, mesh),
+            cell,
+            response: MeanFlowResponse::default(),
         }
     }
 
@@ -135,16 +146,17 @@ impl<const D: usize> FluidSystem<D> {
         }
     }
 
-    /// Loads of a flow on the bodies at these poses in the mesh, from the raw residual at it.
+    /// Loads of a flow on the bodies at these poses in the mesh, and the work of the sides, from the
+    /// raw residual at it.
     #[must_use]
-    pub fn body_loads(
+    pub fn surface_loads(
         &self,
         problem: &Problem<D>,
         mesh: &Mesh<D>,
         poses: &[Pose],
         solution: &Solution<D>,
         residual: &[f64],
-    ) -> Vec<BodyLoads> {
+    ) -> SurfaceLoads {
         let flow = ResidualOnMesh {
             mesh,
             layout: &self.layout,
@@ -152,7 +164,16 @@ impl<const D: usize> FluidSystem<D> {
             velocity: &solution.velocity,
             residual,
         };
-        body_loads(problem, poses, &flow)
+        let mut loads = surface_loads(problem, poses, &flow);
+        if self.cell.is_some() {
+            for (body, (loads, twist)) in loads.bodies.iter_mut().zip(&solution.twists).enumerate()
+            {
+                let mean = self.mean_load(body, solution);
+                loads.power -= mean.force.dot(&twist.linear);
+                loads.load = loads.load + mean;
+            }
+        }
+        loads
     }
 
     /// Constraints with bodies at these poses, at the time of their shapes.
@@ -172,17 +193,25 @@ impl<const D: usize> FluidSystem<D> {
             self.pressure = PressureMean::new(mesh, self.assembly.tables());
         }
         self.nullspace = TranslationNullspace::new(problem, mesh);
+        if problem.mean_flow.is_some() {
+            self.cell = Some(CellIntegrals::new(problem, mesh, self.assembly.tables()));
+        }
     }
 
     /// The raw residual of the fluid's equations at a solution.
     #[must_use]
     pub fn fluid_residual(
         &self,
-        mesh: &Mesh<D>,
+        at: &Configuration<'_, D>,
         terms: &FlowTerms<'_, D>,
         solution: &Solution<D>,
     ) -> Vec<f64> {
-        residual(&self.assembly, mesh, terms, &solution.fields())
+        let mut raw = residual(&self.assembly, at.mesh, terms, &solution.fields());
+        if let Some(cell) = &self.cell {
+            let force = solution.pressure_gradient - at.mean_flow.body_force;
+            cell.add(&self.layout, self.modes, [&force, &Point::<D>::zeros()], &mut raw);
+        }
+        raw
     }
 
     /// P^T R: the residual of fluid and bodies on the free unknowns, from that of the fluid.
@@ -199,6 +228,10 @@ impl<const D: usize> FluidSystem<D> {
         }
         let row = |body: usize, position: usize| self.layout.rigid(body, position);
         at.bodies.add_residual(&solution.twists, self.modes, row, &mut raw);
+        if let Some(cell) = &self.cell {
+            let force = solution.pressure_gradient;
+            cell.add(&self.layout, self.modes, [&Point::<D>::zeros(), &force], &mut raw);
+        }
         at.constraints.restrict(&raw)
     }
 
@@ -230,13 +263,17 @@ impl<const D: usize> FluidSystem<D> {
         for (value, correction) in free.iter_mut().zip(&step) {
             *value += correction;
         }
+        let pressure_gradient =
+            solution.pressure_gradient + self.meet_mean_velocity(at, &mut free, timing)?;
         let raw = at.constraints.expand(&free);
         if let Some(index) = raw.iter().position(|value| !value.is_finite()) {
             let node = (index / D).min(self.layout.n_nodes - 1);
             let near = at.mesh.nodes[node].as_slice().to_vec();
             return Err(SolveError::NotFinite { near });
         }
-        Ok(self.centered(Solution::from_raw(&self.layout, self.modes, &raw)))
+        let next = Solution::from_raw(&self.layout, self.modes, &raw);
+        let mean = Point::<D>::from_fn(|axis, _| at.mean_flow.velocity(axis).unwrap_or(0.0));
+        Ok(self.centered(Solution { pressure_gradient, ..next }, &mean))
     }
 
     /// The solution seen from where the system holds fluid and bodies.
@@ -248,10 +285,10 @@ impl<const D: usize> FluidSystem<D> {
         pinned
     }
 
-    /// The solution with the mean velocity that is asked for where nothing holds it.
-    pub(super) fn centered(&self, mut solution: Solution<D>) -> Solution<D> {
+    /// The solution with a mean velocity (m/s) where nothing holds fluid and bodies.
+    pub(super) fn centered(&self, mut solution: Solution<D>, mean: &Point<D>) -> Solution<D> {
         if let Some(nullspace) = &self.nullspace {
-            nullspace.center(&mut solution);
+            nullspace.subtract(&(self.mean_velocity(&solution) - mean), &mut solution);
         }
         solution
     }
@@ -294,7 +331,11 @@ impl<const D: usize> FluidSystem<D> {
     #[must_use]
     pub fn constrained(&self, constraints: &AffineConstraints, from: &Solution<D>) -> Solution<D> {
         let free = constraints.pick(&self.pinned(from).to_raw(self.modes));
-        Solution::from_raw(&self.layout, self.modes, &constraints.expand(&free))
+        let raw = constraints.expand(&free);
+        Solution {
+            pressure_gradient: from.pressure_gradient,
+            ..Solution::from_raw(&self.layout, self.modes, &raw)
+        }
     }
 
     /// Shifts the pressure of an enclosed flow to zero mean.

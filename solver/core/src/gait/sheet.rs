@@ -26,9 +26,9 @@ pub struct WavingSheet {
 }
 
 impl WavingSheet {
-    /// A sheet of an amplitude (m), a wavelength (m) and a frequency (1/s).
+    /// A sheet of an amplitude (m), a wavelength (m) and a period (s).
     #[must_use]
-    pub fn new(amplitude: f64, wavelength: f64, frequency: f64, is_extensible: bool) -> Self {
+    pub fn new(amplitude: f64, wavelength: f64, period: f64, is_extensible: bool) -> Self {
         let wavenumber = TAU / wavelength;
         let arc = |index: u32| {
             let phase = TAU * f64::from(index) / f64::from(ARC_POINTS);
@@ -38,7 +38,7 @@ impl WavingSheet {
         Self {
             amplitude,
             wavenumber,
-            angular_frequency: TAU * frequency,
+            angular_frequency: TAU / period,
             stretch: (!is_extensible).then_some(stretch),
         }
     }
@@ -76,7 +76,7 @@ mod tests {
     #[test]
     fn material_stays_on_the_curve_and_keeps_its_length() {
         for is_extensible in [false, true] {
-            let sheet = WavingSheet::new(0.3, 2.0, 0.5, is_extensible);
+            let sheet = WavingSheet::new(0.3, 2.0, 2.0, is_extensible);
             let steps = 4000;
             let step = 2.0 / f64::from(steps);
             let mut points = [0.1_f64, 0.5].map(|x| Vector2::new(x, sheet.height(x, 0.0)));

@@ -6,11 +6,12 @@ use super::moving_mesh::MovingMesh;
 use super::remesh::remesh;
 use super::state::State;
 use super::stepper::{StepReport, StepResult, TimeStepper};
+use super::stop_request::StopRequest;
 use super::workspace::Workspace;
 use super::{Stage, Timing};
 use crate::case::{Convection, Scheme};
 use crate::contact::{ContactError, Law};
-use crate::coupling::{BodyLoads, BodyShapes, FluidSystem, Problem, mean_motion};
+use crate::coupling::{BodyLoads, BodyShapes, FluidSystem, Problem, SurfaceLoads, mean_motion};
 use crate::time::Bdf;
 
 /// Error over the tolerance above which a step is rejected.
@@ -32,6 +33,8 @@ pub struct Simulation<const D: usize> {
     pub scheme: StepScheme,
     /// Whether no step has been made on this mesh.
     pub is_fresh: bool,
+    /// What to ask whether the run is to end.
+    pub stop: Option<StopRequest>,
 }
 
 /// How steps are made.
@@ -43,6 +46,15 @@ pub struct StepScheme {
     pub convection: Convection,
     /// Whether the frame's velocity is an unknown of the convection.
     pub unknown_frame: bool,
+}
+
+/// How fast the fluid crosses the cells, seen from the mesh.
+#[derive(Debug, Clone, Copy)]
+pub struct CellCrossing {
+    /// Largest velocity over the shortest edge of a cell (1/s).
+    pub rate: f64,
+    /// Largest velocity times the longest edge of a cell (m2/s).
+    pub reach: f64,
 }
 
 /// What came of an attempt to make a step.
@@ -100,12 +112,13 @@ impl<const D: usize> Simulation<D> {
 
     /// Makes a step, or leaves the state where it is.
     fn attempt(&mut self, size: f64, tolerance: f64) -> Result<StepReport, StepError> {
-        let Self { problem, state, work, moving_mesh, law, scheme, .. } = self;
+        let Self { problem, state, work, moving_mesh, law, scheme, stop, .. } = self;
         let stepper = TimeStepper {
             problem,
             convection: scheme.convection,
             path: moving_mesh.as_ref().map_or(MeshPath::Fixed, MeshPath::FollowsBodies),
             contact: law.as_ref(),
+            stop: stop.as_ref(),
         };
         let StepResult { level, report } = match scheme.method {
             Scheme::Rk3 => {
@@ -171,30 +184,37 @@ impl<const D: usize> Simulation<D> {
 
     /// Loads of the fluid by the raw residual at the present solution.
     #[must_use]
-    pub fn loads(&self, residual: &[f64]) -> Vec<BodyLoads> {
+    pub fn loads(&self, residual: &[f64]) -> SurfaceLoads {
         let Self { problem, state, work, .. } = self;
         let poses = state.in_mesh(&state.poses);
-        work.system.body_loads(problem, &state.mesh, &poses, &state.now, residual)
+        work.system.surface_loads(problem, &state.mesh, &poses, &state.now, residual)
     }
 
-    /// Cells the fluid crosses in a second at most (1/s).
+    /// How fast the fluid crosses the cells.
     #[must_use]
-    pub fn crossing_rate(&self) -> f64 {
+    pub fn cell_crossing(&self) -> CellCrossing {
         let state = &self.state;
         let frame = state.origin_at(&self.problem, &state.poses)
             - state.origin_at(&self.problem, &state.previous_poses);
         let frame = crate::body::on_mesh::<D>(&frame);
-        let mut most = f64::MIN_POSITIVE;
+        let mut most = CellCrossing { rate: f64::MIN_POSITIVE, reach: 0.0 };
         for cell in state.mesh.cell_ids() {
             let length = |edge: alewife_mesh::Edge<'_>| {
                 let [from, to] = edge.ends;
                 (state.nodes[to] - state.nodes[from]).norm()
             };
-            let shortest = state.mesh.cell_edges(cell).map(length).fold(f64::INFINITY, f64::min);
+            let (mut shortest, mut longest) = (f64::INFINITY, 0.0f64);
+            for length in state.mesh.cell_edges(cell).map(length) {
+                (shortest, longest) = (shortest.min(length), longest.max(length));
+            }
             for &node in state.mesh.cell(cell) {
-                let way = state.nodes[node] - state.nodes_before[node] + frame;
-                let passing = state.now.velocity[node] - way / state.last_step;
-                most = most.max(passing.norm() / shortest);
+                let mut passing = state.now.velocity[node];
+                if state.last_step > 0.0 {
+                    let way = state.nodes[node] - state.nodes_before[node] + frame;
+                    passing -= way / state.last_step;
+                }
+                most.rate = most.rate.max(passing.norm() / shortest);
+                most.reach = most.reach.max(passing.norm() * longest);
             }
         }
         most

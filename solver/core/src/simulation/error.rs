@@ -70,8 +70,9 @@ impl From<MotionError> for StepError {
 pub enum RunError {
     /// Newton's method did not converge.
     #[error(
-        "{}: Newton's method stopped at residual {residual:.3e} after {iterations} iterations; {}",
+        "{}: Newton's method stopped at residual {residual:.3e} after {iterations} iteration{}; {}",
         if *step == 0 { "steady flow".to_owned() } else { format!("step {step} (t = {time})") },
+        if *iterations == 1 { "" } else { "s" },
         if *step == 0 {
             "refine the mesh, raise time.steady.max_iterations, or lower the Reynolds number: \
              there may be no steady flow"
@@ -103,6 +104,28 @@ pub enum RunError {
         /// Where (m).
         near: Vec<f64>,
     },
+    /// The fluid is far faster than what drives it.
+    #[error(
+        "step {step} (t = {time}): the flow has blown up: on average it is {times:.0} times as fast as \
+         the fastest boundary ever was, most near {}; CFL number {cfl:.3e}, cell Reynolds number \
+         {cell_reynolds:.3e}; refine the mesh there, lower time.unsteady.step, or set \
+         time.unsteady.convection = \"newton\"",
+        coordinates(.near)
+    )]
+    BlownUp {
+        /// Step.
+        step: usize,
+        /// Time (s).
+        time: f64,
+        /// Root mean square of the velocity over the largest speed of a boundary so far.
+        times: f64,
+        /// CFL number of the step.
+        cfl: f64,
+        /// Largest cell Reynolds number.
+        cell_reynolds: f64,
+        /// Where the fluid is fastest (m).
+        near: Vec<f64>,
+    },
     /// The linear system is singular.
     #[error("step {step} (t = {time}): the linear system cannot be solved: {reason}")]
     Singular {
@@ -125,6 +148,22 @@ pub enum RunError {
         needed: f64,
         /// Free memory (GB).
         available: f64,
+    },
+    /// The mesh would not fit into memory; it has not been made.
+    #[error(
+        "the cell sizes ask for {n_cells:.1e} cells or more, which need {needed:.0} GB of memory, and \
+         {available:.0} GB are free; raise mesh.size, mesh.surface or mesh.growth, or lower \
+         mesh.gap_layers: cells {coarser:.1} times as large would fit"
+    )]
+    TooManyCells {
+        /// Estimate, or where it ended.
+        n_cells: f64,
+        /// Memory of a system on them (GB).
+        needed: f64,
+        /// Free memory (GB).
+        available: f64,
+        /// Factor on all sizes with which it would fit.
+        coarser: f64,
     },
     /// A request the solver cannot meet (a case that `check` should have refused).
     #[error("{0}")]

@@ -16,7 +16,7 @@ use super::stepper::{StepReport, StepResult, TimeStepper};
 use super::workspace::Workspace;
 use crate::body::{Pose, RigidVector, Twist};
 use crate::contact::ContactLoads;
-use crate::coupling::{BodyLoads, PropulsionPower, Solution};
+use crate::coupling::{PropulsionPower, Solution, SurfaceLoads};
 
 /// A stage after the first.
 struct Stage {
@@ -57,7 +57,7 @@ struct Instant {
 /// A flow that belongs to bodies at their poses.
 struct InstantaneousFlow<const D: usize> {
     solution: Solution<D>,
-    loads: Vec<BodyLoads>,
+    loads: SurfaceLoads,
     powers: Vec<PropulsionPower>,
     contact: ContactLoads,
     nodes: Vec<Point<D>>,
@@ -175,6 +175,7 @@ impl<const D: usize> TimeStepper<'_, D> {
         at: Instant,
         guess: &Solution<D>,
     ) -> Result<InstantaneousFlow<D>, StepError> {
+        self.check_stop(state)?;
         let history = StepHistory::instantaneous(self.problem, poses, at.time, at.rates_at)?;
         let gaps = self.path.gaps(&history.shapes);
         let seen = state.in_own_frame(self.problem, poses);
@@ -190,7 +191,7 @@ impl<const D: usize> TimeStepper<'_, D> {
         let loads = self.loads(work, state, &equations, &mut flow);
         Ok(InstantaneousFlow {
             solution: flow.solution,
-            loads: loads.bodies,
+            loads: loads.surfaces,
             powers: loads.propulsion,
             contact: contact
                 .map_or_else(|| ContactLoads::none(poses.len()), |contact| contact.loads),

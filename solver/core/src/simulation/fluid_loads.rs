@@ -4,11 +4,11 @@ use super::newton::{Flow, FlowEquations, flow_residual};
 use super::state::State;
 use super::{Stage, Timing};
 use crate::body::Pose;
-use crate::coupling::{BodyLoads, Configuration, FluidSystem, PropulsionPower};
+use crate::coupling::{Configuration, FluidSystem, PropulsionPower, SurfaceLoads};
 
 /// Loads of the fluid on bodies, and the powers of groups.
 pub(super) struct FluidLoads {
-    pub bodies: Vec<BodyLoads>,
+    pub surfaces: SurfaceLoads,
     pub propulsion: Vec<PropulsionPower>,
 }
 
@@ -37,10 +37,11 @@ impl<const D: usize> SolvedConfiguration<'_, D> {
         }
         let Flow { solution, residual, .. } = flow;
         let in_mesh = state.in_mesh(poses);
-        let bodies = system.body_loads(at.problem, at.mesh, &in_mesh, solution, residual);
+        let surfaces = system.surface_loads(at.problem, at.mesh, &in_mesh, solution, residual);
         let stress = system.surface_stress(at.problem, at.mesh, solution);
         let twists = &solution.twists;
-        let propulsion = state.propulsion_powers(at.problem, poses, twists, &bodies, &stress);
-        FluidLoads { bodies, propulsion }
+        let propulsion =
+            state.propulsion_powers(at.problem, poses, twists, &surfaces.bodies, &stress);
+        FluidLoads { surfaces, propulsion }
     }
 }

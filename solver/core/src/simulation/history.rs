@@ -119,6 +119,7 @@ impl<const D: usize> StepHistory<D> {
                 velocity: Vec::new(),
                 pressure: Vec::new(),
                 twists: Vec::new(),
+                pressure_gradient: Point::<D>::zeros(),
             },
             frame_velocity: Point::<D>::zeros(),
             unmoved: poses.to_vec(),
@@ -172,5 +173,6 @@ fn extrapolate<const D: usize>(state: &State<D>, step: &Step) -> Solution<D> {
                 Twist::from_vector(&bdf.extrapolate(now.to_vector(), before.to_vector()))
             })
             .collect(),
+        pressure_gradient: bdf.extrapolate(now.pressure_gradient, previous.pressure_gradient),
     }
 }

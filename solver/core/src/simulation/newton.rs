@@ -17,6 +17,11 @@ pub(super) trait FlowEquations<const D: usize> {
 
     /// Called with each residual, relative to the scale of the criterion.
     fn on_iteration(&self, _iteration: usize, _residual: f64) {}
+
+    /// Whether the run is to end; asked in each iteration.
+    fn wants_stop(&self) -> bool {
+        false
+    }
 }
 
 /// The raw residual of the fluid at a solution.
@@ -27,7 +32,7 @@ pub(super) fn flow_residual<const D: usize>(
     solution: &Solution<D>,
 ) -> Vec<f64> {
     let convecting_velocity = equations.convecting_velocity(solution);
-    system.fluid_residual(at.mesh, &equations.terms(&convecting_velocity), solution)
+    system.fluid_residual(at, &equations.terms(&convecting_velocity), solution)
 }
 
 /// When Newton's method ends.
@@ -95,10 +100,21 @@ pub(super) struct Iterate<const D: usize> {
     pub scale: f64,
 }
 
+/// What stops Newton's method before a solution.
+#[derive(Debug)]
+pub(super) enum NewtonStop {
+    /// The residual did not get small.
+    Stalled,
+    /// A linear system could not be solved.
+    Solve(SolveError),
+    /// The run is to end.
+    Requested,
+}
+
 /// Why Newton's method ended without a solution.
 pub(super) struct NewtonFailure<const D: usize> {
-    /// The linear system that could not be solved; `None` where the residual did not get small.
-    pub error: Option<SolveError>,
+    /// What stopped it.
+    pub reason: NewtonStop,
     /// The last iterate.
     pub end: Box<Iterate<D>>,
 }
@@ -108,9 +124,12 @@ impl<const D: usize> NewtonFailure<D> {
     pub fn in_step(self, step: &Step) -> RunError {
         let Step { number, time, .. } = *step;
         let Iterate { residual, iterations, .. } = *self.end;
-        match self.error {
-            Some(error) => RunError::from_solve(error, number, time),
-            None => RunError::NewtonStalled { step: number, time, residual, iterations },
+        match self.reason {
+            NewtonStop::Solve(error) => RunError::from_solve(error, number, time),
+            NewtonStop::Stalled => {
+                RunError::NewtonStalled { step: number, time, residual, iterations }
+            }
+            NewtonStop::Requested => RunError::Stopped { step: number, time },
         }
     }
 }
@@ -124,7 +143,7 @@ pub(super) fn newton<const D: usize>(
     criterion: &Criterion,
     start: Solution<D>,
 ) -> Result<Flow<D>, NewtonFailure<D>> {
-    let mut solution = start;
+    let mut solution = system.with_given_gradients(at, start);
     let mut progress = Progress::new(criterion);
     loop {
         let iterations = progress.iterations;
@@ -133,28 +152,35 @@ pub(super) fn newton<const D: usize>(
         // The second residual of a linear system is for the loads only
         let is_for_loads = criterion.is_linear && iterations == 1;
         let stage = if is_for_loads { Stage::Loads } else { Stage::Assembly };
-        let residual = timing.measure(stage, || system.fluid_residual(at.mesh, &terms, &solution));
+        let residual = timing.measure(stage, || system.fluid_residual(at, &terms, &solution));
         if is_for_loads {
             return Ok(Flow { solution, residual, iterations, scale: progress.scale() });
         }
         let reduced = system.reduced_residual(at, &solution, &residual);
-        let relative = progress.relative(&reduced);
+        let relative = progress.relative(&reduced, system.mean_force(&solution));
         equations.on_iteration(iterations, relative);
         let scale = progress.scale();
-        if progress.is_converged(relative) {
+        if progress.is_converged(relative) && system.meets_mean_velocity(at, &solution) {
             return Ok(Flow { solution, residual, iterations, scale });
         }
         let end = |solution, iterations| {
             Box::new(Iterate { solution, residual: relative, iterations, scale })
         };
         if progress.is_hopeless(relative) {
-            return Err(NewtonFailure { error: None, end: end(solution, iterations) });
+            return Err(NewtonFailure {
+                reason: NewtonStop::Stalled,
+                end: end(solution, iterations),
+            });
+        }
+        if equations.wants_stop() {
+            let end = end(solution, iterations);
+            return Err(NewtonFailure { reason: NewtonStop::Requested, end });
         }
         let next = match system.newton_step(at, &terms, &solution, &reduced, timing) {
             Ok(next) => next,
             Err(error) => {
                 let end = end(solution, iterations + 1);
-                return Err(NewtonFailure { error: Some(error), end });
+                return Err(NewtonFailure { reason: NewtonStop::Solve(error), end });
             }
         };
         progress.take(relative, &solution, &next);
@@ -184,10 +210,14 @@ impl<'a> Progress<'a> {
         }
     }
 
-    /// The largest entry of a residual relative to the scale.
-    fn relative(&mut self, reduced: &[f64]) -> f64 {
+    /// The largest entry of a residual relative to the scale; `mean_force` is the largest one of the mean
+    /// pressure gradient.
+    fn relative(&mut self, reduced: &[f64], mean_force: f64) -> f64 {
         let size = reduced.iter().fold(0.0f64, |most, value| most.max(value.abs()));
-        let scale = *self.scale.get_or_insert(size);
+        // A fluid at rest has no residual where a mean velocity is given: the force that brings it
+        // about is the measure then
+        let known = self.scale.filter(|scale| *scale > 0.0);
+        let scale = *self.scale.insert(known.unwrap_or(size.max(mean_force)));
         if scale > 0.0 { size / scale } else { 0.0 }
     }
 

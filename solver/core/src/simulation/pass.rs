@@ -10,7 +10,7 @@ use super::workspace::Workspace;
 use crate::algebra::AffineConstraints;
 use crate::body::Pose;
 use crate::case::Convection as ConvectionChoice;
-use crate::coupling::{BodiesAt, Configuration, Problem, RigidBodyEquations, Solution};
+use crate::coupling::{BodiesAt, Configuration, MeanFlowAt, Problem, RigidBodyEquations, Solution};
 use crate::flow::{Convection, FlowTerms};
 
 /// Where mesh and bodies are put.
@@ -32,6 +32,8 @@ pub struct Pass<const D: usize> {
     pub constraints: AffineConstraints,
     /// Newton's and Euler's equations.
     pub bodies: RigidBodyEquations,
+    /// What is given of the mean flow.
+    pub mean_flow: MeanFlowAt<D>,
 }
 
 impl<const D: usize> Pass<D> {
@@ -64,6 +66,7 @@ impl<const D: usize> Pass<D> {
         Self {
             constraints: work.system.constraints(problem, &work.mesh, bodies),
             bodies: history.body_equations(problem, &poses),
+            mean_flow: problem.mean_flow_at(history.boundary_shapes().time()),
             poses,
             mesh_velocity,
         }
@@ -71,7 +74,8 @@ impl<const D: usize> Pass<D> {
 
     /// All that defines the linear system.
     pub fn at<'a>(&'a self, problem: &'a Problem<D>, mesh: &'a Mesh<D>) -> Configuration<'a, D> {
-        Configuration { problem, mesh, constraints: &self.constraints, bodies: &self.bodies }
+        let Self { constraints, bodies, mean_flow, .. } = self;
+        Configuration { problem, mesh, constraints, bodies, mean_flow: *mean_flow }
     }
 }
 

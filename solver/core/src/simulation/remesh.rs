@@ -118,6 +118,7 @@ impl<'a, const D: usize> Takeover<'a, D> {
             velocity: transfer.quadratic(&level.solution.velocity),
             pressure: transfer.linear(&level.solution.pressure),
             twists: level.solution.twists.clone(),
+            pressure_gradient: level.solution.pressure_gradient,
         };
         let values = BoundaryValues {
             bodies: level.bodies,

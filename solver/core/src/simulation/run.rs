@@ -9,7 +9,7 @@ use super::snapshot::{LastState, Observer, Snapshot};
 use super::steady::{SteadyFlow, SteadyTask, solve_steady};
 use super::{RunError, Series, Stage, Timing};
 use crate::case::{Case, Initial, Model, Steady, TimeSettings, Unsteady};
-use crate::coupling::{BodiesAt, BodyLoads, BodyShapes, RigidBodyEquations};
+use crate::coupling::{BodiesAt, BodyShapes, RigidBodyEquations, SurfaceLoads};
 
 /// What a finished run leaves in memory.
 #[derive(Debug, Clone)]
@@ -35,39 +35,32 @@ pub fn simulate(
     simulate_from(model, None, observers)
 }
 
-/// What a run resumes from.
-#[derive(Debug, Clone, Copy)]
-pub struct Resume<'a> {
-    /// Everything that evolves.
-    pub state: &'a SavedState<2>,
-    /// Quantities of all steps up to the state, if they are known.
-    pub series: Option<&'a Series>,
-}
-
 /// Runs a case to its end, from a saved state if there is one.
 ///
 /// # Errors
 /// Whatever stops the run; observers are notified before it is returned.
 pub fn simulate_from(
     model: &Model,
-    resume: Option<&Resume<'_>>,
+    saved: Option<&SavedState<2>>,
     observers: &mut [Box<dyn Observer<2>>],
 ) -> Result<RunSummary, RunError> {
-    let saved = resume.map(|resume| resume.state);
-    let Prepared { simulation, measure } = match prepare(model, saved) {
+    let Prepared { mut simulation, measure } = match prepare(model, saved) {
         Ok(prepared) => prepared,
         Err(error) => {
-            notify_all(observers, &error, None)?;
+            notify_all(observers, &error, None);
             return Err(error);
         }
     };
     let mut series = Series { names: measure.names().to_vec(), ..Series::default() };
-    if let Some(resume) = resume {
-        match resume.series {
-            Some(earlier) if earlier.names == series.names => series = earlier.clone(),
-            _ => tracing::warn!("no series of the steps before: statistics begin where it resumes"),
+    if let Some(saved) = saved {
+        let earlier = saved.series();
+        if earlier.names == series.names {
+            series = earlier;
+        } else {
+            tracing::warn!("other quantities than before: statistics begin where the run resumes");
         }
     }
+    simulation.stop = observers.iter().find_map(|observer| observer.stop_request());
     let case = &model.case;
     let mut run = Run {
         case,
@@ -75,6 +68,7 @@ pub fn simulate_from(
         series,
         simulation,
         measure,
+        has_warned: false,
         other_steps: None,
         is_trial: false,
         rejections: 0,
@@ -84,7 +78,7 @@ pub fn simulate_from(
     }
     let result = run.make(saved.is_some());
     if let Err(error) = &result {
-        run.notify_of_failure(error)?;
+        run.notify_of_failure(error);
     }
     let steps = result?;
     for observer in run.observers.iter_mut() {
@@ -102,6 +96,8 @@ pub(super) struct Run<'a, const D: usize> {
     series: Series,
     pub simulation: Simulation<D>,
     measure: Measure<D>,
+    /// Whether it was said that steps are too long for the convection.
+    pub has_warned: bool,
     /// What the error of the first cycle is told by, until it is.
     pub other_steps: Option<OtherSteps>,
     /// Whether nothing is measured or shown.
@@ -140,10 +136,17 @@ impl<const D: usize> Run<'_, D> {
     }
 
     /// Tells the observers why the run ends, with what can be saved of it.
-    fn notify_of_failure(&mut self, error: &RunError) -> Result<(), RunError> {
-        let Simulation { problem, state, moving_mesh, .. } = &self.simulation;
-        let is_unsteady = matches!(self.case.time, TimeSettings::Unsteady(_));
-        let saved = is_unsteady.then(|| SavedState::of(problem, state, moving_mesh.as_ref()));
+    fn notify_of_failure(&mut self, error: &RunError) {
+        let Simulation { state, .. } = &self.simulation;
+        let saved = match self.case.time {
+            TimeSettings::Steady(_) => None,
+            // Before the flow at the start is known there is nothing to resume from
+            TimeSettings::Unsteady(_) if self.series.times.is_empty() => None,
+            TimeSettings::Unsteady(_) => {
+                let saved = SavedState::of(self.case, &self.simulation, &self.series);
+                saved.inspect_err(|error| tracing::error!(%error, "no state is left")).ok()
+            }
+        };
         let last = LastState {
             saved: saved.as_ref(),
             time: state.time,
@@ -151,21 +154,22 @@ impl<const D: usize> Run<'_, D> {
             velocity: &state.now.velocity,
             pressure: &state.now.pressure,
         };
-        Ok(notify_all(self.observers, error, Some(&last))?)
+        notify_all(self.observers, error, Some(&last));
     }
 }
 
-/// Tells all observers why a run ends; the first error of one that cannot write of it.
+/// Tells all observers why a run ends; where one cannot write of it, the first error stays the one
+/// that is returned.
 fn notify_all<const D: usize>(
     observers: &mut [Box<dyn Observer<D>>],
     error: &RunError,
     last: Option<&LastState<'_, D>>,
-) -> std::io::Result<()> {
-    let mut outcome = Ok(());
+) {
     for observer in observers.iter_mut() {
-        outcome = outcome.and(observer.on_failure(error, last));
+        if let Err(error) = observer.on_failure(error, last) {
+            tracing::error!(%error, "while the run was ended");
+        }
     }
-    outcome
 }
 
 impl<const D: usize> Run<'_, D> {
@@ -176,10 +180,11 @@ impl<const D: usize> Run<'_, D> {
         equations: &RigidBodyEquations,
         has_convection: bool,
     ) -> Result<SteadyFlow<D>, RunError> {
-        let Simulation { problem, state, work, .. } = &mut self.simulation;
+        let Simulation { problem, state, work, stop, .. } = &mut self.simulation;
         let (poses, shapes) = (state.in_mesh(&state.poses), BodyShapes::at(&problem.bodies, 0.0)?);
         let bodies = BodiesAt { poses: &poses, shapes: &shapes };
-        let task = SteadyTask { bodies, equations, settings, has_convection };
+        let stop = stop.as_ref();
+        let task = SteadyTask { bodies, equations, settings, has_convection, stop };
         solve_steady(work, problem, &task).map_err(|failure| {
             state.now = failure.last;
             *failure.error
@@ -205,7 +210,7 @@ impl<const D: usize> Run<'_, D> {
     /// The flow an unsteady run starts from.
     pub(super) fn begin(&mut self, settings: &Unsteady) -> Result<(), RunError> {
         let n_bodies = self.simulation.problem.bodies.len();
-        let mut loads = vec![BodyLoads::default(); n_bodies];
+        let mut loads = SurfaceLoads::none(n_bodies);
         let has_inertia = self.simulation.problem.has_inertia;
         // Without inertia the flow has no memory, and is that of the bodies' poses at any time
         if settings.initial == Initial::Stokes || !has_inertia {
@@ -227,8 +232,8 @@ impl<const D: usize> Run<'_, D> {
 
     /// Ends the run where an observer asks for it.
     pub(super) fn check_signals(&self, is_last: bool) -> Result<(), RunError> {
-        if !is_last && self.observers.iter().any(|observer| observer.wants_stop()) {
-            let state = &self.simulation.state;
+        let Simulation { state, stop, .. } = &self.simulation;
+        if !is_last && stop.as_ref().is_some_and(|stop| stop()) {
             return Err(RunError::Stopped { step: state.step, time: state.time });
         }
         Ok(())
@@ -237,10 +242,10 @@ impl<const D: usize> Run<'_, D> {
     /// Measures the present state and shows it to the observers.
     pub(super) fn report(
         &mut self,
-        loads: &[BodyLoads],
+        loads: &SurfaceLoads,
         summary: StepSummary,
     ) -> Result<(), RunError> {
-        self.simulation.record_propulsion(loads);
+        self.simulation.record_propulsion(&loads.bodies);
         if self.is_trial {
             return Ok(());
         }
@@ -272,6 +277,6 @@ impl<const D: usize> Run<'_, D> {
             observers.iter_mut().try_for_each(|observer| observer.on_step(&snapshot))
         })?;
         series.rows.push(measured.values);
-        Ok(())
+        self.check_soundness(&measured.flow)
     }
 }

@@ -2,7 +2,7 @@
 
 use alewife_mesh::{Mesh, Point};
 
-use super::{RunError, SavedState, Timing};
+use super::{RunError, SavedState, StopRequest, Timing};
 use crate::body::{Pose, Twist, Wrench};
 use crate::case::Case;
 
@@ -82,9 +82,9 @@ pub trait Observer<const D: usize> {
     /// When a file cannot be written; the run stops with it.
     fn on_step(&mut self, snapshot: &Snapshot<'_, D>) -> std::io::Result<()>;
 
-    /// Whether the run is to end after the present step, asked once a step.
-    fn wants_stop(&self) -> bool {
-        false
+    /// What to ask whether the run is to end, once at its beginning.
+    fn stop_request(&self) -> Option<StopRequest> {
+        None
     }
 
     /// Called once after the last step of a run that reached its end, with all its time.

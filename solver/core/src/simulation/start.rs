@@ -1,6 +1,6 @@
 //! What a simulation starts with: its scheme, its mesh, and the memory it needs.
 
-use alewife_mesh::Mesh;
+use alewife_mesh::{Mesh, MeshError, whole};
 
 use super::RunError;
 use super::advance::{Simulation, StepScheme};
@@ -39,18 +39,69 @@ pub(super) fn step_scheme<const D: usize>(case: &Case, problem: &Problem<D>) -> 
     StepScheme { method, convection, unknown_frame }
 }
 
+const GIGABYTE: f64 = 1e9;
+
+/// Unknowns over cells of a large planar mesh: velocities at vertices and edges, pressures at vertices.
+const DOFS_OF_CELL: f64 = 4.5;
+
+/// Part by which an estimate of cells may be too high.
+const UNCERTAIN: f64 = 1.4;
+
 /// Refuses a mesh whose system would not fit into the memory that is free, where the system tells.
 pub(super) fn check_memory<const D: usize>(mesh: &Mesh<D>) -> Result<(), RunError> {
-    const GIGABYTE: f64 = 1e9;
     let n_dofs = D * mesh.n_nodes() + mesh.n_vertices;
     let needed = memory_estimate(n_dofs) / GIGABYTE;
-    let report = std::fs::read_to_string("/proc/meminfo").unwrap_or_default();
-    let line = report.lines().find_map(|line| line.strip_prefix("MemAvailable:"));
-    let kilobytes = line.and_then(|line| line.trim().trim_end_matches(" kB").parse::<f64>().ok());
-    match kilobytes.map(|kilobytes| kilobytes * 1024.0 / GIGABYTE) {
+    match free_memory() {
         Some(available) if needed > available => {
             Err(RunError::TooLarge { n_dofs, needed, available })
         }
         _ => Ok(()),
+    }
+}
+
+/// Refuses a planar mesh before it is made, by an estimate of its cells, which gets the number from
+/// which on they need not be counted.
+pub(super) fn check_cells(
+    estimate: impl FnOnce(f64) -> Result<f64, MeshError>,
+) -> Result<(), RunError> {
+    let Some(available) = free_memory() else { return Ok(()) };
+    let memory = |n_cells: f64| memory_estimate(whole(DOFS_OF_CELL * n_cells)) / GIGABYTE;
+    // In proportion to what a million cells need
+    let fitting = UNCERTAIN * 1e6 * available / memory(1e6);
+    let limit = 10.0 * fitting;
+    let n_cells = estimate(limit)?;
+    if n_cells <= fitting {
+        return Ok(());
+    }
+    let n_cells = n_cells.min(limit);
+    let coarser = (n_cells / fitting).sqrt();
+    Err(RunError::TooManyCells { n_cells, needed: memory(n_cells), available, coarser })
+}
+
+/// Memory that is free (GB), where the system tells.
+fn free_memory() -> Option<f64> {
+    let report = std::fs::read_to_string("/proc/meminfo").ok()?;
+    let line = report.lines().find_map(|line| line.strip_prefix("MemAvailable:"))?;
+    let kilobytes = line.trim().trim_end_matches(" kB").parse::<f64>().ok()?;
+    Some(kilobytes * 1024.0 / GIGABYTE)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn more_cells_than_fit_are_refused_with_what_would_fit() {
+        assert!(check_cells(|_| Ok(1e3)).is_ok());
+        if free_memory().is_none() {
+            return;
+        }
+        match check_cells(|_| Ok(f64::INFINITY)) {
+            Err(RunError::TooManyCells { coarser, needed, available, .. }) => {
+                assert!((coarser - 10f64.sqrt()).abs() < 1e-9, "{coarser}");
+                assert!(needed > available);
+            }
+            other => panic!("{other:?}"),
+        }
     }
 }

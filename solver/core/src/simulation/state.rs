@@ -51,6 +51,8 @@ pub struct State<const D: usize> {
     pub accelerations: Vec<Twist>,
     /// The largest speed so far (m/s).
     pub top_speed: f64,
+    /// The largest speed of a boundary so far (m/s).
+    pub boundary_speed: f64,
     /// Loads of contact, and the smallest gap.
     pub contact: ContactLoads,
     /// What each group of bodies does and has done.
@@ -106,6 +108,7 @@ impl<const D: usize> State<D> {
             rates: vec![Point::<D>::zeros(); mesh.n_nodes()],
             accelerations: vec![Twist::default(); n_bodies],
             top_speed: 0.0,
+            boundary_speed: 0.0,
             contact: ContactLoads::none(n_bodies),
             propulsion: vec![PropulsionHistory::default(); problem.groups.len()],
             energy: EnergyBalance::default(),

@@ -8,8 +8,9 @@ use alewife_mesh::Point;
 
 use super::RunError;
 use super::newton::{
-    Criterion, Flow, FlowEquations, Iterate, NewtonFailure, flow_residual, newton,
+    Criterion, Flow, FlowEquations, Iterate, NewtonFailure, NewtonStop, flow_residual, newton,
 };
+use super::stop_request::StopRequest;
 use super::workspace::Workspace;
 use crate::case::Steady;
 use crate::coupling::{BodiesAt, Configuration, Problem, RigidBodyEquations, Solution, SolveError};
@@ -23,7 +24,7 @@ const SMALLEST_STEP: f64 = 1.0 / 64.0;
 const DIVERGENCE: f64 = 1e4;
 
 /// A steady flow that is asked for.
-#[derive(Debug, Clone, Copy)]
+#[derive(Clone, Copy)]
 pub struct SteadyTask<'a> {
     /// Where bodies are and what moves their surfaces.
     pub bodies: BodiesAt<'a>,
@@ -33,6 +34,8 @@ pub struct SteadyTask<'a> {
     pub settings: &'a Steady,
     /// Whether the fluid is convected.
     pub has_convection: bool,
+    /// What to ask whether the run is to end.
+    pub stop: Option<&'a StopRequest>,
 }
 
 /// A converged flow.
@@ -59,6 +62,7 @@ pub struct SteadyFailure<const D: usize> {
 struct SteadyEquations<'a, const D: usize> {
     problem: &'a Problem<D>,
     part: f64,
+    stop: Option<&'a StopRequest>,
 }
 
 impl<const D: usize> FlowEquations<D> for SteadyEquations<'_, D> {
@@ -89,6 +93,10 @@ impl<const D: usize> FlowEquations<D> for SteadyEquations<'_, D> {
     fn on_iteration(&self, iteration: usize, residual: f64) {
         tracing::info!(density_part = self.part, iteration, residual, "newton");
     }
+
+    fn wants_stop(&self) -> bool {
+        self.stop.is_some_and(|stop| stop())
+    }
 }
 
 /// Solves for a steady flow on the mesh of `work`.
@@ -103,13 +111,14 @@ pub fn solve_steady<const D: usize>(
     let constraints = work.system.constraints(problem, &work.mesh, task.bodies);
     let mut continuation = Continuation { problem, task, scale: None, iterations: 0 };
     let mesh = work.mesh.clone();
-    let at =
-        Configuration { problem, mesh: &mesh, constraints: &constraints, bodies: task.equations };
+    let mean_flow = problem.mean_flow_at(task.bodies.shapes.time());
+    let (constraints, bodies) = (&constraints, task.equations);
+    let at = Configuration { problem, mesh: &mesh, constraints, bodies, mean_flow };
     let mut flow = continuation.solve(work, &at)?;
     work.system.center_pressure(problem, &mut flow.solution);
     if problem.power_depends_on_pressure_level() {
         let part = if task.has_convection { 1.0 } else { 0.0 };
-        let equations = SteadyEquations { problem, part };
+        let equations = SteadyEquations { problem, part, stop: None };
         flow.residual = flow_residual(&work.system, &at, &equations, &flow.solution);
     }
     let Flow { solution, residual, .. } = flow;
@@ -182,23 +191,25 @@ impl<const D: usize> Continuation<'_, D> {
             is_linear: false,
             divergence: Some(DIVERGENCE),
         };
-        let equations = SteadyEquations { problem: self.problem, part };
+        let equations = SteadyEquations { problem: self.problem, part, stop: self.task.stop };
         let Workspace { system, timing, .. } = work;
         match newton(system, timing, at, &equations, &criterion, start) {
             Ok(flow) => {
                 self.take(flow.iterations, flow.scale);
                 Ok(Attempt::Converged(flow))
             }
-            Err(NewtonFailure { error, end }) => {
+            Err(NewtonFailure { reason, end }) => {
                 self.take(end.iterations, end.scale);
-                match error {
-                    None => Ok(Attempt::Stalled(end)),
-                    Some(SolveError::NotFinite { .. }) if part > 0.0 => Ok(Attempt::Stalled(end)),
-                    Some(error) => {
-                        let error = RunError::from_solve(error, 0, self.task.bodies.shapes.time());
-                        Err(SteadyFailure { error: Box::new(error), last: end.solution })
+                let time = self.task.bodies.shapes.time();
+                let error = match reason {
+                    NewtonStop::Stalled => return Ok(Attempt::Stalled(end)),
+                    NewtonStop::Solve(SolveError::NotFinite { .. }) if part > 0.0 => {
+                        return Ok(Attempt::Stalled(end));
                     }
-                }
+                    NewtonStop::Solve(error) => RunError::from_solve(error, 0, time),
+                    NewtonStop::Requested => RunError::Stopped { step: 0, time },
+                };
+                Err(SteadyFailure { error: Box::new(error), last: end.solution })
             }
         }
     }

@@ -50,6 +50,7 @@ impl<const D: usize> TimeStepper<'_, D> {
         let mut guess = history.extrapolated.clone();
         let mut iterations = 0;
         for _ in 0..MAX_PASSES {
+            self.check_stop(state)?;
             poses = limit_by_gaps(problem, gaps, state, &apart, poses);
             let nodes = self.path.move_mesh(work, problem, state, &poses, &history.shapes)?;
             let pass = Pass::new(self, work, state, &history, Placement { nodes, poses });
@@ -69,7 +70,7 @@ impl<const D: usize> TimeStepper<'_, D> {
                 let contact = self.with_minimum_gap(contact, gaps, state, &reached);
                 let end = Arrival { poses: reached, solution: flow.solution, contact };
                 let level = self.new_level(work, state, &history, &pass, end, &loads.propulsion)?;
-                let report = StepReport { loads: loads.bodies, iterations, error };
+                let report = StepReport { loads: loads.surfaces, iterations, error };
                 return Ok(StepResult { level, report });
             }
             (apart, poses, guess) = (pass.poses, reached, flow.solution);

@@ -1,10 +1,12 @@
 //! `TimeStepper`: what makes steps; what a step starts from, works with and leaves.
 
+use super::error::{RunError, StepError};
 use super::mesh_path::MeshPath;
 use super::state::{NewLevel, State};
+use super::stop_request::StopRequest;
 use crate::case::Convection;
 use crate::contact::Law;
-use crate::coupling::{BodyLoads, Problem};
+use crate::coupling::{Problem, SurfaceLoads};
 use crate::time::Bdf;
 
 /// What stays the same from step to step while the mesh lasts.
@@ -18,6 +20,23 @@ pub struct TimeStepper<'a, const D: usize> {
     pub path: MeshPath<'a, D>,
     /// The law of contact, if any.
     pub contact: Option<&'a Law>,
+    /// What to ask whether the run is to end.
+    pub stop: Option<&'a StopRequest>,
+}
+
+impl<const D: usize> TimeStepper<'_, D> {
+    /// Ends a step where the run is to end.
+    ///
+    /// # Errors
+    /// When it is.
+    pub(super) fn check_stop(&self, state: &State<D>) -> Result<(), StepError> {
+        match self.stop {
+            Some(stop) if stop() => {
+                Err(RunError::Stopped { step: state.step, time: state.time }.into())
+            }
+            _ => Ok(()),
+        }
+    }
 }
 
 /// A step in time.
@@ -43,7 +62,7 @@ impl Step {
 #[derive(Debug, Clone)]
 pub struct StepReport {
     /// Loads of the fluid on the bodies, where the flow was solved for.
-    pub loads: Vec<BodyLoads>,
+    pub loads: SurfaceLoads,
     /// Linear systems solved.
     pub iterations: usize,
     /// Estimate of the error of the step, relative to the size of the velocities; zero for a step of

@@ -13,8 +13,8 @@ pub fn factor_at(function: Option<&TimeFunction>, time: f64) -> f64 {
         Some(TimeFunction::SmoothRamp { duration }) => {
             (1.0 - (PI * (time / duration).clamp(0.0, 1.0)).cos()) / 2.0
         }
-        Some(TimeFunction::Sine { mean, amplitude, frequency, phase }) => {
-            mean + amplitude * (TAU * frequency * time + phase).sin()
+        Some(TimeFunction::Sine { mean, amplitude, period, phase }) => {
+            mean + amplitude * (TAU * (time / period + phase)).sin()
         }
         Some(TimeFunction::Table(knots)) => table_at(knots, time),
     }
@@ -39,8 +39,9 @@ mod tests {
         assert_eq!(at(&TimeFunction::Ramp { duration: 2.0 }, 0.5), 0.25);
         assert_eq!(at(&TimeFunction::Ramp { duration: 2.0 }, 5.0), 1.0);
         assert!((at(&TimeFunction::SmoothRamp { duration: 2.0 }, 1.0) - 0.5).abs() < 1e-15);
-        let sine = TimeFunction::Sine { mean: 1.0, amplitude: 2.0, frequency: 0.25, phase: 0.0 };
-        assert!((at(&sine, 1.0) - 3.0).abs() < 1e-15);
+        let sine = |phase| TimeFunction::Sine { mean: 1.0, amplitude: 2.0, period: 4.0, phase };
+        assert!((at(&sine(0.0), 1.0) - 3.0).abs() < 1e-15);
+        assert!((at(&sine(0.25), 0.0) - 3.0).abs() < 1e-15);
         let table = TimeFunction::Table(vec![[0.0, 1.0], [1.0, 3.0]]);
         assert_eq!(at(&table, -1.0), 1.0);
         assert_eq!(at(&table, 0.5), 2.0);

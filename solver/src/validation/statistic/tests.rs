@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::*;
+use crate::case::ReferenceKind;
 
 const CASE: &str = r#"
     title = "t"
@@ -50,7 +51,11 @@ fn reference(quantity: &str, statistic: Statistic) -> Reference {
         per: 1.0,
         relative: Some(0.1),
         absolute: None,
+        uncertainty: None,
+        kind: ReferenceKind::Exact,
         source: "test".to_owned(),
+        date: None,
+        outside: None,
         note: None,
     }
 }

@@ -4,6 +4,7 @@ mod body;
 mod group;
 mod in_time;
 mod joint;
+mod mean_flow;
 mod side;
 
 use alewife_mesh::{BoundaryId, Point};
@@ -12,6 +13,7 @@ pub use body::{Drive, RigidBody, Spring, second_moments};
 pub use group::Group;
 pub use in_time::{MovingValue, RateDiscontinuities, TimeValue};
 pub use joint::{Arm, Joint, Pivot, Turn};
+pub use mean_flow::{MeanFlow, MeanFlowAlong, MeanFlowAt};
 pub use side::{Side, VelocityProfile};
 
 use crate::body::{Mode, Modes, Twist, on_mesh};
@@ -38,6 +40,8 @@ pub struct Problem<const D: usize> {
     pub groups: Vec<Group>,
     /// The body the frame travels with.
     pub frame: Option<usize>,
+    /// What drives the fluid along periodic directions.
+    pub mean_flow: Option<MeanFlow<D>>,
     /// Force per unit volume, for manufactured solutions.
     pub body_force: Option<BodyForce<'static, D>>,
     /// Times at which the rates of gaits jump, if they ever do.
@@ -83,6 +87,12 @@ impl<const D: usize> Problem<D> {
                 && sides().all(|side| side.lets_slide(axis))
                 && self.bodies.iter().all(|body| is_loose(body, axis))
         })
+    }
+
+    /// What is given of the mean flow at a time (s).
+    #[must_use]
+    pub fn mean_flow_at(&self, time: f64) -> MeanFlowAt<D> {
+        self.mean_flow.as_ref().map_or_else(MeanFlowAt::default, |mean_flow| mean_flow.at(time))
     }
 
     /// Whether the power of bodies depends on the level of the pressure, which nothing fixes, by the

@@ -3,18 +3,21 @@
 mod bodies;
 mod joints;
 
-use alewife_mesh::{BoundaryId, BoundaryKind, Mesh};
+use alewife_mesh::{BoundaryId, BoundaryKind, Mesh, Point};
 
 use self::bodies::rigid_body;
 use self::joints::add_joint;
 use super::RunError;
 use crate::body::Pose;
 use crate::case::{
-    Case, ContactSpec, FlowModel, Geometry, Model, Stroke, SwimmerModel, TimeSettings,
+    Case, ContactSpec, FlowModel, Geometry, MeanFlowSpec, Model, Stroke, SwimmerModel, TimeSettings,
 };
 use crate::contact::{Law, LawKind};
-use crate::coupling::{BodyShapes, Group, Problem, RateDiscontinuities, Side};
+use crate::coupling::{
+    BodyShapes, Group, MeanFlow, MeanFlowAlong, Problem, RateDiscontinuities, Side,
+};
 use crate::space::Metric;
+use crate::time::factor_at;
 
 /// The law of contact a case asks for.
 pub(super) fn contact_law(contact: &ContactSpec) -> Result<Law, RunError> {
@@ -70,6 +73,7 @@ pub(super) fn problem_with_sides<const D: usize>(
         bodies,
         groups: model.swimmers.iter().map(|swimmer| group(case, swimmer)).collect(),
         frame,
+        mean_flow: mean_flow(case),
         body_force: None,
         rate_discontinuities: None,
     };
@@ -83,6 +87,28 @@ pub(super) fn problem_with_sides<const D: usize>(
         }
     }
     Ok(problem)
+}
+
+/// What drives the fluid along periodic directions.
+fn mean_flow<const D: usize>(case: &Case) -> Option<MeanFlow<D>> {
+    let MeanFlowSpec { pressure_gradient, mean_velocity, body_force, factor } =
+        case.flow.clone()?;
+    let component = |values: &Option<Vec<f64>>, axis: usize| {
+        values.as_ref().map(|values| values.get(axis).copied().unwrap_or(0.0))
+    };
+    let is_periodic = case.periodic_axes();
+    let along = std::array::from_fn(|axis| {
+        let given = (component(&pressure_gradient, axis), component(&mean_velocity, axis));
+        match given {
+            (Some(value), _) => MeanFlowAlong::PressureGradient(value),
+            (None, Some(value)) if is_periodic[axis] => MeanFlowAlong::Velocity(value),
+            _ => MeanFlowAlong::Nothing,
+        }
+    });
+    let body_force =
+        Point::<D>::from_fn(|axis, _| component(&body_force, axis).unwrap_or_default());
+    let factor = Box::new(move |time| factor_at(factor.as_ref(), time));
+    Some(MeanFlow { along, body_force, factor })
 }
 
 fn group(case: &Case, swimmer: &SwimmerModel) -> Group {

@@ -53,7 +53,8 @@ impl<const D: usize> Run<'_, D> {
             self.restart_at_discontinuity(settings, index, proposed);
             let is_start =
                 !self.simulation.state.start_pieces.is_empty() && settings.scheme == Scheme::Bdf2;
-            let wanted = self.simulation.state.start_pieces.pop().unwrap_or(proposed);
+            let piece = self.simulation.state.start_pieces.last().copied();
+            let wanted = piece.unwrap_or(proposed);
             let size = self.cut_to_fit(settings, proposed, wanted.min(bounds.largest));
             // Pieces of the first step are smaller than any that is asked for
             let floor = bounds.smallest;
@@ -65,6 +66,8 @@ impl<const D: usize> Run<'_, D> {
             let factor = if is_start { 2.0 } else { step_size_factor(error) };
             let proposed = self.propose(adaptive, made.size, factor, gap);
             let state = &mut self.simulation.state;
+            // Only now: within a step the run may be stopped
+            state.start_pieces.pop();
             state.proposed_step = Some(proposed.clamp(bounds.smallest, bounds.largest));
             let is_last = settings.end - state.time <= AT_END * settings.end;
             if is_last {
@@ -142,7 +145,7 @@ impl<const D: usize> Run<'_, D> {
     /// which the smallest gap closes.
     fn propose(&self, adaptive: &Adaptive, size: f64, factor: f64, gap: Option<f64>) -> f64 {
         let simulation = &self.simulation;
-        let proposed = (size * factor).min(adaptive.cfl / simulation.crossing_rate());
+        let proposed = (size * factor).min(adaptive.cfl / simulation.cell_crossing().rate);
         match (gap, simulation.state.contact.minimum_gap) {
             (Some(before), Some(now)) => {
                 let rate = (now.gap - before).abs() / size;

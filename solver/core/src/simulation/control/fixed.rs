@@ -5,7 +5,7 @@ use alewife_mesh::whole;
 use super::start::{Piece, pieces};
 use super::{SMALLEST_PART, step_size_underflow};
 use crate::case::{Scheme, Unsteady};
-use crate::coupling::BodyLoads;
+use crate::coupling::SurfaceLoads;
 use crate::simulation::RunError;
 use crate::simulation::advance::Attempt;
 use crate::simulation::run::{Run, StepSummary};
@@ -17,7 +17,7 @@ const LARGEST_GROWTH: f64 = 2.1;
 /// What the pieces of a step amount to.
 #[derive(Default)]
 struct StepTally {
-    loads: Vec<BodyLoads>,
+    loads: SurfaceLoads,
     iterations: usize,
 }
 

@@ -27,6 +27,10 @@ fn step_size_underflow<const D: usize>(
         let names = [gaps.body_name(minimum.body), gaps.partner_name(minimum.partner)];
         format!("; nearest are `{}` and `{}`, {:.3e} apart", names[0], names[1], minimum.gap)
     });
-    let reason = format!("{error}{}", nearest.unwrap_or_default());
+    let hint = match (&nearest, &simulation.law) {
+        (Some(_), None) => "; [contact] keeps bodies apart from each other and from walls",
+        _ => "",
+    };
+    let reason = format!("{error}{}{hint}", nearest.unwrap_or_default());
     RunError::StepSizeUnderflow { step, time, smallest, reason }
 }

@@ -93,7 +93,8 @@ pub(super) fn body_reports<const D: usize>(
         pose: state.poses[body],
         twist: state.now.twists[body],
         load: loads[body].load,
-        surface_load: stress.load(rigid.boundary, problem.metric, &on_mesh(&in_mesh[body].center)),
+        surface_load: stress.load(rigid.boundary, problem.metric, &on_mesh(&in_mesh[body].center))
+            + work.system.mean_load(body, &state.now),
         contact: state.contact.wrenches[body],
         power: loads[body].power,
     };

@@ -4,13 +4,13 @@ use alewife_mesh::Point;
 use nalgebra::SMatrix;
 
 use crate::case::FlowQuantity;
-use crate::coupling::{BodyLoads, Problem};
+use crate::coupling::{MeanFlowReport, SurfaceLoads};
+use crate::simulation::advance::{CellCrossing, Simulation};
 use crate::simulation::energy::EnergyRecord;
-use crate::simulation::state::State;
-use crate::space::{CellValues, Tables};
+use crate::space::CellValues;
 
 /// The whole flow at one time.
-pub(super) struct FlowMeasurement {
+pub(in crate::simulation) struct FlowMeasurement {
     /// Dissipation int 2 mu D : D (W).
     dissipation: f64,
     /// Kinetic energy int rho u^2 / 2 (J).
@@ -19,6 +19,16 @@ pub(super) struct FlowMeasurement {
     mass_defect: f64,
     /// Defect of the energy balance over the work; not a number where sides do work, too.
     pub energy_defect: f64,
+    /// Area or volume (m2, m3).
+    volume: f64,
+    /// The mean flow, where one is given.
+    mean_flow: Option<MeanFlowReport>,
+    /// How fast the fluid crosses the cells, if it is convected.
+    crossing: Option<CellCrossing>,
+    /// The last step (s).
+    last_step: f64,
+    /// Density over viscosity (s/m2).
+    density_over_viscosity: f64,
     /// Smallest gap between bodies and walls (m).
     minimum_gap: f64,
     cells: usize,
@@ -26,16 +36,19 @@ pub(super) struct FlowMeasurement {
 }
 
 impl FlowMeasurement {
-    pub(super) fn new<const D: usize>(
-        tables: &Tables<D>,
-        problem: &Problem<D>,
-        state: &State<D>,
-    ) -> Self {
+    pub(super) fn new<const D: usize>(simulation: &Simulation<D>) -> Self {
+        let Simulation { problem, state, work, .. } = simulation;
+        let tables = work.system.tables();
         let mut sums = Self {
             dissipation: 0.0,
             kinetic_energy: 0.0,
             mass_defect: 0.0,
             energy_defect: f64::NAN,
+            volume: 0.0,
+            mean_flow: work.system.mean_flow(&problem.mean_flow_at(state.time), &state.now),
+            crossing: problem.has_convection.then(|| simulation.cell_crossing()),
+            last_step: state.last_step,
+            density_over_viscosity: problem.density / problem.viscosity,
             minimum_gap: state.contact.minimum_gap.map_or(f64::INFINITY, |minimum| minimum.gap),
             cells: state.mesh.n_cells(),
             remeshes: state.remeshes,
@@ -56,6 +69,7 @@ impl FlowMeasurement {
                 sums.dissipation +=
                     2.0 * problem.viscosity * (rate.norm_squared() + stretch * stretch) * at.dx;
                 sums.kinetic_energy += problem.density * velocity.norm_squared() / 2.0 * at.dx;
+                sums.volume += at.dx;
                 sums.mass_defect += (gradient.trace() + stretch) * at.dx;
             });
         }
@@ -63,13 +77,36 @@ impl FlowMeasurement {
     }
 
     /// What the energy balance records at a time (s).
-    pub(super) fn energy_record(&self, time: f64, loads: &[BodyLoads]) -> EnergyRecord {
+    pub(super) fn energy_record(&self, time: f64, loads: &SurfaceLoads) -> EnergyRecord {
         EnergyRecord {
             time,
-            power: loads.iter().map(|load| load.power).sum(),
+            power: loads.power() + self.mean_flow.map_or(0.0, |report| report.power),
             dissipation: self.dissipation,
             kinetic_energy: self.kinetic_energy,
         }
+    }
+
+    fn pressure_gradient(&self, axis: usize) -> f64 {
+        self.mean_flow.map_or(0.0, |report| report.pressure_gradient[axis])
+    }
+
+    fn mean_velocity(&self, axis: usize) -> f64 {
+        self.mean_flow.map_or(0.0, |report| report.velocity[axis])
+    }
+
+    /// Cells the fluid crosses in the last step at most.
+    pub(in crate::simulation) fn cfl(&self) -> f64 {
+        self.crossing.map_or(0.0, |crossing| crossing.rate * self.last_step)
+    }
+
+    /// Largest Reynolds number of a cell.
+    pub(in crate::simulation) fn cell_reynolds(&self) -> f64 {
+        self.crossing.map_or(0.0, |crossing| crossing.reach * self.density_over_viscosity)
+    }
+
+    /// Kinetic energy over that of all the fluid at a speed (m/s).
+    pub(in crate::simulation) fn energy_ratio(&self, density: f64, speed: f64) -> f64 {
+        self.kinetic_energy / (0.5 * density * speed * speed * self.volume)
     }
 
     pub(super) fn value(&self, quantity: FlowQuantity) -> f64 {
@@ -78,6 +115,12 @@ impl FlowMeasurement {
             FlowQuantity::KineticEnergy => self.kinetic_energy,
             FlowQuantity::MassDefect => self.mass_defect,
             FlowQuantity::EnergyDefect => self.energy_defect,
+            FlowQuantity::PressureGradientX => self.pressure_gradient(0),
+            FlowQuantity::PressureGradientY => self.pressure_gradient(1),
+            FlowQuantity::MeanVelocityX => self.mean_velocity(0),
+            FlowQuantity::MeanVelocityY => self.mean_velocity(1),
+            FlowQuantity::Cfl => self.cfl(),
+            FlowQuantity::CellReynolds => self.cell_reynolds(),
             FlowQuantity::MinimumGap => self.minimum_gap,
             FlowQuantity::Cells => self.cells as f64,
             FlowQuantity::Remeshes => self.remeshes as f64,

@@ -11,14 +11,14 @@ mod swimmers;
 use alewife_mesh::{Mesh, Point};
 
 use self::bodies::{BodyMotion, Coefficients, body_reports, joint_value, measure_joints};
-use self::flow::FlowMeasurement;
+pub(super) use self::flow::FlowMeasurement;
 use self::probes::Probes;
 use self::swimmers::SwimmerMeasurement;
 use super::advance::Simulation;
 use super::snapshot::BodyReport;
 use super::{RunError, Stage};
 use crate::case::{Case, Column, Model, Source, TimeSettings, columns};
-use crate::coupling::BodyLoads;
+use crate::coupling::SurfaceLoads;
 
 /// Measures a run; made once a mesh.
 pub(super) struct Measure<const D: usize> {
@@ -36,6 +36,8 @@ pub(super) struct Measured {
     pub bodies: Vec<BodyReport>,
     /// The values of all quantities, in the order of their names.
     pub values: Vec<f64>,
+    /// The whole flow.
+    pub flow: FlowMeasurement,
 }
 
 impl<const D: usize> Measure<D> {
@@ -78,7 +80,7 @@ impl<const D: usize> Measure<D> {
         &mut self,
         case: &Case,
         simulation: &mut Simulation<D>,
-        loads: &[BodyLoads],
+        loads: &SurfaceLoads,
     ) -> Result<Measured, RunError> {
         let Simulation { state, work, moving_mesh, .. } = simulation;
         if let Some(moving) = moving_mesh.as_ref().filter(|_| !self.probes.is_empty()) {
@@ -97,17 +99,19 @@ impl<const D: usize> Measure<D> {
     fn values(
         &self,
         simulation: &mut Simulation<D>,
-        loads: &[BodyLoads],
+        loads: &SurfaceLoads,
     ) -> Result<Measured, RunError> {
-        let bodies = body_reports(simulation, loads);
-        let Simulation { problem, state, work, .. } = simulation;
-        let joints = measure_joints(problem, state, loads)?;
+        let bodies = body_reports(simulation, &loads.bodies);
+        let mut flow = FlowMeasurement::new(simulation);
+        let Simulation { problem, state, .. } = simulation;
+        let joints = measure_joints(problem, state, &loads.bodies)?;
         let groups = problem.groups.iter().zip(&state.propulsion);
         let swimmers: Vec<_> = groups
-            .map(|(group, history)| SwimmerMeasurement::new(problem, state, group, history, loads))
+            .map(|(group, history)| {
+                SwimmerMeasurement::new(problem, state, group, history, &loads.bodies)
+            })
             .collect();
         let probes = self.probes.values(state);
-        let mut flow = FlowMeasurement::new(work.system.tables(), problem, state);
         if self.balances_energy {
             let has_memory = self.is_unsteady && problem.has_inertia;
             flow.energy_defect =
@@ -127,6 +131,6 @@ impl<const D: usize> Measure<D> {
             Source::Flow(quantity) => flow.value(quantity),
         };
         let values = self.sources.iter().map(value).collect();
-        Ok(Measured { bodies, values })
+        Ok(Measured { bodies, values, flow })
     }
 }

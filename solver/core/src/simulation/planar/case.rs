@@ -1,6 +1,6 @@
 //! What a planar or axisymmetric case says of meshes: domain, sizes, bodies, sheets.
 
-use alewife_mesh::{Domain, Mesh, PlacedShape, Quality, SizeBox, Sizing};
+use alewife_mesh::{Domain, Mesh, PlacedShape, Quality, SizeBox, Sizing, estimate_cells};
 
 use super::periodic_cell::{PeriodicCell, initial_cell};
 use super::shape_motion::shape_motion;
@@ -11,6 +11,7 @@ use crate::gait::WavingSheet;
 use crate::motion::{Limits, MotionKind, Stiffening};
 use crate::simulation::RunError;
 use crate::simulation::moving_mesh::MotionSettings;
+use crate::simulation::start::check_cells;
 
 /// Angle by which an outline turns along one edge at most (rad), however large its size.
 const LARGEST_TURN: f64 = 0.5;
@@ -115,8 +116,10 @@ impl InitialMesh {
 /// Generates the mesh of a case at time zero.
 pub(in crate::simulation) fn initial_mesh(model: &Model) -> Result<InitialMesh, RunError> {
     let case = &model.case;
-    let cell = initial_cell(&case.mesh_domain(), placed_bodies(model)?)?;
-    let mut mesh = cell.mesh(&sizing(case))?;
+    let (domain, bodies, sizing) = (case.mesh_domain(), placed_bodies(model)?, sizing(case));
+    check_cells(|limit| estimate_cells(&domain, &bodies, &sizing, limit))?;
+    let cell = initial_cell(&domain, bodies)?;
+    let mut mesh = cell.mesh(&sizing)?;
     // The side of a sheet is straight at first, but will not stay so
     for facet in &mesh.facets {
         if waving_sheet(case, &mesh.boundaries[facet.boundary].name).is_some() {
@@ -129,8 +132,8 @@ pub(in crate::simulation) fn initial_mesh(model: &Model) -> Result<InitialMesh, 
 /// The sheet that a side of the domain is, if it is one.
 fn waving_sheet(case: &Case, side: &str) -> Option<WavingSheet> {
     match case.boundary.get(side) {
-        Some(&BoundaryCondition::WavingSheet { amplitude, wavelength, frequency, extensible }) => {
-            Some(WavingSheet::new(amplitude, wavelength, frequency, extensible))
+        Some(&BoundaryCondition::WavingSheet { amplitude, wavelength, period, extensible }) => {
+            Some(WavingSheet::new(amplitude, wavelength, period, extensible))
         }
         _ => None,
     }

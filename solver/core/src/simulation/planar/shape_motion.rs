@@ -40,7 +40,7 @@ pub fn shape_motion(body: &Body) -> Result<Option<Arc<dyn ShapeMotion>>, RunErro
                 curvature: gait.curvature.clone(),
                 bending: gait.bending,
                 period: gait.period,
-                phase: gait.start_phase,
+                phase: gait.phase,
                 ramp: gait.ramp.unwrap_or(gait.period),
             })
         }
@@ -50,7 +50,7 @@ pub fn shape_motion(body: &Body) -> Result<Option<Arc<dyn ShapeMotion>>, RunErro
                 amplitude: gait.amplitude,
                 offset: gait.offset,
                 period: gait.period,
-                phase: gait.start_phase,
+                phase: gait.phase,
                 ramp: gait.ramp.unwrap_or(gait.period),
             })
         }
@@ -61,7 +61,7 @@ pub fn shape_motion(body: &Body) -> Result<Option<Arc<dyn ShapeMotion>>, RunErro
                 amplitude: gait.amplitude,
                 wavelength: gait.wavelength,
                 period: gait.period,
-                phase: gait.start_phase,
+                phase: gait.phase,
                 ramp: gait.ramp.unwrap_or(gait.period),
                 joint: gait.joint.unwrap_or(body.tail_length / 20.0),
                 inextensible: gait.inextensible,

@@ -49,8 +49,8 @@ fn side(case: &Case, name: &str) -> Result<Side<2>, RunError> {
         BoundaryCondition::NoSlip => {
             Side::Velocity { profile: Box::new(|_, _| Point::<2>::zeros()), is_wall: true }
         }
-        BoundaryCondition::WavingSheet { amplitude, wavelength, frequency, extensible } => {
-            let sheet = WavingSheet::new(*amplitude, *wavelength, *frequency, *extensible);
+        BoundaryCondition::WavingSheet { amplitude, wavelength, period, extensible } => {
+            let sheet = WavingSheet::new(*amplitude, *wavelength, *period, *extensible);
             let profile: VelocityProfile<2> =
                 Box::new(move |point, time| sheet.velocity(point[0], time));
             Side::Velocity { profile, is_wall: true }

@@ -45,7 +45,7 @@ pub(in crate::simulation) fn prepare(
     let mut measure = Measure::new(model, mesh, &images(mesh))?;
     let mut simulation = at_rest(model, initial, timing)?;
     if let Some(saved) = saved {
-        saved.restore_into(&mut simulation, |problem, reference| {
+        saved.restore_into(&model.case, &mut simulation, |problem, reference| {
             moving_mesh_of(model, problem, reference)
         })?;
         if simulation.moving_mesh.is_none() {
@@ -96,7 +96,7 @@ fn at_rest(
     let law = case.contact.as_ref().map(contact_law).transpose()?;
     let work = Workspace { system, mesh: state.mesh.clone(), timing };
     let mut simulation =
-        Simulation { problem, state, work, moving_mesh, law, scheme, is_fresh: true };
+        Simulation { problem, state, work, moving_mesh, law, scheme, is_fresh: true, stop: None };
     simulation.settle_moving_walls()?;
     Ok(simulation)
 }

@@ -13,6 +13,7 @@ pub(super) struct SavedLevel<const D: usize> {
     velocity: Vec<Point<D>>,
     pressure: Vec<f64>,
     twists: Vec<Twist>,
+    pressure_gradient: Point<D>,
 }
 
 /// Loads of contact and the smallest gap.
@@ -34,8 +35,8 @@ struct SavedGap {
 
 impl<const D: usize> SavedLevel<D> {
     pub(super) fn of(solution: &Solution<D>) -> Self {
-        let Solution { velocity, pressure, twists } = solution.clone();
-        Self { velocity, pressure, twists }
+        let Solution { velocity, pressure, twists, pressure_gradient } = solution.clone();
+        Self { velocity, pressure, twists, pressure_gradient }
     }
 
     pub(super) fn is_consistent(&self, n_nodes: usize, n_vertices: usize, n_bodies: usize) -> bool {
@@ -45,8 +46,8 @@ impl<const D: usize> SavedLevel<D> {
     }
 
     pub(super) fn solution(&self) -> Solution<D> {
-        let Self { velocity, pressure, twists } = self.clone();
-        Solution { velocity, pressure, twists }
+        let Self { velocity, pressure, twists, pressure_gradient } = self.clone();
+        Solution { velocity, pressure, twists, pressure_gradient }
     }
 }
 

@@ -3,6 +3,9 @@
 mod error;
 mod level;
 mod mesh;
+mod series;
+
+use std::collections::BTreeMap;
 
 use alewife_mesh::{Boundary, Mesh, Point};
 use nalgebra::Vector3;
@@ -12,24 +15,23 @@ pub use self::error::ResumeError;
 use self::error::VERSION;
 use self::level::{SavedContact, SavedLevel};
 use self::mesh::SavedMesh;
-use super::RunError;
+use self::series::SavedSeries;
 use super::advance::Simulation;
 use super::energy::EnergyBalance;
 use super::moving_mesh::MovingMesh;
 use super::propulsion_history::PropulsionHistory;
 use super::state::State;
+use super::{RunError, Series};
 use crate::body::{Pose, Twist, on_mesh};
+use crate::case::Case;
 use crate::coupling::{FluidSystem, Problem};
-
-/// Distance over the size of its coordinates by which a body may be elsewhere when a run resumes.
-const JUMP: f64 = 1e-9;
 
 /// Everything that evolves, as plain numbers in the case's units.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SavedState<const D: usize> {
     version: u32,
-    /// Names of the bodies, which must be those of the case that resumes.
-    bodies: Vec<String>,
+    /// What is solved, by the keys of the case.
+    case: BTreeMap<String, String>,
     /// Steps made.
     pub step: usize,
     /// Time (s).
@@ -50,10 +52,12 @@ pub struct SavedState<const D: usize> {
     previous_poses: Vec<Pose>,
     image_shifts: Vec<Vector3<f64>>,
     top_speed: f64,
+    boundary_speed: f64,
     contact: SavedContact,
     propulsion: Vec<PropulsionHistory>,
     energy: EnergyBalance,
     reference: Option<SavedReference<D>>,
+    series: SavedSeries,
 }
 
 /// The reference mesh, and where the bodies were then.
@@ -69,6 +73,17 @@ pub(in crate::simulation) struct SavedReference<const D: usize> {
     pub domain_start: Point<D>,
 }
 
+impl<const D: usize> SavedReference<D> {
+    fn of(moving: &MovingMesh<D>) -> Self {
+        Self {
+            nodes: moving.reference().to_vec(),
+            poses: moving.reference_poses().to_vec(),
+            time: moving.reference_time(),
+            domain_start: moving.scene().domain_start(),
+        }
+    }
+}
+
 /// The reference mesh of a saved state.
 pub(super) struct Reference<'a, const D: usize> {
     /// What was saved of it.
@@ -78,16 +93,19 @@ pub(super) struct Reference<'a, const D: usize> {
 }
 
 impl<const D: usize> SavedState<D> {
-    /// What is written of a state.
-    #[must_use]
+    /// What is written of a simulation of a case whose quantities so far are `series`.
+    ///
+    /// # Errors
+    /// When the case cannot be written.
     pub(super) fn of(
-        problem: &Problem<D>,
-        state: &State<D>,
-        moving: Option<&MovingMesh<D>>,
-    ) -> Self {
-        Self {
+        case: &Case,
+        simulation: &Simulation<D>,
+        series: &Series,
+    ) -> Result<Self, ResumeError> {
+        let state = &simulation.state;
+        Ok(Self {
             version: VERSION,
-            bodies: names(problem),
+            case: case.problem_keys()?,
             step: state.step,
             time: state.time,
             last_step: state.last_step,
@@ -106,31 +124,35 @@ impl<const D: usize> SavedState<D> {
             previous_poses: state.previous_poses.clone(),
             image_shifts: state.image_shifts.clone(),
             top_speed: state.top_speed,
+            boundary_speed: state.boundary_speed,
             contact: SavedContact::of(&state.contact),
             propulsion: state.propulsion.clone(),
             energy: state.energy,
-            reference: moving.map(|moving| SavedReference {
-                nodes: moving.reference().to_vec(),
-                poses: moving.reference_poses().to_vec(),
-                time: moving.reference_time(),
-                domain_start: moving.scene().domain_start(),
-            }),
-        }
+            reference: simulation.moving_mesh.as_ref().map(SavedReference::of),
+            series: SavedSeries::of(series),
+        })
     }
 
-    /// Puts a simulation of a case with the same bodies where this state is; `follow` makes what moves
+    /// The quantities of all steps so far.
+    pub(super) fn series(&self) -> Series {
+        self.series.series()
+    }
+
+    /// Puts a simulation of the same problem where this state is; `follow` makes what moves
     /// the mesh from the reference mesh, where it moves.
     ///
     /// # Errors
     /// When the state is not one of such a case.
     pub(super) fn restore_into(
         &self,
+        case: &Case,
         simulation: &mut Simulation<D>,
         follow: impl FnOnce(&Problem<D>, &Reference<'_, D>) -> Result<MovingMesh<D>, RunError>,
     ) -> Result<(), RunError> {
         let problem = &simulation.problem;
         let boundaries = simulation.state.mesh.boundaries.clone();
-        self.check(problem, boundaries.len())?;
+        self.check_case(case)?;
+        self.check_consistent(problem, boundaries.len())?;
         let state = self.state(&boundaries);
         simulation.moving_mesh = match (&self.reference, &simulation.moving_mesh) {
             (Some(saved), Some(_)) => {
@@ -148,16 +170,33 @@ impl<const D: usize> SavedState<D> {
         Ok(())
     }
 
-    /// Whether the parts of the state fit together and to a problem.
-    fn check(&self, problem: &Problem<D>, n_boundaries: usize) -> Result<(), ResumeError> {
+    /// Whether it is a state of what a case describes.
+    fn check_case(&self, case: &Case) -> Result<(), ResumeError> {
         if self.version != VERSION {
             return Err(ResumeError::Version { found: self.version });
         }
-        let case = names(problem);
-        if self.bodies != case {
-            return Err(ResumeError::Bodies { state: self.bodies.clone(), case });
+        let keys = case.problem_keys()?;
+        let value = |keys: &BTreeMap<String, String>, key: &str| {
+            keys.get(key).map_or_else(|| "absent".to_owned(), String::clone)
+        };
+        match self.case.keys().chain(keys.keys()).find(|key| self.case.get(*key) != keys.get(*key))
+        {
+            None => Ok(()),
+            Some(key) => Err(ResumeError::OtherCase {
+                key: key.clone(),
+                state: value(&self.case, key),
+                case: value(&keys, key),
+            }),
         }
-        let (n_nodes, n_bodies) = (self.nodes.len(), case.len());
+    }
+
+    /// Whether the parts of the state fit together and to a problem.
+    fn check_consistent(
+        &self,
+        problem: &Problem<D>,
+        n_boundaries: usize,
+    ) -> Result<(), ResumeError> {
+        let (n_nodes, n_bodies) = (self.nodes.len(), problem.bodies.len());
         let levels = [&self.now, &self.previous];
         let n_vertices = self.mesh.n_vertices;
         let fits = self.mesh.is_consistent::<D>(n_nodes, n_boundaries)
@@ -167,29 +206,13 @@ impl<const D: usize> SavedState<D> {
             && self.accelerations.len() == n_bodies
             && self.image_shifts.len() == n_bodies
             && self.contact.wrenches.len() == n_bodies
+            && self.series.is_consistent()
             && self.propulsion.len() == problem.groups.len()
             && self.reference.as_ref().is_none_or(|reference| {
                 reference.nodes.len() == n_nodes && reference.poses.len() == n_bodies
             });
         if !fits {
             return Err(ResumeError::Inconsistent);
-        }
-        self.check_joints(problem)
-    }
-
-    /// Whether the joints of the case leave the bodies where they are.
-    fn check_joints(&self, problem: &Problem<D>) -> Result<(), ResumeError> {
-        let mut put = self.poses.clone();
-        problem.apply_joints(&mut put, self.time);
-        for (body, (left, put)) in problem.bodies.iter().zip(self.poses.iter().zip(&put)) {
-            let numbers = |pose: &Pose| [pose.center.x, pose.center.y, pose.angle()];
-            let (was, is) = (numbers(left), numbers(put));
-            let size = was.iter().chain(&is).fold(0.0f64, |most, value| most.max(value.abs()));
-            if was.iter().zip(is).any(|(was, is)| (was - is).abs() > JUMP * size) {
-                let body = body.name.clone();
-                let (left, put) = (Box::new(*left), Box::new(*put));
-                return Err(ResumeError::Joint { body, left, put });
-            }
         }
         Ok(())
     }
@@ -216,13 +239,10 @@ impl<const D: usize> SavedState<D> {
             rates: self.rates.clone(),
             accelerations: self.accelerations.clone(),
             top_speed: self.top_speed,
+            boundary_speed: self.boundary_speed,
             contact: self.contact.loads(),
             propulsion: self.propulsion.clone(),
             energy: self.energy,
         }
     }
-}
-
-fn names<const D: usize>(problem: &Problem<D>) -> Vec<String> {
-    problem.bodies.iter().map(|body| body.name.clone()).collect()
 }

@@ -1,0 +1,51 @@
+//! Angles that look like degrees, and phases that look like radians.
+
+use std::f64::consts::TAU;
+
+use super::Findings;
+use crate::CaseFile;
+use crate::numbers::significant;
+
+/// Part of a turn that is taken for rounding.
+const ROUNDING: f64 = 1e-6;
+
+pub fn check(findings: &mut Findings<'_>, file: &CaseFile) {
+    for number in file.numbers() {
+        let (key, value) = (number.path.as_str(), number.value);
+        let last = key.rsplit('.').next().unwrap_or_default();
+        let is_angle = ["angle", "heading", "direction", "rest", "rest_angle"].contains(&last)
+            || key.contains(".directions.")
+            || is_value_of(key, ".bent.angle.");
+        // What turns in time may turn more than once
+        let looks_like_degrees = if is_value_of(key, ".turn.") {
+            value.abs() >= 30.0 && value % 15.0 == 0.0
+        } else {
+            is_angle && value.abs() > TAU * (1.0 + ROUNDING)
+        };
+        if looks_like_degrees {
+            findings.warning(
+                key,
+                format!("`{key}` is {value}: angles are in radians, and this is more than a turn"),
+                &format!("for {value} degrees write {}", significant(value.to_radians())),
+            );
+        }
+        if last == "phase" && value.abs() > 1.0 {
+            findings.warning(
+                key,
+                format!("`{key}` is {value}: phases are parts of a period, not radians"),
+                &format!("for {value} rad write {}", significant(value / TAU)),
+            );
+        }
+    }
+}
+
+/// Whether a number is a value, not a time, of a function of time below a table.
+fn is_value_of(key: &str, table: &str) -> bool {
+    let Some((_, rest)) = key.split_once(table) else { return false };
+    let steps: Vec<&str> = rest.split('.').collect();
+    match steps.as_slice() {
+        ["constant"] | ["sine", "mean" | "amplitude"] => true,
+        ["legs", "knots", _, column] | ["table", _, column] => *column == "1",
+        _ => false,
+    }
+}

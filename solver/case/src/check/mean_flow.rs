@@ -1,0 +1,120 @@
+//! Problems of `[flow]`, and of periodic domains in which nothing determines the mean flow.
+
+use super::Findings;
+use super::boundary::check_factor;
+use crate::{Body, BoundaryCondition, FlowModel, Lock, MeanFlowSpec, Motion, TimeSettings};
+
+const AXES: [&str; 2] = ["x", "y"];
+
+pub fn check(findings: &mut Findings<'_>) {
+    let case = findings.case();
+    if let Some(flow) = &case.flow {
+        check_given(findings, flow);
+    }
+    let is_instantaneous =
+        case.fluid.model == FlowModel::Stokes || matches!(case.time, TimeSettings::Steady(_));
+    let periodic = case.periodic_axes();
+    for axis in (0..AXES.len()).filter(|&axis| is_instantaneous && periodic[axis]) {
+        if !sides_hold(findings, axis) {
+            check_determined(findings, axis);
+        }
+    }
+}
+
+/// Whether the numbers fit to the domain.
+fn check_given(findings: &mut Findings<'_>, flow: &MeanFlowSpec) {
+    let periodic = findings.case().periodic_axes();
+    let MeanFlowSpec { pressure_gradient, mean_velocity, body_force, factor } = flow;
+    if pressure_gradient.is_some() && mean_velocity.is_some() {
+        findings.error(
+            "flow.mean_velocity",
+            "a mean velocity and a mean pressure gradient are given, and one follows from the other"
+                .to_owned(),
+            "leave out one of them",
+        );
+    }
+    if pressure_gradient.is_none() && mean_velocity.is_none() && body_force.is_none() {
+        findings.error(
+            "flow",
+            "`flow` drives nothing".to_owned(),
+            "give mean_velocity = [u, v], pressure_gradient = [gx, gy] or body_force = [fx, fy]",
+        );
+    }
+    for (name, values) in [
+        ("pressure_gradient", pressure_gradient),
+        ("mean_velocity", mean_velocity),
+        ("body_force", body_force),
+    ] {
+        let key = format!("flow.{name}");
+        let Some(values) = values else { continue };
+        if !findings.vector(&key, values) {
+            continue;
+        }
+        for (axis, value) in values.iter().enumerate() {
+            if *value != 0.0 && !periodic[axis] {
+                let along = AXES[axis];
+                findings.error(
+                    &key,
+                    format!("`{key}` is {value} along {along}, where the domain is not periodic"),
+                    "write 0 there and drive the flow by a side, or make the two sides periodic",
+                );
+            }
+        }
+    }
+    if let Some(factor) = factor {
+        check_factor(findings, "flow.factor", factor);
+    }
+}
+
+/// Whether a side holds the fluid along a coordinate.
+fn sides_hold(findings: &Findings<'_>, axis: usize) -> bool {
+    findings.case().boundary.iter().any(|(side, condition)| match condition {
+        BoundaryCondition::Periodic(_) => false,
+        BoundaryCondition::Symmetry => {
+            let normal = if ["left", "right"].contains(&side.as_str()) { 0 } else { 1 };
+            normal == axis
+        }
+        BoundaryCondition::Axis => axis == 1,
+        _ => true,
+    })
+}
+
+/// Whether a body has a given velocity along a coordinate.
+fn is_held(body: &Body, axis: usize) -> bool {
+    let lock = [Lock::X, Lock::Y][axis];
+    match &body.motion {
+        Motion::Free => body.locked.contains(&lock),
+        Motion::Held | Motion::Imposed(_) => true,
+    }
+}
+
+/// A flow without memory in a domain whose sides hold nothing along a coordinate.
+fn check_determined(findings: &mut Findings<'_>, axis: usize) {
+    let (case, model) = (findings.case(), findings.model());
+    let along = AXES[axis];
+    let given = |values: &Option<Vec<f64>>| values.as_ref().and_then(|all| all.get(axis).copied());
+    let flow = case.flow.clone().unwrap_or_default();
+    let [gradient, velocity, force] =
+        [&flow.pressure_gradient, &flow.mean_velocity, &flow.body_force].map(given);
+    let holder = model.bodies.iter().position(|body| is_held(body, axis));
+    let has_spring = model.bodies.iter().any(|body| body.spring.is_some());
+    let is_driven = [gradient, force].iter().flatten().any(|value| *value != 0.0);
+    match holder {
+        Some(body) if gradient.or(velocity).or(force).is_none() => findings.error(
+            &format!("body.{body}.motion"),
+            format!(
+                "nothing determines the mean flow along {along}: the domain is periodic and has no \
+                 walls along it, so that all the fluid takes the velocity of `{}` and no force is left",
+                model.bodies[body].name
+            ),
+            "add [flow] with mean_velocity = [0.0, 0.0] for a cell without net flux, or another \
+             mean velocity or pressure gradient",
+        ),
+        None if is_driven && !has_spring => findings.error(
+            "flow",
+            format!("nothing resists the flow along {along}: no wall, and no body that is held"),
+            "give mean_velocity instead, hold a body, or put a wall along it",
+        ),
+        _ => {}
+    }
+}

@@ -1,0 +1,67 @@
+//! Whether a flow can be believed: it has not blown up, and its convection is resolved in time.
+
+use super::RunError;
+use super::advance::Simulation;
+use super::measure::FlowMeasurement;
+use super::run::Run;
+use crate::case::Convection;
+use crate::coupling::Side;
+
+/// Kinetic energy, over that of all the fluid at the speed of the fastest boundary so far, from which
+/// a flow has blown up: fluid in a narrow passage is faster than any boundary, but not all of it.
+const BLOWN_UP: f64 = 1e3;
+
+/// CFL number up to which extrapolated convection was found to agree with Newton's method
+/// (docs/method.md, section 6).
+const LARGEST_CFL: f64 = 5.0;
+
+impl<const D: usize> Run<'_, D> {
+    /// Ends a run whose flow has blown up, and warns of steps too long for its convection.
+    ///
+    /// # Errors
+    /// When it has blown up.
+    pub(super) fn check_soundness(&mut self, flow: &FlowMeasurement) -> Result<(), RunError> {
+        let simulation = &mut self.simulation;
+        simulation.state.boundary_speed =
+            simulation.state.boundary_speed.max(simulation.boundary_speed());
+        let Simulation { problem, state, scheme, .. } = &self.simulation;
+        let (step, time, cfl) = (state.step, state.time, flow.cfl());
+        let ratio = flow.energy_ratio(problem.density, state.boundary_speed);
+        let is_driven = state.boundary_speed > 0.0 && problem.body_force.is_none();
+        if problem.has_inertia && is_driven && ratio > BLOWN_UP {
+            let times = ratio.sqrt();
+            let cell_reynolds = flow.cell_reynolds();
+            let near = self.simulation.fastest_node();
+            return Err(RunError::BlownUp { step, time, times, cfl, cell_reynolds, near });
+        }
+        if scheme.convection == Convection::Extrapolated && cfl > LARGEST_CFL && !self.has_warned {
+            self.has_warned = true;
+            tracing::warn!(
+                "step {step} (t = {time}): CFL number {cfl:.1}; extrapolated convection was shown to \
+                 hold up to {LARGEST_CFL}: lower time.unsteady.step, or set \
+                 time.unsteady.convection = \"newton\""
+            );
+        }
+        Ok(())
+    }
+}
+
+impl<const D: usize> Simulation<D> {
+    /// Largest speed of a body's surface or of a side with a given velocity (m/s).
+    fn boundary_speed(&self) -> f64 {
+        let Self { problem, state, .. } = self;
+        let moves = |side: &Option<Side<D>>| matches!(side, None | Some(Side::Velocity { .. }));
+        let facets = state.mesh.facets.iter().filter(|facet| moves(&problem.sides[facet.boundary]));
+        let nodes = facets.flat_map(|facet| state.mesh.facet_nodes(facet));
+        nodes.map(|node| state.now.velocity[node].norm()).fold(0.0, f64::max)
+    }
+
+    /// Where the fluid is fastest (m).
+    fn fastest_node(&self) -> Vec<f64> {
+        let Self { state, .. } = self;
+        let speeds = state.now.velocity.iter().map(|velocity| velocity.norm());
+        let fastest = speeds.enumerate().max_by(|one, other| one.1.total_cmp(&other.1));
+        let node = fastest.map(|(node, _)| alewife_mesh::NodeId::new(node));
+        node.map_or_else(Vec::new, |node| state.mesh.nodes[node].iter().copied().collect())
+    }
+}

@@ -1,0 +1,224 @@
+//! What a case consists of, as lines for the terminal.
+
+use std::fmt::Write as _;
+
+use crate::case::{
+    BoundaryCondition, Case, CaseFile, DomainSpec, FlowModel, GaitSpec, Joint, JointKind, Model,
+    Motion, ShapeSpec, Stroke, SwimmerModel, TimeSettings, geometry_name, printable, significant,
+};
+
+/// A text that is meant to be one line, as it may be shown on a terminal.
+pub fn one_line(text: &str) -> String {
+    printable(&text.split_whitespace().collect::<Vec<_>>().join(" "))
+}
+
+/// What a case consists of, as lines `what  value`.
+pub fn facts(file: &CaseFile) -> String {
+    let (case, model) = (file.case(), &file.model);
+    let mut text = String::new();
+    let mut line = |what: &str, value: String| {
+        // Writing to a String cannot fail.
+        let _ = writeln!(text, "  {what:<10} {value}");
+    };
+    line("file", printable(&file.file));
+    let units = format!("{}, units: {}", geometry_name(case.geometry), one_line(&case.units));
+    line("geometry", units);
+    line("fluid", fluid(case));
+    line("domain", domain(&case.domain));
+    let sides = case.domain.sides().iter().filter(|side| **side != "axis").map(|side| {
+        let condition = case.boundary.get(*side).map_or("nothing", condition_name);
+        format!("{side} {condition}")
+    });
+    line("boundary", sides.collect::<Vec<_>>().join(", "));
+    for body in &model.bodies {
+        line("body", body_line(case, body));
+    }
+    for joint in &model.joints {
+        line("joint", joint_line(joint));
+    }
+    for swimmer in &model.swimmers {
+        line("swimmer", swimmer_line(model, swimmer));
+    }
+    line("time", time(case));
+    if let Some(frame) = &case.frame {
+        line("frame", format!("travels with {frame}"));
+    }
+    let n = case.reference.len();
+    let in_variants: usize = case.variant.iter().map(|variant| variant.reference.len()).sum();
+    line(
+        "reference",
+        match (n, in_variants) {
+            (0, 0) => "none: the result is not compared with anything".to_owned(),
+            (1, 0) => "1 reference".to_owned(),
+            (n, 0) => format!("{n} references"),
+            (n, more) => format!("{} references, {more} of them in variants", n + more),
+        },
+    );
+    text
+}
+
+fn fluid(case: &Case) -> String {
+    let fluid = &case.fluid;
+    let model = match fluid.model {
+        FlowModel::Stokes => "Stokes",
+        FlowModel::UnsteadyStokes => "unsteady Stokes",
+        FlowModel::NavierStokes => "Navier-Stokes",
+    };
+    let density = if fluid.density > 0.0 {
+        format!(", density {}", significant(fluid.density))
+    } else {
+        String::new()
+    };
+    format!("{model}, viscosity {}{density}", significant(fluid.viscosity))
+}
+
+fn domain(domain: &DomainSpec) -> String {
+    match domain {
+        DomainSpec::Box { min, max } => format!("box from {min:?} to {max:?}"),
+        DomainSpec::Channel { length, height } => {
+            format!("channel {} long, {} high", significant(*length), significant(*height))
+        }
+        DomainSpec::Disc { radius, .. } => format!("disc of radius {}", significant(*radius)),
+        DomainSpec::HalfDisc { radius, .. } => format!("ball of radius {}", significant(*radius)),
+        DomainSpec::Cylinder { x, radius } => {
+            let [start, end, radius] = [x[0], x[1], *radius].map(significant);
+            format!("cylinder from x = {start} to {end} of radius {radius}")
+        }
+    }
+}
+
+fn condition_name(condition: &BoundaryCondition) -> &'static str {
+    match condition {
+        BoundaryCondition::NoSlip => "no-slip",
+        BoundaryCondition::DoNothing => "do-nothing",
+        BoundaryCondition::TractionFree => "traction-free",
+        BoundaryCondition::Symmetry => "symmetry",
+        BoundaryCondition::Axis => "axis",
+        BoundaryCondition::Velocity { .. } => "velocity",
+        BoundaryCondition::Parabolic { .. } => "parabolic",
+        BoundaryCondition::Shear { .. } => "shear",
+        BoundaryCondition::WavingSheet { .. } => "waving-sheet",
+        BoundaryCondition::Periodic(_) => "periodic",
+    }
+}
+
+fn body_line(case: &Case, body: &crate::case::Body) -> String {
+    let shape = match &body.shape {
+        ShapeSpec::Disc { radius } | ShapeSpec::Sphere { radius } => {
+            format!("{} of radius {}", body.shape.name(), significant(*radius))
+        }
+        ShapeSpec::Ellipse { semi_axes } | ShapeSpec::Spheroid { semi_axes } => {
+            format!("{} with semi-axes {semi_axes:?}", body.shape.name())
+        }
+        ShapeSpec::Spline { points } => format!("spline through {} points", points.len()),
+        ShapeSpec::Fish(fish) => format!("fish of length {}", significant(fish.length)),
+        ShapeSpec::Flagellate(flagellate) => {
+            let length = significant(flagellate.tail_length);
+            format!("flagellate with a tail of length {length}")
+        }
+    };
+    let motion = match &body.motion {
+        Motion::Held => "held",
+        Motion::Free => "free",
+        Motion::Imposed(_) => "imposed motion",
+    };
+    let gait = match &body.gait {
+        Some(GaitSpec::Squirmer(gait)) => {
+            // The axis turns with the body, and both may be given
+            format!(", squirmer heading {}", angle_in_words(body.angle + gait.heading))
+        }
+        Some(GaitSpec::Carangiform(_)) => ", carangiform".to_owned(),
+        Some(GaitSpec::Anguilliform(_)) => ", anguilliform".to_owned(),
+        Some(GaitSpec::Flagellum(_)) => ", flagellum".to_owned(),
+        Some(GaitSpec::Pulsating(_)) => ", pulsating".to_owned(),
+        None => String::new(),
+    };
+    let size = body.size.or(case.mesh.surface).unwrap_or(case.mesh.size) * case.mesh.scale;
+    let edges = body.shape.perimeter() / size;
+    let at: Vec<String> = body.center.iter().map(|value| significant(*value)).collect();
+    let at = at.join(", ");
+    let turned = match (body.angle, body.is_round()) {
+        (0.0, _) | (_, true) => String::new(),
+        (angle, false) => format!(", turned by {}", angle_in_words(angle)),
+    };
+    format!(
+        "{}: {shape} at [{at}]{turned}, {motion}{gait}, about {} edges",
+        body.name,
+        count(edges)
+    )
+}
+
+/// An angle in radians and degrees.
+fn angle_in_words(angle: f64) -> String {
+    format!("{} rad ({:.1} degrees)", significant(angle), angle.to_degrees())
+}
+
+fn joint_line(joint: &Joint) -> String {
+    let range = |stroke: &Stroke, number: fn(f64) -> String| match stroke {
+        Stroke::Constant(value) => number(*value),
+        _ => stroke.range().map(number).join(" to "),
+    };
+    let stroke = |stroke: &Stroke| range(stroke, significant);
+    let what = match &joint.kind {
+        JointKind::Arm { length, direction } => {
+            format!("arm of length {}, direction {}", stroke(length), angle_in_words(*direction))
+        }
+        JointKind::Bent { angle } => format!("bent by {}", range(angle, angle_in_words)),
+        JointKind::Hinge(hinge) => {
+            let motor = hinge.torque.as_ref().map(|torque| format!(", torque {}", stroke(torque)));
+            format!(
+                "hinge, stiffness {}, damping {}{}",
+                significant(hinge.stiffness),
+                significant(hinge.damping),
+                motor.unwrap_or_default()
+            )
+        }
+    };
+    format!("{} is attached to {}: {what}", joint.child, joint.parent)
+}
+
+fn swimmer_line(model: &Model, swimmer: &SwimmerModel) -> String {
+    let bodies = match swimmer.bodies.len() {
+        1 => "1 body".to_owned(),
+        n => format!("{n} bodies, reported as one"),
+    };
+    let period = swimmer.period.map(|period| format!(", period {}", significant(period)));
+    let motion = match swimmer.bodies.iter().all(|body| model.bodies[*body].motion == Motion::Free)
+    {
+        true => ", swims freely",
+        false => "",
+    };
+    format!("{}: {bodies}{}{motion}", swimmer.name, period.unwrap_or_default())
+}
+
+fn time(case: &Case) -> String {
+    match &case.time {
+        TimeSettings::Steady(_) => "steady".to_owned(),
+        TimeSettings::Unsteady(time) if time.adaptive.is_some() => {
+            format!("adaptive steps from {} to {}", significant(time.step), significant(time.end))
+        }
+        TimeSettings::Unsteady(time) => format!(
+            "{} steps of {} to {}",
+            count((time.end / time.step).ceil()),
+            significant(time.step),
+            significant(time.end)
+        ),
+    }
+}
+
+/// A number of things, in powers of ten where there are many.
+pub fn count(number: f64) -> String {
+    if number < 1e7 { format!("{number:.0}") } else { format!("{number:.1e}") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn texts_and_numbers_of_a_file_fit_into_a_line() {
+        assert_eq!([count(64.4), count(2.5e9)], ["64", "2.5e9"]);
+        assert_eq!(one_line("a\n  b\u{1b}"), "a b\\u{1b}");
+        assert_eq!(angle_in_words(-std::f64::consts::FRAC_PI_2), "-1.5708 rad (-90.0 degrees)");
+    }
+}

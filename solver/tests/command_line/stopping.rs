@@ -1,0 +1,150 @@
+//! Runs that a signal stops, that resume, and whose files cannot grow.
+#![cfg(unix)]
+
+use std::path::Path;
+use std::process::Command;
+
+use super::alewife;
+
+/// A run of a falling sphere far too long to end by itself, stopped in `fall` once it has written rows;
+/// what it says.
+fn stopped_fall(directory: &Path) -> String {
+    let mut run = Command::new(env!("CARGO_BIN_EXE_alewife"))
+        .args(["run", "sphere-free-fall", "--out", "fall", "--quiet", "--threads", "1"])
+        .args(["--set", "time.unsteady.end=1e6", "--set", "mesh.scale=2"])
+        .current_dir(directory)
+        .stderr(std::process::Stdio::piped())
+        .spawn()
+        .unwrap();
+    let has_begun = || {
+        std::fs::read_to_string(directory.join("fall/series.csv"))
+            .is_ok_and(|text| text.lines().count() > 2)
+    };
+    while !has_begun() {
+        assert!(run.try_wait().unwrap().is_none(), "the run ended by itself");
+        std::thread::sleep(std::time::Duration::from_millis(20));
+    }
+    let killed = Command::new("kill").args(["-INT", &run.id().to_string()]).status().unwrap();
+    assert!(killed.success());
+    let output = run.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(75));
+    String::from_utf8(output.stderr).unwrap()
+}
+
+#[test]
+fn a_signal_ends_a_run_after_its_step_with_all_files_complete() {
+    let directory = tempfile::tempdir().unwrap();
+    let told = stopped_fall(directory.path());
+    let command = "alewife run sphere-free-fall --out fall --quiet --threads 1 --set \
+                   time.unsteady.end=1e6 --set mesh.scale=2 --resume fall/state.json";
+    assert!(told.contains(command), "{told}");
+    let out = directory.path().join("fall");
+    let status = std::fs::read_to_string(out.join("status.json")).unwrap();
+    assert!(status.contains("\"stopped\""), "{status}");
+    assert!(out.join("fields/stopped.vtu").is_file());
+    let series = std::fs::read_to_string(out.join("series.csv")).unwrap();
+    assert!(series.ends_with('\n') && series.lines().count() > 1);
+}
+
+#[test]
+fn a_steady_run_that_is_stopped_says_so() {
+    let directory = tempfile::tempdir().unwrap();
+    // A cavity that takes seconds on any machine
+    let mut run = Command::new(env!("CARGO_BIN_EXE_alewife"))
+        .args(["run", "lid-driven-cavity", "--out", "cavity", "--threads", "1"])
+        .args(["--set", "mesh.size=0.008", "--set", "reference=[]"])
+        .current_dir(directory.path())
+        .stderr(std::process::Stdio::piped())
+        .spawn()
+        .unwrap();
+    let log = directory.path().join("cavity/log.jsonl");
+    while !std::fs::read_to_string(&log).is_ok_and(|text| text.contains("newton")) {
+        assert!(run.try_wait().unwrap().is_none(), "the run ended by itself");
+        std::thread::sleep(std::time::Duration::from_millis(20));
+    }
+    assert!(Command::new("kill").arg(run.id().to_string()).status().unwrap().success());
+    let output = run.wait_with_output().unwrap();
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(75), "{told}");
+    assert!(told.contains("it left no state to resume from"), "{told}");
+    let status = std::fs::read_to_string(directory.path().join("cavity/status.json")).unwrap();
+    assert!(status.contains("\"stopped\""), "{status}");
+}
+
+#[test]
+fn a_run_that_resumes_in_its_directory_goes_on_with_its_series() {
+    let directory = tempfile::tempdir().unwrap();
+    stopped_fall(directory.path());
+    let read = |file: &str| std::fs::read_to_string(directory.path().join(file)).unwrap();
+    let before = read("fall/series.csv");
+    let time = |line: &str| -> f64 { line.split(',').next().unwrap().parse().unwrap() };
+    let times: Vec<f64> = before.lines().skip(1).map(time).collect();
+    let end = format!("time.unsteady.end={}", times[times.len() - 1] + 3.0 * (times[2] - times[1]));
+    let arguments = |out: &'static str| {
+        let mut all = vec!["run", "sphere-free-fall", "--out", out, "--quiet", "--threads", "1"];
+        all.extend(["--set", "mesh.scale=2", "--set", "reference=[]", "--set", "variant=[]"]);
+        all
+    };
+    let with = |mut all: Vec<&'static str>, more: &[&str]| {
+        let more = more.iter().map(|word| (*word).to_owned());
+        let all: Vec<String> = all.drain(..).map(str::to_owned).chain(more).collect();
+        alewife(directory.path(), &all.iter().map(String::as_str).collect::<Vec<_>>())
+    };
+    // The state is not lost by a run that was meant to resume
+    let refused = with(arguments("fall"), &["--set", &end]);
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&refused.stderr).contains("--resume fall/state.json"));
+    assert_eq!(read("fall/series.csv"), before);
+
+    let resumed = with(arguments("fall"), &["--set", &end, "--resume", "fall/state.json"]);
+    assert_eq!(resumed.status.code(), Some(0), "{}", String::from_utf8_lossy(&resumed.stderr));
+    let whole = with(arguments("whole"), &["--set", &end]);
+    assert_eq!(whole.status.code(), Some(0), "{}", String::from_utf8_lossy(&whole.stderr));
+    let (resumed, whole) = (read("fall/series.csv"), read("whole/series.csv"));
+    assert!(resumed.starts_with(&before) && resumed.len() > before.len());
+    assert_eq!(resumed.lines().count(), whole.lines().count());
+    let speed = |line: &str| -> f64 { line.split(',').nth(4).unwrap().parse().unwrap_or(f64::NAN) };
+    for (one, other) in resumed.lines().zip(whole.lines()).skip(1) {
+        assert_eq!(time(one), time(other));
+        assert!((speed(one) - speed(other)).abs() <= 1e-9 * speed(other).abs(), "{one}\n{other}");
+    }
+    assert!(!directory.path().join("fall/state.json").exists());
+    assert!(!read("fall/fields.pvd").contains("stopped"));
+}
+
+/// The system lets no file grow beyond a size: what a full disk does, without one.
+#[test]
+fn a_file_that_cannot_grow_is_named_and_the_run_failed() {
+    let directory = tempfile::tempdir().unwrap();
+    let mut named = std::collections::BTreeSet::new();
+    for blocks in [2, 8, 24, 64, 300] {
+        let out = format!("fall-{blocks}");
+        let script = format!(
+            "ulimit -f {blocks}; exec {} run sphere-free-fall --out {out} --quiet --threads 1 \
+             --set time.unsteady.end=1e6 --set mesh.scale=2 --set output.fields.steps=40",
+            env!("CARGO_BIN_EXE_alewife")
+        );
+        let output = Command::new("sh")
+            .args(["-c", &script])
+            .current_dir(directory.path())
+            .output()
+            .unwrap();
+        let told = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(74), "{blocks}: {told}");
+        assert!(told.contains("File too large"), "{told}");
+        let start = told.find(&format!("{out}/")).unwrap();
+        named.insert(told[start + out.len()..].split([':', ' ']).next().unwrap().to_owned());
+        let out = directory.path().join(out);
+        let status = std::fs::read_to_string(out.join("status.json")).unwrap_or_default();
+        assert!(status.is_empty() || status.contains("\"failed\""), "{blocks}: {status}");
+        let series = std::fs::read_to_string(out.join("series.csv")).unwrap_or_default();
+        let mut lines = series.lines();
+        let n_columns = lines.next().map_or(0, |header| header.split(',').count());
+        assert!(series.is_empty() || series.ends_with('\n'), "{blocks}: a row is not whole");
+        assert!(lines.all(|line| line.split(',').count() == n_columns), "{blocks}");
+        let left = std::fs::read_dir(&out).unwrap().map(|entry| entry.unwrap().file_name());
+        let unfinished = left.filter(|name| name.to_string_lossy().starts_with(".unfinished-"));
+        assert_eq!(unfinished.count(), 0, "{blocks}");
+    }
+    assert!(named.len() > 1, "{named:?}");
+}

@@ -1,0 +1,89 @@
+//! What a run warns of: steps too long for its convection or its strokes.
+
+use super::alewife;
+
+#[test]
+fn steps_too_long_for_extrapolated_convection_are_told() {
+    let directory = tempfile::tempdir().unwrap();
+    let run = |convection: &str| {
+        let mut command = vec!["run", "dfg-2d-2", "--overwrite", "--threads", "1"];
+        for setting in [
+            "mesh.scale=4",
+            "time.unsteady.step=0.1",
+            "time.unsteady.end=0.3",
+            "reference=[]",
+            "statistics={}",
+            convection,
+        ] {
+            command.extend(["--set", setting]);
+        }
+        let output = alewife(directory.path(), &command);
+        assert_eq!(output.status.code(), Some(0));
+        let said = String::from_utf8_lossy(&output.stdout).into_owned();
+        assert!(said.contains("CFL number up to"), "{said}");
+        String::from_utf8_lossy(&output.stderr).into_owned()
+    };
+    let warned = run("time.unsteady.convection=\"extrapolated\"");
+    assert!(warned.contains("extrapolated convection was shown to hold up to 5"), "{warned}");
+    assert!(!run("time.unsteady.convection=\"newton\"").contains("CFL"));
+}
+
+/// Three links above a wall, their joints bent in quadrature, at steps of a size.
+const THREE_LINKS: &str = r#"
+title = "three links above a wall"
+geometry = "planar"
+fluid = { model = "stokes", viscosity = 1.0 }
+domain.box = { min = [-4.0, 0.0], max = [4.0, 4.0] }
+boundary = { left = "no-slip", right = "no-slip", bottom = "no-slip", top = "no-slip" }
+mesh = { size = 1.5, surface = 0.2, growth = 0.5, gap_layers = 1 }
+time.unsteady = { step = 0.05, end = 1.0 }
+[[swimmer]]
+name = "links"
+center = [0.0, 1.0]
+[swimmer.kind.chain]
+links = [[0.5, 0.12], [0.5, 0.12], [0.5, 0.12]]
+gap = 0.3
+joints = [
+    { bent = { angle = { sine = { amplitude = 0.7, period = 1.0 } } } },
+    { bent = { angle = { sine = { amplitude = 0.7, period = 1.0, phase = 0.25 } } } },
+]
+"#;
+
+#[test]
+fn a_run_warns_of_the_error_of_a_stroke() {
+    let directory = tempfile::tempdir().unwrap();
+    std::fs::write(directory.path().join("links.toml"), THREE_LINKS).unwrap();
+    let swim = |scheme: &str, steps: usize| -> ([f64; 2], Option<f64>) {
+        let scheme = format!("time.unsteady.scheme={scheme}");
+        let step = format!("time.unsteady.step={}", 1.0 / steps as f64);
+        let replace = ["run", "links.toml", "--overwrite", "--threads", "1"];
+        let output = alewife(
+            directory.path(),
+            &[&replace[..], &["--set", &scheme, "--set", &step]].concat(),
+        );
+        let told = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(0), "{told}");
+        let series = std::fs::read_to_string(directory.path().join("runs/links/series.csv"));
+        let series = series.unwrap();
+        let row = |line: &str| line.split(',').map(str::to_owned).collect::<Vec<_>>();
+        let (names, values) =
+            (row(series.lines().next().unwrap()), row(series.lines().last().unwrap()));
+        let value = |name: &str| -> f64 {
+            let column = names.iter().position(|known| known == name).unwrap();
+            values[column].parse().unwrap()
+        };
+        let percent = told.split("uncertain by about ").nth(1);
+        let percent = percent.map(|rest| rest.split(' ').next().unwrap().parse().unwrap());
+        (["links.cycle.x", "links.cycle.y"].map(value), percent)
+    };
+    let (exact, none) = swim("rk3", 40);
+    assert_eq!(none, None);
+    for (scheme, steps) in [("bdf2", 5), ("bdf2", 10), ("bdf2", 20)] {
+        let ([x, y], percent) = swim(scheme, steps);
+        let error = (x - exact[0]).hypot(y - exact[1]) / x.hypot(y);
+        let percent = percent.expect("an error is warned of");
+        println!("{scheme}, {steps} steps: {:.2} % off, {percent} % estimated", 100.0 * error);
+        assert!(percent > 50.0 * error && percent < 200.0 * error, "{steps}: {error}, {percent} %");
+    }
+    assert_eq!(swim("rk3", 10).1, None);
+}
