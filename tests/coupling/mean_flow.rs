@@ -114,7 +114,7 @@ fn a_mean_velocity_holds_in_every_step() {
         flow.mean_velocity = [1.0, 0.0]
         domain.box = { min = [-1.0, -0.5], max = [1.0, 0.5] }
         mesh = { size = 0.2, surface = 0.08, gap_layers = 2, moving.quality = 0.8 }
-        time.unsteady = { step = 0.02, end = 0.6, initial = "stokes" }
+        time.unsteady = { step = 0.02, end = 1.2, initial = "stokes" }
         contact.barrier = { range = 0.05, stiffness = 5.0 }
         boundary = { left.periodic = "right", right.periodic = "left", bottom = "no-slip", top = "no-slip" }
         [[body]]

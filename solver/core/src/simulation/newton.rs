@@ -216,8 +216,12 @@ impl<'a> Progress<'a> {
         let size = reduced.iter().fold(0.0f64, |most, value| most.max(value.abs()));
         // A fluid at rest has no residual where a mean velocity is given: the force that brings it
         // about is the measure then
-        let known = self.scale.filter(|scale| *scale > 0.0);
-        let scale = *self.scale.insert(known.unwrap_or(size.max(mean_force)));
+        let scale = match self.scale {
+            None => size.max(mean_force),
+            Some(0.0) => mean_force,
+            Some(scale) => scale,
+        };
+        self.scale = Some(scale);
         if scale > 0.0 { size / scale } else { 0.0 }
     }
 
