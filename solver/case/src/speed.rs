@@ -134,7 +134,7 @@ mod tests {
             ("dfg-2d-2", 1.5),
             ("lid-driven-cavity", 1.0),
             ("periodic-cylinders", 1.0),
-            ("squirmer-alone", 1.0),
+            ("squirmer-alone", 4.9),
             ("disc-settling/slow", 5.4),
             ("three-sphere", 1.1),
             ("carangiform", 1.2),
