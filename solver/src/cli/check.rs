@@ -177,7 +177,8 @@ fn output_size(model: &Model, mesh: &Mesh<2>) -> f64 {
             1.0 + (time.end / time.step / n.max(1) as f64).ceil()
         }
         (Cadence::Time(interval), TimeSettings::Unsteady(time)) => {
-            1.0 + (time.end / interval).ceil()
+            // Once a step at most
+            1.0 + (time.end / interval).min(time.end / time.step).ceil()
         }
     };
     let number = match case.output.precision {

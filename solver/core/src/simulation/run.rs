@@ -151,6 +151,8 @@ impl<const D: usize> Run<'_, D> {
             TimeSettings::Steady(_) => None,
             // Before the flow at the start is known there is nothing to resume from
             TimeSettings::Unsteady(_) if self.series.times.is_empty() => None,
+            // No step leads on from a flow that is wrong
+            TimeSettings::Unsteady(_) if matches!(error, RunError::BlownUp { .. }) => None,
             TimeSettings::Unsteady(_) => {
                 let saved = SavedState::of(self.case, &self.simulation, &self.series);
                 saved.inspect_err(|error| tracing::error!(%error, "no state is left")).ok()
