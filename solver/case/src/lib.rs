@@ -15,6 +15,7 @@ mod gait;
 mod geometry;
 mod joint;
 pub mod library;
+mod link;
 mod mean_flow;
 mod mesh;
 mod model;
@@ -48,6 +49,7 @@ pub use gait::{
 };
 pub use geometry::opposite;
 pub use joint::{Hinge, Joint, JointKind};
+pub use link::{Link, ShapedLink};
 pub use mean_flow::MeanFlowSpec;
 pub use mesh::{MeshEquation, MeshSettings, MovingMesh, RefinementBox};
 pub use model::{Model, SwimmerModel};

@@ -252,3 +252,31 @@ fn copies_that_are_wrong_in_the_same_way_are_not_told_of_one_by_one() {
     assert_eq!(said.stderr.matches("must not be negative").count(), 3, "{}", said.stderr);
     assert_eq!(said.stderr.matches("outline of \"chain").count(), 1, "{}", said.stderr);
 }
+
+#[test]
+fn links_have_a_shape_and_a_density_of_their_own() {
+    let links = "links = [[0.4, 0.1], [0.4, 0.1]]";
+    let kite = "shape.spline.points = [[0.4, 0.0], [0.0, 0.1], [-0.4, 0.0], [0.0, -0.1]]";
+    let with = |link: &str| format!("links = [[0.4, 0.1], {link}]");
+    let heavy = with(&format!("{{ {kite}, density = 2.0 }}"));
+    assert_accepted(&check(&SWIMMING.replacen(links, &heavy, 1), &[]));
+    for (link, wanted) in [
+        ("[0.4]", ["links.1` is an array of 1", "an array of 2 numbers is wanted"]),
+        ("[0.4, 0.1, 0.1]", ["links.1` is an array of 3", "an array of 2 numbers is wanted"]),
+        ("0.4", ["links.1` is `0.4`", "or { shape = ..., density = ... }"]),
+        ("{ density = 2.0 }", ["missing key `shape` in `swimmer.1.kind.chain.links.1`", "add"]),
+        (
+            "{ shape.disc.radius = 0.4, densty = 2.0 }",
+            ["unknown key `densty` in `swimmer.1.kind.chain.links.1`", "did you mean `density`?"],
+        ),
+        ("{ shape.disc.radius = 0.4, density = -2.0 }", ["is -2", "must not be negative"]),
+        ("{ shape.disc.radius = -0.4 }", ["is -0.4", "must be positive"]),
+        ("{ shape.sphere.radius = 0.4 }", ["a sphere cannot stand", "planar shapes: disc"]),
+        (
+            "{ shape.spline.points = [[0.0, 0.0], [0.4, 0.4], [0.4, 0.0], [0.0, 0.4]] }",
+            ["link 2 of the chain has no outline", "points that run counter-clockwise"],
+        ),
+    ] {
+        refused_swimming(links, &with(link), &wanted);
+    }
+}
