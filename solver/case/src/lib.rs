@@ -31,6 +31,7 @@ mod reference;
 mod schema;
 mod source;
 mod stroke;
+mod stroke_file;
 mod swimmer;
 mod time;
 mod tree;
