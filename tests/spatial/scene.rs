@@ -111,6 +111,10 @@ impl Gaps for OneBody {
         None
     }
 
+    fn minimum_gap_among(&self, _: &[Pose], _: &[usize]) -> Option<f64> {
+        None
+    }
+
     fn max_step_fraction(&self, _: &[Pose], _: &[Pose]) -> f64 {
         1.0
     }

@@ -1,7 +1,7 @@
 //! `CaseText`: the text of a case, by the path of its file or by the name of a shipped one.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 
 use super::diagnostic::CaseError;
@@ -13,8 +13,6 @@ use super::source::Source;
 pub struct CaseText {
     /// Name of the case.
     pub name: String,
-    /// Where relative paths start; a shipped case has none.
-    pub directory: Option<PathBuf>,
     /// The text, and the file it is from.
     pub source: Arc<Source>,
 }
@@ -89,8 +87,9 @@ pub fn no_such_case(name: &str) -> CaseError {
 
 /// The text of a shipped case.
 pub fn shipped_text(case: &library::Shipped) -> CaseText {
-    let source = Source { name: case.file.to_owned(), text: case.text.to_owned() };
-    CaseText { name: case.name.to_owned(), directory: None, source: Arc::new(source) }
+    let (name, text) = (case.file.to_owned(), case.text.to_owned());
+    let source = Source { name, directory: None, text };
+    CaseText { name: case.name.to_owned(), source: Arc::new(source) }
 }
 
 /// Largest file that is read (bytes); the largest shipped case has a thousandth of it.
@@ -116,13 +115,16 @@ pub fn read_file(path: &Path) -> Result<CaseText, CaseError> {
     }
     Ok(CaseText {
         name,
-        directory: Some(path.parent().unwrap_or(Path::new("")).to_owned()),
-        source: Arc::new(Source { name: path.display().to_string(), text }),
+        source: Arc::new(Source {
+            name: path.display().to_string(),
+            directory: Some(path.parent().unwrap_or(Path::new("")).to_owned()),
+            text,
+        }),
     })
 }
 
 /// The text of a file that is one: no pipe or device, of a size a case can have, and in UTF-8.
-fn read_text(path: &Path) -> Result<String, CaseError> {
+pub fn read_text(path: &Path) -> Result<String, CaseError> {
     let failed = |error: std::io::Error| match error.kind() {
         std::io::ErrorKind::NotFound => CaseError::NotFound {
             what: format!("there is no file {}", path.display()),

@@ -204,7 +204,7 @@ impl Model {
                 shape: part.shape.clone(),
                 center: vec![pose.center.x, pose.center.y],
                 angle: pose.angle,
-                density: swimmer.density,
+                density: part.density.or(swimmer.density),
                 motion,
                 locked: Vec::new(),
                 gait: part.gait.clone(),

@@ -7,6 +7,7 @@ use super::Geometry;
 use super::body::{GaitSpec, ShapeSpec};
 use super::diagnostic::CaseError;
 use super::joint::{Joint, JointKind, PlanarPose, child_pose};
+use super::link::{Ends, Link};
 use super::stroke::Stroke;
 use super::swimmer::{Pivot, SwimmerKind};
 
@@ -14,6 +15,8 @@ use super::swimmer::{Pivot, SwimmerKind};
 pub struct Part {
     pub shape: ShapeSpec,
     pub gait: Option<GaitSpec>,
+    /// Its own density (kg/m3); that of the swimmer if absent.
+    pub density: Option<f64>,
     /// How it is attached to another part; the part all others are attached to is not.
     pub attachment: Option<Attachment>,
 }
@@ -60,9 +63,12 @@ pub fn parts(key: &str, kind: &SwimmerKind, geometry: Geometry) -> Result<Vec<Pa
         Err(CaseError::at(&format!("{key}.kind"), message, "give one for each"))
     };
     match kind {
-        SwimmerKind::Body { shape, gait } => {
-            Ok(vec![Part { shape: shape.clone(), gait: gait.clone(), attachment: None }])
-        }
+        SwimmerKind::Body { shape, gait } => Ok(vec![Part {
+            shape: shape.clone(),
+            gait: gait.clone(),
+            density: None,
+            attachment: None,
+        }]),
         SwimmerKind::LinkedSpheres { radii, arms, gaits } => {
             fits("arms", arms.len(), radii.len().saturating_sub(1))?;
             if !gaits.is_empty() {
@@ -79,7 +85,7 @@ pub fn parts(key: &str, kind: &SwimmerKind, geometry: Geometry) -> Result<Vec<Pa
         }
         SwimmerKind::Chain { links, gap, joints } => {
             fits("joints", joints.len(), links.len().saturating_sub(1))?;
-            Ok(chain(links, *gap, joints))
+            chain(key, links, *gap, joints)
         }
         SwimmerKind::Bodies(_) => Ok(Vec::new()),
     }
@@ -103,6 +109,7 @@ fn linked_spheres(
     let part = |(nth, radius): (usize, &f64)| Part {
         shape: shape(*radius),
         gait: gaits.get(nth).cloned(),
+        density: None,
         attachment: attachment(nth),
     };
     radii.iter().enumerate().map(part).collect()
@@ -113,6 +120,7 @@ fn star(radius: f64, radii: &[f64], arms: &[Stroke], directions: &[f64]) -> Vec<
     let disc = |radius: f64, attachment: Option<Attachment>| Part {
         shape: ShapeSpec::Disc { radius },
         gait: None,
+        density: None,
         attachment,
     };
     let mut parts = vec![disc(radius, None)];
@@ -124,25 +132,38 @@ fn star(radius: f64, radii: &[f64], arms: &[Stroke], directions: &[f64]) -> Vec<
     parts
 }
 
-/// Elliptic links along x with pivots between them, the first one towards +x.
-fn chain(links: &[[f64; 2]], gap: f64, joints: &[Pivot]) -> Vec<Part> {
-    let pivot = |nth: usize| links[nth][0] + 0.5 * gap;
-    let attachment = |nth: usize| {
-        let Neighbour { parent, between, is_after } = neighbour(nth, links.len())?;
-        let side = if is_after { -1.0 } else { 1.0 };
-        Some(Attachment {
-            parent,
-            on_parent: [side * pivot(parent), 0.0],
-            on_child: [-side * pivot(nth), 0.0],
-            kind: JointKind::from(joints[between].clone()),
+/// Links along x with pivots between them, the first one towards +x: each pivot is on the x axes of
+/// both links, half the gap beyond their ends.
+///
+/// # Errors
+/// When a link has no outline.
+fn chain(key: &str, links: &[Link], gap: f64, joints: &[Pivot]) -> Result<Vec<Part>, CaseError> {
+    let ends = |(nth, link): (usize, &Link)| {
+        link.ends().map_err(|error| {
+            CaseError::at(
+                &format!("{key}.kind.chain.links.{nth}.shape"),
+                format!("link {} of the chain has no outline: {error}", nth + 1),
+                "give lengths larger than 0, and points that run counter-clockwise and do not cross",
+            )
         })
     };
-    let part = |(nth, semi_axes): (usize, &[f64; 2])| Part {
-        shape: ShapeSpec::Ellipse { semi_axes: *semi_axes },
+    let ends = links.iter().enumerate().map(ends).collect::<Result<Vec<Ends>, CaseError>>()?;
+    let behind = |nth: usize| [ends[nth].back - 0.5 * gap, 0.0];
+    let before = |nth: usize| [ends[nth].front + 0.5 * gap, 0.0];
+    let attachment = |nth: usize| {
+        let Neighbour { parent, between, is_after } = neighbour(nth, links.len())?;
+        let (on_parent, on_child) =
+            if is_after { (behind(parent), before(nth)) } else { (before(parent), behind(nth)) };
+        let kind = JointKind::from(joints[between].clone());
+        Some(Attachment { parent, on_parent, on_child, kind })
+    };
+    let part = |(nth, link): (usize, &Link)| Part {
+        shape: link.shape(),
         gait: None,
+        density: link.density(),
         attachment: attachment(nth),
     };
-    links.iter().enumerate().map(part).collect()
+    Ok(links.iter().enumerate().map(part).collect())
 }
 
 /// Which neighbour in a row a part is attached to.
@@ -210,12 +231,13 @@ mod tests {
     use alewife_mesh::Point;
 
     use super::*;
+    use crate::link::ShapedLink;
 
     #[test]
     fn a_chain_hangs_together_at_its_pivots() {
         let bent = |angle: f64| Pivot::Bent { angle: Stroke::Constant(angle) };
         let kind = SwimmerKind::Chain {
-            links: vec![[0.4, 0.1], [0.5, 0.1], [0.3, 0.1], [0.2, 0.1]],
+            links: [[0.4, 0.1], [0.5, 0.1], [0.3, 0.1], [0.2, 0.1]].map(Link::Ellipse).to_vec(),
             gap: 0.2,
             joints: vec![bent(0.3), bent(-0.2), bent(0.5)],
         };
@@ -233,5 +255,24 @@ mod tests {
             assert!(off.norm() < 1e-14, "pivot {nth}: {off}");
         }
         assert!((poses[3].angle - (0.1 - 0.2 + 0.5)).abs() < 1e-14);
+    }
+
+    #[test]
+    fn pivots_are_beyond_the_ends_of_links_of_any_shape() {
+        let points = vec![[0.5, 0.0], [0.0, 0.2], [-0.2, 0.0], [0.0, -0.2]];
+        let kite = ShapedLink { shape: ShapeSpec::Spline { points }, density: Some(3.0) };
+        let kind = SwimmerKind::Chain {
+            links: vec![Link::Shaped(kite.clone()), Link::Ellipse([0.4, 0.1]), Link::Shaped(kite)],
+            gap: 0.2,
+            joints: [0.0; 2].map(|angle| Pivot::Bent { angle: Stroke::Constant(angle) }).to_vec(),
+        };
+        let parts = parts("swimmer.0", &kind, Geometry::Planar).unwrap();
+        let poses = poses(&parts, PlanarPose::default());
+        // The first link ends 0.2 before the middle one, its back nearer to its origin than its front
+        let back = poses[0].center.x - 0.6;
+        assert!((0.2..0.25).contains(&back), "{back}");
+        assert!((poses[2].center.x + 1.1).abs() < 1e-9, "{}", poses[2].center.x);
+        let densities: Vec<Option<f64>> = parts.iter().map(|part| part.density).collect();
+        assert_eq!(densities, [Some(3.0), None, Some(3.0)]);
     }
 }

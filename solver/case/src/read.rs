@@ -3,8 +3,10 @@
 //! A case is put together in this order, the later over the earlier: the file it `extends`, the
 //! file itself, the variant, the settings of the command line. Tables are merged, everything else
 //! is replaced. `reference`, `variant` and `quick` of an extended file are not inherited: what is
-//! known of one problem does not hold for another.
+//! known of one problem does not hold for another. Then the values of files take the place of their
+//! names.
 
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use serde::Deserialize;
@@ -17,7 +19,7 @@ use super::source::{Location, Origin, Source};
 use super::tree::{self, Found, TomlNode, TomlValue, TreeError};
 use super::type_error::{Mismatch, TypeError};
 use super::variants::{apply_variant, check_names, variant_names};
-use super::{BoundaryCondition, Case, Model, library};
+use super::{BoundaryCondition, Case, Model, library, stroke_file};
 
 /// Keys of a file that those who extend it do not inherit.
 const OWN_KEYS: [&str; 3] = ["reference", "variant", "quick"];
@@ -100,8 +102,8 @@ impl Case {
     /// # Errors
     /// [`CaseError::Wrong`] with all that is wrong in it.
     pub fn parse(name: &str, text: &str, settings: &[String]) -> Result<CaseFile, CaseError> {
-        let source = Source { name: name.to_owned(), text: text.to_owned() };
-        let text = CaseText { name: stem(name), directory: None, source: Arc::new(source) };
+        let source = Source { name: name.to_owned(), directory: None, text: text.to_owned() };
+        let text = CaseText { name: stem(name), source: Arc::new(source) };
         assemble(&text, None, settings)
     }
 
@@ -149,6 +151,7 @@ fn assemble(
     for setting in settings {
         apply_setting(&mut root, setting).map_err(wrong)?;
     }
+    stroke_file::resolve(&mut root).map_err(wrong)?;
     let mut case = typed(&root)?;
     complete_periodic(&mut case);
     let model = Model::new(case).map_err(|error| located(&root, error))?;
@@ -205,7 +208,7 @@ fn extended(text: &CaseText) -> Result<TomlNode, CaseError> {
             "give the relative path of a case file, or the name of a shipped case",
         ));
     };
-    let found = match (&text.directory, name.ends_with(".toml")) {
+    let found = match (&text.source.directory, name.ends_with(".toml")) {
         (Some(directory), true) => read_file(&directory.join(name)),
         (None, true) => {
             return Err(refused(
@@ -239,7 +242,11 @@ fn extended(text: &CaseText) -> Result<TomlNode, CaseError> {
 
 /// Sets one `KEY=VALUE` of the command line.
 fn apply_setting(root: &mut TomlNode, setting: &str) -> Result<(), TreeError> {
-    let source = Arc::new(Source { name: "--set".to_owned(), text: setting.to_owned() });
+    let source = Arc::new(Source {
+        name: "--set".to_owned(),
+        directory: Some(PathBuf::new()),
+        text: setting.to_owned(),
+    });
     let written_at = |span| Origin { source: Arc::clone(&source), span };
     let whole = written_at(0..setting.len());
     let Some((path, raw)) = setting.split_once('=') else {

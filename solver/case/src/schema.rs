@@ -17,6 +17,7 @@ mod tests {
 
     use super::schema;
     use crate::Case;
+    use crate::stroke_file::FileStroke;
     use crate::tree::CHOICES;
 
     /// The schema of `Case`, and `extends`, which only reading knows.
@@ -32,6 +33,19 @@ mod tests {
         // A plain number is a stroke, too
         if let Some(strokes) = schema["$defs"]["Stroke"]["oneOf"].as_array_mut() {
             strokes.push(json!({ "type": "number", "description": "The same as `constant`." }));
+        }
+        // Values of a file are put in its place before the case is typed
+        let mut file = schemars::schema_for!(FileStroke).to_value();
+        if let Some(keys) = file.as_object_mut() {
+            keys.retain(|key, _| key != "$schema" && key != "title");
+        }
+        if let Some(strokes) = schema["$defs"]["Stroke"]["oneOf"].as_array_mut() {
+            strokes.push(json!({
+                "type": "object",
+                "properties": { "file": file },
+                "required": ["file"],
+                "additionalProperties": false,
+            }));
         }
         // What is needed may stand in the extended file.
         let required = schema["required"].take();

@@ -2,6 +2,7 @@
 
 use std::fmt;
 use std::ops::Range;
+use std::path::PathBuf;
 use std::sync::Arc;
 
 /// A text that was read: a case file, or one `--set` of the command line.
@@ -9,6 +10,8 @@ use std::sync::Arc;
 pub struct Source {
     /// Name of the file, or `--set`.
     pub name: String,
+    /// Where relative paths in it start; a shipped case has none.
+    pub directory: Option<PathBuf>,
     /// Its content.
     pub text: String,
 }
@@ -73,8 +76,8 @@ mod tests {
     use super::*;
 
     fn location(text: &str, span: Range<usize>) -> Location {
-        Origin { source: Arc::new(Source { name: "a.toml".into(), text: text.into() }), span }
-            .location()
+        let source = Source { name: "a.toml".into(), directory: None, text: text.into() };
+        Origin { source: Arc::new(source), span }.location()
     }
 
     #[test]

@@ -43,6 +43,9 @@ pub enum Stroke {
     },
     /// Straight lines between (time, value) knots, constant outside them.
     Table(Vec<[f64; 2]>),
+    /// Cubic polynomials between (time, value, rate) knots, which cover the run; what the columns of
+    /// a file become.
+    Cubic(Vec<[f64; 3]>),
 }
 
 impl Stroke {
@@ -83,6 +86,16 @@ impl Stroke {
                     (None, None) => [0.0, 0.0],
                 }
             }
+            Self::Cubic(knots) => {
+                // The outer ones go on: the last step may end beyond its knot by rounding
+                let last = knots.len().saturating_sub(1);
+                let after = knots.partition_point(|knot| knot[0] <= time).min(last).max(1);
+                match (knots.get(after - 1), knots.get(after)) {
+                    (Some(before), Some(after)) => Cubic::between(*before, *after).at(time),
+                    (Some([_, value, rate]), None) => [*value, *rate],
+                    _ => [0.0, 0.0],
+                }
+            }
         }
     }
 
@@ -102,7 +115,9 @@ impl Stroke {
                 let times = knots.iter().map(|knot| knot[0]);
                 times.filter(|time| *time > from && *time < to).collect()
             }
-            Self::Constant(_) | Self::Sine { .. } | Self::Legs { .. } => Vec::new(),
+            Self::Constant(_) | Self::Sine { .. } | Self::Legs { .. } | Self::Cubic(_) => {
+                Vec::new()
+            }
         }
     }
 
@@ -111,7 +126,7 @@ impl Stroke {
     pub fn period(&self) -> Option<f64> {
         match self {
             Self::Sine { period, .. } | Self::Legs { period, .. } => Some(*period),
-            Self::Constant(_) | Self::Table(_) => None,
+            Self::Constant(_) | Self::Table(_) | Self::Cubic(_) => None,
         }
     }
 
@@ -122,10 +137,58 @@ impl Stroke {
             Self::Constant(value) => [*value; 2],
             Self::Sine { mean, amplitude, .. } => [mean - amplitude.abs(), mean + amplitude.abs()],
             Self::Legs { knots, .. } | Self::Table(knots) => {
-                let values = || knots.iter().map(|knot| knot[1]);
-                [values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max)]
+                extent(knots.iter().map(|knot| knot[1]))
+            }
+            Self::Cubic(knots) => {
+                let pairs = knots.windows(2);
+                let turns = pairs.flat_map(|pair| Cubic::between(pair[0], pair[1]).extrema());
+                extent(knots.iter().map(|knot| knot[1]).chain(turns))
             }
         }
+    }
+}
+
+/// Smallest and largest of some values.
+fn extent(values: impl Iterator<Item = f64>) -> [f64; 2] {
+    values.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], value| {
+        [least.min(value), most.max(value)]
+    })
+}
+
+/// The cubic polynomial with given values and rates at two times:
+/// value + rate t + bend t^2 + twist t^3, t since the first one.
+struct Cubic {
+    start: f64,
+    length: f64,
+    coefficients: [f64; 4],
+}
+
+impl Cubic {
+    fn between([t0, from, r0]: [f64; 3], [t1, to, r1]: [f64; 3]) -> Self {
+        let length = t1 - t0;
+        let chord = (to - from) / length;
+        let bend = (3.0 * chord - 2.0 * r0 - r1) / length;
+        let twist = (r0 + r1 - 2.0 * chord) / (length * length);
+        Self { start: t0, length, coefficients: [from, r0, bend, twist] }
+    }
+
+    /// Value and rate at a time.
+    fn at(&self, time: f64) -> [f64; 2] {
+        let (t, [value, rate, bend, twist]) = (time - self.start, self.coefficients);
+        let value = value + t * (rate + t * (bend + t * twist));
+        [value, rate + t * (2.0 * bend + 3.0 * t * twist)]
+    }
+
+    /// Values where the rate is zero between the two times.
+    fn extrema(self) -> impl Iterator<Item = f64> {
+        let [_, rate, bend, twist] = self.coefficients;
+        // Roots of 3 twist t^2 + 2 bend t + rate, without cancellation
+        let root = (bend * bend - 3.0 * twist * rate).max(0.0).sqrt();
+        let q = -(bend + root.copysign(bend));
+        let times = [q / (3.0 * twist), rate / q];
+        let (start, length) = (self.start, self.length);
+        let inside = times.into_iter().filter(move |t| *t > 0.0 && *t < length);
+        inside.map(move |t| self.at(start + t)[0])
     }
 }
 
@@ -154,7 +217,8 @@ mod tests {
         };
         let sine = Stroke::Sine { mean: 1.0, amplitude: 2.0, period: 3.0, phase: 0.4, ramp: 2.0 };
         let table = Stroke::Table(vec![[0.5, 1.0], [2.0, 4.0], [3.0, 3.5]]);
-        for stroke in [legs(false), legs(true), sine, table, Stroke::Constant(3.0)] {
+        let cubic = Stroke::Cubic(vec![[0.0, 1.0, 0.5], [1.0, 2.0, -3.0], [10.0, 0.0, 1.0]]);
+        for stroke in [legs(false), legs(true), sine, table, cubic, Stroke::Constant(3.0)] {
             for time in [0.2, 0.7, 1.3, 2.7, 3.3, 5.1, 9.9] {
                 let [_, rate] = stroke.at(time);
                 let slope = (stroke.at(time + 1e-6)[0] - stroke.at(time - 1e-6)[0]) / 2e-6;
@@ -163,6 +227,22 @@ mod tests {
         }
         assert_eq!(legs(false).at(4.5)[0], 8.0);
         assert_eq!(legs(false).at(1.0), [6.0, 0.0]);
+    }
+
+    #[test]
+    fn a_cubic_passes_through_its_knots_and_knows_its_extrema() {
+        let knots = vec![[0.0, 0.0, 3.0], [1.0, 0.0, 3.0], [2.0, 1.0, 0.0], [3.0, 1.0, 0.0]];
+        let stroke = Stroke::Cubic(knots.clone());
+        for [time, value, rate] in knots {
+            assert_eq!(stroke.at(time), [value, rate]);
+        }
+        let times = || (0..=3000).map(|nth| f64::from(nth) / 1000.0);
+        let [least, most] = stroke.range();
+        let [low, high] = extent(times().map(|time| stroke.at(time)[0]));
+        assert!((least - low).abs() < 1e-5 && (most - high).abs() < 1e-5, "{least} {most}");
+        assert!(least < -0.2 && most == 1.0, "{least} {most}");
+        let line = Stroke::Cubic(vec![[0.0, 1.0, 1.0], [2.0, 3.0, 1.0]]);
+        assert_eq!((line.range(), line.at(0.5)), ([1.0, 3.0], [1.5, 1.0]));
     }
 
     #[test]

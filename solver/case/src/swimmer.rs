@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::body::{GaitSpec, Motion, ShapeSpec};
 use super::joint::{Hinge, JointKind};
+use super::link::Link;
 use super::stroke::Stroke;
 
 /// `[[swimmer]]`.
@@ -82,9 +83,11 @@ pub enum SwimmerKind {
     /// Slender links one after the other, with pivots between them (planar); the first one is in
     /// front, towards +x, and all hang on the middle one.
     Chain {
-        /// Semi-axes of the elliptic links (m): along the chain, across.
-        links: Vec<[f64; 2]>,
-        /// Distance of the tips of neighbours, the pivot between them (m).
+        /// Links from the front: semi-axes of an ellipse (m), along the chain and across, or
+        /// `{ shape, density }`.
+        links: Vec<Link>,
+        /// Distance of the ends of neighbours along the chain, the pivot in its middle, on the x axes
+        /// of both (m).
         gap: f64,
         /// Pivots: `bent = { angle }` or `hinge = { ... }`, from the front; the angle is that of the
         /// link farther from the middle less that of the nearer one.

@@ -326,12 +326,14 @@ mod tests {
     use super::*;
 
     fn tree(text: &str) -> TomlNode {
-        let source = Arc::new(Source { name: "t.toml".to_owned(), text: text.to_owned() });
+        let source =
+            Arc::new(Source { name: "t.toml".to_owned(), directory: None, text: text.to_owned() });
         parse(&source).unwrap()
     }
 
     fn set(root: &mut TomlNode, path: &str, value: &str) -> Result<(), TreeError> {
-        let source = Arc::new(Source { name: "--set".to_owned(), text: value.to_owned() });
+        let source =
+            Arc::new(Source { name: "--set".to_owned(), directory: None, text: value.to_owned() });
         root.set(path, parse_value(&source, 0).unwrap())
     }
 

@@ -1,6 +1,6 @@
 //! Wrong joints and swimmers.
 
-use super::{assert_accepted, assert_refused, check};
+use super::{Said, alewife, assert_accepted, assert_refused, check};
 
 /// Swimmers and joints in an unsteady run: nothing wrong in it.
 const SWIMMING: &str = r#"
@@ -251,4 +251,77 @@ fn copies_that_are_wrong_in_the_same_way_are_not_told_of_one_by_one() {
     assert_refused(&said, &["must not be negative"]);
     assert_eq!(said.stderr.matches("must not be negative").count(), 3, "{}", said.stderr);
     assert_eq!(said.stderr.matches("outline of \"chain").count(), 1, "{}", said.stderr);
+}
+
+#[test]
+fn links_have_a_shape_and_a_density_of_their_own() {
+    let links = "links = [[0.4, 0.1], [0.4, 0.1]]";
+    let kite = "shape.spline.points = [[0.4, 0.0], [0.0, 0.1], [-0.4, 0.0], [0.0, -0.1]]";
+    let with = |link: &str| format!("links = [[0.4, 0.1], {link}]");
+    let heavy = with(&format!("{{ {kite}, density = 2.0 }}"));
+    assert_accepted(&check(&SWIMMING.replacen(links, &heavy, 1), &[]));
+    for (link, wanted) in [
+        ("[0.4]", ["links.1` is an array of 1", "an array of 2 numbers is wanted"]),
+        ("[0.4, 0.1, 0.1]", ["links.1` is an array of 3", "an array of 2 numbers is wanted"]),
+        ("0.4", ["links.1` is `0.4`", "or { shape = ..., density = ... }"]),
+        ("{ density = 2.0 }", ["missing key `shape` in `swimmer.1.kind.chain.links.1`", "add"]),
+        (
+            "{ shape.disc.radius = 0.4, densty = 2.0 }",
+            ["unknown key `densty` in `swimmer.1.kind.chain.links.1`", "did you mean `density`?"],
+        ),
+        ("{ shape.disc.radius = 0.4, density = -2.0 }", ["is -2", "must not be negative"]),
+        ("{ shape.disc.radius = -0.4 }", ["is -0.4", "must be positive"]),
+        ("{ shape.sphere.radius = 0.4 }", ["a sphere cannot stand", "planar shapes: disc"]),
+        (
+            "{ shape.spline.points = [[0.0, 0.0], [0.4, 0.4], [0.4, 0.0], [0.0, 0.4]] }",
+            ["link 2 of the chain has no outline", "points that run counter-clockwise"],
+        ),
+    ] {
+        refused_swimming(links, &with(link), &wanted);
+    }
+}
+
+/// The chain above bent as a file says, its text and where its name stands being given.
+fn bent_by(file: &str, text: &str) -> Said {
+    let directory = tempfile::tempdir().unwrap();
+    let bent = format!("joints = [{{ bent.angle.file = {file} }}]");
+    let case = SWIMMING.replacen("joints = [{ hinge = { damping = 0.1 } }]", &bent, 1);
+    let folder = directory.path().join("robot");
+    std::fs::create_dir(&folder).unwrap();
+    std::fs::write(folder.join("case.toml"), case).unwrap();
+    std::fs::write(folder.join("angles.csv"), text).unwrap();
+    alewife(directory.path(), &["check", "--no-mesh", "robot/case.toml"])
+}
+
+#[test]
+fn angles_come_from_the_columns_of_a_file() {
+    let file = "{ path = \"angles.csv\", time = \"t, s\", column = \"q2\" }";
+    let right = "\"t, s\",q1,q2\r\n# logged\r\n0.0, 0.0, 0.0\r\n0.5,0.1,0.2\r\n\r\n1.0,0.0,0.1\r\n";
+    assert_accepted(&bent_by(file, right));
+    assert_accepted(&bent_by(file, &format!("\u{feff}{right}")));
+    for (from, to, wanted) in [
+        ("0.1,0.2", "0.1,x0.2", ["column `q2`: `x0.2` is not a finite number", "angles.csv:4:1"]),
+        ("1.0,0.0,0.1", "1.0,0.0,nan", ["`nan` is not a finite number", "angles.csv:6:1"]),
+        ("1.0,0.0,0.1", "1.0,0.0", ["column `q2` is empty here", "angles.csv:6:1"]),
+        ("1.0,0.0", "0.5,0.0", ["`t, s`: time 0.5 does not come after 0.5", "angles.csv:6:1"]),
+        ("\r\n1.0,0.0", "\n0.9,0.0", ["go from 0 to 0.9, and the run from 0 to 1", "whole run"]),
+        ("\n0.0, 0.0,", "\n0.1,0.0,", ["go from 0.1 to 1, and the run", "robot/case.toml:35:"]),
+        (",q1,", ",q2,", ["`column`: robot/angles.csv has 2 columns `q2`", "a name of its own"]),
+    ] {
+        assert!(right.contains(from), "`{from}`");
+        assert_refused(&bent_by(file, &right.replacen(from, to, 1)), &wanted);
+    }
+    let with = |from: &str, to: &str| bent_by(&file.replacen(from, to, 1), right);
+    let no_column = ["`column`: robot/angles.csv has no column `q3`", "t, s, q1, q2"];
+    assert_refused(&with("q2", "q3"), &no_column);
+    assert_refused(&with("angles.csv", "angle.csv"), &["no file robot/angle.csv", "relative to"]);
+    assert_refused(&with("angles.csv", ""), &["is a directory, not a file"]);
+    let file_key = "swimmer.1.kind.chain.joints.0.bent.angle.file";
+    let missing = format!("missing key `column` in `{file_key}`");
+    assert_refused(&with(", column = \"q2\"", ""), &[&missing, "robot/case.toml:35:"]);
+    assert_refused(&with("time =", "times ="), &["unknown key `times`", "did you mean `time`?"]);
+    assert_refused(&bent_by("\"angles.csv\"", right), &["the string \"angles.csv\"", "{ path ="]);
+    assert_refused(&bent_by(file, "\"t, s\",q2\n0.0,0.0\n"), &["has 1 rows of numbers"]);
+    let degrees = bent_by(file, &right.replace("0.2", "20.0").replace("0.1\r", "10.0\r"));
+    assert_eq!(degrees.stderr.matches("more than a turn").count(), 1, "{}", degrees.stderr);
 }

@@ -1,5 +1,6 @@
 //! Angles that look like degrees, and phases that look like radians.
 
+use std::collections::HashSet;
 use std::f64::consts::TAU;
 
 use super::Findings;
@@ -10,6 +11,8 @@ use crate::numbers::significant;
 const ROUNDING: f64 = 1e-6;
 
 pub fn check(findings: &mut Findings<'_>, file: &CaseFile) {
+    // Of a table that is all in degrees the first value tells
+    let mut told = HashSet::new();
     for number in file.numbers() {
         let (key, value) = (number.path.as_str(), number.value);
         let last = key.rsplit('.').next().unwrap_or_default();
@@ -22,7 +25,7 @@ pub fn check(findings: &mut Findings<'_>, file: &CaseFile) {
         } else {
             is_angle && value.abs() > TAU * (1.0 + ROUNDING)
         };
-        if looks_like_degrees {
+        if looks_like_degrees && told.insert(table_of(key).to_owned()) {
             findings.warning(
                 key,
                 format!("`{key}` is {value}: angles are in radians, and this is more than a turn"),
@@ -39,13 +42,21 @@ pub fn check(findings: &mut Findings<'_>, file: &CaseFile) {
     }
 }
 
+/// The table a knot is of, or the key itself.
+fn table_of(key: &str) -> &str {
+    let mut steps = key.rsplitn(3, '.');
+    let is_number = |step: Option<&str>| step.is_some_and(|step| step.parse::<usize>().is_ok());
+    let is_knot = is_number(steps.next()) && is_number(steps.next());
+    steps.next().filter(|_| is_knot).unwrap_or(key)
+}
+
 /// Whether a number is a value, not a time, of a function of time below a table.
 fn is_value_of(key: &str, table: &str) -> bool {
     let Some((_, rest)) = key.split_once(table) else { return false };
     let steps: Vec<&str> = rest.split('.').collect();
     match steps.as_slice() {
         ["constant"] | ["sine", "mean" | "amplitude"] => true,
-        ["legs", "knots", _, column] | ["table", _, column] => *column == "1",
+        ["legs", "knots", _, column] | ["table" | "cubic", _, column] => *column == "1",
         _ => false,
     }
 }

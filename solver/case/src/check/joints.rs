@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use super::Findings;
 use crate::joint::{PlanarPose, child_pose};
-use crate::{Geometry, Hinge, Joint, JointKind, Model, Motion, Stroke};
+use crate::{Geometry, Hinge, Joint, JointKind, Model, Motion, Stroke, TimeSettings};
 
 /// Distance between a child and where its joint puts it, over the size of the joint, that is taken
 /// for rounding.
@@ -249,6 +249,32 @@ pub(super) fn stroke(findings: &mut Findings<'_>, key: &str, stroke: &Stroke) {
                 );
             }
         }
+        Stroke::Cubic(knots) => cubic(findings, &format!("{key}.cubic"), knots),
+    }
+}
+
+/// Knots with rates: nothing is said of what is before the first or after the last one.
+fn cubic(findings: &mut Findings<'_>, key: &str, knots: &[[f64; 3]]) {
+    let is_rising = knots.len() > 1 && knots.windows(2).all(|pair| pair[1][0] > pair[0][0]);
+    let (Some([first, ..]), Some([last, ..]), true) = (knots.first(), knots.last(), is_rising)
+    else {
+        findings.error(
+            key,
+            "there must be two knots or more, and their times must rise".to_owned(),
+            "write cubic = [[t0, v0, rate0], [t1, v1, rate1], ...] with t0 < t1 < ...",
+        );
+        return;
+    };
+    let end = match &findings.case().time {
+        TimeSettings::Steady(_) => 0.0,
+        TimeSettings::Unsteady(time) => time.end,
+    };
+    if *first > 0.0 || *last < end * (1.0 - ROUNDING) {
+        findings.error(
+            key,
+            format!("its times go from {first} to {last}, and the run from 0 to {end}"),
+            "give values for the whole run, or lower time.unsteady.end",
+        );
     }
 }
 

@@ -60,6 +60,7 @@ fn cycle(stroke: &Stroke) -> f64 {
         Stroke::Sine { period, ramp, .. } => period + ramp,
         Stroke::Legs { period, .. } => *period,
         Stroke::Table(knots) => knots.last().map_or(0.0, |knot| knot[0]),
+        Stroke::Cubic(knots) => knots.last().map_or(0.0, |knot| knot[0]),
     }
 }
 

@@ -68,6 +68,7 @@ pub fn columns(model: &Model) -> Vec<Column> {
         let source = |quantity| Source::Swimmer(nth, quantity);
         let known = Circumstances {
             has_several_bodies: swimmer.bodies.len() > 1,
+            has_separate_bodies: has_separate_bodies(model, &swimmer.bodies),
             has_cycles: swimmer.period.is_some() && is_unsteady,
             has_resistance: swimmer.resistance.is_some(),
             ..of_case.clone()
@@ -80,6 +81,20 @@ pub fn columns(model: &Model) -> Vec<Column> {
     }
     add(&mut columns, "flow", FlowQuantity::TABLE, &of_case, Source::Flow);
     columns
+}
+
+/// Whether two of these bodies share no pivot: there are more pairs than pivots.
+fn has_separate_bodies(model: &Model, bodies: &[usize]) -> bool {
+    let is_on_pivot = |body: usize| {
+        let joint = model.joint_above(body).map(|joint| &model.joints[joint]);
+        joint.is_some_and(|joint| {
+            let parent = model.body_index(&joint.parent);
+            !matches!(joint.kind, JointKind::Arm { .. })
+                && parent.is_some_and(|parent| bodies.contains(&parent))
+        })
+    };
+    let n_pivots = bodies.iter().filter(|body| is_on_pivot(**body)).count();
+    bodies.len() * bodies.len().saturating_sub(1) / 2 > n_pivots
 }
 
 /// Adds those quantities of an owner that exist.
@@ -163,7 +178,7 @@ mod tests {
         };
         let arm = "joint.length joint.rate joint.force joint.power";
         let group = "x y angle velocity.x velocity.y angular_velocity force.x force.y torque power \
-                     shape_power expended_power thrust drag";
+                     shape_power expended_power thrust drag minimum_gap";
         let cycle = "cycle.x cycle.y cycle.angle cycle.speed cycle.power cycle.cost_of_transport \
                      cycle.efficiency cycle.drift cycle.lighthill_efficiency";
         let flow = "dissipation kinetic_energy mass_defect energy_defect";

@@ -30,6 +30,8 @@ pub enum When {
     Arm,
     /// The swimmer has more than one body.
     SeveralBodies,
+    /// The swimmer has two bodies that are not on one pivot, and the mesh moves.
+    MovingMembers,
     /// The swimmer has a period, and the run is unsteady.
     Cycles,
     /// The same, and its resistance is known.
@@ -59,6 +61,7 @@ impl When {
             Self::Pivot => "pivots (`bent`, `hinge`)",
             Self::Arm => "`arm`",
             Self::SeveralBodies => "several bodies",
+            Self::MovingMembers => "two bodies that share no pivot, a moving mesh",
             Self::Cycles => "a period",
             Self::TowedCycles => "a period and `resistance`",
             Self::TowedWithoutCycles => "`resistance`, no period",
@@ -78,6 +81,7 @@ impl When {
             Self::Pivot => !known.is_arm,
             Self::Arm => known.is_arm,
             Self::SeveralBodies => known.has_several_bodies,
+            Self::MovingMembers => known.has_separate_bodies && known.mesh_moves,
             Self::Cycles => known.has_cycles,
             Self::TowedCycles => known.has_cycles && known.has_resistance,
             Self::TowedWithoutCycles => !known.has_cycles && known.has_resistance,
@@ -97,6 +101,7 @@ pub(super) struct Circumstances {
     pub has_contact: bool,
     pub is_arm: bool,
     pub has_several_bodies: bool,
+    pub has_separate_bodies: bool,
     pub has_cycles: bool,
     pub has_resistance: bool,
     pub balances_energy: bool,

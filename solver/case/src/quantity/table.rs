@@ -110,6 +110,9 @@ quantities! {
         Drag: "drag", "N (N/m)", Always,
             "Force on the surface against the velocity of the centre of mass, positive; by \
              integrating the stress";
+        MinimumGap: "minimum_gap", "m", MovingMembers,
+            "Minimum gap between two of its bodies that are not on one pivot; where it falls to that \
+             of a few cells, the swimmer touches itself";
         CycleX: "cycle.x", "m", Cycles,
             "Displacement of the centre of mass over the last cycle; NaN before the first one \
              ends";

@@ -41,6 +41,10 @@ pub trait Gaps: Debug + Send + Sync {
     /// for one body without walls.
     fn minimum_gap(&self, poses: &[Pose]) -> Option<MinimumGap>;
 
+    /// The smallest gap (m) between two of these bodies, those on one pivot left out, however large;
+    /// `None` where there are no such two.
+    fn minimum_gap_among(&self, poses: &[Pose], bodies: &[usize]) -> Option<f64>;
+
     /// The fraction, at most 1, of the displacements between poses within which no body can get to
     /// the far side of another.
     fn max_step_fraction(&self, from: &[Pose], to: &[Pose]) -> f64;

@@ -269,6 +269,28 @@ impl Gaps for PlanarGaps {
         self.minimum_gap_within(poses, &outlines, f64::INFINITY)
     }
 
+    fn minimum_gap_among(&self, poses: &[Pose], bodies: &[usize]) -> Option<f64> {
+        let unmoved = Point::<2>::zeros();
+        let mut least: Option<f64> = None;
+        for (nth, &one) in bodies.iter().enumerate() {
+            let outline = self.bodies[one].outline_at(&poses[one], unmoved);
+            let is_apart = |other: &&usize| !self.are_joined(one.min(**other), one.max(**other));
+            for &other in bodies[nth + 1..].iter().filter(is_apart) {
+                for away in self.images(poses, one, other) {
+                    let surface =
+                        Surface::Outline(self.bodies[other].outline_at(&poses[other], away));
+                    let partner = Partner::Body(other);
+                    let met = Encounter { body: one, outline: &outline, partner, away, surface };
+                    if least.is_none_or(|least| met.gap_bound() < least) {
+                        let gap = met.gap();
+                        least = Some(least.map_or(gap, |least| least.min(gap)));
+                    }
+                }
+            }
+        }
+        least
+    }
+
     /// Half the thickness of the thinner body; walls are half planes, which cannot be crossed.
     fn max_step_fraction(&self, from: &[Pose], to: &[Pose]) -> f64 {
         let bounds: Vec<f64> = (0..self.n_bodies())

@@ -110,3 +110,27 @@ fn the_bound_of_the_step_is_that_of_all_bodies() {
     assert!(fraction < 1.0);
     assert_eq!(gaps.max_step_fraction(&from, &to), fraction);
 }
+
+/// A folded row of discs on pivots: neighbours are close, and yet the gap is that of the ends.
+#[test]
+fn of_a_chain_the_gaps_between_links_that_share_no_pivot_count() {
+    let disc = |nth: usize| PlacedShape {
+        name: nth.to_string(),
+        shape: Shape::Disc { radius: 1.0 },
+        center: Point::<2>::zeros(),
+        angle: 0.0,
+        size: None,
+    };
+    let places = [[2.0, 2.0], [4.1, 2.0], [4.1, 4.1], [2.0, 4.5], [2.0, 6.55]];
+    let poses = places.map(|[x, y]| Pose::planar(x, y, 0.0));
+    let bodies: Vec<PlacedShape> = (0..5).map(disc).collect();
+    let joined = [[0, 1], [1, 2], [2, 3]].into_iter();
+    let gaps =
+        PlanarGaps::new(&box_of(9.0, false, false), &[0], &bodies).unwrap().with_joined(joined);
+    let among = |bodies: &[usize]| gaps.minimum_gap_among(&poses, bodies);
+    // From the first disc to the last one of the chain; another body and walls do not count
+    assert!((among(&[1, 0, 2, 3]).unwrap() - 0.5).abs() < 1e-12);
+    assert_eq!(among(&[1, 0]), None);
+    // The pair whose bodies share no pivot
+    assert!((among(&[3, 4]).unwrap() - 0.05).abs() < 1e-12);
+}

@@ -18,7 +18,7 @@ use super::advance::Simulation;
 use super::snapshot::BodyReport;
 use super::{RunError, Stage};
 use crate::case::{Case, Column, Model, Source, TimeSettings, columns};
-use crate::coupling::SurfaceLoads;
+use crate::coupling::{Group, SurfaceLoads};
 
 /// Measures a run; made once a mesh.
 pub(super) struct Measure<const D: usize> {
@@ -103,12 +103,17 @@ impl<const D: usize> Measure<D> {
     ) -> Result<Measured, RunError> {
         let bodies = body_reports(simulation, &loads.bodies);
         let mut flow = FlowMeasurement::new(simulation);
-        let Simulation { problem, state, .. } = simulation;
+        let Simulation { problem, state, moving_mesh, .. } = simulation;
+        let own_poses = state.in_own_frame(problem, &state.poses);
+        let minimum_gap = |group: &Group| {
+            moving_mesh.as_ref()?.gaps().minimum_gap_among(&own_poses, &group.bodies)
+        };
         let joints = measure_joints(problem, state, &loads.bodies)?;
         let groups = problem.groups.iter().zip(&state.propulsion);
         let swimmers: Vec<_> = groups
             .map(|(group, history)| {
                 SwimmerMeasurement::new(problem, state, group, history, &loads.bodies)
+                    .with_minimum_gap(minimum_gap(group))
             })
             .collect();
         let probes = self.probes.values(state);

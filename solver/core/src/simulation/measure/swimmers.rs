@@ -19,6 +19,9 @@ pub(super) struct SwimmerMeasurement {
     /// Averages over the last cycle; `None` of a swimmer without a period.
     means: Option<CycleMeans>,
     resistance: Option<f64>,
+    /// Smallest gap between two of its bodies that are not on one pivot (m); `None` where the mesh
+    /// rests or there are no such two.
+    minimum_gap: Option<f64>,
 }
 
 impl SwimmerMeasurement {
@@ -36,8 +39,14 @@ impl SwimmerMeasurement {
             power: history.power(),
             means: group.period.map(|period| history.cycles.means(period, group.resistance)),
             resistance: group.resistance,
+            minimum_gap: None,
             motion,
         }
+    }
+
+    /// The same with the smallest gap between its bodies.
+    pub(super) fn with_minimum_gap(self, minimum_gap: Option<f64>) -> Self {
+        Self { minimum_gap, ..self }
     }
 
     pub(super) fn value(&self, quantity: SwimmerQuantity) -> f64 {
@@ -70,6 +79,7 @@ impl SwimmerMeasurement {
             SwimmerQuantity::CycleLighthillEfficiency => {
                 of_cycle(|means| means.lighthill_efficiency)
             }
+            SwimmerQuantity::MinimumGap => self.minimum_gap.unwrap_or(f64::NAN),
             SwimmerQuantity::LighthillEfficiency => self
                 .resistance
                 .map_or(f64::NAN, |force| force * twist.linear.norm_squared() / power),

@@ -185,11 +185,13 @@ impl<const D: usize> SavedState<D> {
         match self.case.keys().chain(keys.keys()).find(|key| self.case.get(*key) != keys.get(*key))
         {
             None => Ok(()),
-            Some(key) => Err(ResumeError::OtherCase {
-                key: key.clone(),
-                state: value(&self.case, key),
-                case: value(&keys, key),
-            }),
+            Some(key) => {
+                let (state, case) = (value(&self.case, key), value(&keys, key));
+                let pairs = state.bytes().zip(case.bytes());
+                let same = pairs.take_while(|(one, other)| one == other).count();
+                let [state, case] = [state, case].map(|value| excerpt(&value, same));
+                Err(ResumeError::OtherCase { key: key.clone(), state, case })
+            }
         }
     }
 
@@ -247,5 +249,40 @@ impl<const D: usize> SavedState<D> {
             propulsion: self.propulsion.clone(),
             energy: self.energy,
         }
+    }
+}
+
+/// Characters of a value that a message shows at most, and before the first that differs.
+const SHOWN: usize = 80;
+const SHOWN_BEFORE: usize = 20;
+
+/// What a message shows of a value, such as a table of thousands of knots, of which the first bytes
+/// are as they should be.
+fn excerpt(value: &str, same: usize) -> String {
+    if value.chars().count() <= SHOWN {
+        return value.to_owned();
+    }
+    let before = value.char_indices().take_while(|(byte, _)| *byte < same).count();
+    let start = before.saturating_sub(SHOWN_BEFORE);
+    let shown: String = value.chars().skip(start).take(SHOWN).collect();
+    let dots = |is_cut: bool| if is_cut { "..." } else { "" };
+    let is_cut = start + SHOWN < value.chars().count();
+    format!("{}{shown}{}", dots(start > 0), dots(is_cut))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::excerpt;
+
+    #[test]
+    fn of_a_long_value_what_differs_is_shown() {
+        assert_eq!(excerpt("[1.0,2.0]", 3), "[1.0,2.0]");
+        let long = format!("{}HERE{}", "a".repeat(500), "b".repeat(500));
+        let shown = excerpt(&long, 500);
+        assert!(
+            shown.contains("aHEREb") && shown.starts_with("...") && shown.len() == 86,
+            "{shown}"
+        );
+        assert!(excerpt(&long, 0).starts_with("aaa") && excerpt(&long, 0).ends_with("..."));
     }
 }

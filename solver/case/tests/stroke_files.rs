@@ -1,0 +1,71 @@
+//! A case whose joints move as a file says stands for itself once it is read.
+#![expect(clippy::unwrap_used, reason = "a test that cannot write its files has failed")]
+
+use std::fs;
+use std::path::Path;
+
+use alewife_case::{Case, JointKind};
+
+const CASE: &str = r#"
+title = "a robot"
+geometry = "planar"
+fluid = { model = "stokes", viscosity = 1.0 }
+domain.disc.radius = 5.0
+boundary.wall = "no-slip"
+mesh = { size = 0.5 }
+time.unsteady = { step = 0.1, end = 1.0 }
+[[swimmer]]
+name = "robot"
+[swimmer.kind.chain]
+links = [[0.4, 0.1], [0.4, 0.1]]
+gap = 0.2
+joints = [{ bent.angle.file = { path = "../log.csv", time = "t", column = "q" } }]
+"#;
+
+fn read(path: &Path, settings: &[&str]) -> Case {
+    let settings: Vec<String> = settings.iter().map(|one| (*one).to_owned()).collect();
+    Case::read(path.to_str().unwrap(), &settings).unwrap().model.case
+}
+
+#[test]
+fn the_values_of_a_file_become_part_of_the_case() {
+    let directory = tempfile::tempdir().unwrap();
+    let [cases, others] = ["cases", "others/deeper"].map(|name| directory.path().join(name));
+    fs::create_dir_all(&cases).unwrap();
+    fs::create_dir_all(&others).unwrap();
+    let log = directory.path().join("log.csv");
+    fs::write(&log, "t,q,r\n0,0.0,0.0\n0.4,0.3,0.1\n0.7,0.1,0.2\n1,-0.2,0.3\n").unwrap();
+    let path = cases.join("robot.toml");
+    fs::write(&path, CASE).unwrap();
+    let case = read(&path, &[]);
+
+    // A file is found from the text that names it, also where another one extends that
+    let child = others.join("child.toml");
+    let parent = path.to_str().unwrap();
+    fs::write(&child, format!("extends = '{parent}'\ntitle = \"another\"\n")).unwrap();
+    assert_eq!(read(&child, &[]).swimmer, case.swimmer);
+
+    // Another column, and another value, are another problem
+    let keys = case.problem_keys().unwrap();
+    let key = "swimmer.0.kind.chain.joints.0.bent.angle";
+    let other = read(&path, &[&format!("{key}.file.column=r")]).problem_keys().unwrap();
+    let differ: Vec<&String> = keys.keys().filter(|key| keys[*key] != other[*key]).collect();
+    assert_eq!(differ, [&format!("{key}.cubic")]);
+
+    // Nothing of the file is needed when the case is read back
+    let text = case.to_toml().unwrap();
+    fs::remove_file(&log).unwrap();
+    let back = Case::parse("case.toml", &text, &[]).unwrap().model;
+    assert_eq!(back.case, case);
+    let JointKind::Bent { angle } = &back.joints[0].kind else { panic!("{:?}", back.joints) };
+    for (time, value) in [(0.0, 0.0), (0.4, 0.3), (0.7, 0.1), (1.0, -0.2)] {
+        assert!((angle.at(time)[0] - value).abs() < 1e-14);
+    }
+    // Rates are continuous, and so are their slopes
+    for knot in [0.4, 0.7] {
+        let rate = |time: f64| angle.at(time)[1];
+        let slopes = [rate(knot) - rate(knot - 1e-6), rate(knot + 1e-6) - rate(knot)];
+        assert!(slopes.iter().all(|slope| slope.abs() < 1e-4), "{slopes:?}");
+        assert!((slopes[0] - slopes[1]).abs() < 1e-9, "{slopes:?}");
+    }
+}
