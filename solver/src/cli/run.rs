@@ -44,6 +44,9 @@ pub struct Options {
     /// Resume from the state of a run that stopped or failed: its state.json or failure/state.json
     #[arg(long, value_name = "FILE")]
     resume: Option<PathBuf>,
+    /// Do not compare with references
+    #[arg(long)]
+    no_references: bool,
     /// Replace a finished run
     #[arg(long)]
     overwrite: bool,
@@ -84,7 +87,8 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
         RunError::Stopped { .. } => stopped(&error, &out),
         other => other.into(),
     })?;
-    let comparisons = compare(&name, file.case(), &outcome);
+    let comparisons =
+        if options.no_references { Vec::new() } else { compare(&name, file.case(), &outcome) };
     if !comparisons.is_empty() {
         let text = format!("{:#}\n", comparisons_to_json(&comparisons));
         write_atomic(&out.join(COMPARISON_FILE), text.as_bytes())?;

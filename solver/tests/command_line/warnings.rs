@@ -137,3 +137,34 @@ fn check_tells_cfl_and_cell_reynolds_numbers() {
     let said = String::from_utf8(output.stdout).unwrap();
     assert!(said.contains("CFL number") && said.contains("cell Reynolds"), "{said}");
 }
+
+#[test]
+fn a_run_that_is_cut_short_leaves_references_uncomputed() {
+    let directory = tempfile::tempdir().unwrap();
+    let case = THREE_LINKS.to_owned()
+        + "[statistics]\nwindow = [0.5, 1.0]\n\
+           [[reference]]\nquantity = \"links.x\"\nstatistic = \"at\"\nat = 1.0\nvalue = 0.0\n\
+           absolute = 1.0\nkind = \"property\"\nsource = \"it stays near its place\"\n\
+           [[reference]]\nquantity = \"links.y\"\nstatistic = \"mean\"\nvalue = 1.0\n\
+           absolute = 1.0\nkind = \"property\"\nsource = \"it stays near its place\"\n\
+           [[reference]]\nquantity = \"links.y\"\nvalue = 1.0\n\
+           absolute = 1.0\nkind = \"property\"\nsource = \"it stays near its place\"\n";
+    std::fs::write(directory.path().join("links.toml"), case).unwrap();
+    let run = |more: &[&str]| {
+        let short = ["--set", "time.unsteady.end=0.1", "--set", "time.unsteady.step=0.05"];
+        let command = ["run", "links.toml", "--overwrite", "--threads", "1", "--quiet"];
+        let output = alewife(directory.path(), &[&command[..], &short[..], more].concat());
+        let [said, warned] =
+            [output.stdout, output.stderr].map(|text| String::from_utf8_lossy(&text).into_owned());
+        assert_eq!(output.status.code(), Some(0), "{said}{warned}");
+        (said, warned, directory.path().join("runs/links/comparison.json").exists())
+    };
+    let (said, warned, is_compared) = run(&[]);
+    assert!(warned.contains("the time 1 is after the end of the run at 0.1"), "{warned}");
+    assert!(warned.contains("the window goes from 0.5 to 1, and the run ends at 0.1"), "{warned}");
+    assert_eq!(said.matches("NOT COMPUTED").count(), 2, "{said}");
+    assert_eq!(said.matches("within").count(), 1, "{said}");
+    assert!(said.contains("the run has no value at time 1") && is_compared, "{said}");
+    let (said, _, is_compared) = run(&["--no-references"]);
+    assert!(!said.contains("COMPUTED") && said.contains("links.x") && !is_compared, "{said}");
+}

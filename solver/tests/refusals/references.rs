@@ -90,7 +90,7 @@ fn statistics_of_moving_bodies_have_what_they_need() {
         ("level = 1.0", "`level` goes with the statistics `crossing` and `when` only"),
         ("of = \"disc.x\"", "`of` goes with the statistic `when` only"),
         ("statistic = \"crossing\"\nlevel = 1\nat = 0.5", "`at` goes with the statistic `at` only"),
-        ("statistic = \"at\"\nat = 2.0", "the time 2 is not within the run"),
+        ("statistic = \"at\"\nat = -2.0", "the time -2 is not within the run"),
         ("minus = \"disk.y\"", "there is no quantity `disk.y`"),
         ("minus = \"disc.y\"", "`disc.y` less itself is 0"),
         ("statistic = \"morison-drag\"", "is one of forces, not of `disc.y`"),

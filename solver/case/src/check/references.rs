@@ -5,6 +5,9 @@ use crate::quantity::{When, conditions_of, known_quantities, renamed};
 use crate::type_error::suggestion;
 use crate::{Geometry, Reference, ReferenceKind, Statistic, TimeSettings};
 
+/// Part of the end of a run that is taken for rounding.
+const ROUNDING: f64 = 1e-9;
+
 pub fn check(findings: &mut Findings<'_>) {
     let case = findings.case();
     let known = known_quantities(findings.model());
@@ -13,12 +16,17 @@ pub fn check(findings: &mut Findings<'_>) {
         TimeSettings::Unsteady(time) => Some(time.end),
     };
     if let Some([start, stop]) = case.statistics.window {
-        let latest = end.unwrap_or(f64::INFINITY);
-        if start < 0.0 || stop <= start || start >= latest {
+        if start < 0.0 || stop <= start {
             findings.error(
                 "statistics.window",
                 format!("the window from {start} to {stop} is not within the run"),
                 "write window = [start, end] with 0 <= start < end <= time.unsteady.end",
+            );
+        } else if let Some(end) = end.filter(|end| is_beyond(stop, *end)) {
+            findings.warning(
+                "statistics.window",
+                format!("the window goes from {start} to {stop}, and the run ends at {end}"),
+                "what is taken over the window is not computed; run on, or lower its end",
             );
         }
     }
@@ -55,6 +63,11 @@ pub fn check(findings: &mut Findings<'_>) {
             );
         }
     }
+}
+
+/// Whether a time is after the end of the run (s) by more than rounding: a run may be cut short.
+fn is_beyond(time: f64, end: f64) -> bool {
+    time > end * (1.0 + ROUNDING)
 }
 
 /// Whether the value says how certain it is, and a regression when it was made.
@@ -184,13 +197,20 @@ fn check_statistic(
     check_arguments(findings, key, reference);
     if reference.statistic == At
         && let Some(at) = reference.at
-        && (at < 0.0 || end.is_some_and(|end| at > end))
     {
-        findings.error(
-            &format!("{key}.at"),
-            format!("the time {at} is not within the run"),
-            "write a time between 0 and time.unsteady.end",
-        );
+        if at < 0.0 {
+            findings.error(
+                &format!("{key}.at"),
+                format!("the time {at} is not within the run"),
+                "write a time between 0 and time.unsteady.end",
+            );
+        } else if let Some(end) = end.filter(|end| is_beyond(at, *end)) {
+            findings.warning(
+                &format!("{key}.at"),
+                format!("the time {at} is after the end of the run at {end}"),
+                "the value is not computed; run on, or take the reference out",
+            );
+        }
     }
     let lacking = if is_any(&[Strouhal, HalfPeriodAfterMax]) {
         Some("period")

@@ -46,6 +46,17 @@ impl Curve {
         Ok(Self { times, values })
     }
 
+    /// The steps within a window that the run has reached the end of.
+    pub(super) fn whole_window(&self, window: Option<[f64; 2]>) -> Result<Self, StatisticError> {
+        if let Some([start, end]) = window {
+            let last = self.times[self.times.len() - 1];
+            if last < end - 1e-9 * (end - start).abs() {
+                return Err(StatisticError::UnfinishedWindow { start, end, last });
+            }
+        }
+        self.window(window)
+    }
+
     pub(super) fn until(&self, end: f64) -> Result<Self, StatisticError> {
         self.window(Some([self.times[0], end]))
     }

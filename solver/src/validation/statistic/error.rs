@@ -16,6 +16,16 @@ pub enum StatisticError {
         /// End (s).
         end: f64,
     },
+    /// The run ends before the window does.
+    #[error("the window goes from {start} to {end}, and the run ends at {last}")]
+    UnfinishedWindow {
+        /// Start (s).
+        start: f64,
+        /// End (s).
+        end: f64,
+        /// End of the run (s).
+        last: f64,
+    },
     /// The run was not computed at that time.
     #[error("the run has no value at time {time}: it reaches from {start} to {end}")]
     OutsideRun {

@@ -21,7 +21,7 @@ pub fn measured_value(
     reference: &Reference,
 ) -> Result<f64, StatisticError> {
     let whole = compared(series, reference)?;
-    let window = whole.window(case.statistics.window)?;
+    let window = || whole.whole_window(case.statistics.window);
     let mean = |curve: &Curve| {
         if case.statistics.whole_periods { curve.mean() } else { curve.average_of_all() }
     };
@@ -31,18 +31,18 @@ pub fn measured_value(
             let time = reference.at.ok_or(StatisticError::Missing("a time, `at`"))?;
             whole.value_at(time)?
         }
-        Statistic::Max => window.extremum(1.0).value,
-        Statistic::Min => window.extremum(-1.0).value,
-        Statistic::Mean => mean(&window),
-        Statistic::Rms => mean(&window.squared()).sqrt(),
+        Statistic::Max => window()?.extremum(1.0).value,
+        Statistic::Min => window()?.extremum(-1.0).value,
+        Statistic::Mean => mean(&window()?),
+        Statistic::Rms => mean(&window()?.squared()).sqrt(),
         Statistic::Strouhal => {
             let scales = case.scales.ok_or(StatisticError::Missing("[scales]"))?;
-            scales.length / (scales.velocity * window.period(&reference.formula())?)
+            scales.length / (scales.velocity * window()?.period(&reference.formula())?)
         }
         Statistic::HalfPeriodAfterMax => {
             let name = case.statistics.phase_of.as_deref();
             let name = name.ok_or(StatisticError::Missing("statistics.phase_of"))?;
-            let phase = Curve::of(series, name)?.window(case.statistics.window)?;
+            let phase = Curve::of(series, name)?.whole_window(case.statistics.window)?;
             let half_period = 0.5 * phase.period(name)?;
             let last = whole.times.last().copied().unwrap_or(0.0) - half_period;
             let peak = phase.until(last)?.extremum(1.0);
@@ -59,7 +59,10 @@ pub fn measured_value(
             let time = Curve::of(series, of)?.time_of(level, case.statistics.window, of)?;
             whole.value_at(time)?
         }
-        Statistic::Range => window.extremum(1.0).value - window.extremum(-1.0).value,
+        Statistic::Range => {
+            let window = window()?;
+            window.extremum(1.0).value - window.extremum(-1.0).value
+        }
         Statistic::MorisonDrag => morison_fit(series, case, reference)?[0],
         Statistic::MorisonInertia => morison_fit(series, case, reference)?[1],
     };
@@ -86,7 +89,7 @@ fn morison_fit(
     let scales = case.scales.ok_or(StatisticError::Missing("[scales]"))?;
     let ForceComponent { body, axis } =
         reference.force_of().ok_or(StatisticError::Missing("a force on a body"))?;
-    let column = |name: &str| Curve::of(series, name)?.window(case.statistics.window);
+    let column = |name: &str| Curve::of(series, name)?.whole_window(case.statistics.window);
     let force = column(&reference.quantity)?;
     let velocity = column(&format!("{body}.velocity.{axis}"))?;
     let acceleration = column(&format!("{body}.acceleration.{axis}"))?;

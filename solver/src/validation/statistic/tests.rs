@@ -262,4 +262,9 @@ fn what_was_not_computed_is_an_error() {
     assert!(value(&line, "r", Statistic::Final, None).is_err());
     assert!(value(&line, "q", Statistic::At, None).is_err());
     assert!(value(&line, "q", Statistic::Max, Some([5.0, 6.0])).is_err());
+    // Of a window that the run has reached in part another value would come out
+    let long = series(0.1, 20, &[("q", &|t| t)]);
+    assert!(value(&long, "q", Statistic::Mean, Some([0.5, 1.5])).is_ok());
+    assert!(value(&long, "q", Statistic::Mean, Some([1.5, 2.5])).is_err());
+    assert!(value(&long, "q", Statistic::Final, Some([1.5, 2.5])).is_ok());
 }
