@@ -87,3 +87,28 @@ fn a_turning_disc_in_a_ring_has_its_closed_form_torque() {
     assert!((torque / exact - 1.0).abs() < 2e-5, "{torque} for {exact}");
     assert!(last(&outcome, "disc.force.x").abs() < 1e-3);
 }
+
+/// A disc at a gap of 5.5e-4 radii moves towards a wall of a region 300 times as large as itself. To
+/// leading order in the gap the force of the film is 3 sqrt(2) pi mu U gap^(-3/2).
+#[test]
+fn a_thin_film_beside_a_wide_region_is_solved_to_rounding() {
+    let case = case(
+        r#"
+        title = "a disc close to the wall of a wide region"
+        geometry = "planar"
+        fluid = { model = "stokes", viscosity = 1.0 }
+        domain.box = { min = [-300.0, 0.0], max = [300.0, 300.0] }
+        boundary = { left = "no-slip", right = "no-slip", bottom = "no-slip", top = "no-slip" }
+        mesh = { size = 60.0, surface = 0.1, gap_layers = 3, growth = 0.3 }
+        time.steady = {}
+        [[body]]
+        name = "disc"
+        shape.disc.radius = 1.0
+        center = [0.0, 1.00055]
+        motion = { imposed = { velocity = [0.0, -1.0] } }
+        "#,
+    );
+    let force = last(&run(&case), "disc.force.y");
+    let film = 3.0 * 2f64.sqrt() * std::f64::consts::PI * 5.5e-4f64.powf(-1.5);
+    assert!((force / film - 1.0).abs() < 0.01, "{force} and {film}");
+}

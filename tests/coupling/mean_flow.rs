@@ -75,6 +75,22 @@ fn a_free_body_goes_with_the_mean_flow() {
     assert!(last(&free, "disc.force.x").abs() < 1e-9);
 }
 
+/// Sedimentation without net flux: the mean pressure gradient carries what pulls the bodies, and
+/// the body falls with the drag of one that is moved through the cell.
+#[test]
+fn a_pulled_body_in_a_cell_without_walls_falls_by_its_drag() {
+    let moved = disc("mean_velocity = [0.0, 0.0]", "{ imposed = { velocity = [-0.5, -0.2] } }");
+    let drag = ["disc.force.x", "disc.force.y", "disc.torque"].map(|name| last(&moved, name));
+    let [x, y, torque] = drag.map(|load| -load);
+    let pulled = format!("\"free\"\n        force = [{x:?}, {y:?}]\n        torque = {torque:?}");
+    let falling = disc("mean_velocity = [0.0, 0.0]", &pulled);
+    for (name, value) in [("disc.velocity.x", -0.5), ("disc.velocity.y", -0.2)] {
+        assert!((last(&falling, name) - value).abs() < 1e-9, "{name} {}", last(&falling, name));
+    }
+    let [gx, ..] = values(&falling, FLOW);
+    assert!((gx * 1.2 / x - 1.0).abs() < 1e-5, "{gx} {x}");
+}
+
 /// Poiseuille flow, exact in quadratic elements: mean velocity -G H^2 / (12 mu).
 #[test]
 fn a_channel_has_the_mean_velocity_of_poiseuille_flow() {

@@ -104,17 +104,16 @@ fn not_one_alternative(entries: &BTreeMap<String, TomlNode>, alternatives: &[&st
         keys if keys.is_empty() => "the table is empty".to_owned(),
         keys => format!("it has `{keys}`"),
     };
-    TypeError::new(Mismatch::Other(
-        format!("{found} where exactly one alternative is wanted"),
-        format!("give one of: {}", alternatives.join(", ")),
-    ))
+    alternatives_error(format!("{found} where exactly one alternative is wanted"), alternatives)
 }
 
 fn no_alternative(alternatives: &[&str]) -> TypeError {
-    TypeError::new(Mismatch::Other(
-        "this is not one of its alternatives".to_owned(),
-        format!("give one of: {}", alternatives.join(", ")),
-    ))
+    alternatives_error("this is not one of its alternatives".to_owned(), alternatives)
+}
+
+fn alternatives_error(message: String, alternatives: &[&str]) -> TypeError {
+    let help = format!("give one of: {}", alternatives.join(", "));
+    TypeError::new(Mismatch::Other(message, help))
 }
 
 struct ItemAccess<'a> {

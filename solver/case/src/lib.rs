@@ -30,6 +30,7 @@ mod read;
 mod reference;
 mod schema;
 mod source;
+mod speed;
 mod stroke;
 mod stroke_file;
 mod swimmer;

@@ -6,8 +6,8 @@ use alewife_mesh::{Point, whole};
 
 use super::discs::{Disc, DiscGrid};
 use super::{
-    Body, Case, FlowModel, GaitSpec, Geometry, Model, ShapeSpec, SquirmerGait, SwimmerModel,
-    TimeSettings,
+    Body, Case, ContactSpec, FlowModel, GaitSpec, Geometry, Model, ShapeSpec, SquirmerGait,
+    SwimmerModel, TimeSettings,
 };
 
 /// Gaps that are listed: of many bodies those of the closest pairs.
@@ -55,6 +55,14 @@ pub fn derived_numbers(model: &Model) -> Vec<DerivedNumber> {
         numbers_of_swimmer(&mut table, model, swimmer);
     }
     table.0.extend(gaps(model));
+    if let (Some(contact), Some(value)) = (&model.case.contact, model.proposed_contact()) {
+        let name = match contact {
+            ContactSpec::Barrier { .. } => "contact: stiffness for half the range",
+            ContactSpec::Quadratic { .. } => "contact: epsilon for half the range",
+        };
+        let formula = "gap under the weight, or the drag at the expected speed, of a body";
+        table.add(name, value, formula);
+    }
     table.0
 }
 

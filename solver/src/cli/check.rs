@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use alewife_mesh::Mesh;
+use alewife_mesh::{Mesh, Quality};
 
 use super::engine;
 use super::exit::{Exit, Failure};
@@ -11,7 +11,7 @@ use super::read::{CheckedCase, read_and_check};
 use super::style::{self, Ink, on_stdout, say};
 use crate::case::{
     Cadence, CaseFile, Diagnostic, FlowModel, Model, Precision, Scheme, TimeSettings,
-    known_quantities, number_table,
+    known_quantities, number_table, significant,
 };
 use crate::coupling::{count_unknowns, memory_estimate};
 use crate::simulation::build_problem;
@@ -52,7 +52,11 @@ fn check_one(argument: &str, settings: &[String], has_mesh: bool) -> Result<(), 
     if has_mesh {
         let mesh = engine::build_mesh(&file.model)?;
         say(&format!("\n{}", on_stdout(Ink::Bold, "mesh")));
-        for line in engine::mesh_quality(&mesh).to_string().lines() {
+        let quality = engine::mesh_quality(&mesh);
+        for line in quality.to_string().lines() {
+            say(&format!("  {line}"));
+        }
+        for line in cell_numbers(&file.model, &quality) {
             say(&format!("  {line}"));
         }
         say(&format!(
@@ -82,6 +86,22 @@ fn check_variants(argument: &str, file: &CaseFile, settings: &[String]) -> Resul
         say(&format!("\n{} variants are valid, too", file.case().variant.len()));
     }
     Ok(())
+}
+
+/// CFL number and cell Reynolds number at the expected speed.
+fn cell_numbers(model: &Model, quality: &Quality<2>) -> Vec<String> {
+    let case = &model.case;
+    let speed = model.expected_speed().filter(|_| case.fluid.model == FlowModel::NavierStokes);
+    let Some(speed) = speed else { return Vec::new() };
+    let at = format!("at the speed {}", significant(speed));
+    let reynolds = case.fluid.density * speed * quality.longest_edge / case.fluid.viscosity;
+    let mut lines =
+        vec![format!("cell Reynolds    up to {}, {at} in the longest cell", significant(reynolds))];
+    if let TimeSettings::Unsteady(time) = &case.time {
+        let cfl = speed * time.step / quality.shortest_edge;
+        lines.push(format!("CFL number       up to {}, {at} in the shortest", significant(cfl)));
+    }
+    lines
 }
 
 /// Linear systems a run solves: exact for steady Stokes flow, a usual number otherwise.
@@ -157,7 +177,8 @@ fn output_size(model: &Model, mesh: &Mesh<2>) -> f64 {
             1.0 + (time.end / time.step / n.max(1) as f64).ceil()
         }
         (Cadence::Time(interval), TimeSettings::Unsteady(time)) => {
-            1.0 + (time.end / interval).ceil()
+            // Once a step at most
+            1.0 + (time.end / interval).min(time.end / time.step).ceil()
         }
     };
     let number = match case.output.precision {

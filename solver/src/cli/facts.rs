@@ -3,8 +3,9 @@
 use std::fmt::Write as _;
 
 use crate::case::{
-    BoundaryCondition, Case, CaseFile, DomainSpec, FlowModel, GaitSpec, Joint, JointKind, Model,
-    Motion, ShapeSpec, Stroke, SwimmerModel, TimeSettings, geometry_name, printable, significant,
+    BoundaryCondition, Case, CaseFile, DomainSpec, FlowModel, GaitSpec, Joint, JointKind,
+    MeanFlowSpec, Model, Motion, ShapeSpec, Stroke, SwimmerModel, TimeSettings, geometry_name,
+    printable, significant,
 };
 
 /// A text that is meant to be one line, as it may be shown on a terminal.
@@ -30,6 +31,9 @@ pub fn facts(file: &CaseFile) -> String {
         format!("{side} {condition}")
     });
     line("boundary", sides.collect::<Vec<_>>().join(", "));
+    if let Some(flow) = &case.flow {
+        line("flow", mean_flow(flow));
+    }
     for body in &model.bodies {
         line("body", body_line(case, body));
     }
@@ -55,6 +59,17 @@ pub fn facts(file: &CaseFile) -> String {
         },
     );
     text
+}
+
+fn mean_flow(flow: &MeanFlowSpec) -> String {
+    let given = [
+        ("pressure gradient", &flow.pressure_gradient),
+        ("mean velocity", &flow.mean_velocity),
+        ("body force", &flow.body_force),
+    ];
+    let parts =
+        given.iter().filter_map(|(name, values)| Some(format!("{name} {:?}", (*values).as_ref()?)));
+    parts.collect::<Vec<_>>().join(", ")
 }
 
 fn fluid(case: &Case) -> String {

@@ -179,14 +179,18 @@ fn read_unfinished(path: &Path, case: &Case) -> Result<SavedState<2>, Failure> {
         ErrorKind::InvalidData => refuse(Exit::BadCase, error.to_string()),
         _ => refuse(Exit::NoInput, error.to_string()),
     })?;
+    // Before anything of a run directory is touched
+    saved.check_case(case).map_err(|error| {
+        let path = path.display();
+        Failure::new(Exit::BadCase, format!("cannot resume from {path}: {error}"))
+    })?;
     if saved.time >= settings.end {
+        let (path, time, end) = (path.display(), saved.time, settings.end);
         let reason = format!(
-            "{} is at time {}, and the case ends at {}",
-            path.display(),
-            saved.time,
-            settings.end
+            "cannot resume from {path}: it is at time {time}, and the case ends at {end}; raise \
+             time.unsteady.end"
         );
-        return Err(refuse(Exit::BadCase, reason));
+        return Err(Failure::new(Exit::BadCase, reason));
     }
     Ok(saved)
 }
@@ -221,7 +225,9 @@ fn tell_last_values(model: &Model, outcome: &RunSummary) {
     let body_of = |name: &str| shown.iter().any(|shown| name.starts_with(&format!("{shown}.")));
     for (name, value) in outcome.series.names.iter().zip(last) {
         // Of cycles nothing is known before the first has ended
-        if body_of(name) && !name.contains("surface_") && !value.is_nan() {
+        let is_mean =
+            name.contains("flow.mean_velocity") || name.contains("flow.pressure_gradient");
+        if (is_mean || body_of(name)) && !name.contains("surface_") && !value.is_nan() {
             say(&format!("{name:32}  {}", significant(*value)));
         }
     }

@@ -112,6 +112,26 @@ fn a_run_that_resumes_in_its_directory_goes_on_with_its_series() {
     assert!(!read("fall/fields.pvd").contains("stopped"));
 }
 
+#[test]
+fn a_refused_resume_changes_nothing() {
+    let directory = tempfile::tempdir().unwrap();
+    stopped_fall(directory.path());
+    let files = ["case.toml", "provenance.json", "status.json", "series.csv", "run.mcap"];
+    let content =
+        || files.map(|file| std::fs::read(directory.path().join("fall").join(file)).unwrap());
+    let before = content();
+    for out in ["fall", "other"] {
+        let mut arguments = vec!["run", "sphere-free-fall", "--out", out, "--threads", "1"];
+        arguments.extend(["--set", "mesh.scale=2", "--set", "fluid.viscosity=2.5"]);
+        arguments.extend(["--resume", "fall/state.json"]);
+        let refused = alewife(directory.path(), &arguments);
+        assert_eq!(refused.status.code(), Some(65));
+        let told = String::from_utf8_lossy(&refused.stderr);
+        assert!(told.contains("fluid.viscosity = ") && told.contains("it is 2.5"), "{told}");
+    }
+    assert!(content() == before && !directory.path().join("other").exists());
+}
+
 /// The system lets no file grow beyond a size: what a full disk does, without one.
 #[test]
 fn a_file_that_cannot_grow_is_named_and_the_run_failed() {
@@ -147,4 +167,28 @@ fn a_file_that_cannot_grow_is_named_and_the_run_failed() {
         assert_eq!(unfinished.count(), 0, "{blocks}");
     }
     assert!(named.len() > 1, "{named:?}");
+}
+
+/// Its status cannot be written any more.
+#[test]
+fn a_run_whose_directory_vanishes_ends_with_its_name() {
+    let directory = tempfile::tempdir().unwrap();
+    let mut run = Command::new(env!("CARGO_BIN_EXE_alewife"))
+        .args(["run", "sphere-free-fall", "--out", "fall", "--quiet", "--threads", "1"])
+        .args(["--set", "time.unsteady.end=1e6", "--set", "mesh.scale=2"])
+        .current_dir(directory.path())
+        .stderr(std::process::Stdio::piped())
+        .spawn()
+        .unwrap();
+    let out = directory.path().join("fall");
+    while !out.join("series.csv").is_file() {
+        assert!(run.try_wait().unwrap().is_none(), "the run ended by itself");
+        std::thread::sleep(std::time::Duration::from_millis(20));
+    }
+    // Files may be made while others are removed
+    while std::fs::remove_dir_all(&out).is_err() {}
+    let output = run.wait_with_output().unwrap();
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(74), "{told}");
+    assert!(told.contains("fall/status.json: "), "{told}");
 }

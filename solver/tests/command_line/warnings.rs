@@ -118,3 +118,53 @@ fn a_run_that_is_cut_short_leaves_references_uncomputed() {
     let (said, _, is_compared) = run(&["--no-references"]);
     assert!(!said.contains("COMPUTED") && said.contains("links.x") && !is_compared, "{said}");
 }
+
+#[test]
+fn contact_too_weak_for_its_bodies_is_told_and_another_strength_proposed() {
+    let directory = tempfile::tempdir().unwrap();
+    let text = r#"
+        title = "a disc pressed on to the floor"
+        geometry = "planar"
+        fluid = { model = "stokes", viscosity = 1.0, density = 1.0, gravity = [0.0, -1.0] }
+        domain.box = { min = [-2.0, 0.0], max = [2.0, 3.0] }
+        boundary = { left = "no-slip", right = "no-slip", bottom = "no-slip", top = "no-slip" }
+        mesh = { size = 0.5, surface = 0.1, gap_layers = 1 }
+        time.unsteady = { step = 0.002, end = 0.02 }
+        contact.barrier = { range = 0.05, stiffness = STIFFNESS }
+        [[body]]
+        name = "disc"
+        shape.disc.radius = 0.5
+        center = [0.0, HEIGHT]
+        density = 2.0
+        motion = "free"
+    "#;
+    let with = |stiffness: &str, height: &str, command: &[&str]| {
+        let text = text.replace("STIFFNESS", stiffness).replace("HEIGHT", height);
+        std::fs::write(directory.path().join("disc.toml"), text).unwrap();
+        let output = alewife(directory.path(), command);
+        let [out, error] =
+            [output.stdout, output.stderr].map(|told| String::from_utf8(told).unwrap());
+        assert_eq!(output.status.code(), Some(0), "{error}");
+        (out, error)
+    };
+    let run = ["run", "disc.toml", "--overwrite", "--threads", "1"];
+    let (_, told) = with("1e-4", "0.5004", &run);
+    assert!(told.contains("the smallest gap, at `disc`, is"), "{told}");
+    let (said, _) = with("1e-4", "0.5004", &["check", "disc.toml"]);
+    let line = said.lines().find(|line| line.contains("stiffness for half the range")).unwrap();
+    let proposed: f64 =
+        line.split_whitespace().find_map(|word| word.parse().ok()).expect("a number");
+    // Its weight less buoyancy is pi / 4; the barrier holds that at half its range
+    let weight = proposed * 0.05 * (0.5 + 2f64.ln());
+    assert!((0.7..3.0).contains(&weight), "{weight}: {line}");
+    let (_, told) = with(&proposed.to_string(), "0.52", &run);
+    assert!(!told.contains("the smallest gap"), "{told}");
+}
+
+#[test]
+fn check_tells_cfl_and_cell_reynolds_numbers() {
+    let directory = tempfile::tempdir().unwrap();
+    let output = alewife(directory.path(), &["check", "dfg-2d-2", "--set", "mesh.scale=4"]);
+    let said = String::from_utf8(output.stdout).unwrap();
+    assert!(said.contains("CFL number") && said.contains("cell Reynolds"), "{said}");
+}

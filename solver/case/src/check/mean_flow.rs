@@ -110,7 +110,7 @@ fn check_determined(findings: &mut Findings<'_>, axis: usize) {
             "add [flow] with mean_velocity = [0.0, 0.0] for a cell without net flux, or another \
              mean velocity or pressure gradient",
         ),
-        None if is_driven && !has_spring => findings.error(
+        None if is_driven && velocity.is_none() && !has_spring => findings.error(
             "flow",
             format!("nothing resists the flow along {along}: no wall, and no body that is held"),
             "give mean_velocity instead, hold a body, or put a wall along it",

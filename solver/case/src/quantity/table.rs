@@ -153,7 +153,7 @@ quantities! {
         MassDefect: "mass_defect", "m3/s (m2/s)", Always,
             "Integral of div u: the net flux of interpolated boundary values";
         EnergyDefect: "energy_defect", "1", IdleSides,
-            "Work of bodies and waving sheets less dissipation and growth of the kinetic energy, over the work, \
+            "Work of bodies, waving sheets and `flow` less dissipation and growth of the kinetic energy, over the work, \
              since the start (`stokes` and steady flows: of the current rates): the error of the \
              energy balance";
         PressureGradientX: "pressure_gradient.x", "Pa/m", MeanFlow,

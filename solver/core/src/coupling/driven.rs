@@ -5,9 +5,10 @@ use alewife_mesh::Point;
 use super::error::SolveError;
 use super::mean_flow::{MeanFlowReport, ResponseSystem, with_given_gradients};
 use super::problem::MeanFlowAt;
+use super::rigid_equations::RigidBodyEquation;
 use super::solution::Solution;
 use super::system::{Configuration, FluidSystem};
-use crate::body::{Wrench, in_space};
+use crate::body::{Mode, Wrench, in_space};
 use crate::timing::Timing;
 
 /// Difference of a mean velocity from the given one that is rounding.
@@ -38,14 +39,24 @@ impl<const D: usize> FluidSystem<D> {
         Some(MeanFlowReport { pressure_gradient, velocity, power })
     }
 
-    /// A solution with the pressure gradients that are given.
+    /// A solution with the pressure gradients that are given, and those that balance the forces on fluid
+    /// and bodies where a mean velocity is given and nothing else holds them.
     #[must_use]
     pub fn with_given_gradients(
         &self,
         at: &Configuration<'_, D>,
         solution: Solution<D>,
     ) -> Solution<D> {
-        if self.cell.is_some() { with_given_gradients(solution, &at.mean_flow) } else { solution }
+        let Some(cell) = &self.cell else { return solution };
+        let mut solution = with_given_gradients(solution, &at.mean_flow);
+        let is_free = at.problem.free_translations();
+        for axis in (0..D).filter(|&axis| is_free[axis] && at.mean_flow.velocity(axis).is_some()) {
+            let along = |body: &RigidBodyEquation| body.external[Mode::along(axis)];
+            let on_bodies: f64 = at.bodies.bodies.iter().map(along).sum();
+            let on_fluid = at.mean_flow.body_force[axis] * cell.fluid_volume();
+            solution.pressure_gradient[axis] = (on_bodies + on_fluid) / cell.volume();
+        }
+        solution
     }
 
     /// Largest force of the mean pressure gradient on a node (N; N/m planar).

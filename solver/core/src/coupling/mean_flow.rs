@@ -101,6 +101,11 @@ impl<const D: usize> CellIntegrals<D> {
         self.volume
     }
 
+    /// Volume of the fluid (m3; m2 planar).
+    pub fn fluid_volume(&self) -> f64 {
+        self.nodes.iter().sum()
+    }
+
     /// Volume of a body (m3; m2 planar).
     pub fn body_volume(&self, body: usize) -> f64 {
         self.bodies[body]

@@ -254,7 +254,7 @@ impl<const D: usize> FluidSystem<D> {
             self.add_rigid_matrix(at);
         });
         if let Some(nullspace) = &self.nullspace {
-            nullspace.check_balance(at.bodies)?;
+            nullspace.check_balance(at.bodies, &at.mean_flow)?;
         }
         let mut free = at.constraints.pick(&self.pinned(solution).to_raw(self.modes));
         let mut step: Vec<f64> = reduced.iter().map(|value| -value).collect();

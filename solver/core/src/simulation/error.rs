@@ -108,8 +108,8 @@ pub enum RunError {
     #[error(
         "step {step} (t = {time}): the flow has blown up: on average it is {times:.0} times as fast as \
          the fastest boundary ever was, most near {}; CFL number {cfl:.3e}, cell Reynolds number \
-         {cell_reynolds:.3e}; refine the mesh there, lower time.unsteady.step, or set \
-         time.unsteady.convection = \"newton\"",
+         {cell_reynolds:.3e}; look at failure/flow.vtu, and start again with a finer mesh there, a \
+         shorter time.unsteady.step, or time.unsteady.convection = \"newton\"",
         coordinates(.near)
     )]
     BlownUp {

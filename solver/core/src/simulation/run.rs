@@ -68,7 +68,7 @@ pub fn simulate_from(
         series,
         simulation,
         measure,
-        has_warned: false,
+        warned: Warned::default(),
         other_steps: None,
         is_trial: false,
         rejections: 0,
@@ -96,14 +96,23 @@ pub(super) struct Run<'a, const D: usize> {
     series: Series,
     pub simulation: Simulation<D>,
     measure: Measure<D>,
-    /// Whether it was said that steps are too long for the convection.
-    pub has_warned: bool,
+    /// What it has warned of.
+    pub warned: Warned,
     /// What the error of the first cycle is told by, until it is.
     pub other_steps: Option<OtherSteps>,
     /// Whether nothing is measured or shown.
     pub is_trial: bool,
     /// Fixed steps that were halved.
     pub rejections: usize,
+}
+
+/// What a run has warned of; each is told once.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Warned {
+    /// Steps too long for extrapolated convection.
+    pub of_cfl: bool,
+    /// A gap far below the range of contact.
+    pub of_gap: bool,
 }
 
 /// What is reported of a step besides loads.
@@ -142,6 +151,8 @@ impl<const D: usize> Run<'_, D> {
             TimeSettings::Steady(_) => None,
             // Before the flow at the start is known there is nothing to resume from
             TimeSettings::Unsteady(_) if self.series.times.is_empty() => None,
+            // No step leads on from a flow that is wrong
+            TimeSettings::Unsteady(_) if matches!(error, RunError::BlownUp { .. }) => None,
             TimeSettings::Unsteady(_) => {
                 let saved = SavedState::of(self.case, &self.simulation, &self.series);
                 saved.inspect_err(|error| tracing::error!(%error, "no state is left")).ok()

@@ -11,12 +11,16 @@ use crate::coupling::Side;
 /// a flow has blown up: fluid in a narrow passage is faster than any boundary, but not all of it.
 const BLOWN_UP: f64 = 1e3;
 
+/// Gap over the range of contact below which its force is too weak for what presses bodies together.
+const PRESSED: f64 = 0.01;
+
 /// CFL number up to which extrapolated convection was found to agree with Newton's method
 /// (docs/method.md, section 6).
 const LARGEST_CFL: f64 = 5.0;
 
 impl<const D: usize> Run<'_, D> {
-    /// Ends a run whose flow has blown up, and warns of steps too long for its convection.
+    /// Ends a run whose flow has blown up, and warns of steps too long for its convection and of contact
+    /// too weak for its bodies.
     ///
     /// # Errors
     /// When it has blown up.
@@ -34,8 +38,22 @@ impl<const D: usize> Run<'_, D> {
             let near = self.simulation.fastest_node();
             return Err(RunError::BlownUp { step, time, times, cfl, cell_reynolds, near });
         }
-        if scheme.convection == Convection::Extrapolated && cfl > LARGEST_CFL && !self.has_warned {
-            self.has_warned = true;
+        if let (Some(law), Some(minimum)) = (&self.simulation.law, state.contact.minimum_gap)
+            && minimum.gap < PRESSED * law.range()
+            && step > 0
+            && !self.warned.of_gap
+        {
+            self.warned.of_gap = true;
+            let (gap, name) = (minimum.gap, &problem.bodies[minimum.body].name);
+            tracing::warn!(
+                "step {step} (t = {time}): the smallest gap, at `{name}`, is {gap:.2e}, less than a \
+                 hundredth of the range of contact: a larger stiffness (a smaller epsilon) keeps \
+                 bodies at about half the range; `check` proposes one"
+            );
+        }
+        let is_extrapolated = scheme.convection == Convection::Extrapolated;
+        if is_extrapolated && cfl > LARGEST_CFL && !self.warned.of_cfl {
+            self.warned.of_cfl = true;
             tracing::warn!(
                 "step {step} (t = {time}): CFL number {cfl:.1}; extrapolated convection was shown to \
                  hold up to {LARGEST_CFL}: lower time.unsteady.step, or set \

@@ -18,6 +18,9 @@ use crate::flow::{Convection, FlowTerms};
 
 /// Residuals relative to that at rest that count as rounding once they stop falling.
 const ROUNDING: f64 = 1e-8;
+/// Change of the velocities of a Stokes flow over their size that is rounding: the pressure of a thin
+/// film beside a wide region is so large that residuals are not small beside those of a fluid at rest.
+const STATIONARY: f64 = 1e-8;
 /// Smallest step of the continuation, as a part of the whole density.
 const SMALLEST_STEP: f64 = 1.0 / 64.0;
 /// Growth of the residual from which there is no return.
@@ -184,7 +187,7 @@ impl<const D: usize> Continuation<'_, D> {
         let criterion = Criterion {
             tolerance: self.task.settings.tolerance,
             rounding: ROUNDING,
-            stationary: None,
+            stationary: (part == 0.0).then_some(STATIONARY),
             max_iterations: self.task.settings.max_iterations,
             scale: self.scale,
             accepts_start: true,

@@ -14,6 +14,9 @@ const NARROW: usize = 8;
 /// A pivot is at least this fraction of the largest entry of its column: multipliers stay below 1e4.
 /// Solutions of the shipped cases have the same accuracy with 1e-8 and with 1e-3.
 pub(super) const THRESHOLD: f64 = 1e-4;
+/// The same against unknowns with dense rows: far below what films of a ten-thousandth of a radius need,
+/// and far above what is left of a pivot that only these unknowns determine.
+const DENSE_THRESHOLD: f64 = 1e-12;
 
 pub(super) fn view(slice: &[f64], rows: usize, columns: usize, stride: usize) -> MatRef<'_, f64> {
     MatRef::from_column_major_slice_with_stride(slice, rows, columns, stride)
@@ -45,14 +48,22 @@ pub(super) struct PanelShape {
 pub(super) struct PivotRows {
     /// Number of rows that pivots are taken from.
     pub candidates: usize,
-    /// Number of rows, these included, whose entries a pivot has to be large enough against.
-    pub tested: usize,
+    /// Number of rows, these included, before those of unknowns with dense rows.
+    pub sparse: usize,
 }
 
 impl PivotRows {
     /// Without the first rows.
     fn after(self, rows: usize) -> Self {
-        Self { candidates: self.candidates - rows, tested: self.tested - rows }
+        Self { candidates: self.candidates - rows, sparse: self.sparse - rows }
+    }
+
+    /// The size that a pivot of a column needs.
+    #[inline(always)]
+    fn smallest_pivot(self, column: &[f64]) -> f64 {
+        let (sparse, dense) = column.split_at(self.sparse);
+        let of_sparse = THRESHOLD * largest_size(&sparse[self.candidates..]);
+        of_sparse.max(DENSE_THRESHOLD * largest_size(dense))
     }
 }
 
@@ -127,13 +138,13 @@ fn lu_narrow(
     swaps: &mut [u32],
 ) -> Result<(), NoPivot> {
     let PanelShape { rows, columns, stride } = shape;
-    let PivotRows { candidates, tested } = pivot_rows;
+    let PivotRows { candidates, .. } = pivot_rows;
     for j in 0..columns {
         let end = a.len().min((j + 1) * stride);
         let (done, later) = a.split_at_mut(end);
         let column = &mut done[j * stride..j * stride + rows];
         let Largest { index: below, size } = largest(&column[j..candidates]).ok_or(NoPivot)?;
-        if largest_size(&column[candidates..tested]) * THRESHOLD > size {
+        if pivot_rows.smallest_pivot(column) > size {
             return Err(NoPivot);
         }
         swaps[j] = to_u32(below);
@@ -237,7 +248,7 @@ pub(super) fn lu_delaying(
     pivot_rows: PivotRows,
     pivot_floors: &[f64],
 ) -> PartialLu {
-    let PivotRows { candidates: k, tested } = pivot_rows;
+    let PivotRows { candidates: k, .. } = pivot_rows;
     let mut rows: Vec<u32> = (0..to_u32(k)).collect();
     let mut columns = rows.clone();
     let mut pivots = 0;
@@ -246,7 +257,7 @@ pub(super) fn lu_delaying(
             let values = &l[column * m..(column + 1) * m];
             let Largest { index: below, size } = largest(&values[pivots..k])?;
             let is_acceptable = size > pivot_floors[columns[column] as usize]
-                && size >= THRESHOLD * largest_size(&values[k..tested]);
+                && size >= pivot_rows.smallest_pivot(values);
             is_acceptable.then_some((column, pivots + below))
         });
         let Some((column, row)) = candidate else { break };

@@ -212,7 +212,7 @@ impl FrontMatrix<'_> {
     }
 
     fn pivot_rows(&self) -> PivotRows {
-        PivotRows { candidates: self.k, tested: self.m - self.n_dense }
+        PivotRows { candidates: self.k, sparse: self.m - self.n_dense }
     }
 
     /// Adds the entries of the matrix to a front with some delayed unknowns.

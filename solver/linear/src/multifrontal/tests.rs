@@ -1,5 +1,7 @@
 //! Against dense LU on random saddle-point matrices and on those that are hard to eliminate.
 
+mod film;
+
 use faer::Mat;
 use faer::linalg::solvers::Solve;
 use proptest::prelude::*;
@@ -247,61 +249,6 @@ fn a_pressure_before_its_velocities_is_delayed() {
     unknowns.is_pressure[0] = true;
     let system = System::new(&dense, unknowns);
     assert_eq!(agrees_with_dense_lu(&system, Ordering::Best, 1), Some(true));
-}
-
-/// Cells in a row from a film under a body, 1e-4 long, to a far field of cells as long as 100: a
-/// velocity each, with a pressure on either side but none at the open end, and, where it is free, the
-/// body that displaces the fluid of the film.
-fn film(is_free: bool) -> System {
-    let (n_cells, n_film) = (80, 40);
-    let n = 2 * n_cells + usize::from(is_free);
-    let mut dense = vec![vec![0.0; n]; n];
-    let mut couple = |one: usize, other: usize, value: f64| {
-        dense[one][other] = value;
-        dense[other][one] = value;
-    };
-    for cell in 0..n_cells {
-        let length = if cell < n_film { 1e-4 } else { 100.0 };
-        let (pressure, next) = (n_cells + cell, cell + 1);
-        couple(cell, cell, 4.0);
-        couple(cell, pressure, length);
-        if next < n_cells {
-            couple(cell, next, -1.0);
-            couple(cell, n_cells + next, -length);
-        }
-        if is_free && cell < n_film {
-            couple(pressure, n - 1, length);
-        }
-    }
-    if is_free {
-        couple(n - 1, n - 1, 1.0);
-    }
-    let is_dense = |index: usize| index == 2 * n_cells;
-    let unknowns = Unknowns {
-        node: (0..n).map(|index| to_u32(index % n_cells)).collect(),
-        is_pressure: (0..n).map(|index| index >= n_cells && !is_dense(index)).collect(),
-        dense: (0..n).filter(|&index| is_dense(index)).collect(),
-    };
-    System::new(&dense, unknowns)
-}
-
-#[test]
-fn a_free_body_delays_no_pivots_of_the_film_under_it() {
-    for ordering in [Ordering::Best, Ordering::MinimumDegree] {
-        let [imposed, free] = [false, true].map(film).map(|system| {
-            let analysis = system.analyse(ordering);
-            let mut factors = Factors::new(&analysis);
-            factors.factorise(&analysis, &system.matrix).unwrap();
-            let b: Vec<f64> = (0..system.n()).map(|index| (index as f64).cos()).collect();
-            let mut x = b.clone();
-            factors.solve(&analysis, &mut x);
-            let residual = system.matrix.residual(&x, &b).relative();
-            assert!(residual < 1e-14, "{residual:e}");
-            let added = factors.n_entries(&analysis) - analysis.n_factor_entries();
-            (factors.n_delayed_pivots(), added)
-        });
-        assert!(free <= imposed, "{free:?}, but {imposed:?} where its motion is imposed");
-    }
 }
 
 #[test]

@@ -7,6 +7,7 @@ mod trial;
 
 use super::advance::Simulation;
 use super::error::{RunError, StepError};
+use crate::coupling::{Drive, RigidBody};
 
 /// Part of a step by which a discontinuity may be off and still be at its end.
 const NEAR: f64 = 1e-7;
@@ -20,15 +21,19 @@ fn step_size_underflow<const D: usize>(
     smallest: f64,
     error: &StepError,
 ) -> RunError {
-    let Simulation { state, moving_mesh, .. } = simulation;
+    let Simulation { problem, state, moving_mesh, .. } = simulation;
     let (step, time) = (state.step + 1, state.time);
     let nearest = moving_mesh.as_ref().zip(state.contact.minimum_gap).map(|(moving, minimum)| {
         let gaps = moving.gaps();
         let names = [gaps.body_name(minimum.body), gaps.partner_name(minimum.partner)];
         format!("; nearest are `{}` and `{}`, {:.3e} apart", names[0], names[1], minimum.gap)
     });
+    let is_free = |body: &RigidBody| body.drives.iter().any(|drive| matches!(drive, Drive::Free));
+    let gives_way = problem.bodies.iter().any(is_free);
     let hint = match (&nearest, &simulation.law) {
-        (Some(_), None) => "; [contact] keeps bodies apart from each other and from walls",
+        (Some(_), None) if gives_way => {
+            "; [contact] keeps bodies apart from each other and from walls"
+        }
         _ => "",
     };
     let reason = format!("{error}{}{hint}", nearest.unwrap_or_default());

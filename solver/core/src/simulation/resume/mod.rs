@@ -171,7 +171,10 @@ impl<const D: usize> SavedState<D> {
     }
 
     /// Whether it is a state of what a case describes.
-    fn check_case(&self, case: &Case) -> Result<(), ResumeError> {
+    ///
+    /// # Errors
+    /// When it is of another version, or another value stands in the case.
+    pub fn check_case(&self, case: &Case) -> Result<(), ResumeError> {
         if self.version != VERSION {
             return Err(ResumeError::Version { found: self.version });
         }

@@ -1,0 +1,147 @@
+//! The speed a case can be expected to have before anything is solved, and the force with it.
+
+use std::f64::consts::{PI, TAU};
+
+use super::{
+    Body, BoundaryCondition, Case, ContactSpec, GaitSpec, Geometry, JointKind, Model, Motion,
+};
+
+/// Times of a stroke's period at which its rate is looked at.
+const TIMES: u32 = 32;
+
+impl Model {
+    /// The largest speed that is given or follows from what is given (m/s): of sides, mean flow, imposed
+    /// motions, gaits, strokes, and of bodies that fall or are pulled, by the order of their terminal
+    /// speed; `None` where nothing moves.
+    #[must_use]
+    pub fn expected_speed(&self) -> Option<f64> {
+        let case = &self.case;
+        let sides = case.boundary.values().map(|condition| side_speed(case, condition));
+        let flow = case.flow.iter().flat_map(|flow| &flow.mean_velocity).map(|v| norm(v));
+        let bodies = self.bodies.iter().map(|body| body_speed(case, body));
+        let joints = self.joints.iter().map(|joint| {
+            let Some(stroke) = joint.kind.stroke() else { return 0.0 };
+            let period = stroke.period().unwrap_or(1.0);
+            let time = |n: u32| period * (f64::from(n) + 0.5) / f64::from(TIMES);
+            let rate = (0..TIMES).map(|n| stroke.at(time(n))[1].abs()).fold(0.0, f64::max);
+            let child = self.body_index(&joint.child).map(|child| &self.bodies[child]);
+            match joint.kind {
+                JointKind::Arm { .. } => rate,
+                _ => rate * child.map_or(0.0, |child| 2.0 * child.shape.reach()),
+            }
+        });
+        let scale = case.scales.iter().map(|scales| scales.velocity);
+        let all = sides.chain(flow).chain(bodies).chain(joints).chain(scale);
+        Some(all.fold(0.0, f64::max)).filter(|speed| *speed > 0.0)
+    }
+
+    /// The order of the force that presses bodies together (N; N/m planar): the largest drag at the
+    /// expected speed, weight or load of one.
+    #[must_use]
+    pub fn expected_force(&self) -> Option<f64> {
+        let speed = self.expected_speed()?;
+        let force = |body: &Body| resistance(&self.case, body) * speed + load(&self.case, body);
+        Some(self.bodies.iter().map(force).fold(0.0, f64::max)).filter(|force| *force > 0.0)
+    }
+
+    /// The stiffness of a barrier, or the epsilon of the quadratic law, with which a force as large as
+    /// [`Self::expected_force`] leaves half the range as gap.
+    #[must_use]
+    pub fn proposed_contact(&self) -> Option<f64> {
+        let force = self.expected_force()?;
+        Some(match self.case.contact? {
+            // The forces of both laws at half the range
+            ContactSpec::Barrier { range, .. } => force / (range * (0.5 + 2f64.ln())),
+            ContactSpec::Quadratic { range, .. } => range * range / (4.0 * force),
+        })
+    }
+}
+
+fn norm(vector: &[f64]) -> f64 {
+    vector.iter().map(|part| part * part).sum::<f64>().sqrt()
+}
+
+fn side_speed(case: &Case, condition: &BoundaryCondition) -> f64 {
+    match condition {
+        BoundaryCondition::Velocity { value, .. } => norm(value),
+        BoundaryCondition::Parabolic { peak, .. } => peak.abs(),
+        BoundaryCondition::Shear { rate, origin, .. } => {
+            let [min, max] = case.domain.extent();
+            (rate * (min[1] - origin)).abs().max((rate * (max[1] - origin)).abs())
+        }
+        BoundaryCondition::WavingSheet { amplitude, period, .. } => {
+            (TAU * amplitude / period).abs()
+        }
+        _ => 0.0,
+    }
+}
+
+fn body_speed(case: &Case, body: &Body) -> f64 {
+    let reach = body.shape.reach();
+    let imposed = match &body.motion {
+        Motion::Imposed(motion) => norm(&motion.velocity) + motion.angular_velocity.abs() * reach,
+        Motion::Held => return 0.0,
+        Motion::Free => terminal_speed(case, body),
+    };
+    let gait = match &body.gait {
+        Some(GaitSpec::Squirmer(squirmer)) => squirmer.modes.iter().map(|mode| mode.abs()).sum(),
+        // Tails and waves move at the order of a length in a period
+        Some(gait) => gait.period().map_or(0.0, |period| 2.0 * reach / period),
+        None => 0.0,
+    };
+    imposed.max(gait)
+}
+
+/// Force per velocity of a body in slow flow, by its reach (N s/m; N s/m2 planar).
+fn resistance(case: &Case, body: &Body) -> f64 {
+    match case.geometry {
+        Geometry::Planar => 4.0 * PI * case.fluid.viscosity,
+        Geometry::Axisymmetric => 6.0 * PI * case.fluid.viscosity * body.shape.reach(),
+    }
+}
+
+/// Weight less buoyancy and force on a body (N; N/m planar).
+fn load(case: &Case, body: &Body) -> f64 {
+    let radius = body.shape.half_width();
+    let volume = match case.geometry {
+        Geometry::Planar => PI * radius * body.shape.reach(),
+        Geometry::Axisymmetric => 4.0 / 3.0 * PI * radius * radius * body.shape.reach(),
+    };
+    let excess = body.density.unwrap_or(case.fluid.density) - case.fluid.density;
+    excess.abs() * norm(&case.fluid.gravity) * volume + norm(&body.force)
+}
+
+/// The order of the speed of a body under its load: that of slow flow, or less by inertia (m/s).
+fn terminal_speed(case: &Case, body: &Body) -> f64 {
+    let load = load(case, body);
+    let slow = load / resistance(case, body);
+    let area = match case.geometry {
+        Geometry::Planar => 2.0 * body.shape.reach(),
+        Geometry::Axisymmetric => PI * body.shape.reach().powi(2),
+    };
+    let fast = (2.0 * load / (case.fluid.density * area)).sqrt();
+    slow.min(fast)
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::Case;
+
+    #[test]
+    fn speeds_have_the_order_of_those_of_runs() {
+        // Largest speeds of a boundary in runs of the cases
+        for (case, speed) in [
+            ("dfg-2d-2", 1.5),
+            ("lid-driven-cavity", 1.0),
+            ("periodic-cylinders", 1.0),
+            ("squirmer-alone", 4.9),
+            ("disc-settling/slow", 5.4),
+            ("three-sphere", 1.1),
+            ("carangiform", 1.2),
+        ] {
+            let model = Case::read(case, &[]).unwrap().model;
+            let expected = model.expected_speed().unwrap();
+            assert!((0.3..4.0).contains(&(expected / speed)), "{case}: {expected} for {speed}");
+        }
+    }
+}
