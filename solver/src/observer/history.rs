@@ -42,9 +42,7 @@ impl History {
         let whole = text.rfind('\n').map_or("", |end| &text[..=end]);
         let mut series = match whole {
             "" => Series::default(),
-            whole => read_series(whole)
-                .map_err(|line| io::Error::other(format!("line {line} is damaged")))
-                .at(&directory.join("series.csv"))?,
+            whole => series_of(&directory.join("series.csv"), whole)?,
         };
         let n_rows = series.times.partition_point(|&then| then <= time);
         series.times.truncate(n_rows);
@@ -72,8 +70,16 @@ fn frame(line: &str) -> Option<Frame> {
     Some(Frame { time: value("timestep")?.parse().ok()?, file: value("file")?.to_owned() })
 }
 
+/// The series in the text of a file.
+///
+/// # Errors
+/// When a line is damaged, with the file and its number.
+pub(super) fn series_of(path: &Path, text: &str) -> io::Result<Series> {
+    read_series(text).map_err(|line| io::Error::other(format!("line {line} is damaged"))).at(path)
+}
+
 /// The series in a text; the number of the first bad line otherwise.
-pub(super) fn read_series(text: &str) -> Result<Series, usize> {
+fn read_series(text: &str) -> Result<Series, usize> {
     let mut lines = text.lines();
     let header = lines.next().ok_or(1_usize)?;
     let names: Vec<String> = header.split(',').skip(1).map(str::to_owned).collect();

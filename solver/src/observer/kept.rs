@@ -4,7 +4,7 @@ use std::io;
 use std::path::Path;
 
 use super::atomic::AtPath;
-use super::history::read_series;
+use super::history::series_of;
 use super::status::{RunState, Status};
 use crate::simulation::{RunSummary, Stage, Timing};
 
@@ -26,8 +26,6 @@ pub fn read_outcome(directory: &Path) -> io::Result<RunSummary> {
         timing.wall[stage as usize] = of(&status.wall_seconds);
     }
     let path = directory.join("series.csv");
-    let series = read_series(&std::fs::read_to_string(&path).at(&path)?)
-        .map_err(|line| io::Error::other(format!("line {line} is damaged")))
-        .at(&path)?;
+    let series = series_of(&path, &std::fs::read_to_string(&path).at(&path)?)?;
     Ok(RunSummary { series, timing, n_dofs: status.dofs, steps: status.step })
 }

@@ -87,8 +87,7 @@ impl<const D: usize> FluidSystem<D> {
         free: &mut [f64],
         timing: &mut Timing,
     ) -> Result<Point<D>, SolveError> {
-        let mut change = Point::<D>::zeros();
-        let Some(cell) = &self.cell else { return Ok(change) };
+        let Some(cell) = &self.cell else { return Ok(Point::<D>::zeros()) };
         let held = at.problem.free_translations().map(|is_free| !is_free);
         let given = |axis: usize| at.mean_flow.velocity(axis).filter(|_| held[axis]);
         let axes: Vec<usize> = (0..D).filter(|&axis| given(axis).is_some()).collect();
@@ -97,19 +96,14 @@ impl<const D: usize> FluidSystem<D> {
             ResponseSystem { cell, layout: &layout, modes, constraints: at.constraints, axes };
         self.response.update(&system, &mut self.linear, timing)?;
         if self.response.is_empty() {
-            return Ok(change);
+            return Ok(Point::<D>::zeros());
         }
         let raw = at.constraints.expand(free);
         let mean = cell.mean_velocity(&Solution::from_raw(&layout, modes, &raw));
-        let axes = || self.response.axes().iter();
-        let excess = axes().filter_map(|&axis| {
+        let excess = self.response.axes().iter().filter_map(|&axis| {
             given(axis).map(|velocity| (mean[axis] - velocity) * cell.volume())
         });
-        let gradients = self.response.gradients(&excess.collect::<Vec<f64>>());
-        let gradients = gradients.ok_or(SolveError::NoResistance)?;
-        self.response.subtract(&gradients, free);
-        axes().zip(&gradients).for_each(|(&axis, gradient)| change[axis] = *gradient);
-        Ok(change)
+        self.response.take_off(&excess.collect::<Vec<f64>>(), free)
     }
 
     /// The mean velocity of fluid and bodies (m/s), where nothing holds them or one is given.

@@ -10,6 +10,7 @@
 use alewife_mesh::{Mesh, Point};
 use nalgebra::{DMatrix, DVector, Vector3};
 
+use super::error::SolveError;
 use super::linear_system::LinearSystem;
 use super::problem::{MeanFlowAlong, MeanFlowAt, Problem};
 use super::solution::Solution;
@@ -174,13 +175,22 @@ impl MeanFlowResponse {
         Some(solved.iter().copied().collect())
     }
 
-    /// Subtracts what changes of the pressure gradient do to the free unknowns.
-    pub fn subtract(&self, gradients: &[f64], free: &mut [f64]) {
-        for (gradient, answer) in gradients.iter().zip(&self.answers) {
+    /// Takes `excess` flows (as in [`Self::gradients`]) off the free unknowns; the change of the pressure
+    /// gradient that does.
+    pub fn take_off<const D: usize>(
+        &self,
+        excess: &[f64],
+        free: &mut [f64],
+    ) -> Result<Point<D>, SolveError> {
+        let gradients = self.gradients(excess).ok_or(SolveError::NoResistance)?;
+        let mut change = Point::<D>::zeros();
+        for ((&axis, gradient), answer) in self.axes.iter().zip(&gradients).zip(&self.answers) {
+            change[axis] = *gradient;
             for (value, answer) in free.iter_mut().zip(answer) {
                 *value -= gradient * answer;
             }
         }
+        Ok(change)
     }
 
     /// Integrals of a change of the free unknowns over the cell.

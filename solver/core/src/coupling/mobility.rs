@@ -102,16 +102,12 @@ impl<const D: usize> FluidSystem<D> {
                 }
             }
         }
-        let Factorised { matrix, solver } = self.linear.factorised(timing)?;
-        timing.measure(Stage::Solve, || solver.solve(matrix, &mut change))?;
+        self.linear.solve(&mut change, timing)?;
         let mut pressure_gradient = solution.pressure_gradient;
         if !self.response.is_empty() {
             // Loads leave a given mean velocity as it is
             let flows = self.response.flows(&change);
-            let gradients = self.response.gradients(&flows).ok_or(SolveError::NoResistance)?;
-            self.response.subtract(&gradients, &mut change);
-            let axes = self.response.axes().iter();
-            axes.zip(&gradients).for_each(|(&axis, gradient)| pressure_gradient[axis] += gradient);
+            pressure_gradient += self.response.take_off::<D>(&flows, &mut change)?;
         }
         let mean = self.mean_velocity(solution);
         let mut free = constraints.pick(&self.pinned(solution).to_raw(self.modes));

@@ -61,17 +61,20 @@ fn pairs_and_the_smallest_gap_are_those_found_among_all_bodies() {
     }
 }
 
-#[test]
-fn the_smallest_gap_is_found_between_bodies_far_apart() {
-    let disc = |nth: usize| PlacedShape {
+fn unit_disc(nth: usize) -> PlacedShape {
+    PlacedShape {
         name: nth.to_string(),
         shape: Shape::Disc { radius: 1.0 },
         center: Point::<2>::zeros(),
         angle: 0.0,
         size: None,
-    };
+    }
+}
+
+#[test]
+fn the_smallest_gap_is_found_between_bodies_far_apart() {
     let n = FEW_BODIES + 4;
-    let bodies: Vec<PlacedShape> = (0..n).map(disc).collect();
+    let bodies: Vec<PlacedShape> = (0..n).map(unit_disc).collect();
     for distance in [3.0, 8.0, 30.0, 300.0] {
         let at = |nth: usize| distance * nth as f64 + f64::from(nth > 5);
         let poses: Vec<Pose> = (0..n).map(|nth| Pose::planar(at(nth), 5.0, 0.0)).collect();
@@ -114,16 +117,9 @@ fn the_bound_of_the_step_is_that_of_all_bodies() {
 /// A folded row of discs on pivots: neighbours are close, and yet the gap is that of the ends.
 #[test]
 fn of_a_chain_the_gaps_between_links_that_share_no_pivot_count() {
-    let disc = |nth: usize| PlacedShape {
-        name: nth.to_string(),
-        shape: Shape::Disc { radius: 1.0 },
-        center: Point::<2>::zeros(),
-        angle: 0.0,
-        size: None,
-    };
     let places = [[2.0, 2.0], [4.1, 2.0], [4.1, 4.1], [2.0, 4.5], [2.0, 6.55]];
     let poses = places.map(|[x, y]| Pose::planar(x, y, 0.0));
-    let bodies: Vec<PlacedShape> = (0..5).map(disc).collect();
+    let bodies: Vec<PlacedShape> = (0..5).map(unit_disc).collect();
     let joined = [[0, 1], [1, 2], [2, 3]].into_iter();
     let gaps =
         PlanarGaps::new(&box_of(9.0, false, false), &[0], &bodies).unwrap().with_joined(joined);
