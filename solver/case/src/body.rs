@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
+use super::axial_vector::AxialVector;
 use super::domain::TimeFunction;
 use super::gait::{
     AnguilliformGait, CarangiformGait, FishShape, FlagellateShape, FlagellumGait, PulsatingGait,
@@ -33,15 +34,27 @@ pub enum ShapeSpec {
     Fish(FishShape),
     /// Head with a tail (planar).
     Flagellate(FlagellateShape),
-    /// Sphere (axisymmetric).
+    /// Sphere (axisymmetric, spatial).
     Sphere {
         /// Radius (m).
         radius: f64,
     },
-    /// Ellipsoid of revolution (axisymmetric).
+    /// Ellipsoid of revolution about the body's x axis (axisymmetric, spatial).
     Spheroid {
         /// Semi-axes along and across the axis of revolution (m).
         semi_axes: [f64; 2],
+    },
+    /// Ellipsoid (spatial).
+    Ellipsoid {
+        /// Semi-axes along the body's x, y and z (m).
+        semi_axes: [f64; 3],
+    },
+    /// Cylinder about the body's x axis with half spheres at its ends (spatial).
+    Capsule {
+        /// Length from end to end (m).
+        length: f64,
+        /// Radius (m).
+        radius: f64,
     },
 }
 
@@ -66,9 +79,9 @@ pub struct ImposedMotion {
     /// Velocity (m/s), one number per dimension.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub velocity: Vec<f64>,
-    /// Angular velocity, counter-clockwise (rad/s; planar).
-    #[serde(default)]
-    pub angular_velocity: f64,
+    /// Angular velocity (rad/s): counter-clockwise in planar cases, [x, y, z] in space.
+    #[serde(default, skip_serializing_if = "AxialVector::is_zero")]
+    pub angular_velocity: AxialVector,
     /// Factor in time for both.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub factor: Option<TimeFunction>,
@@ -83,8 +96,28 @@ pub enum Lock {
     X,
     /// Along y.
     Y,
-    /// Turning.
+    /// Along z.
+    Z,
+    /// Turning, about any axis.
     Rotation,
+}
+
+/// `orientation`: how the body frame is turned from that of the laboratory, one of these.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Orientation {
+    /// Turned about an axis.
+    Turned {
+        /// Direction of the axis, of any length.
+        axis: [f64; 3],
+        /// Angle, right-handed about the axis (rad).
+        angle: f64,
+    },
+    /// Unit quaternion [w, x, y, z], from the body frame to the laboratory.
+    Quaternion([f64; 4]),
+    /// The body's x axis points along this direction, of any length, by the shortest turn.
+    Along([f64; 3]),
 }
 
 /// How a swimmer's surface moves by itself.
@@ -118,6 +151,9 @@ pub struct SquirmerGait {
     /// 0 or pi for a body on the axis.
     #[serde(default)]
     pub heading: f64,
+    /// Direction of the swimming axis in the body frame, of any length (spatial); x if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub axis: Option<[f64; 3]>,
     /// Factors of modes in time, by the number of the mode: `2` is that of B_2.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub factors: BTreeMap<String, TimeFunction>,
@@ -172,9 +208,12 @@ pub struct Body {
     pub shape: ShapeSpec,
     /// Position of the shape's origin (m), one number per dimension.
     pub center: Vec<f64>,
-    /// Rotation of the body frame, counter-clockwise (rad).
+    /// Rotation of the body frame, counter-clockwise (rad; planar).
     #[serde(default)]
     pub angle: f64,
+    /// Rotation of the body frame in space; none if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub orientation: Option<Orientation>,
     /// Density (kg/m3); that of the fluid if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub density: Option<f64>,
@@ -189,9 +228,9 @@ pub struct Body {
     /// External force (N; N/m in planar cases), one number per dimension.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub force: Vec<f64>,
-    /// External torque, counter-clockwise (N m).
-    #[serde(default)]
-    pub torque: f64,
+    /// External torque (N m; N planar): counter-clockwise in planar cases, [x, y, z] in space.
+    #[serde(default, skip_serializing_if = "AxialVector::is_zero")]
+    pub torque: AxialVector,
     /// Factor in time for the external force and torque.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub load_factor: Option<TimeFunction>,

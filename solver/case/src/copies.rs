@@ -66,7 +66,7 @@ fn random_copies(
     };
     let mut random = SplitMix64(*seed);
     let reach = reach(parts);
-    let [min, max] = within.unwrap_or_else(|| case.domain.extent());
+    let [min, max] = within.unwrap_or_else(|| case.extent().in_plane());
     let mut occupied = Occupied::new(case.mesh_domain(), [min, max], present.len() + count);
     for body in present.iter().filter(|body| body.center.len() == 2) {
         let center = Point::<2>::new(body.center[0], body.center[1]);
@@ -79,7 +79,7 @@ fn random_copies(
             let x = min[0] + along_x * (max[0] - min[0]);
             let y = match case.geometry {
                 Geometry::Planar => min[1] + along_y * (max[1] - min[1]),
-                Geometry::Axisymmetric => 0.0,
+                Geometry::Axisymmetric | Geometry::Spatial => 0.0,
             };
             let center = Point::<2>::new(x, y);
             occupied.has_space(&Disc { center, radius: reach }, *gap).then_some(center)

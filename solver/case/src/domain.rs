@@ -11,6 +11,19 @@ pub enum Geometry {
     Planar,
     /// Half plane y >= 0 turned about the x axis; loads are those of the whole body.
     Axisymmetric,
+    /// Three dimensions.
+    Spatial,
+}
+
+impl Geometry {
+    /// Numbers a point or a velocity has; axisymmetric problems are solved in their half plane.
+    #[must_use]
+    pub fn dimensions(self) -> usize {
+        match self {
+            Self::Planar | Self::Axisymmetric => 2,
+            Self::Spatial => 3,
+        }
+    }
 }
 
 /// `[domain]`: one of these.
@@ -18,12 +31,13 @@ pub enum Geometry {
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum DomainSpec {
-    /// Rectangle with sides `left`, `right`, `bottom`, `top` (planar).
+    /// Rectangle with sides `left`, `right`, `bottom`, `top` (planar); in space also `back`, `front`,
+    /// where z is least and largest.
     Box {
-        /// Lower left corner (m).
-        min: [f64; 2],
-        /// Upper right corner (m).
-        max: [f64; 2],
+        /// Corner with the least coordinates (m), one number per dimension.
+        min: Vec<f64>,
+        /// Corner with the largest coordinates (m).
+        max: Vec<f64>,
     },
     /// Rectangle with its lower left corner at the origin; sides as those of a box (planar).
     Channel {
@@ -48,11 +62,19 @@ pub enum DomainSpec {
         /// Radius (m).
         radius: f64,
     },
-    /// A cylinder cut by its meridian plane, with the sides `left`, `right`, `wall` and `axis`
-    /// (axisymmetric).
+    /// A cylinder about the x axis with the sides `left`, `right` and `wall` (spatial), or cut by its
+    /// meridian plane, with the side `axis`, too (axisymmetric).
     Cylinder {
         /// Both ends on the axis (m).
         x: [f64; 2],
+        /// Radius (m).
+        radius: f64,
+    },
+    /// A ball with the side `wall` (spatial).
+    Sphere {
+        /// Centre (m).
+        #[serde(default)]
+        center: [f64; 3],
         /// Radius (m).
         radius: f64,
     },
@@ -118,8 +140,8 @@ pub enum BoundaryCondition {
         #[serde(default, skip_serializing_if = "Option::is_none")]
         factor: Option<TimeFunction>,
     },
-    /// Parabolic velocity along x, zero at both ends of the side (on an axisymmetric domain:
-    /// largest on the axis).
+    /// Parabolic velocity along x, zero at both ends of the side (on a cylinder: largest on the axis;
+    /// on a box in space: a parabola along y times one along z).
     Parabolic {
         /// Largest velocity (m/s), negative towards -x.
         peak: f64,

@@ -4,43 +4,71 @@ use std::sync::Arc;
 
 use alewife_mesh::{Domain, FishForm, FlagellateForm, PlacedShape, Point, Profile, Shape, Spline};
 
-use super::{Body, BoundaryCondition, Case, DomainSpec, GaitSpec, Lock, Motion, ShapeSpec};
+use super::{
+    Body, BoundaryCondition, Case, DomainSpec, GaitSpec, Geometry, Lock, Motion, ShapeSpec,
+};
 
 /// Directions in which the width of a spline is measured.
 const DIRECTIONS: u32 = 90;
 
 impl DomainSpec {
-    /// Names of the sides.
+    /// Geometries the domain can be that of.
     #[must_use]
-    pub fn sides(&self) -> &'static [&'static str] {
+    pub fn geometries(&self) -> &'static [Geometry] {
         match self {
-            Self::Box { .. } | Self::Channel { .. } => &["left", "right", "bottom", "top"],
-            Self::Disc { .. } => &["wall"],
-            Self::HalfDisc { .. } => &["wall", "axis"],
-            Self::Cylinder { .. } => &["left", "right", "wall", "axis"],
+            Self::Box { .. } => &[Geometry::Planar, Geometry::Spatial],
+            Self::Channel { .. } | Self::Disc { .. } => &[Geometry::Planar],
+            Self::HalfDisc { .. } => &[Geometry::Axisymmetric],
+            Self::Cylinder { .. } => &[Geometry::Axisymmetric, Geometry::Spatial],
+            Self::Sphere { .. } => &[Geometry::Spatial],
         }
     }
+}
 
-    /// Whether it is the half plane of an axisymmetric problem.
-    #[must_use]
-    pub fn is_axisymmetric(&self) -> bool {
-        matches!(self, Self::HalfDisc { .. } | Self::Cylinder { .. })
+/// The smallest box around a region, flat in planar and axisymmetric cases.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Extent {
+    /// Least coordinates (m).
+    pub min: [f64; 3],
+    /// Largest coordinates (m).
+    pub max: [f64; 3],
+}
+
+impl Extent {
+    fn around([x, y, z]: [f64; 3], [a, b, c]: [f64; 3]) -> Self {
+        Self { min: [x - a, y - b, z - c], max: [x + a, y + b, z + c] }
     }
 
-    /// Lower left and upper right corner of the smallest rectangle around it (m).
+    /// That of two corners with any number of coordinates; those that are not given are zero.
     #[must_use]
-    pub fn extent(&self) -> [[f64; 2]; 2] {
-        match *self {
-            Self::Box { min, max } => [min, max],
-            Self::Channel { length, height } => [[0.0, 0.0], [length, height]],
-            Self::Disc { center: [x, y], radius } => {
-                [[x - radius, y - radius], [x + radius, y + radius]]
-            }
-            Self::HalfDisc { center, radius } => {
-                [[center - radius, 0.0], [center + radius, radius]]
-            }
-            Self::Cylinder { x, radius } => [[x[0], 0.0], [x[1], radius]],
-        }
+    pub fn between(min: &[f64], max: &[f64]) -> Self {
+        let corner = |given: &[f64]| {
+            std::array::from_fn(|axis| given.get(axis).copied().unwrap_or_default())
+        };
+        Self { min: corner(min), max: corner(max) }
+    }
+
+    /// Lengths along the axes (m).
+    #[must_use]
+    pub fn lengths(&self) -> [f64; 3] {
+        std::array::from_fn(|axis| self.max[axis] - self.min[axis])
+    }
+
+    /// Lower left and upper right corner in the plane (m).
+    #[must_use]
+    pub fn in_plane(&self) -> [[f64; 2]; 2] {
+        [self.min, self.max].map(|[x, y, _]| [x, y])
+    }
+}
+
+/// The axis that a straight side is normal to.
+#[must_use]
+pub fn normal_axis(side: &str) -> Option<usize> {
+    match side {
+        "left" | "right" => Some(0),
+        "bottom" | "top" => Some(1),
+        "back" | "front" => Some(2),
+        _ => None,
     }
 }
 
@@ -52,6 +80,8 @@ pub fn opposite(side: &str) -> Option<&'static str> {
         "right" => Some("left"),
         "bottom" => Some("top"),
         "top" => Some("bottom"),
+        "back" => Some("front"),
+        "front" => Some("back"),
         _ => None,
     }
 }
@@ -68,6 +98,24 @@ impl ShapeSpec {
             Self::Flagellate(_) => "flagellate",
             Self::Sphere { .. } => "sphere",
             Self::Spheroid { .. } => "spheroid",
+            Self::Ellipsoid { .. } => "ellipsoid",
+            Self::Capsule { .. } => "capsule",
+        }
+    }
+
+    /// Geometries in which the shape can stand.
+    #[must_use]
+    pub fn geometries(&self) -> &'static [Geometry] {
+        match self {
+            Self::Disc { .. }
+            | Self::Ellipse { .. }
+            | Self::Spline { .. }
+            | Self::Fish(_)
+            | Self::Flagellate(_) => &[Geometry::Planar],
+            Self::Sphere { .. } | Self::Spheroid { .. } => {
+                &[Geometry::Axisymmetric, Geometry::Spatial]
+            }
+            Self::Ellipsoid { .. } | Self::Capsule { .. } => &[Geometry::Spatial],
         }
     }
 
@@ -127,10 +175,12 @@ impl ShapeSpec {
             }
             Self::Sphere { radius } => Shape::Sphere { radius },
             Self::Spheroid { semi_axes } => Shape::Spheroid { semi_axes },
+            // Shapes in space have none
+            Self::Ellipsoid { .. } | Self::Capsule { .. } => Shape::Spline { points: Vec::new() },
         }
     }
 
-    /// Length of the outline, or of its meridian in axisymmetric cases (m), to a few per cent.
+    /// Length of the outline, or of the meridian of a shape in space (m), to a few per cent.
     #[must_use]
     pub fn perimeter(&self) -> f64 {
         use std::f64::consts::PI;
@@ -151,13 +201,40 @@ impl ShapeSpec {
             }
             Self::Sphere { radius } => PI * radius,
             Self::Spheroid { semi_axes } => 0.5 * ellipse(*semi_axes),
+            Self::Ellipsoid { semi_axes } => {
+                let mut sorted = *semi_axes;
+                sorted.sort_by(f64::total_cmp);
+                0.5 * ellipse([sorted[2], sorted[1]])
+            }
+            Self::Capsule { length, radius } => length + (PI - 2.0) * radius,
         }
     }
 
-    /// Radius of the circle about the shape's origin that holds the shape (m).
+    /// Area of the surface of a shape in space (m2), to two per cent; of planar ones zero.
+    #[must_use]
+    pub fn surface_area(&self) -> f64 {
+        use std::f64::consts::PI;
+        // Thomsen's formula for the area of an ellipsoid
+        let ellipsoid = |[a, b, c]: [f64; 3]| {
+            let power = |x: f64| x.powf(1.6075);
+            let mean = (power(a * b) + power(a * c) + power(b * c)) / 3.0;
+            4.0 * PI * mean.powf(1.0 / 1.6075)
+        };
+        match self {
+            Self::Sphere { radius } => 4.0 * PI * radius * radius,
+            Self::Spheroid { semi_axes: [a, b] } => ellipsoid([*a, *b, *b]),
+            Self::Ellipsoid { semi_axes } => ellipsoid(*semi_axes),
+            Self::Capsule { length, radius } => 2.0 * PI * radius * length,
+            _ => 0.0,
+        }
+    }
+
+    /// Radius of the circle or sphere about the shape's origin that holds the shape (m).
     #[must_use]
     pub fn reach(&self) -> f64 {
         match self {
+            Self::Ellipsoid { semi_axes } => semi_axes.iter().copied().fold(0.0, f64::max),
+            Self::Capsule { length, .. } => 0.5 * length,
             Self::Disc { radius } | Self::Sphere { radius } => *radius,
             Self::Ellipse { semi_axes: [a, b] } | Self::Spheroid { semi_axes: [a, b] } => a.max(*b),
             Self::Spline { .. } | Self::Fish(_) | Self::Flagellate(_) => {
@@ -170,6 +247,10 @@ impl ShapeSpec {
     #[must_use]
     pub fn half_width(&self) -> f64 {
         match self {
+            Self::Ellipsoid { semi_axes } => {
+                semi_axes.iter().copied().fold(f64::INFINITY, f64::min)
+            }
+            Self::Capsule { radius, .. } => *radius,
             Self::Disc { radius } | Self::Sphere { radius } => *radius,
             Self::Ellipse { semi_axes: [a, b] } | Self::Spheroid { semi_axes: [a, b] } => a.min(*b),
             Self::Spline { .. } | Self::Fish(_) | Self::Flagellate(_) => {
@@ -189,7 +270,7 @@ impl ShapeSpec {
 }
 
 impl Body {
-    /// The body as the mesh sees it; its centre must have two numbers, which `check` makes sure.
+    /// The body as a planar mesh sees it; its centre must have two numbers, which `check` makes sure.
     #[must_use]
     pub fn placed(&self, scale: f64) -> PlacedShape {
         let coordinate = |axis: usize| self.center.get(axis).copied().unwrap_or(f64::NAN);
@@ -206,15 +287,15 @@ impl Body {
 impl Body {
     /// Whether the body may translate.
     #[must_use]
-    pub fn translates(&self) -> bool {
+    pub fn translates(&self, geometry: Geometry) -> bool {
+        let ways: &[Lock] = match geometry {
+            Geometry::Planar => &[Lock::X, Lock::Y],
+            Geometry::Axisymmetric => &[Lock::X],
+            Geometry::Spatial => &[Lock::X, Lock::Y, Lock::Z],
+        };
         match &self.motion {
             Motion::Held => false,
-            Motion::Free => {
-                let is_on_axis =
-                    matches!(self.shape, ShapeSpec::Sphere { .. } | ShapeSpec::Spheroid { .. });
-                let is_free = |lock: Lock| !self.locked.contains(&lock);
-                is_free(Lock::X) || (!is_on_axis && is_free(Lock::Y))
-            }
+            Motion::Free => ways.iter().any(|way| !self.locked.contains(way)),
             Motion::Imposed(imposed) => imposed.velocity.iter().any(|part| *part != 0.0),
         }
     }
@@ -225,7 +306,7 @@ impl Body {
         match &self.motion {
             Motion::Held => false,
             Motion::Free => !self.locked.contains(&Lock::Rotation),
-            Motion::Imposed(imposed) => imposed.angular_velocity != 0.0,
+            Motion::Imposed(imposed) => !imposed.angular_velocity.is_zero(),
         }
     }
 
@@ -243,7 +324,7 @@ impl Body {
         }
     }
 
-    /// Whether the body looks the same however it is turned in the plane.
+    /// Whether the body looks the same however it is turned.
     #[must_use]
     pub fn is_round(&self) -> bool {
         matches!(self.shape, ShapeSpec::Disc { .. } | ShapeSpec::Sphere { .. })
@@ -256,7 +337,44 @@ impl Case {
     pub fn periodic_axes(&self) -> [bool; 3] {
         let is_periodic =
             |side: &str| matches!(self.boundary.get(side), Some(BoundaryCondition::Periodic(_)));
-        [is_periodic("left"), is_periodic("bottom"), false]
+        ["left", "bottom", "back"].map(is_periodic)
+    }
+
+    /// Names of the sides of the domain.
+    #[must_use]
+    pub fn sides(&self) -> &'static [&'static str] {
+        match (&self.domain, self.geometry) {
+            (DomainSpec::Box { .. }, Geometry::Spatial) => {
+                &["left", "right", "bottom", "top", "back", "front"]
+            }
+            (DomainSpec::Box { .. } | DomainSpec::Channel { .. }, _) => {
+                &["left", "right", "bottom", "top"]
+            }
+            (DomainSpec::Disc { .. } | DomainSpec::Sphere { .. }, _) => &["wall"],
+            (DomainSpec::HalfDisc { .. }, _) => &["wall", "axis"],
+            (DomainSpec::Cylinder { .. }, Geometry::Spatial) => &["left", "right", "wall"],
+            (DomainSpec::Cylinder { .. }, _) => &["left", "right", "wall", "axis"],
+        }
+    }
+
+    /// The smallest box around the domain.
+    #[must_use]
+    pub fn extent(&self) -> Extent {
+        match &self.domain {
+            DomainSpec::Box { min, max } => Extent::between(min, max),
+            DomainSpec::Channel { length, height } => Extent::between(&[], &[*length, *height]),
+            DomainSpec::Disc { center: [x, y], radius } => {
+                Extent::around([*x, *y, 0.0], [*radius, *radius, 0.0])
+            }
+            DomainSpec::HalfDisc { center, radius } => {
+                Extent::between(&[center - radius], &[center + radius, *radius])
+            }
+            DomainSpec::Cylinder { x, radius } if self.geometry == Geometry::Spatial => {
+                Extent::between(&[x[0], -radius, -radius], &[x[1], *radius, *radius])
+            }
+            DomainSpec::Cylinder { x, radius } => Extent::between(&x[..1], &[x[1], *radius]),
+            DomainSpec::Sphere { center, radius } => Extent::around(*center, [*radius; 3]),
+        }
     }
 
     /// Whether a side of the domain waves.
@@ -271,7 +389,7 @@ impl Case {
         self.scales.is_some() && self.fluid.density > 0.0
     }
 
-    /// The domain to be meshed, with its periodic pairs.
+    /// The planar domain to be meshed, with its periodic pairs; of a domain in space its section.
     #[must_use]
     pub fn mesh_domain(&self) -> Domain {
         let is_periodic =
@@ -282,8 +400,11 @@ impl Case {
         );
         match self.domain {
             DomainSpec::Box { .. } | DomainSpec::Channel { .. } => {
-                let [min, max] = self.domain.extent();
+                let [min, max] = self.extent().in_plane();
                 Domain::Box { min: min.into(), max: max.into(), periodic_x, periodic_y }
+            }
+            DomainSpec::Sphere { center: [x, y, _], radius } => {
+                Domain::Disc { center: [x, y].into(), radius }
             }
             DomainSpec::Disc { center, radius } => Domain::Disc { center: center.into(), radius },
             DomainSpec::HalfDisc { center, radius } => Domain::HalfDisc { center, radius },
@@ -324,7 +445,10 @@ body = [{ name = 'b', shape = { sphere = { radius = 1.0 } }, center = [0, 0], mo
             let settings: Vec<String> = settings.iter().map(|&s| s.to_owned()).collect();
             let model = Case::parse("t.toml", text, &settings).unwrap().model;
             let is_carried = model.case.frame.is_some();
-            assert_eq!(model.mesh_moves(), model.bodies[0].translates() && !is_carried);
+            assert_eq!(
+                model.mesh_moves(),
+                model.bodies[0].translates(model.case.geometry) && !is_carried
+            );
             model.mesh_moves()
         };
         assert!(moves(&[]));

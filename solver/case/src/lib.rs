@@ -1,5 +1,6 @@
 //! `Case`: the typed contents of a case file; `Model`: what follows from them.
 
+mod axial_vector;
 mod body;
 mod case;
 mod case_text;
@@ -39,7 +40,10 @@ mod tree;
 mod type_error;
 mod variants;
 
-pub use body::{Body, GaitSpec, ImposedMotion, Lock, Motion, ShapeSpec, SpringSpec, SquirmerGait};
+pub use axial_vector::AxialVector;
+pub use body::{
+    Body, GaitSpec, ImposedMotion, Lock, Motion, Orientation, ShapeSpec, SpringSpec, SquirmerGait,
+};
 pub use case::Case;
 pub use check::check;
 pub use contact::ContactSpec;
@@ -49,7 +53,7 @@ pub use fluid::{FlowModel, Fluid};
 pub use gait::{
     AnguilliformGait, CarangiformGait, FishShape, FlagellateShape, FlagellumGait, PulsatingGait,
 };
-pub use geometry::opposite;
+pub use geometry::{Extent, normal_axis, opposite};
 pub use joint::{Hinge, Joint, JointKind};
 pub use link::{Link, ShapedLink};
 pub use mean_flow::MeanFlowSpec;

@@ -69,6 +69,10 @@ impl Link {
             | ShapeSpec::Spheroid { semi_axes: [half, _] } => {
                 Ok(Ends { back: -half, front: *half })
             }
+            ShapeSpec::Ellipsoid { .. } | ShapeSpec::Capsule { .. } => {
+                let half = shape.reach();
+                Ok(Ends { back: -half, front: half })
+            }
             ShapeSpec::Spline { .. } | ShapeSpec::Fish(_) | ShapeSpec::Flagellate(_) => {
                 let outline = Outline::new(&PlacedShape {
                     name: "link".to_owned(),

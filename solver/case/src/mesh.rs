@@ -23,7 +23,7 @@ pub struct MeshSettings {
     /// Layers of cells wanted across the gap between two surfaces.
     #[serde(default = "default_gap_layers")]
     pub gap_layers: f64,
-    /// Rectangles with finer cells.
+    /// Rectangles, or boxes in space, with finer cells.
     #[serde(default, skip_serializing_if = "Vec::is_empty", rename = "box")]
     pub boxes: Vec<RefinementBox>,
     /// Whether cells follow curved boundaries (isoparametric P2) or stay straight.
@@ -83,14 +83,14 @@ pub enum MeshEquation {
 }
 
 /// `[[mesh.box]]`.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct RefinementBox {
-    /// Lower corner (m).
-    pub min: [f64; 2],
-    /// Upper corner (m).
-    pub max: [f64; 2],
+    /// Corner with the least coordinates (m), one number per dimension.
+    pub min: Vec<f64>,
+    /// Corner with the largest coordinates (m).
+    pub max: Vec<f64>,
     /// Largest edge length inside (m).
     pub size: f64,
 }

@@ -6,8 +6,8 @@ use super::copies::{Individual, individuals};
 use super::diagnostic::CaseError;
 use super::parts::{Part, parts, poses};
 use super::{
-    Body, BoundaryCondition, Case, Copies, FlowModel, GaitSpec, Geometry, Joint, Motion,
-    SwimmerKind, SwimmerSpec, TimeSettings,
+    AxialVector, Body, BoundaryCondition, Case, Copies, FlowModel, GaitSpec, Geometry, Joint,
+    Motion, SwimmerKind, SwimmerSpec, TimeSettings,
 };
 
 /// Most bodies of a case; a run with a tenth of it takes days.
@@ -204,12 +204,13 @@ impl Model {
                 shape: part.shape.clone(),
                 center: vec![pose.center.x, pose.center.y],
                 angle: pose.angle,
+                orientation: None,
                 density: part.density.or(swimmer.density),
                 motion,
                 locked: Vec::new(),
                 gait: part.gait.clone(),
                 force: Vec::new(),
-                torque: 0.0,
+                torque: AxialVector::default(),
                 load_factor: None,
                 spring: None,
                 size: swimmer.size,
@@ -296,10 +297,10 @@ impl Model {
     pub fn mesh_moves(&self) -> bool {
         let case = &self.case;
         let frame = self.frame_body();
-        let frame_moves = frame.is_some_and(|body| self.bodies[body].translates());
+        let frame_moves = frame.is_some_and(|body| self.bodies[body].translates(case.geometry));
         let moves = |(index, body): (usize, &Body)| {
-            let travels = frame != Some(index) && (body.translates() || frame_moves);
-            let turns = case.geometry == Geometry::Planar && body.turns() && !body.is_round();
+            let travels = frame != Some(index) && (body.translates(case.geometry) || frame_moves);
+            let turns = case.geometry != Geometry::Axisymmetric && body.turns() && !body.is_round();
             travels || turns || body.deforms()
         };
         let any = !self.joints.is_empty()

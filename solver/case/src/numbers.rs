@@ -196,7 +196,7 @@ fn gaps(model: &Model) -> Vec<DerivedNumber> {
             circles.push((index, circle));
         }
     }
-    let [min, max] = model.case.domain.extent();
+    let [min, max] = model.case.extent().in_plane();
     let mut grid = DiscGrid::new(min, max, circles.len());
     for (nth, (_, circle)) in circles.iter().enumerate() {
         grid.insert(nth, circle);
@@ -271,6 +271,7 @@ pub fn geometry_name(geometry: Geometry) -> &'static str {
     match geometry {
         Geometry::Planar => "planar",
         Geometry::Axisymmetric => "axisymmetric",
+        Geometry::Spatial => "three-dimensional",
     }
 }
 

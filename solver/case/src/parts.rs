@@ -100,7 +100,7 @@ fn linked_spheres(
 ) -> Vec<Part> {
     let shape = |radius: f64| match geometry {
         Geometry::Planar => ShapeSpec::Disc { radius },
-        Geometry::Axisymmetric => ShapeSpec::Sphere { radius },
+        Geometry::Axisymmetric | Geometry::Spatial => ShapeSpec::Sphere { radius },
     };
     let attachment = |nth: usize| {
         let Neighbour { parent, between, is_after } = neighbour(nth, radii.len())?;

@@ -66,7 +66,7 @@ fn side_speed(case: &Case, condition: &BoundaryCondition) -> f64 {
         BoundaryCondition::Velocity { value, .. } => norm(value),
         BoundaryCondition::Parabolic { peak, .. } => peak.abs(),
         BoundaryCondition::Shear { rate, origin, .. } => {
-            let [min, max] = case.domain.extent();
+            let [min, max] = case.extent().in_plane();
             (rate * (min[1] - origin)).abs().max((rate * (max[1] - origin)).abs())
         }
         BoundaryCondition::WavingSheet { amplitude, period, .. } => {
@@ -79,7 +79,7 @@ fn side_speed(case: &Case, condition: &BoundaryCondition) -> f64 {
 fn body_speed(case: &Case, body: &Body) -> f64 {
     let reach = body.shape.reach();
     let imposed = match &body.motion {
-        Motion::Imposed(motion) => norm(&motion.velocity) + motion.angular_velocity.abs() * reach,
+        Motion::Imposed(motion) => norm(&motion.velocity) + motion.angular_velocity.norm() * reach,
         Motion::Held => return 0.0,
         Motion::Free => terminal_speed(case, body),
     };
@@ -96,7 +96,9 @@ fn body_speed(case: &Case, body: &Body) -> f64 {
 fn resistance(case: &Case, body: &Body) -> f64 {
     match case.geometry {
         Geometry::Planar => 4.0 * PI * case.fluid.viscosity,
-        Geometry::Axisymmetric => 6.0 * PI * case.fluid.viscosity * body.shape.reach(),
+        Geometry::Axisymmetric | Geometry::Spatial => {
+            6.0 * PI * case.fluid.viscosity * body.shape.reach()
+        }
     }
 }
 
@@ -105,7 +107,9 @@ fn load(case: &Case, body: &Body) -> f64 {
     let radius = body.shape.half_width();
     let volume = match case.geometry {
         Geometry::Planar => PI * radius * body.shape.reach(),
-        Geometry::Axisymmetric => 4.0 / 3.0 * PI * radius * radius * body.shape.reach(),
+        Geometry::Axisymmetric | Geometry::Spatial => {
+            4.0 / 3.0 * PI * radius * radius * body.shape.reach()
+        }
     };
     let excess = body.density.unwrap_or(case.fluid.density) - case.fluid.density;
     excess.abs() * norm(&case.fluid.gravity) * volume + norm(&body.force)
@@ -117,7 +121,7 @@ fn terminal_speed(case: &Case, body: &Body) -> f64 {
     let slow = load / resistance(case, body);
     let area = match case.geometry {
         Geometry::Planar => 2.0 * body.shape.reach(),
-        Geometry::Axisymmetric => PI * body.shape.reach().powi(2),
+        Geometry::Axisymmetric | Geometry::Spatial => PI * body.shape.reach().powi(2),
     };
     let fast = (2.0 * load / (case.fluid.density * area)).sqrt();
     slow.min(fast)

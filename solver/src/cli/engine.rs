@@ -7,42 +7,53 @@ use alewife_mesh::{Mesh, Quality};
 use super::signal::SignalWatch;
 use crate::case::Model;
 use crate::observer::{self, History, RunDirectory};
-use crate::simulation::{self, RunError, RunSummary, SavedState};
+use crate::simulation::{self, CaseMesh, Dimension, RunError, RunSummary, SavedState};
 
 /// The mesh of a case.
-pub fn build_mesh(model: &Model) -> Result<Mesh<2>, RunError> {
+pub fn build_mesh<const D: usize>(model: &Model) -> Result<Mesh<D>, RunError>
+where
+    Dimension<D>: CaseMesh<D>,
+{
     simulation::build_mesh(model)
 }
 
 /// How good a mesh is.
-pub fn mesh_quality(mesh: &Mesh<2>) -> Quality<2> {
+pub fn mesh_quality<const D: usize>(mesh: &Mesh<D>) -> Quality<D> {
     simulation::mesh_quality(mesh)
-}
-
-/// Runs a case without observers.
-pub fn simulate(model: &Model) -> Result<RunSummary, RunError> {
-    simulation::simulate(model, &mut [])
 }
 
 /// What a run resumes from.
 #[derive(Debug)]
-pub struct Resumed {
+pub struct Resumed<const D: usize> {
     /// Everything that evolves.
-    pub state: SavedState<2>,
+    pub state: SavedState<D>,
     /// What was written up to there, if the state lies in a run.
     pub history: Option<History>,
     /// Whether the run goes on in its own directory.
     pub is_in_place: bool,
 }
 
+/// Runs a case of any dimension from its beginning, with its files in `directory` if there is one.
+pub fn simulate(model: &Model, directory: Option<&RunDirectory>) -> Result<RunSummary, RunError> {
+    match (model.case.geometry.dimensions(), directory) {
+        (2, Some(directory)) => simulate_into::<2>(model, None, directory, true),
+        (2, None) => simulation::simulate::<2>(model, &mut []),
+        (_, Some(directory)) => simulate_into::<3>(model, None, directory, true),
+        (_, None) => simulation::simulate::<3>(model, &mut []),
+    }
+}
+
 /// Runs a case, from a saved state if there is one, with its files in `directory`; with `quiet`,
 /// without progress on the terminal.
-pub fn simulate_into(
+pub fn simulate_into<const D: usize>(
     model: &Model,
-    resumed: Option<&Resumed>,
+    resumed: Option<&Resumed<D>>,
     directory: &RunDirectory,
     quiet: bool,
-) -> Result<RunSummary, RunError> {
+) -> Result<RunSummary, RunError>
+where
+    Dimension<D>: CaseMesh<D>,
+{
     let history = resumed.and_then(|resumed| resumed.history.as_ref());
     let mut observers = observer::observers(model, directory, history, quiet)?;
     observers.push(Box::new(SignalWatch::start()?));

@@ -3,9 +3,9 @@
 use std::fmt::Write as _;
 
 use crate::case::{
-    BoundaryCondition, Case, CaseFile, DomainSpec, FlowModel, GaitSpec, Joint, JointKind,
-    MeanFlowSpec, Model, Motion, ShapeSpec, Stroke, SwimmerModel, TimeSettings, geometry_name,
-    printable, significant,
+    BoundaryCondition, Case, CaseFile, DomainSpec, FlowModel, GaitSpec, Geometry, Joint, JointKind,
+    MeanFlowSpec, Model, Motion, Orientation, ShapeSpec, Stroke, SwimmerModel, TimeSettings,
+    geometry_name, printable, significant,
 };
 
 /// A text that is meant to be one line, as it may be shown on a terminal.
@@ -25,8 +25,8 @@ pub fn facts(file: &CaseFile) -> String {
     let units = format!("{}, units: {}", geometry_name(case.geometry), one_line(&case.units));
     line("geometry", units);
     line("fluid", fluid(case));
-    line("domain", domain(&case.domain));
-    let sides = case.domain.sides().iter().filter(|side| **side != "axis").map(|side| {
+    line("domain", domain(case));
+    let sides = case.sides().iter().filter(|side| **side != "axis").map(|side| {
         let condition = case.boundary.get(*side).map_or("nothing", condition_name);
         format!("{side} {condition}")
     });
@@ -87,14 +87,16 @@ fn fluid(case: &Case) -> String {
     format!("{model}, viscosity {}{density}", significant(fluid.viscosity))
 }
 
-fn domain(domain: &DomainSpec) -> String {
-    match domain {
+fn domain(case: &Case) -> String {
+    match &case.domain {
         DomainSpec::Box { min, max } => format!("box from {min:?} to {max:?}"),
         DomainSpec::Channel { length, height } => {
             format!("channel {} long, {} high", significant(*length), significant(*height))
         }
         DomainSpec::Disc { radius, .. } => format!("disc of radius {}", significant(*radius)),
-        DomainSpec::HalfDisc { radius, .. } => format!("ball of radius {}", significant(*radius)),
+        DomainSpec::HalfDisc { radius, .. } | DomainSpec::Sphere { radius, .. } => {
+            format!("ball of radius {}", significant(*radius))
+        }
         DomainSpec::Cylinder { x, radius } => {
             let [start, end, radius] = [x[0], x[1], *radius].map(significant);
             format!("cylinder from x = {start} to {end} of radius {radius}")
@@ -125,6 +127,14 @@ fn body_line(case: &Case, body: &crate::case::Body) -> String {
         ShapeSpec::Ellipse { semi_axes } | ShapeSpec::Spheroid { semi_axes } => {
             format!("{} with semi-axes {semi_axes:?}", body.shape.name())
         }
+        ShapeSpec::Ellipsoid { semi_axes } => format!("ellipsoid with semi-axes {semi_axes:?}"),
+        ShapeSpec::Capsule { length, radius } => {
+            format!(
+                "capsule of length {} and radius {}",
+                significant(*length),
+                significant(*radius)
+            )
+        }
         ShapeSpec::Spline { points } => format!("spline through {} points", points.len()),
         ShapeSpec::Fish(fish) => format!("fish of length {}", significant(fish.length)),
         ShapeSpec::Flagellate(flagellate) => {
@@ -138,6 +148,9 @@ fn body_line(case: &Case, body: &crate::case::Body) -> String {
         Motion::Imposed(_) => "imposed motion",
     };
     let gait = match &body.gait {
+        Some(GaitSpec::Squirmer(gait)) if case.geometry == Geometry::Spatial => {
+            format!(", squirmer along {:?} of its frame", gait.axis.unwrap_or([1.0, 0.0, 0.0]))
+        }
         Some(GaitSpec::Squirmer(gait)) => {
             // The axis turns with the body, and both may be given
             format!(", squirmer heading {}", angle_in_words(body.angle + gait.heading))
@@ -152,8 +165,15 @@ fn body_line(case: &Case, body: &crate::case::Body) -> String {
     let edges = body.shape.perimeter() / size;
     let at: Vec<String> = body.center.iter().map(|value| significant(*value)).collect();
     let at = at.join(", ");
+    let in_space = body.orientation.as_ref().map(|orientation| match orientation {
+        Orientation::Turned { axis, angle } => {
+            format!(", turned by {} about {axis:?}", angle_in_words(*angle))
+        }
+        Orientation::Quaternion(parts) => format!(", turned by the quaternion {parts:?}"),
+        Orientation::Along(direction) => format!(", its x axis along {direction:?}"),
+    });
     let turned = match (body.angle, body.is_round()) {
-        (0.0, _) | (_, true) => String::new(),
+        (0.0, _) | (_, true) => in_space.unwrap_or_default(),
         (angle, false) => format!(", turned by {}", angle_in_words(angle)),
     };
     format!(

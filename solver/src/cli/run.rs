@@ -10,11 +10,11 @@ use super::exit::{Exit, Failure};
 use super::read::{Settings, read_case};
 use super::style::{Ink, on_stdout, say};
 use super::{engine, threads};
-use crate::case::{Case, Model, TimeSettings, significant};
+use crate::case::{Case, CaseFile, Model, TimeSettings, significant};
 use crate::observer::{
     Earlier, History, RunDirectory, STATE_FILE, read_state, run_of_state, write_atomic,
 };
-use crate::simulation::{RunError, RunSummary, SavedState};
+use crate::simulation::{CaseMesh, Dimension, RunError, RunSummary, SavedState};
 use crate::validation::{Comparison, Verdict, compare, comparison_table, comparisons_to_json};
 
 /// File of a run that holds its comparison with the references.
@@ -61,9 +61,19 @@ pub struct Options {
 /// Runs a case.
 pub fn run(options: &Options) -> Result<Exit, Failure> {
     let file = read_case(&options.case, &options.settings.set)?;
+    match file.case().geometry.dimensions() {
+        2 => run_in::<2>(options, &file),
+        _ => run_in::<3>(options, &file),
+    }
+}
+
+fn run_in<const D: usize>(options: &Options, file: &CaseFile) -> Result<Exit, Failure>
+where
+    Dimension<D>: CaseMesh<D>,
+{
     let name = file.full_name();
     let out = options.out.clone().unwrap_or_else(|| Path::new("runs").join(name.replace('/', "-")));
-    let resumed =
+    let resumed: Option<Resumed<D>> =
         options.resume.as_deref().map(|path| read_resumed(path, file.case(), &out)).transpose()?;
     let earlier = match &resumed {
         Some(resumed) if resumed.is_in_place => Earlier::Continue,
@@ -154,7 +164,11 @@ fn quoted(word: &str) -> String {
 }
 
 /// Reads a state, and what the run it lies in has written up to there.
-fn read_resumed(path: &Path, case: &Case, out: &Path) -> Result<Resumed, Failure> {
+fn read_resumed<const D: usize>(
+    path: &Path,
+    case: &Case,
+    out: &Path,
+) -> Result<Resumed<D>, Failure> {
     let state = read_unfinished(path, case)?;
     let run = run_of_state(path);
     let is_in_place = run.is_some_and(|run| is_inside(run, out) && is_inside(out, run));
@@ -167,7 +181,7 @@ fn read_resumed(path: &Path, case: &Case, out: &Path) -> Result<Resumed, Failure
 }
 
 /// Reads the state a run left before the end of a case.
-fn read_unfinished(path: &Path, case: &Case) -> Result<SavedState<2>, Failure> {
+fn read_unfinished<const D: usize>(path: &Path, case: &Case) -> Result<SavedState<D>, Failure> {
     let refuse = |exit, reason: String| {
         let leaves = "a run that stopped leaves state.json, one that failed failure/state.json";
         Failure::new(exit, format!("--resume: {reason}; {leaves}"))

@@ -58,8 +58,8 @@ pub fn outlive_file_size_limit() -> io::Result<()> {
     flag::register(SIGXFSZ, Arc::new(AtomicBool::new(false))).map(drop)
 }
 
-impl Observer<2> for SignalWatch {
-    fn on_step(&mut self, _snapshot: &Snapshot<'_, 2>) -> io::Result<()> {
+impl<const D: usize> Observer<D> for SignalWatch {
+    fn on_step(&mut self, _snapshot: &Snapshot<'_, D>) -> io::Result<()> {
         Ok(())
     }
 

@@ -115,10 +115,10 @@ fn validate_one(
                 Status::read(&place).is_ok_and(|status| status.state == RunState::Finished);
             let earlier = if is_finished { Earlier::Keep } else { Earlier::Replace };
             let directory = RunDirectory::create(&place, file.case(), n_threads, earlier)?;
-            engine::simulate_into(&file.model, None, &directory, true)
+            engine::simulate(&file.model, Some(&directory))
         }
         (None, Some(from)) => Ok(kept(&from.join(of_run), file.case())?),
-        (None, None) => engine::simulate(&file.model),
+        (None, None) => engine::simulate(&file.model, None),
     };
     Ok(match outcome {
         Ok(outcome) => compare(&name, file.case(), &outcome),

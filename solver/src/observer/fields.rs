@@ -1,6 +1,6 @@
 //! `fields/*.vtu` and `fields.pvd`: velocity, pressure and vorticity on the mesh, for ParaView.
 //!
-//! All three are given at the P2 nodes of quadratic triangles.
+//! All three are given at the P2 nodes of quadratic triangles or tetrahedra.
 
 use std::fmt::Write as _;
 use std::fs;
@@ -16,6 +16,7 @@ use super::run_directory::{
 };
 use super::schedule::Schedule;
 use super::state_file::write_state;
+use crate::body::in_space;
 use crate::case::{Case, Precision};
 use crate::flow::{nodal_pressure, nodal_vorticity};
 use crate::simulation::{LastState, Observer, RunError, Snapshot, Timing};
@@ -53,20 +54,26 @@ impl FieldFiles {
     }
 
     /// The content of one field file.
-    fn frame(
+    fn frame<const D: usize>(
         &self,
         time: f64,
-        mesh: &Mesh<2>,
-        velocity: &[Point<2>],
+        mesh: &Mesh<D>,
+        velocity: &[Point<D>],
         pressure: &[f64],
     ) -> io::Result<Vec<u8>> {
-        let vorticity = nodal_vorticity(mesh, velocity);
-        let velocity: Vec<f64> = velocity.iter().flat_map(|u| [u.x, u.y, 0.0]).collect();
+        // In the plane it has one part, about z
+        let parts = if D == 2 { 2..3 } else { 0..3 };
+        let vorticity: Vec<f64> = nodal_vorticity(mesh, velocity)
+            .iter()
+            .flat_map(|curl| curl.as_slice()[parts.clone()].to_vec())
+            .collect();
+        let velocity: Vec<f64> =
+            velocity.iter().flat_map(|u| <[f64; 3]>::from(in_space(u))).collect();
         let pressure = nodal_pressure(mesh, pressure);
         let arrays = [
             Array::new("velocity", 3, &velocity),
             Array::new("pressure", 1, &pressure),
-            Array::new("vorticity", 1, &vorticity),
+            Array::new("vorticity", parts.len(), &vorticity),
         ];
         let mut bytes = Vec::new();
         write_vtu_as(self.precision, &mut bytes, mesh, Some(time), &arrays, &[])?;
@@ -87,8 +94,8 @@ impl FieldFiles {
     }
 }
 
-impl Observer<2> for FieldFiles {
-    fn on_step(&mut self, snapshot: &Snapshot<'_, 2>) -> io::Result<()> {
+impl<const D: usize> Observer<D> for FieldFiles {
+    fn on_step(&mut self, snapshot: &Snapshot<'_, D>) -> io::Result<()> {
         if !self.schedule.is_due(snapshot.step, snapshot.time, snapshot.is_last) {
             return Ok(());
         }
@@ -111,7 +118,7 @@ impl Observer<2> for FieldFiles {
         remove_failure(&self.directory)
     }
 
-    fn on_failure(&mut self, error: &RunError, last: Option<&LastState<'_, 2>>) -> io::Result<()> {
+    fn on_failure(&mut self, error: &RunError, last: Option<&LastState<'_, D>>) -> io::Result<()> {
         let Some(last) = last else { return Ok(()) };
         let bytes = self.frame(last.time, last.mesh, last.velocity, last.pressure)?;
         if matches!(error, RunError::Stopped { .. }) {

@@ -3,6 +3,8 @@
 //! Viewers recognise a schema by its name alone, so the names of the `foxglove` messages and
 //! their fields are theirs. Times are simulated seconds.
 
+use std::f64::consts::FRAC_PI_2;
+
 use nalgebra::{UnitQuaternion, Vector3};
 use serde_json::{Value, json};
 
@@ -167,6 +169,15 @@ pub fn scene(bodies: &[Body], geometry: Geometry, time: f64) -> Value {
             ShapeSpec::Ellipse { semi_axes: [a, b] } => cylinders.push(solid([*a, *b, *b / 50.0])),
             ShapeSpec::Sphere { radius } => spheres.push(solid([*radius; 3])),
             ShapeSpec::Spheroid { semi_axes: [a, b] } => spheres.push(solid([*a, *b, *b])),
+            ShapeSpec::Ellipsoid { semi_axes } => spheres.push(solid(*semi_axes)),
+            ShapeSpec::Capsule { length, radius } => {
+                let half = 0.5 * length - radius;
+                // Cylinders of viewers are along z
+                let along_x = UnitQuaternion::from_axis_angle(&Vector3::y_axis(), FRAC_PI_2);
+                cylinders.push(placed_solid(0.0, &along_x, [*radius, *radius, half]));
+                let end = |x| placed_solid(x, &UnitQuaternion::identity(), [*radius; 3]);
+                spheres.extend([-half, half].map(end));
+            }
             ShapeSpec::Spline { .. } | ShapeSpec::Fish(_) | ShapeSpec::Flagellate(_) => {
                 lines.push(closed_line(&body.shape.points()));
             }
@@ -180,6 +191,7 @@ pub fn scene(bodies: &[Body], geometry: Geometry, time: f64) -> Value {
             "metadata": [{"key": "geometry", "value": match geometry {
                 Geometry::Planar => "planar",
                 Geometry::Axisymmetric => "axisymmetric",
+                Geometry::Spatial => "spatial",
             }}],
             "arrows": [],
             "cubes": [],
@@ -297,9 +309,17 @@ fn no_offset() -> Value {
 
 /// A sphere or cylinder with these semi-axes.
 fn solid(semi_axes: [f64; 3]) -> Value {
+    placed_solid(0.0, &UnitQuaternion::identity(), semi_axes)
+}
+
+/// The same, turned, with its centre on the x axis of the body.
+fn placed_solid(x: f64, rotation: &UnitQuaternion<f64>, semi_axes: [f64; 3]) -> Value {
     let size = 2.0 * Vector3::from(semi_axes);
     json!({
-        "pose": no_offset(),
+        "pose": {
+            "position": vector(&Vector3::new(x, 0.0, 0.0)),
+            "orientation": quaternion(rotation),
+        },
         "size": vector(&size),
         "bottom_scale": 1.0,
         "top_scale": 1.0,

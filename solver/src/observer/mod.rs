@@ -57,14 +57,14 @@ pub use status::{RunState, Status, StatusFile};
 ///
 /// # Errors
 /// When a file cannot be made.
-pub fn observers(
+pub fn observers<const D: usize>(
     model: &Model,
     directory: &RunDirectory,
     history: Option<&History>,
     quiet: bool,
-) -> std::io::Result<Vec<Box<dyn Observer<2>>>> {
+) -> std::io::Result<Vec<Box<dyn Observer<D>>>> {
     let case = &model.case;
-    let mut everyone: Vec<Box<dyn Observer<2>>> = vec![
+    let mut everyone: Vec<Box<dyn Observer<D>>> = vec![
         Box::new(SeriesFile::create(directory.path(), case, history)?),
         Box::new(MessageFile::create(directory, model, history)?),
         Box::new(FieldFiles::new(directory.path(), case, history)),

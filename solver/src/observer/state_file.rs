@@ -23,7 +23,7 @@ struct Content<'a> {
 ///
 /// # Errors
 /// When the file system refuses.
-pub(super) fn write_state(path: &Path, state: &SavedState<2>) -> io::Result<()> {
+pub(super) fn write_state<const D: usize>(path: &Path, state: &SavedState<D>) -> io::Result<()> {
     let state = serde_json::value::to_raw_value(state)?;
     let crc32 = crc32fast::hash(state.get().as_bytes());
     write_atomic(path, &serde_json::to_vec(&Content { crc32, state: &state })?)
@@ -33,12 +33,12 @@ pub(super) fn write_state(path: &Path, state: &SavedState<2>) -> io::Result<()> 
 ///
 /// # Errors
 /// When there is no such file, it holds no state, or not the one that was written.
-pub fn read_state(path: &Path) -> io::Result<SavedState<2>> {
+pub fn read_state<const D: usize>(path: &Path) -> io::Result<SavedState<D>> {
     let bytes = std::fs::read(path).at(path)?;
     read_content(&bytes).at(path)
 }
 
-fn read_content(bytes: &[u8]) -> io::Result<SavedState<2>> {
+fn read_content<const D: usize>(bytes: &[u8]) -> io::Result<SavedState<D>> {
     let damaged = |reason: String| io::Error::new(io::ErrorKind::InvalidData, reason);
     let not_a_state = |error| damaged(format!("this is no state of a run: {error}"));
     let content: Content<'_> = serde_json::from_slice(bytes).map_err(not_a_state)?;
@@ -116,7 +116,7 @@ mod tests {
                 2..=4 => bytes[below(40)] ^= 1 << below(8),
                 _ => bytes[below(whole.len())] ^= 1 << below(8),
             }
-            let read = read_content(&bytes);
+            let read = read_content::<2>(&bytes);
             assert!(bytes == whole || read.is_err(), "damage {case} is not seen");
         }
     }

@@ -76,7 +76,7 @@ pub(super) fn check_word(findings: &mut Findings<'_>, key: &str, name: &str) {
 
 /// A name means one thing.
 fn check_name(findings: &mut Findings<'_>, key: &str, name: &str, taken: &HashSet<&str>) {
-    let sides = findings.case().domain.sides();
+    let sides = findings.case().sides();
     if taken.contains(name) {
         findings.error(
             key,
@@ -94,22 +94,13 @@ fn check_name(findings: &mut Findings<'_>, key: &str, name: &str, taken: &HashSe
 }
 
 fn check_shape(findings: &mut Findings<'_>, key: &str, shape: &ShapeSpec) {
-    let (geometry, is_planar) = match findings.case().geometry {
-        Geometry::Planar => ("planar", true),
-        Geometry::Axisymmetric => ("axisymmetric", false),
+    let (geometry, allowed) = match findings.case().geometry {
+        Geometry::Planar => ("planar", "disc, ellipse, spline, fish, flagellate"),
+        Geometry::Axisymmetric => ("axisymmetric", "sphere, spheroid"),
+        Geometry::Spatial => ("spatial", "sphere, spheroid, ellipsoid, capsule"),
     };
     let name = shape.name();
-    let (fits, allowed) = match shape {
-        ShapeSpec::Disc { .. }
-        | ShapeSpec::Ellipse { .. }
-        | ShapeSpec::Spline { .. }
-        | ShapeSpec::Fish(_)
-        | ShapeSpec::Flagellate(_) => (is_planar, "sphere, spheroid"),
-        ShapeSpec::Sphere { .. } | ShapeSpec::Spheroid { .. } => {
-            (!is_planar, "disc, ellipse, spline, fish, flagellate")
-        }
-    };
-    if !fits {
+    if !shape.geometries().contains(&findings.case().geometry) {
         findings.error(
             key,
             format!("a {name} cannot stand in a case with `geometry = \"{geometry}\"`"),
@@ -123,6 +114,21 @@ fn check_shape(findings: &mut Findings<'_>, key: &str, shape: &ShapeSpec) {
         ShapeSpec::Ellipse { semi_axes } | ShapeSpec::Spheroid { semi_axes } => {
             for (axis, length) in semi_axes.iter().enumerate() {
                 findings.positive(&format!("{key}.{name}.semi_axes.{axis}"), *length);
+            }
+        }
+        ShapeSpec::Ellipsoid { semi_axes } => {
+            for (axis, length) in semi_axes.iter().enumerate() {
+                findings.positive(&format!("{key}.{name}.semi_axes.{axis}"), *length);
+            }
+        }
+        ShapeSpec::Capsule { length, radius } => {
+            findings.positive(&format!("{key}.capsule.radius"), *radius);
+            if *length <= 2.0 * radius {
+                findings.error(
+                    &format!("{key}.capsule.length"),
+                    format!("the capsule is {length} long and its ends have the radius {radius}"),
+                    "the length from end to end is larger than twice the radius",
+                );
             }
         }
         ShapeSpec::Fish(_) | ShapeSpec::Flagellate(_) => gait::check_shape(findings, key, shape),
@@ -192,6 +198,7 @@ fn check_motion(findings: &mut Findings<'_>, key: &str, body: &Body) {
     let all: &[Lock] = match findings.case().geometry {
         Geometry::Planar => &[Lock::X, Lock::Y, Lock::Rotation],
         Geometry::Axisymmetric => &[Lock::X],
+        Geometry::Spatial => &[Lock::X, Lock::Y, Lock::Z, Lock::Rotation],
     };
     if body.motion == Motion::Free && all.iter().all(|lock| body.locked.contains(lock)) {
         findings.warning(
@@ -202,7 +209,7 @@ fn check_motion(findings: &mut Findings<'_>, key: &str, body: &Body) {
     }
     let is_pulled = body.force.iter().any(|part| *part != 0.0);
     if body.motion == Motion::Free {
-        if body.load_factor.is_some() && !is_pulled && body.torque == 0.0 {
+        if body.load_factor.is_some() && !is_pulled && body.torque.is_zero() {
             findings.warning(
                 &format!("{key}.load_factor"),
                 format!("`load_factor` has no force or torque of \"{}\" to multiply", body.name),
@@ -214,7 +221,7 @@ fn check_motion(findings: &mut Findings<'_>, key: &str, body: &Body) {
     let idle = [
         ("locked", !body.locked.is_empty()),
         ("force", is_pulled),
-        ("torque", body.torque != 0.0),
+        ("torque", !body.torque.is_zero()),
         ("load_factor", body.load_factor.is_some()),
     ];
     for (name, is_given) in idle {
@@ -249,13 +256,13 @@ fn check_on_axis(findings: &mut Findings<'_>, key: &str, body: &Body) {
     };
     zero("center.1", body.center[1], "the distance from the axis");
     zero("angle", body.angle, "the angle");
-    zero("torque", body.torque, "the torque");
+    zero("torque", body.torque.z(), "the torque");
     let across = |values: &[f64]| values.get(1).copied().unwrap_or(0.0);
     zero("force.1", across(&body.force), "the force across the axis");
     if let Motion::Imposed(imposed) = &body.motion {
         let velocity = across(&imposed.velocity);
         zero("motion.imposed.velocity.1", velocity, "the velocity across the axis");
-        zero("motion.imposed.angular_velocity", imposed.angular_velocity, "the rotation");
+        zero("motion.imposed.angular_velocity", imposed.angular_velocity.z(), "the rotation");
     }
     if let Some(spring) = &body.spring {
         zero("spring.stiffness.1", across(&spring.stiffness), "the stiffness across the axis");

@@ -3,16 +3,16 @@
 use std::f64::consts::PI;
 
 use super::Findings;
-use crate::geometry::opposite;
+use crate::geometry::{normal_axis, opposite};
 use crate::type_error::suggestion;
-use crate::{BoundaryCondition, DomainSpec, TimeFunction, TimeSettings};
+use crate::{BoundaryCondition, Case, DomainSpec, Geometry, TimeFunction, TimeSettings};
 
 /// Net inflow over gross flow above which it is an error.
 const BALANCE: f64 = 1e-9;
 
 pub fn check(findings: &mut Findings<'_>) {
     let case = findings.case();
-    let sides = case.domain.sides();
+    let sides = case.sides();
     for (side, condition) in &case.boundary {
         let key = format!("boundary.{side}");
         if sides.contains(&side.as_str()) {
@@ -48,8 +48,12 @@ pub fn check(findings: &mut Findings<'_>) {
 /// Whether a condition can hold on a side.
 fn check_side(findings: &mut Findings<'_>, key: &str, side: &str, condition: &BoundaryCondition) {
     let case = findings.case();
-    let is_curved = matches!(case.domain, DomainSpec::Disc { .. } | DomainSpec::HalfDisc { .. });
-    let is_axisymmetric = case.domain.is_axisymmetric();
+    let is_axisymmetric = case.geometry == Geometry::Axisymmetric;
+    let is_curved = match case.domain {
+        DomainSpec::Box { .. } | DomainSpec::Channel { .. } => false,
+        DomainSpec::Disc { .. } | DomainSpec::HalfDisc { .. } | DomainSpec::Sphere { .. } => true,
+        DomainSpec::Cylinder { .. } => side == "wall" && !is_axisymmetric,
+    };
     match (side, condition) {
         ("axis", BoundaryCondition::Axis) => {}
         ("axis", _) => {
@@ -115,7 +119,7 @@ fn check_sheet(findings: &mut Findings<'_>, key: &str, side: &str, condition: &B
     let is_periodic = ["left", "right"]
         .iter()
         .any(|end| matches!(case.boundary.get(*end), Some(BoundaryCondition::Periodic(_))));
-    if side != "bottom" || !is_periodic {
+    if side != "bottom" || !is_periodic || case.geometry != Geometry::Planar {
         findings.error(
             key,
             "a waving sheet is the bottom of a box that is periodic along x".to_owned(),
@@ -132,8 +136,8 @@ fn check_sheet(findings: &mut Findings<'_>, key: &str, side: &str, condition: &B
             "write a period above 0 for a wave towards +x, below 0 towards -x",
         );
     }
-    let [[x0, y0], [x1, y1]] = case.domain.extent();
-    let n_waves = (x1 - x0) / wavelength;
+    let [length, height, _] = case.extent().lengths();
+    let n_waves = length / wavelength;
     if wavelength > 0.0 && ((n_waves - n_waves.round()).abs() > WHOLE || n_waves < 0.5) {
         findings.error(
             &format!("{key}.wavelength"),
@@ -142,7 +146,7 @@ fn check_sheet(findings: &mut Findings<'_>, key: &str, side: &str, condition: &B
         );
     }
     let steepness = 2.0 * PI * amplitude / wavelength;
-    if steepness > STEEPEST || amplitude > 0.25 * (y1 - y0) {
+    if steepness > STEEPEST || amplitude > 0.25 * height {
         findings.error(
             &format!("{key}.amplitude"),
             format!("the mesh cannot follow a sheet of amplitude {amplitude}"),
@@ -203,12 +207,13 @@ pub(super) fn check_factor(findings: &mut Findings<'_>, key: &str, factor: &Time
 
 fn check_periodic(findings: &mut Findings<'_>, key: &str, side: &str, partner: &str) {
     let case = findings.case();
-    let sides = case.domain.sides();
+    let sides = case.sides();
     let Some(wanted) = opposite(side).filter(|wanted| sides.contains(wanted)) else {
         findings.error(
             key,
             format!("`{side}` has no side opposite to it, so it cannot be periodic"),
-            "periodic pairs are left and right, bottom and top of a box, a channel or a cylinder",
+            "periodic pairs are left and right, bottom and top, back and front of a box, a channel or a \
+             cylinder",
         );
         return;
     };
@@ -244,7 +249,7 @@ fn check_balance(findings: &mut Findings<'_>) {
     let mut groups: Vec<FlowGroup<'_>> = Vec::new();
     for (side, condition) in &case.boundary {
         let factor = factor_in_time(condition);
-        let inflow = inflow(&case.domain, side, condition);
+        let inflow = inflow(case, side, condition);
         match groups.iter_mut().find(|group| group.factor == factor) {
             Some(group) => {
                 group.net += inflow;
@@ -256,7 +261,7 @@ fn check_balance(findings: &mut Findings<'_>) {
     for FlowGroup { net, gross, .. } in groups {
         if net.abs() > BALANCE * gross {
             let (verb, unit) = if net > 0.0 { ("enters", "") } else { ("leaves", "-") };
-            let kind = if case.domain.is_axisymmetric() { "m3/s" } else { "m2/s" };
+            let kind = if case.geometry == Geometry::Planar { "m2/s" } else { "m3/s" };
             findings.error(
                 "boundary",
                 format!(
@@ -271,7 +276,7 @@ fn check_balance(findings: &mut Findings<'_>) {
     }
 }
 
-/// Flow through all sides with the same factor in time (m2/s planar, m3/s axisymmetric).
+/// Flow through all sides with the same factor in time (m2/s planar, m3/s otherwise).
 struct FlowGroup<'a> {
     factor: Option<&'a TimeFunction>,
     /// What enters, less what leaves.
@@ -290,43 +295,46 @@ fn factor_in_time(condition: &BoundaryCondition) -> Option<&TimeFunction> {
     }
 }
 
-/// Flow into the domain through a side without its factor in time (m2/s planar, m3/s axisymmetric).
-fn inflow(domain: &DomainSpec, side: &str, condition: &BoundaryCondition) -> f64 {
-    let [[x0, y0], [x1, y1]] = domain.extent();
-    let (length, height) = (x1 - x0, y1 - y0);
-    // Inward normal of a straight side.
-    let (inward, axis) = match side {
-        "left" => (1.0, 0),
-        "right" => (-1.0, 0),
-        "bottom" => (1.0, 1),
-        _ => (-1.0, 1),
-    };
-    match condition {
-        BoundaryCondition::Velocity { value, .. } => {
-            let normal_velocity = inward * value.get(axis).copied().unwrap_or(0.0);
-            let area = match (domain, axis) {
-                // What enters a closed curve on one side leaves it on the other.
-                (DomainSpec::Disc { .. }, _) => 0.0,
-                // The radial part of a velocity along y on a sphere: 2 pi R^2 int sin^2.
-                (DomainSpec::HalfDisc { radius, .. }, _) => PI * PI * radius * radius,
-                (DomainSpec::Cylinder { radius, .. }, 0) => PI * radius * radius,
-                (DomainSpec::Cylinder { radius, .. }, _) => 2.0 * PI * radius * length,
-                (_, 0) => height,
-                (_, _) => length,
-            };
-            normal_velocity * area
+/// Flow into the domain through a side without its factor in time (m2/s planar, m3/s otherwise).
+fn inflow(case: &Case, side: &str, condition: &BoundaryCondition) -> f64 {
+    let Some(axis) = normal_axis(side) else { return wall_inflow(&case.domain, condition) };
+    let extent = case.extent();
+    let lengths = extent.lengths();
+    let area = match (&case.domain, case.geometry) {
+        (DomainSpec::Cylinder { radius, .. }, _) => PI * radius * radius,
+        (_, Geometry::Spatial) => {
+            (0..3).filter(|along| *along != axis).map(|along| lengths[along]).product()
         }
+        (_, _) => lengths[1 - axis],
+    };
+    let mean_velocity = match condition {
+        BoundaryCondition::Velocity { value, .. } => value.get(axis).copied().unwrap_or(0.0),
         BoundaryCondition::Parabolic { peak, .. } if axis == 0 => {
-            let area = match domain {
-                DomainSpec::Cylinder { radius, .. } => 0.5 * PI * radius * radius,
-                _ => 2.0 / 3.0 * height,
-            };
-            inward * peak * area
+            peak * match (&case.domain, case.geometry) {
+                (DomainSpec::Cylinder { .. }, _) => 1.0 / 2.0,
+                (_, Geometry::Spatial) => 4.0 / 9.0,
+                (_, _) => 2.0 / 3.0,
+            }
         }
         BoundaryCondition::Shear { rate, origin, .. } if axis == 0 => {
-            let mean = 0.5 * (y0 + y1) - origin;
-            inward * rate * mean * height
+            rate * (0.5 * (extent.min[1] + extent.max[1]) - origin)
         }
         _ => 0.0,
-    }
+    };
+    let inward = if matches!(side, "left" | "bottom" | "back") { 1.0 } else { -1.0 };
+    inward * mean_velocity * area
+}
+
+/// The same through a side that is not straight: what enters on one side of a closed surface leaves
+/// it on the other, but for velocities that are turned about an axis.
+fn wall_inflow(domain: &DomainSpec, condition: &BoundaryCondition) -> f64 {
+    let BoundaryCondition::Velocity { value, .. } = condition else { return 0.0 };
+    let &[_, radial] = value.as_slice() else { return 0.0 };
+    let area = match domain {
+        // The radial part of a velocity along y on a sphere: 2 pi R^2 int sin^2
+        DomainSpec::HalfDisc { radius, .. } => PI * PI * radius * radius,
+        DomainSpec::Cylinder { x, radius } => 2.0 * PI * radius * (x[1] - x[0]),
+        _ => 0.0,
+    };
+    -radial * area
 }

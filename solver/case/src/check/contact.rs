@@ -60,6 +60,7 @@ fn check_yielding(findings: &mut Findings<'_>) {
     let motions: &[Lock] = match case.geometry {
         Geometry::Planar => &[Lock::X, Lock::Y, Lock::Rotation],
         Geometry::Axisymmetric => &[Lock::X],
+        Geometry::Spatial => &[Lock::X, Lock::Y, Lock::Z, Lock::Rotation],
     };
     let yields = findings.model().bodies.iter().any(|body| {
         body.motion == Motion::Free && motions.iter().any(|lock| !body.locked.contains(lock))

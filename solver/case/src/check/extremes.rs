@@ -48,9 +48,9 @@ pub fn check(findings: &mut Findings<'_>, file: &CaseFile) {
 
 fn lengths(findings: &mut Findings<'_>) {
     let (case, model) = (findings.case(), findings.model());
-    let [min, max] = case.domain.extent();
-    let diagonal = (max[0] - min[0]).hypot(max[1] - min[1]);
-    let distance = min.iter().chain(&max).fold(0.0f64, |most, x| most.max(x.abs()));
+    let extent = case.extent();
+    let diagonal = extent.lengths().iter().map(|length| length * length).sum::<f64>().sqrt();
+    let distance = extent.min.iter().chain(&extent.max).fold(0.0f64, |most, x| most.max(x.abs()));
     if distance > FARTHEST * diagonal {
         findings.error(
             "domain",

@@ -2,10 +2,7 @@
 
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::read::CaseFile;
-use crate::{Case, Model};
-
-/// Numbers a point or a velocity has; axisymmetric cases are computed in their half plane.
-const DIMENSIONS: usize = 2;
+use crate::{Case, Geometry, Model};
 
 /// Diagnostics of the same kind on bodies that are made for the same swimmer.
 const MOST_ALIKE: usize = 3;
@@ -122,14 +119,22 @@ impl<'a> Findings<'a> {
 
     /// A vector with one number per dimension; `true` if it is one.
     pub fn vector(&mut self, key: &str, values: &[f64]) -> bool {
-        let is_vector = values.len() == DIMENSIONS;
+        let geometry = self.case().geometry;
+        let dimensions = geometry.dimensions();
+        let is_vector = values.len() == dimensions;
         if !is_vector {
             let plural = if values.len() == 1 { "" } else { "s" };
             let n = values.len();
             self.error(
                 key,
-                format!("`{key}` has {n} number{plural}, but this case has {DIMENSIONS} dimensions"),
-                "write [x, y]; in axisymmetric cases x is along the axis and y the distance from it",
+                format!("`{key}` has {n} number{plural}, but this case has {dimensions} dimensions"),
+                match geometry {
+                    Geometry::Planar | Geometry::Axisymmetric => {
+                        "write [x, y]; in axisymmetric cases x is along the axis and y the distance \
+                         from it"
+                    }
+                    Geometry::Spatial => "write [x, y, z]",
+                },
             );
         }
         is_vector

@@ -13,11 +13,12 @@ pub fn check(findings: &mut Findings<'_>) {
             "say what is solved in one line",
         );
     }
-    let (is_axisymmetric, wanted, domains) = match case.geometry {
-        Geometry::Planar => (false, "planar", "box, channel, disc"),
-        Geometry::Axisymmetric => (true, "axisymmetric", "half-disc, cylinder"),
+    let (wanted, domains) = match case.geometry {
+        Geometry::Planar => ("planar", "box, channel, disc"),
+        Geometry::Axisymmetric => ("axisymmetric", "half-disc, cylinder"),
+        Geometry::Spatial => ("spatial", "box, cylinder, sphere"),
     };
-    if case.domain.is_axisymmetric() != is_axisymmetric {
+    if !case.domain.geometries().contains(&case.geometry) {
         findings.error(
             "domain",
             format!("this domain does not fit `geometry = \"{wanted}\"`"),
@@ -32,11 +33,13 @@ pub fn check(findings: &mut Findings<'_>) {
 fn check_domain(findings: &mut Findings<'_>) {
     match &findings.case().domain {
         DomainSpec::Box { min, max } => {
-            if (0..2).any(|axis| max[axis] <= min[axis]) {
+            let are_corners =
+                findings.vector("domain.box.min", min) && findings.vector("domain.box.max", max);
+            if are_corners && min.iter().zip(max).any(|(low, high)| high <= low) {
                 findings.error(
                     "domain.box.max",
                     format!("the box from {min:?} to {max:?} is empty"),
-                    "both numbers of `max` must be larger than those of `min`",
+                    "all numbers of `max` must be larger than those of `min`",
                 );
             }
         }
@@ -45,6 +48,7 @@ fn check_domain(findings: &mut Findings<'_>) {
             findings.positive("domain.channel.height", *height);
         }
         DomainSpec::Disc { radius, .. } => findings.positive("domain.disc.radius", *radius),
+        DomainSpec::Sphere { radius, .. } => findings.positive("domain.sphere.radius", *radius),
         DomainSpec::HalfDisc { radius, .. } => {
             findings.positive("domain.half-disc.radius", *radius);
         }

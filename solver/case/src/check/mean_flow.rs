@@ -2,9 +2,10 @@
 
 use super::Findings;
 use super::boundary::check_factor;
+use crate::geometry::normal_axis;
 use crate::{Body, BoundaryCondition, FlowModel, Lock, MeanFlowSpec, Motion, TimeSettings};
 
-const AXES: [&str; 2] = ["x", "y"];
+const AXES: [&str; 3] = ["x", "y", "z"];
 
 pub fn check(findings: &mut Findings<'_>) {
     let case = findings.case();
@@ -71,8 +72,8 @@ fn sides_hold(findings: &Findings<'_>, axis: usize) -> bool {
     findings.case().boundary.iter().any(|(side, condition)| match condition {
         BoundaryCondition::Periodic(_) => false,
         BoundaryCondition::Symmetry => {
-            let normal = if ["left", "right"].contains(&side.as_str()) { 0 } else { 1 };
-            normal == axis
+            // The wall of an axisymmetric cylinder is normal to y
+            normal_axis(side).unwrap_or(1) == axis
         }
         BoundaryCondition::Axis => axis == 1,
         _ => true,
@@ -81,7 +82,7 @@ fn sides_hold(findings: &Findings<'_>, axis: usize) -> bool {
 
 /// Whether a body has a given velocity along a coordinate.
 fn is_held(body: &Body, axis: usize) -> bool {
-    let lock = [Lock::X, Lock::Y][axis];
+    let lock = [Lock::X, Lock::Y, Lock::Z][axis];
     match &body.motion {
         Motion::Free => body.locked.contains(&lock),
         Motion::Held | Motion::Imposed(_) => true,

@@ -35,7 +35,7 @@ pub fn check(findings: &mut Findings<'_>) {
             "write a number from 0 to 1; 0.2 is usual",
         );
     }
-    let sides = case.domain.sides();
+    let sides = case.sides();
     for (side, size) in &mesh.sides {
         let key = format!("mesh.sides.{side}");
         findings.positive(&key, *size);
@@ -71,18 +71,24 @@ fn check_boxes(findings: &mut Findings<'_>) {
         );
         return;
     }
-    let [domain_min, domain_max] = case.domain.extent();
+    let extent = case.extent();
+    let axes = 0..case.geometry.dimensions();
     for (index, refined) in case.mesh.boxes.iter().enumerate() {
         let key = format!("mesh.box.{index}");
         findings.positive(&format!("{key}.size"), refined.size);
-        if (0..2).any(|axis| refined.max[axis] <= refined.min[axis]) {
+        let are_corners = findings.vector(&format!("{key}.min"), &refined.min)
+            && findings.vector(&format!("{key}.max"), &refined.max);
+        if !are_corners {
+            continue;
+        }
+        if axes.clone().any(|axis| refined.max[axis] <= refined.min[axis]) {
             findings.error(
                 &format!("{key}.max"),
                 format!("the box from {:?} to {:?} is empty", refined.min, refined.max),
-                "both numbers of `max` must be larger than those of `min`",
+                "all numbers of `max` must be larger than those of `min`",
             );
-        } else if (0..2).any(|axis| {
-            refined.max[axis] <= domain_min[axis] || refined.min[axis] >= domain_max[axis]
+        } else if axes.clone().any(|axis| {
+            refined.max[axis] <= extent.min[axis] || refined.min[axis] >= extent.max[axis]
         }) {
             findings.warning(
                 &key,
@@ -90,7 +96,7 @@ fn check_boxes(findings: &mut Findings<'_>) {
                     "the box from {:?} to {:?} lies outside the domain and refines nothing",
                     refined.min, refined.max
                 ),
-                &format!("the domain reaches from {domain_min:?} to {domain_max:?}"),
+                &format!("the domain reaches from {:?} to {:?}", extent.min, extent.max),
             );
         }
     }

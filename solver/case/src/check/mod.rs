@@ -19,6 +19,7 @@ mod mesh;
 mod near;
 mod placement;
 mod references;
+mod space;
 mod spring;
 mod strokes;
 mod swimmers;
@@ -26,6 +27,7 @@ mod swing;
 mod time;
 
 use super::diagnostic::Diagnostic;
+use super::domain::Geometry;
 use super::read::CaseFile;
 
 use findings::Findings;
@@ -43,6 +45,7 @@ pub fn check(file: &CaseFile) -> Vec<Diagnostic> {
     boundary::check(&mut findings);
     mean_flow::check(&mut findings);
     bodies::check(&mut findings);
+    space::check(&mut findings);
     joints::check(&mut findings);
     swimmers::check(&mut findings);
     contact::check(&mut findings);
@@ -54,10 +57,11 @@ pub fn check(file: &CaseFile) -> Vec<Diagnostic> {
     if findings.has_no_error() {
         cells::check(&mut findings);
     }
-    if findings.has_no_error() {
+    let in_plane = file.model.case.geometry != Geometry::Spatial;
+    if in_plane && findings.has_no_error() {
         placement::check(&mut findings);
     }
-    if findings.has_no_error() {
+    if in_plane && findings.has_no_error() {
         strokes::check(&mut findings);
         near::check(&mut findings);
     }

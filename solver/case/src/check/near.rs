@@ -119,7 +119,7 @@ impl<'a> Surroundings<'a> {
     /// Pairs that may come near each other, with their gaps at the start less what gaits take.
     fn candidates(&self) -> Vec<Near> {
         let mut found = Vec::new();
-        let [min, max] = self.model.case.domain.extent();
+        let [min, max] = self.model.case.extent().in_plane();
         let mut grid = DiscGrid::new(min, max, self.outlines.len());
         for (body, outline) in self.outlines.iter().enumerate() {
             let Some(outline) = outline else { continue };

@@ -24,7 +24,7 @@ pub fn check(findings: &mut Findings<'_>) {
             placed.center = images.max_by(|a, b| inside(a).total_cmp(&inside(b))).unwrap_or(center);
         }
     }
-    let layout = Layout::new(&domain, &bodies, case.domain.extent());
+    let layout = Layout::new(&domain, &bodies, case.extent().in_plane());
     let misplaced = layout.misplaced();
     for Misplaced { body, error } in &misplaced {
         let help = remedy(error);
@@ -190,7 +190,7 @@ fn is_in_domain(
     coordinates: &[f64],
 ) -> bool {
     let point = Point::<2>::new(coordinates[0], coordinates[1]);
-    let [min, max] = findings.case().domain.extent();
+    let [min, max] = findings.case().extent().in_plane();
     let size = (max[0] - min[0]).hypot(max[1] - min[1]);
     let below_axis = if domain.is_axisymmetric() { -point.y } else { 0.0 };
     let is_outside = domain.clearance(point) < -ROUNDING * size || below_axis > ROUNDING * size;

@@ -207,7 +207,7 @@ impl<'a> Tree<'a> {
     /// A domain whose sides are as far from the origin as said (m).
     fn surroundings(&self, room: f64) -> Domain {
         match self.geometry {
-            Geometry::Planar => Domain::Box {
+            Geometry::Planar | Geometry::Spatial => Domain::Box {
                 min: Point::<2>::new(-room, -room),
                 max: Point::<2>::new(room, room),
                 periodic_x: false,

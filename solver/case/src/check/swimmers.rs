@@ -143,7 +143,7 @@ fn names(findings: &mut Findings<'_>) {
     for group in &model.swimmers {
         let name = group.name.as_str();
         let is_body = matches!(group.bodies[..], [body] if model.bodies[body].name == name);
-        if !is_body && (taken.contains(name) || case.domain.sides().contains(&name)) {
+        if !is_body && (taken.contains(name) || case.sides().contains(&name)) {
             findings.error(
                 "swimmer",
                 format!("the name \"{name}\" is taken by a body, a swimmer or a side"),

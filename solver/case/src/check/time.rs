@@ -119,7 +119,7 @@ fn steady_frame(findings: &mut Findings<'_>) {
     let model = findings.model();
     let frame = model.frame_body();
     for (index, body) in model.bodies.iter().enumerate() {
-        if body.translates() && frame != Some(index) {
+        if body.translates(model.case.geometry) && frame != Some(index) {
             findings.warning(
                 &format!("body.{index}.motion"),
                 format!("a flow with inertia around the travelling body \"{}\" is steady only as seen from it", body.name),

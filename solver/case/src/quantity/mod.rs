@@ -5,7 +5,7 @@
 mod row;
 mod table;
 
-use super::{FlowModel, JointKind, Model, TimeSettings};
+use super::{FlowModel, Geometry, JointKind, Model, TimeSettings};
 
 use self::row::Circumstances;
 pub use self::row::{Quantity, When};
@@ -41,6 +41,7 @@ pub fn columns(model: &Model) -> Vec<Column> {
     let case = &model.case;
     let is_unsteady = matches!(case.time, TimeSettings::Unsteady(_));
     let of_case = Circumstances {
+        is_spatial: case.geometry == Geometry::Spatial,
         has_coefficients: case.has_coefficients(),
         has_contact: case.contact.is_some(),
         balances_energy: model.balances_energy(),

@@ -20,8 +20,14 @@ pub struct Quantity<T> {
 pub enum When {
     /// In all cases.
     Always,
+    /// In planar and axisymmetric cases.
+    Plane,
+    /// In three dimensions.
+    Spatial,
     /// There are `[scales]` and a density, so that coefficients can be formed.
     Scales,
+    /// The same in three dimensions.
+    SpatialScales,
     /// There is `[contact]`.
     Contact,
     /// The joint is a pivot.
@@ -42,6 +48,8 @@ pub enum When {
     IdleSides,
     /// There is `[flow]`.
     MeanFlow,
+    /// The same in three dimensions.
+    SpatialMeanFlow,
     /// The fluid is convected.
     Convection,
     /// The same, and the run is unsteady.
@@ -56,7 +64,10 @@ impl When {
     pub fn words(self) -> &'static str {
         match self {
             Self::Always => "",
+            Self::Plane => "planar, axisymmetric",
+            Self::Spatial => "spatial",
             Self::Scales => "`scales`",
+            Self::SpatialScales => "`scales`, spatial",
             Self::Contact => "[`contact`](#contact)",
             Self::Pivot => "pivots (`bent`, `hinge`)",
             Self::Arm => "`arm`",
@@ -67,6 +78,7 @@ impl When {
             Self::TowedWithoutCycles => "`resistance`, no period",
             Self::IdleSides => "bodies or a waving sheet, and other sides that do no work",
             Self::MeanFlow => "[`flow`](#flow)",
+            Self::SpatialMeanFlow => "[`flow`](#flow), spatial",
             Self::Convection => "`navier-stokes`",
             Self::UnsteadyConvection => "`navier-stokes`, unsteady",
             Self::MovingMesh => "a moving mesh",
@@ -76,7 +88,10 @@ impl When {
     pub(super) fn holds(self, known: &Circumstances) -> bool {
         match self {
             Self::Always => true,
+            Self::Plane => !known.is_spatial,
+            Self::Spatial => known.is_spatial,
             Self::Scales => known.has_coefficients,
+            Self::SpatialScales => known.has_coefficients && known.is_spatial,
             Self::Contact => known.has_contact,
             Self::Pivot => !known.is_arm,
             Self::Arm => known.is_arm,
@@ -87,6 +102,7 @@ impl When {
             Self::TowedWithoutCycles => !known.has_cycles && known.has_resistance,
             Self::IdleSides => known.balances_energy,
             Self::MeanFlow => known.has_mean_flow,
+            Self::SpatialMeanFlow => known.has_mean_flow && known.is_spatial,
             Self::Convection => known.has_convection,
             Self::UnsteadyConvection => known.has_convection && known.is_unsteady,
             Self::MovingMesh => known.mesh_moves,
@@ -97,6 +113,7 @@ impl When {
 /// What decides which quantities the case, a joint or a swimmer has.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Circumstances {
+    pub is_spatial: bool,
     pub has_coefficients: bool,
     pub has_contact: bool,
     pub is_arm: bool,

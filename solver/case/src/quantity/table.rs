@@ -33,29 +33,51 @@ quantities! {
     BodyQuantity {
         X: "x", "m", Always, "Centre of mass, in the laboratory";
         Y: "y", "m", Always, "Centre of mass, in the laboratory";
-        Angle: "angle", "rad", Always, "Angle, continuous over many turns";
+        Z: "z", "m", Spatial, "Centre of mass, in the laboratory";
+        Angle: "angle", "rad", Always, "Angle, continuous over many turns; in space that of the body's x axis in the x-y plane";
         VelocityX: "velocity.x", "m/s", Always, "Velocity of the centre of mass";
         VelocityY: "velocity.y", "m/s", Always, "Velocity of the centre of mass";
-        AngularVelocity: "angular_velocity", "rad/s", Always, "Counter-clockwise";
+        VelocityZ: "velocity.z", "m/s", Spatial, "Velocity of the centre of mass";
+        AngularVelocity: "angular_velocity", "rad/s", Plane, "Counter-clockwise";
+        AngularVelocityX: "angular_velocity.x", "rad/s", Spatial, "In the laboratory";
+        AngularVelocityY: "angular_velocity.y", "rad/s", Spatial, "In the laboratory";
+        AngularVelocityZ: "angular_velocity.z", "rad/s", Spatial, "In the laboratory";
         AccelerationX: "acceleration.x", "m/s2", Always,
             "Of the centre of mass; 0 in a steady solution";
         AccelerationY: "acceleration.y", "m/s2", Always,
+            "Of the centre of mass; 0 in a steady solution";
+        AccelerationZ: "acceleration.z", "m/s2", Spatial,
             "Of the centre of mass; 0 in a steady solution";
         ForceX: "force.x", "N (N/m)", Always,
             "Load of the fluid on the body, from the residual: the accurate one";
         ForceY: "force.y", "N (N/m)", Always,
             "Load of the fluid on the body, from the residual: the accurate one";
-        Torque: "torque", "N m (N)", Always, "About the centre of mass, the same way";
+        ForceZ: "force.z", "N (N/m)", Spatial,
+            "Load of the fluid on the body, from the residual: the accurate one";
+        Torque: "torque", "N m (N)", Plane, "About the centre of mass, the same way";
+        TorqueX: "torque.x", "N m", Spatial, "About the centre of mass, in the laboratory";
+        TorqueY: "torque.y", "N m", Spatial, "About the centre of mass, in the laboratory";
+        TorqueZ: "torque.z", "N m", Spatial, "About the centre of mass, in the laboratory";
         SurfaceForceX: "surface_force.x", "N (N/m)", Always,
             "`force` by integrating the stress: a check of lower order";
         SurfaceForceY: "surface_force.y", "N (N/m)", Always,
             "`force` by integrating the stress: a check of lower order";
-        SurfaceTorque: "surface_torque", "N m (N)", Always,
+        SurfaceForceZ: "surface_force.z", "N (N/m)", Spatial,
+            "`force` by integrating the stress: a check of lower order";
+        SurfaceTorque: "surface_torque", "N m (N)", Plane,
+            "`torque` by integrating the stress: a check of lower order";
+        SurfaceTorqueX: "surface_torque.x", "N m", Spatial,
+            "`torque` by integrating the stress: a check of lower order";
+        SurfaceTorqueY: "surface_torque.y", "N m", Spatial,
+            "`torque` by integrating the stress: a check of lower order";
+        SurfaceTorqueZ: "surface_torque.z", "N m", Spatial,
             "`torque` by integrating the stress: a check of lower order";
         Power: "power", "W (W/m)", Always, "Work of the surface on the fluid";
         DragCoefficient: "drag_coefficient", "1", Scales, "Coefficient of `force.x`";
         LiftCoefficient: "lift_coefficient", "1", Scales, "Coefficient of `force.y`";
-        MomentCoefficient: "moment_coefficient", "1", Scales, "Coefficient of `torque`";
+        SideCoefficient: "side_coefficient", "1", SpatialScales, "Coefficient of `force.z`";
+        MomentCoefficient: "moment_coefficient", "1", Scales,
+            "Coefficient of `torque`, in space of `torque.z`";
         ContactForceX: "contact_force.x", "N (N/m)", Contact,
             "Sum of the contact forces on the body; not in `force`";
         ContactForceY: "contact_force.y", "N (N/m)", Contact,
@@ -140,6 +162,7 @@ quantities! {
     ProbeQuantity {
         VelocityX: "velocity.x", "m/s", Always, "Velocity at the point, in the laboratory";
         VelocityY: "velocity.y", "m/s", Always, "Velocity at the point, in the laboratory";
+        VelocityZ: "velocity.z", "m/s", Spatial, "Velocity at the point, in the laboratory";
         Pressure: "pressure", "Pa", Always, "Without its hydrostatic part";
     }
 }
@@ -159,9 +182,11 @@ quantities! {
         PressureGradientX: "pressure_gradient.x", "Pa/m", MeanFlow,
             "Mean pressure gradient along x, given or what brings a mean velocity about";
         PressureGradientY: "pressure_gradient.y", "Pa/m", MeanFlow, "The same along y";
+        PressureGradientZ: "pressure_gradient.z", "Pa/m", SpatialMeanFlow, "The same along z";
         MeanVelocityX: "mean_velocity.x", "m/s", MeanFlow,
             "Mean velocity of fluid and bodies along x: the flux over the cross section of the cell";
         MeanVelocityY: "mean_velocity.y", "m/s", MeanFlow, "The same along y";
+        MeanVelocityZ: "mean_velocity.z", "m/s", SpatialMeanFlow, "The same along z";
         Cfl: "cfl", "1", UnsteadyConvection,
             "CFL number: largest velocity relative to the mesh times the step over the shortest edge \
              of a cell";

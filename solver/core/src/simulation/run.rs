@@ -1,9 +1,10 @@
 //! The run: build, solve or step in time, measure, notify the observers.
 
 use super::advance::Simulation;
+use super::case_mesh::{CaseMesh, Dimension};
 use super::cycle_error::OtherSteps;
 use super::measure::Measure;
-use super::planar::{Prepared, prepare};
+use super::prepare::{Prepared, prepare};
 use super::resume::SavedState;
 use super::snapshot::{LastState, Observer, Snapshot};
 use super::steady::{SteadyFlow, SteadyTask, solve_steady};
@@ -28,10 +29,13 @@ pub struct RunSummary {
 ///
 /// # Errors
 /// Whatever stops the run; observers are notified before it is returned.
-pub fn simulate(
+pub fn simulate<const D: usize>(
     model: &Model,
-    observers: &mut [Box<dyn Observer<2>>],
-) -> Result<RunSummary, RunError> {
+    observers: &mut [Box<dyn Observer<D>>],
+) -> Result<RunSummary, RunError>
+where
+    Dimension<D>: CaseMesh<D>,
+{
     simulate_from(model, None, observers)
 }
 
@@ -39,11 +43,14 @@ pub fn simulate(
 ///
 /// # Errors
 /// Whatever stops the run; observers are notified before it is returned.
-pub fn simulate_from(
+pub fn simulate_from<const D: usize>(
     model: &Model,
-    saved: Option<&SavedState<2>>,
-    observers: &mut [Box<dyn Observer<2>>],
-) -> Result<RunSummary, RunError> {
+    saved: Option<&SavedState<D>>,
+    observers: &mut [Box<dyn Observer<D>>],
+) -> Result<RunSummary, RunError>
+where
+    Dimension<D>: CaseMesh<D>,
+{
     let Prepared { mut simulation, measure } = match prepare(model, saved) {
         Ok(prepared) => prepared,
         Err(error) => {

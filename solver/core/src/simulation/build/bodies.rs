@@ -5,20 +5,26 @@ use std::f64::consts::PI;
 use alewife_mesh::BoundaryId;
 use nalgebra::Vector3;
 
-use crate::body::{Inertia, Mode, Pose, RigidVector, Wrench};
+use super::solid::Solid;
+use crate::body::{Inertia, Mode, Orientation, Pose, RigidVector, Wrench};
 use crate::case::{
-    Body, Case, FlowModel, GaitSpec, Lock, Motion, ShapeSpec, SpringSpec, TimeFunction,
+    Body, Case, FlowModel, GaitSpec, Geometry, Lock, Motion, ShapeSpec, SpringSpec, TimeFunction,
 };
-use crate::coupling::{Drive, RigidBody, Spring, TimeValue, second_moments};
+use crate::coupling::{Drive, RigidBody, Spring, TimeValue};
 use crate::gait::{Gait, InTime, Squirmer};
 use crate::simulation::RunError;
 use crate::simulation::planar::shape_motion;
 use crate::space::Metric;
 use crate::time::factor_at;
 
-/// The planar components of a vector of the case; those that are not written are zero.
+/// A component of a vector of the case; those that are not written are zero.
 fn component(values: &[f64], axis: usize) -> f64 {
     values.get(axis).copied().unwrap_or(0.0)
+}
+
+/// A vector of the case in space.
+fn vector(values: &[f64]) -> Vector3<f64> {
+    Vector3::from_fn(|axis, _| component(values, axis))
 }
 
 /// A body of a case with its boundary in the mesh.
@@ -28,33 +34,21 @@ pub(super) fn rigid_body(
     boundary: BoundaryId,
     metric: Metric,
 ) -> Result<RigidBody, RunError> {
-    let moments = body.shape.outline().moments().ok_or_else(|| {
-        RunError::Unsupported(format!("body `{}`: its spline has no valid outline", body.name))
-    })?;
-    let volume = Inertia { mass: moments.measure, tensor: second_moments(&moments) };
+    let Solid { volume, pose } = Solid::of(body, case.geometry)?;
     let density = body.density.unwrap_or(case.fluid.density);
     let inertia = match case.fluid.model {
         FlowModel::Stokes => Inertia::default(),
         FlowModel::UnsteadyStokes | FlowModel::NavierStokes => volume.scaled(density),
     };
     // Weight less buoyancy: the pressure is the one without its hydrostatic part
-    let net_mass = (density - case.fluid.density) * moments.measure;
-    let vector = |x: f64, y: f64| Vector3::new(x, y, 0.0);
-    let weight = [0, 1].map(|axis| net_mass * component(&case.fluid.gravity, axis));
-    // The centre of mass of a spline is not the origin of its points
-    let offset = nalgebra::Rotation2::new(body.angle) * moments.centroid;
-    let pose = Pose::planar(body.center[0] + offset[0], body.center[1] + offset[1], body.angle);
-    // Angles count turns from within (-pi, pi]
-    let pose = Pose::planar(pose.center.x, pose.center.y, pose.heading());
+    let net_mass = (density - case.fluid.density) * volume.mass;
+    let weight = vector(&case.fluid.gravity) * net_mass;
     Ok(RigidBody {
-        drives: drives(body, metric),
+        drives: drives(body, metric, case.geometry),
         inertia,
         volume,
-        weight: Wrench { force: vector(weight[0], weight[1]), torque: Vector3::zeros() },
-        load: Wrench {
-            force: vector(component(&body.force, 0), component(&body.force, 1)),
-            torque: Vector3::new(0.0, 0.0, body.torque),
-        },
+        weight: Wrench { force: weight, torque: Vector3::zeros() },
+        load: Wrench { force: vector(&body.force), torque: Vector3::from(body.torque.0) },
         load_factor: body
             .load_factor
             .clone()
@@ -67,20 +61,23 @@ pub(super) fn rigid_body(
 }
 
 /// What determines the velocities of a body.
-fn drives(body: &Body, metric: Metric) -> [Drive; 6] {
+fn drives(body: &Body, metric: Metric, geometry: Geometry) -> [Drive; 6] {
+    let in_plane = geometry != Geometry::Spatial;
     let is_locked = |mode: Mode| match mode {
         Mode::X => body.locked.contains(&Lock::X),
         Mode::Y => body.locked.contains(&Lock::Y) || !metric.has_translation(1),
+        Mode::Z => in_plane || body.locked.contains(&Lock::Z),
         Mode::AboutZ => body.locked.contains(&Lock::Rotation) || !metric.has_rotation(),
-        Mode::Z | Mode::AboutX | Mode::AboutY => true,
+        Mode::AboutX | Mode::AboutY => in_plane || body.locked.contains(&Lock::Rotation),
     };
     Mode::ALL.map(|mode| match &body.motion {
         Motion::Free if !is_locked(mode) => Drive::Free,
         Motion::Held | Motion::Free => Drive::Held,
         Motion::Imposed(imposed) => {
             let value = match mode {
-                Mode::AboutZ => imposed.angular_velocity,
-                Mode::AboutX | Mode::AboutY => 0.0,
+                Mode::AboutX | Mode::AboutY | Mode::AboutZ => {
+                    imposed.angular_velocity.0[mode.axis()]
+                }
                 Mode::X | Mode::Y | Mode::Z => component(&imposed.velocity, mode.axis()),
             };
             let factor = imposed.factor.clone();
@@ -90,17 +87,27 @@ fn drives(body: &Body, metric: Metric) -> [Drive; 6] {
 }
 
 fn rigid_spring(spring: &SpringSpec, pose: &Pose) -> Spring {
-    let vector = |linear: &[f64], angular: f64| {
-        let mut vector = RigidVector::zeros();
-        (vector[Mode::X], vector[Mode::Y]) = (component(linear, 0), component(linear, 1));
-        vector[Mode::AboutZ] = angular;
-        vector
+    let rigid = |linear: &[f64], angular: f64| {
+        let mut rigid = RigidVector::zeros();
+        for axis in 0..3 {
+            rigid[Mode::along(axis)] = component(linear, axis);
+        }
+        rigid[Mode::AboutZ] = angular;
+        rigid
     };
     let anchor = |axis: usize| spring.anchor.get(axis).copied().unwrap_or(pose.center[axis]);
+    let rest = match pose.orientation {
+        Orientation::Planar(angle) => {
+            Pose::planar(anchor(0), anchor(1), spring.rest_angle.unwrap_or(angle))
+        }
+        Orientation::Spatial(rotation) => {
+            Pose::spatial(Vector3::from_fn(|axis, _| anchor(axis)), rotation)
+        }
+    };
     Spring {
-        stiffness: vector(&spring.stiffness, spring.torsion),
-        damping: vector(&spring.damping, spring.torsion_damping),
-        rest: Pose::planar(anchor(0), anchor(1), spring.rest_angle.unwrap_or_else(|| pose.angle())),
+        stiffness: rigid(&spring.stiffness, spring.torsion),
+        damping: rigid(&spring.damping, spring.torsion_damping),
+        rest,
     }
 }
 
@@ -119,6 +126,8 @@ fn slip(body: &Body, metric: Metric) -> Option<Box<dyn Gait>> {
     // On the axis the heading is 0 or pi, and must be so to the last bit
     let axis = if metric.is_revolved() {
         Vector3::x() * if (squirmer.heading.abs() - PI).abs() < 1e-3 { -1.0 } else { 1.0 }
+    } else if let Some(axis) = squirmer.axis {
+        Vector3::from(axis).normalize()
     } else {
         Vector3::new(squirmer.heading.cos(), squirmer.heading.sin(), 0.0)
     };

@@ -2,11 +2,15 @@
 
 mod bodies;
 mod joints;
+mod sides;
+mod solid;
 
 use alewife_mesh::{BoundaryId, BoundaryKind, Mesh, Point};
 
 use self::bodies::rigid_body;
 use self::joints::add_joint;
+use self::sides::side;
+pub(super) use self::solid::rotation;
 use super::RunError;
 use crate::body::Pose;
 use crate::case::{
@@ -28,18 +32,17 @@ pub(super) fn contact_law(contact: &ContactSpec) -> Result<Law, RunError> {
     Law::new(kind, range).map_err(|error| RunError::Unsupported(error.to_string()))
 }
 
-/// The problem of a case on its mesh, with what holds on each side of its domain by name.
+/// The problem of a case on its mesh.
 ///
 /// # Errors
 /// When the case asks for something that is not there yet.
-pub(super) fn problem_with_sides<const D: usize>(
+pub fn build_problem<const D: usize>(
     model: &Model,
     mesh: &Mesh<D>,
-    side: impl Fn(&str) -> Result<Side<D>, RunError>,
 ) -> Result<Problem<D>, RunError> {
     let case = &model.case;
     let metric = match case.geometry {
-        Geometry::Planar => Metric::Cartesian,
+        Geometry::Planar | Geometry::Spatial => Metric::Cartesian,
         Geometry::Axisymmetric => Metric::Revolved,
     };
     let mut sides = Vec::new();
@@ -52,7 +55,7 @@ pub(super) fn problem_with_sides<const D: usize>(
                 None
             }
             BoundaryKind::Axis => Some(Side::Symmetry { normal_axis: Metric::RADIAL }),
-            BoundaryKind::Side => Some(side(&known.name)?),
+            BoundaryKind::Side => Some(side(case, &known.name)?),
         });
     }
     let frame = model.frame_body();

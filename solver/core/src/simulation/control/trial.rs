@@ -3,15 +3,19 @@
 use tracing::subscriber::{NoSubscriber, with_default};
 
 use crate::case::{Model, TimeSettings, Unsteady};
+use crate::simulation::case_mesh::{CaseMesh, Dimension};
 use crate::simulation::cycle_error::{OtherSteps, displacements, first_cycle};
-use crate::simulation::planar::simulation_on;
+use crate::simulation::prepare::simulation_on;
 use crate::simulation::run::Run;
 
 /// Steps of a trial of which one may have to be made in halves: with more of them it is no trial of
 /// longer steps.
 const STEPS_PER_REJECTION: usize = 10;
 
-impl Run<'_, 2> {
+impl<const D: usize> Run<'_, D>
+where
+    Dimension<D>: CaseMesh<D>,
+{
     /// Makes the first cycle with steps twice as long, or half as long where those are too long to be
     /// made, and keeps what came of it for a comparison.
     pub(in crate::simulation) fn try_other_steps(&mut self, model: &Model) {

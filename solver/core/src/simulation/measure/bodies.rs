@@ -26,7 +26,9 @@ impl Coefficients {
         };
         let area = scales.area.unwrap_or(match case.geometry {
             Geometry::Planar => scales.length,
-            Geometry::Axisymmetric => std::f64::consts::PI * scales.length.powi(2) / 4.0,
+            Geometry::Axisymmetric | Geometry::Spatial => {
+                std::f64::consts::PI * scales.length.powi(2) / 4.0
+            }
         });
         let force = 2.0 / (case.fluid.density * scales.velocity.powi(2) * area);
         Self { force, moment: force / scales.length }
@@ -48,21 +50,33 @@ impl BodyMotion<'_> {
         match quantity {
             BodyQuantity::X => pose.center.x,
             BodyQuantity::Y => pose.center.y,
+            BodyQuantity::Z => pose.center.z,
             BodyQuantity::Angle => self.angle,
             BodyQuantity::VelocityX => twist.linear.x,
             BodyQuantity::VelocityY => twist.linear.y,
-            BodyQuantity::AngularVelocity => twist.angular.z,
+            BodyQuantity::VelocityZ => twist.linear.z,
+            BodyQuantity::AngularVelocityX => twist.angular.x,
+            BodyQuantity::AngularVelocityY => twist.angular.y,
+            BodyQuantity::AngularVelocity | BodyQuantity::AngularVelocityZ => twist.angular.z,
             BodyQuantity::AccelerationX => self.acceleration.linear.x,
             BodyQuantity::AccelerationY => self.acceleration.linear.y,
+            BodyQuantity::AccelerationZ => self.acceleration.linear.z,
             BodyQuantity::ForceX => load.force.x,
             BodyQuantity::ForceY => load.force.y,
-            BodyQuantity::Torque => load.torque.z,
+            BodyQuantity::ForceZ => load.force.z,
+            BodyQuantity::TorqueX => load.torque.x,
+            BodyQuantity::TorqueY => load.torque.y,
+            BodyQuantity::Torque | BodyQuantity::TorqueZ => load.torque.z,
             BodyQuantity::SurfaceForceX => surface_load.force.x,
             BodyQuantity::SurfaceForceY => surface_load.force.y,
-            BodyQuantity::SurfaceTorque => surface_load.torque.z,
+            BodyQuantity::SurfaceForceZ => surface_load.force.z,
+            BodyQuantity::SurfaceTorqueX => surface_load.torque.x,
+            BodyQuantity::SurfaceTorqueY => surface_load.torque.y,
+            BodyQuantity::SurfaceTorque | BodyQuantity::SurfaceTorqueZ => surface_load.torque.z,
             BodyQuantity::Power => *power,
             BodyQuantity::DragCoefficient => load.force.x * self.coefficients.force,
             BodyQuantity::LiftCoefficient => load.force.y * self.coefficients.force,
+            BodyQuantity::SideCoefficient => load.force.z * self.coefficients.force,
             BodyQuantity::MomentCoefficient => load.torque.z * self.coefficients.moment,
             BodyQuantity::ContactForceX => contact.force.x,
             BodyQuantity::ContactForceY => contact.force.y,

@@ -31,6 +31,7 @@ impl ProbeMeasurement {
         match quantity {
             ProbeQuantity::VelocityX => self.velocity.x,
             ProbeQuantity::VelocityY => self.velocity.y,
+            ProbeQuantity::VelocityZ => self.velocity.z,
             ProbeQuantity::Pressure => self.pressure,
         }
     }

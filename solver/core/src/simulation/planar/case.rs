@@ -1,6 +1,6 @@
 //! What a planar or axisymmetric case says of meshes: domain, sizes, bodies, sheets.
 
-use alewife_mesh::{Domain, Mesh, PlacedShape, Quality, SizeBox, Sizing, estimate_cells};
+use alewife_mesh::{Domain, Mesh, PlacedShape, Sizing, estimate_cells};
 
 use super::periodic_cell::{PeriodicCell, initial_cell};
 use super::shape_motion::shape_motion;
@@ -11,10 +11,8 @@ use crate::gait::WavingSheet;
 use crate::motion::{Limits, MotionKind, Stiffening};
 use crate::simulation::RunError;
 use crate::simulation::moving_mesh::MotionSettings;
+use crate::simulation::sizing::sizing;
 use crate::simulation::start::check_cells;
-
-/// Angle by which an outline turns along one edge at most (rad), however large its size.
-const LARGEST_TURN: f64 = 0.5;
 
 /// What stays the same over all meshes of a run.
 #[derive(Debug)]
@@ -80,53 +78,36 @@ impl PlanarCase {
     }
 }
 
-/// The mesh of a case.
-///
-/// # Errors
-/// When a body does not fit, or the mesh cannot be generated.
-pub fn build_mesh(model: &Model) -> Result<Mesh<2>, RunError> {
-    Ok(initial_mesh(model)?.mesh)
-}
-
-/// How good a mesh is.
-///
-/// [`Quality::of`] is generic: called here it is compiled here, with all optimisation, and not in the
-/// program, which has little.
-#[must_use]
-pub fn mesh_quality(mesh: &Mesh<2>) -> Quality<2> {
-    Quality::of(mesh)
-}
-
 /// The mesh of a case at time zero, with its domain and bodies as they are meshed.
-pub(in crate::simulation) struct InitialMesh {
+pub(super) struct MeshedCell {
     /// The mesh.
     pub mesh: Mesh<2>,
     /// Domain and bodies.
     pub cell: PeriodicCell,
 }
 
-impl InitialMesh {
+impl MeshedCell {
     /// A mesh of a case from elsewhere, its domain not cut open.
     pub fn of(model: &Model, mesh: Mesh<2>) -> Result<Self, RunError> {
         let shapes = placed_bodies(model)?;
         Ok(Self { mesh, cell: PeriodicCell::whole(&model.case.mesh_domain(), shapes) })
     }
-}
 
-/// Generates the mesh of a case at time zero.
-pub(in crate::simulation) fn initial_mesh(model: &Model) -> Result<InitialMesh, RunError> {
-    let case = &model.case;
-    let (domain, bodies, sizing) = (case.mesh_domain(), placed_bodies(model)?, sizing(case));
-    check_cells(|limit| estimate_cells(&domain, &bodies, &sizing, limit))?;
-    let cell = initial_cell(&domain, bodies)?;
-    let mut mesh = cell.mesh(&sizing)?;
-    // The side of a sheet is straight at first, but will not stay so
-    for facet in &mesh.facets {
-        if waving_sheet(case, &mesh.boundaries[facet.boundary].name).is_some() {
-            mesh.curved[facet.cell] = true;
+    /// Generates the mesh of a case at time zero.
+    pub fn generate(model: &Model) -> Result<Self, RunError> {
+        let case = &model.case;
+        let (domain, bodies, sizing) = (case.mesh_domain(), placed_bodies(model)?, sizing(case));
+        check_cells(|limit| estimate_cells(&domain, &bodies, &sizing, limit))?;
+        let cell = initial_cell(&domain, bodies)?;
+        let mut mesh = cell.mesh(&sizing)?;
+        // The side of a sheet is straight at first, but will not stay so
+        for facet in &mesh.facets {
+            if waving_sheet(case, &mesh.boundaries[facet.boundary].name).is_some() {
+                mesh.curved[facet.cell] = true;
+            }
         }
+        Ok(Self { mesh, cell })
     }
-    Ok(InitialMesh { mesh, cell })
 }
 
 /// The sheet that a side of the domain is, if it is one.
@@ -151,26 +132,4 @@ fn placed_bodies(model: &Model) -> Result<Vec<PlacedShape>, RunError> {
         Ok(placed)
     };
     model.bodies.iter().map(placed).collect()
-}
-
-/// The wanted cell sizes of a case.
-#[must_use]
-pub fn sizing(case: &Case) -> Sizing {
-    let mesh = &case.mesh;
-    let boxes = mesh.boxes.iter().map(|refined| SizeBox {
-        min: refined.min.into(),
-        max: refined.max.into(),
-        size: refined.size * mesh.scale,
-    });
-    Sizing {
-        size: mesh.size * mesh.scale,
-        surface: mesh.surface.unwrap_or(mesh.size) * mesh.scale,
-        sides: mesh.sides.iter().map(|(name, size)| (name.clone(), size * mesh.scale)).collect(),
-        // A finer mesh has the same shape: more layers in gaps, slower growth
-        growth: mesh.growth * mesh.scale,
-        gap_layers: mesh.gap_layers / mesh.scale,
-        turn: LARGEST_TURN * mesh.scale,
-        boxes: boxes.collect(),
-        curved: mesh.curved,
-    }
 }

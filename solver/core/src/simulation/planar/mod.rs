@@ -5,11 +5,6 @@ mod periodic_cell;
 mod resume;
 mod scene;
 mod shape_motion;
-mod sides;
 mod start;
 
-pub use case::{build_mesh, mesh_quality, sizing};
 pub use shape_motion::shape_motion;
-pub use sides::build_problem;
-pub use start::simulation_on;
-pub(super) use start::{Prepared, prepare};

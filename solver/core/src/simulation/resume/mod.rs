@@ -62,7 +62,7 @@ pub struct SavedState<const D: usize> {
 
 /// The reference mesh, and where the bodies were then.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(in crate::simulation) struct SavedReference<const D: usize> {
+pub struct SavedReference<const D: usize> {
     /// Positions of its nodes (m).
     pub nodes: Vec<Point<D>>,
     /// Poses of the bodies.
@@ -85,7 +85,7 @@ impl<const D: usize> SavedReference<D> {
 }
 
 /// The reference mesh of a saved state.
-pub(super) struct Reference<'a, const D: usize> {
+pub struct Reference<'a, const D: usize> {
     /// What was saved of it.
     pub saved: &'a SavedReference<D>,
     /// The mesh.

@@ -1,0 +1,137 @@
+//! Problems of cases in three dimensions, and of keys that only such cases have.
+
+use super::Findings;
+use crate::{Body, GaitSpec, Geometry, Motion};
+
+/// Difference of the length of a quaternion from 1 that is taken for rounding.
+const ROUNDING: f64 = 1e-6;
+
+pub fn check(findings: &mut Findings<'_>) {
+    let is_spatial = findings.case().geometry == Geometry::Spatial;
+    if is_spatial {
+        check_supported(findings);
+    }
+    for (index, body) in findings.model().bodies.iter().enumerate() {
+        let key = format!("body.{index}");
+        if is_spatial {
+            check_turns(findings, &key, body);
+        } else {
+            refuse_turns(findings, &key, body);
+        }
+    }
+}
+
+/// What is not solved in three dimensions so far.
+fn check_supported(findings: &mut Findings<'_>) {
+    let (case, model) = (findings.case(), findings.model());
+    let missing = [
+        ("joint", !case.joint.is_empty(), "joints"),
+        ("swimmer", !case.swimmer.is_empty(), "swimmers of several bodies"),
+        ("contact", case.contact.is_some(), "contact"),
+        ("frame", case.frame.is_some() && model.mesh_moves(), "a frame that other bodies move in"),
+    ];
+    for (key, is_there, what) in missing {
+        if is_there {
+            findings.error(
+                key,
+                format!("{what} cannot be computed in three dimensions so far"),
+                "take geometry = \"planar\" or \"axisymmetric\", or single bodies",
+            );
+        }
+    }
+    let is_single = case.joint.is_empty() && case.swimmer.is_empty();
+    if model.mesh_moves() && is_single {
+        findings.error(
+            "time",
+            "bodies cannot move through the mesh in three dimensions so far".to_owned(),
+            "write time = { steady = {} } for the velocities of bodies where they are, or hold them",
+        );
+    }
+}
+
+/// Turns of a body in space are about an axis.
+fn check_turns(findings: &mut Findings<'_>, key: &str, body: &Body) {
+    if body.angle != 0.0 {
+        findings.error(
+            &format!("{key}.angle"),
+            format!("`{key}.angle` is {}, but in space a turn is about an axis", body.angle),
+            "write orientation = { turned = { axis = [x, y, z], angle = ... } }, or \
+             orientation = { along = [x, y, z] } for the direction of the body's x axis",
+        );
+    }
+    use crate::Orientation::{Along, Quaternion, Turned};
+    let length = |vector: &[f64]| vector.iter().map(|part| part * part).sum::<f64>().sqrt();
+    let mut no_direction = |name: &str, vector: &[f64]| {
+        if length(vector) == 0.0 {
+            findings.error(
+                &format!("{key}.{name}"),
+                format!("`{key}.{name}` is zero and points nowhere"),
+                "write a direction such as [1.0, 0.0, 0.0]",
+            );
+        }
+    };
+    match &body.orientation {
+        Some(Turned { axis, .. }) => no_direction("orientation.turned.axis", axis),
+        Some(Along(direction)) => no_direction("orientation.along", direction),
+        Some(Quaternion(parts)) if (length(parts) - 1.0).abs() > ROUNDING => findings.error(
+            &format!("{key}.orientation.quaternion"),
+            format!("the quaternion {parts:?} has the length {:.6}", length(parts)),
+            "write [w, x, y, z] of length 1; without a turn it is [1.0, 0.0, 0.0, 0.0]",
+        ),
+        Some(Quaternion(_)) | None => {}
+    }
+    if let Some(GaitSpec::Squirmer(squirmer)) = &body.gait {
+        let gait = format!("{key}.gait.squirmer");
+        if let Some(axis) = &squirmer.axis {
+            if length(axis) == 0.0 {
+                findings.error(
+                    &format!("{gait}.axis"),
+                    "the swimming axis points nowhere".to_owned(),
+                    "write a direction such as [1.0, 0.0, 0.0]",
+                );
+            }
+        }
+        for (name, is_given) in
+            [("heading", squirmer.heading != 0.0), ("turn", squirmer.turn.is_some())]
+        {
+            if is_given {
+                findings.error(
+                    &format!("{gait}.{name}"),
+                    format!("`{name}` is an angle in the plane"),
+                    "in space write gait.squirmer.axis = [x, y, z], or turn the body",
+                );
+            }
+        }
+    }
+    if let Some(spring) = &body.spring
+        && (spring.torsion != 0.0 || spring.torsion_damping != 0.0 || spring.rest_angle.is_some())
+    {
+        findings.error(
+            &format!("{key}.spring"),
+            "a spring against turning works in the plane only so far".to_owned(),
+            "leave out torsion, torsion_damping and rest_angle",
+        );
+    }
+}
+
+/// Keys that turn a body out of the plane.
+fn refuse_turns(findings: &mut Findings<'_>, key: &str, body: &Body) {
+    let tilts =
+        matches!(&body.motion, Motion::Imposed(imposed) if imposed.angular_velocity.tilts());
+    let has_axis =
+        matches!(&body.gait, Some(GaitSpec::Squirmer(squirmer)) if squirmer.axis.is_some());
+    for (name, is_given, help) in [
+        ("orientation", body.orientation.is_some(), "write angle = ... (rad)"),
+        ("torque", body.torque.tilts(), "write one number, about z"),
+        ("motion.imposed.angular_velocity", tilts, "write one number, about z"),
+        ("gait.squirmer.axis", has_axis, "write heading = ... (rad)"),
+    ] {
+        if is_given {
+            findings.error(
+                &format!("{key}.{name}"),
+                format!("`{key}.{name}` turns \"{}\" out of the plane", body.name),
+                &format!("{help}, or take geometry = \"spatial\""),
+            );
+        }
+    }
+}
