@@ -71,7 +71,7 @@ fn a_system_without_a_solution_names_what_is_not_determined() {
         density = 2.0
         "#,
     );
-    let error = simulate(&case, &mut []).expect_err("the body may drift");
+    let error = simulate::<2>(&case, &mut []).expect_err("the body may drift");
     assert!(matches!(error, RunError::Singular { .. }), "{error}");
     let message = error.to_string();
     assert!(message.contains("velocity of body \"disc\""), "{message}");
@@ -96,7 +96,7 @@ fn a_flow_that_blows_up_stops_the_run_with_the_place() {
         motion = "held"
         "#,
     );
-    let error = simulate(&case, &mut []).expect_err("it blows up");
+    let error = simulate::<2>(&case, &mut []).expect_err("it blows up");
     let RunError::BlownUp { time, times, near, cell_reynolds, .. } = &error else {
         panic!("{error}");
     };

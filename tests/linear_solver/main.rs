@@ -10,7 +10,7 @@ const RESIDUAL: f64 = 1e-12;
 
 /// Residual and refinements of the Stokes flow that every run of a case begins with.
 fn accuracy(model: &Model) -> (f64, usize) {
-    let mesh = build_mesh(model).expect("the mesh can be made");
+    let mesh = build_mesh::<2>(model).expect("the mesh can be made");
     let mut problem = build_problem(model, &mesh).expect("the problem can be built");
     problem.has_convection = false;
     let mut work = workspace(&problem, &mesh);

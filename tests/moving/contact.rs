@@ -71,7 +71,7 @@ fn a_law_too_weak_for_a_body_is_named() {
         density = 20.0
         motion = "free"
         "#;
-    let error = simulate(&case(&text), &mut []).expect_err("it sinks through");
+    let error = simulate::<2>(&case(&text), &mut []).expect_err("it sinks through");
     let told = error.to_string();
     assert!(matches!(error, RunError::Contact { .. }), "{told}");
     for word in ["`anvil`", "`bottom`", "lower epsilon", "step "] {
@@ -90,7 +90,7 @@ fn a_body_driven_into_a_wall_stops_the_run() {
         center = [0.0, -1.0]
         motion.imposed = { velocity = [0.0, -0.5] }
         "#;
-    let error = simulate(&case(&text), &mut []).expect_err("there is a wall");
+    let error = simulate::<2>(&case(&text), &mut []).expect_err("there is a wall");
     let told = error.to_string();
     println!("{told}");
     for word in ["`piston`", "`bottom`", "step 5 ", "failure/"] {

@@ -145,6 +145,7 @@ fn forces_that_nothing_balances_are_refused() {
         "motion = \"free\"\nforce = [0.0, 0.3]",
         1,
     );
-    let refused = simulate(&case(&text), &mut []).map(|_| ()).expect_err("is refused").to_string();
+    let refused =
+        simulate::<2>(&case(&text), &mut []).map(|_| ()).expect_err("is refused").to_string();
     assert!(refused.contains("sum up to") && refused.contains("along y"), "{refused}");
 }

@@ -18,7 +18,7 @@ pub fn case(text: &str) -> Model {
 /// When the run fails.
 #[must_use]
 pub fn run(model: &Model) -> RunSummary {
-    simulate(model, &mut []).expect("the case runs")
+    simulate::<2>(model, &mut []).expect("the case runs")
 }
 
 /// All values of a quantity.

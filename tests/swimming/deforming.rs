@@ -38,7 +38,7 @@ const COARSE: &str = "size = 0.4, surface = 0.08";
 fn force_and_torque_are_the_rates_of_momentum_and_angular_momentum() {
     let step = 0.02;
     let case = case(&fish(BEAT, &format!("step = {step}, end = 0.4"), COARSE));
-    let mesh = build_mesh(&case).expect("it is meshed");
+    let mesh = build_mesh::<2>(&case).expect("it is meshed");
     let problem = build_problem(&case, &mesh).expect("it is a problem");
     let body = &problem.bodies[0];
     let outcome = run(&case);
@@ -192,7 +192,7 @@ fn a_gait_that_fails_in_a_run_stops_it_with_the_body_and_the_time() {
         gait.carangiform = { period = 1.0, ramp = 0.01, bending = 1.683, phase = 0.7291666666666666 }
         "#,
     );
-    let error = simulate(&case, &mut []).expect_err("the outline crosses itself");
+    let error = simulate::<2>(&case, &mut []).expect_err("the outline crosses itself");
     assert!(matches!(error, RunError::Shape(_)), "{error:?}");
     let message = error.to_string();
     assert!(message.starts_with("body `fish`: at t = 0.033000 the body bends so far"), "{message}");

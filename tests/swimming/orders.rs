@@ -106,7 +106,7 @@ fn stiff_contact_is_no_matter_of_explicit_steps() {
             force = [0.0, -5.0]
             "#
         );
-        simulate(&case(&text), &mut [])
+        simulate::<2>(&case(&text), &mut [])
     };
     assert!(run("contact.barrier = { range = 0.15, stiffness = 50.0 }").is_ok());
     let error = run("contact.barrier = { range = 0.15, stiffness = 1e9 }").unwrap_err();

@@ -63,9 +63,8 @@ fn domain(case: &Case) -> Result<Domain, RunError> {
     match &case.domain {
         DomainSpec::Box { .. } => {
             let extent = case.extent();
-            let is_mirror = |side: &&str| {
-                matches!(case.boundary.get(*side), Some(BoundaryCondition::Symmetry))
-            };
+            let is_mirror =
+                |side: &&str| matches!(case.boundary.get(*side), Some(BoundaryCondition::Symmetry));
             let mut symmetric = [false; 6];
             for (nth, side) in case.sides().iter().enumerate() {
                 symmetric[nth] = is_mirror(side);
@@ -104,10 +103,8 @@ fn solid(case: &Case, body: &Body) -> Result<Solid, RunError> {
         }
     };
     let center = Vector3::from_fn(|axis, _| body.center.get(axis).copied().unwrap_or(f64::NAN));
-    let pose = Isometry3::from_parts(
-        Translation3::from(center),
-        rotation(body.orientation.as_ref()),
-    );
+    let pose =
+        Isometry3::from_parts(Translation3::from(center), rotation(body.orientation.as_ref()));
     let size = body.size.map(|size| size * case.mesh.scale);
     Ok(Solid { size, ..Solid::new(&body.name, shape, pose) })
 }
