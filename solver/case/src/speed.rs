@@ -57,7 +57,8 @@ impl Model {
     }
 }
 
-fn norm(vector: &[f64]) -> f64 {
+/// Length of a vector.
+pub(super) fn norm(vector: &[f64]) -> f64 {
     vector.iter().map(|part| part * part).sum::<f64>().sqrt()
 }
 
@@ -102,8 +103,8 @@ fn resistance(case: &Case, body: &Body) -> f64 {
     }
 }
 
-/// Weight less buoyancy and force on a body (N; N/m planar).
-fn load(case: &Case, body: &Body) -> f64 {
+/// Weight less buoyancy of a body over the acceleration of gravity (kg; kg/m planar).
+fn excess_mass(case: &Case, body: &Body) -> f64 {
     let radius = body.shape.half_width();
     let volume = match case.geometry {
         Geometry::Planar => PI * radius * body.shape.reach(),
@@ -111,12 +112,23 @@ fn load(case: &Case, body: &Body) -> f64 {
             4.0 / 3.0 * PI * radius * radius * body.shape.reach()
         }
     };
-    let excess = body.density.unwrap_or(case.fluid.density) - case.fluid.density;
-    excess.abs() * norm(&case.fluid.gravity) * volume + norm(&body.force)
+    (body.density.unwrap_or(case.fluid.density) - case.fluid.density) * volume
+}
+
+/// Weight less buoyancy and force on a body (N; N/m planar).
+fn load(case: &Case, body: &Body) -> f64 {
+    excess_mass(case, body).abs() * norm(&case.fluid.gravity) + norm(&body.force)
+}
+
+/// The same as a vector.
+pub(super) fn load_vector(case: &Case, body: &Body) -> [f64; 2] {
+    let mass = excess_mass(case, body);
+    let part = |vector: &[f64], axis: usize| vector.get(axis).copied().unwrap_or(0.0);
+    [0, 1].map(|axis| mass * part(&case.fluid.gravity, axis) + part(&body.force, axis))
 }
 
 /// The order of the speed of a body under its load: that of slow flow, or less by inertia (m/s).
-fn terminal_speed(case: &Case, body: &Body) -> f64 {
+pub(super) fn terminal_speed(case: &Case, body: &Body) -> f64 {
     let load = load(case, body);
     let slow = load / resistance(case, body);
     let area = match case.geometry {
