@@ -61,7 +61,7 @@ impl Model {
         let body = &self.bodies[index];
         let at = |axis: usize| body.center.get(axis).copied().unwrap_or(0.0);
         let is_single = self.joint_above(index).is_none() && !self.has_joints(&body.name);
-        let velocity = if body.motion == Motion::Free && body.translates() && is_single {
+        let velocity = if body.motion == Motion::Free && body.translates(self.case.geometry) && is_single {
             self.drift(body)
         } else {
             [0.0; 2]
@@ -84,7 +84,7 @@ impl Model {
                 // Lighthill 1952 for spheres, Blake 1971 for discs
                 let part = match self.case.geometry {
                     Geometry::Planar => 1.0 / 2.0,
-                    Geometry::Axisymmetric => 2.0 / 3.0,
+                    Geometry::Axisymmetric | Geometry::Spatial => 2.0 / 3.0,
                 };
                 (part * first, body.angle + gait.heading)
             }
@@ -96,7 +96,7 @@ impl Model {
 
     /// When a body gets to the corners of the domain along x or y that are no periodic sides (s).
     fn time_to_wall(&self, path: &Path) -> Option<f64> {
-        let [min, max] = self.case.domain.extent();
+        let [min, max] = self.case.extent().in_plane();
         let periodic = self.case.periodic_axes();
         let times = (0..2).filter(|axis| !periodic[*axis]).filter_map(|axis| {
             let velocity = path.velocity[axis];
@@ -129,6 +129,7 @@ impl Model {
             Geometry::Planar => 1.0,
             // A half plane
             Geometry::Axisymmetric => 0.5,
+            Geometry::Spatial => return Encounter { time, film_cells: 0.0 },
         };
         Encounter { time, film_cells: planes * 6.2 * layers * layers * (radius / gap).sqrt() }
     }

@@ -15,7 +15,7 @@ use crate::case::{
     number_table, significant,
 };
 use crate::coupling::count_unknowns;
-use crate::simulation::build_problem;
+use crate::simulation::{CaseMesh, Dimension, build_problem};
 
 /// Output above which a warning is given (bytes).
 const LARGE_OUTPUT: f64 = 2e9;
@@ -51,26 +51,38 @@ fn check_one(argument: &str, settings: &[String], has_mesh: bool) -> Result<(), 
     }
     say(text.trim_end());
     if has_mesh {
-        let mesh = engine::build_mesh(&file.model)?;
-        say(&format!("\n{}", on_stdout(Ink::Bold, "mesh")));
-        let quality = engine::mesh_quality(&mesh);
-        for line in quality.to_string().lines() {
-            say(&format!("  {line}"));
+        match file.case().geometry.dimensions() {
+            2 => tell_of_mesh::<2>(&file.model)?,
+            _ => tell_of_mesh::<3>(&file.model)?,
         }
-        for line in cell_numbers(&file.model, &quality) {
-            say(&format!("  {line}"));
-        }
-        say(&format!(
-            "\n{}\n{}",
-            on_stdout(Ink::Bold, "cost (a rough guess)"),
-            costs(&file.model, &mesh, &quality)?
-        ));
     }
     if !warnings.is_empty() {
         style::complain(&format!("\n{}", style::diagnostics(&warnings)));
     }
     check_variants(argument, &file, settings)?;
     say("\nnothing was solved");
+    Ok(())
+}
+
+/// Prints the mesh of a case, and what follows from it.
+fn tell_of_mesh<const D: usize>(model: &Model) -> Result<(), Failure>
+where
+    Dimension<D>: CaseMesh<D>,
+{
+    let mesh = engine::build_mesh::<D>(model)?;
+    say(&format!("\n{}", on_stdout(Ink::Bold, "mesh")));
+    let quality = engine::mesh_quality(&mesh);
+    for line in quality.to_string().lines() {
+        say(&format!("  {line}"));
+    }
+    for line in cell_numbers(model, &quality) {
+        say(&format!("  {line}"));
+    }
+    say(&format!(
+        "\n{}\n{}",
+        on_stdout(Ink::Bold, "cost (a rough guess)"),
+        costs(model, &mesh, &quality)?
+    ));
     Ok(())
 }
 
@@ -90,7 +102,7 @@ fn check_variants(argument: &str, file: &CaseFile, settings: &[String]) -> Resul
 }
 
 /// CFL number and cell Reynolds number at the expected speed.
-fn cell_numbers(model: &Model, quality: &Quality<2>) -> Vec<String> {
+fn cell_numbers<const D: usize>(model: &Model, quality: &Quality<D>) -> Vec<String> {
     let case = &model.case;
     let speed = model.expected_speed().filter(|_| case.fluid.model == FlowModel::NavierStokes);
     let Some(speed) = speed else { return Vec::new() };
@@ -106,8 +118,12 @@ fn cell_numbers(model: &Model, quality: &Quality<2>) -> Vec<String> {
 }
 
 /// Unknowns, memory, time and files of a run.
-fn costs(model: &Model, mesh: &Mesh<2>, quality: &Quality<2>) -> Result<String, Failure> {
-    let on_mesh = 2 * mesh.n_nodes() + mesh.n_vertices;
+fn costs<const D: usize>(
+    model: &Model,
+    mesh: &Mesh<D>,
+    quality: &Quality<D>,
+) -> Result<String, Failure> {
+    let on_mesh = D * mesh.n_nodes() + mesh.n_vertices;
     let free = count_unknowns(&build_problem(model, mesh)?, mesh);
     let shortest_edge = quality.shortest_edge;
     let cost = Cost::of(model, &FirstMesh { free, on_mesh, shortest_edge });
@@ -154,7 +170,7 @@ fn costs(model: &Model, mesh: &Mesh<2>, quality: &Quality<2>) -> Result<String, 
 }
 
 /// Files of a run (bytes).
-fn output_size(model: &Model, mesh: &Mesh<2>) -> f64 {
+fn output_size<const D: usize>(model: &Model, mesh: &Mesh<D>) -> f64 {
     let case = &model.case;
     let times = |cadence: Cadence| match (cadence, &case.time) {
         (Cadence::Never, _) => 0.0,
