@@ -66,10 +66,9 @@ impl Improver<'_> {
 
     /// Gaps of all vertices to a surface (m); a lower bound far from it.
     fn gaps_to(&self, surface: &SmoothSurface) -> Vec<f64> {
-        let reach = surface.reach();
         let gap = |point: &Point<3>| {
-            let apart = (point - surface.origin()).norm() - reach;
-            if apart > reach { apart } else { surface.gap(*point) }
+            let least = surface.least_gap(*point);
+            if least > surface.reach() { least } else { surface.gap(*point) }
         };
         self.mesh.points.iter().map(gap).collect()
     }

@@ -18,9 +18,9 @@ const SMALL_COEFFICIENT: f64 = 0.2;
 /// What is left of the quality of a cell whose nodes are all on walls: it has no free velocity.
 const ALL_ON_WALLS: f64 = 0.02;
 
-/// What is left of the quality of a cell with five edges on walls, which has two boundary faces or
-/// will get them.
-const TWO_FACES: f64 = 0.3;
+/// What is left of the quality of a cell with five edges on walls, as those with two boundary faces
+/// have, once there are none: it has one free velocity.
+const TWO_FACES: f64 = 0.1;
 
 /// A point inside the fluid is this part of an edge away from all surfaces at least.
 pub const LEAST_CLEARANCE: f64 = 0.05;
@@ -41,6 +41,20 @@ pub struct Measure {
     pub straight: Straight,
     /// Whether the curvature of its edges on surfaces counts.
     pub is_curved: bool,
+    /// Whether five edges on walls count as a defect.
+    pub avoids_two_faces: bool,
+}
+
+impl Measure {
+    /// Of the straight cell alone.
+    pub fn straight(straight: Straight) -> Self {
+        Self { straight, is_curved: false, avoids_two_faces: false }
+    }
+
+    /// Of the curved cell.
+    pub fn curved(straight: Straight) -> Self {
+        Self { is_curved: true, ..Self::straight(straight) }
+    }
 }
 
 /// What a change that is being tried will do to edges on the boundary.
@@ -81,7 +95,7 @@ impl<'a> Improver<'a> {
             sizes,
             geometry,
             projections: Projections::new(geometry),
-            measure: Measure { straight: Straight::VolumeLength, is_curved: false },
+            measure: Measure::straight(Straight::VolumeLength),
             is_curved: geometry.surfaces.iter().map(|surface| !surface.is_flat()).collect(),
             last_swaps: 0,
             last_smoothing: 0,
@@ -160,7 +174,7 @@ impl<'a> Improver<'a> {
         }
         let quality = match n_edges {
             6 => return ALL_ON_WALLS * straight.min(1.0),
-            5 => TWO_FACES * straight.min(1.0),
+            5 if self.measure.avoids_two_faces => TWO_FACES * straight.min(1.0),
             _ => straight,
         };
         if !has_curved {

@@ -107,7 +107,7 @@ mod tests {
     fn regular_tetrahedra_have_measure_one_and_mirror_images_minus_one() {
         let mut p = [[1.0, 1.0, 1.0], [1.0, -1.0, -1.0], [-1.0, 1.0, -1.0], [-1.0, -1.0, 1.0]]
             .map(Point::<3>::from);
-        for sign in [1.0, -1.0] {
+        for sign in [-1.0, 1.0] {
             assert!((volume_length(&p) - sign).abs() < 1e-14);
             assert!((least_sine(&p) - sign).abs() < 1e-14);
             p.swap(0, 1);

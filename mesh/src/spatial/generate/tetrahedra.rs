@@ -109,7 +109,7 @@ impl Tetrahedra {
                 self.edges.remove_face(face.map(|local| vertices[local]), tag);
             }
         }
-        self.cells[cell as usize][0] = NO_VERTEX;
+        self.cells[cell as usize] = [NO_VERTEX; 4];
         self.free.push(cell);
         self.note(Change::Deleted { vertices, tags });
     }

@@ -105,6 +105,12 @@ impl SmoothSurface {
         }
     }
 
+    /// A lower bound of the gap to a point (m), at little cost.
+    #[must_use]
+    pub fn least_gap(&self, point: Point<3>) -> f64 {
+        if self.is_hollow { f64::NEG_INFINITY } else { (point - self.origin).norm() - self.reach() }
+    }
+
     fn axis(&self) -> Point<3> {
         self.rotation.column(0).into_owned()
     }
