@@ -171,6 +171,49 @@ pub enum MeshError {
         /// Centre of the cell, y (m).
         y: f64,
     },
+    /// A body in space touches or crosses a side of the domain.
+    #[error(
+        "body \"{body}\" touches or crosses side \"{side}\" at {}: gap {gap:.3e}; move it inward, \
+         enlarge the domain, or make the side a plane of symmetry", place(.at)
+    )]
+    BodyMeetsSide {
+        /// Name of the body.
+        body: String,
+        /// Name of the side.
+        side: &'static str,
+        /// Smallest signed gap (m).
+        gap: f64,
+        /// Where (m).
+        at: [f64; 3],
+    },
+    /// Two bodies in space touch or overlap.
+    #[error(
+        "bodies \"{first}\" and \"{second}\" touch or overlap at {}: gap {gap:.3e}; move them apart",
+        place(.at)
+    )]
+    BodiesMeet {
+        /// Name of the first body.
+        first: String,
+        /// Name of the second body.
+        second: String,
+        /// Smallest signed gap (m).
+        gap: f64,
+        /// Where (m).
+        at: [f64; 3],
+    },
+    /// No mesh of tetrahedra with good cells was found.
+    #[error(
+        "no good tetrahedra near {}: {reason} ({value:.3e}); lower mesh.surface or raise \
+         mesh.gap_layers there", place(.at)
+    )]
+    PoorTetrahedra {
+        /// What is poor.
+        reason: &'static str,
+        /// Its value.
+        value: f64,
+        /// Where (m).
+        at: [f64; 3],
+    },
     /// A mesh breaks one of its invariants.
     #[error("mesh: {what} (cell or node {index})")]
     Invariant {
@@ -179,4 +222,10 @@ pub enum MeshError {
         /// Where.
         index: usize,
     },
+}
+
+/// Coordinates in brackets.
+fn place(at: &[f64; 3]) -> String {
+    let [x, y, z] = at;
+    format!("({x:.6e}, {y:.6e}, {z:.6e})")
 }

@@ -17,6 +17,8 @@ mod planar;
 mod quadrature;
 mod quality;
 mod simplex;
+mod sizing;
+pub mod spatial;
 mod straight;
 mod surface;
 #[cfg(test)]
@@ -33,12 +35,12 @@ pub use mesh::{Boundary, BoundaryKind, Edge, Facet, Mesh, PeriodicPair, Point};
 pub use number::whole;
 pub use planar::{
     Closest, Cut, Domain, FishForm, FlagellateForm, GapQuery, Moments, Nearest, Outline,
-    PlacedShape, Profile, SMALLEST_GAP, SecondMoments, Shape, SizeBox, SizeField, Sizing, Spline,
-    Station, Wall, check_placement, check_wrapped_placement, closest, closest_features,
-    closest_to_wall, estimate_cells, generate, generate_along, on_meridian, overlap, thickness,
-    wall_features,
+    PlacedShape, Profile, SMALLEST_GAP, SecondMoments, Shape, SizeField, Spline, Station, Wall,
+    check_placement, check_wrapped_placement, closest, closest_features, closest_to_wall,
+    estimate_cells, generate, generate_along, on_meridian, overlap, thickness, wall_features,
 };
 pub use quality::{CellQuality, Quality, WorstCell};
 pub use simplex::{NodeArray, Simplex};
+pub use sizing::{SizeBox, Sizing};
 pub use surface::{Facing, FacingSurfaces, NearSurface, Surface, SurfacePoint};
 pub use vtu::{Array, Precision, write_vtu, write_vtu_as};

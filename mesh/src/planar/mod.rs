@@ -12,7 +12,6 @@ mod placement;
 mod profile;
 mod shape;
 mod size_field;
-mod sizing;
 mod spline;
 mod vector;
 
@@ -29,5 +28,4 @@ pub use placement::{SMALLEST_GAP, check_placement, check_wrapped_placement};
 pub use profile::{FishForm, FlagellateForm, Profile, Station};
 pub use shape::{Moments, PlacedShape, SecondMoments, Shape};
 pub use size_field::{SizeField, estimate_cells};
-pub use sizing::{SizeBox, Sizing};
 pub use spline::Spline;

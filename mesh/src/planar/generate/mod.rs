@@ -64,7 +64,7 @@ pub fn generate(
     bodies: &[PlacedShape],
     sizing: &Sizing,
 ) -> Result<Mesh<2>, MeshError> {
-    sizing.check(domain)?;
+    sizing.check(domain.sides())?;
     let outlines = place(domain, bodies)?;
     let border = BoundaryLoops::new(domain, bodies, outlines);
     let sizes = SizeField::from_border(domain, bodies, sizing, &border)?;
@@ -97,7 +97,7 @@ pub fn generate_along(
     bodies: &[PlacedShape],
     sizing: &Sizing,
 ) -> Result<Mesh<2>, MeshError> {
-    sizing.check(domain)?;
+    sizing.check(domain.sides())?;
     let outlines = place_wrapped(domain, bodies)?;
     let border = BoundaryLoops::along(cut, domain, bodies, outlines);
     let sizes = SizeField::from_border(domain, bodies, sizing, &border)?;

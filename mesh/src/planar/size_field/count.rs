@@ -29,7 +29,7 @@ pub fn estimate_cells(
     sizing: &Sizing,
     limit: f64,
 ) -> Result<f64, MeshError> {
-    sizing.check(domain)?;
+    sizing.check(domain.sides())?;
     let sizes_in = |domain: &Domain, outlines: Vec<Outline>| {
         let border = BoundaryLoops::new(domain, bodies, outlines);
         SizeField::from_border(domain, bodies, sizing, &border)

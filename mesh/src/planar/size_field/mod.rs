@@ -35,7 +35,7 @@ impl SizeField {
         bodies: &[PlacedShape],
         sizing: &Sizing,
     ) -> Result<Self, MeshError> {
-        sizing.check(domain)?;
+        sizing.check(domain.sides())?;
         let border = BoundaryLoops::new(domain, bodies, place(domain, bodies)?);
         Self::from_border(domain, bodies, sizing, &border)
     }

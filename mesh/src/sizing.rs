@@ -1,17 +1,17 @@
 //! `Sizing`: what is asked of the cell size h(x): fine at bodies and in gaps, coarse far away.
 
-use crate::{Domain, MeshError, Point};
+use crate::{MeshError, Point};
 
 /// Largest growth: beyond it neighbouring cells differ too much for good angles.
 const MAX_GROWTH: f64 = 1.0;
 
-/// A rectangle in which cells are at most `size`.
+/// A rectangle, or a box in space, in which cells are at most `size`.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SizeBox {
+pub struct SizeBox<const D: usize = 2> {
     /// Lower corner (m).
-    pub min: Point<2>,
+    pub min: Point<D>,
     /// Upper corner (m).
-    pub max: Point<2>,
+    pub max: Point<D>,
     /// Largest edge length inside (m).
     pub size: f64,
 }
@@ -23,7 +23,7 @@ pub struct SizeBox {
 /// A surface size is the smallest of its own, of what gives `gap_layers` layers across the gap to
 /// the surface that faces it, and of `turn` times its radius of curvature.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Sizing {
+pub struct Sizing<const D: usize = 2> {
     /// Largest edge length anywhere (m).
     pub size: f64,
     /// Edge length on body surfaces that declare none of their own (m).
@@ -37,12 +37,12 @@ pub struct Sizing {
     /// Largest angle by which a curved boundary turns along one edge (rad); 0.5 is about 30 degrees.
     pub turn: f64,
     /// Refinement boxes.
-    pub boxes: Vec<SizeBox>,
+    pub boxes: Vec<SizeBox<D>>,
     /// Whether cells at curved boundaries take the curve (isoparametric P2) or stay straight.
     pub curved: bool,
 }
 
-impl Sizing {
+impl<const D: usize> Sizing<D> {
     /// Sizing with one size on all surfaces that grows to another away from them (m).
     #[must_use]
     pub fn graded(surface: f64, growth: f64, size: f64) -> Self {
@@ -58,15 +58,15 @@ impl Sizing {
         }
     }
 
-    /// Whether all entries are in range and the named sides exist.
+    /// Whether all entries are in range and the named sides are among those of the domain.
     ///
     /// # Errors
     /// [`MeshError::Sizing`] or [`MeshError::UnknownSide`].
-    pub fn check(&self, domain: &Domain) -> Result<(), MeshError> {
+    pub fn check(&self, sides: &[&'static str]) -> Result<(), MeshError> {
         let refuse = |what: String, value, wanted| Err(MeshError::Sizing { what, value, wanted });
         for (name, _) in &self.sides {
-            if !domain.sides().contains(&name.as_str()) {
-                let sides = domain.sides().to_vec();
+            if !sides.contains(&name.as_str()) {
+                let sides = sides.to_vec();
                 return Err(MeshError::UnknownSide { name: name.clone(), sides });
             }
         }

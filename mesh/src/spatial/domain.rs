@@ -1,0 +1,102 @@
+//! `Domain`: the region in space that fluid and bodies share, with its named sides.
+
+use crate::Point;
+
+/// The region of a problem in space before bodies are cut out of it.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Domain {
+    /// Box; sides `left`, `right` (across x), `bottom`, `top` (across y), `back`, `front` (across z).
+    Box {
+        /// Corner with the smallest coordinates (m).
+        min: Point<3>,
+        /// Corner with the largest coordinates (m).
+        max: Point<3>,
+        /// Whether the two sides across x, y and z are periodic pairs.
+        periodic: [bool; 3],
+        /// Whether each side is a plane of symmetry, which bodies may cross.
+        symmetric: [bool; 6],
+    },
+    /// Cylinder about the x axis; sides `left`, `right`, `wall`.
+    Cylinder {
+        /// Both ends on the axis (m).
+        x: [f64; 2],
+        /// Radius (m).
+        radius: f64,
+    },
+    /// Ball; side `wall`.
+    Ball {
+        /// Centre (m).
+        center: Point<3>,
+        /// Radius (m).
+        radius: f64,
+    },
+}
+
+impl Domain {
+    /// A box with walls on all sides, between two corners (m).
+    #[must_use]
+    pub fn walls(min: Point<3>, max: Point<3>) -> Self {
+        Self::Box { min, max, periodic: [false; 3], symmetric: [false; 6] }
+    }
+
+    /// Names of the sides, in the order in which they are numbered in a mesh.
+    #[must_use]
+    pub fn sides(&self) -> &'static [&'static str] {
+        match self {
+            Self::Box { .. } => &["left", "right", "bottom", "top", "back", "front"],
+            Self::Cylinder { .. } => &["left", "right", "wall"],
+            Self::Ball { .. } => &["wall"],
+        }
+    }
+
+    /// Corners of the smallest box around it (m).
+    #[must_use]
+    pub fn corners(&self) -> [Point<3>; 2] {
+        match *self {
+            Self::Box { min, max, .. } => [min, max],
+            Self::Cylinder { x: [left, right], radius } => {
+                [Point::<3>::new(left, -radius, -radius), Point::<3>::new(right, radius, radius)]
+            }
+            Self::Ball { center, radius } => {
+                [center - Point::<3>::repeat(radius), center + Point::<3>::repeat(radius)]
+            }
+        }
+    }
+
+    /// Signed distance from a point to one side (m), positive towards the fluid.
+    #[must_use]
+    pub fn side_gap(&self, side: usize, point: Point<3>) -> f64 {
+        match self {
+            Self::Box { min, max, .. } => {
+                let axis = side / 2;
+                if side % 2 == 0 { point[axis] - min[axis] } else { max[axis] - point[axis] }
+            }
+            Self::Cylinder { x, radius } => {
+                [point.x - x[0], x[1] - point.x, radius - point.y.hypot(point.z)][side]
+            }
+            Self::Ball { center, radius } => radius - (point - center).norm(),
+        }
+    }
+
+    /// Distance between a side and the side facing it across the fluid (m).
+    #[must_use]
+    pub fn facing(&self, side: usize) -> f64 {
+        match self {
+            Self::Box { min, max, .. } => (max - min)[side / 2],
+            Self::Cylinder { x, radius } => [x[1] - x[0], x[1] - x[0], 2.0 * radius][side],
+            Self::Ball { radius, .. } => 2.0 * radius,
+        }
+    }
+
+    /// Whether a side belongs to a periodic pair.
+    #[must_use]
+    pub fn is_periodic(&self, side: usize) -> bool {
+        matches!(self, Self::Box { periodic, .. } if periodic[side / 2])
+    }
+
+    /// Whether a side is a plane of symmetry.
+    #[must_use]
+    pub fn is_symmetric(&self, side: usize) -> bool {
+        matches!(self, Self::Box { symmetric, .. } if symmetric[side])
+    }
+}

@@ -1,0 +1,54 @@
+//! `Projections`: the latest projections of middles of edges, so that none is computed twice in a row.
+
+use std::cell::RefCell;
+
+use super::surface_set::SurfaceSet;
+use crate::Point;
+use crate::spatial::geometry::Geometry;
+
+/// Places of the cache, a power of two.
+const PLACES: usize = 1 << 15;
+
+#[derive(Debug, Clone, Copy)]
+struct Entry {
+    surfaces: SurfaceSet,
+    from: Point<3>,
+    to: Point<3>,
+}
+
+/// A cache with one place for each hash: a projection is a function of its argument alone, so what
+/// is in the cache changes no result.
+#[derive(Debug)]
+pub struct Projections<'a> {
+    geometry: &'a Geometry,
+    entries: RefCell<Vec<Entry>>,
+}
+
+impl<'a> Projections<'a> {
+    /// An empty cache of projections onto these surfaces.
+    pub fn new(geometry: &'a Geometry) -> Self {
+        let empty = Entry { surfaces: SurfaceSet::EMPTY, from: Point::zeros(), to: Point::zeros() };
+        Self { geometry, entries: RefCell::new(vec![empty; PLACES]) }
+    }
+
+    /// The point on some surfaces near a point (m).
+    pub fn of(&self, surfaces: SurfaceSet, point: Point<3>) -> Point<3> {
+        let place = place_of(&point);
+        let entry = self.entries.borrow()[place];
+        if entry.surfaces == surfaces && entry.from == point {
+            return entry.to;
+        }
+        let to = self.geometry.project(surfaces.as_slice(), point);
+        self.entries.borrow_mut()[place] = Entry { surfaces, from: point, to };
+        to
+    }
+}
+
+fn place_of(point: &Point<3>) -> usize {
+    let mix = |hash: u64, x: &f64| {
+        let mixed = (hash ^ x.to_bits()).wrapping_mul(0x9E37_79B9_7F4A_7C15);
+        mixed ^ (mixed >> 29)
+    };
+    let hash = point.iter().fold(0, mix) >> 32;
+    usize::try_from(hash).unwrap_or(0) & (PLACES - 1)
+}

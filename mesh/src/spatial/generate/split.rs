@@ -1,0 +1,73 @@
+//! Splits of edges.
+
+use super::boundary_edges::INNER;
+use super::improver::{Improver, LEAST_CLEARANCE};
+use super::measure::volume_length;
+use super::surface_set::SurfaceSet;
+use crate::Point;
+
+/// An edge that is to be split, and where.
+#[derive(Debug, Clone, Copy)]
+pub struct Split {
+    /// Its ends.
+    pub ends: [u32; 2],
+    /// Place of the new vertex (m).
+    pub point: Point<3>,
+    /// The surfaces the new vertex is on.
+    pub surfaces: SurfaceSet,
+    /// Measure of volume and edge lengths that the new cells must exceed.
+    pub least_quality: f64,
+}
+
+impl Improver<'_> {
+    /// The split of an edge in its middle, on its surfaces.
+    pub fn split_in_middle(&self, ends: [u32; 2], least_quality: f64) -> Split {
+        let [a, b] = ends;
+        let surfaces = self.mesh.edge_surfaces(a, b);
+        let middle = (self.mesh.point(a) + self.mesh.point(b)) * 0.5;
+        Split { ends, point: self.project(surfaces, middle), surfaces, least_quality }
+    }
+
+    /// Splits an edge with these cells around it, unless a new cell would be too poor; gives the new
+    /// vertex.
+    pub fn split(&mut self, split: &Split, shell: &[u32]) -> Option<u32> {
+        let Split { ends: [a, b], point, surfaces, least_quality } = *split;
+        for &cell in shell {
+            let vertices = self.mesh.cell(cell);
+            let corners = self.mesh.corners(vertices);
+            for end in [a, b] {
+                let at = vertices.iter().position(|vertex| *vertex == end)?;
+                let mut half = corners;
+                half[at] = point;
+                if volume_length(&half) <= least_quality {
+                    return None;
+                }
+            }
+        }
+        let vertex = self.add_vertex(point, surfaces);
+        for &cell in shell {
+            let (vertices, tags) = (self.mesh.cell(cell), self.mesh.tags(cell));
+            self.mesh.delete_cell(cell);
+            for [kept, replaced] in [[a, b], [b, a]] {
+                let (mut half, mut half_tags) = (vertices, tags);
+                for local in 0..4 {
+                    if vertices[local] == replaced {
+                        half[local] = vertex;
+                    } else if vertices[local] == kept {
+                        // The face between the halves
+                        half_tags[local] = INNER;
+                    }
+                }
+                self.mesh.add_cell(half, half_tags);
+            }
+        }
+        Some(vertex)
+    }
+
+    /// Whether the point of a split is far enough from all surfaces, where it is not on one.
+    pub fn is_split_in_fluid(&self, split: &Split) -> bool {
+        let [a, b] = split.ends.map(|end| self.mesh.point(end));
+        let distance = LEAST_CLEARANCE * (a - b).norm();
+        !split.surfaces.is_empty() || self.is_in_fluid(split.point, distance)
+    }
+}

@@ -1,0 +1,167 @@
+//! `Geometry`: all surfaces that bound the fluid, those of the domain first, and their boundaries.
+
+use nalgebra::{Isometry3, Matrix3, Translation3};
+
+use super::domain::Domain;
+use super::shape::{Body, Shape};
+use super::surface::{Ellipsoid, Form, SmoothSurface};
+use crate::{Boundary, BoundaryId, BoundaryKind, Point, Sizing};
+
+/// Steps of Newton's method onto several surfaces at once.
+const MOST_STEPS: usize = 20;
+
+/// Surfaces that belong together: the sides of the domain, or the parts of a body.
+#[derive(Debug, Clone)]
+pub struct Group {
+    /// The first of its surfaces.
+    pub first: usize,
+    /// One past the last.
+    pub last: usize,
+    /// Centre of a ball around them (m).
+    pub center: Point<3>,
+    /// Its radius (m), infinite for the domain.
+    pub reach: f64,
+}
+
+/// The surfaces that bound the fluid.
+#[derive(Debug, Clone)]
+pub struct Geometry {
+    /// Sides of the domain, then parts of bodies.
+    pub surfaces: Vec<SmoothSurface>,
+    /// The domain, then the bodies.
+    pub groups: Vec<Group>,
+    /// Sides of the domain, then bodies.
+    pub boundaries: Vec<Boundary>,
+    /// Corners of a box around the fluid (m).
+    pub corners: [Point<3>; 2],
+}
+
+impl Geometry {
+    /// The surfaces of a domain with bodies, whose placement has been checked.
+    pub fn new(domain: &Domain, bodies: &[Body], sizing: &Sizing<3>) -> Self {
+        let mut surfaces = sides(domain);
+        let mut boundaries = Vec::new();
+        for (side, (name, surface)) in domain.sides().iter().zip(&mut surfaces).enumerate() {
+            boundaries.push(Boundary { name: (*name).to_owned(), kind: BoundaryKind::Side });
+            let own = sizing.sides.iter().filter(|(named, _)| named == name);
+            let own = own.map(|(_, size)| *size).fold(f64::INFINITY, f64::min);
+            surface.boundary = BoundaryId::new(side);
+            surface.size = own.min(sizing.size).min(domain.facing(side) / sizing.gap_layers);
+            surface.turn = sizing.turn;
+        }
+        let far = Point::<3>::zeros();
+        let mut groups =
+            vec![Group { first: 0, last: surfaces.len(), center: far, reach: f64::INFINITY }];
+        for (index, body) in bodies.iter().enumerate() {
+            let first = surfaces.len();
+            let boundary = BoundaryId::new(boundaries.len());
+            let size = body.size.unwrap_or(sizing.surface).min(sizing.size);
+            boundaries.push(Boundary { name: body.name.clone(), kind: BoundaryKind::Body(index) });
+            surfaces.extend(surfaces_of(body).map(|mut surface| {
+                surface.boundary = boundary;
+                surface.size = size;
+                surface.turn = sizing.turn;
+                surface
+            }));
+            groups.push(around(&surfaces, first));
+        }
+        Self { surfaces, groups, boundaries, corners: domain.corners() }
+    }
+
+    /// Distance to the nearest surface (m), negative outside the fluid; where it is certain to
+    /// exceed a bound, a value above the bound.
+    pub fn clearance(&self, point: Point<3>, bound: f64) -> f64 {
+        let mut least = f64::INFINITY;
+        for group in &self.groups {
+            let apart = (point - group.center).norm() - group.reach;
+            if apart > bound {
+                least = least.min(apart);
+                continue;
+            }
+            for surface in &self.surfaces[group.first..group.last] {
+                least = least.min(surface.gap(point));
+            }
+        }
+        least
+    }
+
+    /// The point on all of these surfaces near a point (m); on several by Newton's method, each step
+    /// the shortest way to where their tangent planes meet.
+    pub fn project(&self, surfaces: &[u16], point: Point<3>) -> Point<3> {
+        match surfaces {
+            [] => point,
+            [one] => self.surfaces[usize::from(*one)].foot(point).point,
+            several => self.project_onto_several(several, point),
+        }
+    }
+
+    fn project_onto_several(&self, surfaces: &[u16], mut point: Point<3>) -> Point<3> {
+        for _ in 0..MOST_STEPS {
+            let mut normals = Matrix3::<f64>::zeros();
+            let mut gaps = Point::<3>::zeros();
+            for (row, surface) in surfaces.iter().take(3).enumerate() {
+                let foot = self.surfaces[usize::from(*surface)].foot(point);
+                normals.set_row(row, &foot.normal.transpose());
+                gaps[row] = foot.gap;
+            }
+            // With the multipliers l of the normals N: N Nᵀ l = gaps; a row that is not there is 1
+            let mut products = normals * normals.transpose();
+            if surfaces.len() == 2 {
+                products[(2, 2)] = 1.0;
+            }
+            let Some(inverse) = products.try_inverse().filter(|inverse| inverse.amax() < 1e8)
+            else {
+                return point;
+            };
+            point -= normals.tr_mul(&(inverse * gaps));
+            if gaps.amax() < 1e-15 * (1.0 + point.amax()) {
+                break;
+            }
+        }
+        point
+    }
+}
+
+/// The sides of a domain, in their order.
+pub fn sides(domain: &Domain) -> Vec<SmoothSurface> {
+    match domain {
+        Domain::Box { min, max, .. } => (0..6)
+            .map(|side| {
+                let (corner, direction) = if side % 2 == 0 { (min, 1.0) } else { (max, -1.0) };
+                SmoothSurface::plane(*corner, side / 2, direction)
+            })
+            .collect(),
+        Domain::Cylinder { x: [left, right], radius } => vec![
+            SmoothSurface::plane(Point::<3>::new(*left, 0.0, 0.0), 0, 1.0),
+            SmoothSurface::plane(Point::<3>::new(*right, 0.0, 0.0), 0, -1.0),
+            SmoothSurface::new(Form::Cylinder(*radius), &Isometry3::identity(), true),
+        ],
+        Domain::Ball { center, radius } => {
+            let pose = Isometry3::from_parts(Translation3::from(*center), nalgebra::one());
+            vec![SmoothSurface::new(Form::Sphere(*radius), &pose, true)]
+        }
+    }
+}
+
+/// The surfaces of the parts of a body.
+pub fn surfaces_of(body: &Body) -> impl Iterator<Item = SmoothSurface> + '_ {
+    body.parts.iter().map(|part| {
+        let form = match &part.shape {
+            Shape::Sphere { radius } => Form::Sphere(*radius),
+            Shape::Ellipsoid { semi_axes } => Form::Ellipsoid(Ellipsoid::new(*semi_axes)),
+            Shape::Capsule { radius, length } => {
+                Form::Capsule { radius: *radius, half_length: 0.5 * length }
+            }
+        };
+        SmoothSurface::new(form, &(body.pose * part.pose), false)
+    })
+}
+
+/// The group of the surfaces from one on, with a ball around their balls.
+fn around(surfaces: &[SmoothSurface], first: usize) -> Group {
+    let own = &surfaces[first..];
+    let middle: Point<3> = own.iter().map(SmoothSurface::origin).sum();
+    let center = middle / own.len().max(1) as f64;
+    let reach = own.iter().map(|surface| (surface.origin() - center).norm() + surface.reach());
+    Group { first, last: surfaces.len(), center, reach: reach.fold(0.0, f64::max) }
+}

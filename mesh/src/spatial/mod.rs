@@ -1,0 +1,21 @@
+//! Meshes of tetrahedra: domains and bodies in space, their sizes, and the generator.
+//!
+//! A lattice of tetrahedra, graded by longest-edge bisection, is cut by one smooth surface after the
+//! other and improved by local changes; where cells touch a curved surface, their quality is that
+//! of the curved cell.
+
+mod body_surface;
+mod domain;
+mod generate;
+mod geometry;
+mod placement;
+mod shape;
+mod size_field;
+mod surface;
+
+pub use body_surface::{BodySurface, MaterialPoint};
+pub use domain::Domain;
+pub use generate::generate;
+pub use placement::check_placement;
+pub use shape::{Body, Part, Shape};
+pub use size_field::SizeField;

@@ -1,0 +1,212 @@
+//! Checks that bodies in space lie inside the domain and apart from each other.
+
+use super::domain::Domain;
+use super::geometry::{sides, surfaces_of};
+use super::shape::{Body, Shape};
+use super::surface::SmoothSurface;
+use crate::{MeshError, Point, SMALLEST_GAP};
+
+/// Places on a surface at which the search for the smallest gap starts.
+const STARTS: usize = 48;
+
+/// Steps of the search from one of them.
+const MOST_STEPS: usize = 200;
+
+/// Whether bodies can be meshed in a domain: sizes, names, inside, apart.
+///
+/// # Errors
+/// The first of the reasons found, with the names of the bodies and the gap.
+pub fn check_placement(domain: &Domain, bodies: &[Body]) -> Result<(), MeshError> {
+    check_domain(domain)?;
+    let walls = sides(domain);
+    for (i, body) in bodies.iter().enumerate() {
+        check_body(domain, body, &bodies[..i])?;
+        for surface in surfaces_of(body) {
+            for (side, wall) in walls.iter().enumerate() {
+                let gap = least_gap(&surface, wall);
+                // A body that crosses a plane of symmetry is cut by it
+                if gap.is_refused(&surface) && !domain.is_symmetric(side) {
+                    return Err(MeshError::BodyMeetsSide {
+                        body: body.name.clone(),
+                        side: domain.sides()[side],
+                        gap: gap.value,
+                        at: gap.at.into(),
+                    });
+                }
+            }
+            for other in &bodies[..i] {
+                for facing in surfaces_of(other) {
+                    check_apart(body, &surface, other, &facing)?;
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Whether a part of a body is apart from a part of another one.
+fn check_apart(
+    body: &Body,
+    surface: &SmoothSurface,
+    other: &Body,
+    facing: &SmoothSurface,
+) -> Result<(), MeshError> {
+    let apart = (surface.origin() - facing.origin()).norm();
+    if apart > (surface.reach() + facing.reach()) * (1.0 + SMALLEST_GAP) {
+        return Ok(());
+    }
+    for gap in [least_gap(surface, facing), least_gap(facing, surface)] {
+        if gap.is_refused(surface) {
+            return Err(MeshError::BodiesMeet {
+                first: other.name.clone(),
+                second: body.name.clone(),
+                gap: gap.value,
+                at: gap.at.into(),
+            });
+        }
+    }
+    Ok(())
+}
+
+fn check_domain(domain: &Domain) -> Result<(), MeshError> {
+    let [min, max] = domain.corners();
+    let what = match domain {
+        Domain::Box { .. } => ["max x - min x", "max y - min y", "max z - min z"],
+        Domain::Cylinder { .. } => ["length", "radius", "radius"],
+        Domain::Ball { .. } => ["radius"; 3],
+    };
+    for (axis, what) in what.into_iter().enumerate() {
+        let value = max[axis] - min[axis];
+        if !value.is_finite() || value <= 0.0 {
+            return Err(MeshError::Domain { what, value });
+        }
+    }
+    Ok(())
+}
+
+fn check_body(domain: &Domain, body: &Body, others: &[Body]) -> Result<(), MeshError> {
+    let is_taken = others.iter().any(|other| other.name == body.name);
+    if is_taken || domain.sides().contains(&body.name.as_str()) {
+        return Err(MeshError::DuplicateName { name: body.name.clone() });
+    }
+    let refuse =
+        |what, value, wanted| Err(MeshError::Body { body: body.name.clone(), what, value, wanted });
+    if body.parts.is_empty() {
+        return refuse("number of parts", 0.0, "at least 1");
+    }
+    if let Some(size) = body.size
+        && (size.is_nan() || size <= 0.0)
+    {
+        return refuse("size", size, "positive");
+    }
+    for part in &body.parts {
+        let lengths = match part.shape {
+            Shape::Sphere { radius } => vec![("radius", radius)],
+            Shape::Ellipsoid { semi_axes: [a, b, c] } => {
+                vec![("semi_axes", a), ("semi_axes", b), ("semi_axes", c)]
+            }
+            Shape::Capsule { radius, length } => vec![("radius", radius), ("length", length)],
+        };
+        for (what, value) in lengths {
+            if !value.is_finite() || value <= 0.0 {
+                return refuse(what, value, "positive and finite");
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The least gap found between two surfaces, and where.
+struct Least {
+    value: f64,
+    at: Point<3>,
+}
+
+impl Least {
+    /// Whether it is too small for a mesh beside this surface.
+    fn is_refused(&self, surface: &SmoothSurface) -> bool {
+        self.value.is_nan() || self.value <= SMALLEST_GAP * surface.reach()
+    }
+}
+
+/// Least gap of a surface to another one.
+///
+/// From places all around the surface: to the nearest point of the other one and back, again and
+/// again. The distance never grows, so each ends where it is least.
+fn least_gap(surface: &SmoothSurface, other: &SmoothSurface) -> Least {
+    let mut least = Least { value: f64::INFINITY, at: surface.origin() };
+    let golden = std::f64::consts::PI * (3.0 - 5.0_f64.sqrt());
+    for i in 0..STARTS {
+        let height = 1.0 - (2 * i + 1) as f64 / STARTS as f64;
+        let (sin, cos) = (golden * i as f64).sin_cos();
+        let ring = (1.0 - height * height).sqrt();
+        let direction = Point::<3>::new(ring * cos, ring * sin, height);
+        let mut at = surface.foot(surface.origin() + direction * (2.0 * surface.reach())).point;
+        let mut gap = other.gap(at);
+        for _ in 0..MOST_STEPS {
+            if gap <= 0.0 {
+                break;
+            }
+            let next = surface.foot(other.foot(at).point).point;
+            let shorter = other.gap(next);
+            let is_done = shorter >= gap * (1.0 - 1e-12);
+            (at, gap) = (next, shorter);
+            if is_done {
+                break;
+            }
+        }
+        if gap < least.value || gap.is_nan() {
+            least = Least { value: gap, at };
+        }
+    }
+    least
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::Isometry3;
+
+    fn sphere(name: &str, at: [f64; 3]) -> Body {
+        Body::new(name, Shape::Sphere { radius: 1.0 }, Isometry3::translation(at[0], at[1], at[2]))
+    }
+
+    #[test]
+    fn bodies_outside_or_in_each_other_are_refused() {
+        let domain = Domain::walls(Point::<3>::repeat(-3.0), Point::<3>::repeat(3.0));
+        let check = |bodies: &[Body]| check_placement(&domain, bodies);
+        assert!(check(&[sphere("a", [0.0; 3]), sphere("b", [0.0, 2.001, 0.0])]).is_ok());
+        match check(&[sphere("a", [0.0, 0.0, 2.1])]) {
+            Err(MeshError::BodyMeetsSide { side, gap, at, .. }) => {
+                assert_eq!(side, "front");
+                assert!(gap < 0.0 && at[2] > 2.9, "{gap} {at:?}");
+            }
+            other => panic!("{other:?}"),
+        }
+        match check(&[sphere("a", [0.0; 3]), sphere("b", [0.0, 1.9, 0.0])]) {
+            Err(MeshError::BodiesMeet { first, second, .. }) => {
+                assert_eq!([first.as_str(), second.as_str()], ["a", "b"]);
+            }
+            other => panic!("{other:?}"),
+        }
+        let inside = Shape::Ellipsoid { semi_axes: [0.3, 0.2, 0.1] };
+        let inside = Body::new("b", inside, Isometry3::translation(0.2, 0.0, 0.0));
+        assert!(check(&[sphere("a", [0.0; 3]), inside]).is_err());
+        let named = check(&[sphere("top", [0.0; 3])]);
+        assert!(matches!(named, Err(MeshError::DuplicateName { .. })));
+    }
+
+    #[test]
+    fn the_gap_of_ellipsoid_and_wall_is_found() {
+        let turn = nalgebra::UnitQuaternion::from_euler_angles(0.4, 0.7, -0.3);
+        let semi_axes = [1.0, 0.4, 0.2];
+        let body = Body::new("a", Shape::Ellipsoid { semi_axes }, nalgebra::convert(turn));
+        let surface = surfaces_of(&body).next().unwrap();
+        let plane = SmoothSurface::plane(Point::<3>::new(0.0, 0.0, -1.1), 2, 1.0);
+        // The support function of an ellipsoid
+        let normal = turn.inverse() * Point::<3>::z();
+        let half = Point::from(semi_axes).component_mul(&normal).norm();
+        let least = least_gap(&surface, &plane);
+        assert!((least.value - (1.1 - half)).abs() < 1e-6, "{}", least.value);
+    }
+}

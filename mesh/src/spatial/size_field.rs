@@ -1,0 +1,153 @@
+//! `SizeField`: the edge length wanted at a point, from surfaces, gaps and boxes.
+
+use super::domain::Domain;
+use super::geometry::{Geometry, Group};
+use super::placement::check_placement;
+use super::shape::Body;
+use crate::{Bounds, MeshError, Point, SizeBox, Sizing};
+
+/// The edge length wanted anywhere, inside bodies and outside the domain, too.
+///
+/// h(x) = min(size, surface sizes + growth · distance, box sizes + growth · distance,
+/// (d + d') / layers), where d and d' are the distances to the two nearest of the bodies and the
+/// walls: across a gap d + d' is its width.
+#[derive(Debug, Clone)]
+pub struct SizeField {
+    geometry: Geometry,
+    size: f64,
+    growth: f64,
+    layers: f64,
+    boxes: Vec<SizeBox<3>>,
+}
+
+/// What one group of surfaces asks for at a point.
+struct Wish {
+    /// Distance to its nearest surface (m).
+    distance: f64,
+    /// Edge length (m).
+    size: f64,
+}
+
+impl SizeField {
+    /// The sizes in a domain around bodies.
+    ///
+    /// # Errors
+    /// What [`check_placement`](super::check_placement) and [`Sizing::check`] refuse.
+    pub fn new(domain: &Domain, bodies: &[Body], sizing: &Sizing<3>) -> Result<Self, MeshError> {
+        sizing.check(domain.sides())?;
+        check_placement(domain, bodies)?;
+        Ok(Self::of(Geometry::new(domain, bodies, sizing), sizing))
+    }
+
+    /// The sizes around surfaces.
+    pub(super) fn of(geometry: Geometry, sizing: &Sizing<3>) -> Self {
+        Self {
+            geometry,
+            size: sizing.size,
+            growth: sizing.growth,
+            layers: sizing.gap_layers,
+            boxes: sizing.boxes.clone(),
+        }
+    }
+
+    /// The surfaces that bound the fluid.
+    pub(super) fn geometry(&self) -> &Geometry {
+        &self.geometry
+    }
+
+    /// The largest edge length wanted anywhere (m).
+    #[must_use]
+    pub fn largest(&self) -> f64 {
+        self.size
+    }
+
+    /// The edge length wanted at a point (m).
+    #[must_use]
+    pub fn at(&self, point: Point<3>) -> f64 {
+        let mut size = self.size;
+        for one in &self.boxes {
+            let bounds = Bounds { min: one.min, max: one.max };
+            size = size.min(one.size + self.growth * bounds.squared_distance(&point).sqrt());
+        }
+        // The domain comes first, then bodies as far as they can matter
+        let (mut nearest, mut second) = (f64::INFINITY, f64::INFINITY);
+        for group in &self.geometry.groups {
+            let apart = ((point - group.center).norm() - group.reach).max(0.0);
+            if apart * self.growth.min(1.0 / self.layers) >= size {
+                continue;
+            }
+            let wish = self.wish(group, point);
+            size = size.min(wish.size);
+            if wish.distance < nearest {
+                (nearest, second) = (wish.distance, nearest);
+            } else if wish.distance < second {
+                second = wish.distance;
+            }
+        }
+        size.min((nearest + second) / self.layers)
+    }
+
+    fn wish(&self, group: &Group, point: Point<3>) -> Wish {
+        let mut wish = Wish { distance: f64::INFINITY, size: f64::INFINITY };
+        for surface in &self.geometry.surfaces[group.first..group.last] {
+            let (gap, own) = if let Some(own) = surface.uniform_size() {
+                (surface.gap(point), own)
+            } else {
+                let foot = surface.foot(point);
+                (foot.gap, surface.size_at(foot.point))
+            };
+            wish.distance = wish.distance.min(gap.abs());
+            wish.size = wish.size.min(own + self.growth * gap.abs());
+        }
+        wish
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::spatial::Shape;
+    use nalgebra::Isometry3;
+
+    fn sizes(gap: f64) -> SizeField {
+        let domain = Domain::walls(Point::<3>::repeat(-5.0), Point::<3>::repeat(5.0));
+        let sphere = |name: &str, x: f64| {
+            Body::new(name, Shape::Sphere { radius: 1.0 }, Isometry3::translation(x, 0.0, 0.0))
+        };
+        let bodies = [sphere("a", -1.0 - 0.5 * gap), sphere("b", 1.0 + 0.5 * gap)];
+        let wake = SizeBox {
+            min: Point::<3>::new(2.5, -1.0, -1.0),
+            max: Point::<3>::repeat(3.0),
+            size: 0.1,
+        };
+        let sizing = Sizing { gap_layers: 2.0, boxes: vec![wake], ..Sizing::graded(0.2, 0.3, 0.8) };
+        SizeField::new(&domain, &bodies, &sizing).unwrap()
+    }
+
+    #[test]
+    fn a_gap_gets_its_layers_and_a_box_its_size() {
+        let sizes = sizes(0.05);
+        for x in [-0.025, 0.0, 0.02] {
+            assert!((sizes.at(Point::<3>::new(x, 0.0, 0.0)) - 0.025).abs() < 1e-14);
+        }
+        assert_eq!(sizes.at(Point::<3>::new(2.7, 0.0, 0.0)), 0.1);
+        assert!((sizes.at(Point::<3>::new(-2.025, 0.0, 0.0)) - 0.2).abs() < 1e-14);
+        assert!((sizes.at(Point::<3>::new(-3.025, 0.0, 0.0)) - 0.5).abs() < 1e-14);
+        assert_eq!(sizes.at(Point::<3>::new(-4.0, 4.0, 4.0)), 0.8);
+    }
+
+    /// Bodies that are left out because they are far change nothing.
+    #[test]
+    fn sizes_change_slowly() {
+        let sizes = sizes(0.3);
+        let part = |i: usize, k: f64| (0.618_034 * k * (i + 1) as f64).fract() - 0.5;
+        let points: Vec<_> = (0..3000)
+            .map(|i| Point::<3>::new(part(i, 1.0), part(i, 7.0), part(i, 31.0)) * 12.0)
+            .collect();
+        for x in points {
+            let y = x + Point::<3>::new(0.003, -0.002, 0.001);
+            // Two distances over two layers
+            assert!((sizes.at(x) - sizes.at(y)).abs() <= (x - y).norm() + 1e-12);
+        }
+    }
+}

@@ -1,0 +1,286 @@
+//! `SmoothSurface`: a side of the domain or a part of a body, with exact distance and curvature.
+
+mod ellipsoid;
+
+pub use ellipsoid::Ellipsoid;
+
+use nalgebra::{Isometry3, Matrix3};
+
+use crate::{BoundaryId, Point};
+
+/// The form of a smooth surface in its own frame; the solid is on the side its normal leaves.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Form {
+    /// The plane x = 0, the solid below it.
+    Plane,
+    /// A sphere about the origin with this radius (m).
+    Sphere(f64),
+    /// A cylinder about the x axis with this radius (m), without ends.
+    Cylinder(f64),
+    /// A cylinder about the x axis with half spheres at its ends.
+    Capsule {
+        /// Radius (m).
+        radius: f64,
+        /// Half the distance between the centres of the half spheres (m).
+        half_length: f64,
+    },
+    /// An ellipsoid about the origin.
+    Ellipsoid(Ellipsoid),
+}
+
+/// The point of a smooth surface nearest to another point.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Foot {
+    /// Where on the surface (m).
+    pub point: Point<3>,
+    /// Unit normal there, into the fluid: the gradient of the gap.
+    pub normal: Point<3>,
+    /// Signed distance (m), positive in the fluid.
+    pub gap: f64,
+}
+
+/// A smooth surface in its place.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SmoothSurface {
+    form: Form,
+    origin: Point<3>,
+    rotation: Matrix3<f64>,
+    /// Whether the fluid is on the inside, as that of a container.
+    is_hollow: bool,
+    /// The boundary its facets belong to.
+    pub boundary: BoundaryId,
+    /// Edge length wanted on it (m), where its curvature asks for none that is smaller.
+    pub size: f64,
+    /// Largest angle by which it turns along one edge (rad).
+    pub turn: f64,
+}
+
+impl SmoothSurface {
+    /// A form in its place with the fluid outside of it, or inside.
+    #[must_use]
+    pub fn new(form: Form, pose: &Isometry3<f64>, is_hollow: bool) -> Self {
+        Self {
+            form,
+            origin: pose.translation.vector,
+            rotation: pose.rotation.to_rotation_matrix().into_inner(),
+            is_hollow,
+            boundary: BoundaryId::default(),
+            size: f64::INFINITY,
+            turn: f64::INFINITY,
+        }
+    }
+
+    /// A plane through a point with a unit normal into the fluid.
+    #[must_use]
+    pub fn plane(through: Point<3>, axis: usize, direction: f64) -> Self {
+        let mut surface = Self::new(Form::Plane, &Isometry3::identity(), false);
+        surface.origin = through;
+        let mut normal = Point::<3>::zeros();
+        normal[axis] = direction;
+        // Only the first column of the rotation of a plane is used
+        surface.rotation.set_column(0, &normal);
+        surface
+    }
+
+    /// Whether edges on it are straight.
+    #[must_use]
+    pub fn is_flat(&self) -> bool {
+        self.form == Form::Plane
+    }
+
+    /// Position of the origin of its own frame (m).
+    #[must_use]
+    pub fn origin(&self) -> Point<3> {
+        self.origin
+    }
+
+    /// Radius of a ball about the origin that holds the surface (m); infinite without one.
+    #[must_use]
+    pub fn reach(&self) -> f64 {
+        match &self.form {
+            Form::Plane | Form::Cylinder(_) => f64::INFINITY,
+            Form::Sphere(radius) => *radius,
+            Form::Capsule { radius, half_length } => radius + half_length,
+            Form::Ellipsoid(ellipsoid) => ellipsoid.reach(),
+        }
+    }
+
+    /// A lower bound of the gap to a point (m), at little cost.
+    #[must_use]
+    pub fn least_gap(&self, point: Point<3>) -> f64 {
+        if self.is_hollow { f64::NEG_INFINITY } else { (point - self.origin).norm() - self.reach() }
+    }
+
+    fn axis(&self) -> Point<3> {
+        self.rotation.column(0).into_owned()
+    }
+
+    /// Vector from the nearest point of what the surface runs around, a point or a line.
+    fn from_skeleton(&self, point: Point<3>) -> Point<3> {
+        let off = point - self.origin;
+        let along = |most: f64| {
+            let axis = self.axis();
+            off - axis * off.dot(&axis).clamp(-most, most)
+        };
+        match &self.form {
+            Form::Cylinder(_) => along(f64::INFINITY),
+            Form::Capsule { half_length, .. } => along(*half_length),
+            Form::Plane | Form::Sphere(_) | Form::Ellipsoid(_) => off,
+        }
+    }
+
+    /// Signed distance of a point (m), positive in the fluid.
+    #[must_use]
+    pub fn gap(&self, point: Point<3>) -> f64 {
+        let gap = match &self.form {
+            Form::Plane => self.axis().dot(&(point - self.origin)),
+            Form::Sphere(radius) | Form::Cylinder(radius) | Form::Capsule { radius, .. } => {
+                self.from_skeleton(point).norm() - radius
+            }
+            Form::Ellipsoid(_) => return self.foot(point).gap,
+        };
+        if self.is_hollow { -gap } else { gap }
+    }
+
+    /// The nearest point of the surface to a point (m).
+    #[must_use]
+    pub fn foot(&self, point: Point<3>) -> Foot {
+        let mut foot = match &self.form {
+            Form::Plane => {
+                let normal = self.axis();
+                let gap = normal.dot(&(point - self.origin));
+                Foot { point: point - normal * gap, normal, gap }
+            }
+            Form::Sphere(radius) | Form::Cylinder(radius) | Form::Capsule { radius, .. } => {
+                let off = self.from_skeleton(point);
+                let distance = off.norm();
+                // Any normal will do in the middle
+                let normal =
+                    if distance > 0.0 { off / distance } else { self.rotation.column(1).into() };
+                let gap = distance - radius;
+                Foot { point: point - normal * gap, normal, gap }
+            }
+            Form::Ellipsoid(ellipsoid) => {
+                let local = ellipsoid.foot(self.rotation.tr_mul(&(point - self.origin)));
+                Foot {
+                    point: self.origin + self.rotation * local.point,
+                    normal: self.rotation * local.normal,
+                    gap: local.gap,
+                }
+            }
+        };
+        if self.is_hollow {
+            foot.normal = -foot.normal;
+            foot.gap = -foot.gap;
+        }
+        foot
+    }
+
+    /// Smallest radius of curvature of the surface at one of its points (m).
+    #[must_use]
+    pub fn radius_of_curvature(&self, on: Point<3>) -> f64 {
+        match &self.form {
+            Form::Plane => f64::INFINITY,
+            Form::Sphere(radius) | Form::Cylinder(radius) | Form::Capsule { radius, .. } => *radius,
+            Form::Ellipsoid(ellipsoid) => {
+                ellipsoid.radius_of_curvature(self.rotation.tr_mul(&(on - self.origin)))
+            }
+        }
+    }
+
+    /// Edge length wanted on the surface (m) at one of its points.
+    #[must_use]
+    pub fn size_at(&self, on: Point<3>) -> f64 {
+        self.size.min(self.turn * self.radius_of_curvature(on))
+    }
+
+    /// Edge length wanted on it where that is the same everywhere (m).
+    #[must_use]
+    pub fn uniform_size(&self) -> Option<f64> {
+        match &self.form {
+            Form::Ellipsoid(_) => None,
+            _ => Some(self.size_at(self.origin)),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::{Translation3, UnitQuaternion};
+
+    fn forms() -> Vec<Form> {
+        vec![
+            Form::Plane,
+            Form::Sphere(0.7),
+            Form::Cylinder(0.4),
+            Form::Capsule { radius: 0.3, half_length: 0.5 },
+            Form::Ellipsoid(Ellipsoid::new([0.9, 0.5, 0.3])),
+        ]
+    }
+
+    fn pose() -> Isometry3<f64> {
+        let rotation = UnitQuaternion::from_euler_angles(0.3, -0.5, 1.1);
+        Isometry3::from_parts(Translation3::new(0.1, -0.2, 0.3), rotation)
+    }
+
+    fn points() -> impl Iterator<Item = Point<3>> {
+        let part = |i: usize, k: f64| (0.618_034 * k * (i + 1) as f64).fract() - 0.5;
+        (0..200).map(move |i| Point::<3>::new(part(i, 1.0), part(i, 7.0), part(i, 31.0)) * 3.0)
+    }
+
+    #[test]
+    fn the_foot_is_on_the_surface_and_the_way_to_it_is_normal() {
+        for form in forms() {
+            for is_hollow in [false, true] {
+                let surface = SmoothSurface::new(form.clone(), &pose(), is_hollow);
+                for x in points() {
+                    let foot = surface.foot(x);
+                    assert!(surface.gap(foot.point).abs() < 1e-12, "{form:?}");
+                    assert!((foot.gap - surface.gap(x)).abs() < 1e-12);
+                    assert!((foot.normal.norm() - 1.0).abs() < 1e-12);
+                    let back = foot.point + foot.normal * foot.gap;
+                    assert!((back - x).norm() < 1e-10, "{form:?} {x} {back}");
+                }
+            }
+        }
+    }
+
+    /// No point of the surface is nearer than the foot: the gap changes by no more than the way.
+    #[test]
+    fn gaps_are_distances() {
+        let points: Vec<_> = points().collect();
+        for form in forms() {
+            let surface = SmoothSurface::new(form.clone(), &pose(), false);
+            for pair in points.windows(2) {
+                let change = surface.gap(pair[0]) - surface.gap(pair[1]);
+                assert!(change.abs() <= (pair[0] - pair[1]).norm() + 1e-12, "{form:?}");
+            }
+        }
+    }
+
+    /// In the direction in which it bends most, a surface leaves its tangent by s²/2R.
+    #[test]
+    fn the_radius_of_curvature_is_that_of_the_sharpest_section() {
+        for form in forms().into_iter().skip(1) {
+            let surface = SmoothSurface::new(form.clone(), &pose(), false);
+            for x in points().take(30) {
+                let foot = surface.foot(x);
+                let [u, v] = tangents(&foot.normal);
+                let step = 1e-4;
+                let least = (0..720).map(|i| f64::from(i) * 0.5_f64.to_radians()).map(|angle| {
+                    let to = foot.point + (u * angle.cos() + v * angle.sin()) * step;
+                    step * step / (2.0 * surface.gap(to).abs().max(1e-300))
+                });
+                let least = least.fold(f64::INFINITY, f64::min);
+                let radius = surface.radius_of_curvature(foot.point);
+                assert!((least / radius - 1.0).abs() < 1e-2, "{form:?} {least} {radius}");
+            }
+        }
+    }
+
+    fn tangents(normal: &Point<3>) -> [Point<3>; 2] {
+        let u = normal.cross(&Point::<3>::new(0.3, 0.5, -0.8)).normalize();
+        [u, normal.cross(&u)]
+    }
+}
