@@ -141,7 +141,7 @@ fn passes(model: &Model, time: &Unsteady) -> f64 {
     }
     let bends = model.joints.iter().any(|joint| !matches!(joint.kind, JointKind::Arm { .. }));
     let free = model.bodies.iter().filter(|body| body.motion == Motion::Free);
-    let n_free = free.clone().filter(|body| body.translates()).count() as f64;
+    let n_free = free.clone().filter(|body| body.translates(model.case.geometry)).count() as f64;
     if bends || free.clone().any(|body| body.deforms()) {
         return 2.0;
     }
