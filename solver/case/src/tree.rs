@@ -13,7 +13,7 @@ use super::source::{Origin, Source};
 /// Tables that hold exactly one of several alternatives.
 ///
 /// Where two texts name different alternatives, the later one replaces the earlier one whole.
-pub const CHOICES: [&str; 15] = [
+pub const CHOICES: [&str; 16] = [
     "kind",
     "length",
     "torque",
@@ -23,6 +23,7 @@ pub const CHOICES: [&str; 15] = [
     "shape",
     "motion",
     "gait",
+    "orientation",
     "contact",
     "factor",
     "load_factor",
