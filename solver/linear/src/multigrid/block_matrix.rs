@@ -108,11 +108,6 @@ impl<const B: usize> BlockMatrix<B> {
         columns.zip(&self.blocks[entries])
     }
 
-    /// A block, if it is stored.
-    pub fn block(&self, row: usize, column: usize) -> Option<&Block<B>> {
-        self.row(row).find(|(other, _)| *other == column).map(|(_, block)| block)
-    }
-
     /// The product of one row with a vector.
     #[inline(always)]
     fn row_product(&self, row: usize, x: &[[f32; B]]) -> [f32; B] {

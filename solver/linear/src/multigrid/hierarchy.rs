@@ -95,11 +95,6 @@ impl<const B: usize> Hierarchy<B> {
         Self { levels, coarsest: Coarsest::new(&matrix, n_pairs, is_singular) }
     }
 
-    /// Number of levels.
-    pub fn n_levels(&self) -> usize {
-        self.levels.len() + 1
-    }
-
     /// Memory of the matrices (bytes).
     pub fn n_bytes(&self) -> usize {
         self.levels.iter().map(Level::n_bytes).sum()
