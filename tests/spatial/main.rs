@@ -1,5 +1,6 @@
 //! Fluid and a free body in three dimensions, on meshes of a few tetrahedra.
 
+mod iterative;
 mod scene;
 
 use alewife_core::body::{Inertia, Pose, Twist, Wrench};

@@ -18,4 +18,4 @@ pub use stepping::{Stepping, steady, steady_with, workspace};
 pub use stop::{Stopped, resumed, stopped, stopped_within_a_step};
 pub use study::Study;
 pub use swim::Swim;
-pub use tetrahedra::{three_tetrahedra, two_tetrahedra};
+pub use tetrahedra::{BoxOfTetrahedra, three_tetrahedra, two_tetrahedra};

@@ -2,4 +2,5 @@
 
 pub mod algebra;
 pub mod multifrontal;
+mod multigrid;
 pub mod sparse;

@@ -2,27 +2,125 @@
 
 use std::sync::Arc;
 
+use super::preconditioning::Coefficients;
 use crate::algebra::{
-    Accuracy, AffineConstraints, DirectSolver, LinearError, LinearSolver, Pattern, SparseMatrix,
-    Term, Unknowns,
+    Accuracy, DirectSolver, IterativeSettings, IterativeSolver, LinearError, LinearSolver, Pattern,
+    SaddlePoint, SparseMatrix, Term, Unknowns, Weights,
 };
-use crate::flow::pressure_unknowns;
-use crate::space::DofLayout;
 use crate::timing::{Stage, Timing};
+
+/// Unknowns in space up to which factors cost less than iterations.
+const DIRECT_IN_SPACE: usize = 7000;
+
+/// By which method systems are solved.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub enum SolverChoice {
+    /// By factors in the plane and for few unknowns in space, else by iterations.
+    #[default]
+    Automatic,
+    /// By factors.
+    Direct,
+    /// By iterations.
+    Iterative(IterativeSettings),
+}
+
+impl SolverChoice {
+    /// The settings of an iterative solver, if this is one for such a system.
+    fn iterative(self, dimension: usize, n_unknowns: usize) -> Option<IterativeSettings> {
+        match self {
+            Self::Direct => None,
+            Self::Iterative(settings) => Some(settings),
+            Self::Automatic => {
+                (dimension == 3 && n_unknowns > DIRECT_IN_SPACE).then(IterativeSettings::default)
+            }
+        }
+    }
+}
+
+/// A method with what it keeps from matrix to matrix.
+enum Solver {
+    Direct(Box<DirectSolver>),
+    Iterative(Box<IterativeSolver>),
+}
+
+impl Solver {
+    fn get(&mut self) -> &mut dyn LinearSolver {
+        match self {
+            Self::Direct(solver) => solver.as_mut(),
+            Self::Iterative(solver) => solver.as_mut(),
+        }
+    }
+}
 
 /// The matrix last assembled, with what solves it.
 pub(super) struct LinearSystem {
     matrix: SparseMatrix,
-    solver: Option<Box<dyn LinearSolver>>,
+    solver: Option<Solver>,
     accuracy: Accuracy,
+    saddle_point: SaddlePoint,
     unknowns: Unknowns,
+    /// How the solver iterates, if it does.
+    settings: Option<IterativeSettings>,
+    /// What the weights of the solver were made for; none for another mesh.
+    weighted_by: Option<Coefficients>,
 }
 
 impl LinearSystem {
     /// A zero matrix.
-    pub(super) fn new(pattern: Arc<Pattern>, unknowns: Unknowns) -> Self {
-        let matrix = SparseMatrix::zeros(pattern);
-        Self { matrix, solver: None, accuracy: Accuracy::default(), unknowns }
+    pub(super) fn new(pattern: Arc<Pattern>, saddle_point: SaddlePoint, dimension: usize) -> Self {
+        let settings = SolverChoice::Automatic.iterative(dimension, pattern.n());
+        Self {
+            matrix: SparseMatrix::zeros(pattern),
+            solver: None,
+            accuracy: Accuracy::default(),
+            unknowns: saddle_point.unknowns(),
+            saddle_point,
+            settings,
+            weighted_by: None,
+        }
+    }
+
+    /// Another method from now on.
+    pub(super) fn choose(&mut self, choice: SolverChoice, dimension: usize) {
+        self.settings = choice.iterative(dimension, self.matrix.n());
+        self.solver = None;
+        self.weighted_by = None;
+    }
+
+    /// Takes note that the mesh has moved.
+    pub(super) fn forget_weights(&mut self) {
+        self.weighted_by = None;
+    }
+
+    /// Gives an iterative solver the weights for these coefficients, unless it has them.
+    pub(super) fn prepare(
+        &mut self,
+        coefficients: Coefficients,
+        weights: impl FnOnce() -> Weights,
+        timing: &mut Timing,
+    ) {
+        let Some(settings) = self.settings else { return };
+        if self.solver.is_some() && self.weighted_by == Some(coefficients) {
+            return;
+        }
+        timing.measure(Stage::Factorisation, || match &mut self.solver {
+            Some(Solver::Iterative(solver)) => solver.set_weights(weights()),
+            Some(Solver::Direct(_)) | None => {
+                let saddle_point = self.saddle_point.clone();
+                let pattern = self.matrix.pattern();
+                let solver = IterativeSolver::new(pattern, saddle_point, weights(), settings);
+                self.solver = Some(Solver::Iterative(Box::new(solver)));
+            }
+        });
+        self.weighted_by = Some(coefficients);
+    }
+
+    /// Memory of the preconditioner (bytes), zero with factors.
+    pub(super) fn preconditioner_bytes(&self) -> usize {
+        match &self.solver {
+            Some(Solver::Iterative(solver)) => solver.n_bytes(),
+            Some(Solver::Direct(_)) | None => 0,
+        }
     }
 
     pub(super) fn pattern(&self) -> &Pattern {
@@ -53,7 +151,7 @@ impl LinearSystem {
     ) -> Result<(), LinearError> {
         let (matrix, unknowns) = (&self.matrix, &self.unknowns);
         let solver = timing.measure(Stage::Factorisation, || {
-            self.solver.get_or_insert_with(|| analyse(matrix, unknowns))
+            self.solver.get_or_insert_with(|| analyse(matrix, unknowns)).get()
         });
         let is_solved =
             timing.measure(Stage::Solve, || solver.solve_with_earlier_set_up(matrix, rhs, free))?;
@@ -81,9 +179,9 @@ impl LinearSystem {
     ) -> Result<Factorised<'_>, LinearError> {
         let (matrix, unknowns) = (&self.matrix, &self.unknowns);
         timing.measure(Stage::Factorisation, || {
-            let solver = self.solver.get_or_insert_with(|| analyse(matrix, unknowns));
+            let solver = self.solver.get_or_insert_with(|| analyse(matrix, unknowns)).get();
             solver.set_up(matrix)?;
-            Ok(Factorised { matrix, solver: solver.as_mut() })
+            Ok(Factorised { matrix, solver })
         })
     }
 
@@ -110,27 +208,7 @@ pub(super) struct Factorised<'a> {
     pub solver: &'a mut dyn LinearSolver,
 }
 
-/// A solver for matrices with the pattern of this one.
-fn analyse(matrix: &SparseMatrix, unknowns: &Unknowns) -> Box<dyn LinearSolver> {
-    Box::new(DirectSolver::new(matrix.pattern(), unknowns))
-}
-
-/// What the linear solver has to know of each free unknown.
-pub(super) fn unknowns<const D: usize>(
-    layout: &DofLayout<D>,
-    constraints: &AffineConstraints,
-) -> Unknowns {
-    let is_pressure = pressure_unknowns(layout, constraints);
-    let mut unknowns =
-        Unknowns { node: vec![0; is_pressure.len()], is_pressure, dense: Vec::new() };
-    for node in layout.nodes() {
-        let velocities = (0..D).map(|axis| layout.velocity(node, axis));
-        let pressure = (node.index() < layout.n_vertices).then(|| layout.pressure(node));
-        for unknown in velocities.chain(pressure).filter_map(|raw| constraints.unknown(raw)) {
-            unknowns.node[unknown] = u32::from(node);
-        }
-    }
-    let rigid = layout.n_fluid()..layout.n_raw();
-    unknowns.dense = rigid.filter_map(|raw| constraints.unknown(raw)).collect();
-    unknowns
+/// Factors for matrices with the pattern of this one.
+fn analyse(matrix: &SparseMatrix, unknowns: &Unknowns) -> Solver {
+    Solver::Direct(Box::new(DirectSolver::new(matrix.pattern(), unknowns)))
 }

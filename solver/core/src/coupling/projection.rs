@@ -9,7 +9,7 @@ use alewife_mesh::{BoundaryKind, Mesh, NodeId, Point};
 
 use super::boundaries::{Boundaries, BoundaryNode};
 use super::constrain::Constrainer;
-use super::linear_system::unknowns;
+use super::preconditioning::saddle_point;
 use super::pressure_mean::PressureMean;
 use super::problem::{Problem, Side};
 
@@ -58,7 +58,8 @@ impl<const D: usize> DivergenceFreeProjection<D> {
         let layout = DofLayout::new(mesh, 0, 0);
         let constraints = hold_given_velocities(problem, mesh, &layout);
         let assembly = Assembly::new(mesh, layout, &constraints, problem.metric, &[], None);
-        let solver = DirectSolver::new(assembly.pattern(), &unknowns(&layout, &constraints));
+        let unknowns = saddle_point(&layout, &constraints, problem.modes()).unknowns();
+        let solver = DirectSolver::new(assembly.pattern(), &unknowns);
         let matrix = SparseMatrix::zeros(Arc::clone(assembly.pattern()));
         let mut projection = Self { layout, constraints, assembly, matrix, solver, enclosed: None };
         projection.move_to(problem, mesh)?;

@@ -12,10 +12,11 @@ use alewife_mesh::{Mesh, Point};
 use super::boundaries::Boundaries;
 use super::constrain::{BodiesAt, Constrainer};
 use super::error::SolveError;
-use super::linear_system::{LinearSystem, unknowns};
+use super::linear_system::{LinearSystem, SolverChoice};
 use super::loads::{ResidualOnMesh, SurfaceLoads, surface_loads};
 use super::mean_flow::{CellIntegrals, MeanFlowResponse};
 use super::nullspace::TranslationNullspace;
+use super::preconditioning::{Coefficients, Discretised, saddle_point};
 use super::pressure_mean::PressureMean;
 use super::problem::{MeanFlowAt, Problem};
 use super::rigid_equations::{RigidBodyEquations, rotations};
@@ -88,8 +89,8 @@ impl<const D: usize> FluidSystem<D> {
         let pressure = PressureMean::new(mesh, assembly.tables());
         let driven = problem.mean_flow.as_ref();
         let cell = driven.map(|_| CellIntegrals::new(problem, mesh, assembly.tables()));
-        let linear =
-            LinearSystem::new(Arc::clone(assembly.pattern()), unknowns(&layout, &constraints));
+        let saddle_point = saddle_point(&layout, &constraints, modes);
+        let linear = LinearSystem::new(Arc::clone(assembly.pattern()), saddle_point, D);
         Self {
             layout,
             boundaries,
@@ -121,6 +122,17 @@ impl<const D: usize> FluidSystem<D> {
     #[must_use]
     pub fn accuracy(&self) -> Accuracy {
         self.linear.accuracy()
+    }
+
+    /// Chooses the method by which systems are solved from now on.
+    pub fn choose_solver(&mut self, choice: SolverChoice) {
+        self.linear.choose(choice, D);
+    }
+
+    /// Memory of the preconditioner of an iterative solver (bytes).
+    #[must_use]
+    pub fn preconditioner_bytes(&self) -> usize {
+        self.linear.preconditioner_bytes()
     }
 
     /// Basis tables, for measurements.
@@ -193,6 +205,7 @@ impl<const D: usize> FluidSystem<D> {
             self.pressure = PressureMean::new(mesh, self.assembly.tables());
         }
         self.nullspace = TranslationNullspace::new(problem, mesh);
+        self.linear.forget_weights();
         if problem.mean_flow.is_some() {
             self.cell = Some(CellIntegrals::new(problem, mesh, self.assembly.tables()));
         }
@@ -256,6 +269,15 @@ impl<const D: usize> FluidSystem<D> {
         if let Some(nullspace) = &self.nullspace {
             nullspace.check_balance(at.bodies, &at.mean_flow)?;
         }
+        let coefficients =
+            Coefficients { viscosity: terms.viscosity, inertia: terms.density * terms.rate };
+        let discretised = Discretised {
+            mesh: at.mesh,
+            layout: &self.layout,
+            constraints: at.constraints,
+            tables: self.assembly.tables(),
+        };
+        self.linear.prepare(coefficients, || discretised.weights(coefficients), timing);
         let mut free = at.constraints.pick(&self.pinned(solution).to_raw(self.modes));
         let mut step: Vec<f64> = reduced.iter().map(|value| -value).collect();
         let solved = self.linear.solve_correction(&free, &mut step, timing);

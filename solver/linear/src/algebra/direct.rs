@@ -5,11 +5,12 @@
 //! cheaper than factorising it. Costs are counts of operations and rates of convergence, never times
 //! on a clock: the same input has to give the same bits.
 
+use super::fingerprint::Fingerprints;
 use super::krylov::{KrylovSolution, Stopping, fgmres, norm};
 use super::reuse::ReusePolicy;
 use super::solver::{Accuracy, LinearError, LinearSolver};
 use crate::multifrontal::{Analysis, Factors, Ordering};
-use crate::sparse::{Pattern, Revision, SparseMatrix, Unknowns};
+use crate::sparse::{Pattern, SparseMatrix, Unknowns};
 
 /// Most refinement steps of one solve.
 const MAX_REFINEMENTS: usize = 3;
@@ -29,15 +30,7 @@ pub struct DirectSolver {
     policy: ReusePolicy,
     /// Hash of the values that were factorised, if there are factors.
     factorised: Option<u64>,
-    /// The revision last hashed.
-    latest: Option<Fingerprint>,
-}
-
-/// Hash of the values of a matrix at a revision.
-#[derive(Debug)]
-struct Fingerprint {
-    revision: Revision,
-    hash: u64,
+    fingerprints: Fingerprints,
 }
 
 impl DirectSolver {
@@ -50,18 +43,14 @@ impl DirectSolver {
         let analysis = Analysis::new(pattern, unknowns, Ordering::Best);
         let factors = Factors::new(&analysis);
         let policy = ReusePolicy::new(&analysis, pattern.n_entries());
-        Self { analysis, factors, policy, factorised: None, latest: None }
+        let fingerprints = Fingerprints::default();
+        Self { analysis, factors, policy, factorised: None, fingerprints }
     }
 
-    /// Hash of the values of a matrix, taken once for each revision.
-    ///
-    /// A revision alone does not tell whether the factors at hand are those of a matrix: assembled again
-    /// from the same terms it has equal values at another revision.
-    fn hash_of(&mut self, matrix: &SparseMatrix) -> u64 {
-        let known = self.latest.as_ref().filter(|latest| latest.revision == *matrix.revision());
-        let hash = known.map_or_else(|| hash(matrix.values()), |known| known.hash);
-        self.latest = Some(Fingerprint { revision: matrix.revision().clone(), hash });
-        hash
+    /// Entries of the factors of any matrix of the pattern, but for delayed pivots.
+    #[must_use]
+    pub fn n_factor_entries(&self) -> usize {
+        self.factors.n_entries(&self.analysis)
     }
 
     /// FGMRES with the factors at hand, for equations scaled by `scales`, until the residual of the
@@ -81,20 +70,22 @@ impl DirectSolver {
             }
         };
         let (factors, analysis) = (&mut self.factors, &self.analysis);
-        let precondition = |z: &mut [f64]| {
-            for (value, scale) in z.iter_mut().zip(scales) {
-                *value /= scale;
+        let precondition = |r: &[f64], z: &mut [f64]| {
+            for ((z, value), scale) in z.iter_mut().zip(r).zip(scales) {
+                *z = value / scale;
             }
             factors.solve(analysis, z);
         };
-        let max_iterations = self.policy.affordable_iterations();
-        fgmres(multiply, precondition, scaled_rhs, Stopping { tolerance, max_iterations })
+        let stopping = Stopping { tolerance, max_iterations: self.policy.affordable_iterations() };
+        let initial = norm(scaled_rhs);
+        let continues = |iterations, residual| stopping.continues(initial, iterations, residual);
+        fgmres(multiply, precondition, scaled_rhs, continues)
     }
 }
 
 impl LinearSolver for DirectSolver {
     fn set_up(&mut self, matrix: &SparseMatrix) -> Result<(), LinearError> {
-        let hash = Some(self.hash_of(matrix));
+        let hash = Some(self.fingerprints.hash_of(matrix));
         if self.factorised == hash {
             return Ok(());
         }
@@ -155,7 +146,7 @@ impl LinearSolver for DirectSolver {
             return Err(LinearError::NotFinite);
         }
         let Some(factorised) = self.factorised else { return Ok(false) };
-        if factorised == self.hash_of(matrix) {
+        if factorised == self.fingerprints.hash_of(matrix) {
             return Ok(false);
         }
         // Pressures and momentum have other units: scaled, rows weigh the same.
@@ -194,21 +185,6 @@ impl LinearSolver for DirectSolver {
 
 fn all_finite(values: &[f64]) -> bool {
     values.iter().all(|value| value.is_finite())
-}
-
-/// A hash of all bits of all values.
-fn hash(values: &[f64]) -> u64 {
-    const MIX: u64 = 0x9E37_79B9_7F4A_7C15;
-    let mut lanes = [1u64, 2, 3, 4];
-    let chunks = values.chunks_exact(4);
-    let rest = chunks.remainder();
-    for chunk in chunks {
-        for (lane, value) in lanes.iter_mut().zip(chunk) {
-            *lane = (*lane ^ value.to_bits()).wrapping_mul(MIX).rotate_left(29);
-        }
-    }
-    let all = lanes.into_iter().chain(rest.iter().map(|value| value.to_bits()));
-    all.fold(0, |hash, part| (hash ^ part).wrapping_mul(MIX).rotate_left(29))
 }
 
 #[cfg(test)]

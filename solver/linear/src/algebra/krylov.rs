@@ -22,22 +22,24 @@ pub(super) struct KrylovSolution {
 
 /// Solves A x = b from x = 0.
 ///
-/// `multiply` overwrites its second argument with A times the first, `precondition` its argument with
-/// an approximation of A^-1 times it. Sums run in the order of the unknowns.
-pub(super) fn fgmres(
-    mut multiply: impl FnMut(&[f64], &mut [f64]),
-    mut precondition: impl FnMut(&mut [f64]),
+/// `multiply` overwrites its second argument with A times the first, `precondition` with an
+/// approximation of A^-1 times the first, in numbers Z of any precision. `continues` is asked before each
+/// iteration, with the number of those so far and the norm of the residual. Sums run in the order of the
+/// unknowns.
+pub(super) fn fgmres<Z: Copy + Default + Into<f64>>(
+    mut multiply: impl FnMut(&[Z], &mut [f64]),
+    mut precondition: impl FnMut(&[f64], &mut [Z]),
     b: &[f64],
-    stopping: Stopping,
+    continues: impl Fn(usize, f64) -> bool,
 ) -> KrylovSolution {
     let n = b.len();
     let initial = norm(b);
     let mut basis = vec![b.iter().map(|value| value / initial).collect::<Vec<f64>>()];
-    let mut directions: Vec<Vec<f64>> = Vec::new();
+    let mut directions: Vec<Vec<Z>> = Vec::new();
     let mut hessenberg = Hessenberg::new(initial);
-    while stopping.continues(initial, hessenberg.n_columns(), hessenberg.residual) {
-        let mut direction = basis[hessenberg.n_columns()].clone();
-        precondition(&mut direction);
+    while continues(hessenberg.n_columns(), hessenberg.residual) {
+        let mut direction = vec![Z::default(); n];
+        precondition(&basis[hessenberg.n_columns()], &mut direction);
         let mut image = vec![0.0; n];
         multiply(&direction, &mut image);
         // Modified Gram-Schmidt
@@ -60,13 +62,16 @@ pub(super) fn fgmres(
     }
     let mut x = vec![0.0; n];
     for (weight, direction) in hessenberg.weights().iter().zip(&directions) {
-        subtract(-weight, direction, &mut x);
+        for (x, &value) in x.iter_mut().zip(direction) {
+            *x += weight * value.into();
+        }
     }
     KrylovSolution { x, iterations: hessenberg.n_columns(), residual: hessenberg.residual }
 }
 
 impl Stopping {
-    fn continues(self, initial: f64, iterations: usize, residual: f64) -> bool {
+    /// Whether another iteration is worth it, for a norm of the right-hand side.
+    pub(super) fn continues(self, initial: f64, iterations: usize, residual: f64) -> bool {
         let digits = (initial / self.tolerance).ln();
         let gained = digits - (residual / self.tolerance).ln();
         let is_fast_enough =
@@ -140,7 +145,8 @@ impl Hessenberg {
     }
 }
 
-fn dot(a: &[f64], b: &[f64]) -> f64 {
+/// Scalar product.
+pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
     // Eight sums side by side, in a fixed order.
     let mut sums = [0.0; 8];
     let (a_chunks, b_chunks) = (a.chunks_exact(8), b.chunks_exact(8));
@@ -158,7 +164,8 @@ pub(super) fn norm(vector: &[f64]) -> f64 {
     dot(vector, vector).sqrt()
 }
 
-fn subtract(factor: f64, from: &[f64], target: &mut [f64]) {
+/// target -= factor * from.
+pub(super) fn subtract(factor: f64, from: &[f64], target: &mut [f64]) {
     for (target, value) in target.iter_mut().zip(from) {
         *target -= factor * value;
     }
@@ -177,8 +184,9 @@ mod tests {
             }
         };
         let b = [1.0, 2.0, 3.0];
-        let stopping = Stopping { tolerance: 1e-14, max_iterations: 1000 };
-        let solution = fgmres(multiply, |_| {}, &b, stopping);
+        let copy = |r: &[f64], z: &mut [f64]| z.copy_from_slice(r);
+        let until = |tolerance: f64| move |_: usize, residual: f64| residual > tolerance;
+        let solution = fgmres(multiply, copy, &b, until(1e-14));
         let mut image = [0.0; 3];
         multiply(&solution.x, &mut image);
         for (value, expected) in image.iter().zip(b) {
@@ -186,12 +194,11 @@ mod tests {
         }
         assert_eq!(solution.iterations, 3);
         // The preconditioner A^-1 / 2 needs one.
-        let exact = |z: &mut [f64]| {
-            let twice = fgmres(multiply, |_| {}, z, stopping).x;
+        let exact = |r: &[f64], z: &mut [f64]| {
+            let twice = fgmres(multiply, copy, r, until(1e-14)).x;
             z.copy_from_slice(&twice.iter().map(|value| value / 2.0).collect::<Vec<_>>());
         };
-        let stopping = Stopping { tolerance: 1e-12, max_iterations: 10 };
-        assert_eq!(fgmres(multiply, exact, &b, stopping).iterations, 1);
+        assert_eq!(fgmres(multiply, exact, &b, until(1e-12)).iterations, 1);
     }
 
     #[test]
@@ -204,7 +211,9 @@ mod tests {
         };
         let b = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0];
         let stopping = Stopping { tolerance: 1e-12, max_iterations: 100 };
-        let solution = fgmres(multiply, |_| {}, &b, stopping);
+        let copy = |r: &[f64], z: &mut [f64]| z.copy_from_slice(r);
+        let continues = |iterations, residual| stopping.continues(1.0, iterations, residual);
+        let solution = fgmres(multiply, copy, &b, continues);
         assert_eq!(solution.iterations, 1);
         assert_eq!(solution.residual, 1.0);
     }

@@ -1,9 +1,8 @@
 //! `LinearSolver`: what coupling asks of a method for A x = b, be it direct or iterative.
 //!
 //! The constructor of a solver analyses the system: it gets the sparsity pattern and what else the
-//! method has to know of the unknowns. That differs between methods ([`super::Unknowns`] for factors;
-//! a preconditioner by blocks would also be given velocity components, rigid modes of bodies, the
-//! nodes of the mesh and near-nullspaces), so it is no part of the trait.
+//! method has to know of the unknowns. That differs between methods ([`super::Unknowns`] for factors,
+//! [`super::SaddlePoint`] and [`super::Weights`] for a preconditioner), so it is no part of the trait.
 
 use std::fmt::Debug;
 
@@ -24,6 +23,20 @@ pub enum LinearError {
         /// Largest entry of |b - A x| over the largest of |A| |x| + |b|.
         residual: f64,
     },
+    /// Iterations ended far from a solution.
+    #[error(
+        "{iterations} iterations with {n_unknowns} unknowns leave {residual:.1e} of the right-hand \
+         side, and factors of the matrix would take too much memory; look for flat cells and for gaps \
+         narrower than one cell in the mesh, take a smaller time step, or a coarser mesh"
+    )]
+    Stalled {
+        /// Euclidean norm of the residual over that of the right-hand side.
+        residual: f64,
+        /// Iterations made.
+        iterations: usize,
+        /// Number of unknowns.
+        n_unknowns: usize,
+    },
     /// A value of the matrix, the right-hand side or the solution is infinite or not a number.
     #[error("the matrix, the right-hand side or the solution is not finite")]
     NotFinite,
@@ -40,7 +53,7 @@ impl From<Singular> for LinearError {
 pub struct Accuracy {
     /// Largest entry of |b - A x| over the largest of |A| |x| + |b|.
     pub residual: f64,
-    /// Number of refinement steps.
+    /// Number of refinement steps, or of iterations where there are no factors.
     pub refinements: usize,
 }
 

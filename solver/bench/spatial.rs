@@ -1,0 +1,143 @@
+//! Stokes flow in a box of tetrahedra by iterations: unknowns, iterations, seconds and memory.
+//!
+//! `cargo bench -p benches --bench spatial [-- CUBES ...]`, on one thread; `--bodies` leaves a body
+//! free in the middle, `--rate R` adds the factor R (1/s) of the new velocity in its rate,
+//! `--threads N` takes N threads.
+
+use std::time::Instant;
+
+use alewife_core::body::{Pose, Wrench};
+use alewife_core::coupling::{
+    BodiesAt, BodyShapes, Configuration, FluidSystem, MeanFlowAt, Problem, RigidBody,
+    RigidBodyEquations, Side,
+};
+use alewife_core::flow::{Convection, FlowTerms};
+use alewife_core::simulation::{Stage, Timing, cpu_seconds};
+use alewife_core::space::Metric;
+use alewife_mesh::{BoundaryId, Mesh, Point};
+use nalgebra::Vector3;
+use tests::{BoxOfTetrahedra, fluid_only};
+
+/// Cubes along the edges of the boxes: 5, 12, 41, 86 and 270 thousand unknowns.
+const CUBES: [usize; 5] = [6, 9, 15, 18, 27];
+
+struct Options {
+    cubes: Vec<usize>,
+    has_body: bool,
+    rate: f64,
+    threads: usize,
+}
+
+impl Options {
+    fn read() -> Self {
+        let mut options = Self { cubes: Vec::new(), has_body: false, rate: 0.0, threads: 1 };
+        let mut words = std::env::args().skip(1).filter(|word| word != "--bench");
+        while let Some(word) = words.next() {
+            match word.as_str() {
+                "--bodies" => options.has_body = true,
+                "--rate" => options.rate = following(words.next()),
+                "--threads" => options.threads = following(words.next()),
+                _ => options.cubes.push(following(Some(word))),
+            }
+        }
+        if options.cubes.is_empty() {
+            options.cubes.extend(CUBES);
+        }
+        options
+    }
+}
+
+/// A number on the command line.
+fn following<T: std::str::FromStr>(word: Option<String>) -> T {
+    word.and_then(|word| word.parse().ok()).expect("a number")
+}
+
+fn main() {
+    let options = Options::read();
+    rayon::ThreadPoolBuilder::new()
+        .num_threads(options.threads)
+        .build_global()
+        .expect("no pool is there yet");
+    println!(
+        "unknowns  iterations  residual  analysis s  assembly s  set-up s  solve s  wall s  \
+         preconditioner MB  peak MB"
+    );
+    for &cubes in &options.cubes {
+        measure(BoxOfTetrahedra { cubes, has_body: options.has_body }, options.rate);
+    }
+}
+
+fn problem(mesh: &Mesh<3>, density: f64) -> Problem<3> {
+    let lid = |x: &Point<3>, _: f64| {
+        let is_lid = x[2] > 1.0 - 1e-9;
+        let bump = (1.0 - x[0] * x[0]) * (1.0 - x[1] * x[1]);
+        Point::<3>::new(if is_lid { bump } else { 0.0 }, 0.0, 0.0)
+    };
+    let side = |_| Some(Side::Velocity { profile: Box::new(lid), is_wall: true });
+    let sides = mesh.boundaries.iter().map(side).collect();
+    let fluid = fluid_only(mesh, sides, density, 1.0, Metric::Cartesian);
+    let free = |_: &RigidBody| RigidBody {
+        load: Wrench { force: Vector3::new(1.0, 0.0, 0.0), torque: Vector3::new(0.0, 1.0, 0.0) },
+        ..RigidBody::held("body", BoundaryId::new(0), Pose::planar(0.0, 0.0, 0.0)).free()
+    };
+    let bodies = fluid.bodies.iter().map(free).collect();
+    Problem { bodies, has_convection: false, ..fluid }
+}
+
+fn measure(box_of: BoxOfTetrahedra, rate: f64) {
+    let mesh = box_of.mesh();
+    let problem = problem(&mesh, if rate > 0.0 { 1.0 } else { 0.0 });
+    let poses: Vec<Pose> = problem.bodies.iter().map(|body| body.pose).collect();
+    let (start_wall, start) = (Instant::now(), cpu_seconds());
+    let mut system = FluidSystem::new(&problem, &mesh, &poses, false);
+    let shapes = BodyShapes::rigid(poses.len());
+    let constraints =
+        system.constraints(&problem, &mesh, BodiesAt { poses: &poses, shapes: &shapes });
+    let analysis = cpu_seconds() - start;
+    let equations = RigidBodyEquations::steady(&problem, &poses, 0.0);
+    let at = Configuration {
+        problem: &problem,
+        mesh: &mesh,
+        constraints: &constraints,
+        bodies: &equations,
+        mean_flow: MeanFlowAt::default(),
+    };
+    let history = vec![Point::<3>::zeros(); mesh.n_nodes()];
+    let terms = FlowTerms {
+        viscosity: problem.viscosity,
+        density: problem.density,
+        rate,
+        history: &history,
+        convecting_velocity: &[],
+        convection: Convection::None,
+        body_force: None,
+    };
+    let flow = system.at_rest(&constraints);
+    let mut timing = Timing::default();
+    let raw = timing.measure(Stage::Assembly, || system.fluid_residual(&at, &terms, &flow));
+    let reduced = system.reduced_residual(&at, &flow, &raw);
+    let solved = system.newton_step(&at, &terms, &flow, &reduced, &mut timing);
+    let _flow = solved.expect("the system is solved");
+    let seconds = |stage: Stage| timing.cpu[stage as usize];
+    println!(
+        "{:8}  {:10}  {:8.1e}  {:10.2}  {:10.2}  {:8.2}  {:7.2}  {:6.2}  {:17.0}  {:7.0}",
+        system.n_unknowns,
+        system.accuracy().refinements,
+        system.accuracy().residual,
+        analysis,
+        seconds(Stage::Assembly),
+        seconds(Stage::Factorisation),
+        seconds(Stage::Solve),
+        start_wall.elapsed().as_secs_f64(),
+        system.preconditioner_bytes() as f64 / 1e6,
+        peak_megabytes(),
+    );
+}
+
+/// The most memory the process has taken so far (MB), zero where the system does not tell.
+fn peak_megabytes() -> f64 {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
+    let kilobytes = line.and_then(|line| line.split_whitespace().next()?.parse::<f64>().ok());
+    kilobytes.unwrap_or(0.0) / 1e3
+}

@@ -1,0 +1,237 @@
+//! What an iterative solver of fluid and bodies is told of mesh, fluid and constraints.
+
+use std::sync::Arc;
+
+use alewife_mesh::{Mesh, NodeId, Simplex};
+
+use crate::algebra::{
+    AffineConstraints, CellMaps, ConstraintBuilder, Interpolation, Part, SaddlePoint, SparseMatrix,
+    Term, Weights,
+};
+use crate::body::Modes;
+use crate::space::{CellValues, DofLayout, Tables};
+
+/// An index in 32 bits, as the linear algebra stores it.
+fn index(index: usize) -> u32 {
+    u32::try_from(index).expect("unknowns are fewer than four thousand million")
+}
+
+/// The vertex whose pressure is held, because the equations leave a constant open.
+fn held_pressure<const D: usize>(
+    layout: &DofLayout<D>,
+    constraints: &AffineConstraints,
+) -> Option<NodeId> {
+    layout.vertices().find(|&vertex| constraints.row(layout.pressure(vertex)).is_empty())
+}
+
+/// What each free unknown is.
+pub(super) fn saddle_point<const D: usize>(
+    layout: &DofLayout<D>,
+    constraints: &AffineConstraints,
+    modes: Modes,
+) -> SaddlePoint {
+    let mut parts = vec![None; constraints.n_unknowns()];
+    let mut set = |raw: usize, part: Part| {
+        if let Some(unknown) = constraints.unknown(raw) {
+            parts[unknown] = Some(part);
+        }
+    };
+    let axes: [u8; 3] = [0, 1, 2];
+    for node in layout.nodes() {
+        for (axis, &component) in axes[..D].iter().enumerate() {
+            let node_index = u32::from(node);
+            set(layout.velocity(node, axis), Part::Velocity { node: node_index, component });
+        }
+    }
+    for vertex in layout.vertices() {
+        set(layout.pressure(vertex), Part::Pressure { node: u32::from(vertex) });
+    }
+    for body in 0..layout.n_bodies {
+        for (position, mode) in modes.iter().enumerate() {
+            let mode = u8::try_from(mode.index()).expect("a body has six modes");
+            set(layout.rigid(body, position), Part::Rigid { body: index(body), mode });
+        }
+    }
+    SaddlePoint {
+        parts: parts.into_iter().flatten().collect(),
+        has_held_pressure: held_pressure(layout, constraints).is_some(),
+    }
+}
+
+/// What the numbers depend on, beside where the nodes are.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Coefficients {
+    /// Dynamic viscosity (Pa s).
+    pub viscosity: f64,
+    /// Density times the factor of the new velocity in its rate (kg/m^3/s), zero without inertia.
+    pub inertia: f64,
+}
+
+/// Spaces on a mesh, under constraints.
+pub(super) struct Discretised<'a, const D: usize> {
+    pub mesh: &'a Mesh<D>,
+    pub layout: &'a DofLayout<D>,
+    pub constraints: &'a AffineConstraints,
+    pub tables: &'a Tables<D>,
+}
+
+impl<const D: usize> Discretised<'_, D> {
+    /// The weights of a preconditioner.
+    pub fn weights(&self, coefficients: Coefficients) -> Weights {
+        let Coefficients { viscosity, inertia } = coefficients;
+        let interpolation = self.interpolation();
+        let integrals = self.integrals(1.0 / (2.0 * viscosity));
+        let damping = (inertia > 0.0).then(|| self.restricted(&integrals.lumped_mass, inertia));
+        Weights { interpolation, pressure_mass: integrals.pressure_mass, damping }
+    }
+
+    /// Velocities on edges by those of the vertices at their ends, the others by themselves.
+    fn interpolation(&self) -> Interpolation {
+        let Self { mesh, layout, constraints, .. } = self;
+        let itself = |unknown: usize| [Term { unknown: index(unknown), weight: 1.0 }];
+        let mut interpolation = Interpolation::with_capacity(constraints.n_unknowns());
+        let edges = edges_of_nodes(mesh);
+        for node in layout.nodes() {
+            for axis in 0..D {
+                let Some(unknown) = constraints.unknown(layout.velocity(node, axis)) else {
+                    continue;
+                };
+                match edges.get(node.index()).copied().flatten() {
+                    None => interpolation.push(itself(unknown)),
+                    Some(ends) => interpolation.push(ends.into_iter().flat_map(|end| {
+                        let row = constraints.row(layout.velocity(end.vertex, axis));
+                        row.iter()
+                            .map(move |term| Term { weight: term.weight * end.weight, ..*term })
+                    })),
+                }
+            }
+        }
+        // Pressures, which the transfer leaves out, and rigid velocities
+        let others = layout.n_nodes * D..layout.n_raw();
+        for unknown in others.filter_map(|raw| constraints.unknown(raw)) {
+            interpolation.push(itself(unknown));
+        }
+        interpolation
+    }
+
+    /// The mass matrix of the pressures times a factor, the held pressure last, and the lumped mass of the
+    /// velocities at the nodes.
+    ///
+    /// Lumped masses are the diagonal of the mass matrix of a cell, scaled to its volume: row sums are
+    /// not positive for quadratic elements (@hinton1976).
+    fn integrals(&self, factor: f64) -> Integrals {
+        let Self { mesh, layout, tables, .. } = self;
+        let PressureMaps { maps, constraints } = self.pressure_maps();
+        let mut values = vec![0.0; maps.pattern().n_entries()];
+        let mut lumped_mass = vec![0.0; layout.n_nodes];
+        let mut workspace = CellValues::default();
+        let n = D + 1;
+        let mut matrix = vec![0.0; maps.largest_matrix()];
+        let mut folded = matrix.clone();
+        let mut squares = vec![0.0; Simplex::<D>::N_NODES];
+        for cell in mesh.cell_ids() {
+            matrix[..n * n].fill(0.0);
+            squares.fill(0.0);
+            let mut volume = 0.0;
+            workspace.for_each_point(tables, mesh, cell, |at| {
+                volume += at.dx;
+                for (square, phi) in squares.iter_mut().zip(at.phi) {
+                    *square += phi * phi * at.dx;
+                }
+                for (j, column) in at.psi.iter().enumerate() {
+                    for (i, row) in at.psi.iter().enumerate() {
+                        matrix[j * n + i] += factor * row * column * at.dx;
+                    }
+                }
+            });
+            let scale = volume / squares.iter().sum::<f64>();
+            for (&node, square) in mesh.cell(cell).iter().zip(&squares) {
+                lumped_mass[node.index()] += square * scale;
+            }
+            let local = cell.index();
+            if maps.is_folded(local) {
+                maps.fold(local, &constraints, &matrix[..n * n], &mut folded);
+                maps.scatter(local, &folded, &mut values);
+            } else {
+                maps.scatter(local, &matrix, &mut values);
+            }
+        }
+        let pressure_mass = SparseMatrix::new(Arc::clone(maps.pattern()), values);
+        Integrals { pressure_mass, lumped_mass }
+    }
+
+    /// Where the entries of the pressures of each cell go, periodic copies to their originals.
+    fn pressure_maps(&self) -> PressureMaps {
+        let Self { mesh, layout, constraints, .. } = self;
+        let n = layout.n_vertices;
+        let held = held_pressure(layout, constraints);
+        // The held one after all others
+        let place = |vertex: usize| match held.map(NodeId::index) {
+            Some(held) if vertex == held => n - 1,
+            Some(held) if vertex > held => vertex - 1,
+            _ => vertex,
+        };
+        let mut builder = ConstraintBuilder::new(n);
+        for pair in mesh.periodic.iter().filter(|pair| pair.copy.index() < n) {
+            builder.equate(place(pair.copy.index()), place(pair.original.index()));
+        }
+        let vertices = mesh.cell_ids().flat_map(|cell| mesh.cell_vertices(cell));
+        let raw = vertices.map(|vertex| index(place(vertex.index()))).collect();
+        let constraints = builder.build();
+        let maps = CellMaps::new(D + 1, raw, &constraints, |_, _| true);
+        PressureMaps { maps, constraints }
+    }
+
+    /// Numbers of the nodes as numbers of the unknowns, times a factor: what constrained velocities have
+    /// goes to those they depend on.
+    fn restricted(&self, of_nodes: &[f64], factor: f64) -> Vec<f64> {
+        let Self { layout, constraints, .. } = self;
+        let mut values = vec![0.0; constraints.n_unknowns()];
+        for node in layout.nodes() {
+            for axis in 0..D {
+                for term in constraints.row(layout.velocity(node, axis)) {
+                    values[term.unknown as usize] +=
+                        factor * term.weight * term.weight * of_nodes[node.index()];
+                }
+            }
+        }
+        values
+    }
+}
+
+/// Integrals of the bases over the mesh.
+struct Integrals {
+    pressure_mass: SparseMatrix,
+    /// Of each node.
+    lumped_mass: Vec<f64>,
+}
+
+/// Pressures of the cells, and which of them are equal.
+struct PressureMaps {
+    maps: CellMaps,
+    constraints: AffineConstraints,
+}
+
+/// A vertex at the end of an edge, and what its value counts at the node of the edge.
+#[derive(Clone, Copy)]
+struct EdgeEnd {
+    vertex: NodeId,
+    weight: f64,
+}
+
+/// The ends of the edge of each node, none of a vertex.
+fn edges_of_nodes<const D: usize>(mesh: &Mesh<D>) -> Vec<Option<[EdgeEnd; 2]>> {
+    let mut ends = vec![None; mesh.n_nodes()];
+    for cell in mesh.cell_ids() {
+        for edge in mesh.cell_edges(cell) {
+            for (&node, parameter) in edge.inner.iter().zip(Simplex::<D>::EDGE_PARAMETERS) {
+                let [vertex, other] = edge.ends;
+                ends[node.index()] = Some([
+                    EdgeEnd { vertex, weight: 1.0 - parameter },
+                    EdgeEnd { vertex: other, weight: *parameter },
+                ]);
+            }
+        }
+    }
+    ends
+}

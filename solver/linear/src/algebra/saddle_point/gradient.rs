@@ -1,0 +1,188 @@
+//! `Gradient`: the block G that couples velocities to pressures.
+
+use rayon::prelude::*;
+
+use super::numbering::{B, Numbering, Place};
+use crate::multigrid::{BlockMatrix, RowBuilder};
+use crate::sparse::SparseMatrix;
+use crate::sparse::index::to_u32;
+
+/// Rows that one task works on.
+const ROWS: usize = 256;
+/// Sums below this part of their terms are zero.
+const ROUNDING: f32 = 1e-4;
+
+/// G by rows of blocks: for each node or body its pressures with three numbers each.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Gradient {
+    n_pressures: usize,
+    /// Start of each row in the others, and the end of the last.
+    starts: Vec<usize>,
+    pressures: Vec<u32>,
+    values: Vec<[f32; B]>,
+}
+
+/// Lists by compressed rows under construction: entries are put where counting has made room.
+struct Lists {
+    starts: Vec<usize>,
+    next: Vec<usize>,
+}
+
+impl Lists {
+    fn with_counts(counts: &[usize]) -> Self {
+        let mut starts = vec![0];
+        let mut end = 0;
+        starts.extend(counts.iter().map(|count| {
+            end += count;
+            end
+        }));
+        Self { next: starts.clone(), starts }
+    }
+}
+
+impl Gradient {
+    /// The columns of the pressures in the rows of the velocities.
+    pub fn new(matrix: &SparseMatrix, numbering: &Numbering) -> Self {
+        let pattern = matrix.pattern();
+        let n_rows = numbering.blocks.len();
+        // The row that a pressure had an entry in last
+        const NONE: u32 = u32::MAX;
+        let mut last = vec![NONE; n_rows];
+        let mut counts = vec![0; n_rows];
+        let velocity = |row: usize| match numbering.places[row] {
+            Place::Velocity { row, component } => Some((row as usize, usize::from(component))),
+            Place::Pressure(_) => None,
+        };
+        for (index, &unknown) in numbering.pressures.iter().enumerate() {
+            for (row, _) in pattern.column(unknown as usize).iter().filter_map(|&row| velocity(row))
+            {
+                if last[row] != to_u32(index) {
+                    last[row] = to_u32(index);
+                    counts[row] += 1;
+                }
+            }
+        }
+        let Lists { starts, mut next } = Lists::with_counts(&counts);
+        let n_entries = starts[n_rows];
+        let (mut pressures, mut values) = (vec![0; n_entries], vec![[0.0; B]; n_entries]);
+        last.fill(NONE);
+        for (index, &unknown) in numbering.pressures.iter().enumerate() {
+            for entry in pattern.entries(unknown as usize) {
+                let Some((row, component)) = velocity(pattern.rows[entry]) else { continue };
+                if last[row] != to_u32(index) {
+                    last[row] = to_u32(index);
+                    pressures[next[row]] = to_u32(index);
+                    next[row] += 1;
+                }
+                values[next[row] - 1][component] = matrix.values()[entry] as f32;
+            }
+        }
+        Self { n_pressures: numbering.pressures.len(), starts, pressures, values }
+    }
+
+    /// Memory (bytes).
+    pub fn n_bytes(&self) -> usize {
+        self.values.len() * (size_of::<[f32; B]>() + size_of::<u32>())
+    }
+
+    fn row(&self, row: usize) -> impl Iterator<Item = (u32, &[f32; B])> {
+        let entries = self.starts[row]..self.starts[row + 1];
+        self.pressures[entries.clone()].iter().copied().zip(&self.values[entries])
+    }
+
+    /// u -= G p.
+    pub fn multiply_subtract(&self, p: &[f32], u: &mut [[f32; B]]) {
+        u.par_chunks_mut(ROWS).enumerate().for_each(|(chunk, rows)| {
+            for (offset, u) in rows.iter_mut().enumerate() {
+                for (pressure, value) in self.row(chunk * ROWS + offset) {
+                    for a in 0..B {
+                        u[a] -= value[a] * p[pressure as usize];
+                    }
+                }
+            }
+        });
+    }
+
+    /// The same with one more pressure, the one that is held: together they have no gradient where they
+    /// are equal.
+    fn with_held_pressure(&self) -> Self {
+        let mut all = Self {
+            n_pressures: self.n_pressures + 1,
+            starts: vec![0],
+            pressures: Vec::with_capacity(self.pressures.len()),
+            values: Vec::with_capacity(self.values.len()),
+        };
+        for row in 0..self.starts.len() - 1 {
+            let (mut sum, mut size) = ([0.0; B], [0.0; B]);
+            for (pressure, value) in self.row(row) {
+                all.pressures.push(pressure);
+                all.values.push(*value);
+                for a in 0..B {
+                    sum[a] += value[a];
+                    size[a] += value[a].abs();
+                }
+            }
+            if (0..B).any(|a| sum[a].abs() > ROUNDING * size[a]) {
+                all.pressures.push(to_u32(self.n_pressures));
+                all.values.push(sum.map(|value| -value));
+            }
+            all.starts.push(all.pressures.len());
+        }
+        all
+    }
+
+    /// G^T D^-1 G over the first rows, those of nodes, for a diagonal matrix D; components where D is not
+    /// positive are left out.
+    pub fn laplacian(&self, damping: &[[f32; B]], has_held_pressure: bool) -> BlockMatrix<1> {
+        if has_held_pressure {
+            return self.with_held_pressure().laplacian(damping, false);
+        }
+        let columns = self.rows_of_pressures(damping.len());
+        let mut place = vec![u32::MAX; self.n_pressures];
+        let mut rows = RowBuilder::new(self.n_pressures);
+        let (mut touched, mut sums): (Vec<u32>, Vec<f32>) = (Vec::new(), Vec::new());
+        for pressure in 0..self.n_pressures {
+            for (row, value) in columns.row(pressure) {
+                let weighted: [f32; B] = std::array::from_fn(|a| {
+                    let damping = damping[row as usize][a];
+                    if damping > 0.0 { value[a] / damping } else { 0.0 }
+                });
+                for (other, value) in self.row(row as usize) {
+                    let slot = &mut place[other as usize];
+                    if *slot == u32::MAX {
+                        *slot = to_u32(sums.len());
+                        touched.push(other);
+                        sums.push(0.0);
+                    }
+                    sums[*slot as usize] += (0..B).map(|a| weighted[a] * value[a]).sum::<f32>();
+                }
+            }
+            for (other, sum) in touched.drain(..).zip(sums.drain(..)) {
+                place[other as usize] = u32::MAX;
+                rows.push(other, [[sum]]);
+            }
+            rows.end_row();
+        }
+        rows.build()
+    }
+
+    /// For each pressure its rows among the first ones, in place of the pressures of each row.
+    fn rows_of_pressures(&self, n_rows: usize) -> Self {
+        let mut counts = vec![0; self.n_pressures];
+        for &pressure in &self.pressures[..self.starts[n_rows]] {
+            counts[pressure as usize] += 1;
+        }
+        let Lists { starts, mut next } = Lists::with_counts(&counts);
+        let n_entries = starts[self.n_pressures];
+        let (mut rows, mut values) = (vec![0; n_entries], vec![[0.0; B]; n_entries]);
+        for row in 0..n_rows {
+            for (pressure, value) in self.row(row) {
+                let entry = &mut next[pressure as usize];
+                rows[*entry] = to_u32(row);
+                values[*entry] = *value;
+                *entry += 1;
+            }
+        }
+        Self { n_pressures: n_rows, starts, pressures: rows, values }
+    }
+}

@@ -1,0 +1,21 @@
+//! Saddle-point systems by FGMRES with a block-triangular preconditioner: A = [F G; G^T 0].
+//!
+//! F is the velocity block, rigid velocities of bodies included, and has a multigrid cycle in place of
+//! its inverse; the Schur complement -G^T F^-1 G has a scaled mass matrix of the pressures and a discrete
+//! Laplacian (@cahouet1988, @elman2014). What is in [`SaddlePoint`] and [`Weights`] is all that is known of
+//! flow and mesh here.
+
+mod blocks;
+mod data;
+mod gradient;
+mod guess;
+mod iterative;
+mod numbering;
+mod operator;
+mod preconditioner;
+mod schur;
+#[cfg(test)]
+mod tests;
+
+pub use data::{Interpolation, Part, SaddlePoint, Weights};
+pub use iterative::{IterativeSettings, IterativeSolver};

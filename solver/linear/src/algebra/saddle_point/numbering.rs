@@ -1,0 +1,115 @@
+//! `Numbering`: unknowns as blocks of three velocities, two blocks for a body, and as pressures.
+
+use super::data::{Part, SaddlePoint};
+use crate::sparse::index::to_u32;
+
+/// Unknowns in a block.
+pub(super) const B: usize = 3;
+
+/// A vector of the velocities, nodes first and then the bodies.
+pub(super) type BlockVector = Vec<[f32; B]>;
+
+/// Where an unknown stands.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Place {
+    /// In a block of velocities.
+    Velocity { row: u32, component: u8 },
+    /// Among the pressures.
+    Pressure(u32),
+}
+
+/// Blocks of the unknowns of a system.
+#[derive(Debug, Clone)]
+pub(super) struct Numbering {
+    /// Place of each unknown.
+    pub places: Vec<Place>,
+    /// The unknowns of each block, where they are free.
+    pub blocks: Vec<[Option<u32>; B]>,
+    /// The unknown of each pressure.
+    pub pressures: Vec<u32>,
+    /// Blocks of nodes.
+    pub n_nodes: usize,
+    /// Bodies with an unknown rigid velocity: the last pairs of blocks.
+    pub n_bodies: usize,
+}
+
+/// Numbers given to keys in the order they are first seen.
+#[derive(Default)]
+struct Seen {
+    number_of: Vec<Option<u32>>,
+    count: u32,
+}
+
+impl Seen {
+    fn number(&mut self, key: u32) -> u32 {
+        let key = key as usize;
+        if key >= self.number_of.len() {
+            self.number_of.resize(key + 1, None);
+        }
+        *self.number_of[key].get_or_insert_with(|| {
+            self.count += 1;
+            self.count - 1
+        })
+    }
+}
+
+impl Numbering {
+    /// Nodes and bodies in the order of their first unknowns.
+    pub fn new(system: &SaddlePoint) -> Self {
+        let (mut nodes, mut bodies) = (Seen::default(), Seen::default());
+        for part in &system.parts {
+            if let Part::Velocity { node, .. } = *part {
+                nodes.number(node);
+            }
+        }
+        let n_nodes = nodes.count;
+        let mut pressures = Vec::new();
+        let place = |(unknown, part): (usize, &Part)| match *part {
+            Part::Velocity { node, component } => {
+                Place::Velocity { row: nodes.number(node), component }
+            }
+            Part::Pressure { .. } => {
+                pressures.push(to_u32(unknown));
+                Place::Pressure(to_u32(pressures.len() - 1))
+            }
+            Part::Rigid { body, mode } => Place::Velocity {
+                row: n_nodes + 2 * bodies.number(body) + u32::from(mode / 3),
+                component: mode % 3,
+            },
+        };
+        let places: Vec<Place> = system.parts.iter().enumerate().map(place).collect();
+        let n_nodes = n_nodes as usize;
+        let n_bodies = bodies.count as usize;
+        let mut blocks = vec![[None; B]; n_nodes + 2 * n_bodies];
+        for (unknown, place) in places.iter().enumerate() {
+            if let Place::Velocity { row, component } = *place {
+                blocks[row as usize][usize::from(component)] = Some(to_u32(unknown));
+            }
+        }
+        Self { places, blocks, pressures, n_nodes, n_bodies }
+    }
+
+    /// Splits a vector of the unknowns, each divided by its scale.
+    pub fn split(&self, values: &[f64], scales: &[f64], u: &mut BlockVector, p: &mut [f32]) {
+        for ((place, value), scale) in self.places.iter().zip(values).zip(scales) {
+            let value = (value / scale) as f32;
+            match *place {
+                Place::Velocity { row, component } => {
+                    u[row as usize][usize::from(component)] = value;
+                }
+                Place::Pressure(index) => p[index as usize] = value,
+            }
+        }
+    }
+
+    /// The vector of the unknowns, each divided by its scale.
+    pub fn join(&self, u: &BlockVector, p: &[f32], scales: &[f64], values: &mut [f32]) {
+        for ((place, value), scale) in self.places.iter().zip(values).zip(scales) {
+            let part = match *place {
+                Place::Velocity { row, component } => u[row as usize][usize::from(component)],
+                Place::Pressure(index) => p[index as usize],
+            };
+            *value = (f64::from(part) / scale) as f32;
+        }
+    }
+}

@@ -1,0 +1,172 @@
+//! Iterative solution of fluid and bodies: against factors, on finer meshes, on more threads.
+
+use alewife_core::algebra::IterativeSettings;
+use alewife_core::body::{Inertia, Pose, Wrench};
+use alewife_core::coupling::{
+    BodiesAt, BodyShapes, Configuration, FluidSystem, MeanFlowAt, Problem, RigidBody,
+    RigidBodyEquations, Side, Solution, SolverChoice,
+};
+use alewife_core::flow::{Convection, FlowTerms};
+use alewife_core::simulation::Timing;
+use alewife_core::space::Metric;
+use alewife_mesh::{BoundaryId, BoundaryKind, Mesh, Point};
+use nalgebra::{Matrix3, UnitQuaternion, Vector3};
+use tests::{BoxOfTetrahedra, fluid_only};
+
+/// Viscosity and density far from one: sizes of forces and pressures are not those of velocities.
+const VISCOSITY: f64 = 2e-3;
+const DENSITY: f64 = 30.0;
+
+/// How a flow is driven and bounded.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Setting {
+    box_of: BoxOfTetrahedra,
+    /// Whether the side on the right lets the fluid out.
+    is_open: bool,
+    /// Factor of the new velocity in its rate (1/s).
+    rate: f64,
+}
+
+impl Setting {
+    fn stokes(cubes: usize, has_body: bool) -> Self {
+        Self { box_of: BoxOfTetrahedra { cubes, has_body }, is_open: false, rate: 0.0 }
+    }
+
+    /// A lid that moves, or where the box is open, fluid that is driven in.
+    fn problem(&self, mesh: &Mesh<3>) -> Problem<3> {
+        let given = |is_open: bool| -> Side<3> {
+            let profile = move |x: &Point<3>, _: f64| {
+                let at = |inside: bool, value: f64| if inside { value } else { 0.0 };
+                let bump = (1.0 - x[0] * x[0]) * (1.0 - x[1] * x[1]);
+                let inflow = (1.0 - x[2] * x[2]) * (1.0 - x[1] * x[1]);
+                if is_open {
+                    Point::<3>::new(at(x[0] < -1.0 + 1e-9, inflow), 0.0, 0.0)
+                } else {
+                    Point::<3>::new(
+                        at(x[2] > 1.0 - 1e-9, bump),
+                        0.3 * at(x[2] > 1.0 - 1e-9, bump),
+                        0.0,
+                    )
+                }
+            };
+            Side::Velocity { profile: Box::new(profile), is_wall: true }
+        };
+        let sides = mesh.boundaries.iter().map(|boundary| match boundary.kind {
+            BoundaryKind::Body(_) => None,
+            _ if self.is_open && boundary.name == "right" => Some(Side::TractionFree),
+            _ => Some(given(self.is_open)),
+        });
+        let fluid = fluid_only(mesh, sides.collect(), DENSITY, VISCOSITY, Metric::Cartesian);
+        let turn = UnitQuaternion::from_euler_angles(0.3, -0.5, 1.1);
+        let body = || RigidBody {
+            inertia: Inertia { mass: 2.1, tensor: Matrix3::identity() * 0.1 },
+            load: Wrench {
+                force: Vector3::new(0.4, -1.1, 0.7) * VISCOSITY,
+                torque: Vector3::new(-0.6, 0.2, 0.9) * VISCOSITY,
+            },
+            ..RigidBody::held("body", BoundaryId::new(0), Pose::spatial(Vector3::zeros(), turn))
+                .free()
+        };
+        let bodies = fluid.bodies.iter().map(|_| body()).collect();
+        Problem { bodies, has_convection: false, ..fluid }
+    }
+
+    /// One linear system from rest.
+    fn solve(&self, choice: SolverChoice) -> Solved {
+        let mesh = self.box_of.mesh();
+        let problem = self.problem(&mesh);
+        let poses: Vec<Pose> = problem.bodies.iter().map(|body| body.pose).collect();
+        let shapes = BodyShapes::rigid(poses.len());
+        let bodies = BodiesAt { poses: &poses, shapes: &shapes };
+        let mut system = FluidSystem::new(&problem, &mesh, &poses, false);
+        system.choose_solver(choice);
+        let constraints = system.constraints(&problem, &mesh, bodies);
+        let equations = RigidBodyEquations::steady(&problem, &poses, 0.0);
+        let at = Configuration {
+            problem: &problem,
+            mesh: &mesh,
+            constraints: &constraints,
+            bodies: &equations,
+            mean_flow: MeanFlowAt::default(),
+        };
+        let history = vec![Point::<3>::zeros(); mesh.n_nodes()];
+        let terms = FlowTerms {
+            viscosity: VISCOSITY,
+            density: DENSITY,
+            rate: self.rate,
+            history: &history,
+            convecting_velocity: &[],
+            convection: Convection::None,
+            body_force: None,
+        };
+        let start = system.at_rest(&constraints);
+        let raw = system.fluid_residual(&at, &terms, &start);
+        let reduced = system.reduced_residual(&at, &start, &raw);
+        let mut timing = Timing::default();
+        let next = system.newton_step(&at, &terms, &start, &reduced, &mut timing);
+        let solution = next.expect("the system is solved");
+        let iterations = system.accuracy().refinements;
+        Solved { solution, n_unknowns: system.n_unknowns, iterations }
+    }
+
+    fn iterations(&self) -> usize {
+        let solved = self.solve(SolverChoice::Iterative(IterativeSettings::default()));
+        println!("{self:?}: {} unknowns, {} iterations", solved.n_unknowns, solved.iterations);
+        solved.iterations
+    }
+}
+
+struct Solved {
+    solution: Solution<3>,
+    n_unknowns: usize,
+    iterations: usize,
+}
+
+/// Largest difference of two flows over the largest value, of velocities and pressures.
+fn difference(one: &Solution<3>, other: &Solution<3>) -> [f64; 2] {
+    let (mut velocity, mut size) = (0.0f64, 0.0f64);
+    for (a, b) in one.velocity.iter().zip(&other.velocity) {
+        velocity = velocity.max((a - b).amax());
+        size = size.max(a.amax());
+    }
+    let (mut pressure, mut level) = (0.0f64, 0.0f64);
+    for (a, b) in one.pressure.iter().zip(&other.pressure) {
+        pressure = pressure.max((a - b).abs());
+        level = level.max(a.abs());
+    }
+    for (a, b) in one.twists.iter().zip(&other.twists) {
+        velocity = velocity.max((a.linear - b.linear).amax()).max((a.angular - b.angular).amax());
+    }
+    [velocity / size, pressure / level]
+}
+
+#[test]
+fn iterations_and_factors_give_the_same_flow() {
+    let settings = IterativeSettings { tolerance: 1e-11, ..IterativeSettings::default() };
+    for has_body in [false, true] {
+        for is_open in [false, true] {
+            for rate in [0.0, 2e-3, 2.0] {
+                let box_of = BoxOfTetrahedra { cubes: 6, has_body };
+                let setting = Setting { box_of, is_open, rate };
+                let iterative = setting.solve(SolverChoice::Iterative(settings));
+                let direct = setting.solve(SolverChoice::Direct);
+                let differences = difference(&direct.solution, &iterative.solution);
+                println!("{setting:?}: {differences:?}, {} iterations", iterative.iterations);
+                assert!(
+                    differences.iter().all(|difference| *difference < 1e-8),
+                    "{setting:?}: {differences:?}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn finer_meshes_take_no_more_iterations() {
+    for has_body in [false, true] {
+        let [coarse, middle, fine] =
+            [6, 9, 15].map(|cubes| Setting::stokes(cubes, has_body).iterations());
+        let most = 1.3 * coarse as f64;
+        assert!(middle as f64 <= most && fine as f64 <= most, "{coarse} {middle} {fine}");
+    }
+}
