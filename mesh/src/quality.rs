@@ -106,7 +106,7 @@ impl<const D: usize> StraightMeasures<D> {
 
 /// Smallest angle of a straight simplex (rad): at the vertices of a triangle, negative when it is
 /// inverted; between the faces of a tetrahedron.
-fn smallest_angle<const D: usize>(vertices: &[Point<D>]) -> f64 {
+pub(crate) fn smallest_angle<const D: usize>(vertices: &[Point<D>]) -> f64 {
     let angle = |&[i, j]: &[usize; 2]| {
         let along = vertices[j] - vertices[i];
         let mut others = (0..=D).filter(|k| *k != i && *k != j).map(|k| vertices[k] - vertices[i]);

@@ -23,9 +23,11 @@ mod split;
 mod surface_faces;
 mod surface_set;
 mod tetrahedra;
+mod verdict;
 mod worst_cells;
 
 use improver::Improver;
+use verdict::Verdict;
 
 use super::domain::Domain;
 use super::shape::Body;
@@ -35,8 +37,8 @@ use crate::{Mesh, MeshError, Sizing};
 /// Edge of the cubes of the lattice over the largest size wanted.
 const CUBE: f64 = 1.3;
 
-/// Part of a cube by which the lattice is moved.
-const SHIFT: f64 = 0.013;
+/// Parts of a cube by which the lattice is moved, one after the other until the mesh is good.
+const SHIFTS: [f64; 4] = [0.013, 0.231, 0.372, 0.117];
 
 /// Mesh of the fluid in a domain around bodies.
 ///
@@ -51,14 +53,41 @@ pub fn generate(
     sizing: &Sizing<3>,
 ) -> Result<Mesh<3>, MeshError> {
     let sizes = SizeField::new(domain, bodies, sizing)?;
-    let mut improver = Improver::new(&sizes);
-    improver.fill_with_lattice(CUBE * sizes.largest(), SHIFT);
+    let mut best: Option<(Improver<'_>, Verdict)> = None;
+    for shift in SHIFTS {
+        let improver = attempt(&sizes, shift)?;
+        let verdict = Verdict::of(&improver);
+        let is_good = verdict.is_good();
+        if best.as_ref().is_none_or(|(_, known)| verdict.is_better_than(known)) {
+            best = Some((improver, verdict));
+        }
+        if is_good {
+            break;
+        }
+    }
+    let Some((improver, verdict)) = best else {
+        return Err(MeshError::Invariant { what: "no mesh was made", index: 0 });
+    };
+    verdict.check()?;
+    Ok(improver.quadratic(sizing.curved))
+}
+
+/// The mesh from a lattice moved by a part of its cubes.
+fn attempt(sizes: &SizeField, shift: f64) -> Result<Improver<'_>, MeshError> {
+    let mut improver = Improver::new(sizes);
+    improver.fill_with_lattice(CUBE * sizes.largest(), shift);
     improver.refine_lattice()?;
     for index in 0..sizes.geometry().surfaces.len() {
-        improver.cut(u16::try_from(index).unwrap_or(u16::MAX))?;
+        let index = u16::try_from(index).map_err(|_| too_many_surfaces(sizes))?;
+        improver.cut(index)?;
     }
     improver.settle_boundary();
     improver.improve();
     improver.pull_vertices();
-    Ok(improver.quadratic(sizing.curved))
+    Ok(improver)
+}
+
+fn too_many_surfaces(sizes: &SizeField) -> MeshError {
+    let what = "surfaces";
+    MeshError::TooManyCells { what, limit: usize::from(u16::MAX), smallest: sizes.largest() }
 }

@@ -2,7 +2,6 @@
 
 use super::collapse::CollapseGoal;
 use super::improver::Improver;
-use super::surface_faces::MOST_BULGE;
 use super::tetrahedra::Face;
 
 /// Part of the worst quality to which a collapse may lower it.
@@ -82,7 +81,7 @@ impl Improver<'_> {
     /// Whether an edge on a surface is too long for its curvature.
     fn bends(&self, a: u32, b: u32) -> bool {
         let surfaces = self.mesh.edge_surfaces(a, b);
-        self.bulge(self.mesh.point(a), self.mesh.point(b), surfaces) > MOST_BULGE
+        !self.is_short_enough(self.mesh.point(a), self.mesh.point(b), surfaces)
     }
 
     /// Swaps faces and edges of cells with a quality up to `poor`, where something has changed since

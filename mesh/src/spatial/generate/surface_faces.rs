@@ -17,7 +17,11 @@ const LEAST_IN_MIDDLE: f64 = 0.8;
 
 /// Height of a surface over an edge, in lengths of the edge, above which the edge is too long for its
 /// curvature: it turns by 52 degrees.
-pub const MOST_BULGE: f64 = 0.115;
+const MOST_BULGE: f64 = 0.115;
+
+/// The same over the angle by which an edge of the length wanted turns: an arc rises over its chord by
+/// an eighth of its angle, and edges may be half as long again.
+const BULGE_OF_TURN: f64 = 1.5 / 8.0;
 
 impl Improver<'_> {
     /// Whether a face with its corners at these places (m) follows the surface of its tag.
@@ -39,7 +43,7 @@ impl Improver<'_> {
     }
 
     /// Height of the curve an edge stands for over its middle, in lengths of the edge.
-    pub fn bulge(&self, a: Point<3>, b: Point<3>, surfaces: SurfaceSet) -> f64 {
+    fn bulge(&self, a: Point<3>, b: Point<3>, surfaces: SurfaceSet) -> f64 {
         if !self.has_curved(surfaces) {
             return 0.0;
         }
@@ -47,9 +51,17 @@ impl Improver<'_> {
         (self.project(surfaces, straight) - straight).norm() / (a - b).norm()
     }
 
+    /// Whether an edge is short enough for the curvature of its surfaces.
+    pub fn is_short_enough(&self, a: Point<3>, b: Point<3>, surfaces: SurfaceSet) -> bool {
+        surfaces.as_slice().first().is_none_or(|surface| {
+            let turn = self.geometry.surfaces[usize::from(*surface)].turn;
+            self.bulge(a, b, surfaces) <= MOST_BULGE.min(BULGE_OF_TURN * turn)
+        })
+    }
+
     /// Whether the edges of a face are short enough for the curvature of the surface of its tag.
     pub fn is_fine_enough(&self, [a, b, c]: &[Point<3>; 3], tag: u16) -> bool {
         let surface = SurfaceSet::of(surface_of(tag));
-        [[a, b], [b, c], [c, a]].iter().all(|[a, b]| self.bulge(**a, **b, surface) <= MOST_BULGE)
+        [[a, b], [b, c], [c, a]].iter().all(|[a, b]| self.is_short_enough(**a, **b, surface))
     }
 }

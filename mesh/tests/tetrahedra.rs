@@ -1,0 +1,310 @@
+//! Any valid placement of bodies in space gives a good mesh: invariants, angles, volume, surfaces.
+
+use std::f64::consts::PI;
+
+use alewife_mesh::spatial::{Body, BodySurface, Domain, Shape, check_placement, generate};
+use alewife_mesh::{
+    Mesh, Point, Quality, Simplex, Sizing, Surface, check_mesh, jacobian_coefficients,
+    map_quadratic,
+};
+use nalgebra::{Isometry3, Translation3, UnitQuaternion};
+
+/// Smallest dihedral angle promised (degrees) around bodies of one part.
+const SMALLEST_ANGLE: f64 = 25.0;
+
+/// Least Bezier coefficient of det J over the mean.
+const LEAST_COEFFICIENT: f64 = 0.1;
+
+/// Distance of curved facets from their surface over its radius of curvature.
+const SURFACE_ERROR: f64 = 2e-3;
+
+fn at(x: f64, y: f64, z: f64) -> Isometry3<f64> {
+    Isometry3::translation(x, y, z)
+}
+
+fn sphere(name: &str, radius: f64, pose: Isometry3<f64>) -> Body {
+    Body::new(name, Shape::Sphere { radius }, pose)
+}
+
+fn cube(half: f64) -> Domain {
+    Domain::walls(Point::<3>::repeat(-half), Point::<3>::repeat(half))
+}
+
+fn sizing(surface: f64, size: f64) -> Sizing<3> {
+    Sizing { gap_layers: 2.0, ..Sizing::graded(surface, 0.3, size) }
+}
+
+/// Everything that is promised of any mesh.
+fn assert_mesh(mesh: &Mesh<3>, domain: &Domain, bodies: &[Body], smallest_angle: f64) {
+    check_mesh(mesh).expect("it is a mesh");
+    let quality = Quality::of(mesh);
+    assert!(quality.min_angle > smallest_angle, "{quality}");
+    for cell in mesh.cell_ids().filter(|cell| mesh.curved[*cell]) {
+        let all = jacobian_coefficients(&mesh.cell_nodes(cell));
+        let least = all.iter().copied().fold(f64::INFINITY, f64::min);
+        let mean = all.iter().sum::<f64>() / all.len() as f64;
+        assert!(least > LEAST_COEFFICIENT * mean, "{least} {mean}");
+    }
+    let names: Vec<&str> = mesh.boundaries.iter().map(|b| b.name.as_str()).collect();
+    let bodies_names = bodies.iter().map(|body| body.name.as_str());
+    assert_eq!(names, domain.sides().iter().copied().chain(bodies_names).collect::<Vec<_>>());
+    assert_free_velocities(mesh);
+    assert_surfaces(mesh, domain, bodies);
+    assert_manifold(mesh);
+}
+
+/// Every cell has a node that is on no wall.
+fn assert_free_velocities(mesh: &Mesh<3>) {
+    let mut is_on_wall = vec![false; mesh.n_nodes()];
+    for facet in &mesh.facets {
+        mesh.facet_nodes(facet).for_each(|node| is_on_wall[node] = true);
+    }
+    for cell in mesh.cells() {
+        assert!(!cell.iter().all(|node| is_on_wall[*node]));
+    }
+}
+
+/// Nodes of boundary facets are on the exact surface, and the facets between them nearly.
+fn assert_surfaces(mesh: &Mesh<3>, domain: &Domain, bodies: &[Body]) {
+    let n_sides = domain.sides().len();
+    let surfaces: Vec<BodySurface> = bodies.iter().map(BodySurface::new).collect();
+    let scale = domain.corners().map(|corner| corner.amax()).into_iter().fold(0.0, f64::max);
+    for facet in &mesh.facets {
+        let boundary = facet.boundary.index();
+        if boundary < n_sides {
+            for node in mesh.facet_nodes(facet) {
+                let gap = domain.side_gap(boundary, mesh.nodes[node]);
+                assert!(gap.abs() < 1e-9 * scale, "{gap}");
+            }
+            continue;
+        }
+        let surface = &surfaces[boundary - n_sides];
+        for node in mesh.facet_nodes(facet) {
+            let gap = surface.nearest_point(mesh.nodes[node]).gap;
+            assert!(gap.abs() < 1e-9 * scale, "{gap}");
+        }
+        let nodes = mesh.cell_nodes(facet.cell);
+        for point in facet_points(usize::from(facet.side)) {
+            let point = map_quadratic(&nodes, point).position;
+            let radius = surface.radius_of_curvature(point);
+            let gap = surface.nearest_point(point).gap;
+            assert!(gap.abs() < SURFACE_ERROR * radius, "{gap} {radius}");
+        }
+    }
+}
+
+/// Reference coordinates of points of a facet.
+fn facet_points(side: usize) -> Vec<[f64; 3]> {
+    let corner =
+        |local: usize| Point::<3>::from_fn(|axis, _| f64::from(u8::from(axis + 1 == local)));
+    let [a, b, c] = Simplex::<3>::facet_vertices(side).map(corner);
+    let weights = [[0.25, 0.25, 0.5], [0.25, 0.5, 0.25], [0.5, 0.25, 0.25], [1.0 / 3.0; 3]];
+    weights.iter().map(|[u, v, w]| (a * *u + b * *v + c * *w).into()).collect()
+}
+
+/// Each boundary is a closed surface with the right number of handles: vertices - edges + faces is 2
+/// for each of the domain as a whole and the bodies.
+fn assert_manifold(mesh: &Mesh<3>) {
+    let n_bodies = mesh.boundaries.iter().filter(|b| b.kind != alewife_mesh::BoundaryKind::Side);
+    let pieces = 1 + n_bodies.count();
+    let mut edges = std::collections::BTreeMap::new();
+    let mut vertices = std::collections::BTreeSet::new();
+    for facet in &mesh.facets {
+        let own = mesh.facet_vertices(facet);
+        vertices.extend(own);
+        for i in 0..3 {
+            let (a, b) = (own[i], own[(i + 1) % 3]);
+            *edges.entry((a.min(b), a.max(b))).or_insert(0) += 1;
+        }
+    }
+    assert!(edges.values().all(|n| *n == 2));
+    assert_eq!(vertices.len() + mesh.facets.len() - edges.len(), 2 * pieces);
+}
+
+#[test]
+fn the_volume_around_a_sphere_in_a_tube_is_right() {
+    let domain = Domain::Cylinder { x: [-3.0, 3.0], radius: 2.0 };
+    let bodies = [sphere("s", 1.0, at(0.3, 0.2, -0.1))];
+    let mesh = generate(&domain, &bodies, &sizing(0.3, 0.6)).unwrap();
+    assert_mesh(&mesh, &domain, &bodies, SMALLEST_ANGLE);
+    let volume = PI * 4.0 * 6.0 - 4.0 / 3.0 * PI;
+    assert!((mesh.measure() / volume - 1.0).abs() < 1e-5, "{} {volume}", mesh.measure());
+}
+
+#[test]
+fn a_box_and_a_ball_are_meshed_without_bodies() {
+    let domain = Domain::walls(Point::<3>::new(0.0, -1.0, 2.0), Point::<3>::new(2.0, 0.0, 2.5));
+    let mesh = generate(&domain, &[], &sizing(0.2, 0.2)).unwrap();
+    assert_mesh(&mesh, &domain, &[], SMALLEST_ANGLE);
+    assert!((mesh.measure() - 1.0).abs() < 1e-12);
+    assert!(!mesh.curved.contains(&true));
+    let domain = Domain::Ball { center: Point::<3>::new(1.0, 0.0, 0.0), radius: 2.0 };
+    let mesh = generate(&domain, &[], &sizing(0.5, 0.5)).unwrap();
+    assert_mesh(&mesh, &domain, &[], SMALLEST_ANGLE);
+    assert!((mesh.measure() / (PI * 32.0 / 3.0) - 1.0).abs() < 1e-4);
+}
+
+#[test]
+fn narrow_gaps_have_their_layers() {
+    for gap in [0.1, 0.02] {
+        let bodies = [
+            sphere("a", 1.0, at(-1.0 - 0.5 * gap, 0.0, 0.0)),
+            sphere("b", 1.0, at(1.0 + 0.5 * gap, 0.0, 0.0)),
+        ];
+        let domain = cube(3.0);
+        let mesh = generate(&domain, &bodies, &sizing(0.3, 0.8)).unwrap();
+        assert_mesh(&mesh, &domain, &bodies, SMALLEST_ANGLE);
+        // No edge of a cell joins the two bodies
+        let mut on = vec![0_u8; mesh.n_nodes()];
+        for facet in &mesh.facets {
+            let body = facet.boundary.index().saturating_sub(5).min(2);
+            mesh.facet_nodes(facet).for_each(|node| on[node] |= [0, 1, 2][body]);
+        }
+        let joins = |cell| {
+            mesh.cell_edges(cell)
+                .any(|edge| edge.ends.iter().fold(0, |all, end| all | on[*end]) == 3)
+        };
+        assert!(!mesh.cell_ids().any(joins), "gap {gap}");
+    }
+}
+
+#[test]
+fn the_same_input_gives_the_same_bits() {
+    let (domain, bodies) = random_placement(5);
+    let mesh = || generate(&domain, &bodies, &sizing(0.25, 1.0)).unwrap();
+    assert_eq!(mesh(), mesh());
+}
+
+#[test]
+fn straight_cells_and_sizes_of_sides_are_as_asked() {
+    let domain = cube(2.0);
+    let bodies = [sphere("s", 1.0, at(0.0, 0.0, 0.0))];
+    let asked = Sizing { curved: false, sides: vec![("top".to_string(), 0.2)], ..sizing(0.3, 0.8) };
+    let mesh = generate(&domain, &bodies, &asked).unwrap();
+    check_mesh(&mesh).unwrap();
+    assert!(!mesh.curved.contains(&true));
+    let count = |name: &str| {
+        let boundary = mesh.boundaries.iter().position(|b| b.name == name).unwrap();
+        mesh.facets.iter().filter(|facet| facet.boundary.index() == boundary).count()
+    };
+    assert!(count("top") > 4 * count("bottom"));
+}
+
+/// Numbers between 0 and 1 (splitmix64).
+struct Random(u64);
+
+impl Random {
+    fn number(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.number()
+    }
+
+    fn point(&mut self, half: f64) -> Point<3> {
+        Point::<3>::from_fn(|_, _| self.between(-half, half))
+    }
+
+    fn rotation(&mut self) -> UnitQuaternion<f64> {
+        UnitQuaternion::from_scaled_axis(self.point(3.0))
+    }
+
+    fn shape(&mut self) -> Shape {
+        let radius = self.between(0.5, 1.0);
+        match (3.0 * self.number()).floor() {
+            0.0 => Shape::Sphere { radius },
+            1.0 => {
+                let mut part = || radius * self.between(0.45, 0.95);
+                Shape::Ellipsoid { semi_axes: [radius, part(), part()] }
+            }
+            _ => {
+                let narrow = radius * self.between(0.35, 0.65);
+                Shape::Capsule { radius: narrow, length: 2.0 * (radius - narrow) }
+            }
+        }
+    }
+}
+
+/// Two or three bodies in a box, the second often close to the first, or to a side.
+fn random_placement(seed: u64) -> (Domain, Vec<Body>) {
+    let mut random = Random(seed);
+    let domain = cube(2.7);
+    let n = if random.number() < 0.5 { 2 } else { 3 };
+    let mut bodies: Vec<Body> = Vec::new();
+    while bodies.len() < n {
+        let pose = Isometry3::from_parts(Translation3::from(random.point(2.0)), random.rotation());
+        let mut all = bodies.clone();
+        all.push(Body::new(&format!("body{}", bodies.len()), random.shape(), pose));
+        let is_close = random.number() < 0.7;
+        let way = if bodies.is_empty() {
+            Point::<3>::z()
+        } else {
+            bodies[0].pose.translation.vector - pose.translation.vector
+        };
+        let gap = 0.02 + 0.1 * random.number().powi(2);
+        if is_close {
+            approach(&domain, &mut all, way.normalize(), gap);
+        }
+        if check_placement(&domain, &all).is_ok() && is_apart(&domain, &all) {
+            bodies = all;
+        }
+    }
+    (domain, bodies)
+}
+
+/// Moves the last body along a way until it touches something, and back by a gap.
+fn approach(domain: &Domain, bodies: &mut [Body], way: Point<3>, gap: f64) {
+    if check_placement(domain, bodies).is_err() {
+        return;
+    }
+    let last = bodies.len() - 1;
+    let start = bodies[last].pose.translation.vector;
+    let (mut free, mut stopped) = (0.0, 6.0);
+    for _ in 0..30 {
+        let middle = 0.5 * (free + stopped);
+        bodies[last].pose.translation.vector = start + way * middle;
+        if check_placement(domain, bodies).is_ok() { free = middle } else { stopped = middle }
+    }
+    bodies[last].pose.translation.vector = start + way * (free - gap).max(0.0);
+}
+
+/// Whether the gaps of the last body are not below 0.01.
+fn is_apart(domain: &Domain, bodies: &[Body]) -> bool {
+    let last = bodies.len() - 1;
+    let own = BodySurface::new(&bodies[last]);
+    let mut random = Random(7);
+    (0..2000).all(|_| {
+        let direction = random.point(1.0).normalize();
+        let on = own.nearest_point(own.center() + direction * own.reach()).point;
+        let sides = (0..6).all(|side| domain.side_gap(side, on) > 0.015);
+        sides && bodies[..last].iter().all(|b| BodySurface::new(b).nearest_point(on).gap > 0.015)
+    })
+}
+
+fn check_random_placement(seed: u64) {
+    let (domain, bodies) = random_placement(seed);
+    let mesh = generate(&domain, &bodies, &sizing(0.3, 1.2));
+    let mesh = mesh.unwrap_or_else(|error| panic!("seed {seed}: {error}\n{bodies:?}"));
+    println!("seed {seed}: {} cells, {:.1}", mesh.n_cells(), Quality::of(&mesh).min_angle);
+    assert_mesh(&mesh, &domain, &bodies, SMALLEST_ANGLE);
+}
+
+#[test]
+fn random_placements_give_good_meshes() {
+    (0..40).for_each(check_random_placement);
+}
+
+/// `cargo test --release -p alewife-mesh --test tetrahedra -- --ignored --nocapture`
+#[test]
+#[ignore = "takes half an hour; run after changes of the mesher"]
+fn many_random_placements_give_good_meshes() {
+    let failed: Vec<u64> = (1000..3000)
+        .filter(|seed| std::panic::catch_unwind(|| check_random_placement(*seed)).is_err())
+        .collect();
+    assert!(failed.is_empty(), "{} failed: {failed:?}", failed.len());
+}
