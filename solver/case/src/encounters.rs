@@ -61,11 +61,12 @@ impl Model {
         let body = &self.bodies[index];
         let at = |axis: usize| body.center.get(axis).copied().unwrap_or(0.0);
         let is_single = self.joint_above(index).is_none() && !self.has_joints(&body.name);
-        let velocity = if body.motion == Motion::Free && body.translates(self.case.geometry) && is_single {
-            self.drift(body)
-        } else {
-            [0.0; 2]
-        };
+        let velocity =
+            if body.motion == Motion::Free && body.translates(self.case.geometry) && is_single {
+                self.drift(body)
+            } else {
+                [0.0; 2]
+            };
         Path { center: [at(0), at(1)], velocity, reach: body.shape.reach() }
     }
 

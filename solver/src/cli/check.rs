@@ -14,8 +14,7 @@ use crate::case::{
     Cadence, CaseFile, Diagnostic, FlowModel, Model, Precision, TimeSettings, known_quantities,
     number_table, significant,
 };
-use crate::coupling::count_unknowns;
-use crate::simulation::{CaseMesh, Dimension, build_problem};
+use crate::simulation::{Dimension, Solve};
 
 /// Output above which a warning is given (bytes).
 const LARGE_OUTPUT: f64 = 2e9;
@@ -67,11 +66,11 @@ fn check_one(argument: &str, settings: &[String], has_mesh: bool) -> Result<(), 
 /// Prints the mesh of a case, and what follows from it.
 fn tell_of_mesh<const D: usize>(model: &Model) -> Result<(), Failure>
 where
-    Dimension<D>: CaseMesh<D>,
+    Dimension<D>: Solve<D>,
 {
     let mesh = engine::build_mesh::<D>(model)?;
     say(&format!("\n{}", on_stdout(Ink::Bold, "mesh")));
-    let quality = engine::mesh_quality(&mesh);
+    let quality = Dimension::<D>::quality(&mesh);
     for line in quality.to_string().lines() {
         say(&format!("  {line}"));
     }
@@ -122,9 +121,12 @@ fn costs<const D: usize>(
     model: &Model,
     mesh: &Mesh<D>,
     quality: &Quality<D>,
-) -> Result<String, Failure> {
+) -> Result<String, Failure>
+where
+    Dimension<D>: Solve<D>,
+{
     let on_mesh = D * mesh.n_nodes() + mesh.n_vertices;
-    let free = count_unknowns(&build_problem(model, mesh)?, mesh);
+    let free = Dimension::<D>::count_unknowns(model, mesh)?;
     let shortest_edge = quality.shortest_edge;
     let cost = Cost::of(model, &FirstMesh { free, on_mesh, shortest_edge });
     let output = output_size(model, mesh);

@@ -2,24 +2,19 @@
 
 use std::path::Path;
 
-use alewife_mesh::{Mesh, Quality};
+use alewife_mesh::Mesh;
 
 use super::signal::SignalWatch;
 use crate::case::Model;
 use crate::observer::{self, History, RunDirectory};
-use crate::simulation::{self, CaseMesh, Dimension, RunError, RunSummary, SavedState};
+use crate::simulation::{self, Dimension, RunError, RunSummary, SavedState, Solve};
 
 /// The mesh of a case.
 pub fn build_mesh<const D: usize>(model: &Model) -> Result<Mesh<D>, RunError>
 where
-    Dimension<D>: CaseMesh<D>,
+    Dimension<D>: Solve<D>,
 {
     simulation::build_mesh(model)
-}
-
-/// How good a mesh is.
-pub fn mesh_quality<const D: usize>(mesh: &Mesh<D>) -> Quality<D> {
-    simulation::mesh_quality(mesh)
 }
 
 /// What a run resumes from.
@@ -52,7 +47,7 @@ pub fn simulate_into<const D: usize>(
     quiet: bool,
 ) -> Result<RunSummary, RunError>
 where
-    Dimension<D>: CaseMesh<D>,
+    Dimension<D>: Solve<D>,
 {
     let history = resumed.and_then(|resumed| resumed.history.as_ref());
     let mut observers = observer::observers(model, directory, history, quiet)?;

@@ -11,7 +11,7 @@ use super::exit::{Exit, Failure};
 use super::read::read_case;
 use super::style::say;
 use crate::case::Model;
-use crate::simulation::{CaseMesh, Dimension};
+use crate::simulation::{Dimension, Solve};
 
 /// Makes the mesh of a case, writes it as VTU, and reports its quality.
 pub fn mesh(argument: &str, settings: &[String], out: Option<PathBuf>) -> Result<Exit, Failure> {
@@ -26,7 +26,7 @@ pub fn mesh(argument: &str, settings: &[String], out: Option<PathBuf>) -> Result
 
 fn write<const D: usize>(model: &Model, path: &Path) -> Result<Exit, Failure>
 where
-    Dimension<D>: CaseMesh<D>,
+    Dimension<D>: Solve<D>,
 {
     let mesh = engine::build_mesh::<D>(model)?;
     let failed = |error: std::io::Error| {
@@ -34,7 +34,7 @@ where
     };
     let writer = BufWriter::new(File::create(path).map_err(failed)?);
     write_vtu(writer, &mesh, None, &[], &[]).map_err(failed)?;
-    say(engine::mesh_quality(&mesh).to_string().trim_end());
+    say(Dimension::<D>::quality(&mesh).to_string().trim_end());
     say(&format!("written to {}", path.display()));
     Ok(Exit::Done)
 }

@@ -14,7 +14,7 @@ use crate::case::{Case, CaseFile, Model, TimeSettings, significant};
 use crate::observer::{
     Earlier, History, RunDirectory, STATE_FILE, read_state, run_of_state, write_atomic,
 };
-use crate::simulation::{CaseMesh, Dimension, RunError, RunSummary, SavedState};
+use crate::simulation::{Dimension, RunError, RunSummary, SavedState, Solve};
 use crate::validation::{Comparison, Verdict, compare, comparison_table, comparisons_to_json};
 
 /// File of a run that holds its comparison with the references.
@@ -69,7 +69,7 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
 
 fn run_in<const D: usize>(options: &Options, file: &CaseFile) -> Result<Exit, Failure>
 where
-    Dimension<D>: CaseMesh<D>,
+    Dimension<D>: Solve<D>,
 {
     let name = file.full_name();
     let out = options.out.clone().unwrap_or_else(|| Path::new("runs").join(name.replace('/', "-")));

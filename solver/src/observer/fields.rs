@@ -18,8 +18,7 @@ use super::schedule::Schedule;
 use super::state_file::write_state;
 use crate::body::in_space;
 use crate::case::{Case, Precision};
-use crate::flow::{nodal_pressure, nodal_vorticity};
-use crate::simulation::{LastState, Observer, RunError, Snapshot, Timing};
+use crate::simulation::{Dimension, LastState, Observer, RunError, Snapshot, Solve, Timing};
 
 /// The files written so far.
 #[derive(Debug)]
@@ -60,16 +59,19 @@ impl FieldFiles {
         mesh: &Mesh<D>,
         velocity: &[Point<D>],
         pressure: &[f64],
-    ) -> io::Result<Vec<u8>> {
+    ) -> io::Result<Vec<u8>>
+    where
+        Dimension<D>: Solve<D>,
+    {
         // In the plane it has one part, about z
         let parts = if D == 2 { 2..3 } else { 0..3 };
-        let vorticity: Vec<f64> = nodal_vorticity(mesh, velocity)
+        let vorticity: Vec<f64> = Dimension::<D>::vorticity(mesh, velocity)
             .iter()
             .flat_map(|curl| curl.as_slice()[parts.clone()].to_vec())
             .collect();
         let velocity: Vec<f64> =
             velocity.iter().flat_map(|u| <[f64; 3]>::from(in_space(u))).collect();
-        let pressure = nodal_pressure(mesh, pressure);
+        let pressure = Dimension::<D>::pressure(mesh, pressure);
         let arrays = [
             Array::new("velocity", 3, &velocity),
             Array::new("pressure", 1, &pressure),
@@ -94,7 +96,10 @@ impl FieldFiles {
     }
 }
 
-impl<const D: usize> Observer<D> for FieldFiles {
+impl<const D: usize> Observer<D> for FieldFiles
+where
+    Dimension<D>: Solve<D>,
+{
     fn on_step(&mut self, snapshot: &Snapshot<'_, D>) -> io::Result<()> {
         if !self.schedule.is_due(snapshot.step, snapshot.time, snapshot.is_last) {
             return Ok(());

@@ -34,7 +34,7 @@ mod terminal;
 mod tests;
 
 use crate::case::Model;
-use crate::simulation::Observer;
+use crate::simulation::{Dimension, Observer, Solve};
 
 pub use atomic::write_atomic;
 pub use csv::SeriesFile;
@@ -62,7 +62,10 @@ pub fn observers<const D: usize>(
     directory: &RunDirectory,
     history: Option<&History>,
     quiet: bool,
-) -> std::io::Result<Vec<Box<dyn Observer<D>>>> {
+) -> std::io::Result<Vec<Box<dyn Observer<D>>>>
+where
+    Dimension<D>: Solve<D>,
+{
     let case = &model.case;
     let mut everyone: Vec<Box<dyn Observer<D>>> = vec![
         Box::new(SeriesFile::create(directory.path(), case, history)?),

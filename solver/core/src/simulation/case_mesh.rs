@@ -1,6 +1,6 @@
 //! `CaseMesh`: what makes meshes of a case; the planar and the spatial one are in folders of their own.
 
-use alewife_mesh::{Mesh, Point, Quality};
+use alewife_mesh::{Mesh, Point};
 use nalgebra::Vector3;
 
 use super::RunError;
@@ -65,13 +65,4 @@ where
     Dimension<D>: CaseMesh<D>,
 {
     Ok(Dimension::<D>::generate(model)?.mesh)
-}
-
-/// How good a mesh is.
-///
-/// [`Quality::of`] is generic: called here it is compiled here, with all optimisation, and not in the
-/// program, which has little.
-#[must_use]
-pub fn mesh_quality<const D: usize>(mesh: &Mesh<D>) -> Quality<D> {
-    Quality::of(mesh)
 }

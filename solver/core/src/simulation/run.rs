@@ -25,25 +25,11 @@ pub struct RunSummary {
     pub steps: usize,
 }
 
-/// Runs a case from beginning to end.
-///
-/// # Errors
-/// Whatever stops the run; observers are notified before it is returned.
-pub fn simulate<const D: usize>(
-    model: &Model,
-    observers: &mut [Box<dyn Observer<D>>],
-) -> Result<RunSummary, RunError>
-where
-    Dimension<D>: CaseMesh<D>,
-{
-    simulate_from(model, None, observers)
-}
-
 /// Runs a case to its end, from a saved state if there is one.
 ///
 /// # Errors
 /// Whatever stops the run; observers are notified before it is returned.
-pub fn simulate_from<const D: usize>(
+pub(super) fn run_case<const D: usize>(
     model: &Model,
     saved: Option<&SavedState<D>>,
     observers: &mut [Box<dyn Observer<D>>],

@@ -1,0 +1,109 @@
+//! `Solve`: what the program asks of each dimension, compiled here with all optimisation.
+//!
+//! Generic code is compiled in the package that names its types, and the program has little
+//! optimisation: it calls the methods of this trait, whose implementations name them here.
+
+use alewife_mesh::{Mesh, Point, Quality};
+use nalgebra::Vector3;
+
+use super::build::build_problem;
+use super::case_mesh::{CaseMesh, Dimension};
+use super::resume::SavedState;
+use super::run::run_case;
+use super::{Observer, RunError, RunSummary};
+use crate::case::Model;
+use crate::coupling::count_unknowns;
+use crate::flow;
+
+/// Runs cases of a dimension, and tells of their meshes and flows.
+pub trait Solve<const D: usize>: CaseMesh<D> {
+    /// Runs a case to its end, from a saved state if there is one.
+    ///
+    /// # Errors
+    /// Whatever stops the run; observers are notified before it is returned.
+    fn simulate(
+        model: &Model,
+        saved: Option<&SavedState<D>>,
+        observers: &mut [Box<dyn Observer<D>>],
+    ) -> Result<RunSummary, RunError>;
+
+    /// How good a mesh is.
+    fn quality(mesh: &Mesh<D>) -> Quality<D>;
+
+    /// Free unknowns of a case on its mesh.
+    ///
+    /// # Errors
+    /// When the case makes no problem on this mesh.
+    fn count_unknowns(model: &Model, mesh: &Mesh<D>) -> Result<usize, RunError>;
+
+    /// Vorticity at the P2 nodes (1/s), see [`flow::nodal_vorticity`].
+    fn vorticity(mesh: &Mesh<D>, velocity: &[Point<D>]) -> Vec<Vector3<f64>>;
+
+    /// Pressure at the P2 nodes (Pa), see [`flow::nodal_pressure`].
+    fn pressure(mesh: &Mesh<D>, at_vertices: &[f64]) -> Vec<f64>;
+}
+
+macro_rules! solve_in {
+    ($dimension:literal) => {
+        impl Solve<$dimension> for Dimension<$dimension> {
+            fn simulate(
+                model: &Model,
+                saved: Option<&SavedState<$dimension>>,
+                observers: &mut [Box<dyn Observer<$dimension>>],
+            ) -> Result<RunSummary, RunError> {
+                run_case(model, saved, observers)
+            }
+
+            fn quality(mesh: &Mesh<$dimension>) -> Quality<$dimension> {
+                Quality::of(mesh)
+            }
+
+            fn count_unknowns(model: &Model, mesh: &Mesh<$dimension>) -> Result<usize, RunError> {
+                Ok(count_unknowns(&build_problem(model, mesh)?, mesh))
+            }
+
+            fn vorticity(
+                mesh: &Mesh<$dimension>,
+                velocity: &[Point<$dimension>],
+            ) -> Vec<Vector3<f64>> {
+                flow::nodal_vorticity(mesh, velocity)
+            }
+
+            fn pressure(mesh: &Mesh<$dimension>, at_vertices: &[f64]) -> Vec<f64> {
+                flow::nodal_pressure(mesh, at_vertices)
+            }
+        }
+    };
+}
+
+solve_in!(2);
+solve_in!(3);
+
+/// Runs a case from beginning to end.
+///
+/// # Errors
+/// Whatever stops the run; observers are notified before it is returned.
+pub fn simulate<const D: usize>(
+    model: &Model,
+    observers: &mut [Box<dyn Observer<D>>],
+) -> Result<RunSummary, RunError>
+where
+    Dimension<D>: Solve<D>,
+{
+    Dimension::<D>::simulate(model, None, observers)
+}
+
+/// Runs a case to its end, from a saved state if there is one.
+///
+/// # Errors
+/// Whatever stops the run; observers are notified before it is returned.
+pub fn simulate_from<const D: usize>(
+    model: &Model,
+    saved: Option<&SavedState<D>>,
+    observers: &mut [Box<dyn Observer<D>>],
+) -> Result<RunSummary, RunError>
+where
+    Dimension<D>: Solve<D>,
+{
+    Dimension::<D>::simulate(model, saved, observers)
+}
