@@ -31,6 +31,9 @@ pub struct FileStroke {
     pub column: String,
 }
 
+/// The alternative of a stroke that a file becomes.
+pub const KNOTS_OF_A_FILE: &str = "cubic";
+
 /// Puts the values of files in the place of their names, so that a case stands for itself.
 ///
 /// # Errors
@@ -48,7 +51,7 @@ fn resolve_below(node: &mut TomlNode, path: &str) -> Result<(), TreeError> {
     match &mut node.value {
         TomlValue::Table(entries) => {
             if let Some(file) = entries.remove("file") {
-                entries.insert("cubic".to_owned(), knots(&file, &format!("{path}.file"))?);
+                entries.insert(KNOTS_OF_A_FILE.to_owned(), knots(&file, &format!("{path}.file"))?);
             }
             for (key, entry) in entries {
                 resolve_below(entry, &format!("{path}.{key}"))?;

@@ -13,10 +13,17 @@ const MOST_ALIKE: usize = 3;
 /// Errors, and warnings, that are located in their file.
 const MOST_LOCATED: usize = 100;
 
-/// Digits of a number that are written out; longer ones are powers of ten.
-const MOST_DIGITS: usize = 18;
+/// Characters of a number that are written out; of longer ones the first digits.
+const MOST_DIGITS: usize = 12;
 
-/// A message whose numbers have no endless digits: 1e308 stays 1e308.
+/// The first ten digits of a number, as a power of ten where it would still be long.
+fn shortened(value: f64) -> String {
+    let rounded = format!("{value:.9e}").parse().unwrap_or(value);
+    let plain = format!("{rounded}");
+    if plain.len() > MOST_DIGITS { format!("{rounded:e}") } else { plain }
+}
+
+/// A message whose numbers have no endless digits: 1e308 stays 1e308, and 0.1 + 0.2 is 0.3.
 fn readable(message: &str) -> String {
     let mut text = String::with_capacity(message.len());
     let mut rest = message;
@@ -26,7 +33,7 @@ fn readable(message: &str) -> String {
         let number = after[..length].trim_end_matches('.');
         text += &rest[..start];
         match number.parse::<f64>() {
-            Ok(value) if number.len() > MOST_DIGITS => text += &format!("{value:e}"),
+            Ok(value) if number.len() > MOST_DIGITS => text += &shortened(value),
             _ => text += number,
         }
         rest = &after[number.len()..];
@@ -46,8 +53,12 @@ impl<'a> Findings<'a> {
         Self { file, diagnostics: Vec::new() }
     }
 
-    /// All of them, in the order in which they were found.
-    pub fn into_diagnostics(self) -> Vec<Diagnostic> {
+    /// All of them, in the order in which they were found; where there are errors, these only: a
+    /// warning may follow from a wrong number, and those that do not will come when it is right.
+    pub fn into_diagnostics(mut self) -> Vec<Diagnostic> {
+        if !self.has_no_error() {
+            self.diagnostics.retain(|one| one.severity == Severity::Error);
+        }
         self.diagnostics
     }
 
@@ -144,8 +155,9 @@ mod tests {
     fn numbers_with_endless_digits_become_powers_of_ten() {
         let huge = f64::MAX;
         let tiny = -1e-300;
-        assert_eq!(readable(&format!("`a.0.b` is {huge}.")), "`a.0.b` is 1.7976931348623157e308.");
+        assert_eq!(readable(&format!("`a.0.b` is {huge}.")), "`a.0.b` is 1.797693135e308.");
         assert_eq!(readable(&format!("[{tiny}, 0.125]")), "[-1e-300, 0.125]");
-        assert_eq!(readable("3.141592653589793, body-12, v1."), "3.141592653589793, body-12, v1.");
+        assert_eq!(readable("3.141592653589793, body-12, v1."), "3.141592654, body-12, v1.");
+        assert_eq!(readable("0.30000000000000004 of 10000000"), "0.3 of 10000000");
     }
 }
