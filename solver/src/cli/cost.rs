@@ -10,17 +10,20 @@ use crate::coupling::memory_estimate;
 
 /// CPU time of a pass with 10^4 unknowns on a moving mesh (s): mesh motion, assembly, factorisation or
 /// iterations with old factors, solve, loads.
-const PASS: f64 = 0.021;
+const PASS: f64 = 0.0215;
 /// Power of the unknowns it goes with.
 const GROWTH: f64 = 1.15;
 /// Part of it on a mesh that stays, and without convection, where the matrix stays as well.
 const ON_FIXED_MESH: [f64; 2] = [0.5, 0.75];
+/// Linear systems of the start of an unsteady run besides its steps: the flow there, and pieces of the
+/// first step.
+const START_SYSTEMS: f64 = 5.0;
 /// Linear systems of a step in which convection is solved by Newton's method.
 const NEWTON_SYSTEMS: f64 = 2.7;
 /// Linear systems of a steady flow with convection.
 const STEADY_SYSTEMS: f64 = 6.0;
 /// Steps of an adaptive run besides those of its largest step.
-const ADAPTIVE_STEPS: f64 = 100.0;
+const ADAPTIVE_STEPS: f64 = 120.0;
 /// CPU time of a new mesh with 10^4 unknowns (s), and with inertia, which asks for projections.
 const NEW_MESH: [f64; 2] = [0.05, 0.12];
 /// New meshes for each reach that bodies move.
@@ -122,7 +125,7 @@ pub fn n_steps(model: &Model, time: &Unsteady, shortest_edge: f64) -> f64 {
     rest / moving + (time.end - rest) / largest + ADAPTIVE_STEPS
 }
 
-/// Linear systems a run solves: exact for steady Stokes flow and for fixed steps on a fixed mesh.
+/// Linear systems a run solves: exact for steady Stokes flow.
 fn n_systems(model: &Model, shortest_edge: f64) -> f64 {
     let case = &model.case;
     let time = match (&case.time, case.fluid.model) {
@@ -134,7 +137,7 @@ fn n_systems(model: &Model, shortest_edge: f64) -> f64 {
         time.convection == Convection::Newton && case.fluid.model == FlowModel::NavierStokes;
     let iterations = if is_newton { NEWTON_SYSTEMS } else { 1.0 };
     let steps = n_steps(model, time, shortest_edge);
-    (steps + trial_steps(model, time)) * passes(model, time) * iterations
+    START_SYSTEMS + (steps + trial_steps(model, time)) * passes(model, time) * iterations
 }
 
 /// Steps of the first cycle with steps twice as long, which a run without inertia makes beforehand.

@@ -53,12 +53,8 @@ impl<'a> Findings<'a> {
         Self { file, diagnostics: Vec::new() }
     }
 
-    /// All of them, in the order in which they were found; where there are errors, these only: a
-    /// warning may follow from a wrong number, and those that do not will come when it is right.
-    pub fn into_diagnostics(mut self) -> Vec<Diagnostic> {
-        if !self.has_no_error() {
-            self.diagnostics.retain(|one| one.severity == Severity::Error);
-        }
+    /// All of them, in the order in which they were found.
+    pub fn into_diagnostics(self) -> Vec<Diagnostic> {
         self.diagnostics
     }
 

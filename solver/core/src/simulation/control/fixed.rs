@@ -58,6 +58,7 @@ impl<const D: usize> Run<'_, D> {
                 iterations: tally.iterations,
                 time_step: state.time - started,
                 is_last,
+                crossing: None,
             };
             self.report(&tally.loads, summary)?;
             self.check_signals(is_last)?;
