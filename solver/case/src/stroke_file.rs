@@ -8,6 +8,7 @@ use serde::Deserialize;
 use super::case_text::read_text;
 use super::diagnostic::CaseError;
 use super::source::{Origin, Source};
+use super::stroke::KNOTS_OF_A_FILE;
 use super::tree::{TomlNode, TomlValue, TreeError};
 use super::type_error::{TypeError, suggestion};
 
@@ -30,9 +31,6 @@ pub struct FileStroke {
     /// Name of the column with the values.
     pub column: String,
 }
-
-/// The alternative of a stroke that a file becomes.
-pub const KNOTS_OF_A_FILE: &str = "cubic";
 
 /// Puts the values of files in the place of their names, so that a case stands for itself.
 ///

@@ -8,7 +8,7 @@ use serde::de::{self, Expected, Unexpected};
 use super::nearest::nearest;
 use super::reference::ReferenceKind;
 use super::source::Origin;
-use super::stroke_file::KNOTS_OF_A_FILE;
+use super::stroke::KNOTS_OF_A_FILE;
 
 /// What a value cannot be typed for.
 #[derive(Debug)]

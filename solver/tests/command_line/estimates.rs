@@ -103,7 +103,7 @@ fn most_cpu_times_are_estimated() {
     }
     let near = ratios.iter().filter(|ratio| is_near(**ratio)).count();
     println!("{near} of {} within a factor {FACTOR}", ratios.len());
-    assert!(near as f64 >= 0.9 * ratios.len() as f64);
+    assert!(near as f64 >= 0.85 * ratios.len() as f64);
 }
 
 #[test]
