@@ -18,9 +18,13 @@ const MOST_DIGITS: usize = 12;
 
 /// The first ten digits of a number, as a power of ten where it would still be long.
 fn shortened(value: f64) -> String {
-    let rounded = format!("{value:.9e}").parse().unwrap_or(value);
-    let plain = format!("{rounded}");
-    if plain.len() > MOST_DIGITS { format!("{rounded:e}") } else { plain }
+    let power = format!("{value:.9e}");
+    let plain = power.parse().map_or_else(|_| power.clone(), |rounded: f64| rounded.to_string());
+    if plain.len() <= MOST_DIGITS && value.abs() < f64::MAX {
+        return plain;
+    }
+    let (digits, exponent) = power.split_once('e').unwrap_or((&power, "0"));
+    format!("{}e{exponent}", digits.trim_end_matches('0').trim_end_matches('.'))
 }
 
 /// A message whose numbers have no endless digits: 1e308 stays 1e308, and 0.1 + 0.2 is 0.3.
