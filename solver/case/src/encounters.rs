@@ -1,6 +1,6 @@
 //! What bodies meet that keep the velocity they can be expected to have, and the films of fluid then.
 
-use super::speed::{load_vector, norm, terminal_speed};
+use super::speed::{load_vector, norm, side_speed, terminal_speed};
 use super::{Body, ContactSpec, GaitSpec, Geometry, Model, Motion};
 
 /// Gap without contact, over the reach of the body: what a film is left with in most runs, because it
@@ -30,6 +30,9 @@ impl Model {
     pub fn encounters(&self) -> Vec<Encounter> {
         let paths: Vec<Path> = (0..self.bodies.len()).map(|body| self.path(body)).collect();
         let of_body = |(body, path): (usize, &Path)| {
+            if keeps_away(&self.bodies[body]) {
+                return None;
+            }
             let wall = self.time_to_wall(path).map(|time| self.encounter(time, path.reach));
             let others = paths.iter().enumerate().filter(|(other, _)| *other != body);
             let with_bodies = others.filter_map(|(_, other)| {
@@ -42,6 +45,25 @@ impl Model {
             with_bodies.chain(wall).min_by(|one, other| one.time.total_cmp(&other.time))
         };
         paths.iter().enumerate().filter_map(of_body).collect()
+    }
+
+    /// When all has come to rest (s), as far as nothing but weights and forces drives it, and all that
+    /// they drive meets something.
+    #[must_use]
+    pub fn time_to_rest(&self) -> Option<f64> {
+        let case = &self.case;
+        let is_driven = case.flow.is_some()
+            || !self.joints.is_empty()
+            || case.boundary.values().any(|condition| side_speed(case, condition) > 0.0)
+            || self
+                .bodies
+                .iter()
+                .any(|body| body.gait.is_some() || matches!(body.motion, Motion::Imposed(_)));
+        let moves = |body: &usize| norm(&self.path(*body).velocity) > 0.0;
+        let n_moving = (0..self.bodies.len()).filter(moves).count();
+        let met = self.encounters();
+        let all_meet = !is_driven && n_moving > 0 && met.len() >= n_moving;
+        all_meet.then(|| met.iter().map(|met| met.time).fold(0.0, f64::max))
     }
 
     /// How far each free body gets until some time (s), or until it meets something, over its reach;
@@ -136,6 +158,13 @@ impl Model {
     }
 }
 
+/// Whether a swimmer is turned back by the flow it makes from what it heads for: one that pushes the
+/// fluid away ahead of it (Lauga and Powers 2009).
+fn keeps_away(body: &Body) -> bool {
+    let Some(GaitSpec::Squirmer(gait)) = &body.gait else { return false };
+    gait.modes.first().zip(gait.modes.get(1)).is_some_and(|(first, second)| first * second < 0.0)
+}
+
 /// When two bodies on their ways touch (s).
 fn time_to_meeting(one: &Path, other: &Path) -> Option<f64> {
     let pair = |part: fn(&Path) -> [f64; 2]| {
@@ -170,6 +199,16 @@ mod tests {
         assert!(pair.iter().all(|met| (met.time - 1.0).abs() < 1e-12), "{pair:?}");
         assert!(pair[0].film_cells < wall[0].film_cells);
         assert!(model("dfg-2d-2").encounters().is_empty());
+        assert!(model("squirmer-wall/pusher").encounters().is_empty());
+    }
+
+    #[test]
+    fn what_falls_comes_to_rest_and_what_swims_does_not() {
+        // Half a radius at the speed (2 weight / (2 radius))^(1/2) of inertia, with a net weight of pi
+        let time = model("disc-on-wall/barrier").time_to_rest().unwrap();
+        assert!((time - 0.5 / std::f64::consts::PI.sqrt()).abs() < 1e-12, "{time}");
+        assert_eq!(model("squirmer-wall/neutral").time_to_rest(), None);
+        assert_eq!(model("vortex-induced-vibration").time_to_rest(), None);
     }
 
     #[test]

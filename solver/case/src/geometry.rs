@@ -210,6 +210,17 @@ impl ShapeSpec {
         }
     }
 
+    /// Volume, of planar shapes area (m3, m2); 0 of a shape that is none.
+    #[must_use]
+    pub fn volume(&self) -> f64 {
+        use std::f64::consts::PI;
+        match self {
+            Self::Ellipsoid { semi_axes: [a, b, c] } => 4.0 / 3.0 * PI * a * b * c,
+            Self::Capsule { length, radius } => PI * radius * radius * (length - 2.0 / 3.0 * radius),
+            _ => self.outline().moments().map_or(0.0, |moments| moments.measure),
+        }
+    }
+
     /// Area of the surface of a shape in space (m2), to two per cent; of planar ones zero.
     #[must_use]
     pub fn surface_area(&self) -> f64 {

@@ -62,7 +62,8 @@ pub(super) fn norm(vector: &[f64]) -> f64 {
     vector.iter().map(|part| part * part).sum::<f64>().sqrt()
 }
 
-fn side_speed(case: &Case, condition: &BoundaryCondition) -> f64 {
+/// The largest speed on a side (m/s).
+pub(super) fn side_speed(case: &Case, condition: &BoundaryCondition) -> f64 {
     match condition {
         BoundaryCondition::Velocity { value, .. } => norm(value),
         BoundaryCondition::Parabolic { peak, .. } => peak.abs(),
@@ -103,21 +104,21 @@ fn resistance(case: &Case, body: &Body) -> f64 {
     }
 }
 
-/// Weight less buoyancy of a body over the acceleration of gravity (kg; kg/m planar).
+/// Weight less buoyancy of a body over the acceleration of gravity (kg; kg/m planar); 0 of a shape that is
+/// none.
 fn excess_mass(case: &Case, body: &Body) -> f64 {
-    let radius = body.shape.half_width();
-    let volume = match case.geometry {
-        Geometry::Planar => PI * radius * body.shape.reach(),
-        Geometry::Axisymmetric | Geometry::Spatial => {
-            4.0 / 3.0 * PI * radius * radius * body.shape.reach()
-        }
-    };
+    let volume = body.shape.volume();
     (body.density.unwrap_or(case.fluid.density) - case.fluid.density) * volume
 }
 
 /// Weight less buoyancy and force on a body (N; N/m planar).
 fn load(case: &Case, body: &Body) -> f64 {
-    excess_mass(case, body).abs() * norm(&case.fluid.gravity) + norm(&body.force)
+    weight(case, body) + norm(&body.force)
+}
+
+/// Weight less buoyancy of a body, or the other way round (N; N/m planar).
+pub(super) fn weight(case: &Case, body: &Body) -> f64 {
+    excess_mass(case, body).abs() * norm(&case.fluid.gravity)
 }
 
 /// The same as a vector.

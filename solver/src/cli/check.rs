@@ -143,14 +143,12 @@ where
         "most of it for the factorisation"
     };
     let _ = writeln!(text, "  {:<16} {}, {most}", "memory", bytes(cost.memory));
-    let about = match &model.case.time {
-        TimeSettings::Steady(_) if cost.systems == 1.0 => "",
-        TimeSettings::Unsteady(time) if time.adaptive.is_none() && !model.mesh_moves() => "",
-        _ => "about ",
+    let systems = if cost.systems == 1.0 {
+        "one linear system".to_owned()
+    } else {
+        format!("about {} linear systems", count(round(cost.systems)))
     };
-    let plural = if cost.systems == 1.0 { "" } else { "s" };
-    let systems = count(if about.is_empty() { cost.systems } else { round(cost.systems) });
-    let mut line = format!("{} for {about}{systems} linear system{plural}", duration(cost.seconds));
+    let mut line = format!("{} for {systems}", duration(cost.seconds));
     if cost.new_meshes >= 1.0 {
         let _ = write!(line, " and {} new meshes", count(round(cost.new_meshes)));
     }
@@ -220,7 +218,9 @@ fn bytes(size: f64) -> String {
 fn duration(seconds: f64) -> String {
     match seconds {
         s if s < 1.0 => "less than a second".to_owned(),
+        s if s < 9.95 => format!("{s:.1} s"),
         s if s < 120.0 => format!("{s:.0} s"),
+        s if s < 597.0 => format!("{:.1} min", s / 60.0),
         s if s < 7200.0 => format!("{:.0} min", s / 60.0),
         s if s < 1e6 => format!("{:.1} h", s / 3600.0),
         s if s < 3e9 => format!("{:.0} days", s / 86400.0),
@@ -236,7 +236,7 @@ mod tests {
     fn sizes_are_told_in_their_unit() {
         assert_eq!(bytes(12.0), "12 bytes");
         assert_eq!(bytes(1.5e6), "1.5 MB");
-        assert_eq!(duration(90.0), "90 s");
+        assert_eq!([4.23, 90.0, 250.0].map(duration), ["4.2 s", "90 s", "4.2 min"]);
         assert_eq!(duration(9000.0), "2.5 h");
         assert_eq!(duration(2e6), "23 days");
         assert_eq!(duration(f64::INFINITY), "more than a century");

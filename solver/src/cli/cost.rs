@@ -10,29 +10,35 @@ use crate::coupling::memory_estimate;
 
 /// CPU time of a pass with 10^4 unknowns on a moving mesh (s): mesh motion, assembly, factorisation or
 /// iterations with old factors, solve, loads.
-const PASS: f64 = 0.021;
+const PASS: f64 = 0.0215;
 /// Power of the unknowns it goes with.
-const GROWTH: f64 = 1.2;
-/// Part of it on a mesh that stays.
-const ON_FIXED_MESH: f64 = 0.75;
+const GROWTH: f64 = 1.15;
+/// Part of it on a mesh that stays, and without convection, where the matrix stays as well.
+const ON_FIXED_MESH: [f64; 2] = [0.5, 0.75];
+/// Linear systems of the start of an unsteady run besides its steps: the flow there, and pieces of the
+/// first step.
+const START_SYSTEMS: f64 = 5.0;
 /// Linear systems of a step in which convection is solved by Newton's method.
 const NEWTON_SYSTEMS: f64 = 2.7;
 /// Linear systems of a steady flow with convection.
 const STEADY_SYSTEMS: f64 = 6.0;
 /// Steps of an adaptive run besides those of its largest step.
-const ADAPTIVE_STEPS: f64 = 100.0;
+const ADAPTIVE_STEPS: f64 = 120.0;
 /// CPU time of a new mesh with 10^4 unknowns (s), and with inertia, which asks for projections.
 const NEW_MESH: [f64; 2] = [0.05, 0.12];
 /// New meshes for each reach that bodies move.
-const MESHES_OF_PATH: f64 = 1.0;
+const MESHES_OF_PATH: f64 = 0.7;
 /// New meshes in each period of a swimmer that deforms.
 const MESHES_OF_PERIOD: f64 = 4.0;
 /// Memory of a run with new meshes over that of one system, and with inertia.
-const REMESHED_MEMORY: [f64; 2] = [1.3, 2.3];
+const REMESHED_MEMORY: [f64; 2] = [1.7, 2.3];
 /// Unknowns of a planar mesh over its cells.
 const UNKNOWNS_OF_CELL: f64 = 4.5;
 
 /// An estimate of what a run costs.
+///
+/// A run is made of passes, each of which solves one linear system, and of new meshes; both go with the
+/// unknowns, of which films that close bring more.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cost {
     /// Linear systems.
@@ -66,11 +72,18 @@ impl Cost {
         let unknowns = mesh.free as f64 + mean;
         let systems = n_systems(model, mesh.shortest_edge);
         let pass = PASS * (unknowns / 1e4).powf(GROWTH);
-        let pass = if model.mesh_moves() { pass } else { ON_FIXED_MESH * pass };
+        let flow = model.case.fluid.model;
+        let part = match (&model.case.time, model.mesh_moves()) {
+            (TimeSettings::Unsteady(_), false) => {
+                ON_FIXED_MESH[usize::from(flow == FlowModel::NavierStokes)]
+            }
+            _ => 1.0,
+        };
         let new_meshes = n_new_meshes(model);
-        let inertia = usize::from(model.case.fluid.model != FlowModel::Stokes);
+        let inertia = usize::from(flow != FlowModel::Stokes);
         let start = NEW_MESH[0] * mesh.free as f64 / 1e4;
-        let seconds = start + systems * pass + new_meshes * NEW_MESH[inertia] * unknowns / 1e4;
+        let seconds =
+            start + systems * part * pass + new_meshes * NEW_MESH[inertia] * unknowns / 1e4;
         let memory = memory_estimate(mesh.on_mesh as f64 + most);
         let memory = if new_meshes >= 1.0 { REMESHED_MEMORY[inertia] * memory } else { memory };
         Self { systems, new_meshes, in_films: most, seconds, memory }
@@ -105,12 +118,14 @@ impl Films {
 #[must_use]
 pub fn n_steps(model: &Model, time: &Unsteady, shortest_edge: f64) -> f64 {
     let Some(adaptive) = &time.adaptive else { return (time.end / time.step).ceil() };
-    let crossing = model.expected_speed().map(|speed| adaptive.cfl * shortest_edge / speed);
     let largest = adaptive.largest.unwrap_or(time.end / 10.0);
-    time.end / crossing.unwrap_or(largest).min(largest) + ADAPTIVE_STEPS
+    let crossing = model.expected_speed().map(|speed| adaptive.cfl * shortest_edge / speed);
+    let moving = crossing.unwrap_or(largest).min(largest);
+    let rest = model.time_to_rest().unwrap_or(time.end).min(time.end);
+    rest / moving + (time.end - rest) / largest + ADAPTIVE_STEPS
 }
 
-/// Linear systems a run solves: exact for steady Stokes flow and for fixed steps on a fixed mesh.
+/// Linear systems a run solves: exact for steady Stokes flow.
 fn n_systems(model: &Model, shortest_edge: f64) -> f64 {
     let case = &model.case;
     let time = match (&case.time, case.fluid.model) {
@@ -122,7 +137,7 @@ fn n_systems(model: &Model, shortest_edge: f64) -> f64 {
         time.convection == Convection::Newton && case.fluid.model == FlowModel::NavierStokes;
     let iterations = if is_newton { NEWTON_SYSTEMS } else { 1.0 };
     let steps = n_steps(model, time, shortest_edge);
-    (steps + trial_steps(model, time)) * passes(model, time) * iterations
+    START_SYSTEMS + (steps + trial_steps(model, time)) * passes(model, time) * iterations
 }
 
 /// Steps of the first cycle with steps twice as long, which a run without inertia makes beforehand.
@@ -145,9 +160,13 @@ fn passes(model: &Model, time: &Unsteady) -> f64 {
     if bends || free.clone().any(|body| body.deforms()) {
         return 2.0;
     }
-    // Among many some are always in contact, which stops them within the step
-    let others = (n_free - 1.0).max(0.0);
-    if model.case.contact.is_some() { 3.0 - 2.0 * (-others / 6.0).exp() } else { 1.0 }
+    // Among many some are always in contact, which stops them within a step, if that is not shortened
+    let crowd = if model.case.contact.is_some() && time.adaptive.is_none() {
+        (n_free - 2.0).max(0.0)
+    } else {
+        0.0
+    };
+    3.0 - 2.0 * (-crowd / 6.0).exp()
 }
 
 /// New meshes of a run.

@@ -17,6 +17,17 @@ where
     simulation::build_mesh(model)
 }
 
+/// How a case is run into a directory.
+#[derive(Debug)]
+pub struct RunInto<'a> {
+    /// Where its files go.
+    pub directory: &'a RunDirectory,
+    /// Whether there is no progress on the terminal.
+    pub quiet: bool,
+    /// What may ask for its end.
+    pub watch: SignalWatch,
+}
+
 /// What a run resumes from.
 #[derive(Debug)]
 pub struct Resumed<const D: usize> {
@@ -28,30 +39,34 @@ pub struct Resumed<const D: usize> {
     pub is_in_place: bool,
 }
 
-/// Runs a case of any dimension from its beginning, with its files in `directory` if there is one.
-pub fn simulate(model: &Model, directory: Option<&RunDirectory>) -> Result<RunSummary, RunError> {
-    match (model.case.geometry.dimensions(), directory) {
-        (2, Some(directory)) => simulate_into::<2>(model, None, directory, true),
-        (2, None) => simulation::simulate::<2>(model, &mut []),
-        (_, Some(directory)) => simulate_into::<3>(model, None, directory, true),
-        (_, None) => simulation::simulate::<3>(model, &mut []),
+/// Runs a case of any dimension without files.
+pub fn simulate(model: &Model, watch: SignalWatch) -> Result<RunSummary, RunError> {
+    match model.case.geometry.dimensions() {
+        2 => simulation::simulate::<2>(model, &mut [Box::new(watch)]),
+        _ => simulation::simulate::<3>(model, &mut [Box::new(watch)]),
     }
 }
 
-/// Runs a case, from a saved state if there is one, with its files in `directory`; with `quiet`,
-/// without progress on the terminal.
+/// Runs a case of any dimension from its beginning.
+pub fn simulate_afresh(model: &Model, run: RunInto<'_>) -> Result<RunSummary, RunError> {
+    match model.case.geometry.dimensions() {
+        2 => simulate_into::<2>(model, None, run),
+        _ => simulate_into::<3>(model, None, run),
+    }
+}
+
+/// Runs a case, from a saved state if there is one.
 pub fn simulate_into<const D: usize>(
     model: &Model,
     resumed: Option<&Resumed<D>>,
-    directory: &RunDirectory,
-    quiet: bool,
+    run: RunInto<'_>,
 ) -> Result<RunSummary, RunError>
 where
     Dimension<D>: Solve<D>,
 {
     let history = resumed.and_then(|resumed| resumed.history.as_ref());
-    let mut observers = observer::observers(model, directory, history, quiet)?;
-    observers.push(Box::new(SignalWatch::start()?));
+    let mut observers = observer::observers(model, run.directory, history, run.quiet)?;
+    observers.push(Box::new(run.watch));
     simulation::simulate_from(model, resumed.map(|resumed| &resumed.state), &mut observers)
 }
 
