@@ -15,8 +15,12 @@ const SMALLEST_ANGLE: f64 = 25.0;
 /// Least Bezier coefficient of det J over the mean.
 const LEAST_COEFFICIENT: f64 = 0.1;
 
-/// Distance of curved facets from their surface over its radius of curvature.
-const SURFACE_ERROR: f64 = 2e-3;
+/// Distance of curved facets from their surface over its radius of curvature, between their nodes,
+/// which are on it.
+const SURFACE_ERROR: f64 = 3e-3;
+
+/// The same where the curvature jumps, as between a half sphere and a cylinder.
+const ERROR_AT_JUMP: f64 = 8e-3;
 
 fn at(x: f64, y: f64, z: f64) -> Isometry3<f64> {
     Isometry3::translation(x, y, z)
@@ -83,12 +87,15 @@ fn assert_surfaces(mesh: &Mesh<3>, domain: &Domain, bodies: &[Body]) {
             let gap = surface.nearest_point(mesh.nodes[node]).gap;
             assert!(gap.abs() < 1e-9 * scale, "{gap}");
         }
+        let has_jump = |body: &Body| matches!(body.parts[0].shape, Shape::Capsule { .. });
+        let error =
+            if has_jump(&bodies[boundary - n_sides]) { ERROR_AT_JUMP } else { SURFACE_ERROR };
         let nodes = mesh.cell_nodes(facet.cell);
         for point in facet_points(usize::from(facet.side)) {
             let point = map_quadratic(&nodes, point).position;
             let radius = surface.radius_of_curvature(point);
             let gap = surface.nearest_point(point).gap;
-            assert!(gap.abs() < SURFACE_ERROR * radius, "{gap} {radius}");
+            assert!(gap.abs() < error * radius, "{gap} {radius}");
         }
     }
 }
@@ -219,11 +226,11 @@ impl Random {
         match (3.0 * self.number()).floor() {
             0.0 => Shape::Sphere { radius },
             1.0 => {
-                let mut part = || radius * self.between(0.45, 0.95);
+                let mut part = || radius * self.between(0.5, 0.95);
                 Shape::Ellipsoid { semi_axes: [radius, part(), part()] }
             }
             _ => {
-                let narrow = radius * self.between(0.35, 0.65);
+                let narrow = radius * self.between(0.4, 0.7);
                 Shape::Capsule { radius: narrow, length: 2.0 * (radius - narrow) }
             }
         }
@@ -233,11 +240,11 @@ impl Random {
 /// Two or three bodies in a box, the second often close to the first, or to a side.
 fn random_placement(seed: u64) -> (Domain, Vec<Body>) {
     let mut random = Random(seed);
-    let domain = cube(2.7);
+    let domain = cube(2.0);
     let n = if random.number() < 0.5 { 2 } else { 3 };
     let mut bodies: Vec<Body> = Vec::new();
     while bodies.len() < n {
-        let pose = Isometry3::from_parts(Translation3::from(random.point(2.0)), random.rotation());
+        let pose = Isometry3::from_parts(Translation3::from(random.point(1.4)), random.rotation());
         let mut all = bodies.clone();
         all.push(Body::new(&format!("body{}", bodies.len()), random.shape(), pose));
         let is_close = random.number() < 0.7;
@@ -277,20 +284,21 @@ fn approach(domain: &Domain, bodies: &mut [Body], way: Point<3>, gap: f64) {
 fn is_apart(domain: &Domain, bodies: &[Body]) -> bool {
     let last = bodies.len() - 1;
     let own = BodySurface::new(&bodies[last]);
+    let others: Vec<BodySurface> = bodies[..last].iter().map(BodySurface::new).collect();
     let mut random = Random(7);
-    (0..2000).all(|_| {
+    (0..500).all(|_| {
         let direction = random.point(1.0).normalize();
         let on = own.nearest_point(own.center() + direction * own.reach()).point;
         let sides = (0..6).all(|side| domain.side_gap(side, on) > 0.015);
-        sides && bodies[..last].iter().all(|b| BodySurface::new(b).nearest_point(on).gap > 0.015)
+        sides && others.iter().all(|other| other.nearest_point(on).gap > 0.015)
     })
 }
 
 fn check_random_placement(seed: u64) {
     let (domain, bodies) = random_placement(seed);
-    let mesh = generate(&domain, &bodies, &sizing(0.3, 1.2));
+    let mesh = generate(&domain, &bodies, &Sizing { growth: 0.4, ..sizing(0.4, 1.2) });
     let mesh = mesh.unwrap_or_else(|error| panic!("seed {seed}: {error}\n{bodies:?}"));
-    println!("seed {seed}: {} cells, {:.1}", mesh.n_cells(), Quality::of(&mesh).min_angle);
+    println!("seed {seed}: {} cells", mesh.n_cells());
     assert_mesh(&mesh, &domain, &bodies, SMALLEST_ANGLE);
 }
 

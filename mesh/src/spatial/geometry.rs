@@ -61,6 +61,7 @@ impl Geometry {
                 surface.boundary = boundary;
                 surface.size = size;
                 surface.turn = sizing.turn;
+                surface.find_bends(sizing.growth);
                 surface
             }));
             groups.push(around(&surfaces, first));

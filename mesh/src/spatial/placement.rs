@@ -3,13 +3,19 @@
 use super::domain::Domain;
 use super::geometry::{sides, surfaces_of};
 use super::shape::{Body, Shape};
-use super::surface::SmoothSurface;
+use super::surface::{SmoothSurface, directions};
 use crate::{MeshError, Point, SMALLEST_GAP};
 
 /// Places on a surface at which the search for the smallest gap starts.
 const STARTS: usize = 48;
 
-/// Steps of the search from one of them.
+/// Steps of the search from each of them.
+const FIRST_STEPS: usize = 3;
+
+/// Places from which the search goes on, those with the smallest gaps.
+const KEPT: usize = 4;
+
+/// Most steps from one of them.
 const MOST_STEPS: usize = 200;
 
 /// Whether bodies can be meshed in a domain: sizes, names, inside, apart.
@@ -116,7 +122,8 @@ fn check_body(domain: &Domain, body: &Body, others: &[Body]) -> Result<(), MeshE
     Ok(())
 }
 
-/// The least gap found between two surfaces, and where.
+/// The least gap found between two surfaces (m), and where.
+#[derive(Debug, Clone, Copy)]
 struct Least {
     value: f64,
     at: Point<3>,
@@ -134,32 +141,35 @@ impl Least {
 /// From places all around the surface: to the nearest point of the other one and back, again and
 /// again. The distance never grows, so each ends where it is least.
 fn least_gap(surface: &SmoothSurface, other: &SmoothSurface) -> Least {
-    let mut least = Least { value: f64::INFINITY, at: surface.origin() };
-    let golden = std::f64::consts::PI * (3.0 - 5.0_f64.sqrt());
-    for i in 0..STARTS {
-        let height = 1.0 - (2 * i + 1) as f64 / STARTS as f64;
-        let (sin, cos) = (golden * i as f64).sin_cos();
-        let ring = (1.0 - height * height).sqrt();
-        let direction = Point::<3>::new(ring * cos, ring * sin, height);
-        let mut at = surface.foot(surface.origin() + direction * (2.0 * surface.reach())).point;
-        let mut gap = other.gap(at);
-        for _ in 0..MOST_STEPS {
-            if gap <= 0.0 {
-                break;
-            }
-            let next = surface.foot(other.foot(at).point).point;
-            let shorter = other.gap(next);
-            let is_done = shorter >= gap * (1.0 - 1e-12);
-            (at, gap) = (next, shorter);
-            if is_done {
-                break;
-            }
+    let mut starts: Vec<Least> = directions(STARTS)
+        .map(|direction| {
+            let at = surface.foot(surface.origin() + direction * (2.0 * surface.reach())).point;
+            approach(surface, other, Least { value: other.gap(at), at }, FIRST_STEPS)
+        })
+        .collect();
+    starts.sort_by(|a, b| a.value.total_cmp(&b.value));
+    starts.truncate(KEPT);
+    let ends = starts.into_iter().map(|start| approach(surface, other, start, MOST_STEPS));
+    ends.min_by(|a, b| a.value.total_cmp(&b.value))
+        .unwrap_or(Least { value: f64::NAN, at: surface.origin() })
+}
+
+/// Some steps from a point of a surface towards another surface.
+fn approach(surface: &SmoothSurface, other: &SmoothSurface, start: Least, steps: usize) -> Least {
+    let Least { mut value, mut at } = start;
+    for _ in 0..steps {
+        if value <= 0.0 {
+            break;
         }
-        if gap < least.value || gap.is_nan() {
-            least = Least { value: gap, at };
+        let next = surface.foot(other.foot(at).point).point;
+        let shorter = other.gap(next);
+        let is_done = shorter >= value * (1.0 - 1e-10);
+        (at, value) = (next, shorter);
+        if is_done {
+            break;
         }
     }
-    least
+    Least { value, at }
 }
 
 #[cfg(test)]

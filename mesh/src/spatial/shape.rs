@@ -16,6 +16,8 @@ pub enum Shape {
         semi_axes: [f64; 3],
     },
     /// Cylinder about the x axis with half spheres at its ends, its middle at the origin.
+    ///
+    /// Its curvature jumps where they meet, so curved facets follow it to second order only there.
     Capsule {
         /// Radius (m).
         radius: f64,

@@ -98,6 +98,9 @@ impl SizeField {
             };
             wish.distance = wish.distance.min(gap.abs());
             wish.size = wish.size.min(own + self.growth * gap.abs());
+            for bend in &surface.bends {
+                wish.size = wish.size.min(bend.size + self.growth * (bend.at - point).norm());
+            }
         }
         wish
     }

@@ -53,7 +53,21 @@ pub struct SmoothSurface {
     pub size: f64,
     /// Largest angle by which it turns along one edge (rad).
     pub turn: f64,
+    /// Places on it where it bends more than around them, with the edge lengths wanted there.
+    pub bends: Vec<Bend>,
 }
+
+/// A place at which a surface bends, with the edge length wanted there.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Bend {
+    /// Where (m).
+    pub at: Point<3>,
+    /// Edge length (m).
+    pub size: f64,
+}
+
+/// Places on a surface with varying curvature that are looked at.
+const SAMPLES: usize = 600;
 
 impl SmoothSurface {
     /// A form in its place with the fluid outside of it, or inside.
@@ -67,6 +81,7 @@ impl SmoothSurface {
             boundary: BoundaryId::default(),
             size: f64::INFINITY,
             turn: f64::INFINITY,
+            bends: Vec::new(),
         }
     }
 
@@ -202,6 +217,44 @@ impl SmoothSurface {
             _ => Some(self.size_at(self.origin)),
         }
     }
+
+    /// Finds the places where it bends so much that the edge length grows faster from them than by
+    /// this per unit length.
+    pub fn find_bends(&mut self, growth: f64) {
+        let Form::Ellipsoid(ellipsoid) = &self.form else {
+            return;
+        };
+        let axes = (0..6).map(|i| {
+            let mut axis = Point::<3>::zeros();
+            axis[i / 2] = if i % 2 == 0 { 1.0 } else { -1.0 };
+            axis
+        });
+        let on = axes.chain(directions(SAMPLES)).map(|direction| {
+            self.origin + self.rotation * direction.component_mul(&ellipsoid.semi_axes())
+        });
+        let mut all: Vec<Bend> = on.map(|at| Bend { at, size: self.size_at(at) }).collect();
+        all.retain(|bend| bend.size < self.size);
+        all.sort_by(|a, b| a.size.total_cmp(&b.size));
+        let mut bends: Vec<Bend> = Vec::new();
+        for bend in all {
+            let reaches = |known: &Bend| known.size + growth * (known.at - bend.at).norm();
+            if bends.iter().all(|known| reaches(known) > bend.size) {
+                bends.push(bend);
+            }
+        }
+        self.bends = bends;
+    }
+}
+
+/// Unit vectors in all directions, evenly.
+pub fn directions(n: usize) -> impl Iterator<Item = Point<3>> {
+    let golden = std::f64::consts::PI * (3.0 - 5.0_f64.sqrt());
+    (0..n).map(move |i| {
+        let height = 1.0 - (2 * i + 1) as f64 / n as f64;
+        let (sin, cos) = (golden * i as f64).sin_cos();
+        let ring = (1.0 - height * height).sqrt();
+        Point::<3>::new(ring * cos, ring * sin, height)
+    })
 }
 
 #[cfg(test)]
