@@ -184,7 +184,7 @@ fn the_same_input_gives_the_same_bits() {
 
 #[test]
 fn straight_cells_and_sizes_of_sides_are_as_asked() {
-    let domain = cube(2.0);
+    let domain = cube(1.4);
     let bodies = [sphere("s", 1.0, at(0.0, 0.0, 0.0))];
     let asked = Sizing { curved: false, sides: vec![("top".to_string(), 0.2)], ..sizing(0.3, 0.8) };
     let mesh = generate(&domain, &bodies, &asked).unwrap();
@@ -222,7 +222,7 @@ impl Random {
     }
 
     fn shape(&mut self) -> Shape {
-        let radius = self.between(0.5, 1.0);
+        let radius = self.between(0.35, 0.7);
         match (3.0 * self.number()).floor() {
             0.0 => Shape::Sphere { radius },
             1.0 => {
@@ -240,11 +240,11 @@ impl Random {
 /// Two or three bodies in a box, the second often close to the first, or to a side.
 fn random_placement(seed: u64) -> (Domain, Vec<Body>) {
     let mut random = Random(seed);
-    let domain = cube(2.0);
+    let domain = cube(1.4);
     let n = if random.number() < 0.5 { 2 } else { 3 };
     let mut bodies: Vec<Body> = Vec::new();
     while bodies.len() < n {
-        let pose = Isometry3::from_parts(Translation3::from(random.point(1.4)), random.rotation());
+        let pose = Isometry3::from_parts(Translation3::from(random.point(1.0)), random.rotation());
         let mut all = bodies.clone();
         all.push(Body::new(&format!("body{}", bodies.len()), random.shape(), pose));
         let is_close = random.number() < 0.7;
@@ -296,7 +296,7 @@ fn is_apart(domain: &Domain, bodies: &[Body]) -> bool {
 
 fn check_random_placement(seed: u64) {
     let (domain, bodies) = random_placement(seed);
-    let mesh = generate(&domain, &bodies, &Sizing { growth: 0.4, ..sizing(0.4, 1.2) });
+    let mesh = generate(&domain, &bodies, &Sizing { growth: 0.4, ..sizing(0.4, 0.8) });
     let mesh = mesh.unwrap_or_else(|error| panic!("seed {seed}: {error}\n{bodies:?}"));
     println!("seed {seed}: {} cells", mesh.n_cells());
     assert_mesh(&mesh, &domain, &bodies, SMALLEST_ANGLE);

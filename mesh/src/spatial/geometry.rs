@@ -1,10 +1,12 @@
 //! `Geometry`: all surfaces that bound the fluid, those of the domain first, and their boundaries.
 
+use std::sync::Arc;
+
 use nalgebra::{Isometry3, Matrix3, Translation3};
 
 use super::domain::Domain;
 use super::shape::{Body, Shape};
-use super::surface::{Ellipsoid, Form, SmoothSurface};
+use super::surface::{Ellipsoid, Form, SmoothSurface, Tube};
 use crate::{Boundary, BoundaryId, BoundaryKind, Point, Sizing};
 
 /// Steps of Newton's method onto several surfaces at once.
@@ -67,6 +69,11 @@ impl Geometry {
             groups.push(around(&surfaces, first));
         }
         Self { surfaces, groups, boundaries, corners: domain.corners() }
+    }
+
+    /// Whether a body has several parts, whose surfaces may meet.
+    pub fn has_creases(&self) -> bool {
+        self.groups[1..].iter().any(|body| body.last > body.first + 1)
     }
 
     /// Distance to the nearest surface (m), negative outside the fluid; where it is certain to
@@ -152,6 +159,9 @@ pub fn surfaces_of(body: &Body) -> impl Iterator<Item = SmoothSurface> + '_ {
             Shape::Ellipsoid { semi_axes } => Form::Ellipsoid(Ellipsoid::new(*semi_axes)),
             Shape::Capsule { radius, length } => {
                 Form::Capsule { radius: *radius, half_length: 0.5 * length }
+            }
+            Shape::Tube { centreline, radius } => {
+                Form::Tube(Arc::new(Tube::new(centreline.clone(), *radius)))
             }
         };
         SmoothSurface::new(form, &(body.pose * part.pose), false)

@@ -1,5 +1,6 @@
 //! Checks that bodies in space lie inside the domain and apart from each other.
 
+use super::centreline::Centreline;
 use super::domain::Domain;
 use super::geometry::{sides, surfaces_of};
 use super::shape::{Body, Shape};
@@ -106,20 +107,39 @@ fn check_body(domain: &Domain, body: &Body, others: &[Body]) -> Result<(), MeshE
         return refuse("size", size, "positive");
     }
     for part in &body.parts {
-        let lengths = match part.shape {
-            Shape::Sphere { radius } => vec![("radius", radius)],
-            Shape::Ellipsoid { semi_axes: [a, b, c] } => {
-                vec![("semi_axes", a), ("semi_axes", b), ("semi_axes", c)]
-            }
-            Shape::Capsule { radius, length } => vec![("radius", radius), ("length", length)],
-        };
-        for (what, value) in lengths {
+        for Length { what, value } in lengths(&part.shape) {
             if !value.is_finite() || value <= 0.0 {
                 return refuse(what, value, "positive and finite");
             }
         }
+        if let Shape::Tube { centreline, radius } = &part.shape
+            && *radius >= centreline.widest_tube()
+        {
+            return refuse("radius", *radius, "so small that the tube does not meet itself");
+        }
     }
     Ok(())
+}
+
+/// A length of a shape and its name.
+struct Length {
+    what: &'static str,
+    value: f64,
+}
+
+/// The lengths of a shape that must be positive.
+fn lengths(shape: &Shape) -> Vec<Length> {
+    let all = match shape {
+        Shape::Sphere { radius } => vec![("radius", *radius)],
+        Shape::Ellipsoid { semi_axes } => semi_axes.map(|axis| ("semi_axes", axis)).to_vec(),
+        Shape::Capsule { radius, length } => vec![("radius", *radius), ("length", *length)],
+        Shape::Tube { centreline, radius } => {
+            let Centreline::Helix { radius: wide, pitch, turns } = centreline;
+            let helix = [("helix.radius", *wide), ("helix.pitch", *pitch)];
+            [vec![("radius", *radius), ("|helix.turns|", turns.abs())], helix.to_vec()].concat()
+        }
+    };
+    all.into_iter().map(|(what, value)| Length { what, value }).collect()
 }
 
 /// The least gap found between two surfaces (m), and where.

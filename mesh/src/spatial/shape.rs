@@ -2,6 +2,8 @@
 
 use nalgebra::Isometry3;
 
+use super::centreline::Centreline;
+
 /// A solid in its own frame.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Shape {
@@ -23,6 +25,13 @@ pub enum Shape {
         radius: f64,
         /// Distance between the centres of the half spheres (m).
         length: f64,
+    },
+    /// All points at a distance from a curve; its ends are half spheres.
+    Tube {
+        /// The curve in its middle.
+        centreline: Centreline,
+        /// Radius (m).
+        radius: f64,
     },
 }
 

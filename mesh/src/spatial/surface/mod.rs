@@ -1,8 +1,12 @@
 //! `SmoothSurface`: a side of the domain or a part of a body, with exact distance and curvature.
 
 mod ellipsoid;
+mod tube;
 
 pub use ellipsoid::Ellipsoid;
+pub use tube::Tube;
+
+use std::sync::Arc;
 
 use nalgebra::{Isometry3, Matrix3};
 
@@ -26,6 +30,8 @@ pub enum Form {
     },
     /// An ellipsoid about the origin.
     Ellipsoid(Ellipsoid),
+    /// A tube along a curve.
+    Tube(Arc<Tube>),
 }
 
 /// The point of a smooth surface nearest to another point.
@@ -117,6 +123,7 @@ impl SmoothSurface {
             Form::Sphere(radius) => *radius,
             Form::Capsule { radius, half_length } => radius + half_length,
             Form::Ellipsoid(ellipsoid) => ellipsoid.reach(),
+            Form::Tube(tube) => tube.reach(),
         }
     }
 
@@ -131,7 +138,7 @@ impl SmoothSurface {
     }
 
     /// Vector from the nearest point of what the surface runs around, a point or a line.
-    fn from_skeleton(&self, point: Point<3>) -> Point<3> {
+    fn off_skeleton(&self, point: Point<3>) -> Point<3> {
         let off = point - self.origin;
         let along = |most: f64| {
             let axis = self.axis();
@@ -140,6 +147,10 @@ impl SmoothSurface {
         match &self.form {
             Form::Cylinder(_) => along(f64::INFINITY),
             Form::Capsule { half_length, .. } => along(*half_length),
+            Form::Tube(tube) => {
+                let local = self.rotation.tr_mul(&off);
+                self.rotation * (local - tube.on_centreline(local))
+            }
             Form::Plane | Form::Sphere(_) | Form::Ellipsoid(_) => off,
         }
     }
@@ -150,8 +161,9 @@ impl SmoothSurface {
         let gap = match &self.form {
             Form::Plane => self.axis().dot(&(point - self.origin)),
             Form::Sphere(radius) | Form::Cylinder(radius) | Form::Capsule { radius, .. } => {
-                self.from_skeleton(point).norm() - radius
+                self.off_skeleton(point).norm() - radius
             }
+            Form::Tube(tube) => self.off_skeleton(point).norm() - tube.radius(),
             Form::Ellipsoid(_) => return self.foot(point).gap,
         };
         if self.is_hollow { -gap } else { gap }
@@ -167,14 +179,9 @@ impl SmoothSurface {
                 Foot { point: point - normal * gap, normal, gap }
             }
             Form::Sphere(radius) | Form::Cylinder(radius) | Form::Capsule { radius, .. } => {
-                let off = self.from_skeleton(point);
-                let distance = off.norm();
-                // Any normal will do in the middle
-                let normal =
-                    if distance > 0.0 { off / distance } else { self.rotation.column(1).into() };
-                let gap = distance - radius;
-                Foot { point: point - normal * gap, normal, gap }
+                self.foot_around(point, *radius)
             }
+            Form::Tube(tube) => self.foot_around(point, tube.radius()),
             Form::Ellipsoid(ellipsoid) => {
                 let local = ellipsoid.foot(self.rotation.tr_mul(&(point - self.origin)));
                 Foot {
@@ -191,12 +198,23 @@ impl SmoothSurface {
         foot
     }
 
+    /// The nearest point at a distance (m) from what the surface runs around.
+    fn foot_around(&self, point: Point<3>, radius: f64) -> Foot {
+        let off = self.off_skeleton(point);
+        let distance = off.norm();
+        // Any normal will do in the middle
+        let normal = if distance > 0.0 { off / distance } else { self.rotation.column(1).into() };
+        let gap = distance - radius;
+        Foot { point: point - normal * gap, normal, gap }
+    }
+
     /// Smallest radius of curvature of the surface at one of its points (m).
     #[must_use]
     pub fn radius_of_curvature(&self, on: Point<3>) -> f64 {
         match &self.form {
             Form::Plane => f64::INFINITY,
             Form::Sphere(radius) | Form::Cylinder(radius) | Form::Capsule { radius, .. } => *radius,
+            Form::Tube(tube) => tube.radius(),
             Form::Ellipsoid(ellipsoid) => {
                 ellipsoid.radius_of_curvature(self.rotation.tr_mul(&(on - self.origin)))
             }
@@ -260,6 +278,7 @@ pub fn directions(n: usize) -> impl Iterator<Item = Point<3>> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::spatial::centreline::Centreline;
     use nalgebra::{Translation3, UnitQuaternion};
 
     fn forms() -> Vec<Form> {
@@ -269,7 +288,12 @@ mod tests {
             Form::Cylinder(0.4),
             Form::Capsule { radius: 0.3, half_length: 0.5 },
             Form::Ellipsoid(Ellipsoid::new([0.9, 0.5, 0.3])),
+            Form::Tube(Arc::new(Tube::new(helix(), 0.1))),
         ]
+    }
+
+    fn helix() -> Centreline {
+        Centreline::Helix { radius: 0.4, pitch: 0.9, turns: -1.3 }
     }
 
     fn pose() -> Isometry3<f64> {
