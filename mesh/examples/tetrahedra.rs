@@ -10,6 +10,10 @@ use rustix::time::{ClockId, clock_gettime};
 /// A domain with its bodies and the sizes asked for.
 type Case = (Domain, Vec<Body>, Sizing<3>);
 
+fn surface(body: &Body) -> BodySurface {
+    BodySurface::new(body).expect("a body has a surface")
+}
+
 fn sphere(name: &str, radius: f64, x: f64, y: f64, z: f64) -> Body {
     Body::new(name, Shape::Sphere { radius }, Isometry3::translation(x, y, z))
 }
@@ -65,7 +69,7 @@ fn cases() -> Vec<(String, Case)> {
 
 /// Largest distance of the curved facets of bodies from their surfaces, over the radius of curvature.
 fn surface_error(mesh: &Mesh<3>, n_sides: usize, bodies: &[Body]) -> f64 {
-    let surfaces: Vec<BodySurface> = bodies.iter().map(BodySurface::new).collect();
+    let surfaces: Vec<BodySurface> = bodies.iter().map(surface).collect();
     let corner =
         |local: usize| Point::<3>::from_fn(|axis, _| f64::from(u8::from(axis + 1 == local)));
     let mut worst = 0.0_f64;

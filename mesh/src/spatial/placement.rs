@@ -28,7 +28,7 @@ pub fn check_placement(domain: &Domain, bodies: &[Body]) -> Result<(), MeshError
     let walls = sides(domain);
     for (i, body) in bodies.iter().enumerate() {
         check_body(domain, body, &bodies[..i])?;
-        for surface in surfaces_of(body) {
+        for surface in surfaces_of(body)? {
             for (side, wall) in walls.iter().enumerate() {
                 let gap = least_gap(&surface, wall);
                 // A body that crosses a plane of symmetry is cut by it
@@ -42,7 +42,7 @@ pub fn check_placement(domain: &Domain, bodies: &[Body]) -> Result<(), MeshError
                 }
             }
             for other in &bodies[..i] {
-                for facing in surfaces_of(other) {
+                for facing in surfaces_of(other)? {
                     check_apart(body, &surface, other, &facing)?;
                 }
             }
@@ -133,6 +133,8 @@ fn lengths(shape: &Shape) -> Vec<Length> {
         Shape::Sphere { radius } => vec![("radius", *radius)],
         Shape::Ellipsoid { semi_axes } => semi_axes.map(|axis| ("semi_axes", axis)).to_vec(),
         Shape::Capsule { radius, length } => vec![("radius", *radius), ("length", *length)],
+        // Checked where its surface is made
+        Shape::Revolved { .. } => Vec::new(),
         Shape::Tube { centreline, radius } => {
             let Centreline::Helix { radius: wide, pitch, turns } = centreline;
             let helix = [("helix.radius", *wide), ("helix.pitch", *pitch)];
@@ -231,7 +233,7 @@ mod tests {
         let turn = nalgebra::UnitQuaternion::from_euler_angles(0.4, 0.7, -0.3);
         let semi_axes = [1.0, 0.4, 0.2];
         let body = Body::new("a", Shape::Ellipsoid { semi_axes }, nalgebra::convert(turn));
-        let surface = surfaces_of(&body).next().unwrap();
+        let surface = surfaces_of(&body).unwrap().remove(0);
         let plane = SmoothSurface::plane(Point::<3>::new(0.0, 0.0, -1.1), 2, 1.0);
         // The support function of an ellipsoid
         let normal = turn.inverse() * Point::<3>::z();

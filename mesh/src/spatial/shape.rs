@@ -26,6 +26,11 @@ pub enum Shape {
         /// Distance between the centres of the half spheres (m).
         length: f64,
     },
+    /// A profile turned about the x axis: a smooth curve through points.
+    Revolved {
+        /// Points (x, distance from the axis) (m), the first and the last on the axis.
+        profile: Vec<[f64; 2]>,
+    },
     /// All points at a distance from a curve; its ends are half spheres.
     Tube {
         /// The curve in its middle.

@@ -19,12 +19,6 @@ impl Ellipsoid {
         Self { semi_axes: Point::from(semi_axes) }
     }
 
-    /// Semi-axes (m).
-    #[must_use]
-    pub fn semi_axes(&self) -> Point<3> {
-        self.semi_axes
-    }
-
     /// The longest semi-axis (m).
     #[must_use]
     pub fn reach(&self) -> f64 {

@@ -1,9 +1,11 @@
 //! `SmoothSurface`: a side of the domain or a part of a body, with exact distance and curvature.
 
 mod ellipsoid;
+mod revolved;
 mod tube;
 
 pub use ellipsoid::Ellipsoid;
+pub use revolved::Revolved;
 pub use tube::Tube;
 
 use std::sync::Arc;
@@ -32,6 +34,8 @@ pub enum Form {
     Ellipsoid(Ellipsoid),
     /// A tube along a curve.
     Tube(Arc<Tube>),
+    /// A surface of revolution about the x axis.
+    Revolved(Arc<Revolved>),
 }
 
 /// The point of a smooth surface nearest to another point.
@@ -124,6 +128,7 @@ impl SmoothSurface {
             Form::Capsule { radius, half_length } => radius + half_length,
             Form::Ellipsoid(ellipsoid) => ellipsoid.reach(),
             Form::Tube(tube) => tube.reach(),
+            Form::Revolved(revolved) => revolved.reach(),
         }
     }
 
@@ -151,7 +156,7 @@ impl SmoothSurface {
                 let local = self.rotation.tr_mul(&off);
                 self.rotation * (local - tube.on_centreline(local))
             }
-            Form::Plane | Form::Sphere(_) | Form::Ellipsoid(_) => off,
+            Form::Plane | Form::Sphere(_) | Form::Ellipsoid(_) | Form::Revolved(_) => off,
         }
     }
 
@@ -164,7 +169,7 @@ impl SmoothSurface {
                 self.off_skeleton(point).norm() - radius
             }
             Form::Tube(tube) => self.off_skeleton(point).norm() - tube.radius(),
-            Form::Ellipsoid(_) => return self.foot(point).gap,
+            Form::Ellipsoid(_) | Form::Revolved(_) => return self.foot(point).gap,
         };
         if self.is_hollow { -gap } else { gap }
     }
@@ -182,20 +187,26 @@ impl SmoothSurface {
                 self.foot_around(point, *radius)
             }
             Form::Tube(tube) => self.foot_around(point, tube.radius()),
-            Form::Ellipsoid(ellipsoid) => {
-                let local = ellipsoid.foot(self.rotation.tr_mul(&(point - self.origin)));
-                Foot {
-                    point: self.origin + self.rotation * local.point,
-                    normal: self.rotation * local.normal,
-                    gap: local.gap,
-                }
-            }
+            Form::Ellipsoid(ellipsoid) => self.to_world(&ellipsoid.foot(self.to_local(point))),
+            Form::Revolved(revolved) => self.to_world(&revolved.foot(self.to_local(point))),
         };
         if self.is_hollow {
             foot.normal = -foot.normal;
             foot.gap = -foot.gap;
         }
         foot
+    }
+
+    fn to_local(&self, point: Point<3>) -> Point<3> {
+        self.rotation.tr_mul(&(point - self.origin))
+    }
+
+    fn to_world(&self, local: &Foot) -> Foot {
+        Foot {
+            point: self.origin + self.rotation * local.point,
+            normal: self.rotation * local.normal,
+            gap: local.gap,
+        }
     }
 
     /// The nearest point at a distance (m) from what the surface runs around.
@@ -215,9 +226,8 @@ impl SmoothSurface {
             Form::Plane => f64::INFINITY,
             Form::Sphere(radius) | Form::Cylinder(radius) | Form::Capsule { radius, .. } => *radius,
             Form::Tube(tube) => tube.radius(),
-            Form::Ellipsoid(ellipsoid) => {
-                ellipsoid.radius_of_curvature(self.rotation.tr_mul(&(on - self.origin)))
-            }
+            Form::Ellipsoid(ellipsoid) => ellipsoid.radius_of_curvature(self.to_local(on)),
+            Form::Revolved(revolved) => revolved.radius_of_curvature(self.to_local(on)),
         }
     }
 
@@ -231,7 +241,7 @@ impl SmoothSurface {
     #[must_use]
     pub fn uniform_size(&self) -> Option<f64> {
         match &self.form {
-            Form::Ellipsoid(_) => None,
+            Form::Ellipsoid(_) | Form::Revolved(_) => None,
             _ => Some(self.size_at(self.origin)),
         }
     }
@@ -239,17 +249,15 @@ impl SmoothSurface {
     /// Finds the places where it bends so much that the edge length grows faster from them than by
     /// this per unit length.
     pub fn find_bends(&mut self, growth: f64) {
-        let Form::Ellipsoid(ellipsoid) = &self.form else {
+        if self.uniform_size().is_some() {
             return;
-        };
-        let axes = (0..6).map(|i| {
-            let mut axis = Point::<3>::zeros();
-            axis[i / 2] = if i % 2 == 0 { 1.0 } else { -1.0 };
-            axis
+        }
+        let axes = (0..3).flat_map(|axis| {
+            let axis: Point<3> = self.rotation.column(axis).into();
+            [axis, -axis]
         });
-        let on = axes.chain(directions(SAMPLES)).map(|direction| {
-            self.origin + self.rotation * direction.component_mul(&ellipsoid.semi_axes())
-        });
+        let far = 2.0 * self.reach();
+        let on = axes.chain(directions(SAMPLES)).map(|to| self.foot(self.origin + to * far).point);
         let mut all: Vec<Bend> = on.map(|at| Bend { at, size: self.size_at(at) }).collect();
         all.retain(|bend| bend.size < self.size);
         all.sort_by(|a, b| a.size.total_cmp(&b.size));
@@ -289,11 +297,20 @@ mod tests {
             Form::Capsule { radius: 0.3, half_length: 0.5 },
             Form::Ellipsoid(Ellipsoid::new([0.9, 0.5, 0.3])),
             Form::Tube(Arc::new(Tube::new(helix(), 0.1))),
+            Form::Revolved(Arc::new(Revolved::new("bean", &bean()).unwrap())),
         ]
     }
 
     fn helix() -> Centreline {
         Centreline::Helix { radius: 0.4, pitch: 0.9, turns: -1.3 }
+    }
+
+    fn bean() -> Vec<[f64; 2]> {
+        let on = |t: f64| [-0.8 * t.cos(), t.sin() * (0.3 + 0.1 * t.cos())];
+        let mut points: Vec<_> =
+            (0..=12).map(|i| on(f64::from(i) / 12.0 * std::f64::consts::PI)).collect();
+        points[12][1] = 0.0;
+        points
     }
 
     fn pose() -> Isometry3<f64> {
