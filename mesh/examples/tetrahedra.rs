@@ -2,16 +2,31 @@
 //!
 //! `cargo run --release -p alewife-mesh --example tetrahedra [name [scale of all sizes]]`
 
-use alewife_mesh::spatial::{Body, BodySurface, Domain, Shape, generate};
+use alewife_mesh::spatial::{Body, BodySurface, Centreline, Domain, Part, Shape, generate};
 use alewife_mesh::{Mesh, Point, Quality, Sizing, Surface, check_mesh, map_quadratic};
-use nalgebra::Isometry3;
+use nalgebra::{Isometry3, UnitQuaternion};
 use rustix::time::{ClockId, clock_gettime};
 
 /// A domain with its bodies and the sizes asked for.
 type Case = (Domain, Vec<Body>, Sizing<3>);
 
+fn surface(body: &Body) -> BodySurface {
+    BodySurface::new(body).expect("a body has a surface")
+}
+
 fn sphere(name: &str, radius: f64, x: f64, y: f64, z: f64) -> Body {
     Body::new(name, Shape::Sphere { radius }, Isometry3::translation(x, y, z))
+}
+
+/// An ellipsoidal head with a helical tail.
+fn swimmer(turns: f64) -> Body {
+    let head = Shape::Ellipsoid { semi_axes: [0.6, 0.35, 0.3] };
+    let helix = Centreline::Helix { radius: 0.3, pitch: 1.0, turns };
+    let tail = Shape::Tube { centreline: helix, radius: 0.05 };
+    let turn = UnitQuaternion::from_euler_angles(0.3, 0.2, 0.1);
+    let mut body = Body::new("swimmer", tail, Isometry3::from_parts([-1.2, 0.0, 0.0].into(), turn));
+    body.parts.insert(0, Part { shape: head, pose: Isometry3::translation(-0.55, 0.3, 0.0) });
+    body
 }
 
 fn cube(half: f64) -> Domain {
@@ -39,6 +54,9 @@ fn cases() -> Vec<(String, Case)> {
             ),
         ),
     ];
+    for (name, turns) in [("swimmer_1.5", 1.5), ("swimmer_3", 3.0)] {
+        cases.push((name.into(), (cube(4.0), vec![swimmer(turns)], sizing(0.1, 0.8))));
+    }
     for gap in [0.05, 0.02, 0.01, 0.005] {
         let at = 1.0 + 0.5 * gap;
         let two = vec![sphere("a", 1.0, -at, 0.0, 0.0), sphere("b", 1.0, at, 0.0, 0.0)];
@@ -51,7 +69,7 @@ fn cases() -> Vec<(String, Case)> {
 
 /// Largest distance of the curved facets of bodies from their surfaces, over the radius of curvature.
 fn surface_error(mesh: &Mesh<3>, n_sides: usize, bodies: &[Body]) -> f64 {
-    let surfaces: Vec<BodySurface> = bodies.iter().map(BodySurface::new).collect();
+    let surfaces: Vec<BodySurface> = bodies.iter().map(surface).collect();
     let corner =
         |local: usize| Point::<3>::from_fn(|axis, _| f64::from(u8::from(axis + 1 == local)));
     let mut worst = 0.0_f64;

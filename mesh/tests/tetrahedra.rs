@@ -2,7 +2,9 @@
 
 use std::f64::consts::PI;
 
-use alewife_mesh::spatial::{Body, BodySurface, Domain, Shape, check_placement, generate};
+use alewife_mesh::spatial::{
+    Body, BodySurface, Centreline, Domain, Part, Shape, check_placement, generate,
+};
 use alewife_mesh::{
     Mesh, Point, Quality, Simplex, Sizing, Surface, check_mesh, jacobian_coefficients,
     map_quadratic,
@@ -12,11 +14,22 @@ use nalgebra::{Isometry3, Translation3, UnitQuaternion};
 /// Smallest dihedral angle promised (degrees) around bodies of one part.
 const SMALLEST_ANGLE: f64 = 25.0;
 
+/// The same around unions with creases.
+const ANGLE_AT_CREASES: f64 = 12.0;
+
 /// Least Bezier coefficient of det J over the mean.
 const LEAST_COEFFICIENT: f64 = 0.1;
 
-/// Distance of curved facets from their surface over its radius of curvature.
-const SURFACE_ERROR: f64 = 2e-3;
+/// Distance of curved facets from their surface over its radius of curvature, between their nodes,
+/// which are on it.
+const SURFACE_ERROR: f64 = 3e-3;
+
+/// The same where the curvature jumps, as between a half sphere and a cylinder.
+const ERROR_AT_JUMP: f64 = 8e-3;
+
+fn surface(body: &Body) -> BodySurface {
+    BodySurface::new(body).expect("a body has a surface")
+}
 
 fn at(x: f64, y: f64, z: f64) -> Isometry3<f64> {
     Isometry3::translation(x, y, z)
@@ -67,7 +80,7 @@ fn assert_free_velocities(mesh: &Mesh<3>) {
 /// Nodes of boundary facets are on the exact surface, and the facets between them nearly.
 fn assert_surfaces(mesh: &Mesh<3>, domain: &Domain, bodies: &[Body]) {
     let n_sides = domain.sides().len();
-    let surfaces: Vec<BodySurface> = bodies.iter().map(BodySurface::new).collect();
+    let surfaces: Vec<BodySurface> = bodies.iter().map(surface).collect();
     let scale = domain.corners().map(|corner| corner.amax()).into_iter().fold(0.0, f64::max);
     for facet in &mesh.facets {
         let boundary = facet.boundary.index();
@@ -83,12 +96,19 @@ fn assert_surfaces(mesh: &Mesh<3>, domain: &Domain, bodies: &[Body]) {
             let gap = surface.nearest_point(mesh.nodes[node]).gap;
             assert!(gap.abs() < 1e-9 * scale, "{gap}");
         }
+        let has_jump = |body: &Body| {
+            let jumps =
+                |part: &Part| matches!(part.shape, Shape::Capsule { .. } | Shape::Tube { .. });
+            body.parts.iter().any(jumps)
+        };
+        let error =
+            if has_jump(&bodies[boundary - n_sides]) { ERROR_AT_JUMP } else { SURFACE_ERROR };
         let nodes = mesh.cell_nodes(facet.cell);
         for point in facet_points(usize::from(facet.side)) {
             let point = map_quadratic(&nodes, point).position;
             let radius = surface.radius_of_curvature(point);
             let gap = surface.nearest_point(point).gap;
-            assert!(gap.abs() < SURFACE_ERROR * radius, "{gap} {radius}");
+            assert!(gap.abs() < error * radius, "{gap} {radius}");
         }
     }
 }
@@ -177,7 +197,7 @@ fn the_same_input_gives_the_same_bits() {
 
 #[test]
 fn straight_cells_and_sizes_of_sides_are_as_asked() {
-    let domain = cube(2.0);
+    let domain = cube(1.4);
     let bodies = [sphere("s", 1.0, at(0.0, 0.0, 0.0))];
     let asked = Sizing { curved: false, sides: vec![("top".to_string(), 0.2)], ..sizing(0.3, 0.8) };
     let mesh = generate(&domain, &bodies, &asked).unwrap();
@@ -215,15 +235,15 @@ impl Random {
     }
 
     fn shape(&mut self) -> Shape {
-        let radius = self.between(0.5, 1.0);
+        let radius = self.between(0.35, 0.7);
         match (3.0 * self.number()).floor() {
             0.0 => Shape::Sphere { radius },
             1.0 => {
-                let mut part = || radius * self.between(0.45, 0.95);
+                let mut part = || radius * self.between(0.5, 0.95);
                 Shape::Ellipsoid { semi_axes: [radius, part(), part()] }
             }
             _ => {
-                let narrow = radius * self.between(0.35, 0.65);
+                let narrow = radius * self.between(0.4, 0.7);
                 Shape::Capsule { radius: narrow, length: 2.0 * (radius - narrow) }
             }
         }
@@ -233,14 +253,14 @@ impl Random {
 /// Two or three bodies in a box, the second often close to the first, or to a side.
 fn random_placement(seed: u64) -> (Domain, Vec<Body>) {
     let mut random = Random(seed);
-    let domain = cube(2.7);
-    let n = if random.number() < 0.5 { 2 } else { 3 };
+    let domain = cube(1.4);
+    let n = if random.number() < 0.8 { 2 } else { 3 };
     let mut bodies: Vec<Body> = Vec::new();
     while bodies.len() < n {
-        let pose = Isometry3::from_parts(Translation3::from(random.point(2.0)), random.rotation());
+        let pose = Isometry3::from_parts(Translation3::from(random.point(1.0)), random.rotation());
         let mut all = bodies.clone();
         all.push(Body::new(&format!("body{}", bodies.len()), random.shape(), pose));
-        let is_close = random.number() < 0.7;
+        let is_close = random.number() < 0.6;
         let way = if bodies.is_empty() {
             Point::<3>::z()
         } else {
@@ -276,21 +296,50 @@ fn approach(domain: &Domain, bodies: &mut [Body], way: Point<3>, gap: f64) {
 /// Whether the gaps of the last body are not below 0.01.
 fn is_apart(domain: &Domain, bodies: &[Body]) -> bool {
     let last = bodies.len() - 1;
-    let own = BodySurface::new(&bodies[last]);
+    let own = surface(&bodies[last]);
+    let others: Vec<BodySurface> = bodies[..last].iter().map(surface).collect();
     let mut random = Random(7);
-    (0..2000).all(|_| {
+    (0..500).all(|_| {
         let direction = random.point(1.0).normalize();
         let on = own.nearest_point(own.center() + direction * own.reach()).point;
         let sides = (0..6).all(|side| domain.side_gap(side, on) > 0.015);
-        sides && bodies[..last].iter().all(|b| BodySurface::new(b).nearest_point(on).gap > 0.015)
+        sides && others.iter().all(|other| other.nearest_point(on).gap > 0.015)
     })
+}
+
+/// An ellipsoidal head with a thin helical tail, turned and moved at random.
+fn random_swimmer(seed: u64) -> Body {
+    let mut random = Random(seed);
+    let head = Shape::Ellipsoid { semi_axes: [0.4, 0.25, 0.2] };
+    let centreline = Centreline::Helix { radius: 0.2, pitch: 0.8, turns: 0.8 };
+    let tail = Shape::Tube { centreline, radius: 0.06 };
+    let middle = Translation3::new(-0.1, 0.0, 0.0);
+    let place = Translation3::from(random.point(0.2));
+    let pose = Isometry3::from_parts(place, random.rotation()) * middle;
+    let mut body = Body::new("swimmer", head, pose);
+    body.parts[0].pose = at(-0.35, 0.15, 0.05);
+    body.parts.push(Part { shape: tail, pose: Isometry3::identity() });
+    body
+}
+
+fn check_random_swimmer(seed: u64) {
+    let (domain, bodies) = (cube(1.5), [random_swimmer(seed)]);
+    let mesh = generate(&domain, &bodies, &sizing(0.12, 0.8));
+    let mesh = mesh.unwrap_or_else(|error| panic!("seed {seed}: {error}"));
+    println!("seed {seed}: {} cells, {:.1}", mesh.n_cells(), Quality::of(&mesh).min_angle);
+    assert_mesh(&mesh, &domain, &bodies, ANGLE_AT_CREASES);
+}
+
+#[test]
+fn random_swimmers_give_good_meshes() {
+    (0..40).for_each(check_random_swimmer);
 }
 
 fn check_random_placement(seed: u64) {
     let (domain, bodies) = random_placement(seed);
-    let mesh = generate(&domain, &bodies, &sizing(0.3, 1.2));
+    let mesh = generate(&domain, &bodies, &Sizing { growth: 0.4, ..sizing(0.4, 0.8) });
     let mesh = mesh.unwrap_or_else(|error| panic!("seed {seed}: {error}\n{bodies:?}"));
-    println!("seed {seed}: {} cells, {:.1}", mesh.n_cells(), Quality::of(&mesh).min_angle);
+    println!("seed {seed}: {} cells", mesh.n_cells());
     assert_mesh(&mesh, &domain, &bodies, SMALLEST_ANGLE);
 }
 
@@ -303,8 +352,10 @@ fn random_placements_give_good_meshes() {
 #[test]
 #[ignore = "takes half an hour; run after changes of the mesher"]
 fn many_random_placements_give_good_meshes() {
-    let failed: Vec<u64> = (1000..3000)
-        .filter(|seed| std::panic::catch_unwind(|| check_random_placement(*seed)).is_err())
-        .collect();
-    assert!(failed.is_empty(), "{} failed: {failed:?}", failed.len());
+    let failed = |seeds: std::ops::Range<u64>, check: fn(u64)| -> Vec<u64> {
+        seeds.filter(|seed| std::panic::catch_unwind(|| check(*seed)).is_err()).collect()
+    };
+    let placements = failed(1000..3000, check_random_placement);
+    let swimmers = failed(1000..1200, check_random_swimmer);
+    assert!(placements.is_empty() && swimmers.is_empty(), "{placements:?} {swimmers:?}");
 }

@@ -5,7 +5,7 @@ use nalgebra::Isometry3;
 use super::geometry::surfaces_of;
 use super::shape::Body;
 use super::surface::{Foot, SmoothSurface};
-use crate::{Point, Surface, SurfacePoint};
+use crate::{MeshError, Point, Surface, SurfacePoint};
 
 /// The surface of a body.
 #[derive(Debug, Clone)]
@@ -32,12 +32,18 @@ struct Nearest {
 
 impl BodySurface {
     /// The surface of a body whose lengths are positive.
-    #[must_use]
-    pub fn new(body: &Body) -> Self {
-        let parts: Vec<SmoothSurface> = surfaces_of(body).collect();
+    ///
+    /// # Errors
+    /// [`MeshError::Body`] where it has no parts, or a profile is not one.
+    pub fn new(body: &Body) -> Result<Self, MeshError> {
+        let parts = surfaces_of(body)?;
+        if parts.is_empty() {
+            let (what, wanted) = ("number of parts", "at least 1");
+            return Err(MeshError::Body { body: body.name.clone(), what, value: 0.0, wanted });
+        }
         let center = body.pose.translation.vector;
         let reach = parts.iter().map(|part| (part.origin() - center).norm() + part.reach());
-        Self { reach: reach.fold(0.0, f64::max), parts, pose: body.pose }
+        Ok(Self { reach: reach.fold(0.0, f64::max), parts, pose: body.pose })
     }
 
     /// Smallest radius of curvature of the surface at its point nearest to another one (m).
@@ -102,7 +108,7 @@ mod tests {
         let mut body = Body::new("a", Shape::Ellipsoid { semi_axes: [0.8, 0.5, 0.3] }, pose);
         let tail = Shape::Capsule { radius: 0.1, length: 1.0 };
         body.parts.push(Part { shape: tail, pose: Isometry3::translation(1.0, 0.0, 0.0) });
-        let surface = BodySurface::new(&body);
+        let surface = BodySurface::new(&body).unwrap();
         for from in [[3.0, 1.0, 0.5], [-2.0, 0.4, 1.0], [0.3, 2.0, -1.0]].map(Point::<3>::from) {
             let near = surface.nearest_point(from);
             let on = surface.point(surface.parameter_of(from));

@@ -69,7 +69,11 @@ impl Domain {
         match self {
             Self::Box { min, max, .. } => {
                 let axis = side / 2;
-                if side % 2 == 0 { point[axis] - min[axis] } else { max[axis] - point[axis] }
+                if side.is_multiple_of(2) {
+                    point[axis] - min[axis]
+                } else {
+                    max[axis] - point[axis]
+                }
             }
             Self::Cylinder { x, radius } => {
                 [point.x - x[0], x[1] - point.x, radius - point.y.hypot(point.z)][side]

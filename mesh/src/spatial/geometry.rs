@@ -1,11 +1,13 @@
 //! `Geometry`: all surfaces that bound the fluid, those of the domain first, and their boundaries.
 
+use std::sync::Arc;
+
 use nalgebra::{Isometry3, Matrix3, Translation3};
 
 use super::domain::Domain;
-use super::shape::{Body, Shape};
-use super::surface::{Ellipsoid, Form, SmoothSurface};
-use crate::{Boundary, BoundaryId, BoundaryKind, Point, Sizing};
+use super::shape::{Body, Part, Shape};
+use super::surface::{Ellipsoid, Form, Revolved, SmoothSurface, Tube};
+use crate::{Boundary, BoundaryId, BoundaryKind, MeshError, Point, Sizing};
 
 /// Steps of Newton's method onto several surfaces at once.
 const MOST_STEPS: usize = 20;
@@ -38,7 +40,10 @@ pub struct Geometry {
 
 impl Geometry {
     /// The surfaces of a domain with bodies, whose placement has been checked.
-    pub fn new(domain: &Domain, bodies: &[Body], sizing: &Sizing<3>) -> Self {
+    ///
+    /// # Errors
+    /// Those of [`surfaces_of`].
+    pub fn new(domain: &Domain, bodies: &[Body], sizing: &Sizing<3>) -> Result<Self, MeshError> {
         let mut surfaces = sides(domain);
         let mut boundaries = Vec::new();
         for (side, (name, surface)) in domain.sides().iter().zip(&mut surfaces).enumerate() {
@@ -57,15 +62,21 @@ impl Geometry {
             let boundary = BoundaryId::new(boundaries.len());
             let size = body.size.unwrap_or(sizing.surface).min(sizing.size);
             boundaries.push(Boundary { name: body.name.clone(), kind: BoundaryKind::Body(index) });
-            surfaces.extend(surfaces_of(body).map(|mut surface| {
+            surfaces.extend(surfaces_of(body)?.into_iter().map(|mut surface| {
                 surface.boundary = boundary;
                 surface.size = size;
                 surface.turn = sizing.turn;
+                surface.find_bends(sizing.growth);
                 surface
             }));
             groups.push(around(&surfaces, first));
         }
-        Self { surfaces, groups, boundaries, corners: domain.corners() }
+        Ok(Self { surfaces, groups, boundaries, corners: domain.corners() })
+    }
+
+    /// Whether a body has several parts, whose surfaces may meet.
+    pub fn has_creases(&self) -> bool {
+        self.groups[1..].iter().any(|body| body.last > body.first + 1)
     }
 
     /// Distance to the nearest surface (m), negative outside the fluid; where it is certain to
@@ -144,17 +155,27 @@ pub fn sides(domain: &Domain) -> Vec<SmoothSurface> {
 }
 
 /// The surfaces of the parts of a body.
-pub fn surfaces_of(body: &Body) -> impl Iterator<Item = SmoothSurface> + '_ {
-    body.parts.iter().map(|part| {
+///
+/// # Errors
+/// [`MeshError::Body`] where a profile is not one.
+pub fn surfaces_of(body: &Body) -> Result<Vec<SmoothSurface>, MeshError> {
+    let surface = |part: &Part| {
         let form = match &part.shape {
             Shape::Sphere { radius } => Form::Sphere(*radius),
             Shape::Ellipsoid { semi_axes } => Form::Ellipsoid(Ellipsoid::new(*semi_axes)),
             Shape::Capsule { radius, length } => {
                 Form::Capsule { radius: *radius, half_length: 0.5 * length }
             }
+            Shape::Revolved { profile } => {
+                Form::Revolved(Arc::new(Revolved::new(&body.name, profile)?))
+            }
+            Shape::Tube { centreline, radius } => {
+                Form::Tube(Arc::new(Tube::new(centreline.clone(), *radius)))
+            }
         };
-        SmoothSurface::new(form, &(body.pose * part.pose), false)
-    })
+        Ok(SmoothSurface::new(form, &(body.pose * part.pose), false))
+    };
+    body.parts.iter().map(surface).collect()
 }
 
 /// The group of the surfaces from one on, with a ball around their balls.

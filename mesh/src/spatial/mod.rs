@@ -5,6 +5,7 @@
 //! of the curved cell.
 
 mod body_surface;
+mod centreline;
 mod domain;
 mod generate;
 mod geometry;
@@ -14,6 +15,7 @@ mod size_field;
 mod surface;
 
 pub use body_surface::{BodySurface, MaterialPoint};
+pub use centreline::Centreline;
 pub use domain::Domain;
 pub use generate::generate;
 pub use placement::check_placement;

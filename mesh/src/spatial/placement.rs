@@ -1,15 +1,22 @@
 //! Checks that bodies in space lie inside the domain and apart from each other.
 
+use super::centreline::Centreline;
 use super::domain::Domain;
 use super::geometry::{sides, surfaces_of};
 use super::shape::{Body, Shape};
-use super::surface::SmoothSurface;
+use super::surface::{SmoothSurface, directions};
 use crate::{MeshError, Point, SMALLEST_GAP};
 
 /// Places on a surface at which the search for the smallest gap starts.
 const STARTS: usize = 48;
 
-/// Steps of the search from one of them.
+/// Steps of the search from each of them.
+const FIRST_STEPS: usize = 3;
+
+/// Places from which the search goes on, those with the smallest gaps.
+const KEPT: usize = 4;
+
+/// Most steps from one of them.
 const MOST_STEPS: usize = 200;
 
 /// Whether bodies can be meshed in a domain: sizes, names, inside, apart.
@@ -21,7 +28,7 @@ pub fn check_placement(domain: &Domain, bodies: &[Body]) -> Result<(), MeshError
     let walls = sides(domain);
     for (i, body) in bodies.iter().enumerate() {
         check_body(domain, body, &bodies[..i])?;
-        for surface in surfaces_of(body) {
+        for surface in surfaces_of(body)? {
             for (side, wall) in walls.iter().enumerate() {
                 let gap = least_gap(&surface, wall);
                 // A body that crosses a plane of symmetry is cut by it
@@ -35,7 +42,7 @@ pub fn check_placement(domain: &Domain, bodies: &[Body]) -> Result<(), MeshError
                 }
             }
             for other in &bodies[..i] {
-                for facing in surfaces_of(other) {
+                for facing in surfaces_of(other)? {
                     check_apart(body, &surface, other, &facing)?;
                 }
             }
@@ -100,23 +107,45 @@ fn check_body(domain: &Domain, body: &Body, others: &[Body]) -> Result<(), MeshE
         return refuse("size", size, "positive");
     }
     for part in &body.parts {
-        let lengths = match part.shape {
-            Shape::Sphere { radius } => vec![("radius", radius)],
-            Shape::Ellipsoid { semi_axes: [a, b, c] } => {
-                vec![("semi_axes", a), ("semi_axes", b), ("semi_axes", c)]
-            }
-            Shape::Capsule { radius, length } => vec![("radius", radius), ("length", length)],
-        };
-        for (what, value) in lengths {
+        for Length { what, value } in lengths(&part.shape) {
             if !value.is_finite() || value <= 0.0 {
                 return refuse(what, value, "positive and finite");
             }
+        }
+        if let Shape::Tube { centreline, radius } = &part.shape
+            && *radius >= centreline.widest_tube()
+        {
+            return refuse("radius", *radius, "so small that the tube does not meet itself");
         }
     }
     Ok(())
 }
 
-/// The least gap found between two surfaces, and where.
+/// A length of a shape and its name.
+struct Length {
+    what: &'static str,
+    value: f64,
+}
+
+/// The lengths of a shape that must be positive.
+fn lengths(shape: &Shape) -> Vec<Length> {
+    let all = match shape {
+        Shape::Sphere { radius } => vec![("radius", *radius)],
+        Shape::Ellipsoid { semi_axes } => semi_axes.map(|axis| ("semi_axes", axis)).to_vec(),
+        Shape::Capsule { radius, length } => vec![("radius", *radius), ("length", *length)],
+        // Checked where its surface is made
+        Shape::Revolved { .. } => Vec::new(),
+        Shape::Tube { centreline, radius } => {
+            let Centreline::Helix { radius: wide, pitch, turns } = centreline;
+            let helix = [("helix.radius", *wide), ("helix.pitch", *pitch)];
+            [vec![("radius", *radius), ("|helix.turns|", turns.abs())], helix.to_vec()].concat()
+        }
+    };
+    all.into_iter().map(|(what, value)| Length { what, value }).collect()
+}
+
+/// The least gap found between two surfaces (m), and where.
+#[derive(Debug, Clone, Copy)]
 struct Least {
     value: f64,
     at: Point<3>,
@@ -134,32 +163,35 @@ impl Least {
 /// From places all around the surface: to the nearest point of the other one and back, again and
 /// again. The distance never grows, so each ends where it is least.
 fn least_gap(surface: &SmoothSurface, other: &SmoothSurface) -> Least {
-    let mut least = Least { value: f64::INFINITY, at: surface.origin() };
-    let golden = std::f64::consts::PI * (3.0 - 5.0_f64.sqrt());
-    for i in 0..STARTS {
-        let height = 1.0 - (2 * i + 1) as f64 / STARTS as f64;
-        let (sin, cos) = (golden * i as f64).sin_cos();
-        let ring = (1.0 - height * height).sqrt();
-        let direction = Point::<3>::new(ring * cos, ring * sin, height);
-        let mut at = surface.foot(surface.origin() + direction * (2.0 * surface.reach())).point;
-        let mut gap = other.gap(at);
-        for _ in 0..MOST_STEPS {
-            if gap <= 0.0 {
-                break;
-            }
-            let next = surface.foot(other.foot(at).point).point;
-            let shorter = other.gap(next);
-            let is_done = shorter >= gap * (1.0 - 1e-12);
-            (at, gap) = (next, shorter);
-            if is_done {
-                break;
-            }
+    let mut starts: Vec<Least> = directions(STARTS)
+        .map(|direction| {
+            let at = surface.foot(surface.origin() + direction * (2.0 * surface.reach())).point;
+            approach(surface, other, Least { value: other.gap(at), at }, FIRST_STEPS)
+        })
+        .collect();
+    starts.sort_by(|a, b| a.value.total_cmp(&b.value));
+    starts.truncate(KEPT);
+    let ends = starts.into_iter().map(|start| approach(surface, other, start, MOST_STEPS));
+    ends.min_by(|a, b| a.value.total_cmp(&b.value))
+        .unwrap_or(Least { value: f64::NAN, at: surface.origin() })
+}
+
+/// Some steps from a point of a surface towards another surface.
+fn approach(surface: &SmoothSurface, other: &SmoothSurface, start: Least, steps: usize) -> Least {
+    let Least { mut value, mut at } = start;
+    for _ in 0..steps {
+        if value <= 0.0 {
+            break;
         }
-        if gap < least.value || gap.is_nan() {
-            least = Least { value: gap, at };
+        let next = surface.foot(other.foot(at).point).point;
+        let shorter = other.gap(next);
+        let is_done = shorter >= value * (1.0 - 1e-10);
+        (at, value) = (next, shorter);
+        if is_done {
+            break;
         }
     }
-    least
+    Least { value, at }
 }
 
 #[cfg(test)]
@@ -201,7 +233,7 @@ mod tests {
         let turn = nalgebra::UnitQuaternion::from_euler_angles(0.4, 0.7, -0.3);
         let semi_axes = [1.0, 0.4, 0.2];
         let body = Body::new("a", Shape::Ellipsoid { semi_axes }, nalgebra::convert(turn));
-        let surface = surfaces_of(&body).next().unwrap();
+        let surface = surfaces_of(&body).unwrap().remove(0);
         let plane = SmoothSurface::plane(Point::<3>::new(0.0, 0.0, -1.1), 2, 1.0);
         // The support function of an ellipsoid
         let normal = turn.inverse() * Point::<3>::z();

@@ -2,6 +2,8 @@
 
 use nalgebra::Isometry3;
 
+use super::centreline::Centreline;
+
 /// A solid in its own frame.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Shape {
@@ -16,11 +18,25 @@ pub enum Shape {
         semi_axes: [f64; 3],
     },
     /// Cylinder about the x axis with half spheres at its ends, its middle at the origin.
+    ///
+    /// Its curvature jumps where they meet, so curved facets follow it to second order only there.
     Capsule {
         /// Radius (m).
         radius: f64,
         /// Distance between the centres of the half spheres (m).
         length: f64,
+    },
+    /// A profile turned about the x axis: a smooth curve through points.
+    Revolved {
+        /// Points (x, distance from the axis) (m), the first and the last on the axis.
+        profile: Vec<[f64; 2]>,
+    },
+    /// All points at a distance from a curve; its ends are half spheres.
+    Tube {
+        /// The curve in its middle.
+        centreline: Centreline,
+        /// Radius (m).
+        radius: f64,
     },
 }
 

@@ -36,7 +36,7 @@ impl SizeField {
     pub fn new(domain: &Domain, bodies: &[Body], sizing: &Sizing<3>) -> Result<Self, MeshError> {
         sizing.check(domain.sides())?;
         check_placement(domain, bodies)?;
-        Ok(Self::of(Geometry::new(domain, bodies, sizing), sizing))
+        Ok(Self::of(Geometry::new(domain, bodies, sizing)?, sizing))
     }
 
     /// The sizes around surfaces.
@@ -98,6 +98,9 @@ impl SizeField {
             };
             wish.distance = wish.distance.min(gap.abs());
             wish.size = wish.size.min(own + self.growth * gap.abs());
+            for bend in &surface.bends {
+                wish.size = wish.size.min(bend.size + self.growth * (bend.at - point).norm());
+            }
         }
         wish
     }

@@ -57,7 +57,8 @@ impl Improver<'_> {
         if !trial.keeps_quality() || !trial.keeps_lengths(longest) || !trial.keeps_topology() {
             return false;
         }
-        if !edge.is_empty() && !(trial.keeps_surface() && trial.keeps_neighbours()) {
+        let is_inside = edge.is_empty();
+        if !is_inside && (!trial.keeps_surface() || !trial.keeps_neighbours()) {
             return false;
         }
         if edge.len() == 1 && trial.n_faces_at_edge() != 2 {

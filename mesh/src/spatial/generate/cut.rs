@@ -53,10 +53,11 @@ impl Improver<'_> {
         let [min, max] = self.geometry.corners;
         let tolerance = ON_SURFACE * (max - min).amax();
         let gaps = self.gaps_to(surface);
-        let mut cut = Cut { improver: self, surface, index, gaps, tolerance };
+        let mut cut = Cut { improver: &mut *self, surface, index, gaps, tolerance };
         cut.move_vertices();
         cut.split_edges();
-        if cut.drop_cells() == 0 {
+        // Only a part of a body can be hidden, in another part
+        if cut.drop_cells() == 0 && !self.geometry.has_creases() {
             let at = surface.origin().into();
             let reason = "a surface cuts no cells off, the number of those cut";
             return Err(MeshError::PoorTetrahedra { reason, value: 0.0, at });

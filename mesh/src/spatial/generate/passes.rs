@@ -10,9 +10,6 @@ const COLLAPSE_LOSS: f64 = 0.6;
 /// Edges shorter than this many wanted lengths are not split for the curvature of the surface.
 const SHORT: f64 = 0.5;
 
-/// Least measure of volume and edge lengths of the halves of a cell.
-const LEAST_HALF: f64 = 0.02;
-
 /// An edge with its length over that wanted.
 #[derive(Debug, Clone, Copy)]
 struct RatedEdge {
@@ -63,19 +60,7 @@ impl Improver<'_> {
             }
         }
         long.sort_by(|a, b| b.length.total_cmp(&a.length).then(a.ends.cmp(&b.ends)));
-        let mut n_split = 0;
-        let mut shell = Vec::new();
-        for RatedEdge { ends, .. } in long {
-            self.mesh.shell(ends[0], ends[1], &mut shell);
-            if shell.is_empty() {
-                continue;
-            }
-            let split = self.split_in_middle(ends, LEAST_HALF);
-            if self.is_split_in_fluid(&split) && self.split(&split, &shell).is_some() {
-                n_split += 1;
-            }
-        }
-        n_split
+        long.into_iter().filter(|edge| self.split_in_two(edge.ends)).count()
     }
 
     /// Whether an edge on a surface is too long for its curvature.

@@ -14,6 +14,9 @@ const WORST_PASSES: usize = 8;
 /// The same once no cell has two boundary faces.
 const LAST_PASSES: usize = 4;
 
+/// Most rounds of splits of faces off their surface with such passes.
+const LAST_ROUNDS: usize = 3;
+
 /// Passes over the worst cells without splits.
 const PASSES_WITHOUT_SPLITS: usize = 2;
 
@@ -34,14 +37,22 @@ impl Improver<'_> {
         }
         self.set_measure(Measure::curved(Straight::VolumeLength));
         for _ in 0..2 {
+            self.split_pass(LONGEST);
             self.swap_pass(0.8, 1.7);
             self.smooth_pass(false, 1.0);
         }
         self.set_measure(Measure::curved(Straight::Sine));
         self.cure_worst_cells(0..WORST_PASSES);
         self.split_cells_with_two_faces();
+        self.split_pass(LONGEST);
         self.set_measure(Measure { avoids_two_faces: true, ..Measure::curved(Straight::Sine) });
-        self.cure_worst_cells(0..LAST_PASSES);
+        for _ in 0..LAST_ROUNDS {
+            let n_split = self.split_faces_off_surface();
+            self.cure_worst_cells(0..LAST_PASSES);
+            if n_split == 0 {
+                break;
+            }
+        }
     }
 
     /// Passes over the worst cells until none helps.

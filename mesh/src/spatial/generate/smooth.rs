@@ -91,6 +91,7 @@ impl Improver<'_> {
                 .face_vertices(face)
                 .map(|other| if other == vertex { point } else { self.mesh.point(other) });
             self.follows_surface(&corners, tag)
+                && (!self.is_curved() || self.is_fine_enough(&corners, tag))
         })
     }
 

@@ -6,6 +6,9 @@ use super::measure::volume_length;
 use super::surface_set::SurfaceSet;
 use crate::Point;
 
+/// Least measure of volume and edge lengths of the halves of a cell.
+const LEAST_HALF: f64 = 0.02;
+
 /// An edge that is to be split, and where.
 #[derive(Debug, Clone, Copy)]
 pub struct Split {
@@ -62,6 +65,17 @@ impl Improver<'_> {
             }
         }
         Some(vertex)
+    }
+
+    /// Splits an edge in its middle, where it still is and its halves are not too poor.
+    pub fn split_in_two(&mut self, ends: [u32; 2]) -> bool {
+        let mut shell = Vec::new();
+        self.mesh.shell(ends[0], ends[1], &mut shell);
+        if shell.is_empty() {
+            return false;
+        }
+        let split = self.split_in_middle(ends, LEAST_HALF);
+        self.is_split_in_fluid(&split) && self.split(&split, &shell).is_some()
     }
 
     /// Whether the point of a split is far enough from all surfaces, where it is not on one.

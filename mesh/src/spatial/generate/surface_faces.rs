@@ -1,9 +1,10 @@
 //! Whether triangles follow the surface they are to be on.
 
-use super::boundary_edges::surface_of;
+use super::boundary_edges::{INNER, surface_of};
 use super::improver::Improver;
 use super::measure::middle;
 use super::surface_set::SurfaceSet;
+use super::tetrahedra::Face;
 use crate::Point;
 
 /// Twice the area over the sum of squared edges that a face has at least; 0.29 when regular.
@@ -20,8 +21,16 @@ const LEAST_IN_MIDDLE: f64 = 0.8;
 const MOST_BULGE: f64 = 0.115;
 
 /// The same over the angle by which an edge of the length wanted turns: an arc rises over its chord by
-/// an eighth of its angle, and edges may be half as long again.
-const BULGE_OF_TURN: f64 = 1.5 / 8.0;
+/// an eighth of its angle, and edges may be a quarter longer.
+const BULGE_OF_TURN: f64 = 1.25 / 8.0;
+
+/// Distance of curved faces from their surface over its radius of curvature, above which they are too
+/// large.
+const MOST_ERROR: f64 = 1.7e-3;
+
+/// Barycentric coordinates of the points at which that is looked at.
+const FACE_POINTS: [[f64; 3]; 4] =
+    [[1.0 / 3.0; 3], [0.5, 0.25, 0.25], [0.25, 0.5, 0.25], [0.25, 0.25, 0.5]];
 
 impl Improver<'_> {
     /// Whether a face with its corners at these places (m) follows the surface of its tag.
@@ -63,5 +72,48 @@ impl Improver<'_> {
     pub fn is_fine_enough(&self, [a, b, c]: &[Point<3>; 3], tag: u16) -> bool {
         let surface = SurfaceSet::of(surface_of(tag));
         [[a, b], [b, c], [c, a]].iter().all(|[a, b]| self.is_short_enough(**a, **b, surface))
+    }
+
+    /// Largest distance of a curved face from its surface over the radius of curvature, at four points.
+    fn surface_error(&self, vertices: [u32; 3], tag: u16) -> f64 {
+        let surface = &self.geometry.surfaces[usize::from(surface_of(tag))];
+        let [a, b, c] = vertices;
+        let corners = vertices.map(|vertex| self.mesh.point(vertex));
+        let middles = [[a, b], [b, c], [c, a]].map(|[a, b]| self.middle_node(a, b));
+        let error = |weights: [f64; 3]| {
+            let mut point = Point::<3>::zeros();
+            for i in 0..3 {
+                let (u, v) = (weights[i], weights[(i + 1) % 3]);
+                point += corners[i] * (u * (2.0 * u - 1.0)) + middles[i] * (4.0 * u * v);
+            }
+            let foot = surface.foot(point);
+            foot.gap.abs() / surface.radius_of_curvature(foot.point)
+        };
+        FACE_POINTS.map(error).into_iter().fold(0.0, f64::max)
+    }
+
+    /// Splits an edge of each boundary face that is farther from its surface between its nodes than it
+    /// should be, the longest that can be split.
+    pub fn split_faces_off_surface(&mut self) -> usize {
+        let mut faces = Vec::new();
+        for cell in self.mesh.cells() {
+            for (opposite, tag) in self.mesh.tags(cell).into_iter().enumerate() {
+                if tag != INNER && self.has_curved(SurfaceSet::of(surface_of(tag))) {
+                    let vertices = self.mesh.face_vertices(Face { cell, opposite });
+                    if self.surface_error(vertices, tag) > MOST_ERROR {
+                        faces.push(vertices);
+                    }
+                }
+            }
+        }
+        let is_split = |improver: &mut Self, [a, b, c]: [u32; 3]| {
+            let mesh = &improver.mesh;
+            let length = |[a, b]: &[u32; 2]| (mesh.point(*a) - mesh.point(*b)).norm();
+            let mut sides = [[a, b], [b, c], [c, a]];
+            sides.sort_by(|a, b| length(b).total_cmp(&length(a)));
+            let is_still = sides.iter().all(|[a, b]| !mesh.edge_surfaces(*a, *b).is_empty());
+            is_still && sides.into_iter().any(|ends| improver.split_in_two(ends))
+        };
+        faces.into_iter().filter(|face| is_split(self, *face)).count()
     }
 }

@@ -52,8 +52,7 @@ impl Verdict {
     /// Judges a mesh.
     pub fn of(improver: &Improver<'_>) -> Self {
         let none = |value| Worst { value, at: Point::zeros() };
-        let has_creases = improver.geometry.groups[1..].iter().any(|one| one.last > one.first + 1);
-        let good_angle = if has_creases { LEAST_ANGLE } else { GOOD_ANGLE };
+        let good_angle = if improver.geometry.has_creases() { LEAST_ANGLE } else { GOOD_ANGLE };
         let mut verdict = Self {
             angle: none(180.0),
             coefficient: none(1.0),

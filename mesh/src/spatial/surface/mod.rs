@@ -1,8 +1,14 @@
 //! `SmoothSurface`: a side of the domain or a part of a body, with exact distance and curvature.
 
 mod ellipsoid;
+mod revolved;
+mod tube;
 
 pub use ellipsoid::Ellipsoid;
+pub use revolved::Revolved;
+pub use tube::Tube;
+
+use std::sync::Arc;
 
 use nalgebra::{Isometry3, Matrix3};
 
@@ -26,6 +32,10 @@ pub enum Form {
     },
     /// An ellipsoid about the origin.
     Ellipsoid(Ellipsoid),
+    /// A tube along a curve.
+    Tube(Arc<Tube>),
+    /// A surface of revolution about the x axis.
+    Revolved(Arc<Revolved>),
 }
 
 /// The point of a smooth surface nearest to another point.
@@ -53,7 +63,21 @@ pub struct SmoothSurface {
     pub size: f64,
     /// Largest angle by which it turns along one edge (rad).
     pub turn: f64,
+    /// Places on it where it bends more than around them, with the edge lengths wanted there.
+    pub bends: Vec<Bend>,
 }
+
+/// A place at which a surface bends, with the edge length wanted there.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Bend {
+    /// Where (m).
+    pub at: Point<3>,
+    /// Edge length (m).
+    pub size: f64,
+}
+
+/// Places on a surface with varying curvature that are looked at.
+const SAMPLES: usize = 600;
 
 impl SmoothSurface {
     /// A form in its place with the fluid outside of it, or inside.
@@ -67,6 +91,7 @@ impl SmoothSurface {
             boundary: BoundaryId::default(),
             size: f64::INFINITY,
             turn: f64::INFINITY,
+            bends: Vec::new(),
         }
     }
 
@@ -102,6 +127,8 @@ impl SmoothSurface {
             Form::Sphere(radius) => *radius,
             Form::Capsule { radius, half_length } => radius + half_length,
             Form::Ellipsoid(ellipsoid) => ellipsoid.reach(),
+            Form::Tube(tube) => tube.reach(),
+            Form::Revolved(revolved) => revolved.reach(),
         }
     }
 
@@ -116,7 +143,7 @@ impl SmoothSurface {
     }
 
     /// Vector from the nearest point of what the surface runs around, a point or a line.
-    fn from_skeleton(&self, point: Point<3>) -> Point<3> {
+    fn off_skeleton(&self, point: Point<3>) -> Point<3> {
         let off = point - self.origin;
         let along = |most: f64| {
             let axis = self.axis();
@@ -125,7 +152,11 @@ impl SmoothSurface {
         match &self.form {
             Form::Cylinder(_) => along(f64::INFINITY),
             Form::Capsule { half_length, .. } => along(*half_length),
-            Form::Plane | Form::Sphere(_) | Form::Ellipsoid(_) => off,
+            Form::Tube(tube) => {
+                let local = self.rotation.tr_mul(&off);
+                self.rotation * (local - tube.on_centreline(local))
+            }
+            Form::Plane | Form::Sphere(_) | Form::Ellipsoid(_) | Form::Revolved(_) => off,
         }
     }
 
@@ -135,9 +166,10 @@ impl SmoothSurface {
         let gap = match &self.form {
             Form::Plane => self.axis().dot(&(point - self.origin)),
             Form::Sphere(radius) | Form::Cylinder(radius) | Form::Capsule { radius, .. } => {
-                self.from_skeleton(point).norm() - radius
+                self.off_skeleton(point).norm() - radius
             }
-            Form::Ellipsoid(_) => return self.foot(point).gap,
+            Form::Tube(tube) => self.off_skeleton(point).norm() - tube.radius(),
+            Form::Ellipsoid(_) | Form::Revolved(_) => return self.foot(point).gap,
         };
         if self.is_hollow { -gap } else { gap }
     }
@@ -152,22 +184,11 @@ impl SmoothSurface {
                 Foot { point: point - normal * gap, normal, gap }
             }
             Form::Sphere(radius) | Form::Cylinder(radius) | Form::Capsule { radius, .. } => {
-                let off = self.from_skeleton(point);
-                let distance = off.norm();
-                // Any normal will do in the middle
-                let normal =
-                    if distance > 0.0 { off / distance } else { self.rotation.column(1).into() };
-                let gap = distance - radius;
-                Foot { point: point - normal * gap, normal, gap }
+                self.foot_around(point, *radius)
             }
-            Form::Ellipsoid(ellipsoid) => {
-                let local = ellipsoid.foot(self.rotation.tr_mul(&(point - self.origin)));
-                Foot {
-                    point: self.origin + self.rotation * local.point,
-                    normal: self.rotation * local.normal,
-                    gap: local.gap,
-                }
-            }
+            Form::Tube(tube) => self.foot_around(point, tube.radius()),
+            Form::Ellipsoid(ellipsoid) => self.to_world(&ellipsoid.foot(self.to_local(point))),
+            Form::Revolved(revolved) => self.to_world(&revolved.foot(self.to_local(point))),
         };
         if self.is_hollow {
             foot.normal = -foot.normal;
@@ -176,15 +197,37 @@ impl SmoothSurface {
         foot
     }
 
+    fn to_local(&self, point: Point<3>) -> Point<3> {
+        self.rotation.tr_mul(&(point - self.origin))
+    }
+
+    fn to_world(&self, local: &Foot) -> Foot {
+        Foot {
+            point: self.origin + self.rotation * local.point,
+            normal: self.rotation * local.normal,
+            gap: local.gap,
+        }
+    }
+
+    /// The nearest point at a distance (m) from what the surface runs around.
+    fn foot_around(&self, point: Point<3>, radius: f64) -> Foot {
+        let off = self.off_skeleton(point);
+        let distance = off.norm();
+        // Any normal will do in the middle
+        let normal = if distance > 0.0 { off / distance } else { self.rotation.column(1).into() };
+        let gap = distance - radius;
+        Foot { point: point - normal * gap, normal, gap }
+    }
+
     /// Smallest radius of curvature of the surface at one of its points (m).
     #[must_use]
     pub fn radius_of_curvature(&self, on: Point<3>) -> f64 {
         match &self.form {
             Form::Plane => f64::INFINITY,
             Form::Sphere(radius) | Form::Cylinder(radius) | Form::Capsule { radius, .. } => *radius,
-            Form::Ellipsoid(ellipsoid) => {
-                ellipsoid.radius_of_curvature(self.rotation.tr_mul(&(on - self.origin)))
-            }
+            Form::Tube(tube) => tube.radius(),
+            Form::Ellipsoid(ellipsoid) => ellipsoid.radius_of_curvature(self.to_local(on)),
+            Form::Revolved(revolved) => revolved.radius_of_curvature(self.to_local(on)),
         }
     }
 
@@ -198,15 +241,52 @@ impl SmoothSurface {
     #[must_use]
     pub fn uniform_size(&self) -> Option<f64> {
         match &self.form {
-            Form::Ellipsoid(_) => None,
+            Form::Ellipsoid(_) | Form::Revolved(_) => None,
             _ => Some(self.size_at(self.origin)),
         }
     }
+
+    /// Finds the places where it bends so much that the edge length grows faster from them than by
+    /// this per unit length.
+    pub fn find_bends(&mut self, growth: f64) {
+        if self.uniform_size().is_some() {
+            return;
+        }
+        let axes = (0..3).flat_map(|axis| {
+            let axis: Point<3> = self.rotation.column(axis).into();
+            [axis, -axis]
+        });
+        let far = 2.0 * self.reach();
+        let on = axes.chain(directions(SAMPLES)).map(|to| self.foot(self.origin + to * far).point);
+        let mut all: Vec<Bend> = on.map(|at| Bend { at, size: self.size_at(at) }).collect();
+        all.retain(|bend| bend.size < self.size);
+        all.sort_by(|a, b| a.size.total_cmp(&b.size));
+        let mut bends: Vec<Bend> = Vec::new();
+        for bend in all {
+            let reaches = |known: &Bend| known.size + growth * (known.at - bend.at).norm();
+            if bends.iter().all(|known| reaches(known) > bend.size) {
+                bends.push(bend);
+            }
+        }
+        self.bends = bends;
+    }
+}
+
+/// Unit vectors in all directions, evenly.
+pub fn directions(n: usize) -> impl Iterator<Item = Point<3>> {
+    let golden = std::f64::consts::PI * (3.0 - 5.0_f64.sqrt());
+    (0..n).map(move |i| {
+        let height = 1.0 - (2 * i + 1) as f64 / n as f64;
+        let (sin, cos) = (golden * i as f64).sin_cos();
+        let ring = (1.0 - height * height).sqrt();
+        Point::<3>::new(ring * cos, ring * sin, height)
+    })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::spatial::centreline::Centreline;
     use nalgebra::{Translation3, UnitQuaternion};
 
     fn forms() -> Vec<Form> {
@@ -216,7 +296,21 @@ mod tests {
             Form::Cylinder(0.4),
             Form::Capsule { radius: 0.3, half_length: 0.5 },
             Form::Ellipsoid(Ellipsoid::new([0.9, 0.5, 0.3])),
+            Form::Tube(Arc::new(Tube::new(helix(), 0.1))),
+            Form::Revolved(Arc::new(Revolved::new("bean", &bean()).unwrap())),
         ]
+    }
+
+    fn helix() -> Centreline {
+        Centreline::Helix { radius: 0.4, pitch: 0.9, turns: -1.3 }
+    }
+
+    fn bean() -> Vec<[f64; 2]> {
+        let on = |t: f64| [-0.8 * t.cos(), t.sin() * (0.3 + 0.1 * t.cos())];
+        let mut points: Vec<_> =
+            (0..=12).map(|i| on(f64::from(i) / 12.0 * std::f64::consts::PI)).collect();
+        points[12][1] = 0.0;
+        points
     }
 
     fn pose() -> Isometry3<f64> {
