@@ -119,9 +119,8 @@ fn aggregates_are_neighbours_and_pairs_are_their_own() {
     let aggregates = aggregate(&plain, 0);
     assert!((n * n / 6..n * n / 3).contains(&aggregates.count), "{}", aggregates.count);
     for number in 0..aggregates.count {
-        let rows: Vec<usize> = (0..n * n)
-            .filter(|&row| aggregates.of_row[row] as usize == number)
-            .collect();
+        let rows: Vec<usize> =
+            (0..n * n).filter(|&row| aggregates.of_row[row] as usize == number).collect();
         assert!(!rows.is_empty() && rows.len() <= 9, "{rows:?}");
         // All around one of them, two steps away at most
         let near = |row: usize, other: usize| {
