@@ -11,13 +11,14 @@ use std::fs;
 use sources::{CRATES, all_sources, root, sources};
 
 /// The rooms of the solver, lowest first, and the rooms each may use.
-const ROOMS: [(&str, &[&str]); 18] = [
+const ROOMS: [(&str, &[&str]); 19] = [
     ("case", &[]),
     ("timing", &[]),
     ("space", &[]),
     ("sparse", &[]),
     ("multifrontal", &["sparse"]),
-    ("algebra", &["multifrontal", "sparse"]),
+    ("multigrid", &["sparse"]),
+    ("algebra", &["multifrontal", "multigrid", "sparse"]),
     ("time", &["case"]),
     ("body", &["time"]),
     ("contact", &["body"]),

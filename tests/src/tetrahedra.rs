@@ -31,28 +31,28 @@ fn mesh_of(cells: &[[usize; 4]]) -> Mesh<3> {
     })
 }
 
-/// A box of cubes in six tetrahedra each, with a body in its middle or none.
+/// A box of cubes in twelve tetrahedra each, which meet in its centre, with a body in its middle or none.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BoxOfTetrahedra {
     /// Cubes along each edge of the box, which reaches from -1 to 1 along each axis (m).
     pub cubes: usize,
-    /// Whether the cubes nearer to the middle than a third are left out: the vertices around them are
-    /// drawn in until their surface is nearly a sphere, body 0. Then `cubes` is a multiple of three.
+    /// Whether the cubes nearer to the middle than a third are left out: their surface, with its corners
+    /// drawn half the way in to a sphere, is body 0. Then `cubes` is a multiple of three.
     pub has_body: bool,
 }
 
 impl BoxOfTetrahedra {
-    /// Radius of the body (m).
+    /// Distance of the sides of the body from its middle (m).
     pub const RADIUS: f64 = 1.0 / 3.0;
 
     /// The mesh. Its boundaries are the body if there is one, the side `right` at x = 1, and `walls`.
     #[must_use]
     pub fn mesh(self) -> Mesh<3> {
         let n = self.cubes;
-        let at = |i: usize| 2.0 * i as f64 / n as f64 - 1.0;
+        // In halves of the edge of a cube
+        let at = |i: usize| i as f64 / n as f64 - 1.0;
         let is_body = |cube: &[usize; 3]| {
-            let middle = |&i: &usize| (at(i) + 1.0 / n as f64).abs();
-            self.has_body && cube.iter().all(|i| middle(i) < Self::RADIUS)
+            self.has_body && cube.iter().all(|i| at(2 * i + 1).abs() < Self::RADIUS)
         };
         let (mut vertices, mut number_of) = (Vec::new(), HashMap::new());
         let mut number = |corner: [usize; 3]| {
@@ -63,18 +63,21 @@ impl BoxOfTetrahedra {
         };
         let mut cells = Vec::new();
         for cube in lattice(n).filter(|cube| !is_body(cube)) {
-            // From one corner to the opposite one along the axes, in each order
-            for (order, is_odd) in ORDERS {
-                let mut corner = cube;
-                let mut cell = [number(corner); 4];
-                for (step, axis) in order.into_iter().enumerate() {
-                    corner[axis] += 1;
-                    cell[step + 1] = number(corner);
-                }
-                if is_odd {
-                    cell.swap(0, 1);
-                }
-                cells.push(cell);
+            let first = cube.map(|i| 2 * i);
+            let center = number(first.map(|i| i + 1));
+            for (axis, is_far) in (0..3).flat_map(|axis| [(axis, false), (axis, true)]) {
+                let corner = |u: usize, v: usize| {
+                    let mut corner = first;
+                    corner[axis] += 2 * usize::from(is_far);
+                    corner[(axis + 1) % 3] += 2 * u;
+                    corner[(axis + 2) % 3] += 2 * v;
+                    corner
+                };
+                let [a, b, c, d] =
+                    [(0, 0), (1, 0), (1, 1), (0, 1)].map(|(u, v)| number(corner(u, v)));
+                // Seen from the centre, the two sides across an axis turn opposite ways
+                let halves = if is_far { [[b, a, c], [c, a, d]] } else { [[a, b, c], [a, c, d]] };
+                cells.extend(halves.map(|[a, b, c]| [a, b, c, center]));
             }
         }
         self.bounded(&vertices, &cells)
@@ -86,7 +89,7 @@ impl BoxOfTetrahedra {
             return point;
         }
         let outside = (size - Self::RADIUS) / (1.0 - Self::RADIUS);
-        point * (outside + (1.0 - outside) * size / point.norm())
+        point * (outside + (1.0 - outside) * 0.5 * (1.0 + size / point.norm()))
     }
 
     fn bounded(self, vertices: &[Point<3>], cells: &[[usize; 4]]) -> Mesh<3> {
@@ -107,16 +110,6 @@ impl BoxOfTetrahedra {
         })
     }
 }
-
-/// Orders of the axes, and whether they are odd permutations.
-const ORDERS: [([usize; 3], bool); 6] = [
-    ([0, 1, 2], false),
-    ([1, 2, 0], false),
-    ([2, 0, 1], false),
-    ([0, 2, 1], true),
-    ([2, 1, 0], true),
-    ([1, 0, 2], true),
-];
 
 /// Triples of numbers below n.
 fn lattice(n: usize) -> impl Iterator<Item = [usize; 3]> {

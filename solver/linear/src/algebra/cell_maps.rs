@@ -2,14 +2,13 @@
 
 use std::sync::Arc;
 
+use super::cell_pattern::{CellUnknowns, EntryFinder, NO_UNKNOWN, build_pattern};
 use super::constraints::{AffineConstraints, Term};
 use crate::sparse::Pattern;
 use crate::sparse::index::{to_u16, to_u32};
 
 /// Marks an entry of a cell's matrix that belongs to a given value, or couples nothing.
 const NOT_STORED: u32 = u32::MAX;
-/// Marks a row or column of a given value.
-const NO_UNKNOWN: u32 = u32::MAX;
 
 /// For each cell, its raw unknowns, and where the entries of its matrix are stored.
 ///
@@ -44,24 +43,7 @@ struct FoldedCell {
 /// Marks a cell that is not folded.
 const NOT_FOLDED: u32 = u32::MAX;
 
-/// The unknown of each row and column of the matrix of each cell, `NO_UNKNOWN` for a given value.
-#[derive(Debug)]
-struct CellUnknowns {
-    /// Start of each cell in `unknowns`, and the end of the last.
-    offsets: Vec<usize>,
-    unknowns: Vec<u32>,
-}
-
 impl CellUnknowns {
-    fn cells(&self) -> impl Iterator<Item = &[u32]> {
-        self.offsets.windows(2).map(|range| &self.unknowns[range[0]..range[1]])
-    }
-
-    /// The free unknowns of each cell.
-    fn free_of_cells(&self) -> impl Iterator<Item = impl Iterator<Item = u32> + Clone> {
-        self.cells().map(|cell| cell.iter().copied().filter(|&unknown| unknown != NO_UNKNOWN))
-    }
-
     /// Appends a cell, which is folded where raw unknowns depend on others.
     fn push(&mut self, raw: &[u32], constraints: &AffineConstraints) -> Option<FoldedCell> {
         let start = self.unknowns.len();
@@ -95,7 +77,7 @@ impl CellMaps {
     /// Pattern and maps for cells with `n_local_raw` raw unknowns each, listed in `raw`.
     ///
     /// `couples(i, j)` says whether two free unknowns of a cell have an entry (two pressures do
-    /// not). Which unknowns a constraint refers to must not change later; its weights may.
+    /// not), in whatever order they are named. Which unknowns a constraint refers to must not change later; its weights may.
     #[must_use]
     pub fn new(
         n_local_raw: usize,
@@ -120,14 +102,9 @@ impl CellMaps {
         }
         let pattern = build_pattern(constraints.n_unknowns(), &unknowns, &couples);
         let mut entries = Vec::with_capacity(n_entries);
+        let mut finder = EntryFinder::new(&pattern);
         for local in unknowns.cells() {
-            for &column in local {
-                entries.extend(local.iter().map(|&row| {
-                    let is_entry = row != NO_UNKNOWN && column != NO_UNKNOWN;
-                    let entry = is_entry.then(|| pattern.entry(row as usize, column as usize));
-                    entry.flatten().map_or(NOT_STORED, to_u32)
-                }));
-            }
+            finder.for_each_entry(local, |entry| entries.push(entry.unwrap_or(NOT_STORED)));
         }
         let pattern = Arc::new(pattern);
         Self { pattern, n_local_raw, raw, entry_offsets, entries, folded, folded_index, largest }
@@ -211,45 +188,6 @@ impl CellMaps {
     }
 }
 
-/// Columns of all pairs of unknowns that share a cell and couple.
-fn build_pattern(
-    n: usize,
-    unknowns: &CellUnknowns,
-    couples: &impl Fn(usize, usize) -> bool,
-) -> Pattern {
-    let mut counts = vec![0usize; n];
-    for cell in unknowns.free_of_cells() {
-        for column in cell.clone() {
-            counts[column as usize] += cell.clone().count();
-        }
-    }
-    let mut starts = vec![0usize; n + 1];
-    for column in 0..n {
-        starts[column + 1] = starts[column] + counts[column];
-    }
-    let mut fill = starts.clone();
-    let mut all_rows = vec![0u32; starts[n]];
-    for cell in unknowns.free_of_cells() {
-        for column in cell.clone() {
-            for row in cell.clone() {
-                if couples(row as usize, column as usize) {
-                    all_rows[fill[column as usize]] = row;
-                    fill[column as usize] += 1;
-                }
-            }
-        }
-    }
-    let mut pattern = Pattern { columns: vec![0], rows: Vec::new() };
-    for column in 0..n {
-        let rows = &mut all_rows[starts[column]..fill[column]];
-        rows.sort_unstable();
-        let distinct = rows.chunk_by(|row, next| row == next).map(|equal| equal[0] as usize);
-        pattern.rows.extend(distinct);
-        pattern.columns.push(pattern.rows.len());
-    }
-    pattern
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -276,6 +214,37 @@ mod tests {
         for (row, line) in expected.iter().enumerate() {
             for (column, value) in line.iter().enumerate() {
                 assert_eq!(values[pattern.entry(row, column).unwrap()], *value);
+            }
+        }
+    }
+
+    /// Velocities with two components in cells that share nodes, pressures and a folded cell.
+    #[test]
+    fn each_entry_of_a_cell_is_where_its_row_and_column_say() {
+        let mut builder = ConstraintBuilder::new(12);
+        builder.equate(10, 1);
+        builder.fix(4, 1.0);
+        let constraints = builder.build();
+        let raw: Vec<u32> = vec![0, 2, 1, 3, 8, 2, 6, 3, 7, 9, 4, 6, 5, 10, 11];
+        let is_pressure = |unknown: usize| unknown >= 7;
+        let couples = |row, column| !(is_pressure(row) && is_pressure(column));
+        let maps = CellMaps::new(5, raw.clone(), &constraints, couples);
+        for (cell, raw) in raw.chunks_exact(5).enumerate() {
+            // Every row of a folded cell has one unknown here
+            let unknown = |raw: u32| constraints.row(raw as usize).first().map(|term| term.unknown);
+            let mut local: Vec<_> = raw.iter().map(|&raw| unknown(raw)).collect();
+            if maps.is_folded(cell) {
+                local.retain(Option::is_some);
+            }
+            let entries = &maps.entries[maps.entry_offsets[cell]..maps.entry_offsets[cell + 1]];
+            for (&entry, (column, row)) in entries
+                .iter()
+                .zip(local.iter().flat_map(|column| local.iter().map(move |row| (column, row))))
+            {
+                let expected = column
+                    .zip(*row)
+                    .and_then(|(column, row)| maps.pattern().entry(row as usize, column as usize));
+                assert_eq!((entry != NOT_STORED).then_some(entry as usize), expected);
             }
         }
     }

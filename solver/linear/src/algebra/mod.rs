@@ -1,6 +1,7 @@
 //! Linear systems: constraints, cell matrices, and solvers that keep their factors.
 
 mod cell_maps;
+mod cell_pattern;
 mod cholesky;
 mod constraints;
 mod direct;

@@ -7,7 +7,7 @@ use super::block_diagonal::BlockDiagonal;
 use super::block_matrix::BlockMatrix;
 
 /// Power steps towards the largest eigenvalue of D^-1 A.
-const POWER_STEPS: usize = 12;
+const POWER_STEPS: usize = 15;
 /// What the value after them is multiplied by: it is a bound from below.
 const SAFETY: f32 = 1.1;
 
@@ -40,7 +40,7 @@ impl<const B: usize> Chebyshev<B> {
         let diagonal = BlockDiagonal::new(matrix, n_pairs);
         let (lower, upper) = match spectrum {
             Spectrum::UpperEnd(fraction) => {
-                let largest = SAFETY * largest_eigenvalue(matrix, &diagonal);
+                let largest = SAFETY * largest_eigenvalue(matrix, &diagonal, n_pairs);
                 (largest * fraction, largest)
             }
             Spectrum::Between(lower, upper) => (lower, upper),
@@ -103,10 +103,21 @@ impl<const B: usize> Chebyshev<B> {
 }
 
 /// The largest eigenvalue of D^-1 A by power steps, from below.
-fn largest_eigenvalue<const B: usize>(matrix: &BlockMatrix<B>, diagonal: &BlockDiagonal<B>) -> f32 {
+///
+/// The eigenvector may live around a pair alone: pairs weigh as much as all others in what the steps
+/// start from.
+fn largest_eigenvalue<const B: usize>(
+    matrix: &BlockMatrix<B>,
+    diagonal: &BlockDiagonal<B>,
+    n_pairs: usize,
+) -> f32 {
     let n = matrix.n_rows();
-    let mut vector: Vec<[f32; B]> =
-        (0..n).map(|row| std::array::from_fn(|a| scattered(row * B + a))).collect();
+    let weight = (n as f32).sqrt();
+    let start = |row: usize| {
+        let weight = if row < n - 2 * n_pairs { 1.0 } else { weight };
+        std::array::from_fn(|a| weight * scattered(row * B + a))
+    };
+    let mut vector: Vec<[f32; B]> = (0..n).map(start).collect();
     let mut image = vec![[0.0; B]; n];
     let mut largest = 0.0;
     for _ in 0..POWER_STEPS {

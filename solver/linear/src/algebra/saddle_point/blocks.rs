@@ -79,13 +79,13 @@ pub(super) fn transfer(interpolation: &Interpolation, numbering: &Numbering) -> 
         })
         .collect();
     let mut rows = RowBuilder::new(n_coarse as usize);
-    let mut found: Vec<(u32, Block<B>)> = Vec::new();
+    let mut found: Vec<Found> = Vec::new();
     for (own, unknowns) in numbering.blocks.iter().enumerate() {
         for (a, unknown) in unknowns.iter().enumerate() {
             let Some(unknown) = unknown else {
                 // A component that is no unknown stands for itself
                 if let Some(row) = coarse_row[own] {
-                    set(&mut found, row, a, a, 1.0);
+                    add(&mut found, row, a, a, 1.0);
                 }
                 continue;
             };
@@ -93,23 +93,29 @@ pub(super) fn transfer(interpolation: &Interpolation, numbering: &Numbering) -> 
                 let place = numbering.places[term.unknown as usize];
                 let Place::Velocity { row, component } = place else { continue };
                 let Some(row) = coarse_row[row as usize] else { continue };
-                set(&mut found, row, a, usize::from(component), term.weight as f32);
+                add(&mut found, row, a, usize::from(component), term.weight as f32);
             }
         }
-        for (row, block) in found.drain(..) {
-            rows.push(row, block);
+        for Found { column, block } in found.drain(..) {
+            rows.push(column, block);
         }
         rows.end_row();
     }
     rows.build()
 }
 
+/// A block of the row at hand.
+struct Found {
+    column: u32,
+    block: Block<B>,
+}
+
 /// Adds to an entry of the block in a column.
-fn set(found: &mut Vec<(u32, Block<B>)>, column: u32, a: usize, b: usize, value: f32) {
-    let known = found.iter().position(|(other, _)| *other == column);
+fn add(found: &mut Vec<Found>, column: u32, a: usize, b: usize, value: f32) {
+    let known = found.iter().position(|other| other.column == column);
     let index = known.unwrap_or_else(|| {
-        found.push((column, [[0.0; B]; B]));
+        found.push(Found { column, block: [[0.0; B]; B] });
         found.len() - 1
     });
-    found[index].1[b][a] += value;
+    found[index].block[b][a] += value;
 }

@@ -1,1 +1,111 @@
-//! Placeholder.
+//! Parts of the preconditioner against what they stand for, on systems of a few unknowns.
+
+use super::blocks::{transfer, velocity_block};
+use super::gradient::Gradient;
+use super::numbering::Numbering;
+use super::{Interpolation, Part, SaddlePoint};
+use crate::algebra::Term;
+use crate::sparse::{Pattern, SparseMatrix};
+
+/// Two nodes in the plane, of which the second has no second component, two pressures and a body that
+/// turns about one axis.
+fn system() -> SaddlePoint {
+    let velocity = |node, component| Part::Velocity { node, component };
+    SaddlePoint {
+        parts: vec![
+            velocity(7, 0),
+            velocity(7, 1),
+            velocity(4, 0),
+            Part::Pressure { node: 7 },
+            Part::Pressure { node: 4 },
+            Part::Rigid { body: 2, mode: 5 },
+        ],
+        has_held_pressure: false,
+    }
+}
+
+/// A dense matrix with different entries.
+fn matrix() -> SparseMatrix {
+    let n = 6;
+    let pattern = Pattern {
+        columns: (0..=n).map(|column| column * n).collect(),
+        rows: (0..n * n).map(|entry| entry % n).collect(),
+    };
+    SparseMatrix::new(pattern, (0..n * n).map(|entry| 1.0 + entry as f64).collect())
+}
+
+fn value(row: usize, column: usize) -> f32 {
+    (1 + column * 6 + row) as f32
+}
+
+#[test]
+fn velocities_stand_in_blocks_with_bodies_last() {
+    let system = system();
+    let numbering = Numbering::new(&system);
+    assert_eq!((numbering.n_nodes, numbering.n_bodies), (2, 1));
+    assert_eq!(numbering.blocks[1], [Some(2), None, None]);
+    assert_eq!(numbering.blocks[2..], [[None; 3], [None, None, Some(5)]]);
+    assert_eq!(numbering.pressures, [3, 4]);
+    let block = velocity_block(&matrix(), &numbering);
+    let mut y = vec![[0.0; 3]; 4];
+    // Unknown 1 alone
+    block.multiply(&[[0.0, 1.0, 0.0], [0.0; 3], [0.0; 3], [0.0; 3]], &mut y);
+    assert_eq!(y[0], [value(0, 1), value(1, 1), 0.0]);
+    assert_eq!(y[1], [value(2, 1), 0.0, 0.0]);
+    assert_eq!(y[3], [0.0, 0.0, value(5, 1)]);
+    let unknowns = system.unknowns();
+    assert_eq!(unknowns.dense, [5]);
+    assert_eq!(unknowns.is_pressure, [false, false, false, true, true, false]);
+    assert_eq!(unknowns.node[..5], [7, 7, 4, 7, 4]);
+}
+
+#[test]
+fn components_that_are_no_unknowns_leave_the_block_regular() {
+    let numbering = Numbering::new(&system());
+    let block = velocity_block(&matrix(), &numbering);
+    let mut y = vec![[0.0; 3]; 4];
+    block.multiply(&[[0.0; 3], [0.0, 1.0, 1.0], [0.0; 3], [1.0, 0.0, 0.0]], &mut y);
+    assert_eq!(y[1], [0.0, value(2, 2), value(2, 2)]);
+    assert_eq!(y[3], [value(5, 5), 0.0, 0.0]);
+}
+
+#[test]
+fn the_transfer_takes_a_node_from_another_and_from_a_body() {
+    let numbering = Numbering::new(&system());
+    let mut interpolation = Interpolation::with_capacity(6);
+    for unknown in 0..6 {
+        let term = |unknown, weight| Term { unknown, weight };
+        match unknown {
+            2 => interpolation.push([term(0, 0.5), term(5, 0.25), term(5, 0.5)]),
+            _ => interpolation.push([term(unknown, 1.0)]),
+        }
+    }
+    let transfer = transfer(&interpolation, &numbering);
+    assert_eq!((transfer.n_rows(), transfer.n_columns()), (4, 3));
+    let mut fine = vec![[0.0; 3]; 4];
+    transfer.multiply(&[[2.0, 3.0, 4.0], [5.0, 6.0, 7.0], [8.0, 9.0, 10.0]], &mut fine);
+    assert_eq!(fine, [[2.0, 3.0, 4.0], [8.5, 0.0, 0.0], [5.0, 6.0, 7.0], [8.0, 9.0, 10.0]]);
+}
+
+#[test]
+fn the_laplacian_is_the_product_of_gradients() {
+    let numbering = Numbering::new(&system());
+    let gradient = Gradient::new(&matrix(), &numbering);
+    let mut u = vec![[0.0; 3]; 4];
+    gradient.multiply_subtract(&[1.0, 0.0], &mut u);
+    assert_eq!(u[0], [-value(0, 3), -value(1, 3), 0.0]);
+    assert_eq!(u[3], [0.0, 0.0, -value(5, 3)]);
+    let damping = [[2.0, 4.0, 0.0], [8.0, 0.0, 0.0]];
+    let laplacian = gradient.laplacian(&damping, false);
+    let expected = |p: usize, q: usize| {
+        let damped = [(0, 2.0), (1, 4.0), (2, 8.0)];
+        damped.map(|(row, by)| value(row, p) * value(row, q) / by).iter().sum::<f32>()
+    };
+    let mut y = vec![[0.0]; 2];
+    laplacian.multiply(&[[1.0], [0.0]], &mut y);
+    assert_eq!(y, [[expected(3, 3)], [expected(4, 3)]]);
+    // With the one that is held, constants have no gradient
+    let mut y = vec![[f32::NAN]; 3];
+    gradient.laplacian(&damping, true).multiply(&[[1.0]; 3], &mut y);
+    assert!(y.iter().all(|value| value[0].abs() < 1e-2 * expected(3, 3)), "{y:?}");
+}
