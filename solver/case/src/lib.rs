@@ -30,6 +30,7 @@ mod problem_keys;
 mod quantity;
 mod read;
 mod reference;
+mod region;
 mod schema;
 mod source;
 mod speed;
@@ -55,7 +56,6 @@ pub use fluid::{FlowModel, Fluid};
 pub use gait::{
     AnguilliformGait, CarangiformGait, FishShape, FlagellateShape, FlagellumGait, PulsatingGait,
 };
-pub use geometry::{Extent, normal_axis, opposite};
 pub use joint::{Hinge, Joint, JointKind};
 pub use link::{Link, ShapedLink};
 pub use mean_flow::MeanFlowSpec;
@@ -72,6 +72,7 @@ pub use read::CaseFile;
 pub use reference::{
     ForceComponent, Numbers, Reference, ReferenceKind, Scales, Statistic, Statistics, Variant,
 };
+pub use region::{Extent, normal_axis, opposite};
 pub use schema::schema;
 pub use source::Location;
 pub use stroke::{Stroke, smooth_ramp};

@@ -13,8 +13,8 @@ use serde::Deserialize;
 
 use super::case_text::{CaseText, Located, locate, no_such_case, read_file, shipped_text, stem};
 use super::diagnostic::{CaseError, Diagnostic, Severity};
-use super::geometry::opposite;
 use super::nearest::nearest;
+use super::region::opposite;
 use super::source::{Location, Origin, Source};
 use super::tree::{self, Found, TomlNode, TomlValue, TreeError};
 use super::type_error::{Mismatch, TypeError};

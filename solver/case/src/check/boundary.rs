@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::Findings;
-use crate::geometry::{normal_axis, opposite};
+use crate::region::{normal_axis, opposite};
 use crate::type_error::suggestion;
 use crate::{BoundaryCondition, Case, DomainSpec, Geometry, TimeFunction, TimeSettings};
 

@@ -2,7 +2,7 @@
 
 use super::Findings;
 use super::boundary::check_factor;
-use crate::geometry::normal_axis;
+use crate::region::normal_axis;
 use crate::{Body, BoundaryCondition, FlowModel, Lock, MeanFlowSpec, Motion, TimeSettings};
 
 const AXES: [&str; 3] = ["x", "y", "z"];

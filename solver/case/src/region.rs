@@ -1,0 +1,162 @@
+//! The domain of a case: its extent, its named sides, and the planar domain to be meshed.
+
+use alewife_mesh::Domain;
+
+use super::{BoundaryCondition, Case, DomainSpec, Geometry};
+
+impl DomainSpec {
+    /// Geometries the domain can be that of.
+    #[must_use]
+    pub fn geometries(&self) -> &'static [Geometry] {
+        match self {
+            Self::Box { .. } => &[Geometry::Planar, Geometry::Spatial],
+            Self::Channel { .. } | Self::Disc { .. } => &[Geometry::Planar],
+            Self::HalfDisc { .. } => &[Geometry::Axisymmetric],
+            Self::Cylinder { .. } => &[Geometry::Axisymmetric, Geometry::Spatial],
+            Self::Sphere { .. } => &[Geometry::Spatial],
+        }
+    }
+}
+
+/// The smallest box around a region, flat in planar and axisymmetric cases.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Extent {
+    /// Least coordinates (m).
+    pub min: [f64; 3],
+    /// Largest coordinates (m).
+    pub max: [f64; 3],
+}
+
+impl Extent {
+    fn around([x, y, z]: [f64; 3], [a, b, c]: [f64; 3]) -> Self {
+        Self { min: [x - a, y - b, z - c], max: [x + a, y + b, z + c] }
+    }
+
+    /// That of two corners with any number of coordinates; those that are not given are zero.
+    #[must_use]
+    pub fn between(min: &[f64], max: &[f64]) -> Self {
+        let corner = |given: &[f64]| {
+            std::array::from_fn(|axis| given.get(axis).copied().unwrap_or_default())
+        };
+        Self { min: corner(min), max: corner(max) }
+    }
+
+    /// Lengths along the axes (m).
+    #[must_use]
+    pub fn lengths(&self) -> [f64; 3] {
+        std::array::from_fn(|axis| self.max[axis] - self.min[axis])
+    }
+
+    /// Lower left and upper right corner in the plane (m).
+    #[must_use]
+    pub fn in_plane(&self) -> [[f64; 2]; 2] {
+        [self.min, self.max].map(|[x, y, _]| [x, y])
+    }
+}
+
+/// The axis that a straight side is normal to.
+#[must_use]
+pub fn normal_axis(side: &str) -> Option<usize> {
+    match side {
+        "left" | "right" => Some(0),
+        "bottom" | "top" => Some(1),
+        "back" | "front" => Some(2),
+        _ => None,
+    }
+}
+
+/// The side a periodic side can be paired with.
+#[must_use]
+pub fn opposite(side: &str) -> Option<&'static str> {
+    match side {
+        "left" => Some("right"),
+        "right" => Some("left"),
+        "bottom" => Some("top"),
+        "top" => Some("bottom"),
+        "back" => Some("front"),
+        "front" => Some("back"),
+        _ => None,
+    }
+}
+
+impl Case {
+    /// Along which coordinates the domain is periodic.
+    #[must_use]
+    pub fn periodic_axes(&self) -> [bool; 3] {
+        let is_periodic =
+            |side: &str| matches!(self.boundary.get(side), Some(BoundaryCondition::Periodic(_)));
+        ["left", "bottom", "back"].map(is_periodic)
+    }
+
+    /// Names of the sides of the domain.
+    #[must_use]
+    pub fn sides(&self) -> &'static [&'static str] {
+        match (&self.domain, self.geometry) {
+            (DomainSpec::Box { .. }, Geometry::Spatial) => {
+                &["left", "right", "bottom", "top", "back", "front"]
+            }
+            (DomainSpec::Box { .. } | DomainSpec::Channel { .. }, _) => {
+                &["left", "right", "bottom", "top"]
+            }
+            (DomainSpec::Disc { .. } | DomainSpec::Sphere { .. }, _) => &["wall"],
+            (DomainSpec::HalfDisc { .. }, _) => &["wall", "axis"],
+            (DomainSpec::Cylinder { .. }, Geometry::Spatial) => &["left", "right", "wall"],
+            (DomainSpec::Cylinder { .. }, _) => &["left", "right", "wall", "axis"],
+        }
+    }
+
+    /// The smallest box around the domain.
+    #[must_use]
+    pub fn extent(&self) -> Extent {
+        match &self.domain {
+            DomainSpec::Box { min, max } => Extent::between(min, max),
+            DomainSpec::Channel { length, height } => Extent::between(&[], &[*length, *height]),
+            DomainSpec::Disc { center: [x, y], radius } => {
+                Extent::around([*x, *y, 0.0], [*radius, *radius, 0.0])
+            }
+            DomainSpec::HalfDisc { center, radius } => {
+                Extent::between(&[center - radius], &[center + radius, *radius])
+            }
+            DomainSpec::Cylinder { x, radius } if self.geometry == Geometry::Spatial => {
+                Extent::between(&[x[0], -radius, -radius], &[x[1], *radius, *radius])
+            }
+            DomainSpec::Cylinder { x, radius } => Extent::between(&x[..1], &[x[1], *radius]),
+            DomainSpec::Sphere { center, radius } => Extent::around(*center, [*radius; 3]),
+        }
+    }
+
+    /// Whether a side of the domain waves.
+    #[must_use]
+    pub fn has_waving_sheet(&self) -> bool {
+        self.boundary.values().any(|side| matches!(side, BoundaryCondition::WavingSheet { .. }))
+    }
+
+    /// Whether force and moment coefficients are defined: 2 F / (density velocity^2 area).
+    #[must_use]
+    pub fn has_coefficients(&self) -> bool {
+        self.scales.is_some() && self.fluid.density > 0.0
+    }
+
+    /// The planar domain to be meshed, with its periodic pairs; of a domain in space its section.
+    #[must_use]
+    pub fn mesh_domain(&self) -> Domain {
+        let is_periodic =
+            |side: &str| matches!(self.boundary.get(side), Some(BoundaryCondition::Periodic(_)));
+        let (periodic_x, periodic_y) = (
+            is_periodic("left") || is_periodic("right"),
+            is_periodic("bottom") || is_periodic("top"),
+        );
+        match self.domain {
+            DomainSpec::Box { .. } | DomainSpec::Channel { .. } => {
+                let [min, max] = self.extent().in_plane();
+                Domain::Box { min: min.into(), max: max.into(), periodic_x, periodic_y }
+            }
+            DomainSpec::Sphere { center: [x, y, _], radius } => {
+                Domain::Disc { center: [x, y].into(), radius }
+            }
+            DomainSpec::Disc { center, radius } => Domain::Disc { center: center.into(), radius },
+            DomainSpec::HalfDisc { center, radius } => Domain::HalfDisc { center, radius },
+            DomainSpec::Cylinder { x, radius } => Domain::Cylinder { x, radius, periodic_x },
+        }
+    }
+}
