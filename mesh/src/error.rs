@@ -201,6 +201,12 @@ pub enum MeshError {
         /// Where (m).
         at: [f64; 3],
     },
+    /// A box in space has periodic sides.
+    #[error(
+        "meshes of tetrahedra with periodic sides are not made yet: make the sides walls, open, or \
+         planes of symmetry"
+    )]
+    PeriodicInSpace,
     /// No mesh of tetrahedra with good cells was found.
     #[error(
         "no good tetrahedra near {}: {reason} ({value:.3e}); lower mesh.surface or raise \

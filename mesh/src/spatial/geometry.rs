@@ -23,6 +23,8 @@ pub struct Group {
     pub center: Point<3>,
     /// Its radius (m), infinite for the domain.
     pub reach: f64,
+    /// Planes of symmetry that cut them.
+    pub cut_by: Vec<usize>,
 }
 
 /// The surfaces that bound the fluid.
@@ -53,10 +55,16 @@ impl Geometry {
             surface.boundary = BoundaryId::new(side);
             surface.size = own.min(sizing.size).min(domain.facing(side) / sizing.gap_layers);
             surface.turn = sizing.turn;
+            surface.is_symmetry = domain.is_symmetric(side);
         }
         let far = Point::<3>::zeros();
-        let mut groups =
-            vec![Group { first: 0, last: surfaces.len(), center: far, reach: f64::INFINITY }];
+        let mut groups = vec![Group {
+            first: 0,
+            last: surfaces.len(),
+            center: far,
+            reach: f64::INFINITY,
+            cut_by: Vec::new(),
+        }];
         for (index, body) in bodies.iter().enumerate() {
             let first = surfaces.len();
             let boundary = BoundaryId::new(boundaries.len());
@@ -184,5 +192,9 @@ fn around(surfaces: &[SmoothSurface], first: usize) -> Group {
     let middle: Point<3> = own.iter().map(SmoothSurface::origin).sum();
     let center = middle / own.len().max(1) as f64;
     let reach = own.iter().map(|surface| (surface.origin() - center).norm() + surface.reach());
-    Group { first, last: surfaces.len(), center, reach: reach.fold(0.0, f64::max) }
+    let reach = reach.fold(0.0, f64::max);
+    let is_cut = |plane: &SmoothSurface| own.iter().any(|surface| surface.crosses(plane));
+    let planes = surfaces[..first].iter().enumerate().filter(|(_, plane)| plane.is_symmetry);
+    let cut_by = planes.filter(|(_, plane)| is_cut(plane)).map(|(side, _)| side).collect();
+    Group { first, last: surfaces.len(), center, reach, cut_by }
 }

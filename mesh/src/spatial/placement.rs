@@ -82,6 +82,10 @@ fn check_domain(domain: &Domain) -> Result<(), MeshError> {
         Domain::Cylinder { .. } => ["length", "radius", "radius"],
         Domain::Ball { .. } => ["radius"; 3],
     };
+    if (0..domain.sides().len()).any(|side| domain.is_periodic(side)) {
+        // Not made yet: facets of the two sides would have to match
+        return Err(MeshError::PeriodicInSpace);
+    }
     for (axis, what) in what.into_iter().enumerate() {
         let value = max[axis] - min[axis];
         if !value.is_finite() || value <= 0.0 {

@@ -71,6 +71,7 @@ impl SizeField {
         }
         // The domain comes first, then bodies as far as they can matter
         let (mut nearest, mut second) = (f64::INFINITY, f64::INFINITY);
+        let domain = &self.geometry.surfaces[..self.geometry.groups[0].last];
         for group in &self.geometry.groups {
             let apart = ((point - group.center).norm() - group.reach).max(0.0);
             if apart * self.growth.min(1.0 / self.layers) >= size {
@@ -78,6 +79,16 @@ impl SizeField {
             }
             let wish = self.wish(group, point);
             size = size.min(wish.size);
+            // A body faces its image behind a plane of symmetry that does not cut it
+            if group.first > 0 {
+                for (side, plane) in domain.iter().enumerate().filter(|(_, side)| side.is_symmetry)
+                {
+                    if !group.cut_by.contains(&side) {
+                        let gap = wish.distance + plane.gap(point).abs();
+                        size = size.min(2.0 * gap / self.layers);
+                    }
+                }
+            }
             if wish.distance < nearest {
                 (nearest, second) = (wish.distance, nearest);
             } else if wish.distance < second {
@@ -96,7 +107,9 @@ impl SizeField {
                 let foot = surface.foot(point);
                 (foot.gap, surface.size_at(foot.point))
             };
-            wish.distance = wish.distance.min(gap.abs());
+            if !surface.is_symmetry {
+                wish.distance = wish.distance.min(gap.abs());
+            }
             wish.size = wish.size.min(own + self.growth * gap.abs());
             for bend in &surface.bends {
                 wish.size = wish.size.min(bend.size + self.growth * (bend.at - point).norm());

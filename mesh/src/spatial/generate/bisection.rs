@@ -18,7 +18,7 @@ const LOOK_CLOSER: f64 = 0.6;
 const EQUAL: f64 = 1e-9;
 
 /// Most vertices of a lattice.
-const MOST_VERTICES: usize = 60_000_000;
+const MOST_VERTICES: usize = 8_000_000;
 
 /// An edge that is to be split, the longest first, then by its vertices.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

@@ -63,6 +63,8 @@ pub struct SmoothSurface {
     pub size: f64,
     /// Largest angle by which it turns along one edge (rad).
     pub turn: f64,
+    /// Whether it is a plane of symmetry, which is no wall.
+    pub is_symmetry: bool,
     /// Places on it where it bends more than around them, with the edge lengths wanted there.
     pub bends: Vec<Bend>,
 }
@@ -91,6 +93,7 @@ impl SmoothSurface {
             boundary: BoundaryId::default(),
             size: f64::INFINITY,
             turn: f64::INFINITY,
+            is_symmetry: false,
             bends: Vec::new(),
         }
     }
@@ -244,6 +247,15 @@ impl SmoothSurface {
             Form::Ellipsoid(_) | Form::Revolved(_) => None,
             _ => Some(self.size_at(self.origin)),
         }
+    }
+
+    /// Whether a plane cuts it, or touches it.
+    #[must_use]
+    pub fn crosses(&self, plane: &Self) -> bool {
+        let on =
+            directions(SAMPLES).map(|to| self.foot(self.origin + to * (2.0 * self.reach())).point);
+        let mut gaps = on.map(|point| plane.gap(point));
+        gaps.any(|gap| gap <= 0.0)
     }
 
     /// Finds the places where it bends so much that the edge length grows faster from them than by

@@ -34,8 +34,12 @@ impl Revolved {
         if let Some([_, off]) = between.iter().find(|point| point[1].is_nan() || point[1] <= 0.0) {
             return refuse("distance of the profile from the axis", *off, "positive");
         }
-        let mirrored = between.iter().rev().map(|[x, off]| [*x, -off]);
-        let points = profile.iter().copied().chain(mirrored).collect();
+        let mut points = profile.to_vec();
+        points.extend(between.iter().rev().map(|[x, off]| [*x, -off]));
+        if first[0] < last[0] {
+            // Counter-clockwise
+            points.reverse();
+        }
         let outline = Outline::new(&PlacedShape {
             name: body.to_owned(),
             shape: Shape::Spline { points },
