@@ -2,6 +2,7 @@
 
 use super::block_matrix::{Block, BlockMatrix};
 use super::dense::invert;
+use crate::sparse::single::single;
 
 /// The inverse of the diagonal blocks of a matrix whose last rows are pairs.
 #[derive(Debug)]
@@ -81,7 +82,7 @@ fn inverse<const B: usize, const N: usize>(
     if !invert(n, dense) {
         dense.fill(0.0);
     }
-    let value = |i: usize, j: usize, a: usize, b: usize| dense[(i * B + a) * n + j * B + b] as f32;
+    let value = |i: usize, j: usize, a: usize, b: usize| single(dense[(i * B + a) * n + j * B + b]);
     std::array::from_fn(|i| {
         std::array::from_fn(|j| std::array::from_fn(|b| std::array::from_fn(|a| value(i, j, a, b))))
     })

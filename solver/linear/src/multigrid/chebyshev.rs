@@ -5,6 +5,7 @@
 
 use super::block_diagonal::BlockDiagonal;
 use super::block_matrix::BlockMatrix;
+use crate::sparse::single::single;
 
 /// Power steps towards the largest eigenvalue of D^-1 A.
 const POWER_STEPS: usize = 15;
@@ -135,7 +136,8 @@ fn largest_eigenvalue<const B: usize>(
 }
 
 fn norm<const B: usize>(vector: &[[f32; B]]) -> f32 {
-    vector.iter().flatten().map(|value| f64::from(value * value)).sum::<f64>().sqrt() as f32
+    let squares = vector.iter().flatten().map(|value| f64::from(value * value));
+    single(squares.sum::<f64>().sqrt())
 }
 
 /// A number between -1 and 1 that has little to do with those before and after it: what power steps

@@ -1,5 +1,7 @@
 //! Inverses of small dense matrices.
 
+use crate::sparse::single::single;
+
 /// Pivots below this fraction of the largest entry count as zero.
 const SINGULAR: f64 = 1e-12;
 
@@ -56,8 +58,7 @@ impl DenseInverse {
     /// The inverse of an n x n matrix, row by row; none of a singular one.
     pub fn new(n: usize, mut matrix: Vec<f64>) -> Option<Self> {
         let is_regular = invert(n, &mut matrix);
-        let single = |value: &f64| *value as f32;
-        is_regular.then(|| Self { n, values: matrix.iter().map(single).collect() })
+        is_regular.then(|| Self { n, values: matrix.into_iter().map(single).collect() })
     }
 
     /// Overwrites x with A^-1 b.

@@ -37,7 +37,7 @@ fn whole(index: usize) -> f32 {
 
 fn scattered_matrix(n_rows: usize, n_columns: usize, salt: usize) -> BlockMatrix<3> {
     matrix(n_rows, n_columns, |row, column| {
-        if (row * 31 + column * 17 + salt) % 4 == 0 {
+        if (row * 31 + column * 17 + salt).is_multiple_of(4) {
             let at = |a: usize, b: usize| whole(row * 97 + column * 41 + a * 5 + b + salt);
             std::array::from_fn(|b| std::array::from_fn(|a| at(a, b)))
         } else {

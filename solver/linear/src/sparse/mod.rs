@@ -3,6 +3,7 @@
 pub(crate) mod index;
 mod matrix;
 mod pattern;
+pub(crate) mod single;
 mod unknowns;
 
 pub use matrix::{Residual, Revision, SparseMatrix};

@@ -5,6 +5,7 @@ use super::numbering::{B, Numbering, Place};
 use crate::multigrid::{Block, BlockMatrix, RowBuilder};
 use crate::sparse::SparseMatrix;
 use crate::sparse::index::to_u32;
+use crate::sparse::single::single;
 
 /// F in single precision. Components that are no unknowns get the mean of the others on their diagonal.
 pub(super) fn velocity_block(matrix: &SparseMatrix, numbering: &Numbering) -> BlockMatrix<B> {
@@ -37,7 +38,7 @@ fn transposed_block(matrix: &SparseMatrix, numbering: &Numbering, n: usize) -> B
                     blocks.push([[0.0; B]; B]);
                 }
                 // Transposed: entry (a, b) of a block becomes (b, a)
-                blocks[*slot as usize][usize::from(component)][b] = values[entry] as f32;
+                blocks[*slot as usize][usize::from(component)][b] = single(values[entry]);
             }
         }
         pad_diagonal(unknowns, position[own], &mut blocks);
@@ -93,7 +94,7 @@ pub(super) fn transfer(interpolation: &Interpolation, numbering: &Numbering) -> 
                 let place = numbering.places[term.unknown as usize];
                 let Place::Velocity { row, component } = place else { continue };
                 let Some(row) = coarse_row[row as usize] else { continue };
-                add(&mut found, row, a, usize::from(component), term.weight as f32);
+                add(&mut found, row, a, usize::from(component), single(term.weight));
             }
         }
         for Found { column, block } in found.drain(..) {

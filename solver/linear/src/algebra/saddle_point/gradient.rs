@@ -6,6 +6,7 @@ use super::numbering::{B, Numbering, Place};
 use crate::multigrid::{BlockMatrix, RowBuilder};
 use crate::sparse::SparseMatrix;
 use crate::sparse::index::to_u32;
+use crate::sparse::single::single;
 
 /// Rows that one task works on.
 const ROWS: usize = 256;
@@ -74,7 +75,7 @@ impl Gradient {
                     pressures[next[row]] = to_u32(index);
                     next[row] += 1;
                 }
-                values[next[row] - 1][component] = matrix.values()[entry] as f32;
+                values[next[row] - 1][component] = single(matrix.values()[entry]);
             }
         }
         Self { n_pressures: numbering.pressures.len(), starts, pressures, values }

@@ -2,6 +2,7 @@
 
 use super::data::{Part, SaddlePoint};
 use crate::sparse::index::to_u32;
+use crate::sparse::single::single;
 
 /// Unknowns in a block.
 pub(super) const B: usize = 3;
@@ -92,7 +93,7 @@ impl Numbering {
     /// Splits a vector of the unknowns, each divided by its scale.
     pub fn split(&self, values: &[f64], scales: &[f64], u: &mut BlockVector, p: &mut [f32]) {
         for ((place, value), scale) in self.places.iter().zip(values).zip(scales) {
-            let value = (value / scale) as f32;
+            let value = single(value / scale);
             match *place {
                 Place::Velocity { row, component } => {
                     u[row as usize][usize::from(component)] = value;
@@ -109,7 +110,7 @@ impl Numbering {
                 Place::Velocity { row, component } => u[row as usize][usize::from(component)],
                 Place::Pressure(index) => p[index as usize],
             };
-            *value = (f64::from(part) / scale) as f32;
+            *value = single(f64::from(part) / scale);
         }
     }
 }

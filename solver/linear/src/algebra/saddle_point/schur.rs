@@ -12,6 +12,7 @@ use crate::multigrid::{
 };
 use crate::sparse::SparseMatrix;
 use crate::sparse::index::to_u32;
+use crate::sparse::single::single;
 
 /// Eigenvalues of the mass matrix of linear elements over its diagonal, in the plane and in space
 /// (@wathen1987).
@@ -70,7 +71,7 @@ impl SchurComplement {
         }
         if self.has_held_pressure {
             let sum: f64 = p.iter().map(|value| f64::from(*value)).sum();
-            self.rhs[p.len()] = [-sum as f32];
+            self.rhs[p.len()] = [single(-sum)];
         }
         self.mass_inverse.solve(&self.mass, &self.rhs, &mut self.solution);
         if let Some(laplacian) = &mut self.laplacian {
@@ -92,7 +93,7 @@ fn single_precision(matrix: &SparseMatrix) -> BlockMatrix<1> {
     let mut rows = RowBuilder::new(matrix.n());
     for column in 0..matrix.n() {
         for entry in pattern.entries(column) {
-            rows.push(to_u32(pattern.rows[entry]), [[matrix.values()[entry] as f32]]);
+            rows.push(to_u32(pattern.rows[entry]), [[single(matrix.values()[entry])]]);
         }
         rows.end_row();
     }
@@ -106,7 +107,7 @@ fn by_blocks(values: &[f64], numbering: &Numbering) -> Vec<[f32; B]> {
         if let Place::Velocity { row, component } = *place
             && let Some(block) = blocks.get_mut(row as usize)
         {
-            block[usize::from(component)] = *value as f32;
+            block[usize::from(component)] = single(*value);
         }
     }
     blocks
