@@ -15,6 +15,7 @@ pub(super) use self::flow::FlowMeasurement;
 use self::probes::Probes;
 use self::swimmers::SwimmerMeasurement;
 use super::advance::Simulation;
+use super::momentum::MomentumRecord;
 use super::snapshot::BodyReport;
 use super::{RunError, Stage};
 use crate::case::{Case, Column, Model, Source, TimeSettings, columns};
@@ -27,6 +28,7 @@ pub(super) struct Measure<const D: usize> {
     probes: Probes<D>,
     coefficients: Coefficients,
     balances_energy: bool,
+    balances_momentum: bool,
     is_unsteady: bool,
 }
 
@@ -59,6 +61,7 @@ impl<const D: usize> Measure<D> {
             probes: Probes::in_fluid(case, mesh, images)?,
             coefficients: Coefficients::of(case),
             balances_energy: model.balances_energy(),
+            balances_momentum: model.balances_momentum(),
             is_unsteady: matches!(case.time, TimeSettings::Unsteady(_)),
         })
     }
@@ -101,7 +104,7 @@ impl<const D: usize> Measure<D> {
         simulation: &mut Simulation<D>,
         loads: &SurfaceLoads,
     ) -> Result<Measured, RunError> {
-        let bodies = body_reports(simulation, &loads.bodies);
+        let bodies = body_reports(simulation, &loads.bodies)?;
         let mut flow = FlowMeasurement::new(simulation);
         let Simulation { problem, state, moving_mesh, .. } = simulation;
         let own_poses = state.in_own_frame(problem, &state.poses);
@@ -120,7 +123,12 @@ impl<const D: usize> Measure<D> {
         if self.balances_energy {
             let has_memory = self.is_unsteady && problem.has_inertia;
             flow.energy_defect =
-                state.energy.add(has_memory, flow.energy_record(state.time, loads));
+                state.energy.add(has_memory, flow.energy_record(problem, state.time, loads));
+        }
+        if self.balances_momentum {
+            let fluid = flow.fluid_momentum(problem.density);
+            let record = MomentumRecord::of(problem, state, loads, &fluid);
+            flow.momentum_defect = state.momentum.add(record);
         }
         let value = |source: &Source| match *source {
             Source::Body(body, quantity) => BodyMotion {

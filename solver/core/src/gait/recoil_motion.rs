@@ -1,0 +1,99 @@
+//! `RecoilMotion`: how large the rigid motion is that a body's gait leaves out over a period.
+
+use alewife_mesh::Point;
+
+use super::error::GaitError;
+
+/// Times of a period at which the motion is taken: the largest values are then within 1e-3.
+const TIMES: u32 = 128;
+
+/// The rigid motion of a body by which its gait, prescribed as seen from the head, differs from the
+/// gait without momentum.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct RecoilMotion {
+    /// Largest distance of the centre of area from its mean over a period (m).
+    pub translation: f64,
+    /// Largest speed of the centre of area (m/s), and its root mean square.
+    pub largest_speed: f64,
+    /// Root mean square of that speed (m/s).
+    pub rms_speed: f64,
+    /// Largest angle from its mean over a period (rad).
+    pub rotation: f64,
+    /// Largest angular velocity (rad/s).
+    pub largest_angular_velocity: f64,
+    /// Root mean square of the angular velocity (rad/s).
+    pub rms_angular_velocity: f64,
+    /// Angle by which a period turns the body (rad).
+    pub turn: f64,
+}
+
+/// Position and velocity of the rigid motion at one time.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Recoil {
+    /// Centre of area as seen from the head (m).
+    pub center: Point<2>,
+    /// Its velocity (m/s).
+    pub velocity: Point<2>,
+    /// Angle since the start (rad).
+    pub angle: f64,
+    /// Angular velocity (rad/s).
+    pub angular_velocity: f64,
+}
+
+impl RecoilMotion {
+    /// Over a period (s) after a transient (s).
+    pub(super) fn over(
+        transient: f64,
+        period: f64,
+        recoil: impl Fn(f64) -> Result<Recoil, GaitError>,
+    ) -> Result<Self, GaitError> {
+        let at = |i: u32| recoil(transient + period * f64::from(i) / f64::from(TIMES));
+        let cycle = (0..TIMES).map(at).collect::<Result<Vec<_>, _>>()?;
+        let count = f64::from(TIMES);
+        let center = cycle.iter().map(|at| at.center).sum::<Point<2>>() / count;
+        let angle = cycle.iter().map(|at| at.angle).sum::<f64>() / count;
+        let largest = |f: &dyn Fn(&Recoil) -> f64| cycle.iter().map(f).fold(0.0, f64::max);
+        let rms = |f: &dyn Fn(&Recoil) -> f64| {
+            (cycle.iter().map(|at| f(at).powi(2)).sum::<f64>() / count).sqrt()
+        };
+        Ok(Self {
+            translation: largest(&|at| (at.center - center).norm()),
+            largest_speed: largest(&|at| at.velocity.norm()),
+            rms_speed: rms(&|at| at.velocity.norm()),
+            rotation: largest(&|at| (at.angle - angle).abs()),
+            largest_angular_velocity: largest(&|at| at.angular_velocity.abs()),
+            rms_angular_velocity: rms(&|at| at.angular_velocity),
+            turn: at(TIMES)?.angle - cycle[0].angle,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::TAU;
+
+    use super::*;
+
+    #[test]
+    fn amplitudes_of_a_sine_are_found_and_a_turn_is_told() {
+        let recoil = |t: f64| {
+            let (sin, cos) = (TAU * t / 2.0).sin_cos();
+            Ok(Recoil {
+                center: Point::<2>::new(7.0, 0.3 * sin),
+                velocity: Point::<2>::new(0.0, 0.3 * TAU / 2.0 * cos),
+                angle: 5.0 + 0.2 * sin + 0.05 * t,
+                angular_velocity: 0.2 * TAU / 2.0 * cos,
+            })
+        };
+        let motion = RecoilMotion::over(1.0, 2.0, recoil).unwrap();
+        let speed = 0.3 * TAU / 2.0;
+        assert!((motion.translation - 0.3).abs() < 1e-3);
+        assert!((motion.largest_speed - speed).abs() < 1e-3);
+        assert!((motion.rms_speed - speed / 2.0_f64.sqrt()).abs() < 1e-12);
+        assert!((motion.largest_angular_velocity - 0.2 * TAU / 2.0).abs() < 1e-3);
+        assert!((motion.turn - 0.1).abs() < 1e-12);
+        assert!(motion.rotation > 0.15 && motion.rotation < 0.25);
+        let failing = |time: f64| Err(GaitError::Midline { time });
+        assert!(RecoilMotion::over(0.0, 1.0, failing).is_err());
+    }
+}

@@ -1,0 +1,179 @@
+//! `MomentumBalance`: whether the momentum of the fluid and of each body changes by the forces on them.
+
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+use super::energy::{IMPULSE_RECORDS, LARGEST_PART};
+use super::state::State;
+use crate::body::Mode;
+use crate::coupling::{Drive, Problem, SurfaceLoads};
+
+/// Momentum turned over that is rounding, over the largest there could be at the kinetic energy so far.
+const NEGLIGIBLE: f64 = 1e-6;
+
+/// A part of the system: what momentum it has, and the force on it.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub struct Part {
+    /// Momentum (kg m/s).
+    pub momentum: Vector3<f64>,
+    /// Force (N).
+    pub force: Vector3<f64>,
+}
+
+/// Momentum of the fluid and of the bodies at one time.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct MomentumRecord {
+    /// Time (s).
+    pub time: f64,
+    /// The fluid, with the force of sides, bodies and mean flow.
+    pub fluid: Part,
+    /// The bodies, along directions in which they are free, with all forces.
+    pub bodies: Vec<Part>,
+    /// Rate at which momentum is turned over (N).
+    pub exchange: f64,
+    /// The largest momentum of the fluid at its kinetic energy (kg m/s).
+    pub scale: f64,
+}
+
+/// What the fluid has as a whole.
+#[derive(Debug, Clone, Copy)]
+pub struct FluidMomentum {
+    /// Its momentum (kg m/s).
+    pub momentum: Vector3<f64>,
+    /// Force of a mean flow on it (N).
+    pub mean_force: Vector3<f64>,
+    /// The largest momentum at its kinetic energy (kg m/s).
+    pub scale: f64,
+}
+
+impl MomentumRecord {
+    /// At the state of a simulation.
+    #[must_use]
+    pub fn of<const D: usize>(
+        problem: &Problem<D>,
+        state: &State<D>,
+        loads: &SurfaceLoads,
+        fluid: &FluidMomentum,
+    ) -> Self {
+        let mut exchange = loads.sides_force.norm();
+        let mut bodies = Vec::new();
+        for (body, rigid) in problem.bodies.iter().enumerate() {
+            let external = rigid.external(state.time).fixed_rows::<3>(0).into_owned();
+            let fluid = loads.bodies[body].load.force;
+            let force = fluid + state.contact.wrenches[body].force + external;
+            // Forces in joints and springs are not known here
+            let is_alone = !problem.has_joints() && rigid.spring.is_none();
+            let counts =
+                |axis: usize| is_alone && matches!(rigid.drive(Mode::along(axis)), Drive::Free);
+            let along = |vector: &Vector3<f64>| {
+                Vector3::from_fn(|i, _| if counts(i) { vector[i] } else { 0.0 })
+            };
+            let momentum = state.now.twists[body].linear * rigid.inertia.mass;
+            let part = Part { momentum: along(&momentum), force: along(&force) };
+            exchange += part.force.norm() + (fluid - along(&fluid)).norm();
+            bodies.push(part);
+        }
+        Self {
+            time: state.time,
+            fluid: Part {
+                momentum: fluid.momentum,
+                force: loads.boundary_force + fluid.mean_force,
+            },
+            bodies,
+            exchange,
+            scale: fluid.scale,
+        }
+    }
+
+    fn parts(&self) -> impl Iterator<Item = &Part> {
+        std::iter::once(&self.fluid).chain(&self.bodies)
+    }
+}
+
+/// Momentum of the fluid and of each body against the impulses of the forces on them.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct MomentumBalance {
+    /// The first record, and the last one.
+    ends: Option<[MomentumRecord; 2]>,
+    /// Records so far.
+    records: usize,
+    /// Impulses less the change of momentum so far, of fluid and bodies (N s).
+    defects: Vec<Vector3<f64>>,
+    /// Momentum that was turned over so far (N s).
+    turnover: f64,
+    /// The largest of all scales so far (kg m/s).
+    scale: f64,
+}
+
+impl MomentumBalance {
+    /// Adds a record; the sum of the defects of fluid and bodies over what has been turned over.
+    ///
+    /// Not a number while that is too little. What velocities that jump at the start do at once
+    /// is not looked at: the force of an impulse is not resolved.
+    pub fn add(&mut self, now: MomentumRecord) -> f64 {
+        let [first, before] = self.ends.take().unwrap_or_else(|| [now.clone(), now.clone()]);
+        self.records += 1;
+        self.scale = self.scale.max(now.scale);
+        self.defects.resize(now.bodies.len() + 1, Vector3::zeros());
+        let step = now.time - before.time;
+        let part = 0.5 * step * (now.exchange + before.exchange);
+        if self.records <= IMPULSE_RECORDS + 1 {
+            let changes = now.parts().zip(first.parts());
+            self.turnover =
+                changes.map(|(now, first)| (now.momentum - first.momentum).norm()).sum();
+        } else {
+            for (defect, (now, before)) in
+                self.defects.iter_mut().zip(now.parts().zip(before.parts()))
+            {
+                let impulse = (now.force + before.force) * (0.5 * step);
+                *defect += impulse - (now.momentum - before.momentum);
+            }
+            self.turnover += part;
+        }
+        let is_meaningful = self.records > IMPULSE_RECORDS + 1
+            && part <= LARGEST_PART * self.turnover
+            && self.turnover > NEGLIGIBLE * self.scale;
+        self.ends = Some([first, now]);
+        if !is_meaningful {
+            return f64::NAN;
+        }
+        self.defects.iter().map(|defect| defect.norm()).sum::<f64>() / self.turnover
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A body that is pulled through fluid, which takes its drag; momenta follow from the forces.
+    fn record(time: f64, density_error: f64) -> MomentumRecord {
+        let drag = 1.0 - (-time).exp();
+        let body = Vector3::new(1.0 - drag, 0.0, 0.0);
+        let fluid = Vector3::new(drag, 0.0, 0.0);
+        let lost = |force: f64| time * force + (-time).exp() - 1.0;
+        MomentumRecord {
+            time,
+            fluid: Part {
+                momentum: Vector3::new(lost(1.0) * (1.0 + density_error), 0.0, 0.0),
+                force: fluid,
+            },
+            bodies: vec![Part { momentum: Vector3::new(drag, 0.0, 0.0), force: body }],
+            exchange: body.norm(),
+            scale: 1.0,
+        }
+    }
+
+    #[test]
+    fn forces_balance_momenta_to_second_order_and_errors_show() {
+        let at = |step: f64, error: f64| {
+            let mut balance = MomentumBalance::default();
+            let records = (0..).map(|n| f64::from(n) * step).take_while(|time| *time < 2.0);
+            records.fold(f64::NAN, |_, time| balance.add(record(time, error)))
+        };
+        let (coarse, fine) = (at(0.02, 0.0), at(0.01, 0.0));
+        assert!(coarse < 1e-4 && fine < 0.27 * coarse, "{coarse} {fine}");
+        assert!(at(0.01, 0.1) > 0.05, "{}", at(0.01, 0.1));
+        let mut start = MomentumBalance::default();
+        assert!((0..3).all(|n| start.add(record(f64::from(n), 0.0)).is_nan()));
+    }
+}
