@@ -260,7 +260,7 @@ mod tests {
             recoils(&model).unwrap().iter().map(recoil_line).collect()
         };
         let [fish] = &lines("carangiform")[..] else { panic!("is one fish") };
-        assert!(fish.starts_with("fish: translation up to 4"), "{fish}");
+        assert!(fish.starts_with("fish: translation up to 8"), "{fish}");
         assert!(fish.contains("rotation up to") && fish.contains("degrees"), "{fish}");
         let spheres = lines("push-me-pull-you");
         assert_eq!(spheres.len(), 2);

@@ -34,8 +34,6 @@ pub(super) struct Recoil {
     pub center: Point<2>,
     /// Its velocity (m/s).
     pub velocity: Point<2>,
-    /// Angle since the start (rad).
-    pub angle: f64,
     /// Angular velocity (rad/s).
     pub angular_velocity: f64,
 }
@@ -51,7 +49,18 @@ impl RecoilMotion {
         let cycle = (0..TIMES).map(at).collect::<Result<Vec<_>, _>>()?;
         let count = f64::from(TIMES);
         let center = cycle.iter().map(|at| at.center).sum::<Point<2>>() / count;
-        let angle = cycle.iter().map(|at| at.angle).sum::<f64>() / count;
+        // Angles since the start of the period, by the trapezoidal rule
+        let step = period / count;
+        let angles: Vec<f64> = cycle
+            .windows(2)
+            .map(|pair| 0.5 * step * (pair[0].angular_velocity + pair[1].angular_velocity))
+            .scan(0.0, |angle, change| {
+                *angle += change;
+                Some(*angle)
+            })
+            .collect();
+        let angle = angles.iter().sum::<f64>() / count;
+        let from_mean = angles.iter().map(|at| (at - angle).abs());
         let largest = |f: &dyn Fn(&Recoil) -> f64| cycle.iter().map(f).fold(0.0, f64::max);
         let rms = |f: &dyn Fn(&Recoil) -> f64| {
             (cycle.iter().map(|at| f(at).powi(2)).sum::<f64>() / count).sqrt()
@@ -60,10 +69,10 @@ impl RecoilMotion {
             translation: largest(&|at| (at.center - center).norm()),
             largest_speed: largest(&|at| at.velocity.norm()),
             rms_speed: rms(&|at| at.velocity.norm()),
-            rotation: largest(&|at| (at.angle - angle).abs()),
+            rotation: from_mean.fold(angle.abs(), f64::max),
             largest_angular_velocity: largest(&|at| at.angular_velocity.abs()),
             rms_angular_velocity: rms(&|at| at.angular_velocity),
-            turn: at(TIMES)?.angle - cycle[0].angle,
+            turn: step * cycle.iter().map(|at| at.angular_velocity).sum::<f64>(),
         })
     }
 }
@@ -81,8 +90,7 @@ mod tests {
             Ok(Recoil {
                 center: Point::<2>::new(7.0, 0.3 * sin),
                 velocity: Point::<2>::new(0.0, 0.3 * TAU / 2.0 * cos),
-                angle: 5.0 + 0.2 * sin + 0.05 * t,
-                angular_velocity: 0.2 * TAU / 2.0 * cos,
+                angular_velocity: 0.2 * TAU / 2.0 * cos + 0.05,
             })
         };
         let motion = RecoilMotion::over(1.0, 2.0, recoil).unwrap();
@@ -90,9 +98,12 @@ mod tests {
         assert!((motion.translation - 0.3).abs() < 1e-3);
         assert!((motion.largest_speed - speed).abs() < 1e-3);
         assert!((motion.rms_speed - speed / 2.0_f64.sqrt()).abs() < 1e-12);
-        assert!((motion.largest_angular_velocity - 0.2 * TAU / 2.0).abs() < 1e-3);
+        assert!((motion.largest_angular_velocity - 0.2 * TAU / 2.0 - 0.05).abs() < 1e-3);
         assert!((motion.turn - 0.1).abs() < 1e-12);
         assert!(motion.rotation > 0.15 && motion.rotation < 0.25);
+        let back_and_forth = |t: f64| Ok(Recoil { angular_velocity: t.cos(), ..recoil(t)? });
+        let motion = RecoilMotion::over(0.3, TAU, back_and_forth).unwrap();
+        assert!((motion.rotation - 1.0).abs() < 1e-3, "{}", motion.rotation);
         let failing = |time: f64| Err(GaitError::Midline { time });
         assert!(RecoilMotion::over(0.0, 1.0, failing).is_err());
     }

@@ -196,7 +196,6 @@ impl SlenderBody {
         Ok(Recoil {
             center: Point::<2>::from(interior.center.map(|part| part.re)),
             velocity: Point::<2>::from(interior.center.map(|part| part.eps)),
-            angle: -self.recoil_angle(time)?,
             angular_velocity: -recoil_rate(&interior, time)?,
         })
     }

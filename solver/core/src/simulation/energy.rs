@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Records before a balance begins: a velocity that jumps at the start is an impulse, which the
-/// first two pieces of a first step (`control/start.rs`) bring about.
+/// Records after the first one before a balance begins: a velocity that jumps at the start is an impulse,
+/// whose force is in no record, or in the first two with both signs.
 pub(super) const IMPULSE_RECORDS: usize = 2;
 
 /// Fraction of what has been turned over that a step may add for a balance to mean something.
