@@ -159,7 +159,7 @@ quantities! {
         MomentumDefect: "momentum_defect", "1", ClosedSides,
             "Impulse of the forces less the change of momentum, summed over the fluid and each free \
              body without joint or spring, over the momentum turned over by sides and bodies since the \
-             start: the error of the balance of momentum; NaN while that is too little to tell";
+             twentieth row: the error of the balance of momentum; NaN while that is too little to tell";
         PressureGradientX: "pressure_gradient.x", "Pa/m", MeanFlow,
             "Mean pressure gradient along x, given or what brings a mean velocity about";
         PressureGradientY: "pressure_gradient.y", "Pa/m", MeanFlow, "The same along y";

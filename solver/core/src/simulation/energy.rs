@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 /// Records after the first one before a balance begins: a velocity that jumps at the start is an impulse,
 /// whose force is in no record, or in the first two with both signs.
-pub(super) const IMPULSE_RECORDS: usize = 2;
+const IMPULSE_RECORDS: usize = 2;
 
 /// Fraction of what has been turned over that a step may add for a balance to mean something.
 pub(super) const LARGEST_PART: f64 = 0.1;
