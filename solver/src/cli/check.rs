@@ -102,7 +102,7 @@ fn recoil_line(recoil: &BodyRecoil) -> String {
     }
     let number = |value: f64| format!("{value:.3e}");
     let turn = motion.turn.to_degrees();
-    let turn = if turn.abs() < 1e-6 {
+    let turn = if turn.abs() < 5e-3 {
         String::new()
     } else {
         format!(", and it turns by {turn:.2} degrees a period")
