@@ -166,7 +166,7 @@ fn no_linear_momentum_is_left() {
             }
             let left = momentum.norm() / size;
             println!("{name} at {time}: linear momentum {left:.1e} of its parts");
-            assert!(left < 1e-10, "{name} at {time}: {left:.1e}");
+            assert!(left < 1e-12, "{name} at {time}: {left:.1e}");
             assert!(flux.abs() * profile.length() < 1e-10 * size, "{name} at {time}");
         }
     }
@@ -184,15 +184,16 @@ fn the_recoil_of_a_period_is_that_of_its_times() {
         let (mut speed, mut turning) = (0.0, 0.0);
         let mut far: f64 = 0.0;
         for i in 0..32 {
-            let time = transient + period * f64::from(i) / 32.0;
+            // Not at the end of the ramp, where second derivatives jump
+            let time = transient + period * (f64::from(i) + 0.5) / 32.0;
             let now = at(time);
             let step = 2e-3 * period;
             let velocity = difference(|t| at(t).center, time, step);
             let off = (velocity - now.velocity).norm() / told.largest_speed;
-            assert!(i % 8 != 0 || off < 1e-6, "{name}: {off:.1e}");
+            assert!(i % 8 != 3 || off < 1e-6, "{name}: {off:.1e}");
             let turn = difference(|t| at(t).angle, time, step);
             let off = (turn - now.angular_velocity).abs() / told.largest_angular_velocity;
-            assert!(i % 8 != 0 || off < 1e-6, "{name}: {off:.1e}");
+            assert!(i % 8 != 3 || off < 1e-6, "{name}: {off:.1e}");
             speed = f64::max(speed, now.velocity.norm());
             turning = f64::max(turning, now.angular_velocity.abs());
             let opposite = at(time + 0.5 * period);
