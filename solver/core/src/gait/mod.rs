@@ -6,6 +6,8 @@ mod error;
 mod grid;
 mod midline;
 mod momentum;
+#[cfg(test)]
+mod momentum_tests;
 mod number;
 mod pulse;
 mod recoil;

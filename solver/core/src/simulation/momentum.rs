@@ -4,9 +4,6 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use super::energy::LARGEST_PART;
-use super::state::State;
-use crate::body::Mode;
-use crate::coupling::{Drive, Problem, SurfaceLoads};
 
 /// Records before the balance begins: after a velocity that jumps at the start forces fall like
 /// t^-1/2, which is not resolved by a few steps, and leaves 1e-2 of all momentum.
@@ -39,56 +36,7 @@ pub struct MomentumRecord {
     pub scale: f64,
 }
 
-/// What the fluid has as a whole.
-#[derive(Debug, Clone, Copy)]
-pub struct FluidMomentum {
-    /// Its momentum (kg m/s).
-    pub momentum: Vector3<f64>,
-    /// Force of a mean flow on it (N).
-    pub mean_force: Vector3<f64>,
-    /// The largest momentum at its kinetic energy (kg m/s).
-    pub scale: f64,
-}
-
 impl MomentumRecord {
-    /// At the state of a simulation.
-    #[must_use]
-    pub fn of<const D: usize>(
-        problem: &Problem<D>,
-        state: &State<D>,
-        loads: &SurfaceLoads,
-        fluid: &FluidMomentum,
-    ) -> Self {
-        let mut exchange = loads.sides_force.norm();
-        let mut bodies = Vec::new();
-        for (body, rigid) in problem.bodies.iter().enumerate() {
-            let external = rigid.external(state.time).fixed_rows::<3>(0).into_owned();
-            let fluid = loads.bodies[body].load.force;
-            let force = fluid + state.contact.wrenches[body].force + external;
-            // Forces in joints and springs are not known here
-            let is_alone = !problem.has_joints() && rigid.spring.is_none();
-            let counts =
-                |axis: usize| is_alone && matches!(rigid.drive(Mode::along(axis)), Drive::Free);
-            let along = |vector: &Vector3<f64>| {
-                Vector3::from_fn(|i, _| if counts(i) { vector[i] } else { 0.0 })
-            };
-            let momentum = state.now.twists[body].linear * rigid.inertia.mass;
-            let part = Part { momentum: along(&momentum), force: along(&force) };
-            exchange += part.force.norm() + (fluid - along(&fluid)).norm();
-            bodies.push(part);
-        }
-        Self {
-            time: state.time,
-            fluid: Part {
-                momentum: fluid.momentum,
-                force: loads.boundary_force + fluid.mean_force,
-            },
-            bodies,
-            exchange,
-            scale: fluid.scale,
-        }
-    }
-
     fn parts(&self) -> impl Iterator<Item = &Part> {
         std::iter::once(&self.fluid).chain(&self.bodies)
     }

@@ -3,11 +3,11 @@
 use alewife_mesh::Point;
 use nalgebra::{SMatrix, Vector3};
 
+use super::momentum::FluidMomentum;
 use crate::case::FlowQuantity;
 use crate::coupling::{MeanFlowReport, Problem, SurfaceLoads};
 use crate::simulation::advance::{CellCrossing, Simulation};
 use crate::simulation::energy::EnergyRecord;
-use crate::simulation::momentum::FluidMomentum;
 use crate::space::CellValues;
 
 /// The whole flow at one time.

@@ -5,6 +5,7 @@
 
 mod bodies;
 mod flow;
+mod momentum;
 mod probes;
 mod swimmers;
 
@@ -12,10 +13,10 @@ use alewife_mesh::{Mesh, Point};
 
 use self::bodies::{BodyMotion, Coefficients, body_reports, joint_value, measure_joints};
 pub(super) use self::flow::FlowMeasurement;
+use self::momentum::momentum_record;
 use self::probes::Probes;
 use self::swimmers::SwimmerMeasurement;
 use super::advance::Simulation;
-use super::momentum::MomentumRecord;
 use super::snapshot::BodyReport;
 use super::{RunError, Stage};
 use crate::case::{Case, Column, Model, Source, TimeSettings, columns};
@@ -127,7 +128,7 @@ impl<const D: usize> Measure<D> {
         }
         if self.balances_momentum {
             let fluid = flow.fluid_momentum(problem.density);
-            let record = MomentumRecord::of(problem, state, loads, &fluid);
+            let record = momentum_record(problem, state, loads, &fluid);
             flow.momentum_defect = state.momentum.add(record);
         }
         let value = |source: &Source| match *source {
