@@ -186,9 +186,9 @@ fn a_mean_velocity_that_is_switched_on_or_changes_does_work() {
             println!("{factor} step {step}: {} {}", of("energy"), of("momentum"));
             [of("energy").abs(), of("momentum")]
         };
-        let [coarse, fine] = [at(0.02), at(0.01)];
-        for (coarse, fine) in coarse.into_iter().zip(fine) {
-            assert!(coarse < 0.02 && fine < 0.6 * coarse, "{factor}: {coarse} {fine}");
-        }
+        let [[coarse, impulse], [fine, fine_impulse]] = [at(0.02), at(0.01)];
+        // What velocities that jump leave for the first steps falls with the root of the step
+        assert!(coarse < 0.01 && fine < 0.75 * coarse, "{factor}: {coarse} {fine}");
+        assert!(impulse < 1e-3 && fine_impulse < 1e-3, "{factor}: {impulse} {fine_impulse}");
     }
 }
