@@ -29,6 +29,7 @@ mod quantity;
 mod read;
 mod reference;
 mod schema;
+mod skin;
 mod source;
 mod speed;
 mod stroke;
@@ -67,6 +68,7 @@ pub use reference::{
     ForceComponent, Numbers, Reference, ReferenceKind, Scales, Statistic, Statistics, Variant,
 };
 pub use schema::schema;
+pub use skin::{BentJoint, JointsGait, Skin, TubeShape};
 pub use source::Location;
 pub use stroke::{Stroke, smooth_ramp};
 pub use swimmer::{Copies, Pivot, SwimmerKind, SwimmerSpec};

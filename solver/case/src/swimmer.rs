@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::body::{GaitSpec, Motion, ShapeSpec};
 use super::joint::{Hinge, JointKind};
 use super::link::Link;
+use super::skin::Skin;
 use super::stroke::Stroke;
 
 /// `[[swimmer]]`.
@@ -92,6 +93,9 @@ pub enum SwimmerKind {
         /// Pivots: `bent = { angle }` or `hinge = { ... }`, from the front; the angle is that of the
         /// link farther from the middle less that of the nearer one.
         joints: Vec<Pivot>,
+        /// Makes one body of all links, which bends by the given angles; separate links if absent.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        skin: Option<Skin>,
     },
     /// Bodies of `[[body]]` that are reported as one.
     Bodies(Vec<String>),

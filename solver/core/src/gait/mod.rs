@@ -19,7 +19,7 @@ mod tests;
 
 pub use deformed_outline::{DeformedOutline, RecoilCorrection, ShapeMotion};
 pub use error::GaitError;
-pub use midline::{Anguilliform, Carangiform, Flagellum, Midline};
+pub use midline::{AngleInTime, Anguilliform, Carangiform, Flagellum, Joint, Joints, Midline};
 pub use pulse::{Pulse, PulseLaw};
 pub use sheet::WavingSheet;
 pub use slender_body::SlenderBody;
