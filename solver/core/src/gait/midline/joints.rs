@@ -118,7 +118,11 @@ mod tests {
                 let (sin, cos) = (TAU * (time + 0.25 * nth as f64)).sin_cos();
                 [amplitude * sin, amplitude * TAU * cos]
             };
-            Joint { along: PIVOTS[nth], angle: AngleInTime(Arc::new(angle)), is_behind_root: nth == 1 }
+            Joint {
+                along: PIVOTS[nth],
+                angle: AngleInTime(Arc::new(angle)),
+                is_behind_root: nth == 1,
+            }
         };
         Joints { joints: vec![joint(0), joint(1)], rounding, cycle: [0.0, 1.0] }
     }
@@ -166,7 +170,8 @@ mod tests {
             let [front, back] = [0, 1].map(|nth| (gait.joints[nth].angle.0)(time)[0]);
             // The first link is turned by the first angle, the last one by the second
             let lengths = [PIVOTS[0], PIVOTS[1] - PIVOTS[0], LENGTH - PIVOTS[1]];
-            let link = |length: f64, angle: f64| Point::<2>::new(-angle.cos(), -angle.sin()) * length;
+            let link =
+                |length: f64, angle: f64| Point::<2>::new(-angle.cos(), -angle.sin()) * length;
             let tip = link(lengths[0], front) + link(lengths[1], 0.0) + link(lengths[2], back);
             let grid = Grid::new(&profile(rounding), &gait.discontinuities());
             let frames: Frames<f64> = gait.frames(&grid, time);
