@@ -6,9 +6,9 @@ use serde::{Deserialize, Serialize};
 
 use super::domain::TimeFunction;
 use super::gait::{
-    AnguilliformGait, CarangiformGait, FishShape, FlagellateShape, FlagellumGait, PulsatingGait,
+    AnguilliformGait, CarangiformGait, FishShape, FlagellateShape, FlagellumGait, JointsGait,
+    PulsatingGait, TubeShape,
 };
-use super::skin::{JointsGait, TubeShape};
 
 /// `shape`: one of these, in the body's own frame.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

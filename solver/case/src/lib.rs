@@ -48,7 +48,8 @@ pub use diagnostic::{CaseError, Diagnostic, Severity, printable};
 pub use domain::{BoundaryCondition, DomainSpec, Geometry, TimeFunction};
 pub use fluid::{FlowModel, Fluid};
 pub use gait::{
-    AnguilliformGait, CarangiformGait, FishShape, FlagellateShape, FlagellumGait, PulsatingGait,
+    AnguilliformGait, BentJoint, CarangiformGait, FishShape, FlagellateShape, FlagellumGait,
+    JointsGait, PulsatingGait, TubeShape,
 };
 pub use geometry::opposite;
 pub use joint::{Hinge, Joint, JointKind};
@@ -68,8 +69,7 @@ pub use reference::{
     ForceComponent, Numbers, Reference, ReferenceKind, Scales, Statistic, Statistics, Variant,
 };
 pub use schema::schema;
-pub use skin::{BentJoint, JointsGait, Skin, TubeShape};
 pub use source::Location;
 pub use stroke::{Stroke, smooth_ramp};
-pub use swimmer::{Copies, Pivot, SwimmerKind, SwimmerSpec};
+pub use swimmer::{Copies, Pivot, Skin, SwimmerKind, SwimmerSpec};
 pub use time::{Adaptive, Convection, Initial, Scheme, Steady, TimeSettings, Unsteady};

@@ -10,7 +10,7 @@ use super::body::{GaitSpec, ShapeSpec};
 use super::diagnostic::CaseError;
 use super::joint::{Joint, JointKind, PlanarPose, child_pose};
 use super::link::{Extent, Link};
-use super::skin::Layout;
+use super::skin::{Layout, NoOutline};
 use super::stroke::Stroke;
 use super::swimmer::{Pivot, SwimmerKind};
 
@@ -89,9 +89,14 @@ pub fn parts(key: &str, kind: &SwimmerKind, geometry: Geometry) -> Result<Vec<Pa
         SwimmerKind::Chain { links, gap, joints, skin } => {
             fits("joints", joints.len(), links.len().saturating_sub(1))?;
             let Some(skin) = skin else { return chain(key, links, *gap, joints) };
-            let layout = Layout::new(links, *gap);
-            let layout = layout.map_err(|(nth, error)| no_outline(key, nth, &error))?;
-            Ok(vec![layout.part(*skin, joints)])
+            let layout = Layout::new(links, *gap)
+                .map_err(|NoOutline { link, error }| no_outline(key, link, &error))?;
+            Ok(vec![Part {
+                shape: ShapeSpec::Tube(layout.shape(*skin)),
+                gait: Some(GaitSpec::Joints(layout.gait(*skin, joints, middle(links.len())))),
+                density: None,
+                attachment: None,
+            }])
         }
         SwimmerKind::Bodies(_) => Ok(Vec::new()),
     }
@@ -184,7 +189,7 @@ struct Neighbour {
 }
 
 /// The part in a row of `n` that all others are attached to.
-pub fn middle(n: usize) -> usize {
+fn middle(n: usize) -> usize {
     n.saturating_sub(1) / 2
 }
 

@@ -5,7 +5,6 @@ use serde::{Deserialize, Serialize};
 use super::body::{GaitSpec, Motion, ShapeSpec};
 use super::joint::{Hinge, JointKind};
 use super::link::Link;
-use super::skin::Skin;
 use super::stroke::Stroke;
 
 /// `[[swimmer]]`.
@@ -99,6 +98,17 @@ pub enum SwimmerKind {
     },
     /// Bodies of `[[body]]` that are reported as one.
     Bodies(Vec<String>),
+}
+
+/// `skin`: one smooth tube about the midline of all links.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct Skin {
+    /// Length of midline over which it bends at each pivot (m); half the shortest distance between
+    /// neighbouring pivots, or of an end from its pivot, if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rounding: Option<f64>,
 }
 
 /// A pivot between the links of a chain.

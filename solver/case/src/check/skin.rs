@@ -2,8 +2,8 @@
 
 use super::Findings;
 use crate::link::Link;
-use crate::skin::{Layout, STEEPEST, Skin};
-use crate::swimmer::Pivot;
+use crate::skin::{Layout, STEEPEST};
+use crate::swimmer::{Pivot, Skin};
 use crate::{ShapedLink, Stroke};
 
 /// A chain with a skin, and the key of the chain.
