@@ -36,7 +36,11 @@ pub(in crate::simulation) struct FlowMeasurement {
 }
 
 impl FlowMeasurement {
-    pub(super) fn new<const D: usize>(simulation: &Simulation<D>) -> Self {
+    /// Integrals over the fluid, with how fast it crosses the cells where that is known already.
+    pub(super) fn new<const D: usize>(
+        simulation: &Simulation<D>,
+        crossing: Option<CellCrossing>,
+    ) -> Self {
         let Simulation { problem, state, work, .. } = simulation;
         let tables = work.system.tables();
         let mut sums = Self {
@@ -46,7 +50,9 @@ impl FlowMeasurement {
             energy_defect: f64::NAN,
             volume: 0.0,
             mean_flow: work.system.mean_flow(&problem.mean_flow_at(state.time), &state.now),
-            crossing: problem.has_convection.then(|| simulation.cell_crossing()),
+            crossing: problem
+                .has_convection
+                .then(|| crossing.unwrap_or_else(|| simulation.cell_crossing())),
             last_step: state.last_step,
             density_over_viscosity: problem.density / problem.viscosity,
             minimum_gap: state.contact.minimum_gap.map_or(f64::INFINITY, |minimum| minimum.gap),

@@ -14,7 +14,7 @@ use self::bodies::{BodyMotion, Coefficients, body_reports, joint_value, measure_
 pub(super) use self::flow::FlowMeasurement;
 use self::probes::Probes;
 use self::swimmers::SwimmerMeasurement;
-use super::advance::Simulation;
+use super::advance::{CellCrossing, Simulation};
 use super::snapshot::BodyReport;
 use super::{RunError, Stage};
 use crate::case::{Case, Column, Model, Source, TimeSettings, columns};
@@ -81,6 +81,7 @@ impl<const D: usize> Measure<D> {
         case: &Case,
         simulation: &mut Simulation<D>,
         loads: &SurfaceLoads,
+        crossing: Option<CellCrossing>,
     ) -> Result<Measured, RunError> {
         let Simulation { state, work, moving_mesh, .. } = simulation;
         if let Some(moving) = moving_mesh.as_ref().filter(|_| !self.probes.is_empty()) {
@@ -91,7 +92,7 @@ impl<const D: usize> Measure<D> {
             });
         }
         let mut timing = simulation.work.timing;
-        let measured = timing.measure(Stage::Loads, || self.values(simulation, loads));
+        let measured = timing.measure(Stage::Loads, || self.values(simulation, loads, crossing));
         simulation.work.timing = timing;
         measured
     }
@@ -100,9 +101,10 @@ impl<const D: usize> Measure<D> {
         &self,
         simulation: &mut Simulation<D>,
         loads: &SurfaceLoads,
+        crossing: Option<CellCrossing>,
     ) -> Result<Measured, RunError> {
         let bodies = body_reports(simulation, &loads.bodies);
-        let mut flow = FlowMeasurement::new(simulation);
+        let mut flow = FlowMeasurement::new(simulation, crossing);
         let Simulation { problem, state, moving_mesh, .. } = simulation;
         let own_poses = state.in_own_frame(problem, &state.poses);
         let minimum_gap = |group: &Group| {
