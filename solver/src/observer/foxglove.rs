@@ -179,7 +179,10 @@ pub fn scene(bodies: &[Body], geometry: Geometry, time: f64) -> Value {
             ShapeSpec::Ellipse { semi_axes: [a, b] } => cylinders.push(solid([*a, *b, *b / 50.0])),
             ShapeSpec::Sphere { radius } => spheres.push(solid([*radius; 3])),
             ShapeSpec::Spheroid { semi_axes: [a, b] } => spheres.push(solid([*a, *b, *b])),
-            ShapeSpec::Spline { .. } | ShapeSpec::Fish(_) | ShapeSpec::Flagellate(_) => {
+            ShapeSpec::Spline { .. }
+            | ShapeSpec::Fish(_)
+            | ShapeSpec::Flagellate(_)
+            | ShapeSpec::Tube(_) => {
                 lines.push(closed_line(&body.shape.points()));
             }
         }

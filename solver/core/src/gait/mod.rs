@@ -22,7 +22,7 @@ mod tests;
 
 pub use deformed_outline::{DeformedOutline, RecoilCorrection, ShapeMotion};
 pub use error::GaitError;
-pub use midline::{Anguilliform, Carangiform, Flagellum, Midline};
+pub use midline::{AngleInTime, Anguilliform, Carangiform, Flagellum, Joint, Joints, Midline};
 pub use pulse::{Pulse, PulseLaw};
 pub use recoil_motion::RecoilMotion;
 pub use sheet::WavingSheet;
