@@ -35,8 +35,8 @@ pub use mesh::{Boundary, BoundaryKind, Edge, Facet, Mesh, PeriodicPair, Point};
 pub use number::whole;
 pub use planar::{
     Closest, Cut, Domain, FishForm, FlagellateForm, GapQuery, Moments, Nearest, Outline,
-    PlacedShape, Profile, SMALLEST_GAP, SecondMoments, Shape, SizeField, Spline, Station, Wall,
-    check_placement, check_wrapped_placement, closest, closest_features, closest_to_wall,
+    PlacedShape, Profile, SMALLEST_GAP, SecondMoments, Shape, SizeField, Spline, Station, TubeForm,
+    Wall, check_placement, check_wrapped_placement, closest, closest_features, closest_to_wall,
     estimate_cells, generate, generate_along, on_meridian, overlap, thickness, wall_features,
 };
 pub use quality::{CellQuality, Quality, WorstCell};

@@ -19,6 +19,7 @@ impl ShapeSpec {
             Self::Spline { .. } => "spline",
             Self::Fish(_) => "fish",
             Self::Flagellate(_) => "flagellate",
+            Self::Tube(_) => "tube",
             Self::Sphere { .. } => "sphere",
             Self::Spheroid { .. } => "spheroid",
             Self::Ellipsoid { .. } => "ellipsoid",
@@ -34,7 +35,8 @@ impl ShapeSpec {
             | Self::Ellipse { .. }
             | Self::Spline { .. }
             | Self::Fish(_)
-            | Self::Flagellate(_) => &[Geometry::Planar],
+            | Self::Flagellate(_)
+            | Self::Tube(_) => &[Geometry::Planar],
             Self::Sphere { .. } | Self::Spheroid { .. } => {
                 &[Geometry::Axisymmetric, Geometry::Spatial]
             }
@@ -42,7 +44,7 @@ impl ShapeSpec {
         }
     }
 
-    /// Half width along the midline of a fish or a flagellate; `None` for other shapes, and for
+    /// Half width along the midline of a slender body; `None` for other shapes, and for
     /// lengths that make no body.
     #[must_use]
     pub fn profile(&self) -> Option<Profile> {
@@ -62,16 +64,17 @@ impl ShapeSpec {
                 thickness: body.thickness,
                 fillet: body.fillet.unwrap_or(body.thickness),
             }),
+            Self::Tube(tube) => tube.profile(),
             _ => None,
         }
     }
 
-    /// Points of a spline, a fish or a flagellate in the body frame (m); none of other shapes.
+    /// Points of a spline or a slender body in the body frame (m); none of other shapes.
     #[must_use]
     pub fn points(&self) -> Vec<[f64; 2]> {
         match self {
             Self::Spline { points } => points.clone(),
-            Self::Fish(_) | Self::Flagellate(_) => {
+            Self::Fish(_) | Self::Flagellate(_) | Self::Tube(_) => {
                 let spline = self.profile().and_then(|profile| profile.spline());
                 let points = |spline: Spline| -> Vec<[f64; 2]> {
                     let knots = &spline.knots()[1..];
@@ -90,7 +93,7 @@ impl ShapeSpec {
             Self::Disc { radius } => Shape::Disc { radius },
             Self::Ellipse { semi_axes } => Shape::Ellipse { semi_axes },
             Self::Spline { points } => Shape::Spline { points },
-            Self::Fish(_) | Self::Flagellate(_) => {
+            Self::Fish(_) | Self::Flagellate(_) | Self::Tube(_) => {
                 let spline = self.profile().and_then(|profile| profile.spline());
                 // `check` refuses lengths that make no body
                 let no_body = Shape::Spline { points: Vec::new() };
@@ -113,7 +116,7 @@ impl ShapeSpec {
         match self {
             Self::Disc { radius } => 2.0 * PI * radius,
             Self::Ellipse { semi_axes } => ellipse(*semi_axes),
-            Self::Spline { .. } | Self::Fish(_) | Self::Flagellate(_) => {
+            Self::Spline { .. } | Self::Fish(_) | Self::Flagellate(_) | Self::Tube(_) => {
                 let points = self.points();
                 (0..points.len())
                     .map(|i| {
@@ -173,7 +176,7 @@ impl ShapeSpec {
             Self::Capsule { length, .. } => 0.5 * length,
             Self::Disc { radius } | Self::Sphere { radius } => *radius,
             Self::Ellipse { semi_axes: [a, b] } | Self::Spheroid { semi_axes: [a, b] } => a.max(*b),
-            Self::Spline { .. } | Self::Fish(_) | Self::Flagellate(_) => {
+            Self::Spline { .. } | Self::Fish(_) | Self::Flagellate(_) | Self::Tube(_) => {
                 self.points().iter().map(|[x, y]| x.hypot(*y)).fold(0.0, f64::max)
             }
         }
@@ -189,7 +192,7 @@ impl ShapeSpec {
             Self::Capsule { radius, .. } => *radius,
             Self::Disc { radius } | Self::Sphere { radius } => *radius,
             Self::Ellipse { semi_axes: [a, b] } | Self::Spheroid { semi_axes: [a, b] } => a.min(*b),
-            Self::Spline { .. } | Self::Fish(_) | Self::Flagellate(_) => {
+            Self::Spline { .. } | Self::Fish(_) | Self::Flagellate(_) | Self::Tube(_) => {
                 let points = self.points();
                 (0..DIRECTIONS)
                     .map(|i| std::f64::consts::PI * f64::from(i) / f64::from(DIRECTIONS))
@@ -255,7 +258,8 @@ impl Body {
                 GaitSpec::Carangiform(_)
                 | GaitSpec::Anguilliform(_)
                 | GaitSpec::Flagellum(_)
-                | GaitSpec::Pulsating(_),
+                | GaitSpec::Pulsating(_)
+                | GaitSpec::Joints(_),
             ) => true,
         }
     }

@@ -32,6 +32,7 @@ mod read;
 mod reference;
 mod region;
 mod schema;
+mod skin;
 mod source;
 mod speed;
 mod stroke;
@@ -54,7 +55,8 @@ pub use domain::{BoundaryCondition, DomainSpec, Geometry, TimeFunction};
 pub use encounters::Encounter;
 pub use fluid::{FlowModel, Fluid};
 pub use gait::{
-    AnguilliformGait, CarangiformGait, FishShape, FlagellateShape, FlagellumGait, PulsatingGait,
+    AnguilliformGait, BentJoint, CarangiformGait, FishShape, FlagellateShape, FlagellumGait,
+    JointsGait, PulsatingGait, TubeShape,
 };
 pub use joint::{Hinge, Joint, JointKind};
 pub use link::{Link, ShapedLink};
@@ -76,5 +78,5 @@ pub use region::{Extent, normal_axis, opposite};
 pub use schema::schema;
 pub use source::Location;
 pub use stroke::{Stroke, smooth_ramp};
-pub use swimmer::{Copies, Pivot, SwimmerKind, SwimmerSpec};
+pub use swimmer::{Copies, Pivot, Skin, SwimmerKind, SwimmerSpec};
 pub use time::{Adaptive, Convection, Initial, Scheme, Steady, TimeSettings, Unsteady};

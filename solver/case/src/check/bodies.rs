@@ -132,6 +132,8 @@ fn check_shape(findings: &mut Findings<'_>, key: &str, shape: &ShapeSpec) {
             }
         }
         ShapeSpec::Fish(_) | ShapeSpec::Flagellate(_) => gait::check_shape(findings, key, shape),
+        // Its links are checked
+        ShapeSpec::Tube(_) => {}
         ShapeSpec::Spline { points } => {
             let key = format!("{key}.spline.points");
             let n = points.len();

@@ -46,6 +46,8 @@ pub enum When {
     TowedWithoutCycles,
     /// All work on the fluid is that of bodies and waving sheets.
     IdleSides,
+    /// The fluid is convected in time around bodies, and does not cross the sides.
+    ClosedSides,
     /// There is `[flow]`.
     MeanFlow,
     /// The same in three dimensions.
@@ -77,6 +79,7 @@ impl When {
             Self::TowedCycles => "a period and `resistance`",
             Self::TowedWithoutCycles => "`resistance`, no period",
             Self::IdleSides => "bodies or a waving sheet, and other sides that do no work",
+            Self::ClosedSides => "`navier-stokes`, unsteady, bodies, sides that nothing crosses",
             Self::MeanFlow => "[`flow`](#flow)",
             Self::SpatialMeanFlow => "[`flow`](#flow), spatial",
             Self::Convection => "`navier-stokes`",
@@ -101,6 +104,7 @@ impl When {
             Self::TowedCycles => known.has_cycles && known.has_resistance,
             Self::TowedWithoutCycles => !known.has_cycles && known.has_resistance,
             Self::IdleSides => known.balances_energy,
+            Self::ClosedSides => known.balances_momentum,
             Self::MeanFlow => known.has_mean_flow,
             Self::SpatialMeanFlow => known.has_mean_flow && known.is_spatial,
             Self::Convection => known.has_convection,
@@ -122,6 +126,7 @@ pub(super) struct Circumstances {
     pub has_cycles: bool,
     pub has_resistance: bool,
     pub balances_energy: bool,
+    pub balances_momentum: bool,
     pub has_mean_flow: bool,
     pub has_convection: bool,
     pub is_unsteady: bool,

@@ -12,7 +12,7 @@ use super::state::State;
 use super::workspace::Workspace;
 use super::{RunError, Stage, Timing};
 use crate::case::Model;
-use crate::coupling::FluidSystem;
+use crate::coupling::{FluidSystem, Problem, ShapeError};
 
 /// A simulation with its measurements.
 pub(super) struct Prepared<const D: usize> {
@@ -38,6 +38,7 @@ where
     let images = |mesh: &Mesh<D>| Dimension::<D>::images(&model.case, mesh);
     let mut measure = Measure::new(model, mesh, &images(mesh))?;
     let mut simulation = at_rest(model, initial, timing)?;
+    log_recoils(&simulation.problem)?;
     if let Some(saved) = saved {
         saved.restore_into(&model.case, &mut simulation, |problem, reference| {
             Dimension::<D>::moving_mesh_of(model, problem, reference)
@@ -62,6 +63,27 @@ where
     Dimension<D>: CaseMesh<D>,
 {
     at_rest(model, Dimension::<D>::adopt(model, mesh)?, Timing::default())
+}
+
+/// Tells what is subtracted from the gaits of the bodies that deform.
+fn log_recoils<const D: usize>(problem: &Problem<D>) -> Result<(), RunError> {
+    for body in &problem.bodies {
+        let Some(shape) = &body.shape else { continue };
+        let motion =
+            shape.recoil().map_err(|reason| ShapeError { body: body.name.clone(), reason })?;
+        tracing::info!(
+            body = body.name,
+            translation = motion.translation,
+            largest_speed = motion.largest_speed,
+            rms_speed = motion.rms_speed,
+            rotation = motion.rotation,
+            largest_angular_velocity = motion.largest_angular_velocity,
+            rms_angular_velocity = motion.rms_angular_velocity,
+            turn = motion.turn,
+            "recoil subtracted from the gait"
+        );
+    }
+    Ok(())
 }
 
 fn at_rest<const D: usize>(

@@ -7,4 +7,4 @@ mod scene;
 mod shape_motion;
 mod start;
 
-pub use shape_motion::shape_motion;
+pub use shape_motion::{BodyRecoil, recoils, shape_motion};
