@@ -34,7 +34,7 @@ pub use number::whole;
 pub use planar::{
     Closest, Cut, Domain, FishForm, FlagellateForm, GapQuery, Moments, Nearest, Outline,
     PlacedShape, Profile, SMALLEST_GAP, SecondMoments, Shape, SizeBox, SizeField, Sizing, Spline,
-    Station, Wall, check_placement, check_wrapped_placement, closest, closest_features,
+    Station, TubeForm, Wall, check_placement, check_wrapped_placement, closest, closest_features,
     closest_to_wall, estimate_cells, generate, generate_along, on_meridian, overlap, thickness,
     wall_features,
 };

@@ -26,7 +26,7 @@ pub use gap_query::GapQuery;
 pub use generate::{generate, generate_along};
 pub use outline::{Nearest, Outline};
 pub use placement::{SMALLEST_GAP, check_placement, check_wrapped_placement};
-pub use profile::{FishForm, FlagellateForm, Profile, Station};
+pub use profile::{FishForm, FlagellateForm, Profile, Station, TubeForm};
 pub use shape::{Moments, PlacedShape, SecondMoments, Shape};
 pub use size_field::{SizeField, estimate_cells};
 pub use sizing::{SizeBox, Sizing};

@@ -6,7 +6,8 @@ use serde::{Deserialize, Serialize};
 
 use super::domain::TimeFunction;
 use super::gait::{
-    AnguilliformGait, CarangiformGait, FishShape, FlagellateShape, FlagellumGait, PulsatingGait,
+    AnguilliformGait, CarangiformGait, FishShape, FlagellateShape, FlagellumGait, JointsGait,
+    PulsatingGait, TubeShape,
 };
 
 /// `shape`: one of these, in the body's own frame.
@@ -33,6 +34,9 @@ pub enum ShapeSpec {
     Fish(FishShape),
     /// Head with a tail (planar).
     Flagellate(FlagellateShape),
+    /// Chain with a skin; made from the links of a swimmer only.
+    #[serde(skip)]
+    Tube(TubeShape),
     /// Sphere (axisymmetric).
     Sphere {
         /// Radius (m).
@@ -102,6 +106,9 @@ pub enum GaitSpec {
     Flagellum(FlagellumGait),
     /// Area or volume of a round body as a function of time.
     Pulsating(PulsatingGait),
+    /// Angles of the pivots of a chain with a skin; made from the joints of a swimmer only.
+    #[serde(skip)]
+    Joints(JointsGait),
 }
 
 /// `gait.squirmer`: u_theta = sum of B_n V_n(theta), theta from the swimming axis.
@@ -213,6 +220,7 @@ impl GaitSpec {
             Self::Anguilliform(gait) => Some(gait.period),
             Self::Flagellum(gait) => Some(gait.period),
             Self::Pulsating(gait) => gait.period,
+            Self::Joints(gait) => gait.period(),
         }
     }
 }

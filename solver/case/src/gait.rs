@@ -1,6 +1,9 @@
 //! `shape` and `gait` of swimmers that deform: fish, flagellates, and bodies that pulsate.
 
+use alewife_mesh::{Profile, TubeForm};
 use serde::{Deserialize, Serialize};
+
+use super::stroke::Stroke;
 
 /// `shape.fish`: straight along the body's x, head towards +x, origin in the centre of area.
 ///
@@ -131,6 +134,57 @@ pub struct PulsatingGait {
     /// [time (s), area or volume over that at rest], joined by straight lines.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub table: Vec<[f64; 2]>,
+}
+
+/// The outline of a chain with a skin, straight along the body's x.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TubeShape {
+    /// [distance from the head, half width] in the middle of each link (m).
+    pub sections: Vec<[f64; 2]>,
+    /// Length (m).
+    pub length: f64,
+    /// Longest distance between material points (m).
+    pub spacing: f64,
+}
+
+/// How a chain with a skin bends.
+#[derive(Debug, Clone, PartialEq)]
+pub struct JointsGait {
+    /// From the head on.
+    pub joints: Vec<BentJoint>,
+    /// Length of midline over which each of them bends (m).
+    pub rounding: f64,
+}
+
+/// A pivot inside a skin.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BentJoint {
+    /// Distance from the head (m).
+    pub along: f64,
+    /// Angle of the link farther from the root less that of the nearer one (rad).
+    pub angle: Stroke,
+    /// Whether it is behind the root.
+    pub is_behind_root: bool,
+}
+
+impl TubeShape {
+    /// Half width along the midline; `None` for lengths that make no body.
+    #[must_use]
+    pub fn profile(&self) -> Option<Profile> {
+        Profile::tube(&TubeForm {
+            sections: self.sections.clone(),
+            length: self.length,
+            spacing: self.spacing,
+        })
+    }
+}
+
+impl JointsGait {
+    /// The time after which it begins again (s), if it does.
+    #[must_use]
+    pub fn period(&self) -> Option<f64> {
+        self.joints.iter().find_map(|joint| joint.angle.period())
+    }
 }
 
 fn yes() -> bool {

@@ -66,12 +66,13 @@ impl ShapeSpec {
             Self::Spline { .. } => "spline",
             Self::Fish(_) => "fish",
             Self::Flagellate(_) => "flagellate",
+            Self::Tube(_) => "tube",
             Self::Sphere { .. } => "sphere",
             Self::Spheroid { .. } => "spheroid",
         }
     }
 
-    /// Half width along the midline of a fish or a flagellate; `None` for other shapes, and for
+    /// Half width along the midline of a slender body; `None` for other shapes, and for
     /// lengths that make no body.
     #[must_use]
     pub fn profile(&self) -> Option<Profile> {
@@ -91,16 +92,17 @@ impl ShapeSpec {
                 thickness: body.thickness,
                 fillet: body.fillet.unwrap_or(body.thickness),
             }),
+            Self::Tube(tube) => tube.profile(),
             _ => None,
         }
     }
 
-    /// Points of a spline, a fish or a flagellate in the body frame (m); none of other shapes.
+    /// Points of a spline or a slender body in the body frame (m); none of other shapes.
     #[must_use]
     pub fn points(&self) -> Vec<[f64; 2]> {
         match self {
             Self::Spline { points } => points.clone(),
-            Self::Fish(_) | Self::Flagellate(_) => {
+            Self::Fish(_) | Self::Flagellate(_) | Self::Tube(_) => {
                 let spline = self.profile().and_then(|profile| profile.spline());
                 let points = |spline: Spline| -> Vec<[f64; 2]> {
                     let knots = &spline.knots()[1..];
@@ -119,7 +121,7 @@ impl ShapeSpec {
             Self::Disc { radius } => Shape::Disc { radius },
             Self::Ellipse { semi_axes } => Shape::Ellipse { semi_axes },
             Self::Spline { points } => Shape::Spline { points },
-            Self::Fish(_) | Self::Flagellate(_) => {
+            Self::Fish(_) | Self::Flagellate(_) | Self::Tube(_) => {
                 let spline = self.profile().and_then(|profile| profile.spline());
                 // `check` refuses lengths that make no body
                 let no_body = Shape::Spline { points: Vec::new() };
@@ -140,7 +142,7 @@ impl ShapeSpec {
         match self {
             Self::Disc { radius } => 2.0 * PI * radius,
             Self::Ellipse { semi_axes } => ellipse(*semi_axes),
-            Self::Spline { .. } | Self::Fish(_) | Self::Flagellate(_) => {
+            Self::Spline { .. } | Self::Fish(_) | Self::Flagellate(_) | Self::Tube(_) => {
                 let points = self.points();
                 (0..points.len())
                     .map(|i| {
@@ -160,7 +162,7 @@ impl ShapeSpec {
         match self {
             Self::Disc { radius } | Self::Sphere { radius } => *radius,
             Self::Ellipse { semi_axes: [a, b] } | Self::Spheroid { semi_axes: [a, b] } => a.max(*b),
-            Self::Spline { .. } | Self::Fish(_) | Self::Flagellate(_) => {
+            Self::Spline { .. } | Self::Fish(_) | Self::Flagellate(_) | Self::Tube(_) => {
                 self.points().iter().map(|[x, y]| x.hypot(*y)).fold(0.0, f64::max)
             }
         }
@@ -172,7 +174,7 @@ impl ShapeSpec {
         match self {
             Self::Disc { radius } | Self::Sphere { radius } => *radius,
             Self::Ellipse { semi_axes: [a, b] } | Self::Spheroid { semi_axes: [a, b] } => a.min(*b),
-            Self::Spline { .. } | Self::Fish(_) | Self::Flagellate(_) => {
+            Self::Spline { .. } | Self::Fish(_) | Self::Flagellate(_) | Self::Tube(_) => {
                 let points = self.points();
                 (0..DIRECTIONS)
                     .map(|i| std::f64::consts::PI * f64::from(i) / f64::from(DIRECTIONS))
@@ -238,7 +240,8 @@ impl Body {
                 GaitSpec::Carangiform(_)
                 | GaitSpec::Anguilliform(_)
                 | GaitSpec::Flagellum(_)
-                | GaitSpec::Pulsating(_),
+                | GaitSpec::Pulsating(_)
+                | GaitSpec::Joints(_),
             ) => true,
         }
     }

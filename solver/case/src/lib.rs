@@ -30,6 +30,7 @@ mod quantity;
 mod read;
 mod reference;
 mod schema;
+mod skin;
 mod source;
 mod speed;
 mod stroke;
@@ -49,7 +50,8 @@ pub use domain::{BoundaryCondition, DomainSpec, Geometry, TimeFunction};
 pub use encounters::Encounter;
 pub use fluid::{FlowModel, Fluid};
 pub use gait::{
-    AnguilliformGait, CarangiformGait, FishShape, FlagellateShape, FlagellumGait, PulsatingGait,
+    AnguilliformGait, BentJoint, CarangiformGait, FishShape, FlagellateShape, FlagellumGait,
+    JointsGait, PulsatingGait, TubeShape,
 };
 pub use geometry::opposite;
 pub use joint::{Hinge, Joint, JointKind};
@@ -71,5 +73,5 @@ pub use reference::{
 pub use schema::schema;
 pub use source::Location;
 pub use stroke::{Stroke, smooth_ramp};
-pub use swimmer::{Copies, Pivot, SwimmerKind, SwimmerSpec};
+pub use swimmer::{Copies, Pivot, Skin, SwimmerKind, SwimmerSpec};
 pub use time::{Adaptive, Convection, Initial, Scheme, Steady, TimeSettings, Unsteady};

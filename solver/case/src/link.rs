@@ -32,11 +32,12 @@ pub struct ShapedLink {
     pub density: Option<f64>,
 }
 
-/// Smallest and largest x of an outline in its body frame (m).
+/// Smallest and largest x of an outline in its body frame, and half of its extent across (m).
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Ends {
+pub struct Extent {
     pub back: f64,
     pub front: f64,
+    pub half_width: f64,
 }
 
 impl Link {
@@ -56,20 +57,24 @@ impl Link {
         }
     }
 
-    /// Where it ends along the chain.
+    /// Where it ends along the chain, and how wide it is.
     ///
     /// # Errors
     /// When its points or lengths make no outline.
-    pub fn ends(&self) -> Result<Ends, MeshError> {
+    pub fn extent(&self) -> Result<Extent, MeshError> {
         let shape = self.shape();
         match &shape {
-            ShapeSpec::Disc { radius: half }
-            | ShapeSpec::Sphere { radius: half }
-            | ShapeSpec::Ellipse { semi_axes: [half, _] }
-            | ShapeSpec::Spheroid { semi_axes: [half, _] } => {
-                Ok(Ends { back: -half, front: *half })
+            ShapeSpec::Disc { radius } | ShapeSpec::Sphere { radius } => {
+                Ok(Extent { back: -radius, front: *radius, half_width: *radius })
             }
-            ShapeSpec::Spline { .. } | ShapeSpec::Fish(_) | ShapeSpec::Flagellate(_) => {
+            ShapeSpec::Ellipse { semi_axes: [half, half_width] }
+            | ShapeSpec::Spheroid { semi_axes: [half, half_width] } => {
+                Ok(Extent { back: -half, front: *half, half_width: *half_width })
+            }
+            ShapeSpec::Spline { .. }
+            | ShapeSpec::Fish(_)
+            | ShapeSpec::Flagellate(_)
+            | ShapeSpec::Tube(_) => {
                 let outline = Outline::new(&PlacedShape {
                     name: "link".to_owned(),
                     shape: shape.outline(),
@@ -78,8 +83,10 @@ impl Link {
                     size: None,
                 })?;
                 // Quarters begin at the extreme points along +x, +y, -x and -y
-                let [front, back] = [0, 2].map(|quarter| outline.evaluate(quarter, 0.0)[0].x);
-                Ok(Ends { back, front })
+                let [right, top, left, bottom] =
+                    [0, 1, 2, 3].map(|quarter| outline.evaluate(quarter, 0.0)[0]);
+                let half_width = 0.5 * (top.y - bottom.y);
+                Ok(Extent { back: left.x, front: right.x, half_width })
             }
         }
     }
@@ -117,7 +124,7 @@ mod tests {
     #[test]
     fn ends_are_those_of_the_outline_along_the_chain() {
         let shaped = |shape| Link::Shaped(ShapedLink { shape, density: None });
-        let ends = |link: &Link| link.ends().map(|ends| [ends.back, ends.front]).unwrap();
+        let ends = |link: &Link| link.extent().map(|extent| [extent.back, extent.front]).unwrap();
         assert_eq!(ends(&Link::Ellipse([0.4, 0.1])), [-0.4, 0.4]);
         assert_eq!(ends(&shaped(ShapeSpec::Disc { radius: 0.3 })), [-0.3, 0.3]);
         // A kite whose corners are rounded beyond its points nowhere along x
@@ -125,6 +132,6 @@ mod tests {
         let [back, front] = ends(&shaped(ShapeSpec::Spline { points }));
         assert!((front - 0.5).abs() < 1e-9 && (-0.25..=-0.2).contains(&back), "{back} {front}");
         let crossed = vec![[0.0, 0.0], [1.0, 1.0], [1.0, 0.0], [0.0, 1.0]];
-        assert!(shaped(ShapeSpec::Spline { points: crossed }).ends().is_err());
+        assert!(shaped(ShapeSpec::Spline { points: crossed }).extent().is_err());
     }
 }

@@ -158,6 +158,7 @@ fn extent(model: &Model, bodies: &[usize]) -> f64 {
         return match &model.bodies[*body].shape {
             ShapeSpec::Fish(fish) => fish.length,
             ShapeSpec::Flagellate(shape) => 2.0 * shape.head[0] + shape.tail_length,
+            ShapeSpec::Tube(tube) => tube.length,
             shape => 2.0 * shape.reach(),
         };
     }

@@ -3,11 +3,14 @@
 use std::cmp::Ordering;
 use std::f64::consts::{PI, TAU};
 
+use alewife_mesh::MeshError;
+
 use super::Geometry;
 use super::body::{GaitSpec, ShapeSpec};
 use super::diagnostic::CaseError;
 use super::joint::{Joint, JointKind, PlanarPose, child_pose};
-use super::link::{Ends, Link};
+use super::link::{Extent, Link};
+use super::skin::{Layout, NoOutline};
 use super::stroke::Stroke;
 use super::swimmer::{Pivot, SwimmerKind};
 
@@ -83,9 +86,17 @@ pub fn parts(key: &str, kind: &SwimmerKind, geometry: Geometry) -> Result<Vec<Pa
             }
             Ok(star(*radius, radii, arms, directions))
         }
-        SwimmerKind::Chain { links, gap, joints } => {
+        SwimmerKind::Chain { links, gap, joints, skin } => {
             fits("joints", joints.len(), links.len().saturating_sub(1))?;
-            chain(key, links, *gap, joints)
+            let Some(skin) = skin else { return chain(key, links, *gap, joints) };
+            let layout = Layout::new(links, *gap)
+                .map_err(|NoOutline { link, error }| no_outline(key, link, &error))?;
+            Ok(vec![Part {
+                shape: ShapeSpec::Tube(layout.shape(*skin)),
+                gait: Some(GaitSpec::Joints(layout.gait(*skin, joints, middle(links.len())))),
+                density: None,
+                attachment: None,
+            }])
         }
         SwimmerKind::Bodies(_) => Ok(Vec::new()),
     }
@@ -138,16 +149,9 @@ fn star(radius: f64, radii: &[f64], arms: &[Stroke], directions: &[f64]) -> Vec<
 /// # Errors
 /// When a link has no outline.
 fn chain(key: &str, links: &[Link], gap: f64, joints: &[Pivot]) -> Result<Vec<Part>, CaseError> {
-    let ends = |(nth, link): (usize, &Link)| {
-        link.ends().map_err(|error| {
-            CaseError::at(
-                &format!("{key}.kind.chain.links.{nth}.shape"),
-                format!("link {} of the chain has no outline: {error}", nth + 1),
-                "give lengths larger than 0, and points that run counter-clockwise and do not cross",
-            )
-        })
-    };
-    let ends = links.iter().enumerate().map(ends).collect::<Result<Vec<Ends>, CaseError>>()?;
+    let ends =
+        |(nth, link): (usize, &Link)| link.extent().map_err(|error| no_outline(key, nth, &error));
+    let ends = links.iter().enumerate().map(ends).collect::<Result<Vec<Extent>, CaseError>>()?;
     let behind = |nth: usize| [ends[nth].back - 0.5 * gap, 0.0];
     let before = |nth: usize| [ends[nth].front + 0.5 * gap, 0.0];
     let attachment = |nth: usize| {
@@ -166,6 +170,15 @@ fn chain(key: &str, links: &[Link], gap: f64, joints: &[Pivot]) -> Result<Vec<Pa
     Ok(links.iter().enumerate().map(part).collect())
 }
 
+/// The error of a link without an outline.
+fn no_outline(key: &str, nth: usize, error: &MeshError) -> CaseError {
+    CaseError::at(
+        &format!("{key}.kind.chain.links.{nth}.shape"),
+        format!("link {} of the chain has no outline: {error}", nth + 1),
+        "give lengths larger than 0, and points that run counter-clockwise and do not cross",
+    )
+}
+
 /// Which neighbour in a row a part is attached to.
 struct Neighbour {
     parent: usize,
@@ -175,9 +188,14 @@ struct Neighbour {
     is_after: bool,
 }
 
+/// The part in a row of `n` that all others are attached to.
+fn middle(n: usize) -> usize {
+    n.saturating_sub(1) / 2
+}
+
 /// The neighbour towards the middle of a row of `n` parts; none of the middle one.
 fn neighbour(nth: usize, n: usize) -> Option<Neighbour> {
-    let middle = n.saturating_sub(1) / 2;
+    let middle = middle(n);
     match nth.cmp(&middle) {
         Ordering::Equal => None,
         Ordering::Greater => Some(Neighbour { parent: nth - 1, between: nth - 1, is_after: true }),
@@ -240,6 +258,7 @@ mod tests {
             links: [[0.4, 0.1], [0.5, 0.1], [0.3, 0.1], [0.2, 0.1]].map(Link::Ellipse).to_vec(),
             gap: 0.2,
             joints: vec![bent(0.3), bent(-0.2), bent(0.5)],
+            skin: None,
         };
         let parts = parts("swimmer.0", &kind, Geometry::Planar).unwrap();
         let root = PlanarPose { center: Point::<2>::new(1.0, 2.0), angle: 0.1 };
@@ -265,6 +284,7 @@ mod tests {
             links: vec![Link::Shaped(kite.clone()), Link::Ellipse([0.4, 0.1]), Link::Shaped(kite)],
             gap: 0.2,
             joints: [0.0; 2].map(|angle| Pivot::Bent { angle: Stroke::Constant(angle) }).to_vec(),
+            skin: None,
         };
         let parts = parts("swimmer.0", &kind, Geometry::Planar).unwrap();
         let poses = poses(&parts, PlanarPose::default());

@@ -92,9 +92,23 @@ pub enum SwimmerKind {
         /// Pivots: `bent = { angle }` or `hinge = { ... }`, from the front; the angle is that of the
         /// link farther from the middle less that of the nearer one.
         joints: Vec<Pivot>,
+        /// Makes one body of all links, which bends by the given angles; separate links if absent.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        skin: Option<Skin>,
     },
     /// Bodies of `[[body]]` that are reported as one.
     Bodies(Vec<String>),
+}
+
+/// `skin`: one smooth tube about the midline of all links.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct Skin {
+    /// Length of midline over which it bends at each pivot (m); half the shortest distance between
+    /// neighbouring pivots, or of an end from its pivot, if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rounding: Option<f64>,
 }
 
 /// A pivot between the links of a chain.

@@ -12,10 +12,10 @@ use super::read::{CheckedCase, read_and_check};
 use super::style::{self, Ink, on_stdout, say};
 use crate::case::{
     Cadence, CaseFile, Diagnostic, FlowModel, Model, Precision, TimeSettings, known_quantities,
-    number_table, significant,
+    number_table, printable, significant,
 };
 use crate::coupling::count_unknowns;
-use crate::simulation::build_problem;
+use crate::simulation::{BodyRecoil, build_problem, recoils};
 
 /// Output above which a warning is given (bytes).
 const LARGE_OUTPUT: f64 = 2e9;
@@ -48,6 +48,11 @@ fn check_one(argument: &str, settings: &[String], has_mesh: bool) -> Result<(), 
     let numbers = number_table(&file.model);
     if !numbers.is_empty() {
         let _ = write!(text, "\n{}\n{numbers}", on_stdout(Ink::Bold, "derived numbers"));
+    }
+    let recoils = recoils(&file.model)?;
+    if !recoils.is_empty() {
+        let _ = write!(text, "\n{}\n", on_stdout(Ink::Bold, "recoil subtracted from the gaits"));
+        text.extend(recoils.iter().map(|recoil| format!("  {}\n", recoil_line(recoil))));
     }
     say(text.trim_end());
     if has_mesh {
@@ -87,6 +92,32 @@ fn check_variants(argument: &str, file: &CaseFile, settings: &[String]) -> Resul
         say(&format!("\n{} variants are valid, too", file.case().variant.len()));
     }
     Ok(())
+}
+
+/// The rigid motion that is subtracted from the gait of a body, in a line.
+fn recoil_line(recoil: &BodyRecoil) -> String {
+    let BodyRecoil { body, motion } = recoil;
+    let name = printable(body);
+    if motion.largest_speed == 0.0 && motion.largest_angular_velocity == 0.0 {
+        return format!("{name}: none, its gait has no momentum");
+    }
+    let number = |value: f64| format!("{value:.3e}");
+    let turn = motion.turn.to_degrees();
+    let turn = if turn.abs() < 5e-3 {
+        String::new()
+    } else {
+        format!(", and it turns by {turn:.2} degrees a period")
+    };
+    format!(
+        "{name}: translation up to {} (speed up to {}, rms {}), rotation up to {:.2} degrees (up to \
+         {:.1} degrees per unit of time, rms {:.1}){turn}",
+        number(motion.translation),
+        number(motion.largest_speed),
+        number(motion.rms_speed),
+        motion.rotation.to_degrees(),
+        motion.largest_angular_velocity.to_degrees(),
+        motion.rms_angular_velocity.to_degrees(),
+    )
 }
 
 /// CFL number and cell Reynolds number at the expected speed.
@@ -213,6 +244,21 @@ fn duration(seconds: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_recoil_of_a_gait_is_told_in_degrees() {
+        let lines = |name: &str| -> Vec<String> {
+            let model = crate::case::Case::read(name, &[]).unwrap().model;
+            recoils(&model).unwrap().iter().map(recoil_line).collect()
+        };
+        let [fish] = &lines("carangiform")[..] else { panic!("is one fish") };
+        assert!(fish.starts_with("fish: translation up to 8"), "{fish}");
+        assert!(fish.contains("rotation up to") && fish.contains("degrees"), "{fish}");
+        let spheres = lines("push-me-pull-you");
+        assert_eq!(spheres.len(), 2);
+        assert!(spheres[0].ends_with("none, its gait has no momentum"), "{spheres:?}");
+        assert!(lines("dfg-2d-1").is_empty());
+    }
 
     #[test]
     fn sizes_are_told_in_their_unit() {

@@ -131,6 +131,9 @@ fn body_line(case: &Case, body: &crate::case::Body) -> String {
             let length = significant(flagellate.tail_length);
             format!("flagellate with a tail of length {length}")
         }
+        ShapeSpec::Tube(tube) => {
+            format!("skin of {} links, {} long", tube.sections.len(), significant(tube.length))
+        }
     };
     let motion = match &body.motion {
         Motion::Held => "held",
@@ -146,6 +149,7 @@ fn body_line(case: &Case, body: &crate::case::Body) -> String {
         Some(GaitSpec::Anguilliform(_)) => ", anguilliform".to_owned(),
         Some(GaitSpec::Flagellum(_)) => ", flagellum".to_owned(),
         Some(GaitSpec::Pulsating(_)) => ", pulsating".to_owned(),
+        Some(GaitSpec::Joints(gait)) => format!(", bent at {} joints", gait.joints.len()),
         None => String::new(),
     };
     let size = body.size.or(case.mesh.surface).unwrap_or(case.mesh.size) * case.mesh.scale;

@@ -1,4 +1,4 @@
-//! `Piece`: a smooth piece of a profile, straight or an arc of an ellipse.
+//! `Piece`: a smooth piece of a profile: straight, an arc of an ellipse, or a bridge between two widths.
 
 use std::f64::consts::PI;
 
@@ -18,6 +18,11 @@ pub enum Piece {
         /// Eccentric angles of its ends (rad).
         angles: [f64; 2],
     },
+    /// From one width to another, without slope and curvature at both ends.
+    Bridge {
+        from: Point<2>,
+        to: Point<2>,
+    },
 }
 
 impl Piece {
@@ -33,6 +38,16 @@ impl Piece {
                     Point::<2>::new(-a * sin, b * cos) * turn,
                 ]
             }
+            Self::Bridge { from, to } => {
+                let p = parameter;
+                let step = p * p * p * (10.0 + p * (6.0 * p - 15.0));
+                let rate = 30.0 * p * p * (1.0 - p) * (1.0 - p);
+                let way = to - from;
+                [
+                    from + Point::<2>::new(way.x * p, way.y * step),
+                    Point::<2>::new(way.x, way.y * rate),
+                ]
+            }
         }
     }
 
@@ -43,6 +58,11 @@ impl Piece {
             Self::Arc { semi_axes: [a, b], angles: [first, last], .. } => {
                 let speed = self.at(parameter)[1].norm() / (last - first).abs();
                 a * b / speed.powi(3) * (first - last).signum()
+            }
+            Self::Bridge { from, to } => {
+                let (p, way) = (parameter, to - from);
+                let bend = 60.0 * p * (1.0 - p) * (1.0 - 2.0 * p) * way.y;
+                -bend * way.x / self.at(p)[1].norm().powi(3)
             }
         }
     }

@@ -5,7 +5,7 @@ use crate::number;
 use crate::quadrature::integrate;
 
 /// Longest distance between material points, over the length of the body.
-const LONGEST_SPACING: f64 = 0.01;
+pub const LONGEST_SPACING: f64 = 0.01;
 
 /// Largest angle between neighbouring material points on an arc (rad).
 const LARGEST_ANGLE: f64 = 0.15;
@@ -19,13 +19,12 @@ const JUMP_ERROR: f64 = 0.03;
 /// Error of the spline that is aimed at, over the half width.
 const ERROR: f64 = 2e-5;
 
-/// Parameters of the material points of a piece but its first, close to each other where the
-/// outline bends and where its curvature jumps.
-pub fn spread(pieces: &[Piece], index: usize) -> Vec<f64> {
+/// Parameters of the material points of a piece but its first, `longest` (m) apart at most, close to
+/// each other where the outline bends and where its curvature jumps.
+pub fn spread(pieces: &[Piece], index: usize, longest: f64) -> Vec<f64> {
     let piece = &pieces[index];
     let n = 2000;
     let length = |from: f64, to: f64| integrate(from, to, |x| piece.at(x)[1].norm());
-    let whole = pieces[pieces.len() - 1].at(1.0)[0].x;
     let jump = |end: f64, neighbour: Option<&Piece>, at: f64| {
         // At the ends of the body the outline goes on with the same curvature
         let jump =
@@ -43,7 +42,7 @@ pub fn spread(pieces: &[Piece], index: usize) -> Vec<f64> {
         let part = length(from, to);
         let from_start = done + 0.5 * part;
         let bend = piece.curvature(0.5 * (from + to)).abs();
-        let wanted = (LONGEST_SPACING * whole)
+        let wanted = longest
             .min(LARGEST_ANGLE / bend)
             .min(finest[0] + GROWTH * from_start)
             .min(finest[1] + GROWTH * (total - from_start));

@@ -1,13 +1,13 @@
-//! `Profile`: half width along the midline of fish and flagellates, in smooth pieces, with material points.
+//! `Profile`: half width along the midline of a slender body, in smooth pieces, with material points.
 //!
 //! A profile is the upper half of a body laid straight: place s along the midline, from the head on,
-//! and half width w there. Its pieces are straight or arcs of ellipses and meet with a common
+//! and half width w there. Its pieces are straight, arcs of ellipses or bridges and meet with a common
 //! tangent, so the outline has no corner.
 
 use std::sync::Arc;
 
 use super::piece::Piece;
-use super::spread::spread;
+use super::spread::{LONGEST_SPACING, spread};
 use crate::{Shape, Spline};
 
 /// Half width of a slender body along its midline.
@@ -35,7 +35,14 @@ pub struct Station {
 
 impl Profile {
     pub(super) fn of(pieces: Vec<Piece>) -> Self {
-        let spreads = (0..pieces.len()).map(|piece| spread(&pieces, piece)).collect();
+        Self::with_spacing(pieces, f64::INFINITY)
+    }
+
+    /// With material points so far apart at most (m).
+    pub(super) fn with_spacing(pieces: Vec<Piece>, spacing: f64) -> Self {
+        let length = pieces[pieces.len() - 1].at(1.0)[0].x;
+        let longest = spacing.min(LONGEST_SPACING * length);
+        let spreads = (0..pieces.len()).map(|piece| spread(&pieces, piece, longest)).collect();
         Self { pieces, spreads }
     }
 

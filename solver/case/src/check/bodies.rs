@@ -104,7 +104,8 @@ fn check_shape(findings: &mut Findings<'_>, key: &str, shape: &ShapeSpec) {
         | ShapeSpec::Ellipse { .. }
         | ShapeSpec::Spline { .. }
         | ShapeSpec::Fish(_)
-        | ShapeSpec::Flagellate(_) => (is_planar, "sphere, spheroid"),
+        | ShapeSpec::Flagellate(_)
+        | ShapeSpec::Tube(_) => (is_planar, "sphere, spheroid"),
         ShapeSpec::Sphere { .. } | ShapeSpec::Spheroid { .. } => {
             (!is_planar, "disc, ellipse, spline, fish, flagellate")
         }
@@ -126,6 +127,8 @@ fn check_shape(findings: &mut Findings<'_>, key: &str, shape: &ShapeSpec) {
             }
         }
         ShapeSpec::Fish(_) | ShapeSpec::Flagellate(_) => gait::check_shape(findings, key, shape),
+        // Its links are checked
+        ShapeSpec::Tube(_) => {}
         ShapeSpec::Spline { points } => {
             let key = format!("{key}.spline.points");
             let n = points.len();

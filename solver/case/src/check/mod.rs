@@ -19,6 +19,7 @@ mod mesh;
 mod near;
 mod placement;
 mod references;
+mod skin;
 mod spring;
 mod strokes;
 mod swimmers;

@@ -5,6 +5,7 @@ use std::collections::HashSet;
 use super::Findings;
 use super::bodies::check_word;
 use super::joints::{arm, hinge, stroke};
+use super::skin;
 use crate::{
     Copies, FlowModel, Geometry, JointKind, Motion, Pivot, Scheme, Stroke, SwimmerKind,
     SwimmerSpec, TimeSettings,
@@ -46,8 +47,12 @@ fn parts(findings: &mut Findings<'_>, key: &str, swimmer: &SwimmerSpec) {
                 arm_of_swimmer(findings, &format!("{key}.kind.star.arms.{nth}"), length, sum);
             }
         }
-        SwimmerKind::Chain { gap, joints, .. } => {
+        SwimmerKind::Chain { links, gap, joints, skin } => {
             planar_only(findings, key, "chain");
+            if let Some(skin) = *skin {
+                let (key, gap) = (&format!("{key}.kind.chain"), *gap);
+                skin::check(findings, &skin::Chain { key, links, gap, joints, skin });
+            }
             findings.positive(&format!("{key}.kind.chain.gap"), *gap);
             for (nth, joint) in joints.iter().enumerate() {
                 let key = format!("{key}.kind.chain.joints.{nth}");

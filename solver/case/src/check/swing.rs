@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::{Body, CarangiformGait, GaitSpec, ShapeSpec};
+use crate::{BentJoint, Body, CarangiformGait, GaitSpec, JointsGait, ShapeSpec};
 
 /// Places along a body, and times of a period, at which a midline is looked at.
 const SAMPLES: u32 = 32;
@@ -12,7 +12,7 @@ const SAMPLES: u32 = 32;
 pub fn swing(body: &Body) -> f64 {
     let length = match &body.shape {
         ShapeSpec::Fish(fish) => fish.length,
-        ShapeSpec::Flagellate(_) => 1.0,
+        ShapeSpec::Flagellate(_) | ShapeSpec::Tube(_) => 1.0,
         shape => shape.reach(),
     };
     let relative = match &body.gait {
@@ -20,6 +20,7 @@ pub fn swing(body: &Body) -> f64 {
         Some(GaitSpec::Carangiform(gait)) => carangiform(gait),
         Some(GaitSpec::Anguilliform(gait)) => gait.amplitude * (1.0 + gait.offset),
         Some(GaitSpec::Flagellum(gait)) => gait.amplitude,
+        Some(GaitSpec::Joints(gait)) => joints(gait, &body.shape),
         Some(GaitSpec::Pulsating(gait)) => {
             let of_table = gait.table.iter().map(|row| row[1]).fold(1.0, f64::max);
             let largest = gait.amplitude.map_or(of_table, |amplitude| 1.0 + amplitude.abs());
@@ -28,6 +29,18 @@ pub fn swing(body: &Body) -> f64 {
         }
     };
     relative * length
+}
+
+/// Largest displacement of the midline of a chain with a skin (m): that of a line with one kink from the
+/// chord of its ends, summed over all joints.
+fn joints(gait: &JointsGait, shape: &ShapeSpec) -> f64 {
+    let ShapeSpec::Tube(tube) = shape else { return 0.0 };
+    let kink = |joint: &BentJoint| {
+        let [least, most] = joint.angle.range();
+        let lever = joint.along * (tube.length - joint.along) / tube.length;
+        least.abs().max(most.abs()) * lever
+    };
+    gait.joints.iter().map(kink).sum()
 }
 
 /// Largest displacement of a midline of length 1 from its mean line, its curvature integrated twice.

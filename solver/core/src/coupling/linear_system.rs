@@ -127,6 +127,11 @@ impl LinearSystem {
         self.matrix.pattern()
     }
 
+    /// The matrix last assembled.
+    pub(super) fn matrix(&self) -> &SparseMatrix {
+        &self.matrix
+    }
+
     /// The values of the matrix, to be written.
     pub(super) fn values_mut(&mut self) -> &mut [f64] {
         self.matrix.values_mut()

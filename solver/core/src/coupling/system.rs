@@ -23,7 +23,7 @@ use super::rigid_equations::{RigidBodyEquations, rotations};
 use super::shapes::BodyShapes;
 use super::solution::Solution;
 use super::surface_load::SurfaceStress;
-use crate::algebra::{Accuracy, AffineConstraints, Term, Unknowns};
+use crate::algebra::{Accuracy, AffineConstraints, SparseMatrix, Term, Unknowns};
 use crate::body::{Modes, Pose};
 use crate::flow::{Assembly, FlowTerms, assemble, residual};
 use crate::space::{DofLayout, FacetRule, Tables};
@@ -133,6 +133,12 @@ impl<const D: usize> FluidSystem<D> {
     #[must_use]
     pub fn preconditioner_bytes(&self) -> usize {
         self.linear.preconditioner_bytes()
+    }
+
+    /// The matrix last assembled.
+    #[must_use]
+    pub fn matrix(&self) -> &SparseMatrix {
+        self.linear.matrix()
     }
 
     /// Basis tables, for measurements.

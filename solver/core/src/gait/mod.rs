@@ -6,9 +6,12 @@ mod error;
 mod grid;
 mod midline;
 mod momentum;
+#[cfg(test)]
+mod momentum_tests;
 mod number;
 mod pulse;
 mod recoil;
+mod recoil_motion;
 mod rule;
 mod sheet;
 mod slender_body;
@@ -19,8 +22,9 @@ mod tests;
 
 pub use deformed_outline::{DeformedOutline, RecoilCorrection, ShapeMotion};
 pub use error::GaitError;
-pub use midline::{Anguilliform, Carangiform, Flagellum, Midline};
+pub use midline::{AngleInTime, Anguilliform, Carangiform, Flagellum, Joint, Joints, Midline};
 pub use pulse::{Pulse, PulseLaw};
+pub use recoil_motion::RecoilMotion;
 pub use sheet::WavingSheet;
 pub use slender_body::SlenderBody;
 pub use squirmer::Squirmer;

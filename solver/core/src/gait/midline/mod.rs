@@ -7,12 +7,14 @@ mod anguilliform;
 mod carangiform;
 mod flagellum;
 mod frame;
+mod joints;
 mod natural_spline;
 
 pub use anguilliform::Anguilliform;
 pub use carangiform::Carangiform;
 pub use flagellum::Flagellum;
 pub use frame::{Frame, Frames};
+pub use joints::{AngleInTime, Joint, Joints};
 
 use super::grid::Grid;
 use super::number::Number;
@@ -21,7 +23,7 @@ use super::number::Number;
 const RAMP_TIMES: f64 = 37.0;
 
 /// How a midline bends.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub enum Midline {
     /// A wave of curvature.
     Carangiform(Carangiform),
@@ -29,6 +31,8 @@ pub enum Midline {
     Anguilliform(Anguilliform),
     /// A wave in the tail of a body with a rigid head.
     Flagellum(Flagellum),
+    /// Bends between links.
+    Joints(Joints),
 }
 
 impl Midline {
@@ -38,6 +42,7 @@ impl Midline {
             Self::Carangiform(gait) => [gait.ramp, gait.period],
             Self::Anguilliform(gait) => [gait.ramp, gait.period],
             Self::Flagellum(gait) => [RAMP_TIMES * gait.ramp, gait.period],
+            Self::Joints(gait) => gait.cycle,
         }
     }
 
@@ -49,6 +54,7 @@ impl Midline {
             }
             Self::Anguilliform(_) => Vec::new(),
             Self::Flagellum(gait) => vec![gait.head],
+            Self::Joints(gait) => gait.discontinuities(),
         }
     }
 
@@ -57,6 +63,7 @@ impl Midline {
         match self {
             Self::Carangiform(gait) => gait.frames(grid, time),
             Self::Anguilliform(gait) => gait.frames(grid, time),
+            Self::Joints(gait) => gait.frames(grid, time),
             Self::Flagellum(gait) if gait.inextensible => gait.inextensible_frames(grid, time),
             Self::Flagellum(gait) => {
                 let frame = |along: f64| gait.displaced(along, time);

@@ -113,7 +113,8 @@ fn slip(body: &Body, metric: Metric) -> Option<Box<dyn Gait>> {
             GaitSpec::Carangiform(_)
             | GaitSpec::Anguilliform(_)
             | GaitSpec::Flagellum(_)
-            | GaitSpec::Pulsating(_),
+            | GaitSpec::Pulsating(_)
+            | GaitSpec::Joints(_),
         ) => return None,
     };
     // On the axis the heading is 0 or pi, and must be so to the last bit

@@ -2,12 +2,16 @@
 
 use std::sync::Arc;
 
-use crate::case::{Body, GaitSpec, ShapeSpec};
+use crate::case::{BentJoint, Body, GaitSpec, JointsGait, Model, ShapeSpec, Stroke};
 use crate::coupling::ShapeError;
 use crate::gait::{
-    Anguilliform, Carangiform, Flagellum, Midline, Pulse, PulseLaw, ShapeMotion, SlenderBody,
+    AngleInTime, Anguilliform, Carangiform, Flagellum, Joint, Joints, Midline, Pulse, PulseLaw,
+    RecoilMotion, ShapeMotion, SlenderBody,
 };
 use crate::simulation::RunError;
+
+/// Knots of angles from a file that are taken for a period.
+const KNOTS_OF_PERIOD: f64 = 16.0;
 
 /// How the outline of a body moves in the body's frame; `None` if it does not.
 ///
@@ -67,12 +71,76 @@ pub fn shape_motion(body: &Body) -> Result<Option<Arc<dyn ShapeMotion>>, RunErro
                 inextensible: gait.inextensible,
             })
         }
+        (Some(GaitSpec::Joints(gait)), ShapeSpec::Tube(_)) => Midline::Joints(joints(gait)),
         _ => return Err(refuse("its gait does not fit its shape")),
     };
     let profile = body.shape.profile().ok_or_else(|| refuse("its lengths make no body"))?;
     let slender = SlenderBody::new(&profile, midline)
         .map_err(|reason| ShapeError { body: body.name.clone(), reason })?;
     Ok(Some(Arc::new(slender)))
+}
+
+/// What is subtracted from the gait of a body so that it has no momentum of its own.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BodyRecoil {
+    /// Name of the body.
+    pub body: String,
+    /// The rigid motion that is subtracted.
+    pub motion: RecoilMotion,
+}
+
+/// What is subtracted from the gaits of the bodies that deform.
+///
+/// # Errors
+/// As [`shape_motion`], and where a gait fails within its first period.
+pub fn recoils(model: &Model) -> Result<Vec<BodyRecoil>, RunError> {
+    let mut recoils = Vec::new();
+    for body in &model.bodies {
+        let Some(shape) = shape_motion(body)? else { continue };
+        let motion =
+            shape.recoil().map_err(|reason| ShapeError { body: body.name.clone(), reason })?;
+        recoils.push(BodyRecoil { body: body.name.clone(), motion });
+    }
+    Ok(recoils)
+}
+
+/// The midline of a chain with a skin.
+fn joints(gait: &JointsGait) -> Joints {
+    let bent = |joint: &BentJoint| {
+        let angle = joint.angle.clone();
+        // Behind the last knot of a file it rests
+        let at = move |time: f64| match &angle {
+            Stroke::Cubic(knots) => match knots.last() {
+                Some([last, value, _]) if time > *last => [*value, 0.0],
+                _ => angle.at(time),
+            },
+            _ => angle.at(time),
+        };
+        Joint {
+            along: joint.along,
+            angle: AngleInTime(Arc::new(at)),
+            is_behind_root: joint.is_behind_root,
+        }
+    };
+    // Angles from a file are never periodic: they are looked at as often as their knots ask for
+    let (mut transient, mut spacing) = (0.0f64, f64::INFINITY);
+    for joint in &gait.joints {
+        match &joint.angle {
+            Stroke::Sine { ramp, .. } => transient = transient.max(*ramp),
+            Stroke::Cubic(knots) => {
+                let last = knots.last().map_or(0.0, |knot| knot[0]);
+                let intervals = knots.iter().filter(|knot| knot[0] > 0.0).count();
+                transient = transient.max(last);
+                spacing = spacing.min(last / intervals as f64);
+            }
+            _ => {}
+        }
+    }
+    let period = gait.period().unwrap_or(f64::INFINITY).min(KNOTS_OF_PERIOD * spacing);
+    // Angles that are all constant have any period
+    let period = if period.is_finite() { period } else { 1.0 };
+    let joints = gait.joints.iter().map(bent).collect();
+    Joints { joints, rounding: gait.rounding, cycle: [transient, period] }
 }
 
 #[cfg(test)]

@@ -1,0 +1,48 @@
+//! The matrices that all shipped cases begin with are solved to rounding, with one refinement at most.
+
+use alewife_core::case::{Case, Model, Steady, library};
+use alewife_core::simulation::{build_mesh, build_problem};
+use rayon::prelude::*;
+use tests::{steady_with, workspace};
+
+/// Relative residual that every system has to reach.
+const RESIDUAL: f64 = 1e-12;
+
+/// Residual and refinements of the Stokes flow that every run of a case begins with.
+fn accuracy(model: &Model) -> (f64, usize) {
+    let mesh = build_mesh(model).expect("the mesh can be made");
+    let mut problem = build_problem(model, &mesh).expect("the problem can be built");
+    problem.has_convection = false;
+    let mut work = workspace(&problem, &mesh);
+    let settings = Steady { tolerance: 1e-9, max_iterations: 3 };
+    let _flow = steady_with(&mut work, &problem, &settings, false);
+    (work.system.accuracy().residual, work.system.accuracy().refinements)
+}
+
+/// A shipped case with the first and the last of its variants, by the names the command line takes.
+fn members(name: &str) -> Vec<String> {
+    let file = Case::read(name, &[]).expect("shipped cases are valid");
+    // The two that are farthest from each other in a list stand for those between
+    let mut variants: Vec<&String> =
+        file.variants.first().into_iter().chain(file.variants.last()).collect();
+    variants.dedup();
+    let variants = variants.into_iter().map(|variant| format!("{name}/{variant}"));
+    std::iter::once(name.to_owned()).chain(variants).collect()
+}
+
+#[test]
+fn shipped_cases_are_solved_to_rounding() {
+    let members: Vec<String> =
+        library::list().iter().flat_map(|shipped| members(shipped.name)).collect();
+    assert!(members.len() > 25, "cases and variants: {}", members.len());
+    let wrong: Vec<String> = members
+        .par_iter()
+        .filter_map(|name| {
+            let model = Case::read(name, &[]).expect("shipped cases are valid").model;
+            let (residual, refinements) = accuracy(&model);
+            let is_right = residual <= RESIDUAL && refinements <= 1;
+            (!is_right).then(|| format!("{name}: {residual:.1e} after {refinements} refinements"))
+        })
+        .collect();
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
