@@ -73,6 +73,8 @@ fn a_free_body_goes_with_the_mean_flow() {
         assert!((last(&free, name) - value).abs() < 1e-9, "{name}");
     }
     assert!(last(&free, "disc.force.x").abs() < 1e-9);
+    // No work is done, and nothing is dissipated
+    assert!(last(&free, "flow.energy_defect").is_nan());
 }
 
 /// Sedimentation without net flux: the mean pressure gradient carries what pulls the bodies, and
@@ -152,4 +154,42 @@ fn a_mean_velocity_holds_in_every_step() {
     assert!(last(&outcome, "flow.pressure_gradient.x") < 0.0);
     let defect = last(&outcome, "flow.energy_defect");
     assert!(defect.abs() < 0.02, "{defect}");
+}
+
+/// The work and the impulse of a mean velocity count, also where it is switched on with the fluid at rest or
+/// changes in time: balances are those of the step.
+#[test]
+fn a_mean_velocity_that_is_switched_on_or_changes_does_work() {
+    for factor in ["", "flow.factor.sine = { mean = 1.0, amplitude = 0.5, period = 0.5 }"] {
+        let at = |step: f64| {
+            let outcome = run(&case(&format!(
+                r#"
+                title = "a disc in a channel whose flow is switched on"
+                geometry = "planar"
+                fluid = {{ model = "navier-stokes", density = 1.0, viscosity = 0.1 }}
+                flow.mean_velocity = [1.0, 0.0]
+                {factor}
+                domain.box = {{ min = [-1.0, -0.5], max = [1.0, 0.5] }}
+                mesh = {{ size = 0.1, surface = 0.05 }}
+                time.unsteady = {{ step = {step}, end = 1.0 }}
+                boundary = {{ left.periodic = "right", right.periodic = "left", bottom = "no-slip", top = "no-slip" }}
+                [[body]]
+                name = "disc"
+                shape.disc.radius = 0.15
+                center = [-0.5, 0.1]
+                motion = "held"
+                "#
+            )));
+            let first = outcome.series.column("flow.energy_defect").expect("a column")[0];
+            assert!(first.is_nan(), "{first}");
+            let of = |name: &str| last(&outcome, &format!("flow.{name}_defect"));
+            println!("{factor} step {step}: {} {}", of("energy"), of("momentum"));
+            [of("energy").abs(), of("momentum")]
+        };
+        let [[coarse, impulse], [fine, fine_impulse]] = [at(0.02), at(0.01)];
+        // What velocities that jump leave for the first steps falls with the root of the step
+        assert!(coarse < 0.005 && fine < 0.85 * coarse, "{factor}: {coarse} {fine}");
+        let allowed = f64::max(0.3 * impulse, 1e-4);
+        assert!(impulse < 0.005 && fine_impulse < allowed, "{factor}: {impulse} {fine_impulse}");
+    }
 }

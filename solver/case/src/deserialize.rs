@@ -9,7 +9,7 @@ use serde::forward_to_deserialize_any;
 
 use super::source::Origin;
 use super::tree::{TomlNode, TomlValue};
-use super::type_error::{Mismatch, TypeError};
+use super::type_error::{Mismatch, TypeError, with_file};
 
 /// The alternative that a plain number stands for.
 const CONSTANT: &str = "constant";
@@ -112,7 +112,7 @@ fn no_alternative(alternatives: &[&str]) -> TypeError {
 }
 
 fn alternatives_error(message: String, alternatives: &[&str]) -> TypeError {
-    let help = format!("give one of: {}", alternatives.join(", "));
+    let help = format!("give one of: {}", with_file(alternatives).join(", "));
     TypeError::new(Mismatch::Other(message, help))
 }
 

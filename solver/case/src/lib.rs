@@ -10,6 +10,7 @@ mod deserialize;
 mod diagnostic;
 mod discs;
 mod domain;
+mod encounters;
 mod fluid;
 mod gait;
 mod geometry;
@@ -45,6 +46,7 @@ pub use check::check;
 pub use contact::ContactSpec;
 pub use diagnostic::{CaseError, Diagnostic, Severity, printable};
 pub use domain::{BoundaryCondition, DomainSpec, Geometry, TimeFunction};
+pub use encounters::Encounter;
 pub use fluid::{FlowModel, Fluid};
 pub use gait::{
     AnguilliformGait, CarangiformGait, FishShape, FlagellateShape, FlagellumGait, PulsatingGait,

@@ -308,6 +308,26 @@ impl Model {
         matches!(case.time, TimeSettings::Unsteady(_)) && any
     }
 
+    /// Whether the momentum of the fluid changes by the forces of bodies, sides and a mean flow alone: a
+    /// fluid that is convected in time, and does not cross the sides.
+    #[must_use]
+    pub fn balances_momentum(&self) -> bool {
+        let is_closed = |condition: &BoundaryCondition| {
+            matches!(
+                condition,
+                BoundaryCondition::NoSlip
+                    | BoundaryCondition::Symmetry
+                    | BoundaryCondition::Axis
+                    | BoundaryCondition::Periodic(_)
+            )
+        };
+        let case = &self.case;
+        case.fluid.model == FlowModel::NavierStokes
+            && matches!(case.time, TimeSettings::Unsteady(_))
+            && !self.bodies.is_empty()
+            && case.boundary.values().all(is_closed)
+    }
+
     /// Whether all work on the fluid is that of bodies and waving sheets, so that it balances
     /// dissipation and the rate of the kinetic energy. No work is done where there is no traction,
     /// but with inertia the fluid that leaves there takes its kinetic energy along.

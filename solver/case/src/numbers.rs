@@ -60,7 +60,8 @@ pub fn derived_numbers(model: &Model) -> Vec<DerivedNumber> {
             ContactSpec::Barrier { .. } => "contact: stiffness for half the range",
             ContactSpec::Quadratic { .. } => "contact: epsilon for half the range",
         };
-        let formula = "gap under the weight, or the drag at the expected speed, of a body";
+        let formula = "with which the weight less buoyancy of a body, or its drag at the expected speed, \
+                       leaves half of `range` as gap";
         table.add(name, value, formula);
     }
     table.0

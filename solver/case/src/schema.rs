@@ -108,17 +108,18 @@ mod tests {
         let structs = root["$defs"].as_object().unwrap().values().chain([&root]);
         for definition in structs {
             let variants = definition["oneOf"].as_array().cloned().unwrap_or_default();
-            let tables = std::iter::once(definition.clone()).chain(
+            // A definition of one alternative is no table, what an alternative holds is one
+            let has_one = |table: &serde_json::Value| {
+                table["required"].as_array().is_some_and(|keys| keys.len() == 1)
+                    && table["properties"].as_object().is_some_and(|keys| keys.len() == 1)
+            };
+            let own = Some(definition.clone()).filter(|table| !has_one(table));
+            let tables = own.into_iter().chain(
                 variants.iter().filter_map(|v| v["properties"].as_object()).flat_map(
                     |properties| properties.values().map(|inner| resolved(&root, inner).clone()),
                 ),
             );
             for table in tables.collect::<Vec<_>>() {
-                if table["required"].as_array().is_some_and(|keys| keys.len() == 1)
-                    && table["properties"].as_object().is_some_and(|keys| keys.len() == 1)
-                {
-                    continue;
-                }
                 for (key, property) in table["properties"].as_object().into_iter().flatten() {
                     if has_alternatives_with_values(&root, property) {
                         found.push(key.clone());

@@ -57,11 +57,13 @@ impl Model {
     }
 }
 
-fn norm(vector: &[f64]) -> f64 {
+/// Length of a vector.
+pub(super) fn norm(vector: &[f64]) -> f64 {
     vector.iter().map(|part| part * part).sum::<f64>().sqrt()
 }
 
-fn side_speed(case: &Case, condition: &BoundaryCondition) -> f64 {
+/// The largest speed on a side (m/s).
+pub(super) fn side_speed(case: &Case, condition: &BoundaryCondition) -> f64 {
     match condition {
         BoundaryCondition::Velocity { value, .. } => norm(value),
         BoundaryCondition::Parabolic { peak, .. } => peak.abs(),
@@ -100,19 +102,32 @@ fn resistance(case: &Case, body: &Body) -> f64 {
     }
 }
 
+/// Weight less buoyancy of a body over the acceleration of gravity (kg; kg/m planar); 0 of a shape that is
+/// none.
+fn excess_mass(case: &Case, body: &Body) -> f64 {
+    let volume = body.shape.outline().moments().map_or(0.0, |moments| moments.measure);
+    (body.density.unwrap_or(case.fluid.density) - case.fluid.density) * volume
+}
+
 /// Weight less buoyancy and force on a body (N; N/m planar).
 fn load(case: &Case, body: &Body) -> f64 {
-    let radius = body.shape.half_width();
-    let volume = match case.geometry {
-        Geometry::Planar => PI * radius * body.shape.reach(),
-        Geometry::Axisymmetric => 4.0 / 3.0 * PI * radius * radius * body.shape.reach(),
-    };
-    let excess = body.density.unwrap_or(case.fluid.density) - case.fluid.density;
-    excess.abs() * norm(&case.fluid.gravity) * volume + norm(&body.force)
+    weight(case, body) + norm(&body.force)
+}
+
+/// Weight less buoyancy of a body, or the other way round (N; N/m planar).
+pub(super) fn weight(case: &Case, body: &Body) -> f64 {
+    excess_mass(case, body).abs() * norm(&case.fluid.gravity)
+}
+
+/// The same as a vector.
+pub(super) fn load_vector(case: &Case, body: &Body) -> [f64; 2] {
+    let mass = excess_mass(case, body);
+    let part = |vector: &[f64], axis: usize| vector.get(axis).copied().unwrap_or(0.0);
+    [0, 1].map(|axis| mass * part(&case.fluid.gravity, axis) + part(&body.force, axis))
 }
 
 /// The order of the speed of a body under its load: that of slow flow, or less by inertia (m/s).
-fn terminal_speed(case: &Case, body: &Body) -> f64 {
+pub(super) fn terminal_speed(case: &Case, body: &Body) -> f64 {
     let load = load(case, body);
     let slow = load / resistance(case, body);
     let area = match case.geometry {

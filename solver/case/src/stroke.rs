@@ -5,6 +5,9 @@ use std::iter::successors;
 
 use serde::{Deserialize, Serialize};
 
+/// The alternative that a file becomes.
+pub const KNOTS_OF_A_FILE: &str = "cubic";
+
 /// A number given in time: how long an arm is, how far a joint is bent.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]

@@ -8,6 +8,7 @@ use serde::Deserialize;
 use super::case_text::read_text;
 use super::diagnostic::CaseError;
 use super::source::{Origin, Source};
+use super::stroke::KNOTS_OF_A_FILE;
 use super::tree::{TomlNode, TomlValue, TreeError};
 use super::type_error::{TypeError, suggestion};
 
@@ -48,7 +49,7 @@ fn resolve_below(node: &mut TomlNode, path: &str) -> Result<(), TreeError> {
     match &mut node.value {
         TomlValue::Table(entries) => {
             if let Some(file) = entries.remove("file") {
-                entries.insert("cubic".to_owned(), knots(&file, &format!("{path}.file"))?);
+                entries.insert(KNOTS_OF_A_FILE.to_owned(), knots(&file, &format!("{path}.file"))?);
             }
             for (key, entry) in entries {
                 resolve_below(entry, &format!("{path}.{key}"))?;

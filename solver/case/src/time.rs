@@ -51,6 +51,12 @@ pub struct Unsteady {
 }
 
 impl Unsteady {
+    /// Number of whole fixed steps up to a time (s).
+    #[must_use]
+    pub fn n_steps_to(&self, time: f64) -> usize {
+        whole(time / self.step + 1e-9)
+    }
+
     /// Number of fixed steps to the end; rounding of their ratio makes no step more.
     #[must_use]
     pub fn n_steps(&self) -> usize {

@@ -13,9 +13,10 @@ use super::source::{Origin, Source};
 /// Tables that hold exactly one of several alternatives.
 ///
 /// Where two texts name different alternatives, the later one replaces the earlier one whole.
-pub const CHOICES: [&str; 15] = [
+pub const CHOICES: [&str; 16] = [
     "kind",
     "length",
+    "angle",
     "torque",
     "copies",
     "domain",
@@ -361,6 +362,9 @@ mod tests {
         let mut parent = tree("[time.steady]\n[mesh]\nsize = 1\ngrowth = 0.1");
         parent.merge(tree("[time.unsteady]\nstep = 1\n[mesh]\nsize = 2"));
         assert!(parent.get("time.steady").is_none() && parent.get("mesh.growth").is_some());
+        let mut bent = tree("kind.bent.angle = { constant = 0.5 }");
+        bent.merge(tree("kind.bent.angle = { sine = { amplitude = 0.5, period = 1.0 } }"));
+        assert!(bent.get("kind.bent.angle.constant").is_none(), "{bent:?}");
         assert_eq!(parent.get("mesh.size").unwrap().value, TomlValue::Integer(2));
     }
 

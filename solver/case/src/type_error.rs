@@ -8,6 +8,7 @@ use serde::de::{self, Expected, Unexpected};
 use super::nearest::nearest;
 use super::reference::ReferenceKind;
 use super::source::Origin;
+use super::stroke::KNOTS_OF_A_FILE;
 
 /// What a value cannot be typed for.
 #[derive(Debug)]
@@ -119,7 +120,9 @@ impl TypeError {
             }
             Mismatch::MissingKey(key) => format!("add `{key} = ...` there"),
             Mismatch::WrongType { found, wanted } => {
-                if found.starts_with("the string") && wanted.contains("number") {
+                if wanted.starts_with("an array") {
+                    array_example(found, wanted)
+                } else if found.starts_with("the string") && wanted.contains("number") {
                     "write the number without quotes and without its unit".to_owned()
                 } else {
                     String::new()
@@ -127,6 +130,21 @@ impl TypeError {
             }
             Mismatch::Other(_, help) => help.clone(),
         }
+    }
+}
+
+/// How an array is written instead of what is there.
+fn array_example(found: &str, wanted: &str) -> String {
+    if let Some(text) = found.strip_prefix("the string ") {
+        return format!("write it in brackets: [{text}]");
+    }
+    let number = found.trim_matches('`');
+    match number.parse::<f64>() {
+        Ok(_) if wanted == "an array of 3 numbers" => {
+            format!("write three numbers in brackets, such as [{number}, 0.0, 0.0]")
+        }
+        Ok(_) => format!("write numbers in brackets: [x, y], such as [{number}, 0.0]"),
+        Err(_) => "write values in brackets, with commas between them: [x, y]".to_owned(),
     }
 }
 
@@ -169,6 +187,16 @@ impl Display for TypeError {
 
 impl std::error::Error for TypeError {}
 
+/// The alternatives of a value, and the file that may stand for one: it has become knots before the value
+/// is typed.
+pub fn with_file(alternatives: &[&str]) -> Vec<String> {
+    let mut words = owned(alternatives);
+    if alternatives.contains(&KNOTS_OF_A_FILE) {
+        words.push("file".to_owned());
+    }
+    words
+}
+
 fn owned(words: &[&str]) -> Vec<String> {
     words.iter().map(|word| (*word).to_owned()).collect()
 }
@@ -196,10 +224,8 @@ impl de::Error for TypeError {
     }
 
     fn unknown_variant(found: &str, accepted: &'static [&'static str]) -> Self {
-        Self::new(Mismatch::UnknownAlternative {
-            found: found.to_owned(),
-            accepted: owned(accepted),
-        })
+        let (found, accepted) = (found.to_owned(), with_file(accepted));
+        Self::new(Mismatch::UnknownAlternative { found, accepted })
     }
 
     fn missing_field(key: &'static str) -> Self {
@@ -234,5 +260,38 @@ fn plain(wanted: &dyn Expected) -> String {
             Some(length) => format!("an array of {length} numbers"),
             None => words,
         },
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_word_is_offered_once() {
+        let accepted = ["swimmer.x", "swimmer.y", "swimmer.x"];
+        assert_eq!(suggestion("q", &accepted), "accepted: swimmer.x, swimmer.y");
+        let close = suggestion("swimmer.z", &accepted);
+        assert!(close.ends_with("accepted: swimmer.x, swimmer.y"), "{close}");
+    }
+
+    #[test]
+    fn an_array_is_shown_by_an_example() {
+        let help = |found: &str, wanted: &str| {
+            let (found, wanted) = (found.to_owned(), wanted.to_owned());
+            TypeError::new(Mismatch::WrongType { found, wanted }).help()
+        };
+        let of_number = "write numbers in brackets: [x, y], such as [3.0, 0.0]";
+        assert_eq!(help("`3.0`", "an array"), of_number);
+        assert_eq!(help("the string \"x\"", "an array"), "write it in brackets: [\"x\"]");
+        assert_eq!(help("`3.0`", "a table"), "");
+    }
+
+    #[test]
+    fn a_stroke_may_come_from_a_file() {
+        let error = <TypeError as de::Error>::unknown_variant("fil", &["sine", "cubic"]);
+        assert_eq!(error.help(), "did you mean `file`? accepted: sine, cubic, file");
+        let error = <TypeError as de::Error>::unknown_variant("fil", &["sine", "table"]);
+        assert!(!error.help().contains("file"), "{}", error.help());
     }
 }

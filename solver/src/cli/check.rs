@@ -4,17 +4,18 @@ use std::fmt::Write as _;
 
 use alewife_mesh::{Mesh, Quality};
 
+use super::cost::{Cost, FirstMesh};
 use super::engine;
 use super::exit::{Exit, Failure};
 use super::facts::{count, facts, one_line};
 use super::read::{CheckedCase, read_and_check};
 use super::style::{self, Ink, on_stdout, say};
 use crate::case::{
-    Cadence, CaseFile, Diagnostic, FlowModel, Model, Precision, Scheme, TimeSettings,
-    known_quantities, number_table, significant,
+    Cadence, CaseFile, Diagnostic, FlowModel, Model, Precision, TimeSettings, known_quantities,
+    number_table, printable, significant,
 };
-use crate::coupling::{count_unknowns, memory_estimate};
-use crate::simulation::build_problem;
+use crate::coupling::count_unknowns;
+use crate::simulation::{BodyRecoil, build_problem, recoils};
 
 /// Output above which a warning is given (bytes).
 const LARGE_OUTPUT: f64 = 2e9;
@@ -48,6 +49,11 @@ fn check_one(argument: &str, settings: &[String], has_mesh: bool) -> Result<(), 
     if !numbers.is_empty() {
         let _ = write!(text, "\n{}\n{numbers}", on_stdout(Ink::Bold, "derived numbers"));
     }
+    let recoils = recoils(&file.model)?;
+    if !recoils.is_empty() {
+        let _ = write!(text, "\n{}\n", on_stdout(Ink::Bold, "recoil subtracted from the gaits"));
+        text.extend(recoils.iter().map(|recoil| format!("  {}\n", recoil_line(recoil))));
+    }
     say(text.trim_end());
     if has_mesh {
         let mesh = engine::build_mesh(&file.model)?;
@@ -62,7 +68,7 @@ fn check_one(argument: &str, settings: &[String], has_mesh: bool) -> Result<(), 
         say(&format!(
             "\n{}\n{}",
             on_stdout(Ink::Bold, "cost (a rough guess)"),
-            costs(&file.model, &mesh)?
+            costs(&file.model, &mesh, &quality)?
         ));
     }
     if !warnings.is_empty() {
@@ -88,6 +94,32 @@ fn check_variants(argument: &str, file: &CaseFile, settings: &[String]) -> Resul
     Ok(())
 }
 
+/// The rigid motion that is subtracted from the gait of a body, in a line.
+fn recoil_line(recoil: &BodyRecoil) -> String {
+    let BodyRecoil { body, motion } = recoil;
+    let name = printable(body);
+    if motion.largest_speed == 0.0 && motion.largest_angular_velocity == 0.0 {
+        return format!("{name}: none, its gait has no momentum");
+    }
+    let number = |value: f64| format!("{value:.3e}");
+    let turn = motion.turn.to_degrees();
+    let turn = if turn.abs() < 5e-3 {
+        String::new()
+    } else {
+        format!(", and it turns by {turn:.2} degrees a period")
+    };
+    format!(
+        "{name}: translation up to {} (speed up to {}, rms {}), rotation up to {:.2} degrees (up to \
+         {:.1} degrees per unit of time, rms {:.1}){turn}",
+        number(motion.translation),
+        number(motion.largest_speed),
+        number(motion.rms_speed),
+        motion.rotation.to_degrees(),
+        motion.largest_angular_velocity.to_degrees(),
+        motion.rms_angular_velocity.to_degrees(),
+    )
+}
+
 /// CFL number and cell Reynolds number at the expected speed.
 fn cell_numbers(model: &Model, quality: &Quality<2>) -> Vec<String> {
     let case = &model.case;
@@ -104,53 +136,36 @@ fn cell_numbers(model: &Model, quality: &Quality<2>) -> Vec<String> {
     lines
 }
 
-/// Linear systems a run solves: exact for steady Stokes flow, a usual number otherwise.
-fn n_systems(model: &Model) -> f64 {
-    let case = &model.case;
-    match (&case.time, case.fluid.model) {
-        (TimeSettings::Steady(_), FlowModel::NavierStokes) => 6.0,
-        (TimeSettings::Steady(_), _) => 1.0,
-        (TimeSettings::Unsteady(time), _) => {
-            let a_step = match time.scheme {
-                // One for each stage
-                Scheme::Rk3 => 3.0,
-                // Bodies and mesh agree after another pass
-                _ if model.mesh_moves() => 2.0,
-                _ => 1.0,
-            };
-            a_step * (time.end / time.step).ceil()
-        }
-    }
-}
-
 /// Unknowns, memory, time and files of a run.
-fn costs(model: &Model, mesh: &Mesh<2>) -> Result<String, Failure> {
+fn costs(model: &Model, mesh: &Mesh<2>, quality: &Quality<2>) -> Result<String, Failure> {
     let on_mesh = 2 * mesh.n_nodes() + mesh.n_vertices;
     let free = count_unknowns(&build_problem(model, mesh)?, mesh);
-    let n_dofs = free as f64;
-    let memory = memory_estimate(on_mesh);
-    // Measured on planar runs with 1.1 10^4 to 2 10^5 unknowns on one core, all systems factorised.
-    let factorisation = 0.0095 * (n_dofs / 1e4).powf(1.4);
-    // What follows the bodies: the mesh, its quality, contact, measurements, remeshing.
-    let following = if model.mesh_moves() { 0.5 } else { 0.0 };
-    let assembly = 6e-7 * n_dofs;
-    let systems = n_systems(model);
+    let shortest_edge = quality.shortest_edge;
+    let cost = Cost::of(model, &FirstMesh { free, on_mesh, shortest_edge });
     let output = output_size(model, mesh);
     let mut text = String::new();
     let unknowns = format!("{free} free ones; {on_mesh} velocities and pressures on the mesh");
     let _ = writeln!(text, "  {:<16} {unknowns}", "unknowns");
-    let _ =
-        writeln!(text, "  {:<16} {}, most of it for the factorisation", "memory", bytes(memory));
-    let seconds = (factorisation + assembly) * (1.0 + following);
-    let is_adaptive =
-        matches!(&model.case.time, TimeSettings::Unsteady(time) if time.adaptive.is_some());
-    let cost = if is_adaptive {
-        format!("{} for each linear system; their number depends on the steps", duration(seconds))
+    if cost.in_films >= 1.0 {
+        let more = format!("up to {} more where bodies come near", count(round(cost.in_films)));
+        let _ = writeln!(text, "  {:<16} {more}", "");
+    }
+    let most = if cost.new_meshes >= 1.0 {
+        "for the factorisation, and for new meshes"
     } else {
-        let plural = if systems == 1.0 { "" } else { "s" };
-        format!("{} for {} linear system{plural}", duration(systems * seconds), count(systems))
+        "most of it for the factorisation"
     };
-    let _ = writeln!(text, "  {:<16} {cost}", "CPU time");
+    let _ = writeln!(text, "  {:<16} {}, {most}", "memory", bytes(cost.memory));
+    let systems = if cost.systems == 1.0 {
+        "one linear system".to_owned()
+    } else {
+        format!("about {} linear systems", count(round(cost.systems)))
+    };
+    let mut line = format!("{} for {systems}", duration(cost.seconds));
+    if cost.new_meshes >= 1.0 {
+        let _ = write!(line, " and {} new meshes", count(round(cost.new_meshes)));
+    }
+    let _ = writeln!(text, "  {:<16} {line}", "CPU time");
     let _ = write!(text, "  {:<16} {}", "output", bytes(output));
     if output > LARGE_OUTPUT {
         let warning = Diagnostic {
@@ -193,6 +208,12 @@ fn output_size(model: &Model, mesh: &Mesh<2>) -> f64 {
     times(case.output.fields) * frame + times(case.output.series) * row
 }
 
+/// To two digits.
+fn round(number: f64) -> f64 {
+    let unit = 10f64.powf(number.max(1.0).log10().floor() - 1.0);
+    (number / unit).round() * unit
+}
+
 fn bytes(size: f64) -> String {
     if size.is_nan() || size >= 1e16 {
         return "more than any disk holds".to_owned();
@@ -210,7 +231,9 @@ fn bytes(size: f64) -> String {
 fn duration(seconds: f64) -> String {
     match seconds {
         s if s < 1.0 => "less than a second".to_owned(),
+        s if s < 9.95 => format!("{s:.1} s"),
         s if s < 120.0 => format!("{s:.0} s"),
+        s if s < 597.0 => format!("{:.1} min", s / 60.0),
         s if s < 7200.0 => format!("{:.0} min", s / 60.0),
         s if s < 1e6 => format!("{:.1} h", s / 3600.0),
         s if s < 3e9 => format!("{:.0} days", s / 86400.0),
@@ -223,10 +246,25 @@ mod tests {
     use super::*;
 
     #[test]
+    fn the_recoil_of_a_gait_is_told_in_degrees() {
+        let lines = |name: &str| -> Vec<String> {
+            let model = crate::case::Case::read(name, &[]).unwrap().model;
+            recoils(&model).unwrap().iter().map(recoil_line).collect()
+        };
+        let [fish] = &lines("carangiform")[..] else { panic!("is one fish") };
+        assert!(fish.starts_with("fish: translation up to 8"), "{fish}");
+        assert!(fish.contains("rotation up to") && fish.contains("degrees"), "{fish}");
+        let spheres = lines("push-me-pull-you");
+        assert_eq!(spheres.len(), 2);
+        assert!(spheres[0].ends_with("none, its gait has no momentum"), "{spheres:?}");
+        assert!(lines("dfg-2d-1").is_empty());
+    }
+
+    #[test]
     fn sizes_are_told_in_their_unit() {
         assert_eq!(bytes(12.0), "12 bytes");
         assert_eq!(bytes(1.5e6), "1.5 MB");
-        assert_eq!(duration(90.0), "90 s");
+        assert_eq!([4.23, 90.0, 250.0].map(duration), ["4.2 s", "90 s", "4.2 min"]);
         assert_eq!(duration(9000.0), "2.5 h");
         assert_eq!(duration(2e6), "23 days");
         assert_eq!(duration(f64::INFINITY), "more than a century");

@@ -19,9 +19,20 @@ pub fn mesh_quality(mesh: &Mesh<2>) -> Quality<2> {
     simulation::mesh_quality(mesh)
 }
 
-/// Runs a case without observers.
-pub fn simulate(model: &Model) -> Result<RunSummary, RunError> {
-    simulation::simulate(model, &mut [])
+/// Runs a case without files.
+pub fn simulate(model: &Model, watch: SignalWatch) -> Result<RunSummary, RunError> {
+    simulation::simulate(model, &mut [Box::new(watch)])
+}
+
+/// How a case is run into a directory.
+#[derive(Debug)]
+pub struct RunInto<'a> {
+    /// Where its files go.
+    pub directory: &'a RunDirectory,
+    /// Whether there is no progress on the terminal.
+    pub quiet: bool,
+    /// What may ask for its end.
+    pub watch: SignalWatch,
 }
 
 /// What a run resumes from.
@@ -35,17 +46,15 @@ pub struct Resumed {
     pub is_in_place: bool,
 }
 
-/// Runs a case, from a saved state if there is one, with its files in `directory`; with `quiet`,
-/// without progress on the terminal.
+/// Runs a case, from a saved state if there is one.
 pub fn simulate_into(
     model: &Model,
     resumed: Option<&Resumed>,
-    directory: &RunDirectory,
-    quiet: bool,
+    run: RunInto<'_>,
 ) -> Result<RunSummary, RunError> {
     let history = resumed.and_then(|resumed| resumed.history.as_ref());
-    let mut observers = observer::observers(model, directory, history, quiet)?;
-    observers.push(Box::new(SignalWatch::start()?));
+    let mut observers = observer::observers(model, run.directory, history, run.quiet)?;
+    observers.push(Box::new(run.watch));
     simulation::simulate_from(model, resumed.map(|resumed| &resumed.state), &mut observers)
 }
 

@@ -71,12 +71,7 @@ fn summary(file: &CaseFile) -> String {
     if !case.reference.is_empty() {
         let _ = writeln!(text, "\n{}", on_stdout(Ink::Bold, "references"));
         for reference in &case.reference {
-            let _ = writeln!(text, "  {}", reference_line(reference));
-            let source = printable(&reference.source);
-            let _ = writeln!(text, "    {}: {source}", reference.kind.name());
-            if let Some(note) = &reference.note {
-                let _ = writeln!(text, "    note: {}", printable(note));
-            }
+            text += &reference_lines(reference, "  ");
         }
     }
     if !case.variant.is_empty() {
@@ -86,6 +81,9 @@ fn summary(file: &CaseFile) -> String {
                 variant.set.iter().map(|(key, value)| format!("{key} = {value}")).collect();
             let set = printable(&set.join(", "));
             let _ = writeln!(text, "  {}/{}  {set}", file.name, variant.name);
+            for reference in &variant.reference {
+                text += &reference_lines(reference, "    ");
+            }
         }
     }
     let n_problems = check(file).len();
@@ -95,6 +93,20 @@ fn summary(file: &CaseFile) -> String {
             writeln!(text, "\n{n_problems} {remarks}: see `alewife check {}`", file.full_name());
     }
     text.trim_end().to_owned()
+}
+
+/// A reference with its source and note, each line after an indent.
+fn reference_lines(reference: &Reference, indent: &str) -> String {
+    let source = printable(&reference.source);
+    let mut text = format!(
+        "{indent}{}\n{indent}  {}: {source}\n",
+        reference_line(reference),
+        reference.kind.name()
+    );
+    if let Some(note) = &reference.note {
+        let _ = writeln!(text, "{indent}  note: {}", printable(note));
+    }
+    text
 }
 
 /// A reference in one line.

@@ -1,6 +1,7 @@
 //! The command line: commands, their output, and the exit codes.
 
 mod check;
+mod cost;
 mod engine;
 mod exit;
 mod facts;

@@ -5,9 +5,10 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::engine::Resumed;
+use super::engine::{Resumed, RunInto};
 use super::exit::{Exit, Failure};
 use super::read::{Settings, read_case};
+use super::signal::SignalWatch;
 use super::style::{Ink, on_stdout, say};
 use super::{engine, threads};
 use crate::case::{Case, Model, TimeSettings, significant};
@@ -41,8 +42,9 @@ pub struct Options {
     /// Threads; by default those the batch system or the machine grants
     #[arg(long, short, value_name = "N")]
     threads: Option<usize>,
-    /// Resume from the state of a run that stopped or failed: its state.json or failure/state.json
-    #[arg(long, value_name = "FILE")]
+    /// Resume from the state of a run that stopped or failed: its directory, its state.json or
+    /// failure/state.json
+    #[arg(long, value_name = "STATE")]
     resume: Option<PathBuf>,
     /// Do not compare with references
     #[arg(long)]
@@ -82,11 +84,16 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
     let verbosity = i8::try_from(options.verbose).unwrap_or(i8::MAX) - i8::from(options.quiet);
     engine::start_log(Some(&out), verbosity)?;
 
-    let outcome = engine::simulate_into(&file.model, resumed.as_ref(), &directory, options.quiet)
-        .map_err(|error| match error {
-        RunError::Stopped { .. } => stopped(&error, &out),
-        other => other.into(),
-    })?;
+    if let (Some(resumed), Some(from)) = (&resumed, &options.resume) {
+        let (step, time) = (resumed.state.step, resumed.state.time);
+        tracing::info!(step, time, from = %state_in(from).display(), "resumed");
+    }
+    let run = RunInto { directory: &directory, quiet: options.quiet, watch: SignalWatch::start()? };
+    let outcome =
+        engine::simulate_into(&file.model, resumed.as_ref(), run).map_err(|error| match error {
+            RunError::Stopped { .. } => stopped(&error, &out),
+            other => other.into(),
+        })?;
     let comparisons =
         if options.no_references { Vec::new() } else { compare(&name, file.case(), &outcome) };
     if !comparisons.is_empty() {
@@ -123,8 +130,8 @@ fn is_inside(file: &Path, directory: &Path) -> bool {
 
 /// A run that a signal stopped: what to type to go on.
 fn stopped(error: &RunError, out: &Path) -> Failure {
-    let mut command = vec!["alewife".to_owned()];
-    let mut arguments = std::env::args().skip(1);
+    let mut arguments = std::env::args();
+    let mut command = vec![program(&arguments.next().unwrap_or_default())];
     while let Some(argument) = arguments.next() {
         match argument.as_str() {
             "--resume" => drop(arguments.next()),
@@ -143,6 +150,20 @@ fn stopped(error: &RunError, out: &Path) -> Failure {
     Failure::new(Exit::Stopped, format!("{error}; {remedy}"))
 }
 
+/// How the program was called, or would be from its source: what cargo builds is called by cargo.
+fn program(typed: &str) -> String {
+    match Path::new(typed).iter().any(|part| part == "target") {
+        true => "cargo run --release --".to_owned(),
+        false if typed.is_empty() => "alewife".to_owned(),
+        false => quoted(typed),
+    }
+}
+
+/// The state a path names: that of a run, where it is the directory of one.
+fn state_in(path: &Path) -> PathBuf {
+    if path.is_dir() { path.join(STATE_FILE) } else { path.to_owned() }
+}
+
 /// A word as a shell reads it.
 fn quoted(word: &str) -> String {
     let is_plain = |c: char| c.is_ascii_alphanumeric() || "-_./=,:+@%".contains(c);
@@ -155,6 +176,7 @@ fn quoted(word: &str) -> String {
 
 /// Reads a state, and what the run it lies in has written up to there.
 fn read_resumed(path: &Path, case: &Case, out: &Path) -> Result<Resumed, Failure> {
+    let path = &state_in(path);
     let state = read_unfinished(path, case)?;
     let run = run_of_state(path);
     let is_in_place = run.is_some_and(|run| is_inside(run, out) && is_inside(out, run));
@@ -258,5 +280,18 @@ pub fn print_comparisons(comparisons: &[Comparison]) {
         if let Some(reason) = &comparison.reference.outside {
             say(&format!("    known to be outside: {reason}"));
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_command_is_what_was_typed_or_what_cargo_runs() {
+        assert_eq!(program("alewife"), "alewife");
+        assert_eq!(program("./my tools/alewife"), "'./my tools/alewife'");
+        assert_eq!(program("target/release/alewife"), "cargo run --release --");
+        assert_eq!(program("/home/me/targets/alewife"), "/home/me/targets/alewife");
     }
 }

@@ -16,7 +16,7 @@ const LOOK_EVERY: Duration = Duration::from_millis(100);
 const TOGETHER: Duration = Duration::from_millis(500);
 
 /// Asks for the end of a run once a signal has come.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct SignalWatch {
     has_come: Arc<AtomicBool>,
 }

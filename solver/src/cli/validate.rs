@@ -4,8 +4,10 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
+use super::engine::RunInto;
 use super::exit::{Exit, Failure};
 use super::read::read_and_check;
+use super::signal::SignalWatch;
 use super::style::{Ink, complain, on_stdout, say};
 use super::{engine, run, threads};
 use crate::case::{Cadence, Case, Numbers, Statistics, library};
@@ -25,8 +27,9 @@ Examples:
   alewife validate three-sphere --out runs      keep the runs; later, with other references,
   alewife validate three-sphere --from runs     compare them again
 
-The exit code is 20 if a value is outside its tolerance or could not be computed. A value that is
-known to be outside, for a reason that its reference gives, fails once it is within.")]
+The exit code is 20 if a value is outside its tolerance or could not be computed, 65 if there is
+nothing to compare with, and 75 if a signal stopped it: the cases done so far are printed then. A value
+that is known to be outside, for a reason that its reference gives, fails once it is within.")]
 pub struct Options {
     /// Which cases, with all their variants; all shipped ones if absent
     cases: Vec<String>,
@@ -63,22 +66,49 @@ pub fn validate(options: &Options) -> Result<Exit, Failure> {
     }
     let n_threads = threads::start(options.threads)?;
 
+    if members.is_empty() {
+        let names = names.join(", ");
+        let quick = if options.quick { "quick " } else { "" };
+        let nothing = format!("{names}: there is no {quick}reference to compare with");
+        return Err(Failure::new(Exit::BadCase, nothing));
+    }
+    let work = Work { options, n_threads, watch: SignalWatch::start()? };
     let mut comparisons: Vec<Comparison> = Vec::new();
+    let mut stopped = None;
     for (index, member) in members.iter().enumerate() {
         complain(&format!("[{}/{}] {member}", index + 1, members.len()));
-        comparisons.extend(validate_one(member, options, n_threads)?);
+        match work.validate(member) {
+            Ok(rows) => comparisons.extend(rows),
+            Err(failure) if failure.exit == Exit::Stopped => {
+                let n = members.len();
+                stopped = Some(format!("stopped by a signal in {member}; {index} of {n} are done"));
+                break;
+            }
+            Err(failure) => return Err(failure),
+        }
     }
+    print(&comparisons, options);
+    match stopped {
+        Some(reason) => Err(Failure::new(Exit::Stopped, reason)),
+        None if comparisons.iter().any(|row| row.verdict.is_failure()) => {
+            Ok(Exit::OutsideTolerance)
+        }
+        None => Ok(Exit::Done),
+    }
+}
+
+/// Prints comparisons in the form that was asked for.
+fn print(comparisons: &[Comparison], options: &Options) {
     let is_good = !comparisons.iter().any(|row| row.verdict.is_failure());
     if options.json {
-        say(&format!("{:#}", comparisons_to_json(&comparisons)));
+        say(&format!("{:#}", comparisons_to_json(comparisons)));
     } else if options.markdown {
-        say(comparison_page(&comparisons).trim_end());
+        say(comparison_page(comparisons).trim_end());
     } else {
-        say(&format!("{}\n", count_table(&comparisons).join("\n")));
-        run::print_comparisons(&comparisons);
-        say(&on_stdout(if is_good { Ink::Green } else { Ink::Red }, &summary(&comparisons)));
+        say(&format!("{}\n", count_table(comparisons).join("\n")));
+        run::print_comparisons(comparisons);
+        say(&on_stdout(if is_good { Ink::Green } else { Ink::Red }, &summary(comparisons)));
     }
-    Ok(if is_good { Exit::Done } else { Exit::OutsideTolerance })
 }
 
 /// The case and its variants that have something to be compared with.
@@ -97,35 +127,42 @@ fn members_of(name: &str, only_quick: bool) -> Result<Vec<String>, Failure> {
     Ok(members)
 }
 
-/// Runs one case, or reads its run; a run that fails is a row of the table, not the end of the
-/// validation.
-fn validate_one(
-    member: &str,
-    options: &Options,
+/// What all members are validated with.
+struct Work<'a> {
+    options: &'a Options,
     n_threads: usize,
-) -> Result<Vec<Comparison>, Failure> {
-    let file = read_and_check(member, &[])?.file;
-    let name = file.full_name();
-    let of_run = name.replace('/', "-");
-    let outcome = match (&options.out, &options.from) {
-        (Some(out), _) => {
-            let place = out.join(of_run);
-            // A validation that was stopped runs the case it stopped in again
-            let is_finished =
-                Status::read(&place).is_ok_and(|status| status.state == RunState::Finished);
-            let earlier = if is_finished { Earlier::Keep } else { Earlier::Replace };
-            let directory = RunDirectory::create(&place, file.case(), n_threads, earlier)?;
-            engine::simulate_into(&file.model, None, &directory, true)
-        }
-        (None, Some(from)) => Ok(kept(&from.join(of_run), file.case())?),
-        (None, None) => engine::simulate(&file.model),
-    };
-    Ok(match outcome {
-        Ok(outcome) => compare(&name, file.case(), &outcome),
-        // Asked to stop: that is no verdict
-        Err(error @ RunError::Stopped { .. }) => return Err(error.into()),
-        Err(error) => not_computed(&name, file.case(), &error.to_string()),
-    })
+    watch: SignalWatch,
+}
+
+impl Work<'_> {
+    /// Runs one case, or reads its run; a run that fails is a row of the table, not the end of the
+    /// validation.
+    fn validate(&self, member: &str) -> Result<Vec<Comparison>, Failure> {
+        let file = read_and_check(member, &[])?.file;
+        let name = file.full_name();
+        let of_run = name.replace('/', "-");
+        let watch = self.watch.clone();
+        let outcome = match (&self.options.out, &self.options.from) {
+            (Some(out), _) => {
+                let place = out.join(of_run);
+                // A validation that was stopped runs the case it stopped in again
+                let is_finished =
+                    Status::read(&place).is_ok_and(|status| status.state == RunState::Finished);
+                let earlier = if is_finished { Earlier::Keep } else { Earlier::Replace };
+                let directory = RunDirectory::create(&place, file.case(), self.n_threads, earlier)?;
+                let run = RunInto { directory: &directory, quiet: true, watch };
+                engine::simulate_into(&file.model, None, run)
+            }
+            (None, Some(from)) => Ok(kept(&from.join(of_run), file.case())?),
+            (None, None) => engine::simulate(&file.model, watch),
+        };
+        Ok(match outcome {
+            Ok(outcome) => compare(&name, file.case(), &outcome),
+            // Asked to stop: that is no verdict
+            Err(error @ RunError::Stopped { .. }) => return Err(error.into()),
+            Err(error) => not_computed(&name, file.case(), &error.to_string()),
+        })
+    }
 }
 
 /// A run that was kept, of the same case, its references aside.

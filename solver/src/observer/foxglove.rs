@@ -6,7 +6,7 @@
 use nalgebra::{UnitQuaternion, Vector3};
 use serde_json::{Value, json};
 
-use crate::body::{Pose, Twist, Wrench};
+use crate::body::{Pose, Twist, Wrench, in_space};
 use crate::case::{Body, Geometry, ShapeSpec};
 use crate::simulation::{BodyReport, Snapshot};
 
@@ -87,6 +87,7 @@ impl Kind {
                 ("surface_load", wrench()),
                 ("contact", wrench()),
                 ("power", number_schema()),
+                ("recoil", recoil_schema()),
             ]),
         };
         schema["title"] = json!(self.schema_name());
@@ -113,6 +114,17 @@ fn rotation_schema() -> Value {
         ("z", number_schema()),
         ("w", number_schema()),
     ])
+}
+
+fn recoil_schema() -> Value {
+    let mut schema = object([
+        ("center", vector_schema()),
+        ("velocity", vector_schema()),
+        ("angle", number_schema()),
+        ("angular_velocity", number_schema()),
+    ]);
+    schema["type"] = json!(["object", "null"]);
+    schema
 }
 
 fn scene_schema() -> Value {
@@ -232,6 +244,14 @@ pub fn step<const D: usize>(snapshot: &Snapshot<'_, D>) -> Value {
 pub fn body(report: &BodyReport, step: usize, time: f64) -> Value {
     let Pose { center, .. } = &report.pose;
     let Twist { linear, angular } = &report.twist;
+    let recoil = report.recoil.map(|recoil| {
+        json!({
+            "center": vector(&in_space(&recoil.center)),
+            "velocity": vector(&in_space(&recoil.velocity)),
+            "angle": recoil.angle,
+            "angular_velocity": recoil.angular_velocity,
+        })
+    });
     json!({
         "step": step,
         "time": time,
@@ -245,6 +265,7 @@ pub fn body(report: &BodyReport, step: usize, time: f64) -> Value {
         "surface_load": wrench(&report.surface_load),
         "contact": wrench(&report.contact),
         "power": report.power,
+        "recoil": recoil,
     })
 }
 

@@ -1,10 +1,14 @@
 //! `Provenance`: which program ran a case, where and how; the content of `provenance.json`.
 
 use std::collections::BTreeMap;
+use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
 use super::process;
+
+/// Where it is written in the directory of a run.
+pub const FILE: &str = "provenance.json";
 
 /// Variables by which Slurm names the job of a process.
 const SLURM: [&str; 9] = [
@@ -44,6 +48,9 @@ pub struct Provenance {
     pub threads: usize,
     /// Cores this process may use.
     pub cores: usize,
+    /// Those of the parts that were run in the directory before this one, the first part first.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub earlier: Vec<Provenance>,
 }
 
 impl Provenance {
@@ -67,7 +74,22 @@ impl Provenance {
             case_hash: format!("crc32:{:08x}", crc32fast::hash(case_text.as_bytes())),
             threads,
             cores: std::thread::available_parallelism().map_or(1, std::num::NonZero::get),
+            earlier: Vec::new(),
         }
+    }
+
+    /// The same after what was run in a directory before, as far as that can be read.
+    #[must_use]
+    pub fn continuing(self, directory: &Path) -> Self {
+        let read = || -> Option<Self> {
+            serde_json::from_slice(&std::fs::read(directory.join(FILE)).ok()?).ok()
+        };
+        let mut earlier = Vec::new();
+        if let Some(mut last) = read() {
+            earlier = std::mem::take(&mut last.earlier);
+            earlier.push(last);
+        }
+        Self { earlier, ..self }
     }
 
     /// The same as pairs of texts, lists joined by blanks, for formats that hold no more.

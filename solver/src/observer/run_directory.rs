@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use thiserror::Error;
 
 use super::atomic::{AtPath, UNFINISHED, write_atomic};
-use super::provenance::Provenance;
+use super::provenance::{self, Provenance};
 use super::status::{RunState, Status};
 use crate::case::Case;
 
@@ -133,11 +133,15 @@ impl RunDirectory {
 
         let case_text = case.to_toml()?;
         let provenance = Provenance::of_this_process(&case_text, threads);
+        let provenance = match earlier {
+            Earlier::Continue => provenance.continuing(path),
+            Earlier::Keep | Earlier::Replace => provenance,
+        };
         let mut provenance_text =
             serde_json::to_vec_pretty(&provenance).map_err(io::Error::from)?;
         provenance_text.push(b'\n');
         write_atomic(&path.join("case.toml"), case_text.as_bytes())?;
-        write_atomic(&path.join("provenance.json"), &provenance_text)?;
+        write_atomic(&path.join(provenance::FILE), &provenance_text)?;
         Ok(Self { path: path.to_owned(), case_text, provenance, _lock: lock })
     }
 

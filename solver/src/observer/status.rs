@@ -88,7 +88,9 @@ impl StatusFile {
         let (steps, end) = match &case.time {
             TimeSettings::Steady(_) => (None, None),
             TimeSettings::Unsteady(settings) => {
-                let steps = settings.adaptive.is_none().then(|| settings.n_steps());
+                let (step, time) = history.map_or((0, 0.0), |history| (history.step, history.time));
+                let left = settings.n_steps().saturating_sub(settings.n_steps_to(time));
+                let steps = settings.adaptive.is_none().then_some(step + left);
                 (steps, Some(settings.end))
             }
         };

@@ -105,6 +105,7 @@ impl Run {
             surface_load: Wrench::default(),
             contact: Wrench::default(),
             power: 0.25,
+            recoil: None,
         }];
         let snapshot = Snapshot {
             case: &self.model.case,

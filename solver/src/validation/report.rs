@@ -141,9 +141,27 @@ pub fn comparison_page(comparisons: &[Comparison]) -> String {
         cells.insert(1, count.kind.meaning().to_owned());
         page += &markdown_row(&cells);
     }
+    page += &known_outside(comparisons);
     let case_of = |row: &Comparison| row.case.split('/').next().unwrap_or_default().to_owned();
     for rows in comparisons.chunk_by(|one, other| case_of(one) == case_of(other)) {
         page += &format!("\n## {}\n\n{}", case_of(&rows[0]), case_table(rows));
+    }
+    page
+}
+
+/// The values that are known to be outside, as a list with the reason of each.
+fn known_outside(comparisons: &[Comparison]) -> String {
+    let mut page = String::new();
+    for row in comparisons.iter().filter(|row| row.verdict == Verdict::KnownOutside) {
+        if page.is_empty() {
+            page += "\nOutside for a known reason:\n\n";
+        }
+        let [case, quantity, computed, reference, _, difference, tolerance, _] = row.cells();
+        let reason = row.reference.outside.as_deref().unwrap_or_default();
+        page += &format!(
+            "- `{case}`, {quantity}: {computed} for {reference} ({difference}, tolerance \
+             {tolerance}): {reason}.\n"
+        );
     }
     page
 }
@@ -182,7 +200,10 @@ fn case_table(rows: &[Comparison]) -> String {
         let note = row.reference.note.as_ref().map_or(String::new(), |note| format!(" ({note})"));
         format!("{}{date}{note}", row.reference.source)
     }));
-    page += &format!("\nSources: {}.\n", sources.join("; "));
+    page += "\nSources:\n\n";
+    for source in sources {
+        page += &format!("- {source}\n");
+    }
     let reasons = each_once(rows.iter().filter_map(|row| row.reference.outside.clone()));
     for reason in reasons {
         page += &format!("\nOutside, known: {reason}.\n");
@@ -355,6 +376,10 @@ mod tests {
         assert_eq!(failures, [false, false, true, true, true]);
         let page = comparison_page(&[row(Ok(-2.5))]);
         assert!(page.contains("1 outside for a known reason"), "{page}");
-        assert!(page.contains("OUTSIDE, known") && page.contains("they sum up less"), "{page}");
+        assert!(page.contains("OUTSIDE, known"), "{page}");
+        let listed =
+            "- `c`, body.force.x (max): -2.5 for -2 (-25%, tolerance 1.0%): they sum up less.";
+        assert!(page.contains(listed) && page.find(listed) < page.find("## c"), "{page}");
+        assert!(page.contains("\nSources:\n\n- somebody\n"), "{page}");
     }
 }

@@ -1,6 +1,7 @@
 //! The program does what it says: lists, shows, meshes, runs and validates the shipped example.
 #![expect(clippy::unwrap_used, reason = "a test that cannot write its files has failed")]
 
+mod estimates;
 mod stopping;
 mod warnings;
 
@@ -173,4 +174,24 @@ fn check_counts_the_unknowns_of_the_run() {
         let counted = number_before(&checked, " free ones");
         assert_eq!(counted, number_before(&ran, " unknowns, "), "{case}: {ran}");
     }
+}
+
+#[test]
+fn the_references_of_variants_are_shown() {
+    let directory = tempfile::tempdir().unwrap();
+    let said = done(directory.path(), &["show", "squirmer-wall"]);
+    let (_, after) = said.split_once("squirmer-wall/pusher").unwrap();
+    assert!(after.contains("flow.energy_defect = 0") && after.contains("property:"), "{said}");
+}
+
+#[test]
+fn a_case_without_references_is_no_validation() {
+    let directory = tempfile::tempdir().unwrap();
+    let source = done(directory.path(), &["show", "squirmer-alone", "--source"]);
+    let (without, _) = source.split_once("[[reference]]").unwrap();
+    std::fs::write(directory.path().join("mine.toml"), without).unwrap();
+    let output = alewife(directory.path(), &["validate", "mine.toml"]);
+    assert_eq!(output.status.code(), Some(65));
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert!(told.contains("no reference to compare with"), "{told}");
 }

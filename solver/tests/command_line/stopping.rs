@@ -35,7 +35,7 @@ fn stopped_fall(directory: &Path) -> String {
 fn a_signal_ends_a_run_after_its_step_with_all_files_complete() {
     let directory = tempfile::tempdir().unwrap();
     let told = stopped_fall(directory.path());
-    let command = "alewife run sphere-free-fall --out fall --quiet --threads 1 --set \
+    let command = "cargo run --release -- run sphere-free-fall --out fall --quiet --threads 1 --set \
                    time.unsteady.end=1e6 --set mesh.scale=2 --resume fall/state.json";
     assert!(told.contains(command), "{told}");
     let out = directory.path().join("fall");
@@ -96,8 +96,16 @@ fn a_run_that_resumes_in_its_directory_goes_on_with_its_series() {
     assert!(String::from_utf8_lossy(&refused.stderr).contains("--resume fall/state.json"));
     assert_eq!(read("fall/series.csv"), before);
 
-    let resumed = with(arguments("fall"), &["--set", &end, "--resume", "fall/state.json"]);
+    // The directory of a run stands for its state
+    let resumed = with(arguments("fall"), &["--set", &end, "--resume", "fall"]);
     assert_eq!(resumed.status.code(), Some(0), "{}", String::from_utf8_lossy(&resumed.stderr));
+    let provenance: serde_json::Value =
+        serde_json::from_str(&read("fall/provenance.json")).unwrap();
+    let earlier = provenance["earlier"].as_array().unwrap();
+    assert_eq!(earlier.len(), 1);
+    assert!(!earlier[0]["argv"].to_string().contains("--resume"), "{provenance}");
+    assert!(provenance["argv"].to_string().contains("--resume"), "{provenance}");
+    assert!(read("fall/log.jsonl").contains("\"resumed\""));
     let whole = with(arguments("whole"), &["--set", &end]);
     assert_eq!(whole.status.code(), Some(0), "{}", String::from_utf8_lossy(&whole.stderr));
     let (resumed, whole) = (read("fall/series.csv"), read("whole/series.csv"));
@@ -110,6 +118,64 @@ fn a_run_that_resumes_in_its_directory_goes_on_with_its_series() {
     }
     assert!(!directory.path().join("fall/state.json").exists());
     assert!(!read("fall/fields.pvd").contains("stopped"));
+}
+
+#[test]
+fn steps_are_counted_on_when_a_run_resumes_with_another_length() {
+    let directory = tempfile::tempdir().unwrap();
+    stopped_fall(directory.path());
+    let status = || -> serde_json::Value {
+        let text = std::fs::read_to_string(directory.path().join("fall/status.json")).unwrap();
+        serde_json::from_str(&text).unwrap()
+    };
+    let (made, time) = (status()["step"].as_u64().unwrap(), status()["time"].as_f64().unwrap());
+    let step = time / made as f64;
+    let mut arguments = vec!["run", "sphere-free-fall", "--out", "fall", "--quiet"];
+    let settings = [
+        format!("time.unsteady.step={}", 0.5 * step),
+        format!("time.unsteady.end={}", (made + 3) as f64 * step),
+    ];
+    arguments.extend(["--threads", "1", "--set", "mesh.scale=2", "--no-references"]);
+    arguments.extend(settings.iter().flat_map(|setting| ["--set", setting.as_str()]));
+    arguments.extend(["--resume", "fall"]);
+    let resumed = alewife(directory.path(), &arguments);
+    assert_eq!(resumed.status.code(), Some(0), "{}", String::from_utf8_lossy(&resumed.stderr));
+    let said = String::from_utf8_lossy(&resumed.stdout);
+    assert!(said.contains(&format!("{} steps", made + 6)), "{said}");
+    assert_eq!(
+        (status()["step"].as_u64(), status()["steps"].as_u64()),
+        (Some(made + 6), Some(made + 6))
+    );
+}
+
+#[test]
+fn a_validation_that_is_stopped_prints_what_is_done() {
+    let directory = tempfile::tempdir().unwrap();
+    let text = std::fs::read_to_string(
+        std::path::Path::new(env!("CARGO_MANIFEST_DIR"))
+            .join("../cases/lid-driven-cavity/case.toml"),
+    )
+    .unwrap();
+    let long = directory.path().join("long.toml");
+    std::fs::write(&long, text.replacen("[mesh]", "[mesh]\nscale = 0.25", 1)).unwrap();
+    let mut run = Command::new(env!("CARGO_BIN_EXE_alewife"))
+        .args(["validate", "sphere-in-shell", "long.toml", "--threads", "1"])
+        .current_dir(directory.path())
+        .stderr(std::process::Stdio::piped())
+        .stdout(std::process::Stdio::piped())
+        .spawn()
+        .unwrap();
+    // The first case takes a fraction of a second, the second one minutes
+    let mut lines = std::io::BufRead::lines(std::io::BufReader::new(run.stderr.take().unwrap()));
+    assert!(lines.any(|line| line.unwrap().contains("long")), "the second case has not begun");
+    std::thread::sleep(std::time::Duration::from_millis(300));
+    assert!(Command::new("kill").args(["-INT", &run.id().to_string()]).status().unwrap().success());
+    let output = run.wait_with_output().unwrap();
+    let told: Vec<String> = lines.map_while(Result::ok).collect();
+    assert_eq!(output.status.code(), Some(75), "{told:?}");
+    let said = String::from_utf8_lossy(&output.stdout);
+    assert!(said.contains("sphere-in-shell") && said.contains("within"), "{said}");
+    assert!(told.iter().any(|line| line.contains("stopped by a signal in long")), "{told:?}");
 }
 
 #[test]

@@ -25,6 +25,9 @@ fn steps_too_long_for_extrapolated_convection_are_told() {
     };
     let warned = run("time.unsteady.convection=\"extrapolated\"");
     assert!(warned.contains("extrapolated convection was shown to hold up to 5"), "{warned}");
+    let told = warned.split("with steps of ").nth(1).and_then(|rest| rest.split(' ').next());
+    let step: f64 = told.and_then(|step| step.parse().ok()).expect("a step that helps");
+    assert!((1e-3..0.1).contains(&step), "{warned}");
     assert!(!run("time.unsteady.convection=\"newton\"").contains("CFL"));
 }
 

@@ -102,6 +102,10 @@ fn degrees_and_phases_in_radians_are_warned_about() {
             ["phases are parts of a period", "for 1.5707963 rad write 0.25"],
         ),
         (
+            "body.0.load_factor.sine.phase=90",
+            ["phases are parts of a period", "for 90 degrees write 0.25"],
+        ),
+        (
             "body.0.gait.squirmer={modes=[1.0], turn={table=[[0.0, 0.0], [60.0, 90.0]]}}",
             ["`body.0.gait.squirmer.turn.table.1.1` is 90", "write 1.5708"],
         ),
@@ -131,4 +135,34 @@ fn a_key_of_another_name_leads_to_the_one_there_is() {
     let fish = unsteady("gait.carangiform = { period = 1.0, start_phase = 0.5 }");
     let told = ["unknown key `start_phase`", "write `phase = ...`, a part of the period"];
     assert_refused(&check(&fish, &[]), &told);
+}
+
+#[test]
+fn what_follows_from_a_wrong_number_is_not_told() {
+    let swims = unsteady("gait.carangiform = { period = -1.0 }");
+    for (text, setting, error) in [
+        (unsteady(""), "time.unsteady.end=-1", "`time.unsteady.end` is -1"),
+        (unsteady(""), "mesh.scale=-1", "`mesh.scale` is -1"),
+        (swims, "mesh.scale=1", "`body.0.gait.carangiform.period` is -1"),
+    ] {
+        let said = check(&text, &["--set", setting]);
+        assert_refused(&said, &[error]);
+        assert!(!said.stderr.contains("warning"), "{}", said.stderr);
+    }
+}
+
+#[test]
+fn too_many_steps_are_told_where_the_number_stands() {
+    for (setting, key) in
+        [("time.unsteady.end=1e9", "`end` = 1e9"), ("time.unsteady.step=1e-12", "`step` = 1e-12")]
+    {
+        let said = check(&unsteady(""), &["--set", setting]);
+        assert_refused(&said, &[key, "--> --set:1:", "for 1e9 steps"]);
+    }
+}
+
+#[test]
+fn a_number_where_a_point_is_wanted_is_told_by_an_example() {
+    let said = check(RIGHT, &["--set", "body.0.center=3.0"]);
+    assert_refused(&said, &["where an array is wanted", "[x, y], such as [3.0, 0.0]"]);
 }

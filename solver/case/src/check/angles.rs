@@ -35,8 +35,12 @@ pub fn check(findings: &mut Findings<'_>, file: &CaseFile) {
         if last == "phase" && value.abs() > 1.0 {
             findings.warning(
                 key,
-                format!("`{key}` is {value}: phases are parts of a period, not radians"),
-                &format!("for {value} rad write {}", significant(value / TAU)),
+                format!("`{key}` is {value}: phases are parts of a period, not angles"),
+                &if value.abs() >= 30.0 && value % 15.0 == 0.0 {
+                    format!("for {value} degrees write {}", significant(value / 360.0))
+                } else {
+                    format!("for {value} rad write {}", significant(value / TAU))
+                },
             );
         }
     }

@@ -1,6 +1,7 @@
 //! Problems of `[contact]`: laws that are not valid, and cases without contact.
 
 use super::Findings;
+use crate::speed::weight;
 use crate::{ContactSpec, Convection, Geometry, Lock, Motion, TimeSettings};
 
 /// Range over half the least width of a body above which contact is no short-range force.
@@ -94,11 +95,8 @@ fn check_strength(findings: &mut Findings<'_>, contact: &Option<ContactSpec>) {
         }
         None => return,
     };
-    let gravity = case.fluid.gravity.iter().map(|part| part * part).sum::<f64>().sqrt();
     for body in &findings.model().bodies {
-        let Some(moments) = body.shape.outline().moments() else { continue };
-        let excess = body.density.unwrap_or(case.fluid.density) - case.fluid.density;
-        let weight = excess.abs() * moments.measure * gravity;
+        let weight = weight(case, body);
         if body.motion == Motion::Free && greatest > 0.0 && greatest < weight {
             findings.warning(
                 key,

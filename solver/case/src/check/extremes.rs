@@ -89,11 +89,14 @@ fn times(findings: &mut Findings<'_>, file: &CaseFile) {
         return;
     }
     if end / step > MOST_STEPS {
+        // Where the number stands that is farther from 1
+        let (key, shown) = if end * step > 1.0 { ("end", end) } else { ("step", step) };
         findings.error(
-            "time.unsteady.step",
-            format!("the run would have {:.1e} steps", end / step),
+            &format!("time.unsteady.{key}"),
+            format!("with `{key}` = {shown:e} the run would have {:.1e} steps", end / step),
             &format!(
-                "write step = {:.1e} or more for {MOST_STEPS:e} steps, or lower the end",
+                "write end = {:.1e} or less, or step = {:.1e} or more, for {MOST_STEPS:e} steps",
+                step * MOST_STEPS,
                 end / MOST_STEPS
             ),
         );

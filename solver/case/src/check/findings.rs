@@ -13,10 +13,21 @@ const MOST_ALIKE: usize = 3;
 /// Errors, and warnings, that are located in their file.
 const MOST_LOCATED: usize = 100;
 
-/// Digits of a number that are written out; longer ones are powers of ten.
-const MOST_DIGITS: usize = 18;
+/// Characters of a number that are written out; of longer ones the first digits.
+const MOST_DIGITS: usize = 12;
 
-/// A message whose numbers have no endless digits: 1e308 stays 1e308.
+/// The first ten digits of a number, as a power of ten where it would still be long.
+fn shortened(value: f64) -> String {
+    let power = format!("{value:.9e}");
+    let plain = power.parse().map_or_else(|_| power.clone(), |rounded: f64| rounded.to_string());
+    if plain.len() <= MOST_DIGITS && value.abs() < f64::MAX {
+        return plain;
+    }
+    let (digits, exponent) = power.split_once('e').unwrap_or((&power, "0"));
+    format!("{}e{exponent}", digits.trim_end_matches('0').trim_end_matches('.'))
+}
+
+/// A message whose numbers have no endless digits: 1e308 stays 1e308, and 0.1 + 0.2 is 0.3.
 fn readable(message: &str) -> String {
     let mut text = String::with_capacity(message.len());
     let mut rest = message;
@@ -26,7 +37,7 @@ fn readable(message: &str) -> String {
         let number = after[..length].trim_end_matches('.');
         text += &rest[..start];
         match number.parse::<f64>() {
-            Ok(value) if number.len() > MOST_DIGITS => text += &format!("{value:e}"),
+            Ok(value) if number.len() > MOST_DIGITS => text += &shortened(value),
             _ => text += number,
         }
         rest = &after[number.len()..];
@@ -144,8 +155,9 @@ mod tests {
     fn numbers_with_endless_digits_become_powers_of_ten() {
         let huge = f64::MAX;
         let tiny = -1e-300;
-        assert_eq!(readable(&format!("`a.0.b` is {huge}.")), "`a.0.b` is 1.7976931348623157e308.");
+        assert_eq!(readable(&format!("`a.0.b` is {huge}.")), "`a.0.b` is 1.797693135e308.");
         assert_eq!(readable(&format!("[{tiny}, 0.125]")), "[-1e-300, 0.125]");
-        assert_eq!(readable("3.141592653589793, body-12, v1."), "3.141592653589793, body-12, v1.");
+        assert_eq!(readable("3.141592653589793, body-12, v1."), "3.141592654, body-12, v1.");
+        assert_eq!(readable("0.30000000000000004 of 10000000"), "0.3 of 10000000");
     }
 }

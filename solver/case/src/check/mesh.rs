@@ -45,7 +45,8 @@ pub fn check(findings: &mut Findings<'_>) {
         }
     }
     check_boxes(findings);
-    if mesh.gap_layers > 0.0 && mesh.gap_layers / mesh.scale < FEW_LAYERS {
+    let is_given = mesh.gap_layers > 0.0 && mesh.scale > 0.0;
+    if is_given && mesh.gap_layers / mesh.scale < FEW_LAYERS {
         findings.warning(
             "mesh.gap_layers",
             format!(

@@ -13,7 +13,8 @@ pub fn check(findings: &mut Findings<'_>) {
     let known = known_quantities(findings.model());
     let end = match &case.time {
         TimeSettings::Steady(_) => None,
-        TimeSettings::Unsteady(time) => Some(time.end),
+        // An end that is none is refused, and nothing is after it
+        TimeSettings::Unsteady(time) => Some(time.end).filter(|end| *end > 0.0),
     };
     if let Some([start, stop]) = case.statistics.window {
         if start < 0.0 || stop <= start {

@@ -210,7 +210,8 @@ fn short_steps(findings: &mut Findings<'_>) {
     }
     let periods = findings.model().swimmers.iter().filter_map(|group| group.period);
     let shortest = periods.fold(f64::INFINITY, f64::min);
-    if unsteady.step * FEWEST_STEPS > shortest {
+    // A period that is none is refused as well
+    if shortest > 0.0 && unsteady.step * FEWEST_STEPS > shortest {
         findings.warning(
             "time.unsteady.step",
             format!("a cycle of {shortest} has {:.1} steps only", shortest / unsteady.step),

@@ -44,6 +44,7 @@ pub fn columns(model: &Model) -> Vec<Column> {
         has_coefficients: case.has_coefficients(),
         has_contact: case.contact.is_some(),
         balances_energy: model.balances_energy(),
+        balances_momentum: model.balances_momentum(),
         has_mean_flow: case.flow.is_some(),
         has_convection: case.fluid.model == FlowModel::NavierStokes,
         is_unsteady,
@@ -209,6 +210,11 @@ mod tests {
         assert!(!given.contains(&"flow.energy_defect".to_owned()), "that side works, too");
         let sheet = Case::read("taylor-sheet", &[]).unwrap().model;
         assert!(known_quantities(&sheet).contains(&"flow.energy_defect".to_owned()));
+
+        let convected = names(&["fluid.model=navier-stokes"]);
+        assert!(convected.contains(&"flow.momentum_defect".to_owned()), "{convected:?}");
+        let open = names(&["fluid.model=navier-stokes", "boundary.left=do-nothing"]);
+        assert!(!open.contains(&"flow.momentum_defect".to_owned()), "momentum leaves");
 
         let steady = names(&["time.steady={}"]);
         assert!(

@@ -40,6 +40,8 @@ pub enum When {
     TowedWithoutCycles,
     /// All work on the fluid is that of bodies and waving sheets.
     IdleSides,
+    /// The fluid is convected in time around bodies, and does not cross the sides.
+    ClosedSides,
     /// There is `[flow]`.
     MeanFlow,
     /// The fluid is convected.
@@ -66,6 +68,7 @@ impl When {
             Self::TowedCycles => "a period and `resistance`",
             Self::TowedWithoutCycles => "`resistance`, no period",
             Self::IdleSides => "bodies or a waving sheet, and other sides that do no work",
+            Self::ClosedSides => "`navier-stokes`, unsteady, bodies, sides that nothing crosses",
             Self::MeanFlow => "[`flow`](#flow)",
             Self::Convection => "`navier-stokes`",
             Self::UnsteadyConvection => "`navier-stokes`, unsteady",
@@ -86,6 +89,7 @@ impl When {
             Self::TowedCycles => known.has_cycles && known.has_resistance,
             Self::TowedWithoutCycles => !known.has_cycles && known.has_resistance,
             Self::IdleSides => known.balances_energy,
+            Self::ClosedSides => known.balances_momentum,
             Self::MeanFlow => known.has_mean_flow,
             Self::Convection => known.has_convection,
             Self::UnsteadyConvection => known.has_convection && known.is_unsteady,
@@ -105,6 +109,7 @@ pub(super) struct Circumstances {
     pub has_cycles: bool,
     pub has_resistance: bool,
     pub balances_energy: bool,
+    pub balances_momentum: bool,
     pub has_mean_flow: bool,
     pub has_convection: bool,
     pub is_unsteady: bool,

@@ -155,7 +155,11 @@ quantities! {
         EnergyDefect: "energy_defect", "1", IdleSides,
             "Work of bodies, waving sheets and `flow` less dissipation and growth of the kinetic energy, over the work, \
              since the start (`stokes` and steady flows: of the current rates): the error of the \
-             energy balance";
+             energy balance; NaN while there is too little work to tell";
+        MomentumDefect: "momentum_defect", "1", ClosedSides,
+            "Impulse of the forces less the change of momentum, summed over the fluid and each free \
+             body without joint or spring, over the momentum turned over by sides and bodies since the \
+             twentieth row: the error of the balance of momentum; NaN while that is too little to tell";
         PressureGradientX: "pressure_gradient.x", "Pa/m", MeanFlow,
             "Mean pressure gradient along x, given or what brings a mean velocity about";
         PressureGradientY: "pressure_gradient.y", "Pa/m", MeanFlow, "The same along y";

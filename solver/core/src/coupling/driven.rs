@@ -35,8 +35,10 @@ impl<const D: usize> FluidSystem<D> {
             (cell.mean_velocity(solution), solution.pressure_gradient);
         let power = given.body_force.dot(&cell.fluid_integral(solution))
             - pressure_gradient.dot(&velocity) * cell.volume();
-        let [pressure_gradient, velocity] = [pressure_gradient, velocity].map(|v| in_space(&v));
-        Some(MeanFlowReport { pressure_gradient, velocity, power })
+        let force = (given.body_force - pressure_gradient) * cell.fluid_volume();
+        let [pressure_gradient, velocity, force] =
+            [pressure_gradient, velocity, force].map(|v| in_space(&v));
+        Some(MeanFlowReport { pressure_gradient, velocity, power, force })
     }
 
     /// A solution with the pressure gradients that are given, and those that balance the forces on fluid

@@ -4,6 +4,7 @@
 //! for P2-P1 it converges about twice as fast as an integral of the stress (@babuska1984).
 
 use alewife_mesh::{BoundaryId, Mesh, Point};
+use nalgebra::Vector3;
 
 use super::boundaries::{Boundaries, BoundaryNode};
 use super::problem::{Problem, Side};
@@ -26,13 +27,17 @@ pub struct SurfaceLoads {
     pub bodies: Vec<BodyLoads>,
     /// Rate of work of the sides with a given velocity on the fluid (W).
     pub sides_power: f64,
+    /// Force of the sides on the fluid (N).
+    pub sides_force: Vector3<f64>,
+    /// Force of sides and bodies on the fluid (N), but for that of a mean flow.
+    pub boundary_force: Vector3<f64>,
 }
 
 impl SurfaceLoads {
     /// No loads on so many bodies.
     #[must_use]
     pub fn none(n_bodies: usize) -> Self {
-        Self { bodies: vec![BodyLoads::default(); n_bodies], sides_power: 0.0 }
+        Self { bodies: vec![BodyLoads::default(); n_bodies], ..Self::default() }
     }
 
     /// Rate of work of bodies and sides on the fluid (W).
@@ -64,8 +69,26 @@ pub fn surface_loads<const D: usize>(
     poses: &[Pose],
     flow: &ResidualOnMesh<'_, D>,
 ) -> SurfaceLoads {
-    let bodies = body_loads(problem, poses, flow);
-    SurfaceLoads { bodies, sides_power: sides_power(problem, flow) }
+    let sides_force = boundary_force(problem, flow, |node| node.body.is_none());
+    SurfaceLoads {
+        bodies: body_loads(problem, poses, flow),
+        sides_power: sides_power(problem, flow),
+        sides_force,
+        boundary_force: boundary_force(problem, flow, |_| true),
+    }
+}
+
+/// Force of some nodes of the boundary on the fluid, each counted once.
+fn boundary_force<const D: usize>(
+    problem: &Problem<D>,
+    flow: &ResidualOnMesh<'_, D>,
+    counts: impl Fn(&BoundaryNode) -> bool,
+) -> Vector3<f64> {
+    let forces = flow.boundaries.nodes().filter(counts).map(|BoundaryNode { node, .. }| {
+        let force = Point::<D>::from_fn(|axis, _| flow.residual[flow.layout.velocity(node, axis)]);
+        problem.metric.total_force(&force)
+    });
+    forces.sum()
 }
 
 fn body_loads<const D: usize>(

@@ -122,6 +122,8 @@ pub struct MeanFlowReport {
     pub velocity: Vector3<f64>,
     /// Rate of work of pressure gradient and body force on fluid and bodies (W; W/m planar).
     pub power: f64,
+    /// Force of both on the fluid (N; N/m planar).
+    pub force: Vector3<f64>,
 }
 
 /// How a flow answers to pressure gradients, along the coordinates where mean velocities are given.

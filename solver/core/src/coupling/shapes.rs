@@ -35,7 +35,10 @@ struct BodyShape {
 
 impl RigidBody {
     /// The outline at a time (s); `None` for a body that does not deform.
-    fn deformed_at(&self, time: f64) -> Result<Option<DeformedOutline>, ShapeError> {
+    ///
+    /// # Errors
+    /// [`ShapeError`] where a gait gives the body no shape.
+    pub fn deformed_at(&self, time: f64) -> Result<Option<DeformedOutline>, ShapeError> {
         let deformed = self.shape.as_ref().map(|motion| motion.at(time)).transpose();
         deformed.map_err(|reason| ShapeError { body: self.name.clone(), reason })
     }

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use alewife_mesh::{Moments, Outline, PlacedShape, Point, Shape, Spline};
 
 use super::error::GaitError;
+use super::recoil_motion::RecoilMotion;
 
 /// How the outline of a body moves in the body's own frame.
 pub trait ShapeMotion: std::fmt::Debug + Send + Sync {
@@ -16,6 +17,12 @@ pub trait ShapeMotion: std::fmt::Debug + Send + Sync {
 
     /// Times (s) at which rates may jump, ascending, within (from, to); none for smooth gaits.
     fn discontinuities(&self, from: f64, to: f64) -> Vec<f64>;
+
+    /// How large the rigid motion is that is subtracted from the prescribed one over a period.
+    ///
+    /// # Errors
+    /// [`GaitError`] where the gait makes no outline at some time of it.
+    fn recoil(&self) -> Result<RecoilMotion, GaitError>;
 }
 
 /// An outline at one time, in the frame of its body: the origin is the centre of area, and the body
@@ -44,26 +51,32 @@ pub(super) enum MaterialCurve {
 /// What is subtracted from a prescribed motion, so that the body has no momentum of its own.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RecoilCorrection {
-    /// Velocity of the centre of area, as seen from the head at the start (m/s).
+    /// Where the centre of area is, as seen from the head (m).
+    pub center: Point<2>,
+    /// Its velocity there (m/s).
     pub velocity: Point<2>,
+    /// Angle by which the angular velocity has turned the body since the start (rad).
+    pub angle: f64,
     /// Angular velocity that carries the angular momentum (rad/s).
     pub angular_velocity: f64,
     /// Speed along all normals that keeps the area, which is added (m/s).
     pub normal_speed: f64,
     /// Mean over the outline of |velocity along the normal|, after all corrections (m/s).
     pub mean_normal_speed: f64,
-    /// Linear momentum of the interior per mass, which should be zero in this frame (m/s): the
-    /// interior keeps its area everywhere, so this is the error of the outline's spline.
-    pub momentum_defect: f64,
+    /// Velocity (m/s) of the centre of the interior from which the angular momentum is taken, in this
+    /// frame: that interior ends at the exact profile, and the outline is a spline through its material points.
+    pub interior_drift: f64,
 }
 
 impl RecoilCorrection {
     pub(super) const NONE: Self = Self {
+        center: Point::<2>::new(0.0, 0.0),
         velocity: Point::<2>::new(0.0, 0.0),
+        angle: 0.0,
         angular_velocity: 0.0,
         normal_speed: 0.0,
         mean_normal_speed: 0.0,
-        momentum_defect: 0.0,
+        interior_drift: 0.0,
     };
 }
 

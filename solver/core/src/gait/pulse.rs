@@ -8,6 +8,7 @@ use num_dual::{Dual64, DualNum, first_derivative};
 
 use super::deformed_outline::{DeformedOutline, MaterialCurve, RecoilCorrection, ShapeMotion};
 use super::error::GaitError;
+use super::recoil_motion::RecoilMotion;
 
 /// A round body that grows and shrinks.
 #[derive(Debug, Clone, PartialEq)]
@@ -105,5 +106,10 @@ impl ShapeMotion for Pulse {
         times.sort_by(f64::total_cmp);
         times.dedup();
         times
+    }
+
+    /// A round body that grows about its centre has no momentum.
+    fn recoil(&self) -> Result<RecoilMotion, GaitError> {
+        Ok(RecoilMotion::default())
     }
 }

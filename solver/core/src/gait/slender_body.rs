@@ -12,6 +12,7 @@ use super::grid::Grid;
 use super::midline::{Frame, Midline};
 use super::momentum::Interior;
 use super::recoil::RecoilAngle;
+use super::recoil_motion::{Recoil, RecoilMotion};
 use super::rule::Rule;
 
 /// Largest speed of the correction of the area, over the mean normal speed of a cycle.
@@ -102,10 +103,7 @@ impl SlenderBody {
     fn deformed(&self, time: f64, angle: f64) -> Result<DeformedOutline, GaitError> {
         let frames = self.midline.frames(&self.grid, Dual64::new(time, 1.0));
         let interior = Interior::of(&self.grid.nodes, &frames.nodes);
-        let turning = -interior.angular_momentum / interior.inertia;
-        if !turning.is_finite() {
-            return Err(GaitError::Midline { time });
-        }
+        let turning = recoil_rate(&interior, time)?;
         let Kept { points, normal_speed } = self.keep_area(time, &self.points(&frames.stations))?;
         let knots = self.rest.knots();
         let through = |points: &[[Dual64; 2]]| {
@@ -122,7 +120,7 @@ impl SlenderBody {
             .collect();
         let closed = through(&placed)?;
         let mean_normal_speed = closed.mean_normal_speed();
-        let defect = [0, 1].map(|i| interior.center[i].eps - enclosed.center[i].eps);
+        let drift = [0, 1].map(|i| interior.center[i].eps - enclosed.center[i].eps);
         let curve = MaterialCurve::Spline { points: Arc::new(closed.points), rates: closed.rates };
         Ok(DeformedOutline {
             curve,
@@ -133,11 +131,13 @@ impl SlenderBody {
             },
             inertia_rate: enclosed.polar.eps,
             recoil: RecoilCorrection {
-                velocity: Point::<2>::new(enclosed.center[0].eps, enclosed.center[1].eps),
+                center: Point::<2>::from(enclosed.center.map(|part| part.re)),
+                velocity: Point::<2>::from(enclosed.center.map(|part| part.eps)),
+                angle: -angle,
                 angular_velocity: -turning,
                 normal_speed,
                 mean_normal_speed,
-                momentum_defect: defect[0].hypot(defect[1]),
+                interior_drift: drift[0].hypot(drift[1]),
             },
         })
     }
@@ -182,16 +182,29 @@ impl SlenderBody {
     /// # Errors
     /// [`GaitError::Midline`] when the midline cannot follow the gait up to this time (s).
     pub fn recoil_angle(&self, time: f64) -> Result<f64, GaitError> {
-        self.recoil_angle.at(time, |time| self.recoil_rate(time))
+        self.recoil_angle.at(time, |time| recoil_rate(&self.interior(time), time))
     }
 
-    /// Angular velocity that takes away the angular momentum (rad/s).
-    fn recoil_rate(&self, time: f64) -> Result<f64, GaitError> {
+    fn interior(&self, time: f64) -> Interior {
         let frames = self.midline.frames(&self.grid, Dual64::new(time, 1.0));
-        let interior = Interior::of(&self.grid.nodes, &frames.nodes);
-        let rate = -interior.angular_momentum / interior.inertia;
-        if rate.is_finite() { Ok(rate) } else { Err(GaitError::Midline { time }) }
+        Interior::of(&self.grid.nodes, &frames.nodes)
     }
+
+    /// What is subtracted at a time (s), from the interior alone.
+    fn recoil_at(&self, time: f64) -> Result<Recoil, GaitError> {
+        let interior = self.interior(time);
+        Ok(Recoil {
+            center: Point::<2>::from(interior.center.map(|part| part.re)),
+            velocity: Point::<2>::from(interior.center.map(|part| part.eps)),
+            angular_velocity: -recoil_rate(&interior, time)?,
+        })
+    }
+}
+
+/// Angular velocity that takes away the angular momentum (rad/s).
+fn recoil_rate(interior: &Interior, time: f64) -> Result<f64, GaitError> {
+    let rate = -interior.angular_momentum / interior.inertia;
+    if rate.is_finite() { Ok(rate) } else { Err(GaitError::Midline { time }) }
 }
 
 impl ShapeMotion for SlenderBody {
@@ -202,5 +215,10 @@ impl ShapeMotion for SlenderBody {
     fn discontinuities(&self, _from: f64, _to: f64) -> Vec<f64> {
         // Ramps have continuous rates
         Vec::new()
+    }
+
+    fn recoil(&self) -> Result<RecoilMotion, GaitError> {
+        let [transient, period] = self.midline.cycle();
+        RecoilMotion::over(transient, period, |time| self.recoil_at(time))
     }
 }

@@ -73,7 +73,7 @@ fn flagellum(inextensible: bool) -> Midline {
 }
 
 /// Name, profile, midline and times of all swimmers.
-fn all() -> Vec<(&'static str, Profile, Midline, [f64; 3])> {
+pub(super) fn all() -> Vec<(&'static str, Profile, Midline, [f64; 3])> {
     vec![
         ("carangiform", fish(), carangiform(), [0.4, 1.3, 7.77]),
         ("anguilliform", fish(), anguilliform(4.0 / 33.0), [0.4, 1.3, 7.77]),
@@ -90,7 +90,7 @@ fn polar(deformed: &DeformedOutline) -> f64 {
 }
 
 /// Derivative by central differences of sixth order.
-fn difference<
+pub(super) fn difference<
     V: std::ops::Sub<Output = V> + std::ops::Add<Output = V> + std::ops::Mul<f64, Output = V>,
 >(
     f: impl Fn(f64) -> V,
@@ -130,7 +130,12 @@ fn area_and_centre_stay_and_rates_are_the_derivatives_of_positions() {
                 worst = worst.max((exact - now.rate(parameter)).norm());
             }
             assert!(worst < 1e-7 * length / period, "{name} at {time}: rates off by {worst:.1e}");
-            assert!(now.recoil.momentum_defect < 1e-5 * now.recoil.mean_normal_speed, "{name}");
+            println!(
+                "{name} at {time}: drift of the interior {:.2e}, kept area {:.2e}",
+                now.recoil.interior_drift / now.recoil.mean_normal_speed,
+                now.recoil.normal_speed / now.recoil.mean_normal_speed,
+            );
+            assert!(now.recoil.interior_drift < 1e-5 * now.recoil.mean_normal_speed, "{name}");
         }
     }
 }

@@ -41,23 +41,13 @@ impl<const D: usize> PassContact<'_, D> {
         if candidates.is_empty() {
             return Ok(none);
         }
-        let Workspace { system, mesh, timing } = work;
+        let Workspace { system, timing, .. } = &mut *work;
         let step = &self.equations.history.step;
         let fail = |error: SolveError| RunError::from_solve(error, step.number, step.time);
         let constraints = &self.equations.pass.constraints;
         let mobility = system.mobility(constraints, &candidates, timing).map_err(fail)?;
         let loads = self.solve(gaps, law, &candidates, &flow.solution.twists, &mobility)?.loads;
-        let on_bodies: Vec<BodyLoad> = candidates
-            .iter()
-            .map(|&body| BodyLoad { body, load: loads.wrenches[body].to_vector() })
-            .collect();
-        if on_bodies.iter().any(|on_body| on_body.load.iter().any(|part| *part != 0.0)) {
-            let solution = &mut flow.solution;
-            system.apply_body_loads(constraints, &on_bodies, solution, timing).map_err(fail)?;
-        }
-        let at = self.equations.pass.at(self.stepper.problem, mesh);
-        flow.residual = timing
-            .measure(Stage::Loads, || flow_residual(system, &at, self.equations, &flow.solution));
+        add_to_flow(work, self.equations, &loads, &candidates, flow)?;
         Ok(loads)
     }
 
@@ -107,4 +97,30 @@ impl<const D: usize> PassContact<'_, D> {
         };
         Ok(step.solve()?)
     }
+}
+
+/// Adds what loads of contact on some bodies change in a flow found without them, and its residual.
+///
+/// # Errors
+/// When the linear system cannot be solved.
+pub(super) fn add_to_flow<const D: usize>(
+    work: &mut Workspace<D>,
+    equations: &PassEquations<'_, D>,
+    loads: &ContactLoads,
+    bodies: &[usize],
+    flow: &mut Flow<D>,
+) -> Result<(), StepError> {
+    let Workspace { system, mesh, timing } = work;
+    let on_body = |&body: &usize| BodyLoad { body, load: loads.wrenches[body].to_vector() };
+    let on_bodies: Vec<BodyLoad> = bodies.iter().map(on_body).collect();
+    if on_bodies.iter().any(|on_body| on_body.load.iter().any(|part| *part != 0.0)) {
+        let step = &equations.history.step;
+        system
+            .apply_body_loads(&equations.pass.constraints, &on_bodies, &mut flow.solution, timing)
+            .map_err(|error| RunError::from_solve(error, step.number, step.time))?;
+    }
+    let at = equations.pass.at(equations.problem, mesh);
+    flow.residual =
+        timing.measure(Stage::Loads, || flow_residual(system, &at, equations, &flow.solution));
+    Ok(())
 }

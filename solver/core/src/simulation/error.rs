@@ -220,7 +220,14 @@ pub enum RunError {
     #[error("output: {0}")]
     Output(#[from] std::io::Error),
     /// A signal asked the run to stop.
-    #[error("stopped by a signal at step {step} (t = {time})")]
+    #[error(
+        "stopped by a signal {}",
+        if *step == 0 && *time == 0.0 {
+            "before the first step, in a steady flow".to_owned()
+        } else {
+            format!("at step {step} (t = {time})")
+        }
+    )]
     Stopped {
         /// Step.
         step: usize,
@@ -247,5 +254,35 @@ impl RunError {
             SolveError::NotFinite { near } => Self::NotFinite { step, time, near },
             error => Self::Singular { step, time, reason: error.to_string() },
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_number_and_its_noun_agree() {
+        let told = |iterations| {
+            let (step, time, residual) = (3, 0.5, 1e-2);
+            RunError::NewtonStalled { step, time, residual, iterations }.to_string()
+        };
+        assert!(told(1).contains("after 1 iteration;"), "{}", told(1));
+        assert!(told(2).contains("after 2 iterations;"), "{}", told(2));
+    }
+
+    #[test]
+    fn contact_too_stiff_for_explicit_steps_says_what_helps() {
+        let told = StepError::StiffContact { size: 0.1, time_scale: 0.02 }.to_string();
+        for remedy in ["lower the step", "soften the contact", "scheme = \"bdf2\""] {
+            assert!(told.contains(remedy), "{told}");
+        }
+    }
+
+    #[test]
+    fn a_steady_flow_that_is_stopped_has_no_step() {
+        let told = |step, time| RunError::Stopped { step, time }.to_string();
+        assert!(!told(0, 0.0).contains("step 0"), "{}", told(0, 0.0));
+        assert!(told(3, 0.5).contains("step 3 (t = 0.5)"), "{}", told(3, 0.5));
     }
 }

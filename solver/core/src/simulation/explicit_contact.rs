@@ -7,15 +7,16 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::RunError;
+use super::contact_step::add_to_flow;
 use super::error::StepError;
-use super::newton::{Flow, flow_residual};
+use super::newton::Flow;
 use super::pass::PassEquations;
 use super::stepper::TimeStepper;
 use super::workspace::Workspace;
-use super::{RunError, Stage};
 use crate::body::{Pose, RigidVector};
 use crate::contact::{ContactError, ContactLoads, ContactPair, Gaps, Law, Partner};
-use crate::coupling::{BodyLoad, SolveError};
+use crate::coupling::SolveError;
 
 /// Largest rate at which contact moves bodies back, times the step; explicit steps are stable up to
 /// 2.5, and at 1 the factor exp(-1) of what decays is 0.333.
@@ -68,7 +69,7 @@ impl<'a> StageContact<'a> {
             return Ok(());
         }
         let bodies = self.bodies();
-        let Workspace { system, mesh, timing } = work;
+        let Workspace { system, timing, .. } = &mut *work;
         let step = &equations.history.step;
         let fail = |error: SolveError| RunError::from_solve(error, step.number, step.time);
         let constraints = &equations.pass.constraints;
@@ -77,15 +78,7 @@ impl<'a> StageContact<'a> {
         if rate * size > LARGEST_DECAY {
             return Err(StepError::StiffContact { size, time_scale: 1.0 / rate });
         }
-        let on_body =
-            |&body: &usize| BodyLoad { body, load: self.loads.wrenches[body].to_vector() };
-        let on_bodies: Vec<BodyLoad> = bodies.iter().map(on_body).collect();
-        let solution = &mut flow.solution;
-        system.apply_body_loads(constraints, &on_bodies, solution, timing).map_err(fail)?;
-        let at = equations.pass.at(stepper.problem, mesh);
-        flow.residual =
-            timing.measure(Stage::Loads, || flow_residual(system, &at, equations, &flow.solution));
-        Ok(())
+        add_to_flow(work, equations, &self.loads, &bodies, flow)
     }
 
     /// The bodies in contact, ascending.

@@ -15,6 +15,7 @@ mod fluid_loads;
 mod history;
 mod measure;
 mod mesh_path;
+mod momentum;
 mod moving_mesh;
 mod new_level;
 mod newton;
@@ -42,7 +43,10 @@ pub use advance::{Attempt, Simulation, StepScheme};
 pub use error::{RunError, StepError};
 pub use mesh_path::{MeshPath, NodePath};
 pub use moving_mesh::{MotionSettings, MovingMesh};
-pub use planar::{build_mesh, build_problem, mesh_quality, shape_motion, simulation_on, sizing};
+pub use planar::{
+    BodyRecoil, build_mesh, build_problem, mesh_quality, recoils, shape_motion, simulation_on,
+    sizing,
+};
 pub use resume::{ResumeError, SavedState};
 pub use run::{RunSummary, simulate, simulate_from};
 pub use scene::{Meshed, PosesByShift, RemeshError, Scene};

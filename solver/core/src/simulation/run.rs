@@ -1,6 +1,6 @@
 //! The run: build, solve or step in time, measure, notify the observers.
 
-use super::advance::Simulation;
+use super::advance::{CellCrossing, Simulation};
 use super::cycle_error::OtherSteps;
 use super::measure::Measure;
 use super::planar::{Prepared, prepare};
@@ -124,6 +124,8 @@ pub(super) struct StepSummary {
     pub time_step: f64,
     /// Whether the run ends with it.
     pub is_last: bool,
+    /// How fast the fluid crosses the cells, where that is known already.
+    pub crossing: Option<CellCrossing>,
 }
 
 impl<const D: usize> Run<'_, D> {
@@ -213,7 +215,8 @@ impl<const D: usize> Run<'_, D> {
         let flow = self.solve_at_start(settings, &self.steady_equations(), has_convection)?;
         self.simulation.state.now = flow.solution;
         let loads = self.simulation.loads(&flow.residual);
-        let summary = StepSummary { iterations: flow.iterations, time_step: 0.0, is_last: true };
+        let iterations = flow.iterations;
+        let summary = StepSummary { iterations, is_last: true, ..StepSummary::default() };
         self.report(&loads, summary)?;
         Ok(0)
     }
@@ -264,7 +267,7 @@ impl<const D: usize> Run<'_, D> {
             other.compare(&self.simulation);
         }
         let Self { case, observers, series, simulation, measure, .. } = self;
-        let measured = measure.measure(case, simulation, loads)?;
+        let measured = measure.measure(case, simulation, loads, summary.crossing)?;
         let Simulation { state, work, .. } = simulation;
         series.times.push(state.time);
         let timing = work.timing;

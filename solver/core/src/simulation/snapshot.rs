@@ -5,6 +5,7 @@ use alewife_mesh::{Mesh, Point};
 use super::{RunError, SavedState, StopRequest, Timing};
 use crate::body::{Pose, Twist, Wrench};
 use crate::case::Case;
+use crate::gait::RecoilCorrection;
 
 /// One body at one time.
 #[derive(Debug, Clone, PartialEq)]
@@ -23,6 +24,8 @@ pub struct BodyReport {
     pub contact: Wrench,
     /// Rate of work of the body's surface on the fluid (W).
     pub power: f64,
+    /// What is subtracted from the gait of a body that deforms.
+    pub recoil: Option<RecoilCorrection>,
 }
 
 /// A run at one accepted step, seen but not touched.

@@ -54,9 +54,12 @@ impl<const D: usize> Run<'_, D> {
         let is_extrapolated = scheme.convection == Convection::Extrapolated;
         if is_extrapolated && cfl > LARGEST_CFL && !self.warned.of_cfl {
             self.warned.of_cfl = true;
+            let shorter = state.last_step * LARGEST_CFL / cfl;
             tracing::warn!(
                 "step {step} (t = {time}): CFL number {cfl:.1}; extrapolated convection was shown to \
-                 hold up to {LARGEST_CFL}: lower time.unsteady.step, or set \
+                 hold up to {LARGEST_CFL}, and what comes of more may be wrong by any amount: stop the \
+                 run, and start again with steps of {shorter:.1e} or less (time.unsteady.step, or \
+                 time.unsteady.adaptive.cfl), larger cells where the flow is fast, or \
                  time.unsteady.convection = \"newton\""
             );
         }

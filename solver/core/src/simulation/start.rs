@@ -1,6 +1,6 @@
 //! What a simulation starts with: its scheme, its mesh, and the memory it needs.
 
-use alewife_mesh::{Mesh, MeshError, whole};
+use alewife_mesh::{Mesh, MeshError};
 
 use super::RunError;
 use super::advance::{Simulation, StepScheme};
@@ -50,7 +50,7 @@ const UNCERTAIN: f64 = 1.4;
 /// Refuses a mesh whose system would not fit into the memory that is free, where the system tells.
 pub(super) fn check_memory<const D: usize>(mesh: &Mesh<D>) -> Result<(), RunError> {
     let n_dofs = D * mesh.n_nodes() + mesh.n_vertices;
-    let needed = memory_estimate(n_dofs) / GIGABYTE;
+    let needed = memory_estimate(n_dofs as f64) / GIGABYTE;
     match free_memory() {
         Some(available) if needed > available => {
             Err(RunError::TooLarge { n_dofs, needed, available })
@@ -65,7 +65,7 @@ pub(super) fn check_cells(
     estimate: impl FnOnce(f64) -> Result<f64, MeshError>,
 ) -> Result<(), RunError> {
     let Some(available) = free_memory() else { return Ok(()) };
-    let memory = |n_cells: f64| memory_estimate(whole(DOFS_OF_CELL * n_cells)) / GIGABYTE;
+    let memory = |n_cells: f64| memory_estimate(DOFS_OF_CELL * n_cells) / GIGABYTE;
     // In proportion to what a million cells need
     let fitting = UNCERTAIN * 1e6 * available / memory(1e6);
     let limit = 10.0 * fitting;

@@ -4,6 +4,7 @@ use alewife_mesh::{Mesh, Point};
 use nalgebra::Vector3;
 
 use super::energy::EnergyBalance;
+use super::momentum::MomentumBalance;
 use super::propulsion_history::{PropulsionHistory, PropulsionStep};
 use crate::body::{Pose, Twist, on_mesh};
 use crate::contact::ContactLoads;
@@ -59,6 +60,8 @@ pub struct State<const D: usize> {
     pub propulsion: Vec<PropulsionHistory>,
     /// Where the work of the bodies went so far.
     pub energy: EnergyBalance,
+    /// Impulses and momenta so far.
+    pub momentum: MomentumBalance,
 }
 
 /// The level a step leads to.
@@ -112,6 +115,7 @@ impl<const D: usize> State<D> {
             contact: ContactLoads::none(n_bodies),
             propulsion: vec![PropulsionHistory::default(); problem.groups.len()],
             energy: EnergyBalance::default(),
+            momentum: MomentumBalance::default(),
             poses,
             mesh,
         }

@@ -64,7 +64,9 @@ impl<const D: usize> Run<'_, D> {
             index += 1;
             let error = made.report.error / adaptive.tolerance;
             let factor = if is_start { 2.0 } else { step_size_factor(error) };
-            let proposed = self.propose(adaptive, made.size, factor, gap);
+            let crossing = self.simulation.cell_crossing();
+            let longest = adaptive.cfl / crossing.rate;
+            let proposed = self.propose(adaptive, made.size, factor, gap).min(longest);
             let state = &mut self.simulation.state;
             // Only now: within a step the run may be stopped
             state.start_pieces.pop();
@@ -75,7 +77,8 @@ impl<const D: usize> Run<'_, D> {
             }
             state.step = index;
             let Made { report, size } = made;
-            let summary = StepSummary { iterations: report.iterations, time_step: size, is_last };
+            let (iterations, crossing) = (report.iterations, Some(crossing));
+            let summary = StepSummary { iterations, time_step: size, is_last, crossing };
             self.report(&report.loads, summary)?;
             if is_last {
                 return Ok(index);
@@ -141,12 +144,10 @@ impl<const D: usize> Run<'_, D> {
         }
     }
 
-    /// The next step after one of this size: by its error, the cells the fluid crosses and the rate at
-    /// which the smallest gap closes.
+    /// The next step after one of this size: by its error and the rate at which the smallest gap closes.
     fn propose(&self, adaptive: &Adaptive, size: f64, factor: f64, gap: Option<f64>) -> f64 {
-        let simulation = &self.simulation;
-        let proposed = (size * factor).min(adaptive.cfl / simulation.cell_crossing().rate);
-        match (gap, simulation.state.contact.minimum_gap) {
+        let proposed = size * factor;
+        match (gap, self.simulation.state.contact.minimum_gap) {
             (Some(before), Some(now)) => {
                 let rate = (now.gap - before).abs() / size;
                 proposed.min(adaptive.gap * now.gap / rate)

@@ -1,7 +1,5 @@
 //! Fixed steps, halved where they must be.
 
-use alewife_mesh::whole;
-
 use super::start::{Piece, pieces};
 use super::{SMALLEST_PART, step_size_underflow};
 use crate::case::{Scheme, Unsteady};
@@ -29,24 +27,28 @@ impl StepTally {
 }
 
 impl<const D: usize> Run<'_, D> {
-    /// Makes all steps; their number.
+    /// Makes all steps; their number, with those before the run resumed.
     pub(in crate::simulation) fn fixed_steps(
         &mut self,
         settings: &Unsteady,
     ) -> Result<usize, RunError> {
         let n_steps = settings.n_steps();
-        // A resumed run may be anywhere within a step
-        let first = whole(self.simulation.state.time / settings.step + 1e-9);
-        for index in first..n_steps {
+        // A resumed run may be anywhere within a step, and may have made others of another size, whose
+        // number it goes on from
+        let first = settings.n_steps_to(self.simulation.state.time);
+        let numbers = self.simulation.state.step..;
+        for (number, index) in numbers.zip(first..n_steps) {
             let started = self.simulation.state.time;
             let target = ((index + 1) as f64 * settings.step).min(settings.end);
             let mut tally = StepTally::default();
             for (done, piece) in pieces(settings, &self.simulation, target).into_iter().enumerate()
             {
                 if done > 0 {
+                    // What is not yet a step does not count as one
+                    self.simulation.state.step = number;
                     self.check_signals(false)?;
                 }
-                self.fixed_piece(settings, index, piece, &mut tally)?;
+                self.fixed_piece(settings, number, piece, &mut tally)?;
             }
             // Counted, not summed, so that rounding does not pile up
             let is_last = index + 1 == n_steps;
@@ -56,18 +58,19 @@ impl<const D: usize> Run<'_, D> {
                 iterations: tally.iterations,
                 time_step: state.time - started,
                 is_last,
+                crossing: None,
             };
             self.report(&tally.loads, summary)?;
             self.check_signals(is_last)?;
         }
-        Ok(n_steps)
+        Ok(self.simulation.state.step)
     }
 
     /// Makes one piece of a step, in halves where it must be.
     fn fixed_piece(
         &mut self,
         settings: &Unsteady,
-        index: usize,
+        number: usize,
         piece: Piece,
         tally: &mut StepTally,
     ) -> Result<(), RunError> {
@@ -85,7 +88,7 @@ impl<const D: usize> Run<'_, D> {
                 to_do.extend([0.5 * size; 2]);
                 continue;
             }
-            self.simulation.state.step = index;
+            self.simulation.state.step = number;
             match self.simulation.try_step(size, f64::INFINITY)? {
                 Attempt::Made(step) => tally.add(step),
                 Attempt::Rejected(error) if size <= smallest => {
@@ -99,6 +102,7 @@ impl<const D: usize> Run<'_, D> {
             // A step in many pieces may take long. After the last one the step is reported first: a
             // resumed run begins behind it.
             if !to_do.is_empty() {
+                self.simulation.state.step = number;
                 self.check_signals(false)?;
             }
         }

@@ -81,22 +81,31 @@ pub(super) fn joint_value(joint: &JointReport, quantity: JointQuantity) -> f64 {
 }
 
 /// Reports of all bodies.
+///
+/// # Errors
+/// When a gait fails.
 pub(super) fn body_reports<const D: usize>(
     simulation: &Simulation<D>,
     loads: &[BodyLoads],
-) -> Vec<BodyReport> {
+) -> Result<Vec<BodyReport>, RunError> {
     let Simulation { problem, state, work, .. } = simulation;
     let stress = work.system.surface_stress(problem, &state.mesh, &state.now);
     let in_mesh = state.in_mesh(&state.poses);
-    let report = |(body, rigid): (usize, &RigidBody)| BodyReport {
-        name: rigid.name.clone(),
-        pose: state.poses[body],
-        twist: state.now.twists[body],
-        load: loads[body].load,
-        surface_load: stress.load(rigid.boundary, problem.metric, &on_mesh(&in_mesh[body].center))
-            + work.system.mean_load(body, &state.now),
-        contact: state.contact.wrenches[body],
-        power: loads[body].power,
+    let report = |(body, rigid): (usize, &RigidBody)| {
+        Ok(BodyReport {
+            name: rigid.name.clone(),
+            pose: state.poses[body],
+            twist: state.now.twists[body],
+            load: loads[body].load,
+            surface_load: stress.load(
+                rigid.boundary,
+                problem.metric,
+                &on_mesh(&in_mesh[body].center),
+            ) + work.system.mean_load(body, &state.now),
+            contact: state.contact.wrenches[body],
+            power: loads[body].power,
+            recoil: rigid.deformed_at(state.time)?.map(|deformed| deformed.recoil),
+        })
     };
     problem.bodies.iter().enumerate().map(report).collect()
 }

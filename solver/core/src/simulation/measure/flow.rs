@@ -1,10 +1,11 @@
 //! The quantities of the flow: its integrals, its energy balance, and the mesh it is computed on.
 
 use alewife_mesh::Point;
-use nalgebra::SMatrix;
+use nalgebra::{SMatrix, Vector3};
 
+use super::momentum::FluidMomentum;
 use crate::case::FlowQuantity;
-use crate::coupling::{MeanFlowReport, SurfaceLoads};
+use crate::coupling::{MeanFlowReport, Problem, SurfaceLoads};
 use crate::simulation::advance::{CellCrossing, Simulation};
 use crate::simulation::energy::EnergyRecord;
 use crate::space::CellValues;
@@ -15,10 +16,16 @@ pub(in crate::simulation) struct FlowMeasurement {
     dissipation: f64,
     /// Kinetic energy int rho u^2 / 2 (J).
     kinetic_energy: f64,
+    /// Momentum int rho u (kg m/s).
+    momentum: Vector3<f64>,
+    /// int u^2 (m5/s2; m4/s2 planar).
+    squared_speed: f64,
     /// int div u (m3/s).
     mass_defect: f64,
     /// Defect of the energy balance over the work; not a number where sides do work, too.
     pub energy_defect: f64,
+    /// Defect of the balance of momentum over what is turned over; not a number where sides are open.
+    pub momentum_defect: f64,
     /// Area or volume (m2, m3).
     volume: f64,
     /// The mean flow, where one is given.
@@ -36,17 +43,26 @@ pub(in crate::simulation) struct FlowMeasurement {
 }
 
 impl FlowMeasurement {
-    pub(super) fn new<const D: usize>(simulation: &Simulation<D>) -> Self {
+    /// Integrals over the fluid, with how fast it crosses the cells where that is known already.
+    pub(super) fn new<const D: usize>(
+        simulation: &Simulation<D>,
+        crossing: Option<CellCrossing>,
+    ) -> Self {
         let Simulation { problem, state, work, .. } = simulation;
         let tables = work.system.tables();
         let mut sums = Self {
             dissipation: 0.0,
             kinetic_energy: 0.0,
+            momentum: Vector3::zeros(),
+            squared_speed: 0.0,
             mass_defect: 0.0,
             energy_defect: f64::NAN,
+            momentum_defect: f64::NAN,
             volume: 0.0,
             mean_flow: work.system.mean_flow(&problem.mean_flow_at(state.time), &state.now),
-            crossing: problem.has_convection.then(|| simulation.cell_crossing()),
+            crossing: problem
+                .has_convection
+                .then(|| crossing.unwrap_or_else(|| simulation.cell_crossing())),
             last_step: state.last_step,
             density_over_viscosity: problem.density / problem.viscosity,
             minimum_gap: state.contact.minimum_gap.map_or(f64::INFINITY, |minimum| minimum.gap),
@@ -68,21 +84,41 @@ impl FlowMeasurement {
                 let stretch = problem.metric.hoop_strain(&velocity, &at.position);
                 sums.dissipation +=
                     2.0 * problem.viscosity * (rate.norm_squared() + stretch * stretch) * at.dx;
-                sums.kinetic_energy += problem.density * velocity.norm_squared() / 2.0 * at.dx;
+                sums.squared_speed += velocity.norm_squared() * at.dx;
+                sums.momentum += problem.metric.total_force(&(velocity * at.dx));
                 sums.volume += at.dx;
                 sums.mass_defect += (gradient.trace() + stretch) * at.dx;
             });
         }
+        sums.kinetic_energy = 0.5 * problem.density * sums.squared_speed;
+        sums.momentum *= problem.density;
         sums
     }
 
+    /// What the balance of momentum records of the fluid of a density (kg/m3).
+    pub(super) fn fluid_momentum(&self, density: f64) -> FluidMomentum {
+        FluidMomentum {
+            momentum: self.momentum,
+            mean_force: self.mean_flow.map_or(Vector3::zeros(), |report| report.force),
+            scale: density * (self.volume * self.squared_speed).sqrt(),
+        }
+    }
+
     /// What the energy balance records at a time (s).
-    pub(super) fn energy_record(&self, time: f64, loads: &SurfaceLoads) -> EnergyRecord {
+    pub(super) fn energy_record<const D: usize>(
+        &self,
+        problem: &Problem<D>,
+        time: f64,
+        loads: &SurfaceLoads,
+    ) -> EnergyRecord {
+        let dimension = if problem.metric.is_revolved() { 3.0 } else { D as f64 };
+        let squared_size = self.volume.powf(2.0 / dimension);
         EnergyRecord {
             time,
             power: loads.power() + self.mean_flow.map_or(0.0, |report| report.power),
             dissipation: self.dissipation,
             kinetic_energy: self.kinetic_energy,
+            dissipation_scale: problem.viscosity * self.squared_speed / squared_size,
         }
     }
 
@@ -115,6 +151,7 @@ impl FlowMeasurement {
             FlowQuantity::KineticEnergy => self.kinetic_energy,
             FlowQuantity::MassDefect => self.mass_defect,
             FlowQuantity::EnergyDefect => self.energy_defect,
+            FlowQuantity::MomentumDefect => self.momentum_defect,
             FlowQuantity::PressureGradientX => self.pressure_gradient(0),
             FlowQuantity::PressureGradientY => self.pressure_gradient(1),
             FlowQuantity::MeanVelocityX => self.mean_velocity(0),

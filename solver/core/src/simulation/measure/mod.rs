@@ -5,6 +5,7 @@
 
 mod bodies;
 mod flow;
+mod momentum;
 mod probes;
 mod swimmers;
 
@@ -12,9 +13,10 @@ use alewife_mesh::{Mesh, Point};
 
 use self::bodies::{BodyMotion, Coefficients, body_reports, joint_value, measure_joints};
 pub(super) use self::flow::FlowMeasurement;
+use self::momentum::momentum_record;
 use self::probes::Probes;
 use self::swimmers::SwimmerMeasurement;
-use super::advance::Simulation;
+use super::advance::{CellCrossing, Simulation};
 use super::snapshot::BodyReport;
 use super::{RunError, Stage};
 use crate::case::{Case, Column, Model, Source, TimeSettings, columns};
@@ -27,6 +29,7 @@ pub(super) struct Measure<const D: usize> {
     probes: Probes<D>,
     coefficients: Coefficients,
     balances_energy: bool,
+    balances_momentum: bool,
     is_unsteady: bool,
 }
 
@@ -59,6 +62,7 @@ impl<const D: usize> Measure<D> {
             probes: Probes::in_fluid(case, mesh, images)?,
             coefficients: Coefficients::of(case),
             balances_energy: model.balances_energy(),
+            balances_momentum: model.balances_momentum(),
             is_unsteady: matches!(case.time, TimeSettings::Unsteady(_)),
         })
     }
@@ -81,6 +85,7 @@ impl<const D: usize> Measure<D> {
         case: &Case,
         simulation: &mut Simulation<D>,
         loads: &SurfaceLoads,
+        crossing: Option<CellCrossing>,
     ) -> Result<Measured, RunError> {
         let Simulation { state, work, moving_mesh, .. } = simulation;
         if let Some(moving) = moving_mesh.as_ref().filter(|_| !self.probes.is_empty()) {
@@ -91,7 +96,7 @@ impl<const D: usize> Measure<D> {
             });
         }
         let mut timing = simulation.work.timing;
-        let measured = timing.measure(Stage::Loads, || self.values(simulation, loads));
+        let measured = timing.measure(Stage::Loads, || self.values(simulation, loads, crossing));
         simulation.work.timing = timing;
         measured
     }
@@ -100,9 +105,10 @@ impl<const D: usize> Measure<D> {
         &self,
         simulation: &mut Simulation<D>,
         loads: &SurfaceLoads,
+        crossing: Option<CellCrossing>,
     ) -> Result<Measured, RunError> {
-        let bodies = body_reports(simulation, &loads.bodies);
-        let mut flow = FlowMeasurement::new(simulation);
+        let bodies = body_reports(simulation, &loads.bodies)?;
+        let mut flow = FlowMeasurement::new(simulation, crossing);
         let Simulation { problem, state, moving_mesh, .. } = simulation;
         let own_poses = state.in_own_frame(problem, &state.poses);
         let minimum_gap = |group: &Group| {
@@ -120,7 +126,12 @@ impl<const D: usize> Measure<D> {
         if self.balances_energy {
             let has_memory = self.is_unsteady && problem.has_inertia;
             flow.energy_defect =
-                state.energy.add(has_memory, flow.energy_record(state.time, loads));
+                state.energy.add(has_memory, flow.energy_record(problem, state.time, loads));
+        }
+        if self.balances_momentum {
+            let fluid = flow.fluid_momentum(problem.density);
+            let record = momentum_record(problem, state, loads, &fluid);
+            flow.momentum_defect = state.momentum.add(record);
         }
         let value = |source: &Source| match *source {
             Source::Body(body, quantity) => BodyMotion {

@@ -9,7 +9,7 @@ mod sides;
 mod start;
 
 pub use case::{build_mesh, mesh_quality, sizing};
-pub use shape_motion::shape_motion;
+pub use shape_motion::{BodyRecoil, recoils, shape_motion};
 pub use sides::build_problem;
 pub use start::simulation_on;
 pub(super) use start::{Prepared, prepare};

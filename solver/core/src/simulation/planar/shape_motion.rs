@@ -2,10 +2,11 @@
 
 use std::sync::Arc;
 
-use crate::case::{Body, GaitSpec, ShapeSpec};
+use crate::case::{Body, GaitSpec, Model, ShapeSpec};
 use crate::coupling::ShapeError;
 use crate::gait::{
-    Anguilliform, Carangiform, Flagellum, Midline, Pulse, PulseLaw, ShapeMotion, SlenderBody,
+    Anguilliform, Carangiform, Flagellum, Midline, Pulse, PulseLaw, RecoilMotion, ShapeMotion,
+    SlenderBody,
 };
 use crate::simulation::RunError;
 
@@ -73,6 +74,30 @@ pub fn shape_motion(body: &Body) -> Result<Option<Arc<dyn ShapeMotion>>, RunErro
     let slender = SlenderBody::new(&profile, midline)
         .map_err(|reason| ShapeError { body: body.name.clone(), reason })?;
     Ok(Some(Arc::new(slender)))
+}
+
+/// What is subtracted from the gait of a body so that it has no momentum of its own.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BodyRecoil {
+    /// Name of the body.
+    pub body: String,
+    /// The rigid motion that is subtracted.
+    pub motion: RecoilMotion,
+}
+
+/// What is subtracted from the gaits of the bodies that deform.
+///
+/// # Errors
+/// As [`shape_motion`], and where a gait fails within its first period.
+pub fn recoils(model: &Model) -> Result<Vec<BodyRecoil>, RunError> {
+    let mut recoils = Vec::new();
+    for body in &model.bodies {
+        let Some(shape) = shape_motion(body)? else { continue };
+        let motion =
+            shape.recoil().map_err(|reason| ShapeError { body: body.name.clone(), reason })?;
+        recoils.push(BodyRecoil { body: body.name.clone(), motion });
+    }
+    Ok(recoils)
 }
 
 #[cfg(test)]

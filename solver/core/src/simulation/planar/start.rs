@@ -10,7 +10,7 @@ use super::resume::moving_mesh_of;
 use super::scene::PlanarScene;
 use super::sides::build_problem;
 use crate::case::Model;
-use crate::coupling::FluidSystem;
+use crate::coupling::{FluidSystem, Problem, ShapeError};
 use crate::simulation::advance::Simulation;
 use crate::simulation::build::contact_law;
 use crate::simulation::measure::Measure;
@@ -44,6 +44,7 @@ pub(in crate::simulation) fn prepare(
     let images = |mesh: &Mesh<2>| domain.images_around(mesh.nodes.iter().copied());
     let mut measure = Measure::new(model, mesh, &images(mesh))?;
     let mut simulation = at_rest(model, initial, timing)?;
+    log_recoils(&simulation.problem)?;
     if let Some(saved) = saved {
         saved.restore_into(&model.case, &mut simulation, |problem, reference| {
             moving_mesh_of(model, problem, reference)
@@ -62,6 +63,27 @@ pub(in crate::simulation) fn prepare(
 /// When the case makes no problem on this mesh.
 pub fn simulation_on(model: &Model, mesh: Mesh<2>) -> Result<Simulation<2>, RunError> {
     at_rest(model, InitialMesh::of(model, mesh)?, Timing::default())
+}
+
+/// Tells what is subtracted from the gaits of the bodies that deform.
+fn log_recoils(problem: &Problem<2>) -> Result<(), RunError> {
+    for body in &problem.bodies {
+        let Some(shape) = &body.shape else { continue };
+        let motion =
+            shape.recoil().map_err(|reason| ShapeError { body: body.name.clone(), reason })?;
+        tracing::info!(
+            body = body.name,
+            translation = motion.translation,
+            largest_speed = motion.largest_speed,
+            rms_speed = motion.rms_speed,
+            rotation = motion.rotation,
+            largest_angular_velocity = motion.largest_angular_velocity,
+            rms_angular_velocity = motion.rms_angular_velocity,
+            turn = motion.turn,
+            "recoil subtracted from the gait"
+        );
+    }
+    Ok(())
 }
 
 fn at_rest(

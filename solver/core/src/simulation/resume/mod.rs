@@ -18,6 +18,7 @@ use self::mesh::SavedMesh;
 use self::series::SavedSeries;
 use super::advance::Simulation;
 use super::energy::EnergyBalance;
+use super::momentum::MomentumBalance;
 use super::moving_mesh::MovingMesh;
 use super::propulsion_history::PropulsionHistory;
 use super::state::State;
@@ -56,6 +57,7 @@ pub struct SavedState<const D: usize> {
     contact: SavedContact,
     propulsion: Vec<PropulsionHistory>,
     energy: EnergyBalance,
+    momentum: MomentumBalance,
     reference: Option<SavedReference<D>>,
     series: SavedSeries,
 }
@@ -128,6 +130,7 @@ impl<const D: usize> SavedState<D> {
             contact: SavedContact::of(&state.contact),
             propulsion: state.propulsion.clone(),
             energy: state.energy,
+            momentum: state.momentum.clone(),
             reference: simulation.moving_mesh.as_ref().map(SavedReference::of),
             series: SavedSeries::of(series),
         })
@@ -248,6 +251,7 @@ impl<const D: usize> SavedState<D> {
             contact: self.contact.loads(),
             propulsion: self.propulsion.clone(),
             energy: self.energy,
+            momentum: self.momentum.clone(),
         }
     }
 }

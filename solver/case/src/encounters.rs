@@ -1,0 +1,218 @@
+//! What bodies meet that keep the velocity they can be expected to have, and the films of fluid then.
+
+use super::speed::{load_vector, norm, side_speed, terminal_speed};
+use super::{Body, ContactSpec, GaitSpec, Geometry, Model, Motion};
+
+/// Gap without contact, over the reach of the body: what a film is left with in most runs, because it
+/// thins the slower the thinner it is (1).
+const FILM: f64 = 0.02;
+
+/// A body at a wall, or one of two bodies that meet.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Encounter {
+    /// When (s).
+    pub time: f64,
+    /// Cells that the film takes on a mesh with as many layers as are wanted (1).
+    pub film_cells: f64,
+}
+
+/// Where a body is going.
+struct Path {
+    center: [f64; 2],
+    velocity: [f64; 2],
+    reach: f64,
+}
+
+impl Model {
+    /// The first thing each free body meets on a straight way: a wall, or another body on its own way.
+    /// Bodies across periodic sides are not looked at.
+    #[must_use]
+    pub fn encounters(&self) -> Vec<Encounter> {
+        let paths: Vec<Path> = (0..self.bodies.len()).map(|body| self.path(body)).collect();
+        let of_body = |(body, path): (usize, &Path)| {
+            if keeps_away(&self.bodies[body]) {
+                return None;
+            }
+            let wall = self.time_to_wall(path).map(|time| self.encounter(time, path.reach));
+            let others = paths.iter().enumerate().filter(|(other, _)| *other != body);
+            let with_bodies = others.filter_map(|(_, other)| {
+                let time = time_to_meeting(path, other)?;
+                let radius = path.reach * other.reach / (path.reach + other.reach);
+                let Encounter { time, film_cells } = self.encounter(time, radius);
+                // The other body has the same film
+                Some(Encounter { time, film_cells: 0.5 * film_cells })
+            });
+            with_bodies.chain(wall).min_by(|one, other| one.time.total_cmp(&other.time))
+        };
+        paths.iter().enumerate().filter_map(of_body).collect()
+    }
+
+    /// When all has come to rest (s), as far as nothing but weights and forces drives it, and all that
+    /// they drive meets something.
+    #[must_use]
+    pub fn time_to_rest(&self) -> Option<f64> {
+        let case = &self.case;
+        let is_driven = case.flow.is_some()
+            || !self.joints.is_empty()
+            || case.boundary.values().any(|condition| side_speed(case, condition) > 0.0)
+            || self
+                .bodies
+                .iter()
+                .any(|body| body.gait.is_some() || matches!(body.motion, Motion::Imposed(_)));
+        let moves = |body: &usize| norm(&self.path(*body).velocity) > 0.0;
+        let n_moving = (0..self.bodies.len()).filter(moves).count();
+        let met = self.encounters();
+        let all_meet = !is_driven && n_moving > 0 && met.len() >= n_moving;
+        all_meet.then(|| met.iter().map(|met| met.time).fold(0.0, f64::max))
+    }
+
+    /// How far each free body gets until some time (s), or until it meets something, over its reach;
+    /// their sum (1).
+    #[must_use]
+    pub fn expected_paths(&self, end: f64) -> f64 {
+        let of_body = |body: usize| {
+            let path = self.path(body);
+            let time = self.time_to_wall(&path).map_or(end, |time| time.min(end));
+            norm(&path.velocity) * time / path.reach
+        };
+        (0..self.bodies.len()).map(of_body).sum()
+    }
+
+    /// Swimming and sinking of a body that is attached to nothing.
+    fn path(&self, index: usize) -> Path {
+        let body = &self.bodies[index];
+        let at = |axis: usize| body.center.get(axis).copied().unwrap_or(0.0);
+        let is_single = self.joint_above(index).is_none() && !self.has_joints(&body.name);
+        let velocity = if body.motion == Motion::Free && body.translates() && is_single {
+            self.drift(body)
+        } else {
+            [0.0; 2]
+        };
+        Path { center: [at(0), at(1)], velocity, reach: body.shape.reach() }
+    }
+
+    fn has_joints(&self, name: &str) -> bool {
+        self.joints.iter().any(|joint| joint.parent == name)
+    }
+
+    /// The velocity of a body by its load and its gait, far from everything (m/s).
+    fn drift(&self, body: &Body) -> [f64; 2] {
+        let load = load_vector(&self.case, body);
+        let size = norm(&load);
+        let sinking = if size > 0.0 { terminal_speed(&self.case, body) / size } else { 0.0 };
+        let (swimming, heading) = match &body.gait {
+            Some(GaitSpec::Squirmer(gait)) => {
+                let first = gait.modes.first().copied().unwrap_or(0.0);
+                // Lighthill 1952 for spheres, Blake 1971 for discs
+                let part = match self.case.geometry {
+                    Geometry::Planar => 1.0 / 2.0,
+                    Geometry::Axisymmetric => 2.0 / 3.0,
+                };
+                (part * first, body.angle + gait.heading)
+            }
+            _ => (0.0, 0.0),
+        };
+        let (sine, cosine) = heading.sin_cos();
+        [sinking * load[0] + swimming * cosine, sinking * load[1] + swimming * sine]
+    }
+
+    /// When a body gets to the corners of the domain along x or y that are no periodic sides (s).
+    fn time_to_wall(&self, path: &Path) -> Option<f64> {
+        let [min, max] = self.case.domain.extent();
+        let periodic = self.case.periodic_axes();
+        let times = (0..2).filter(|axis| !periodic[*axis]).filter_map(|axis| {
+            let velocity = path.velocity[axis];
+            let distance = if velocity > 0.0 {
+                max[axis] - path.center[axis] - path.reach
+            } else {
+                path.center[axis] - path.reach - min[axis]
+            };
+            let is_on_its_way = velocity.abs() > 1e-6 * norm(&path.velocity);
+            is_on_its_way.then(|| (distance / velocity.abs()).max(0.0))
+        });
+        times.min_by(f64::total_cmp)
+    }
+
+    /// With a film that is as thin as contact lets it get.
+    ///
+    /// Its cells are the integral of 4 / (sqrt(3) h^2) over a gap g + x^2 / (2 R), with h the gap over
+    /// the layers, times 0.6 since cells there are not equilateral: fitted to the growth of the
+    /// shipped cases `squirmer-wall`, `disc-sinking-to-wall`, `sphere-sinking-to-wall` and
+    /// `disc-on-wall`.
+    fn encounter(&self, time: f64, radius: f64) -> Encounter {
+        let gap = match self.case.contact {
+            Some(ContactSpec::Barrier { range, .. } | ContactSpec::Quadratic { range, .. }) => {
+                0.5 * range
+            }
+            None => FILM * radius,
+        };
+        let layers = self.case.mesh.gap_layers / self.case.mesh.scale;
+        let planes = match self.case.geometry {
+            Geometry::Planar => 1.0,
+            // A half plane
+            Geometry::Axisymmetric => 0.5,
+        };
+        Encounter { time, film_cells: planes * 6.2 * layers * layers * (radius / gap).sqrt() }
+    }
+}
+
+/// Whether a swimmer is turned back by the flow it makes from what it heads for: one that pushes the
+/// fluid away ahead of it (Lauga and Powers 2009).
+fn keeps_away(body: &Body) -> bool {
+    let Some(GaitSpec::Squirmer(gait)) = &body.gait else { return false };
+    gait.modes.first().zip(gait.modes.get(1)).is_some_and(|(first, second)| first * second < 0.0)
+}
+
+/// When two bodies on their ways touch (s).
+fn time_to_meeting(one: &Path, other: &Path) -> Option<f64> {
+    let pair = |part: fn(&Path) -> [f64; 2]| {
+        let ([x, y], [other_x, other_y]) = (part(one), part(other));
+        [other_x - x, other_y - y]
+    };
+    let (apart, velocity) = (pair(|path| path.center), pair(|path| path.velocity));
+    let dot = |a: [f64; 2], b: [f64; 2]| a[0] * b[0] + a[1] * b[1];
+    let (approach, speed) = (-dot(apart, velocity), dot(velocity, velocity));
+    let touching = (one.reach + other.reach).powi(2);
+    let discriminant = approach * approach - speed * (dot(apart, apart) - touching);
+    let meets = approach > 0.0 && discriminant >= 0.0;
+    meets.then(|| ((approach - discriminant.sqrt()) / speed).max(0.0))
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::{Case, Model};
+
+    fn model(name: &str) -> Model {
+        Case::read(name, &[]).unwrap().model
+    }
+
+    #[test]
+    fn bodies_on_straight_ways_meet_walls_and_each_other() {
+        // Two radii of fluid at a speed of one
+        let wall = model("squirmer-wall/neutral").encounters();
+        assert_eq!(wall.len(), 1);
+        assert!((wall[0].time - 2.0).abs() < 1e-12, "{wall:?}");
+        let pair = model("squirmer-pair/neutral").encounters();
+        assert_eq!(pair.len(), 2);
+        assert!(pair.iter().all(|met| (met.time - 1.0).abs() < 1e-12), "{pair:?}");
+        assert!(pair[0].film_cells < wall[0].film_cells);
+        assert!(model("dfg-2d-2").encounters().is_empty());
+        assert!(model("squirmer-wall/pusher").encounters().is_empty());
+    }
+
+    #[test]
+    fn what_falls_comes_to_rest_and_what_swims_does_not() {
+        // Half a radius at the speed (2 weight / (2 radius))^(1/2) of inertia, with a net weight of pi
+        let time = model("disc-on-wall/barrier").time_to_rest().unwrap();
+        assert!((time - 0.5 / std::f64::consts::PI.sqrt()).abs() < 1e-12, "{time}");
+        assert_eq!(model("squirmer-wall/neutral").time_to_rest(), None);
+        assert_eq!(model("vortex-induced-vibration").time_to_rest(), None);
+    }
+
+    #[test]
+    fn a_way_ends_at_a_wall() {
+        let model = model("squirmer-wall/neutral");
+        assert!((model.expected_paths(1.0) - 1.0).abs() < 1e-12);
+        assert!((model.expected_paths(8.0) - 2.0).abs() < 1e-12);
+    }
+}

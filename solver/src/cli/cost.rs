@@ -1,0 +1,189 @@
+//! What a run would cost: steps, linear systems, new meshes, and the CPU time and memory for them.
+
+use crate::case::{
+    Convection, FlowModel, JointKind, Model, Motion, Scheme, TimeSettings, Unsteady,
+};
+use crate::coupling::memory_estimate;
+
+// All constants are fitted to the shipped cases of over 3 s of CPU time in `docs/validation.md`, one
+// core of the machine of `docs/performance.md`; `solver/tests/command_line/estimates.rs` compares.
+
+/// CPU time of a pass with 10^4 unknowns on a moving mesh (s): mesh motion, assembly, factorisation or
+/// iterations with old factors, solve, loads.
+const PASS: f64 = 0.0215;
+/// Power of the unknowns it goes with.
+const GROWTH: f64 = 1.15;
+/// Part of it on a mesh that stays, and without convection, where the matrix stays as well.
+const ON_FIXED_MESH: [f64; 2] = [0.5, 0.75];
+/// Linear systems of the start of an unsteady run besides its steps: the flow there, and pieces of the
+/// first step.
+const START_SYSTEMS: f64 = 5.0;
+/// Linear systems of a step in which convection is solved by Newton's method.
+const NEWTON_SYSTEMS: f64 = 2.7;
+/// Linear systems of a steady flow with convection.
+const STEADY_SYSTEMS: f64 = 6.0;
+/// Steps of an adaptive run besides those of its largest step.
+const ADAPTIVE_STEPS: f64 = 120.0;
+/// CPU time of a new mesh with 10^4 unknowns (s), and with inertia, which asks for projections.
+const NEW_MESH: [f64; 2] = [0.05, 0.12];
+/// New meshes for each reach that bodies move.
+const MESHES_OF_PATH: f64 = 0.7;
+/// New meshes in each period of a swimmer that deforms.
+const MESHES_OF_PERIOD: f64 = 4.0;
+/// Memory of a run with new meshes over that of one system, and with inertia.
+const REMESHED_MEMORY: [f64; 2] = [1.7, 2.3];
+/// Unknowns of a planar mesh over its cells.
+const UNKNOWNS_OF_CELL: f64 = 4.5;
+
+/// An estimate of what a run costs.
+///
+/// A run is made of passes, each of which solves one linear system, and of new meshes; both go with the
+/// unknowns, of which films that close bring more.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Cost {
+    /// Linear systems.
+    pub systems: f64,
+    /// New meshes.
+    pub new_meshes: f64,
+    /// Unknowns that films bring with them, at most.
+    pub in_films: f64,
+    /// CPU time on one core (s).
+    pub seconds: f64,
+    /// Memory at most (bytes).
+    pub memory: f64,
+}
+
+/// What is known of the first mesh.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FirstMesh {
+    /// Free unknowns.
+    pub free: usize,
+    /// Velocities and pressures at its nodes.
+    pub on_mesh: usize,
+    /// Length of its shortest edge (m).
+    pub shortest_edge: f64,
+}
+
+impl Cost {
+    /// The cost of a case whose first mesh is known.
+    #[must_use]
+    pub fn of(model: &Model, mesh: &FirstMesh) -> Self {
+        let Films { most, mean } = Films::of(model);
+        let unknowns = mesh.free as f64 + mean;
+        let systems = n_systems(model, mesh.shortest_edge);
+        let pass = PASS * (unknowns / 1e4).powf(GROWTH);
+        let flow = model.case.fluid.model;
+        let part = match (&model.case.time, model.mesh_moves()) {
+            (TimeSettings::Unsteady(_), false) => {
+                ON_FIXED_MESH[usize::from(flow == FlowModel::NavierStokes)]
+            }
+            _ => 1.0,
+        };
+        let new_meshes = n_new_meshes(model);
+        let inertia = usize::from(flow != FlowModel::Stokes);
+        let start = NEW_MESH[0] * mesh.free as f64 / 1e4;
+        let seconds =
+            start + systems * part * pass + new_meshes * NEW_MESH[inertia] * unknowns / 1e4;
+        let memory = memory_estimate(mesh.on_mesh as f64 + most);
+        let memory = if new_meshes >= 1.0 { REMESHED_MEMORY[inertia] * memory } else { memory };
+        Self { systems, new_meshes, in_films: most, seconds, memory }
+    }
+}
+
+/// Unknowns that films bring with them.
+struct Films {
+    /// With all of them.
+    most: f64,
+    /// Averaged in time.
+    mean: f64,
+}
+
+impl Films {
+    fn of(model: &Model) -> Self {
+        let mut films = Self { most: 0.0, mean: 0.0 };
+        let TimeSettings::Unsteady(time) = &model.case.time else { return films };
+        for met in model.encounters() {
+            let unknowns = UNKNOWNS_OF_CELL * met.film_cells;
+            let share = 1.0 - met.time / time.end;
+            if share > 0.0 {
+                films.most += unknowns;
+                films.mean += share * unknowns;
+            }
+        }
+        films
+    }
+}
+
+/// Steps of a run: exact where they are fixed.
+#[must_use]
+pub fn n_steps(model: &Model, time: &Unsteady, shortest_edge: f64) -> f64 {
+    let Some(adaptive) = &time.adaptive else { return (time.end / time.step).ceil() };
+    let largest = adaptive.largest.unwrap_or(time.end / 10.0);
+    let crossing = model.expected_speed().map(|speed| adaptive.cfl * shortest_edge / speed);
+    let moving = crossing.unwrap_or(largest).min(largest);
+    let rest = model.time_to_rest().unwrap_or(time.end).min(time.end);
+    rest / moving + (time.end - rest) / largest + ADAPTIVE_STEPS
+}
+
+/// Linear systems a run solves: exact for steady Stokes flow.
+fn n_systems(model: &Model, shortest_edge: f64) -> f64 {
+    let case = &model.case;
+    let time = match (&case.time, case.fluid.model) {
+        (TimeSettings::Steady(_), FlowModel::NavierStokes) => return STEADY_SYSTEMS,
+        (TimeSettings::Steady(_), _) => return 1.0,
+        (TimeSettings::Unsteady(time), _) => time,
+    };
+    let is_newton =
+        time.convection == Convection::Newton && case.fluid.model == FlowModel::NavierStokes;
+    let iterations = if is_newton { NEWTON_SYSTEMS } else { 1.0 };
+    let steps = n_steps(model, time, shortest_edge);
+    START_SYSTEMS + (steps + trial_steps(model, time)) * passes(model, time) * iterations
+}
+
+/// Steps of the first cycle with steps twice as long, which a run without inertia makes beforehand.
+fn trial_steps(model: &Model, time: &Unsteady) -> f64 {
+    let periods = model.swimmers.iter().filter_map(|swimmer| swimmer.period);
+    let longest = periods.fold(0.0, f64::max);
+    let is_made = model.case.fluid.model == FlowModel::Stokes && time.adaptive.is_none();
+    if is_made && longest <= time.end { 0.5 * longest / time.step } else { 0.0 }
+}
+
+/// Passes of a step: until bodies are where the mesh was made for.
+fn passes(model: &Model, time: &Unsteady) -> f64 {
+    if time.scheme == Scheme::Rk3 {
+        // One for each stage
+        return 3.0;
+    }
+    let bends = model.joints.iter().any(|joint| !matches!(joint.kind, JointKind::Arm { .. }));
+    let free = model.bodies.iter().filter(|body| body.motion == Motion::Free);
+    let n_free = free.clone().filter(|body| body.translates()).count() as f64;
+    if bends || free.clone().any(|body| body.deforms()) {
+        return 2.0;
+    }
+    // Among many some are always in contact, which stops them within a step, if that is not shortened
+    let crowd = if model.case.contact.is_some() && time.adaptive.is_none() {
+        (n_free - 2.0).max(0.0)
+    } else {
+        0.0
+    };
+    3.0 - 2.0 * (-crowd / 6.0).exp()
+}
+
+/// New meshes of a run.
+fn n_new_meshes(model: &Model) -> f64 {
+    let TimeSettings::Unsteady(time) = &model.case.time else { return 0.0 };
+    if !model.mesh_moves() {
+        return 0.0;
+    }
+    let periods = model.swimmers.iter().filter_map(|swimmer| {
+        let bends = |body: &usize| {
+            let joint = model.joint_above(*body).map(|joint| &model.joints[joint].kind);
+            model.bodies[*body].deforms()
+                || joint.is_some_and(|kind| !matches!(kind, JointKind::Arm { .. }))
+        };
+        swimmer.bodies.iter().any(bends).then_some(time.end / swimmer.period?)
+    });
+    // All that deform ask for new meshes at the same times
+    let cycles = periods.fold(0.0, f64::max);
+    MESHES_OF_PATH * model.expected_paths(time.end) + MESHES_OF_PERIOD * cycles
+}
