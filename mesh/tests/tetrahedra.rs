@@ -7,7 +7,7 @@ use alewife_mesh::spatial::{
 };
 use alewife_mesh::{
     Mesh, Point, Quality, Simplex, Sizing, Surface, check_mesh, jacobian_coefficients,
-    map_quadratic,
+    map_quadratic, whole,
 };
 use nalgebra::{Isometry3, Translation3, UnitQuaternion};
 
@@ -218,7 +218,7 @@ fn planes_of_symmetry_cut_bodies() {
     assert_free_velocities(&mesh);
     assert_surfaces(&mesh, &domain, &bodies);
     let volume = 16.0 - PI / 3.0;
-    assert!((mesh.measure() / volume - 1.0).abs() < 1e-5, "{} {volume}", mesh.measure());
+    assert!((mesh.measure() / volume - 1.0).abs() < 3e-5, "{} {volume}", mesh.measure());
 }
 
 #[test]
@@ -283,11 +283,11 @@ impl Random {
     }
 }
 
-/// Two or three bodies in a box, the second often close to the first, or to a side.
+/// One to three bodies in a box, each often close to the first, or to a side.
 fn random_placement(seed: u64) -> (Domain, Vec<Body>) {
     let mut random = Random(seed);
     let domain = cube(1.4);
-    let n = if random.number() < 0.8 { 2 } else { 3 };
+    let n = 1 + whole(3.0 * random.number().powi(2));
     let mut bodies: Vec<Body> = Vec::new();
     while bodies.len() < n {
         let pose = Isometry3::from_parts(Translation3::from(random.point(1.0)), random.rotation());
@@ -381,14 +381,21 @@ fn random_placements_give_good_meshes() {
     (0..40).for_each(check_random_placement);
 }
 
+/// The seeds for which a check fails.
+fn failed(seeds: std::ops::Range<u64>, check: fn(u64)) -> Vec<u64> {
+    seeds.filter(|seed| std::panic::catch_unwind(|| check(*seed)).is_err()).collect()
+}
+
 /// `cargo test --release -p alewife-mesh --test tetrahedra -- --ignored --nocapture`
 #[test]
 #[ignore = "takes half an hour; run after changes of the mesher"]
 fn many_random_placements_give_good_meshes() {
-    let failed = |seeds: std::ops::Range<u64>, check: fn(u64)| -> Vec<u64> {
-        seeds.filter(|seed| std::panic::catch_unwind(|| check(*seed)).is_err()).collect()
-    };
-    let placements = failed(1000..3000, check_random_placement);
-    let swimmers = failed(1000..1200, check_random_swimmer);
-    assert!(placements.is_empty() && swimmers.is_empty(), "{placements:?} {swimmers:?}");
+    assert_eq!(failed(1000..3000, check_random_placement), []);
+}
+
+/// As above.
+#[test]
+#[ignore = "takes some minutes; run after changes of the mesher"]
+fn many_random_swimmers_give_good_meshes() {
+    assert_eq!(failed(1000..1200, check_random_swimmer), []);
 }

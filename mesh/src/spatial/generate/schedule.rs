@@ -1,4 +1,4 @@
-//! The order of the passes that make a good mesh of one that was cut.
+//! The order of the passes that make a good mesh of one that was cut (@freitag1997).
 
 use std::ops::Range;
 
