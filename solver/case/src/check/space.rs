@@ -28,6 +28,7 @@ fn check_supported(findings: &mut Findings<'_>) {
         ("joint", !case.joint.is_empty(), "joints"),
         ("swimmer", !case.swimmer.is_empty(), "swimmers of several bodies"),
         ("contact", case.contact.is_some(), "contact"),
+        ("boundary", case.periodic_axes().contains(&true), "periodic sides"),
         ("frame", case.frame.is_some() && model.mesh_moves(), "a frame that other bodies move in"),
     ];
     for (key, is_there, what) in missing {
@@ -133,5 +134,82 @@ fn refuse_turns(findings: &mut Findings<'_>, key: &str, body: &Body) {
                 &format!("{help}, or take geometry = \"spatial\""),
             );
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::{Case, check};
+
+    /// Keys of the errors in a case of a sphere in a box, with some settings.
+    fn wrong(geometry: &str, center: &str, settings: &[&str]) -> Vec<String> {
+        let corner = if geometry == "spatial" { "4.0, 4.0, 4.0" } else { "4.0, 4.0" };
+        let (sides, shape) = match geometry {
+            "spatial" => (", back = 'no-slip', front = 'no-slip'", "sphere"),
+            _ => ("", "disc"),
+        };
+        let text = format!(
+            "title = 't'
+geometry = '{geometry}'
+fluid = {{ model = 'stokes', viscosity = 1.0 }}
+domain.box = {{ min = [{}], max = [{corner}] }}
+boundary = {{ left = 'no-slip', right = 'no-slip', bottom = 'no-slip', top = 'no-slip'{sides} }}
+mesh = {{ size = 0.5 }}
+time = {{ steady = {{}} }}
+body = [{{ name = 'b', shape = {{ {shape} = {{ radius = 1.0 }} }}, center = [{center}], motion = 'free' }}]
+",
+            corner.replace('4', "-4")
+        );
+        let settings: Vec<String> = settings.iter().map(|&setting| setting.to_owned()).collect();
+        let file = Case::parse("t.toml", &text, &settings).unwrap();
+        check(&file).into_iter().map(|found| found.key).collect()
+    }
+
+    #[test]
+    fn turns_in_space_are_about_an_axis_that_points_somewhere() {
+        let space = |settings: &[&str]| wrong("spatial", "0.0, 0.0, 0.0", settings);
+        assert!(space(&[]).is_empty());
+        assert!(space(&["body.0.orientation={ along = [0.0, 1.0, 1.0] }"]).is_empty());
+        assert!(space(&["body.0.torque=[0.0, 1.0, 1.0]"]).is_empty());
+        for (setting, key) in [
+            ("body.0.angle=0.5", "body.0.angle"),
+            ("body.0.orientation={ along = [0.0, 0.0, 0.0] }", "body.0.orientation.along"),
+            (
+                "body.0.orientation={ turned = { axis = [0.0, 0.0, 0.0], angle = 1.0 } }",
+                "body.0.orientation.turned.axis",
+            ),
+            (
+                "body.0.orientation={ quaternion = [1.0, 1.0, 0.0, 0.0] }",
+                "body.0.orientation.quaternion",
+            ),
+            (
+                "body.0.gait={ squirmer = { modes = [1.0], heading = 0.5 } }",
+                "body.0.gait.squirmer.heading",
+            ),
+            ("body.0.center=[0.0, 0.0]", "body.0.center"),
+            ("domain.box.max=[4.0, 4.0]", "domain.box.max"),
+            ("body.0.shape={ disc = { radius = 1.0 } }", "body.0.shape"),
+            ("boundary.left={ periodic = 'right' }", "boundary"),
+            ("time={ unsteady = { step = 0.1, end = 1.0 } }", "time"),
+        ] {
+            let found = space(&[setting]);
+            assert!(found.contains(&key.to_owned()), "{setting}: {found:?}");
+        }
+    }
+
+    #[test]
+    fn nothing_turns_out_of_the_plane() {
+        for (setting, key) in [
+            ("body.0.orientation={ along = [0.0, 1.0, 0.0] }", "body.0.orientation"),
+            ("body.0.torque=[0.0, 1.0, 1.0]", "body.0.torque"),
+            (
+                "body.0.motion={ imposed = { angular_velocity = [1.0, 0.0, 0.0] } }",
+                "body.0.motion.imposed.angular_velocity",
+            ),
+        ] {
+            let found = wrong("planar", "0.0, 0.0", &[setting]);
+            assert!(found.contains(&key.to_owned()), "{setting}: {found:?}");
+        }
+        assert!(wrong("planar", "0.0, 0.0", &["body.0.torque=1.0"]).is_empty());
     }
 }
