@@ -154,7 +154,7 @@ geometry = '{geometry}'
 fluid = {{ model = 'stokes', viscosity = 1.0 }}
 domain.box = {{ min = [{}], max = [{corner}] }}
 boundary = {{ left = 'no-slip', right = 'no-slip', bottom = 'no-slip', top = 'no-slip'{sides} }}
-mesh = {{ size = 0.5 }}
+mesh = {{ size = 0.3 }}
 time = {{ steady = {{}} }}
 body = [{{ name = 'b', shape = {{ {shape} = {{ radius = 1.0 }} }}, center = [{center}], motion = 'free' }}]
 ",
