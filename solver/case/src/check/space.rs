@@ -83,14 +83,12 @@ fn check_turns(findings: &mut Findings<'_>, key: &str, body: &Body) {
     }
     if let Some(GaitSpec::Squirmer(squirmer)) = &body.gait {
         let gait = format!("{key}.gait.squirmer");
-        if let Some(axis) = &squirmer.axis {
-            if length(axis) == 0.0 {
-                findings.error(
-                    &format!("{gait}.axis"),
-                    "the swimming axis points nowhere".to_owned(),
-                    "write a direction such as [1.0, 0.0, 0.0]",
-                );
-            }
+        if squirmer.axis.is_some_and(|axis| length(&axis) == 0.0) {
+            findings.error(
+                &format!("{gait}.axis"),
+                "the swimming axis points nowhere".to_owned(),
+                "write a direction such as [1.0, 0.0, 0.0]",
+            );
         }
         for (name, is_given) in
             [("heading", squirmer.heading != 0.0), ("turn", squirmer.turn.is_some())]
