@@ -7,16 +7,12 @@
 use std::time::Instant;
 
 use alewife_core::body::{Pose, Wrench};
-use alewife_core::coupling::{
-    BodiesAt, BodyShapes, Configuration, FluidSystem, MeanFlowAt, Problem, RigidBody,
-    RigidBodyEquations, Side,
-};
-use alewife_core::flow::{Convection, FlowTerms};
+use alewife_core::coupling::{FluidSystem, Problem, RigidBody, Side};
 use alewife_core::simulation::{Stage, Timing, cpu_seconds};
 use alewife_core::space::Metric;
 use alewife_mesh::{BoundaryId, Mesh, Point};
 use nalgebra::Vector3;
-use tests::{BoxOfTetrahedra, fluid_only};
+use tests::{BoxOfTetrahedra, fluid_only, one_system_from_rest};
 
 /// Cubes along the edges of the boxes: 5, 12, 41, 86 and 270 thousand unknowns.
 const CUBES: [usize; 5] = [6, 9, 15, 18, 27];
@@ -90,33 +86,9 @@ fn measure(box_of: BoxOfTetrahedra, rate: f64) {
     let poses: Vec<Pose> = problem.bodies.iter().map(|body| body.pose).collect();
     let (start_wall, start) = (Instant::now(), cpu_seconds());
     let mut system = FluidSystem::new(&problem, &mesh, &poses, false);
-    let shapes = BodyShapes::rigid(poses.len());
-    let constraints =
-        system.constraints(&problem, &mesh, BodiesAt { poses: &poses, shapes: &shapes });
     let analysis = cpu_seconds() - start;
-    let equations = RigidBodyEquations::steady(&problem, &poses, 0.0);
-    let at = Configuration {
-        problem: &problem,
-        mesh: &mesh,
-        constraints: &constraints,
-        bodies: &equations,
-        mean_flow: MeanFlowAt::default(),
-    };
-    let history = vec![Point::<3>::zeros(); mesh.n_nodes()];
-    let terms = FlowTerms {
-        viscosity: problem.viscosity,
-        density: problem.density,
-        rate,
-        history: &history,
-        convecting_velocity: &[],
-        convection: Convection::None,
-        body_force: None,
-    };
-    let flow = system.at_rest(&constraints);
     let mut timing = Timing::default();
-    let raw = timing.measure(Stage::Assembly, || system.fluid_residual(&at, &terms, &flow));
-    let reduced = system.reduced_residual(&at, &flow, &raw);
-    let solved = system.newton_step(&at, &terms, &flow, &reduced, &mut timing);
+    let solved = one_system_from_rest(&mut system, &problem, &mesh, rate, &mut timing);
     let _flow = solved.expect("the system is solved");
     let seconds = |stage: Stage| timing.cpu[stage as usize];
     println!(

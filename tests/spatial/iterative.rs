@@ -3,15 +3,13 @@
 use alewife_core::algebra::IterativeSettings;
 use alewife_core::body::{Inertia, Pose, Wrench};
 use alewife_core::coupling::{
-    BodiesAt, BodyShapes, Configuration, FluidSystem, MeanFlowAt, Problem, RigidBody,
-    RigidBodyEquations, Side, Solution, SolveError, SolverChoice,
+    FluidSystem, Problem, RigidBody, Side, Solution, SolveError, SolverChoice,
 };
-use alewife_core::flow::{Convection, FlowTerms};
 use alewife_core::simulation::Timing;
 use alewife_core::space::Metric;
 use alewife_mesh::{BoundaryId, BoundaryKind, Mesh, Point};
 use nalgebra::{Matrix3, UnitQuaternion, Vector3};
-use tests::{BoxOfTetrahedra, fluid_only};
+use tests::{BoxOfTetrahedra, fluid_only, one_system_from_rest};
 
 /// Viscosity and density far from one: sizes of forces and pressures are not those of velocities.
 const VISCOSITY: f64 = 2e-3;
@@ -80,34 +78,10 @@ impl Setting {
         let mesh = self.box_of.mesh();
         let problem = self.problem(&mesh);
         let poses: Vec<Pose> = problem.bodies.iter().map(|body| body.pose).collect();
-        let shapes = BodyShapes::rigid(poses.len());
-        let bodies = BodiesAt { poses: &poses, shapes: &shapes };
         let mut system = FluidSystem::new(&problem, &mesh, &poses, false);
         system.choose_solver(choice);
-        let constraints = system.constraints(&problem, &mesh, bodies);
-        let equations = RigidBodyEquations::steady(&problem, &poses, 0.0);
-        let at = Configuration {
-            problem: &problem,
-            mesh: &mesh,
-            constraints: &constraints,
-            bodies: &equations,
-            mean_flow: MeanFlowAt::default(),
-        };
-        let history = vec![Point::<3>::zeros(); mesh.n_nodes()];
-        let terms = FlowTerms {
-            viscosity: VISCOSITY,
-            density: DENSITY,
-            rate: self.rate,
-            history: &history,
-            convecting_velocity: &[],
-            convection: Convection::None,
-            body_force: None,
-        };
-        let start = system.at_rest(&constraints);
-        let raw = system.fluid_residual(&at, &terms, &start);
-        let reduced = system.reduced_residual(&at, &start, &raw);
         let mut timing = Timing::default();
-        let next = system.newton_step(&at, &terms, &start, &reduced, &mut timing);
+        let next = one_system_from_rest(&mut system, &problem, &mesh, self.rate, &mut timing);
         let iterations = system.accuracy().refinements;
         next.map(|solution| Solved { solution, n_unknowns: system.n_unknowns, iterations })
     }

@@ -14,7 +14,7 @@ mod tetrahedra;
 pub use moved::Moved;
 pub use norms::{Errors, errors};
 pub use setup::{fluid_only, rest, sides};
-pub use stepping::{Stepping, steady, steady_with, workspace};
+pub use stepping::{Stepping, one_system_from_rest, steady, steady_with, workspace};
 pub use stop::{Stopped, resumed, stopped, stopped_within_a_step};
 pub use study::Study;
 pub use swim::Swim;

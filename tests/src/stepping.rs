@@ -2,13 +2,17 @@
 
 use alewife_core::body::Pose;
 use alewife_core::case::{Convection, Steady};
-use alewife_core::coupling::{BodiesAt, BodyShapes, FluidSystem, Problem, RigidBodyEquations};
+use alewife_core::coupling::{
+    BodiesAt, BodyShapes, Configuration, FluidSystem, MeanFlowAt, Problem, RigidBodyEquations,
+    Solution, SolveError,
+};
+use alewife_core::flow::{self, FlowTerms};
 use alewife_core::simulation::{
-    MeshPath, State, SteadyFlow, SteadyTask, StepReport, StepResult, TimeStepper, Timing,
+    MeshPath, Stage, State, SteadyFlow, SteadyTask, StepReport, StepResult, TimeStepper, Timing,
     Workspace, solve_steady,
 };
 use alewife_core::time::Bdf;
-use alewife_mesh::Mesh;
+use alewife_mesh::{Mesh, Point};
 
 /// What steps of a problem on a mesh work with, its bodies at their poses at time zero.
 #[must_use]
@@ -54,6 +58,46 @@ pub fn steady_with<const D: usize>(
     let bodies = BodiesAt { poses: &poses, shapes: &shapes };
     let task = SteadyTask { bodies, equations: &equations, settings, has_convection, stop: None };
     solve_steady(work, problem, &task).map_err(|failure| failure.error).expect("the flow converges")
+}
+
+/// The flow after one linear system from rest, whose rates have the factor `rate` of the new velocity
+/// (1/s).
+///
+/// # Errors
+/// When the system is not solved.
+pub fn one_system_from_rest<const D: usize>(
+    system: &mut FluidSystem<D>,
+    problem: &Problem<D>,
+    mesh: &Mesh<D>,
+    rate: f64,
+    timing: &mut Timing,
+) -> Result<Solution<D>, SolveError> {
+    let poses = start_poses(problem);
+    let shapes = BodyShapes::rigid(poses.len());
+    let bodies = BodiesAt { poses: &poses, shapes: &shapes };
+    let constraints = system.constraints(problem, mesh, bodies);
+    let equations = RigidBodyEquations::steady(problem, &poses, 0.0);
+    let at = Configuration {
+        problem,
+        mesh,
+        constraints: &constraints,
+        bodies: &equations,
+        mean_flow: MeanFlowAt::default(),
+    };
+    let history = vec![Point::<D>::zeros(); mesh.n_nodes()];
+    let terms = FlowTerms {
+        viscosity: problem.viscosity,
+        density: problem.density,
+        rate,
+        history: &history,
+        convecting_velocity: &[],
+        convection: flow::Convection::None,
+        body_force: None,
+    };
+    let start = system.at_rest(&constraints);
+    let raw = timing.measure(Stage::Assembly, || system.fluid_residual(&at, &terms, &start));
+    let reduced = system.reduced_residual(&at, &start, &raw);
+    system.newton_step(&at, &terms, &start, &reduced, timing)
 }
 
 /// A problem without contact that is stepped in time.

@@ -5,6 +5,8 @@ use std::fmt;
 use serde::de::{self, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
+use super::speed::norm;
+
 /// An angular velocity (rad/s) or a torque (N m): a number is its part about z, counter-clockwise; in
 /// three dimensions it may be `[x, y, z]`.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -52,7 +54,7 @@ impl AxialVector {
     /// Its length.
     #[must_use]
     pub fn norm(&self) -> f64 {
-        self.0.iter().map(|part| part * part).sum::<f64>().sqrt()
+        norm(&self.0)
     }
 }
 

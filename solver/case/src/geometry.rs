@@ -136,6 +136,17 @@ impl ShapeSpec {
         }
     }
 
+    /// Semi-axes along the body's x, y and z of a sphere, a spheroid or an ellipsoid (m).
+    #[must_use]
+    pub fn semi_axes(&self) -> Option<[f64; 3]> {
+        match self {
+            Self::Sphere { radius } => Some([*radius; 3]),
+            Self::Spheroid { semi_axes: [along, across] } => Some([*along, *across, *across]),
+            Self::Ellipsoid { semi_axes } => Some(*semi_axes),
+            _ => None,
+        }
+    }
+
     /// Volume, of planar shapes area (m3, m2); 0 of a shape that is none.
     #[must_use]
     pub fn volume(&self) -> f64 {
@@ -153,18 +164,15 @@ impl ShapeSpec {
     #[must_use]
     pub fn surface_area(&self) -> f64 {
         use std::f64::consts::PI;
-        // Thomsen's formula for the area of an ellipsoid
-        let ellipsoid = |[a, b, c]: [f64; 3]| {
-            let power = |x: f64| x.powf(1.6075);
-            let mean = (power(a * b) + power(a * c) + power(b * c)) / 3.0;
-            4.0 * PI * mean.powf(1.0 / 1.6075)
-        };
-        match self {
-            Self::Sphere { radius } => 4.0 * PI * radius * radius,
-            Self::Spheroid { semi_axes: [a, b] } => ellipsoid([*a, *b, *b]),
-            Self::Ellipsoid { semi_axes } => ellipsoid(*semi_axes),
-            Self::Capsule { length, radius } => 2.0 * PI * radius * length,
-            _ => 0.0,
+        match (self, self.semi_axes()) {
+            // Thomsen's formula for the area of an ellipsoid
+            (_, Some([a, b, c])) => {
+                let power = |x: f64| x.powf(1.6075);
+                let mean = (power(a * b) + power(a * c) + power(b * c)) / 3.0;
+                4.0 * PI * mean.powf(1.0 / 1.6075)
+            }
+            (Self::Capsule { length, radius }, None) => 2.0 * PI * radius * length,
+            (_, None) => 0.0,
         }
     }
 
@@ -227,14 +235,11 @@ impl Body {
     /// Whether the body may translate.
     #[must_use]
     pub fn translates(&self, geometry: Geometry) -> bool {
-        let ways: &[Lock] = match geometry {
-            Geometry::Planar => &[Lock::X, Lock::Y],
-            Geometry::Axisymmetric => &[Lock::X],
-            Geometry::Spatial => &[Lock::X, Lock::Y, Lock::Z],
-        };
+        let is_translation = |motion: &&Lock| **motion != Lock::Rotation;
+        let mut translations = geometry.motions().iter().filter(is_translation);
         match &self.motion {
             Motion::Held => false,
-            Motion::Free => ways.iter().any(|way| !self.locked.contains(way)),
+            Motion::Free => translations.any(|motion| !self.locked.contains(motion)),
             Motion::Imposed(imposed) => imposed.velocity.iter().any(|part| *part != 0.0),
         }
     }

@@ -34,7 +34,7 @@ pub struct ShapedLink {
 
 /// Smallest and largest x of an outline in its body frame, and half of its extent across (m).
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Extent {
+pub struct LinkExtent {
     pub back: f64,
     pub front: f64,
     pub half_width: f64,
@@ -61,19 +61,19 @@ impl Link {
     ///
     /// # Errors
     /// When its points or lengths make no outline.
-    pub fn extent(&self) -> Result<Extent, MeshError> {
+    pub fn extent(&self) -> Result<LinkExtent, MeshError> {
         let shape = self.shape();
         match &shape {
             ShapeSpec::Disc { radius } | ShapeSpec::Sphere { radius } => {
-                Ok(Extent { back: -radius, front: *radius, half_width: *radius })
+                Ok(LinkExtent { back: -radius, front: *radius, half_width: *radius })
             }
             ShapeSpec::Ellipse { semi_axes: [half, half_width] }
             | ShapeSpec::Spheroid { semi_axes: [half, half_width] } => {
-                Ok(Extent { back: -half, front: *half, half_width: *half_width })
+                Ok(LinkExtent { back: -half, front: *half, half_width: *half_width })
             }
             ShapeSpec::Ellipsoid { .. } | ShapeSpec::Capsule { .. } => {
                 let half = shape.reach();
-                Ok(Extent { back: -half, front: half, half_width: shape.half_width() })
+                Ok(LinkExtent { back: -half, front: half, half_width: shape.half_width() })
             }
             ShapeSpec::Spline { .. }
             | ShapeSpec::Fish(_)
@@ -90,7 +90,7 @@ impl Link {
                 let [right, top, left, bottom] =
                     [0, 1, 2, 3].map(|quarter| outline.evaluate(quarter, 0.0)[0]);
                 let half_width = 0.5 * (top.y - bottom.y);
-                Ok(Extent { back: left.x, front: right.x, half_width })
+                Ok(LinkExtent { back: left.x, front: right.x, half_width })
             }
         }
     }

@@ -9,7 +9,7 @@ use super::Geometry;
 use super::body::{GaitSpec, ShapeSpec};
 use super::diagnostic::CaseError;
 use super::joint::{Joint, JointKind, PlanarPose, child_pose};
-use super::link::{Extent, Link};
+use super::link::{Link, LinkExtent};
 use super::skin::{Layout, NoOutline};
 use super::stroke::Stroke;
 use super::swimmer::{Pivot, SwimmerKind};
@@ -151,7 +151,8 @@ fn star(radius: f64, radii: &[f64], arms: &[Stroke], directions: &[f64]) -> Vec<
 fn chain(key: &str, links: &[Link], gap: f64, joints: &[Pivot]) -> Result<Vec<Part>, CaseError> {
     let ends =
         |(nth, link): (usize, &Link)| link.extent().map_err(|error| no_outline(key, nth, &error));
-    let ends = links.iter().enumerate().map(ends).collect::<Result<Vec<Extent>, CaseError>>()?;
+    let ends =
+        links.iter().enumerate().map(ends).collect::<Result<Vec<LinkExtent>, CaseError>>()?;
     let behind = |nth: usize| [ends[nth].back - 0.5 * gap, 0.0];
     let before = |nth: usize| [ends[nth].front + 0.5 * gap, 0.0];
     let attachment = |nth: usize| {

@@ -3,7 +3,7 @@
 use alewife_mesh::MeshError;
 
 use super::gait::{BentJoint, JointsGait, TubeShape};
-use super::link::{Extent, Link};
+use super::link::{Link, LinkExtent};
 use super::swimmer::{Pivot, Skin};
 
 /// Material points along the length over which a skin bends.
@@ -39,7 +39,7 @@ impl Layout {
     pub fn new(links: &[Link], gap: f64) -> Result<Self, NoOutline> {
         let mut layout = Self { sections: Vec::new(), pivots: Vec::new(), length: 0.0 };
         for (nth, link) in links.iter().enumerate() {
-            let Extent { back, front, half_width } =
+            let LinkExtent { back, front, half_width } =
                 link.extent().map_err(|error| NoOutline { link: nth, error })?;
             if nth > 0 {
                 layout.pivots.push(layout.length + 0.5 * gap);

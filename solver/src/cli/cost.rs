@@ -4,6 +4,7 @@ use crate::case::{
     Convection, FlowModel, JointKind, Model, Motion, Scheme, TimeSettings, Unsteady,
 };
 use crate::coupling::memory_estimate;
+use crate::simulation::DOFS_OF_CELL;
 
 // All constants are fitted to the shipped cases of over 3 s of CPU time in `docs/validation.md`, one
 // core of the machine of `docs/performance.md`; `solver/tests/command_line/estimates.rs` compares.
@@ -32,8 +33,6 @@ const MESHES_OF_PATH: f64 = 0.7;
 const MESHES_OF_PERIOD: f64 = 4.0;
 /// Memory of a run with new meshes over that of one system, and with inertia.
 const REMESHED_MEMORY: [f64; 2] = [1.7, 2.3];
-/// Unknowns of a planar mesh over its cells.
-const UNKNOWNS_OF_CELL: f64 = 4.5;
 
 /// An estimate of what a run costs.
 ///
@@ -103,7 +102,7 @@ impl Films {
         let mut films = Self { most: 0.0, mean: 0.0 };
         let TimeSettings::Unsteady(time) = &model.case.time else { return films };
         for met in model.encounters() {
-            let unknowns = UNKNOWNS_OF_CELL * met.film_cells;
+            let unknowns = DOFS_OF_CELL * met.film_cells;
             let share = 1.0 - met.time / time.end;
             if share > 0.0 {
                 films.most += unknowns;

@@ -179,9 +179,9 @@ pub fn scene(bodies: &[Body], geometry: Geometry, time: f64) -> Value {
         match &body.shape {
             ShapeSpec::Disc { radius } => cylinders.push(solid([*radius, *radius, *radius / 50.0])),
             ShapeSpec::Ellipse { semi_axes: [a, b] } => cylinders.push(solid([*a, *b, *b / 50.0])),
-            ShapeSpec::Sphere { radius } => spheres.push(solid([*radius; 3])),
-            ShapeSpec::Spheroid { semi_axes: [a, b] } => spheres.push(solid([*a, *b, *b])),
-            ShapeSpec::Ellipsoid { semi_axes } => spheres.push(solid(*semi_axes)),
+            ShapeSpec::Sphere { .. } | ShapeSpec::Spheroid { .. } | ShapeSpec::Ellipsoid { .. } => {
+                spheres.extend(body.shape.semi_axes().map(solid));
+            }
             ShapeSpec::Capsule { length, radius } => {
                 let half = 0.5 * length - radius;
                 // Cylinders of viewers are along z
@@ -203,11 +203,7 @@ pub fn scene(bodies: &[Body], geometry: Geometry, time: f64) -> Value {
             "id": body.name,
             "lifetime": timestamp(0.0),
             "frame_locked": true,
-            "metadata": [{"key": "geometry", "value": match geometry {
-                Geometry::Planar => "planar",
-                Geometry::Axisymmetric => "axisymmetric",
-                Geometry::Spatial => "spatial",
-            }}],
+            "metadata": [{"key": "geometry", "value": geometry.name()}],
             "arrows": [],
             "cubes": [],
             "spheres": spheres,

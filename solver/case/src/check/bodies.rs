@@ -94,13 +94,15 @@ fn check_name(findings: &mut Findings<'_>, key: &str, name: &str, taken: &HashSe
 }
 
 fn check_shape(findings: &mut Findings<'_>, key: &str, shape: &ShapeSpec) {
-    let (geometry, allowed) = match findings.case().geometry {
-        Geometry::Planar => ("planar", "disc, ellipse, spline, fish, flagellate"),
-        Geometry::Axisymmetric => ("axisymmetric", "sphere, spheroid"),
-        Geometry::Spatial => ("spatial", "sphere, spheroid, ellipsoid, capsule"),
+    let case = findings.case();
+    let geometry = case.geometry.name();
+    let allowed = match case.geometry {
+        Geometry::Planar => "disc, ellipse, spline, fish, flagellate",
+        Geometry::Axisymmetric => "sphere, spheroid",
+        Geometry::Spatial => "sphere, spheroid, ellipsoid, capsule",
     };
     let name = shape.name();
-    if !shape.geometries().contains(&findings.case().geometry) {
+    if !shape.geometries().contains(&case.geometry) {
         findings.error(
             key,
             format!("a {name} cannot stand in a case with `geometry = \"{geometry}\"`"),
@@ -112,15 +114,9 @@ fn check_shape(findings: &mut Findings<'_>, key: &str, shape: &ShapeSpec) {
             findings.positive(&format!("{key}.{name}.radius"), *radius);
         }
         ShapeSpec::Ellipse { semi_axes } | ShapeSpec::Spheroid { semi_axes } => {
-            for (axis, length) in semi_axes.iter().enumerate() {
-                findings.positive(&format!("{key}.{name}.semi_axes.{axis}"), *length);
-            }
+            check_semi_axes(findings, key, name, semi_axes);
         }
-        ShapeSpec::Ellipsoid { semi_axes } => {
-            for (axis, length) in semi_axes.iter().enumerate() {
-                findings.positive(&format!("{key}.{name}.semi_axes.{axis}"), *length);
-            }
-        }
+        ShapeSpec::Ellipsoid { semi_axes } => check_semi_axes(findings, key, name, semi_axes),
         ShapeSpec::Capsule { length, radius } => {
             findings.positive(&format!("{key}.capsule.radius"), *radius);
             if *length <= 2.0 * radius {
@@ -151,6 +147,12 @@ fn check_shape(findings: &mut Findings<'_>, key: &str, shape: &ShapeSpec) {
                 );
             }
         }
+    }
+}
+
+fn check_semi_axes(findings: &mut Findings<'_>, key: &str, name: &str, semi_axes: &[f64]) {
+    for (axis, length) in semi_axes.iter().enumerate() {
+        findings.positive(&format!("{key}.{name}.semi_axes.{axis}"), *length);
     }
 }
 
@@ -197,11 +199,7 @@ fn check_motion(findings: &mut Findings<'_>, key: &str, body: &Body) {
     if let Some(factor) = &body.load_factor {
         check_factor(findings, &format!("{key}.load_factor"), factor);
     }
-    let all: &[Lock] = match findings.case().geometry {
-        Geometry::Planar => &[Lock::X, Lock::Y, Lock::Rotation],
-        Geometry::Axisymmetric => &[Lock::X],
-        Geometry::Spatial => &[Lock::X, Lock::Y, Lock::Z, Lock::Rotation],
-    };
+    let all: &[Lock] = findings.case().geometry.motions();
     if body.motion == Motion::Free && all.iter().all(|lock| body.locked.contains(lock)) {
         findings.warning(
             &format!("{key}.locked"),

@@ -2,7 +2,7 @@
 
 use super::Findings;
 use crate::speed::weight;
-use crate::{ContactSpec, Convection, Geometry, Lock, Motion, TimeSettings};
+use crate::{ContactSpec, Convection, Lock, Motion, TimeSettings};
 
 /// Range over half the least width of a body above which contact is no short-range force.
 const SHORT_RANGE: f64 = 0.5;
@@ -58,11 +58,7 @@ fn check_range(findings: &mut Findings<'_>, key: &str, range: f64) {
 /// Contact needs a body that gives way.
 fn check_yielding(findings: &mut Findings<'_>) {
     let case = findings.case();
-    let motions: &[Lock] = match case.geometry {
-        Geometry::Planar => &[Lock::X, Lock::Y, Lock::Rotation],
-        Geometry::Axisymmetric => &[Lock::X],
-        Geometry::Spatial => &[Lock::X, Lock::Y, Lock::Z, Lock::Rotation],
-    };
+    let motions: &[Lock] = case.geometry.motions();
     let yields = findings.model().bodies.iter().any(|body| {
         body.motion == Motion::Free && motions.iter().any(|lock| !body.locked.contains(lock))
     });

@@ -1,6 +1,7 @@
 //! Numbers that cannot be computed with, and lengths and times too far apart from each other.
 
 use super::Findings;
+use crate::speed::norm;
 use crate::{CaseFile, TimeSettings};
 
 /// Numbers above this, or below its inverse: their squares and cubes are no numbers any more.
@@ -49,7 +50,7 @@ pub fn check(findings: &mut Findings<'_>, file: &CaseFile) {
 fn lengths(findings: &mut Findings<'_>) {
     let (case, model) = (findings.case(), findings.model());
     let extent = case.extent();
-    let diagonal = extent.lengths().iter().map(|length| length * length).sum::<f64>().sqrt();
+    let diagonal = norm(&extent.lengths());
     let distance = extent.min.iter().chain(&extent.max).fold(0.0f64, |most, x| most.max(x.abs()));
     if distance > FARTHEST * diagonal {
         findings.error(

@@ -13,10 +13,11 @@ pub fn check(findings: &mut Findings<'_>) {
             "say what is solved in one line",
         );
     }
-    let (wanted, domains) = match case.geometry {
-        Geometry::Planar => ("planar", "box, channel, disc"),
-        Geometry::Axisymmetric => ("axisymmetric", "half-disc, cylinder"),
-        Geometry::Spatial => ("spatial", "box, cylinder, sphere"),
+    let wanted = case.geometry.name();
+    let domains = match case.geometry {
+        Geometry::Planar => "box, channel, disc",
+        Geometry::Axisymmetric => "half-disc, cylinder",
+        Geometry::Spatial => "box, cylinder, sphere",
     };
     if !case.domain.geometries().contains(&case.geometry) {
         findings.error(

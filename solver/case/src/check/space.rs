@@ -1,6 +1,7 @@
 //! Problems of cases in three dimensions, and of keys that only such cases have.
 
 use super::Findings;
+use crate::speed::norm;
 use crate::{Body, GaitSpec, Geometry, Motion};
 
 /// Difference of the length of a quaternion from 1 that is taken for rounding.
@@ -61,9 +62,8 @@ fn check_turns(findings: &mut Findings<'_>, key: &str, body: &Body) {
         );
     }
     use crate::Orientation::{Along, Quaternion, Turned};
-    let length = |vector: &[f64]| vector.iter().map(|part| part * part).sum::<f64>().sqrt();
     let mut no_direction = |name: &str, vector: &[f64]| {
-        if length(vector) == 0.0 {
+        if norm(vector) == 0.0 {
             findings.error(
                 &format!("{key}.{name}"),
                 format!("`{key}.{name}` is zero and points nowhere"),
@@ -74,16 +74,16 @@ fn check_turns(findings: &mut Findings<'_>, key: &str, body: &Body) {
     match &body.orientation {
         Some(Turned { axis, .. }) => no_direction("orientation.turned.axis", axis),
         Some(Along(direction)) => no_direction("orientation.along", direction),
-        Some(Quaternion(parts)) if (length(parts) - 1.0).abs() > ROUNDING => findings.error(
+        Some(Quaternion(parts)) if (norm(parts) - 1.0).abs() > ROUNDING => findings.error(
             &format!("{key}.orientation.quaternion"),
-            format!("the quaternion {parts:?} has the length {:.6}", length(parts)),
+            format!("the quaternion {parts:?} has the length {:.6}", norm(parts)),
             "write [w, x, y, z] of length 1; without a turn it is [1.0, 0.0, 0.0, 0.0]",
         ),
         Some(Quaternion(_)) | None => {}
     }
     if let Some(GaitSpec::Squirmer(squirmer)) = &body.gait {
         let gait = format!("{key}.gait.squirmer");
-        if squirmer.axis.is_some_and(|axis| length(&axis) == 0.0) {
+        if squirmer.axis.is_some_and(|axis| norm(&axis) == 0.0) {
             findings.error(
                 &format!("{gait}.axis"),
                 "the swimming axis points nowhere".to_owned(),

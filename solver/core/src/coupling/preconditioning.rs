@@ -1,4 +1,4 @@
-//! What an iterative solver of fluid and bodies is told of mesh, fluid and constraints.
+//! Data of mesh, fluid and constraints that the preconditioner of an iterative solver is made from.
 
 use std::sync::Arc;
 

@@ -44,7 +44,7 @@ pub trait CaseMesh<const D: usize> {
 
 /// Makes what moves a mesh, with the bodies at these poses.
 pub(super) type MakeMovingMesh<const D: usize> =
-    Box<dyn FnOnce(&Problem<D>, &Mesh<D>, Vec<Pose>) -> Result<MovingMesh<D>, RunError>>;
+    Box<dyn FnOnce(&Model, &Problem<D>, &Mesh<D>, Vec<Pose>) -> Result<MovingMesh<D>, RunError>>;
 
 /// The mesh of a case at time zero.
 pub struct InitialMesh<const D: usize> {
@@ -53,7 +53,7 @@ pub struct InitialMesh<const D: usize> {
     /// Whole periods by which each body has been moved into it (m).
     pub(super) shifts: Vec<Vector3<f64>>,
     /// Makes what moves it, where bodies or sides move.
-    pub(super) make_moving: Option<MakeMovingMesh<D>>,
+    pub(super) make_moving: MakeMovingMesh<D>,
 }
 
 /// The mesh of a case.

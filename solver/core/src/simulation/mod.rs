@@ -59,6 +59,7 @@ pub use series::Series;
 pub use sizing::sizing;
 pub use snapshot::{BodyReport, LastState, Observer, Snapshot};
 pub use solve::{Solve, simulate, simulate_from};
+pub use start::DOFS_OF_CELL;
 pub use state::{NewLevel, State};
 pub use steady::{SteadyFailure, SteadyFlow, SteadyTask, solve_steady};
 pub use stepper::{Step, StepReport, StepResult, TimeStepper};

@@ -102,9 +102,9 @@ fn at_rest<const D: usize>(
         FluidSystem::new(&problem, &state.mesh, &poses, scheme.unknown_frame)
     });
     tracing::info!(unknowns = system.n_unknowns, entries = system.n_entries(), "system built");
-    let moving_mesh = make_moving
-        .filter(|_| model.mesh_moves())
-        .map(|make| timing.measure(Stage::MeshMotion, || make(&problem, &state.mesh, poses)));
+    let moving_mesh = model.mesh_moves().then(|| {
+        timing.measure(Stage::MeshMotion, || make_moving(model, &problem, &state.mesh, poses))
+    });
     let moving_mesh = moving_mesh.transpose()?;
     let law = case.contact.as_ref().map(contact_law).transpose()?;
     let work = Workspace { system, mesh: state.mesh.clone(), timing };

@@ -42,7 +42,7 @@ pub(super) fn step_scheme<const D: usize>(case: &Case, problem: &Problem<D>) -> 
 const GIGABYTE: f64 = 1e9;
 
 /// Unknowns over cells of a large planar mesh: velocities at vertices and edges, pressures at vertices.
-const DOFS_OF_CELL: f64 = 4.5;
+pub const DOFS_OF_CELL: f64 = 4.5;
 
 /// Part by which an estimate of cells may be too high.
 const UNCERTAIN: f64 = 1.4;

@@ -39,21 +39,20 @@ impl Solid {
     }
 
     fn in_space(body: &Body) -> Result<Self, RunError> {
-        let volume = match &body.shape {
-            ShapeSpec::Sphere { radius } => ellipsoid([*radius; 3]),
-            ShapeSpec::Spheroid { semi_axes: [along, across] } => {
-                ellipsoid([*along, *across, *across])
-            }
-            ShapeSpec::Ellipsoid { semi_axes } => ellipsoid(*semi_axes),
-            ShapeSpec::Capsule { length, radius } => capsule(*length, *radius),
-            other => {
-                let message = format!("body `{}`: a {} is planar", body.name, other.name());
-                return Err(RunError::Unsupported(message));
-            }
+        let volume = match (&body.shape, body.shape.semi_axes()) {
+            (_, Some(semi_axes)) => ellipsoid(semi_axes),
+            (ShapeSpec::Capsule { length, radius }, None) => capsule(*length, *radius),
+            (_, None) => return Err(no_solid(body)),
         };
         let center = Vector3::from_fn(|axis, _| body.center.get(axis).copied().unwrap_or(0.0));
         Ok(Self { volume, pose: Pose::spatial(center, rotation(body.orientation.as_ref())) })
     }
+}
+
+/// A body with a planar shape, where one in space is wanted.
+pub(in crate::simulation) fn no_solid(body: &Body) -> RunError {
+    let (name, shape) = (&body.name, body.shape.name());
+    RunError::Unsupported(format!("body `{name}`: a {shape} is planar"))
 }
 
 /// Rotation from the body frame to the world.

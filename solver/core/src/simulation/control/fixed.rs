@@ -33,8 +33,8 @@ impl<const D: usize> Run<'_, D> {
         settings: &Unsteady,
     ) -> Result<usize, RunError> {
         let n_steps = settings.n_steps();
-        // A resumed run may be anywhere within a step, and may have made others of another size, whose
-        // number it goes on from
+        // A resumed run may be anywhere within a step, and may have made others of another size, after
+        // whose number its own are counted
         let first = settings.n_steps_to(self.simulation.state.time);
         let numbers = self.simulation.state.step..;
         for (number, index) in numbers.zip(first..n_steps) {

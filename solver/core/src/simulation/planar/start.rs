@@ -18,11 +18,11 @@ use crate::simulation::scene::RemeshError;
 
 impl CaseMesh<2> for Dimension<2> {
     fn generate(model: &Model) -> Result<InitialMesh<2>, RunError> {
-        Ok(initial(model, MeshedCell::generate(model)?))
+        Ok(initial(MeshedCell::generate(model)?))
     }
 
     fn adopt(model: &Model, mesh: Mesh<2>) -> Result<InitialMesh<2>, RunError> {
-        Ok(initial(model, MeshedCell::of(model, mesh)?))
+        Ok(initial(MeshedCell::of(model, mesh)?))
     }
 
     fn images(case: &Case, mesh: &Mesh<2>) -> Vec<Point<2>> {
@@ -39,12 +39,11 @@ impl CaseMesh<2> for Dimension<2> {
 }
 
 /// A mesh with what moves it.
-fn initial(model: &Model, meshed: MeshedCell) -> InitialMesh<2> {
+fn initial(meshed: MeshedCell) -> InitialMesh<2> {
     let MeshedCell { mesh, cell } = meshed;
     let shifts = cell.shifts.iter().map(|shift| Vector3::new(shift.x, shift.y, 0.0)).collect();
-    let model = model.clone();
-    let make: MakeMovingMesh<2> = Box::new(move |problem, mesh, poses| {
-        let planar = Arc::new(PlanarCase::new(&model, problem)?);
+    let make: MakeMovingMesh<2> = Box::new(move |model, problem, mesh, poses| {
+        let planar = Arc::new(PlanarCase::new(model, problem)?);
         let (domain, shapes) = (cell.domain, cell.shapes);
         let moving = || -> Result<_, RemeshError> {
             let scene = PlanarScene::new(Arc::clone(&planar), mesh, domain, shapes, poses.clone())?;
@@ -53,5 +52,5 @@ fn initial(model: &Model, meshed: MeshedCell) -> InitialMesh<2> {
         };
         moving().map_err(RunError::from_remesh)
     });
-    InitialMesh { mesh, shifts, make_moving: Some(make) }
+    InitialMesh { mesh, shifts, make_moving: make }
 }

@@ -5,7 +5,7 @@ use alewife_mesh::{Mesh, Point};
 use nalgebra::{Isometry3, Translation3, Vector3};
 
 use super::RunError;
-use super::build::rotation;
+use super::build::{no_solid, rotation};
 use super::case_mesh::{CaseMesh, Dimension, InitialMesh};
 use super::moving_mesh::MovingMesh;
 use super::resume::Reference;
@@ -26,16 +26,9 @@ impl CaseMesh<3> for Dimension<3> {
         Ok(resting(model, mesh))
     }
 
-    fn images(case: &Case, _mesh: &Mesh<3>) -> Vec<Point<3>> {
-        let (lengths, is_periodic) = (case.extent().lengths(), case.periodic_axes());
-        let mut images = vec![Point::<3>::zeros()];
-        for axis in (0..3).filter(|axis| is_periodic[*axis]) {
-            let along = Point::<3>::ith(axis, lengths[axis]);
-            let around: Vec<Point<3>> =
-                images.iter().flat_map(|image| [image + along, image - along]).collect();
-            images.extend(around);
-        }
-        images
+    /// Itself alone: sides in space are not periodic so far.
+    fn images(_case: &Case, _mesh: &Mesh<3>) -> Vec<Point<3>> {
+        vec![Point::<3>::zeros()]
     }
 
     fn moving_mesh_of(
@@ -55,7 +48,7 @@ fn no_moving_mesh() -> RunError {
 /// A mesh that does not move.
 fn resting(model: &Model, mesh: Mesh<3>) -> InitialMesh<3> {
     let shifts = vec![Vector3::zeros(); model.bodies.len()];
-    InitialMesh { mesh, shifts, make_moving: Some(Box::new(|_, _, _| Err(no_moving_mesh()))) }
+    InitialMesh { mesh, shifts, make_moving: Box::new(|_, _, _, _| Err(no_moving_mesh())) }
 }
 
 /// The domain of a case.
@@ -90,17 +83,13 @@ fn domain(case: &Case) -> Result<Domain, RunError> {
 fn solid(case: &Case, body: &Body) -> Result<Solid, RunError> {
     let shape = match &body.shape {
         ShapeSpec::Sphere { radius } => Shape::Sphere { radius: *radius },
-        ShapeSpec::Spheroid { semi_axes: [along, across] } => {
-            Shape::Ellipsoid { semi_axes: [*along, *across, *across] }
-        }
-        ShapeSpec::Ellipsoid { semi_axes } => Shape::Ellipsoid { semi_axes: *semi_axes },
         ShapeSpec::Capsule { length, radius } => {
             Shape::Capsule { radius: *radius, length: length - 2.0 * radius }
         }
-        planar => {
-            let message = format!("body `{}`: a {} is planar", body.name, planar.name());
-            return Err(RunError::Unsupported(message));
-        }
+        other => match other.semi_axes() {
+            Some(semi_axes) => Shape::Ellipsoid { semi_axes },
+            None => return Err(no_solid(body)),
+        },
     };
     let center = Vector3::from_fn(|axis, _| body.center.get(axis).copied().unwrap_or(f64::NAN));
     let pose =

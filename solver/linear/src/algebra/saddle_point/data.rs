@@ -62,7 +62,7 @@ pub struct Weights {
 }
 
 impl SaddlePoint {
-    /// What a direct solver is told of the unknowns.
+    /// What each unknown is, for a direct solver.
     #[must_use]
     pub fn unknowns(&self) -> Unknowns {
         let mut unknowns = Unknowns::default();
