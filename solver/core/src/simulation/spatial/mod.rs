@@ -1,6 +1,6 @@
 //! What is spatial by nature in a run: solids, their domain, meshes of tetrahedra.
 
-use alewife_mesh::spatial::{Body as Solid, Domain, Shape, generate};
+use alewife_mesh::spatial::{Body as Solid, Domain, Shape, estimate_cells, generate};
 use alewife_mesh::{Mesh, Point};
 use nalgebra::{Isometry3, Translation3, Vector3};
 
@@ -10,6 +10,7 @@ use super::case_mesh::{CaseMesh, Dimension, InitialMesh};
 use super::moving_mesh::MovingMesh;
 use super::resume::Reference;
 use super::sizing::sizing;
+use super::start::check_cells;
 use crate::case::{Body, BoundaryCondition, Case, DomainSpec, Model, ShapeSpec};
 use crate::coupling::Problem;
 
@@ -18,7 +19,9 @@ impl CaseMesh<3> for Dimension<3> {
         let case = &model.case;
         let solids = model.bodies.iter().map(|body| solid(case, body));
         let solids = solids.collect::<Result<Vec<Solid>, RunError>>()?;
-        let mesh = generate(&domain(case)?, &solids, &sizing(case))?;
+        let (domain, sizing) = (domain(case)?, sizing(case));
+        check_cells::<3>(|limit| estimate_cells(&domain, &solids, &sizing, limit))?;
+        let mesh = generate(&domain, &solids, &sizing)?;
         Ok(resting(model, mesh))
     }
 
