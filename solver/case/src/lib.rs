@@ -33,6 +33,7 @@ mod reference;
 mod region;
 mod schema;
 mod skin;
+mod solid;
 mod source;
 mod speed;
 mod stroke;

@@ -10,7 +10,7 @@ use alewife_mesh::{BoundaryId, BoundaryKind, Mesh, Point};
 use self::bodies::rigid_body;
 use self::joints::add_joint;
 use self::sides::side;
-pub(super) use self::solid::{no_solid, rotation};
+pub(super) use self::solid::no_solid;
 use super::RunError;
 use crate::body::Pose;
 use crate::case::{

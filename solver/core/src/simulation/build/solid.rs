@@ -2,10 +2,10 @@
 
 use std::f64::consts::PI;
 
-use nalgebra::{Matrix3, Quaternion, Rotation2, UnitQuaternion, UnitVector3, Vector3};
+use nalgebra::{Matrix3, Rotation2, Vector3};
 
 use crate::body::{Inertia, Pose};
-use crate::case::{Body, Geometry, Orientation, ShapeSpec};
+use crate::case::{Body, Geometry, ShapeSpec};
 use crate::coupling::second_moments;
 use crate::simulation::RunError;
 
@@ -44,8 +44,8 @@ impl Solid {
             (ShapeSpec::Capsule { length, radius }, None) => capsule(*length, *radius),
             (_, None) => return Err(no_solid(body)),
         };
-        let center = Vector3::from_fn(|axis, _| body.center.get(axis).copied().unwrap_or(0.0));
-        Ok(Self { volume, pose: Pose::spatial(center, rotation(body.orientation.as_ref())) })
+        let place = body.pose_in_space();
+        Ok(Self { volume, pose: Pose::spatial(place.translation.vector, place.rotation) })
     }
 }
 
@@ -53,26 +53,6 @@ impl Solid {
 pub(in crate::simulation) fn no_solid(body: &Body) -> RunError {
     let (name, shape) = (&body.name, body.shape.name());
     RunError::Unsupported(format!("body `{name}`: a {shape} is planar"))
-}
-
-/// Rotation from the body frame to the world.
-pub(in crate::simulation) fn rotation(orientation: Option<&Orientation>) -> UnitQuaternion<f64> {
-    match orientation {
-        None => UnitQuaternion::identity(),
-        Some(Orientation::Turned { axis, angle }) => {
-            let axis = UnitVector3::new_normalize(Vector3::from(*axis));
-            UnitQuaternion::from_axis_angle(&axis, *angle)
-        }
-        Some(Orientation::Quaternion([w, x, y, z])) => {
-            UnitQuaternion::from_quaternion(Quaternion::new(*w, *x, *y, *z))
-        }
-        Some(Orientation::Along(direction)) => {
-            // Opposite directions leave the axis open: about z
-            let half_turn = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), PI);
-            UnitQuaternion::rotation_between(&Vector3::x(), &Vector3::from(*direction))
-                .unwrap_or(half_turn)
-        }
-    }
 }
 
 /// An ellipsoid of unit density: m (b^2 + c^2) / 5 about its first axis.
@@ -133,20 +113,6 @@ mod tests {
             for (own, sum) in own.iter().zip(slices) {
                 assert!((own / sum - 1.0).abs() < 1e-8, "{own} {sum}");
             }
-        }
-    }
-
-    #[test]
-    fn orientations_turn_the_axis_of_the_body() {
-        let ahead = |orientation| rotation(Some(&orientation)) * Vector3::x();
-        let turned = Orientation::Turned { axis: [0.0, 0.0, 2.0], angle: PI / 2.0 };
-        assert!((ahead(turned) - Vector3::y()).norm() < 1e-15);
-        let quarter = (PI / 4.0).sin_cos();
-        let quaternion = Orientation::Quaternion([quarter.1, 0.0, quarter.0, 0.0]);
-        assert!((ahead(quaternion) + Vector3::z()).norm() < 1e-15);
-        for along in [[1.0, 2.0, -2.0], [-3.0, 0.0, 0.0]] {
-            let direction = Vector3::from(along).normalize();
-            assert!((ahead(Orientation::Along(along)) - direction).norm() < 1e-15);
         }
     }
 }
