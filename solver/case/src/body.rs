@@ -10,6 +10,7 @@ use super::gait::{
     AnguilliformGait, CarangiformGait, FishShape, FlagellateShape, FlagellumGait, JointsGait,
     PulsatingGait, TubeShape,
 };
+use super::solid_shape::{HelixShape, PartSpec};
 
 /// `shape`: one of these, in the body's own frame.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -60,6 +61,15 @@ pub enum ShapeSpec {
         /// Radius (m).
         radius: f64,
     },
+    /// Tube along a helix about the body's x axis (spatial).
+    Helix(HelixShape),
+    /// Smooth profile turned about the body's x axis (spatial).
+    Revolved {
+        /// Points (x, distance from the axis) of the profile (m), the first and the last on the axis.
+        profile: Vec<[f64; 2]>,
+    },
+    /// All points of several parts, such as a head and a flagellum (spatial).
+    Union(Vec<PartSpec>),
 }
 
 /// How a body moves as a whole.

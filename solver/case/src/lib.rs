@@ -35,6 +35,7 @@ mod region;
 mod schema;
 mod skin;
 mod solid;
+mod solid_shape;
 mod source;
 mod speed;
 mod stroke;
@@ -78,6 +79,7 @@ pub use reference::{
 };
 pub use region::{Extent, normal_axis, opposite};
 pub use schema::schema;
+pub use solid_shape::{HelixShape, PartSpec};
 pub use source::Location;
 pub use stroke::{Stroke, smooth_ramp};
 pub use swimmer::{Copies, Pivot, Skin, SwimmerKind, SwimmerSpec};

@@ -2,10 +2,10 @@
 
 use std::f64::consts::PI;
 
-use alewife_mesh::spatial::{Body as SolidBody, Domain, Shape};
+use alewife_mesh::spatial::{Body as SolidBody, Centreline, Domain, Part, Shape};
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion, UnitVector3, Vector3};
 
-use super::{Body, BoundaryCondition, Case, DomainSpec, Orientation, ShapeSpec};
+use super::{Body, BoundaryCondition, Case, DomainSpec, HelixShape, Orientation, ShapeSpec};
 
 impl Orientation {
     /// Rotation from the body frame to the world.
@@ -65,32 +65,56 @@ impl Body {
     /// The body as a mesh in space sees it; `None` of a planar shape.
     #[must_use]
     pub fn solid(&self, scale: f64) -> Option<SolidBody> {
-        let size = self.size.map(|size| scale * size);
-        let shape = self.shape.in_space()?;
-        Some(SolidBody { size, ..SolidBody::new(&self.name, shape, self.pose_in_space()) })
+        Some(SolidBody {
+            name: self.name.clone(),
+            parts: self.shape.parts()?,
+            pose: self.pose_in_space(),
+            size: self.size.map(|size| scale * size),
+        })
     }
 
     /// Place of the body frame in three dimensions (m).
     #[must_use]
     pub fn pose_in_space(&self) -> Isometry3<f64> {
         let center = Vector3::from_fn(|axis, _| self.center.get(axis).copied().unwrap_or(f64::NAN));
-        let rotation = self
-            .orientation
-            .as_ref()
-            .map_or(UnitQuaternion::identity(), |orientation| orientation.rotation());
-        Isometry3::from_parts(Translation3::from(center), rotation)
+        place(center, self.orientation.as_ref())
     }
 }
 
+/// A place (m) with an orientation, if there is one.
+fn place(center: Vector3<f64>, orientation: Option<&Orientation>) -> Isometry3<f64> {
+    let rotation = orientation.map_or_else(UnitQuaternion::identity, Orientation::rotation);
+    Isometry3::from_parts(Translation3::from(center), rotation)
+}
+
 impl ShapeSpec {
-    /// The solid to be meshed; `None` of a planar shape.
-    fn in_space(&self) -> Option<Shape> {
+    /// The solids it is made of, in the frame of the body (m); `None` of a planar shape.
+    #[must_use]
+    pub fn parts(&self) -> Option<Vec<Part>> {
+        let one = |shape| Some(vec![Part { shape, pose: Isometry3::identity() }]);
         match self {
-            Self::Sphere { radius } => Some(Shape::Sphere { radius: *radius }),
+            Self::Sphere { radius } => one(Shape::Sphere { radius: *radius }),
             Self::Capsule { length, radius } => {
-                Some(Shape::Capsule { radius: *radius, length: length - 2.0 * radius })
+                one(Shape::Capsule { radius: *radius, length: length - 2.0 * radius })
             }
-            other => Some(Shape::Ellipsoid { semi_axes: other.semi_axes()? }),
+            Self::Helix(HelixShape { radius, pitch, turns, tube_radius }) => {
+                let centreline =
+                    Centreline::Helix { radius: *radius, pitch: *pitch, turns: *turns };
+                one(Shape::Tube { centreline, radius: *tube_radius })
+            }
+            Self::Revolved { profile } => one(Shape::Revolved { profile: profile.clone() }),
+            Self::Union(parts) => {
+                let mut all = Vec::new();
+                for part in parts {
+                    let pose = place(part.center.into(), part.orientation.as_ref());
+                    let own = part.shape.parts()?.into_iter();
+                    all.extend(
+                        own.map(|Part { shape, pose: own }| Part { shape, pose: pose * own }),
+                    );
+                }
+                Some(all)
+            }
+            other => one(Shape::Ellipsoid { semi_axes: other.semi_axes()? }),
         }
     }
 }

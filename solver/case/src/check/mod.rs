@@ -20,6 +20,7 @@ mod near;
 mod placement;
 mod references;
 mod skin;
+mod solid;
 mod space;
 mod spring;
 mod strokes;

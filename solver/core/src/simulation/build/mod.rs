@@ -51,7 +51,7 @@ pub fn build_problem<const D: usize>(
         sides.push(match known.kind {
             BoundaryKind::Body(body) => {
                 let boundary = BoundaryId::new(boundary);
-                bodies.push(rigid_body(case, &model.bodies[body], boundary, metric)?);
+                bodies.push(rigid_body(case, &model.bodies[body], mesh, boundary, metric)?);
                 None
             }
             BoundaryKind::Axis => Some(Side::Symmetry { normal_axis: Metric::RADIAL }),
