@@ -116,7 +116,8 @@ def render_surface(
         clim=limits,
         show_scalar_bar=False,
         smooth_shading=True,
-        specular=0.2,
+        ambient=0.6,
+        diffuse=0.45,
     )
     azimuth, elevation = np.radians(camera)
     towards = np.array(

@@ -21,6 +21,15 @@ Camera = tuple[float, float]
 AXES = "xyz"
 POINTS = 400
 """Points on the longer side of a slice."""
+TETRAHEDRON = 10
+"""VTK's number of a cell with straight sides."""
+PIECES = np.array(
+    [
+        [0, 4, 6, 7], [4, 1, 5, 8], [6, 5, 2, 9], [7, 8, 9, 3],
+        [4, 5, 6, 8], [4, 6, 7, 8], [6, 9, 7, 8], [5, 9, 6, 8],
+    ]
+)  # fmt: skip
+"""Nodes of the pieces of a quadratic tetrahedron: its corners, and what is left about edge 6-8."""
 ON_SIDE = 1e-5
 """Distance from a side over the size of the domain below which a node is on it."""
 SUBDIVISION = 3
@@ -75,6 +84,8 @@ def slice_picture(
         axes.streamplot(
             x, y, velocity[..., 0], velocity[..., 1], color=colour, linewidth=0.6, arrowsize=0.6
         )
+    for section in sections(run, field, axis, height):
+        axes.fill(*section[:, across].T, color=style.BODY, zorder=3)
     units = run.case.get("units", "")
     axes.set_xlim(view[0], view[1])
     axes.set_ylim(view[2], view[3])
@@ -119,14 +130,40 @@ def sample(field: Field, points: Array, quantity: str) -> dict[str, Array]:
     """Values and velocity at points `(n, 3)`, masked outside the fluid."""
     import pyvista
 
+    # VTK looks for points in curved cells by iterations that end early: eight straight pieces of
+    # each cell, with its nodes, are as good in a picture
     grid = _grid(field, quantity)
-    found = pyvista.PolyData(points).sample(grid)
+    pieces = field.cells[:, PIECES].reshape(-1, 4)
+    straight = pyvista.UnstructuredGrid({TETRAHEDRON: pieces}, field.nodes)
+    for name in ("values", "velocity"):
+        straight.point_data[name] = grid.point_data[name]
+    found = pyvista.PolyData(points).sample(straight)
     is_outside = np.asarray(found.point_data["vtkValidPointMask"]) == 0
     velocity = np.asarray(found.point_data["velocity"])
     return {
         "values": np.ma.masked_array(found.point_data["values"], is_outside),
         "velocity": np.ma.masked_array(velocity, np.repeat(is_outside[:, None], 3, axis=1)),
     }
+
+
+def sections(run: Run, field: Field, axis: int, height: float) -> list[Array]:
+    """Curves `(n, 3)` in which a plane cuts the bodies."""
+    try:
+        surface = bodies_surface(run, field, "pressure")
+    except ValueError:
+        return []
+    origin = [height if own == axis else 0.0 for own in range(3)]
+    cut = surface.slice(normal=AXES[axis], origin=origin)
+    if cut.n_cells == 0:
+        return []
+    strips = cut.strip(join=True)
+    points, lines = np.asarray(strips.points), strips.lines
+    found, start = [], 0
+    while start < len(lines):
+        n = lines[start]
+        found.append(points[lines[start + 1 : start + 1 + n]])
+        start += n + 1
+    return found
 
 
 def bodies_surface(run: Run, field: Field, quantity: str):  # noqa: ANN201  (loads VTK)
