@@ -135,6 +135,15 @@ impl SmoothSurface {
         }
     }
 
+    /// Radius (m) of a solid sphere; `None` of other surfaces.
+    #[must_use]
+    pub fn radius_of_sphere(&self) -> Option<f64> {
+        match self.form {
+            Form::Sphere(radius) if !self.is_hollow => Some(radius),
+            _ => None,
+        }
+    }
+
     /// A lower bound of the gap to a point (m), at little cost.
     #[must_use]
     pub fn least_gap(&self, point: Point<3>) -> f64 {
