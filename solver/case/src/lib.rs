@@ -48,7 +48,8 @@ mod variants;
 
 pub use axial_vector::AxialVector;
 pub use body::{
-    Body, GaitSpec, ImposedMotion, Lock, Motion, Orientation, ShapeSpec, SpringSpec, SquirmerGait,
+    Body, GaitSpec, HelixShape, ImposedMotion, Lock, Motion, Orientation, PartSpec, ShapeSpec,
+    SpringSpec, SquirmerGait,
 };
 pub use case::Case;
 pub use check::check;
@@ -79,7 +80,6 @@ pub use reference::{
 };
 pub use region::{Extent, normal_axis, opposite};
 pub use schema::schema;
-pub use solid_shape::{HelixShape, PartSpec};
 pub use source::Location;
 pub use stroke::{Stroke, smooth_ramp};
 pub use swimmer::{Copies, Pivot, Skin, SwimmerKind, SwimmerSpec};
