@@ -1,10 +1,10 @@
-//! Resistances of a body near a wall: symmetric, and the inverse of the velocities of the free body.
+//! Resistances of a body near a wall are symmetric, and invert the velocities of the free body.
 
 use alewife_core::simulation::{RunSummary, simulate};
 use nalgebra::Vector3;
 use tests::cases::{case, last};
 
-/// An oblique ellipsoid above the wall of a box, on a coarse mesh of more unknowns than are factorised.
+/// An oblique ellipsoid above the wall of a box, on a coarse mesh that is solved iteratively.
 fn ellipsoid(motion: &str) -> RunSummary {
     let text = format!(
         r#"
