@@ -138,10 +138,8 @@ impl SmoothSurface {
     /// Radius (m) of a solid sphere; `None` of other surfaces.
     #[must_use]
     pub fn radius_of_sphere(&self) -> Option<f64> {
-        match (&self.form, self.is_hollow) {
-            (Form::Sphere(radius), false) => Some(*radius),
-            _ => None,
-        }
+        let Form::Sphere(radius) = self.form else { return None };
+        (!self.is_hollow).then_some(radius)
     }
 
     /// A lower bound of the gap to a point (m), at little cost.
