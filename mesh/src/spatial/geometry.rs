@@ -38,6 +38,8 @@ pub struct Geometry {
     pub boundaries: Vec<Boundary>,
     /// Corners of a box around the fluid (m).
     pub corners: [Point<3>; 2],
+    /// Lengths of the box along which it is periodic (m), zero along others.
+    pub periods: Point<3>,
 }
 
 impl Geometry {
@@ -50,12 +52,14 @@ impl Geometry {
         let mut boundaries = Vec::new();
         for (side, (name, surface)) in domain.sides().iter().zip(&mut surfaces).enumerate() {
             boundaries.push(Boundary { name: (*name).to_owned(), kind: BoundaryKind::Side });
-            let own = sizing.sides.iter().filter(|(named, _)| named == name);
+            let is_own = |named: &str| named == *name || domain.twin(side) == Some(named);
+            let own = sizing.sides.iter().filter(|(named, _)| is_own(named));
             let own = own.map(|(_, size)| *size).fold(f64::INFINITY, f64::min);
             surface.boundary = BoundaryId::new(side);
             surface.size = own.min(sizing.size).min(domain.facing(side) / sizing.gap_layers);
             surface.turn = sizing.turn;
             surface.is_symmetry = domain.is_symmetric(side);
+            surface.is_periodic = domain.is_periodic(side);
         }
         let far = Point::<3>::zeros();
         let mut groups = vec![Group {
@@ -79,7 +83,8 @@ impl Geometry {
             }));
             groups.push(around(&surfaces, first));
         }
-        Ok(Self { surfaces, groups, boundaries, corners: domain.corners() })
+        let corners = domain.corners();
+        Ok(Self { surfaces, groups, boundaries, corners, periods: domain.periods() })
     }
 
     /// Whether a body has several parts, whose surfaces may meet.

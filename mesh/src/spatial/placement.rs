@@ -31,6 +31,14 @@ pub fn check_placement(domain: &Domain, bodies: &[Body]) -> Result<(), MeshError
         for surface in surfaces_of(body)? {
             for (side, wall) in walls.iter().enumerate() {
                 let gap = least_gap(&surface, wall);
+                if gap.is_refused(&surface) && domain.is_periodic(side) {
+                    return Err(MeshError::BodyMeetsPeriodicSide {
+                        body: body.name.clone(),
+                        side: domain.sides()[side],
+                        gap: gap.value,
+                        at: gap.at.into(),
+                    });
+                }
                 // A body that crosses a plane of symmetry is cut by it
                 if gap.is_refused(&surface) && !domain.is_symmetric(side) {
                     return Err(MeshError::BodyMeetsSide {
@@ -82,10 +90,6 @@ fn check_domain(domain: &Domain) -> Result<(), MeshError> {
         Domain::Cylinder { .. } => ["length", "radius", "radius"],
         Domain::Ball { .. } => ["radius"; 3],
     };
-    if (0..domain.sides().len()).any(|side| domain.is_periodic(side)) {
-        // Not made yet: facets of the two sides would have to match
-        return Err(MeshError::PeriodicInSpace);
-    }
     for (axis, what) in what.into_iter().enumerate() {
         let value = max[axis] - min[axis];
         if !value.is_finite() || value <= 0.0 {

@@ -1,5 +1,6 @@
 //! Any valid placement of bodies in space gives a good mesh: invariants, angles, volume, surfaces.
 
+mod periodic;
 mod random;
 
 use std::f64::consts::PI;

@@ -65,6 +65,8 @@ pub struct SmoothSurface {
     pub turn: f64,
     /// Whether it is a plane of symmetry, which is no wall.
     pub is_symmetry: bool,
+    /// Whether it is one of a pair of periodic sides, where the fluid goes on.
+    pub is_periodic: bool,
     /// Places on it where it bends more than around them, with the edge lengths wanted there.
     pub bends: Vec<Bend>,
 }
@@ -94,6 +96,7 @@ impl SmoothSurface {
             size: f64::INFINITY,
             turn: f64::INFINITY,
             is_symmetry: false,
+            is_periodic: false,
             bends: Vec::new(),
         }
     }
@@ -120,6 +123,12 @@ impl SmoothSurface {
     #[must_use]
     pub fn origin(&self) -> Point<3> {
         self.origin
+    }
+
+    /// Whether it is a wall or a body, which other surfaces may leave a gap to.
+    #[must_use]
+    pub fn is_solid(&self) -> bool {
+        !self.is_symmetry && !self.is_periodic
     }
 
     /// Radius of a ball about the origin that holds the surface (m); infinite without one.
