@@ -23,7 +23,7 @@ pub struct Group {
     pub center: Point<3>,
     /// Its radius (m), infinite for the domain.
     pub reach: f64,
-    /// Planes of symmetry that cut them.
+    /// Planes of symmetry that cut them, and sides that they go through.
     pub cut_by: Vec<usize>,
 }
 
@@ -179,6 +179,7 @@ pub fn surfaces_of(body: &Body) -> Result<Vec<SmoothSurface>, MeshError> {
             Shape::Capsule { radius, length } => {
                 Form::Capsule { radius: *radius, half_length: 0.5 * length }
             }
+            Shape::Cylinder { radius } => Form::Cylinder(*radius),
             Shape::Revolved { profile } => {
                 Form::Revolved(Arc::new(Revolved::new(&body.name, profile)?))
             }
@@ -198,8 +199,12 @@ fn around(surfaces: &[SmoothSurface], first: usize) -> Group {
     let center = middle / own.len().max(1) as f64;
     let reach = own.iter().map(|surface| (surface.origin() - center).norm() + surface.reach());
     let reach = reach.fold(0.0, f64::max);
-    let is_cut = |plane: &SmoothSurface| own.iter().any(|surface| surface.crosses(plane));
-    let planes = surfaces[..first].iter().enumerate().filter(|(_, plane)| plane.is_symmetry);
+    let is_cut = |plane: &SmoothSurface| {
+        own.iter().any(|surface| {
+            surface.goes_through(plane) || (plane.is_symmetry && surface.crosses(plane))
+        })
+    };
+    let planes = surfaces[..first].iter().enumerate().filter(|(_, plane)| plane.is_flat());
     let cut_by = planes.filter(|(_, plane)| is_cut(plane)).map(|(side, _)| side).collect();
     Group { first, last: surfaces.len(), center, reach, cut_by }
 }

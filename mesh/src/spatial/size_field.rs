@@ -77,6 +77,7 @@ impl SizeField {
             size = size.min(one.size + self.growth * bounds.squared_distance(&point).sqrt());
         }
         // The domain comes first, then bodies as far as they can matter
+        let mut to_walls = f64::INFINITY;
         let (domain, bodies) = self.geometry.groups.split_at(1);
         let (mut nearest, mut second) = (f64::INFINITY, f64::INFINITY);
         let copies = bodies.iter().flat_map(|body| self.shifts.iter().map(move |s| (body, s)));
@@ -88,9 +89,17 @@ impl SizeField {
             }
             let wish = self.wish(group, seen);
             size = size.min(wish.size);
-            if group.first > 0 {
-                size = size.min(self.size_before_sides(group, wish.distance, point));
+            if group.first == 0 {
+                to_walls = wish.distance;
+                continue;
             }
+            size = size.min(self.size_before_sides(group, wish.distance, point));
+            let facing = if group.cut_by.is_empty() {
+                to_walls
+            } else {
+                self.distance_to_walls(&group.cut_by, point)
+            };
+            size = size.min((wish.distance + facing) / self.layers);
             if wish.distance < nearest {
                 (nearest, second) = (wish.distance, nearest);
             } else if wish.distance < second {
@@ -98,6 +107,13 @@ impl SizeField {
             }
         }
         size.min((nearest + second) / self.layers)
+    }
+
+    /// Distance to the nearest wall but for some sides (m).
+    fn distance_to_walls(&self, but: &[usize], point: Point<3>) -> f64 {
+        let sides = self.geometry.surfaces[..self.geometry.groups[0].last].iter().enumerate();
+        let walls = sides.filter(|(side, plane)| plane.is_solid() && !but.contains(side));
+        walls.map(|(_, plane)| plane.gap(point).abs()).fold(f64::INFINITY, f64::min)
     }
 
     /// The edge length wanted between a body at a distance (m) and sides that are no walls.

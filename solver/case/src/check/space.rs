@@ -2,7 +2,7 @@
 
 use super::Findings;
 use crate::speed::norm;
-use crate::{Body, GaitSpec, Geometry, Motion};
+use crate::{Body, DomainSpec, GaitSpec, Geometry, Motion};
 
 /// Difference of the length of a quaternion from 1 that is taken for rounding.
 const ROUNDING: f64 = 1e-6;
@@ -25,11 +25,13 @@ pub fn check(findings: &mut Findings<'_>) {
 /// What is not solved in three dimensions so far.
 fn check_supported(findings: &mut Findings<'_>) {
     let (case, model) = (findings.case(), findings.model());
+    let has_periods = case.periodic_axes().contains(&true);
+    let is_box = matches!(case.domain, DomainSpec::Box { .. });
     let missing = [
         ("joint", !case.joint.is_empty(), "joints"),
         ("swimmer", !case.swimmer.is_empty(), "swimmers of several bodies"),
         ("contact", case.contact.is_some(), "contact"),
-        ("boundary", case.periodic_axes().contains(&true), "periodic sides"),
+        ("boundary", has_periods && !is_box, "periodic sides of other domains than a box"),
         ("frame", case.frame.is_some() && model.mesh_moves(), "a frame that other bodies move in"),
     ];
     for (key, is_there, what) in missing {
