@@ -24,6 +24,7 @@ impl ShapeSpec {
             Self::Spheroid { .. } => "spheroid",
             Self::Ellipsoid { .. } => "ellipsoid",
             Self::Capsule { .. } => "capsule",
+            Self::Cylinder { .. } => "cylinder",
         }
     }
 
@@ -40,7 +41,9 @@ impl ShapeSpec {
             Self::Sphere { .. } | Self::Spheroid { .. } => {
                 &[Geometry::Axisymmetric, Geometry::Spatial]
             }
-            Self::Ellipsoid { .. } | Self::Capsule { .. } => &[Geometry::Spatial],
+            Self::Ellipsoid { .. } | Self::Capsule { .. } | Self::Cylinder { .. } => {
+                &[Geometry::Spatial]
+            }
         }
     }
 
@@ -102,7 +105,9 @@ impl ShapeSpec {
             Self::Sphere { radius } => Shape::Sphere { radius },
             Self::Spheroid { semi_axes } => Shape::Spheroid { semi_axes },
             // Shapes in space have none
-            Self::Ellipsoid { .. } | Self::Capsule { .. } => Shape::Spline { points: Vec::new() },
+            Self::Ellipsoid { .. } | Self::Capsule { .. } | Self::Cylinder { .. } => {
+                Shape::Spline { points: Vec::new() }
+            }
         }
     }
 
@@ -133,6 +138,7 @@ impl ShapeSpec {
                 0.5 * ellipse([sorted[2], sorted[1]])
             }
             Self::Capsule { length, radius } => length + (PI - 2.0) * radius,
+            Self::Cylinder { length, .. } => *length,
         }
     }
 
@@ -156,6 +162,7 @@ impl ShapeSpec {
             Self::Capsule { length, radius } => {
                 PI * radius * radius * (length - 2.0 / 3.0 * radius)
             }
+            Self::Cylinder { length, radius, .. } => PI * radius * radius * length,
             _ => self.outline().moments().map_or(0.0, |moments| moments.measure),
         }
     }
@@ -171,7 +178,9 @@ impl ShapeSpec {
                 let mean = (power(a * b) + power(a * c) + power(b * c)) / 3.0;
                 4.0 * PI * mean.powf(1.0 / 1.6075)
             }
-            (Self::Capsule { length, radius }, None) => 2.0 * PI * radius * length,
+            (Self::Capsule { length, radius } | Self::Cylinder { length, radius, .. }, None) => {
+                2.0 * PI * radius * length
+            }
             (_, None) => 0.0,
         }
     }
@@ -182,6 +191,7 @@ impl ShapeSpec {
         match self {
             Self::Ellipsoid { semi_axes } => semi_axes.iter().copied().fold(0.0, f64::max),
             Self::Capsule { length, .. } => 0.5 * length,
+            Self::Cylinder { length, radius, .. } => radius.hypot(0.5 * length),
             Self::Disc { radius } | Self::Sphere { radius } => *radius,
             Self::Ellipse { semi_axes: [a, b] } | Self::Spheroid { semi_axes: [a, b] } => a.max(*b),
             Self::Spline { .. } | Self::Fish(_) | Self::Flagellate(_) | Self::Tube(_) => {
@@ -197,7 +207,7 @@ impl ShapeSpec {
             Self::Ellipsoid { semi_axes } => {
                 semi_axes.iter().copied().fold(f64::INFINITY, f64::min)
             }
-            Self::Capsule { radius, .. } => *radius,
+            Self::Capsule { radius, .. } | Self::Cylinder { radius, .. } => *radius,
             Self::Disc { radius } | Self::Sphere { radius } => *radius,
             Self::Ellipse { semi_axes: [a, b] } | Self::Spheroid { semi_axes: [a, b] } => a.min(*b),
             Self::Spline { .. } | Self::Fish(_) | Self::Flagellate(_) | Self::Tube(_) => {

@@ -45,7 +45,8 @@ mod variants;
 
 pub use axial_vector::AxialVector;
 pub use body::{
-    Body, GaitSpec, ImposedMotion, Lock, Motion, Orientation, ShapeSpec, SpringSpec, SquirmerGait,
+    Body, CylinderAxis, GaitSpec, ImposedMotion, Lock, Motion, Orientation, ShapeSpec, SpringSpec,
+    SquirmerGait,
 };
 pub use case::Case;
 pub use check::check;

@@ -88,6 +88,32 @@ impl Case {
         ["left", "bottom", "back"].map(is_periodic)
     }
 
+    /// The walls of a channel, with its images behind axis and planes of symmetry (m), along each
+    /// coordinate; `None` without walls.
+    #[must_use]
+    pub fn walls_across(&self) -> [Option<[f64; 2]>; 3] {
+        let extent = self.extent();
+        let is_mirror = |side: &str| {
+            let condition = self.boundary.get(side);
+            matches!(condition, Some(BoundaryCondition::Symmetry | BoundaryCondition::Axis))
+        };
+        let is_periodic = self.periodic_axes();
+        let is_axisymmetric = self.geometry == Geometry::Axisymmetric;
+        let pairs = [["left", "right"], ["bottom", "top"], ["back", "front"]];
+        std::array::from_fn(|axis| {
+            let [low, high] = [extent.min[axis], extent.max[axis]];
+            if is_axisymmetric && axis == 1 {
+                return Some([-high, high]);
+            }
+            match pairs[axis].map(is_mirror) {
+                [false, false] => (!is_periodic[axis]).then_some([low, high]),
+                [true, false] => Some([2.0 * low - high, high]),
+                [false, true] => Some([low, 2.0 * high - low]),
+                [true, true] => None,
+            }
+        })
+    }
+
     /// Names of the sides of the domain.
     #[must_use]
     pub fn sides(&self) -> &'static [&'static str] {

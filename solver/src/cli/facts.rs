@@ -135,6 +135,10 @@ fn body_line(case: &Case, body: &crate::case::Body) -> String {
                 significant(*radius)
             )
         }
+        ShapeSpec::Cylinder { radius, axis, .. } => {
+            let along = ["x", "y", "z"][axis.index()];
+            format!("cylinder of radius {} through the box along {along}", significant(*radius))
+        }
         ShapeSpec::Spline { points } => format!("spline through {} points", points.len()),
         ShapeSpec::Fish(fish) => format!("fish of length {}", significant(fish.length)),
         ShapeSpec::Flagellate(flagellate) => {

@@ -190,6 +190,12 @@ pub fn scene(bodies: &[Body], geometry: Geometry, time: f64) -> Value {
                 let end = |x| placed_solid(x, &UnitQuaternion::identity(), [*radius; 3]);
                 spheres.extend([-half, half].map(end));
             }
+            ShapeSpec::Cylinder { radius, axis, length } => {
+                let along = [Vector3::x(), Vector3::y(), Vector3::z()][axis.index()];
+                let turn = UnitQuaternion::rotation_between(&Vector3::z(), &along);
+                let turn = turn.unwrap_or_else(UnitQuaternion::identity);
+                cylinders.push(placed_solid(0.0, &turn, [*radius, *radius, 0.5 * length]));
+            }
             ShapeSpec::Spline { .. }
             | ShapeSpec::Fish(_)
             | ShapeSpec::Flagellate(_)

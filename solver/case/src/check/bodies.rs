@@ -99,7 +99,7 @@ fn check_shape(findings: &mut Findings<'_>, key: &str, shape: &ShapeSpec) {
     let allowed = match case.geometry {
         Geometry::Planar => "disc, ellipse, spline, fish, flagellate",
         Geometry::Axisymmetric => "sphere, spheroid",
-        Geometry::Spatial => "sphere, spheroid, ellipsoid, capsule",
+        Geometry::Spatial => "sphere, spheroid, ellipsoid, capsule, cylinder",
     };
     let name = shape.name();
     if !shape.geometries().contains(&case.geometry) {
@@ -126,6 +126,9 @@ fn check_shape(findings: &mut Findings<'_>, key: &str, shape: &ShapeSpec) {
                     "the length from end to end is larger than twice the radius",
                 );
             }
+        }
+        ShapeSpec::Cylinder { radius, .. } => {
+            findings.positive(&format!("{key}.cylinder.radius"), *radius);
         }
         ShapeSpec::Fish(_) | ShapeSpec::Flagellate(_) => gait::check_shape(findings, key, shape),
         // Its links are checked

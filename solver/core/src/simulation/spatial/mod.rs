@@ -10,7 +10,7 @@ use super::case_mesh::{CaseMesh, Dimension, InitialMesh};
 use super::moving_mesh::MovingMesh;
 use super::resume::Reference;
 use super::sizing::sizing;
-use crate::case::{Body, BoundaryCondition, Case, DomainSpec, Model, ShapeSpec};
+use crate::case::{Body, BoundaryCondition, Case, DomainSpec, Model, Orientation, ShapeSpec};
 use crate::coupling::Problem;
 
 impl CaseMesh<3> for Dimension<3> {
@@ -86,14 +86,19 @@ fn solid(case: &Case, body: &Body) -> Result<Solid, RunError> {
         ShapeSpec::Capsule { length, radius } => {
             Shape::Capsule { radius: *radius, length: length - 2.0 * radius }
         }
+        ShapeSpec::Cylinder { radius, .. } => Shape::Cylinder { radius: *radius },
         other => match other.semi_axes() {
             Some(semi_axes) => Shape::Ellipsoid { semi_axes },
             None => return Err(no_solid(body)),
         },
     };
     let center = Vector3::from_fn(|axis, _| body.center.get(axis).copied().unwrap_or(f64::NAN));
-    let pose =
-        Isometry3::from_parts(Translation3::from(center), rotation(body.orientation.as_ref()));
+    let mut turn = rotation(body.orientation.as_ref());
+    if let ShapeSpec::Cylinder { axis, .. } = &body.shape {
+        let along = [Vector3::x(), Vector3::y(), Vector3::z()][axis.index()];
+        turn = rotation(Some(&Orientation::Along(along.into())));
+    }
+    let pose = Isometry3::from_parts(Translation3::from(center), turn);
     let size = body.size.map(|size| size * case.mesh.scale);
     Ok(Solid { size, ..Solid::new(&body.name, shape, pose) })
 }
