@@ -186,3 +186,32 @@ impl Case {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::Case;
+
+    /// A parabola has its largest value at a plane of symmetry, and none where there are no walls.
+    #[test]
+    fn the_walls_of_a_channel_are_behind_its_planes_of_symmetry() {
+        let text = "title = 't'
+geometry = 'spatial'
+fluid = { model = 'stokes', viscosity = 1.0 }
+domain.box = { min = [0.0, 0.0, 1.0], max = [4.0, 2.0, 2.0] }
+boundary = { left = { parabolic = { peak = 1.0 } }, right = 'do-nothing', bottom = 'no-slip', \
+             top = 'no-slip', back = 'no-slip', front = 'symmetry' }
+mesh = { size = 0.3 }
+time = { steady = {} }
+";
+        let across = |settings: &[&str]| {
+            let settings: Vec<String> = settings.iter().map(|&one| one.to_owned()).collect();
+            Case::parse("t.toml", text, &settings).unwrap().model.case.walls_across()
+        };
+        assert_eq!(across(&[])[1..], [Some([0.0, 2.0]), Some([1.0, 3.0])]);
+        let back = "boundary.back='symmetry'";
+        assert_eq!(across(&[back])[2], None);
+        assert_eq!(across(&[back, "boundary.front='no-slip'"])[2], Some([0.0, 2.0]));
+        let pair = ["boundary.back={ periodic = 'front' }", "boundary.front={ periodic = 'back' }"];
+        assert_eq!(across(&pair)[2], None);
+    }
+}
