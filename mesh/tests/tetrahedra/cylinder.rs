@@ -10,7 +10,7 @@ use super::{SMALLEST_ANGLE, assert_free_velocities, assert_surfaces, at, sizing,
 
 /// A cylinder along an axis through a point.
 fn cylinder(name: &str, radius: f64, pose: Isometry3<f64>, axis: Vector3<f64>) -> Body {
-    let turn = UnitQuaternion::rotation_between(&Vector3::x(), &axis).unwrap();
+    let turn = UnitQuaternion::rotation_between(&Vector3::x(), &axis).unwrap_or_default();
     Body::new(name, Shape::Cylinder { radius }, pose * turn)
 }
 
