@@ -74,21 +74,22 @@ fn check_apart(
     if apart > (surface.reach() + facing.reach()) * (1.0 + SMALLEST_GAP) {
         return Ok(());
     }
-    let gaps = match (surface.endless_axis(), facing.endless_axis()) {
-        (None, None) => vec![least_gap(surface, facing), least_gap(facing, surface)],
-        (None, Some(_)) => vec![least_gap(surface, facing)],
-        (Some(_), None) => vec![least_gap(facing, surface)],
-        (Some(one), Some(other)) => vec![between_axes(surface, facing, &one.cross(&other))],
-    };
-    for gap in gaps {
-        if gap.is_refused(surface) {
-            return Err(MeshError::BodiesMeet {
-                first: other.name.clone(),
-                second: body.name.clone(),
-                gap: gap.value,
-                at: gap.at.into(),
-            });
+    let gap = match (surface.endless_axis(), facing.endless_axis()) {
+        (None, None) => {
+            let [one, two] = [least_gap(surface, facing), least_gap(facing, surface)];
+            if two.value < one.value { two } else { one }
         }
+        (None, Some(_)) => least_gap(surface, facing),
+        (Some(_), None) => least_gap(facing, surface),
+        (Some(one), Some(other)) => between_axes(surface, facing, &one.cross(&other)),
+    };
+    if gap.is_refused(surface) {
+        return Err(MeshError::BodiesMeet {
+            first: other.name.clone(),
+            second: body.name.clone(),
+            gap: gap.value,
+            at: gap.at.into(),
+        });
     }
     Ok(())
 }
@@ -212,6 +213,11 @@ fn least_gap(surface: &SmoothSurface, other: &SmoothSurface) -> Least {
         let value = if surface.goes_through(other) { f64::NEG_INFINITY } else { value };
         return Least { value, at: surface.origin() };
     }
+    if let Some(radius) = surface.radius_of_sphere() {
+        let foot = other.foot(surface.origin());
+        let at = surface.origin() - foot.normal * radius;
+        return Least { value: foot.gap - radius, at };
+    }
     let mut starts: Vec<Least> = directions(STARTS)
         .map(|direction| {
             let at = surface.foot(surface.origin() + direction * (2.0 * surface.reach())).point;
@@ -226,19 +232,28 @@ fn least_gap(surface: &SmoothSurface, other: &SmoothSurface) -> Least {
 }
 
 /// Some steps from a point of a surface towards another surface.
+///
+/// Near a place where both touch the way to and fro gets ever shorter, so steps are stretched as long as
+/// that helps.
 fn approach(surface: &SmoothSurface, other: &SmoothSurface, start: Least, steps: usize) -> Least {
     let Least { mut value, mut at } = start;
+    let mut stretch = 1.0;
     for _ in 0..steps {
         if value <= 0.0 {
             break;
         }
-        let next = surface.foot(other.foot(at).point).point;
+        let way = surface.foot(other.foot(at).point).point - at;
+        let next = surface.foot(at + way * stretch).point;
         let shorter = other.gap(next);
-        let is_done = shorter >= value * (1.0 - 1e-10);
-        (at, value) = (next, shorter);
-        if is_done {
-            break;
+        if shorter >= value * (1.0 - 1e-10) {
+            if stretch == 1.0 {
+                break;
+            }
+            stretch = 1.0;
+            continue;
         }
+        (at, value) = (next, shorter);
+        stretch *= 2.0;
     }
     Least { value, at }
 }
@@ -256,7 +271,7 @@ mod tests {
     fn bodies_outside_or_in_each_other_are_refused() {
         let domain = Domain::walls(Point::<3>::repeat(-3.0), Point::<3>::repeat(3.0));
         let check = |bodies: &[Body]| check_placement(&domain, bodies);
-        assert!(check(&[sphere("a", [0.0; 3]), sphere("b", [0.0, 2.001, 0.0])]).is_ok());
+        assert!(check(&[sphere("a", [0.0, -1.0, 0.0]), sphere("b", [0.0, 1.001, 0.0])]).is_ok());
         match check(&[sphere("a", [0.0, 0.0, 2.1])]) {
             Err(MeshError::BodyMeetsSide { side, gap, at, .. }) => {
                 assert_eq!(side, "front");
@@ -275,6 +290,27 @@ mod tests {
         assert!(check(&[sphere("a", [0.0; 3]), inside]).is_err());
         let named = check(&[sphere("top", [0.0; 3])]);
         assert!(matches!(named, Err(MeshError::DuplicateName { .. })));
+    }
+
+    /// Nothing but the last digits keeps bodies apart that touch.
+    #[test]
+    fn bodies_that_touch_are_refused() {
+        let domain = Domain::walls(Point::<3>::repeat(-3.0), Point::<3>::repeat(3.0));
+        let ellipsoid = |semi_axes| Shape::Ellipsoid { semi_axes };
+        let egg = |name: &str, semi_axes, y: f64| {
+            Body::new(name, ellipsoid(semi_axes), Isometry3::translation(0.1, y, 0.0))
+        };
+        let below = egg("a", [1.5, 0.5, 0.8], -0.5);
+        for (above, is_apart) in [(0.0, false), (1e-9, false), (1e-3, true)] {
+            let pair = [below.clone(), egg("b", [0.9, 0.7, 1.4], 0.7 + above)];
+            assert_eq!(check_placement(&domain, &pair).is_ok(), is_apart, "{above}");
+            let top = egg("b", [0.9, 0.7, 1.4], 2.3 - above);
+            assert_eq!(check_placement(&domain, &[top]).is_ok(), is_apart, "{above}");
+        }
+        match check_placement(&domain, &[below, sphere("b", [0.1, 0.9, 0.0])]) {
+            Err(MeshError::BodiesMeet { gap, .. }) => assert!((gap + 0.1).abs() < 1e-12, "{gap}"),
+            other => panic!("{other:?}"),
+        }
     }
 
     #[test]

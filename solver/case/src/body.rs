@@ -10,6 +10,7 @@ use super::gait::{
     AnguilliformGait, CarangiformGait, FishShape, FlagellateShape, FlagellumGait, JointsGait,
     PulsatingGait, TubeShape,
 };
+use super::solid_shape::{HelixShape, PartSpec};
 
 /// `shape`: one of these, in the body's own frame.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -70,6 +71,15 @@ pub enum ShapeSpec {
         #[serde(skip)]
         length: f64,
     },
+    /// Tube along a helix about the body's x axis (spatial).
+    Helix(HelixShape),
+    /// Smooth profile turned about the body's x axis (spatial).
+    Revolved {
+        /// Points (x, distance from the axis) of the profile (m), the first and the last on the axis.
+        profile: Vec<[f64; 2]>,
+    },
+    /// All points of several parts, such as a head and a flagellum (spatial).
+    Union(Vec<PartSpec>),
 }
 
 /// A coordinate along which a cylinder goes through a box.
@@ -151,6 +161,8 @@ pub enum Orientation {
         /// Direction of the axis, of any length.
         axis: [f64; 3],
         /// Angle, right-handed about the axis (rad).
+        #[serde(deserialize_with = "super::angle::deserialize")]
+        #[cfg_attr(test, schemars(with = "super::angle::Angle"))]
         angle: f64,
     },
     /// Unit quaternion [w, x, y, z], from the body frame to the laboratory.
@@ -191,7 +203,8 @@ pub struct SquirmerGait {
     pub modes: Vec<f64>,
     /// Direction of the swimming axis in the body frame, from x, counter-clockwise (rad);
     /// 0 or pi for a body on the axis.
-    #[serde(default)]
+    #[serde(default, deserialize_with = "super::angle::deserialize")]
+    #[cfg_attr(test, schemars(with = "super::angle::Angle"))]
     pub heading: f64,
     /// Direction of the swimming axis in the body frame, of any length (spatial); x if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -201,7 +214,11 @@ pub struct SquirmerGait {
     pub factors: BTreeMap<String, TimeFunction>,
     /// Angle in time by which the swimming axis is turned from `heading`, counter-clockwise (rad);
     /// planar only. The body itself does not turn by it.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(
+        default,
+        skip_serializing_if = "Option::is_none",
+        deserialize_with = "super::angle::deserialize"
+    )]
     pub turn: Option<TimeFunction>,
 }
 
@@ -235,7 +252,12 @@ pub struct SpringSpec {
     #[serde(default)]
     pub torsion_damping: f64,
     /// Angle at rest (rad); that at the start, if absent.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(
+        default,
+        skip_serializing_if = "Option::is_none",
+        deserialize_with = "super::angle::deserialize"
+    )]
+    #[cfg_attr(test, schemars(with = "Option<super::angle::Angle>"))]
     pub rest_angle: Option<f64>,
 }
 
@@ -251,7 +273,8 @@ pub struct Body {
     /// Position of the shape's origin (m), one number per dimension.
     pub center: Vec<f64>,
     /// Rotation of the body frame, counter-clockwise (rad; planar).
-    #[serde(default)]
+    #[serde(default, deserialize_with = "super::angle::deserialize")]
+    #[cfg_attr(test, schemars(with = "super::angle::Angle"))]
     pub angle: f64,
     /// Rotation of the body frame in space; none if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]

@@ -1,5 +1,6 @@
 //! `Case`: the typed contents of a case file; `Model`: what follows from them.
 
+mod angle;
 mod axial_vector;
 mod body;
 mod case;
@@ -33,6 +34,8 @@ mod reference;
 mod region;
 mod schema;
 mod skin;
+mod solid;
+mod solid_shape;
 mod source;
 mod speed;
 mod stroke;
@@ -77,6 +80,7 @@ pub use reference::{
 };
 pub use region::{Extent, normal_axis, opposite};
 pub use schema::schema;
+pub use solid_shape::{HelixShape, PartSpec};
 pub use source::Location;
 pub use stroke::{Stroke, smooth_ramp};
 pub use swimmer::{Copies, Pivot, Skin, SwimmerKind, SwimmerSpec};

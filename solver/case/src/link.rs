@@ -73,7 +73,10 @@ impl Link {
             }
             ShapeSpec::Ellipsoid { .. }
             | ShapeSpec::Capsule { .. }
-            | ShapeSpec::Cylinder { .. } => {
+            | ShapeSpec::Cylinder { .. }
+            | ShapeSpec::Helix(_)
+            | ShapeSpec::Revolved { .. }
+            | ShapeSpec::Union(_) => {
                 let half = shape.reach();
                 Ok(LinkExtent { back: -half, front: half, half_width: shape.half_width() })
             }

@@ -139,6 +139,18 @@ fn body_line(case: &Case, body: &crate::case::Body) -> String {
             let along = ["x", "y", "z"][axis.index()];
             format!("cylinder of radius {} through the box along {along}", significant(*radius))
         }
+        ShapeSpec::Helix(helix) => {
+            let [radius, pitch, turns, tube] =
+                [helix.radius, helix.pitch, helix.turns, helix.tube_radius].map(significant);
+            format!(
+                "helix of radius {radius}, pitch {pitch} and {turns} turns, a tube of radius {tube}"
+            )
+        }
+        ShapeSpec::Revolved { profile } => format!("turned profile of {} points", profile.len()),
+        ShapeSpec::Union(parts) => {
+            let names: Vec<&str> = parts.iter().map(|part| part.shape.name()).collect();
+            format!("union of {}", names.join(" and "))
+        }
         ShapeSpec::Spline { points } => format!("spline through {} points", points.len()),
         ShapeSpec::Fish(fish) => format!("fish of length {}", significant(fish.length)),
         ShapeSpec::Flagellate(flagellate) => {

@@ -18,7 +18,7 @@ const FEWEST_CUBES: usize = 2;
 const EDGES_TRIED: u32 = 24;
 
 /// The part by which they are shorter than wanted at most.
-const MOST_SHORTER: f64 = 0.3;
+const MOST_SHORTER: f64 = 0.55;
 
 /// What shorter cubes count against those that are stretched.
 const SHORTER: f64 = 0.2;

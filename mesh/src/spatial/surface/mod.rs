@@ -163,6 +163,15 @@ impl SmoothSurface {
         along.is_some_and(|along| along.abs() > 0.5)
     }
 
+    /// Radius (m) of a solid sphere; `None` of other surfaces.
+    #[must_use]
+    pub fn radius_of_sphere(&self) -> Option<f64> {
+        match self.form {
+            Form::Sphere(radius) if !self.is_hollow => Some(radius),
+            _ => None,
+        }
+    }
+
     /// A lower bound of the gap to a point (m), at little cost.
     #[must_use]
     pub fn least_gap(&self, point: Point<3>) -> f64 {

@@ -2,7 +2,7 @@
 
 use super::Findings;
 use crate::speed::norm;
-use crate::{Body, DomainSpec, GaitSpec, Geometry, Motion, ShapeSpec};
+use crate::{Body, DomainSpec, GaitSpec, Geometry, Motion, Orientation, ShapeSpec};
 
 /// Difference of the length of a quaternion from 1 that is taken for rounding.
 const ROUNDING: f64 = 1e-6;
@@ -114,25 +114,8 @@ fn check_turns(findings: &mut Findings<'_>, key: &str, body: &Body) {
              orientation = { along = [x, y, z] } for the direction of the body's x axis",
         );
     }
-    use crate::Orientation::{Along, Quaternion, Turned};
-    let mut no_direction = |name: &str, vector: &[f64]| {
-        if norm(vector) == 0.0 {
-            findings.error(
-                &format!("{key}.{name}"),
-                format!("`{key}.{name}` is zero and points nowhere"),
-                "write a direction such as [1.0, 0.0, 0.0]",
-            );
-        }
-    };
-    match &body.orientation {
-        Some(Turned { axis, .. }) => no_direction("orientation.turned.axis", axis),
-        Some(Along(direction)) => no_direction("orientation.along", direction),
-        Some(Quaternion(parts)) if (norm(parts) - 1.0).abs() > ROUNDING => findings.error(
-            &format!("{key}.orientation.quaternion"),
-            format!("the quaternion {parts:?} has the length {:.6}", norm(parts)),
-            "write [w, x, y, z] of length 1; without a turn it is [1.0, 0.0, 0.0, 0.0]",
-        ),
-        Some(Quaternion(_)) | None => {}
+    if let Some(orientation) = &body.orientation {
+        check_orientation(findings, key, orientation);
     }
     if let Some(GaitSpec::Squirmer(squirmer)) = &body.gait {
         let gait = format!("{key}.gait.squirmer");
@@ -163,6 +146,29 @@ fn check_turns(findings: &mut Findings<'_>, key: &str, body: &Body) {
             "a spring against turning works in the plane only so far".to_owned(),
             "leave out torsion, torsion_damping and rest_angle",
         );
+    }
+}
+
+/// An orientation about an axis that points somewhere.
+pub(super) fn check_orientation(findings: &mut Findings<'_>, key: &str, orientation: &Orientation) {
+    let mut no_direction = |name: &str, vector: &[f64]| {
+        if norm(vector) == 0.0 {
+            findings.error(
+                &format!("{key}.{name}"),
+                format!("`{key}.{name}` is zero and points nowhere"),
+                "write a direction such as [1.0, 0.0, 0.0]",
+            );
+        }
+    };
+    match orientation {
+        Orientation::Turned { axis, .. } => no_direction("orientation.turned.axis", axis),
+        Orientation::Along(direction) => no_direction("orientation.along", direction),
+        Orientation::Quaternion(parts) if (norm(parts) - 1.0).abs() > ROUNDING => findings.error(
+            &format!("{key}.orientation.quaternion"),
+            format!("the quaternion {parts:?} has the length {:.6}", norm(parts)),
+            "write [w, x, y, z] of length 1; without a turn it is [1.0, 0.0, 0.0, 0.0]",
+        ),
+        Orientation::Quaternion(_) => {}
     }
 }
 
