@@ -10,7 +10,6 @@ use super::gait::{
     AnguilliformGait, CarangiformGait, FishShape, FlagellateShape, FlagellumGait, JointsGait,
     PulsatingGait, TubeShape,
 };
-use super::solid_shape::{HelixShape, PartSpec};
 
 /// `shape`: one of these, in the body's own frame.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -105,6 +104,36 @@ impl CylinderAxis {
             Self::Z => 2,
         }
     }
+}
+
+/// `helix`: a tube along a helix about the body's x axis, from x = 0 towards +x, with round ends.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct HelixShape {
+    /// Distance of the midline from the axis (m); it starts in the half plane y > 0.
+    pub radius: f64,
+    /// Length along the axis of one turn (m).
+    pub pitch: f64,
+    /// Number of turns: right-handed if positive, left-handed if negative.
+    pub turns: f64,
+    /// Radius of the tube (m).
+    pub tube_radius: f64,
+}
+
+/// A part of a `union`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct PartSpec {
+    /// What it is.
+    pub shape: ShapeSpec,
+    /// Where its origin is in the frame of the body (m).
+    #[serde(default)]
+    pub center: [f64; 3],
+    /// How it is turned from the frame of the body; not at all if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub orientation: Option<Orientation>,
 }
 
 /// How a body moves as a whole.

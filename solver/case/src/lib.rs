@@ -48,8 +48,8 @@ mod variants;
 
 pub use axial_vector::AxialVector;
 pub use body::{
-    Body, CylinderAxis, GaitSpec, ImposedMotion, Lock, Motion, Orientation, ShapeSpec, SpringSpec,
-    SquirmerGait,
+    Body, CylinderAxis, GaitSpec, HelixShape, ImposedMotion, Lock, Motion, Orientation, PartSpec,
+    ShapeSpec, SpringSpec, SquirmerGait,
 };
 pub use case::Case;
 pub use check::check;
@@ -80,7 +80,6 @@ pub use reference::{
 };
 pub use region::{Extent, normal_axis, opposite};
 pub use schema::schema;
-pub use solid_shape::{HelixShape, PartSpec};
 pub use source::Location;
 pub use stroke::{Stroke, smooth_ramp};
 pub use swimmer::{Copies, Pivot, Skin, SwimmerKind, SwimmerSpec};

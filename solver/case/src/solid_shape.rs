@@ -1,40 +1,8 @@
-//! Shapes in space made of curves, profiles and parts: `helix`, `revolved`, `union`.
+//! Lengths, areas and volumes of shapes in space made of curves, profiles and parts.
 
 use std::f64::consts::{PI, TAU};
 
-use serde::{Deserialize, Serialize};
-
-use super::body::{Orientation, ShapeSpec};
-
-/// `helix`: a tube along a helix about the body's x axis, from x = 0 towards +x, with round ends.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
-pub struct HelixShape {
-    /// Distance of the midline from the axis (m); it starts in the half plane y > 0.
-    pub radius: f64,
-    /// Length along the axis of one turn (m).
-    pub pitch: f64,
-    /// Number of turns: right-handed if positive, left-handed if negative.
-    pub turns: f64,
-    /// Radius of the tube (m).
-    pub tube_radius: f64,
-}
-
-/// A part of a `union`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
-pub struct PartSpec {
-    /// What it is.
-    pub shape: ShapeSpec,
-    /// Where its origin is in the frame of the body (m).
-    #[serde(default)]
-    pub center: [f64; 3],
-    /// How it is turned from the frame of the body; not at all if absent.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub orientation: Option<Orientation>,
-}
+use super::body::{HelixShape, PartSpec, ShapeSpec};
 
 /// Lengths of a solid, its surface and its volume, estimates where parts overlap.
 #[derive(Debug, Clone, Copy, PartialEq)]

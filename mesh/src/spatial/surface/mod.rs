@@ -166,8 +166,8 @@ impl SmoothSurface {
     /// Radius (m) of a solid sphere; `None` of other surfaces.
     #[must_use]
     pub fn radius_of_sphere(&self) -> Option<f64> {
-        match self.form {
-            Form::Sphere(radius) if !self.is_hollow => Some(radius),
+        match (&self.form, self.is_hollow) {
+            (Form::Sphere(radius), false) => Some(*radius),
             _ => None,
         }
     }

@@ -139,7 +139,7 @@ pub(super) fn check_shape(findings: &mut Findings<'_>, key: &str, shape: &ShapeS
             solid::check_profile(findings, &format!("{key}.revolved.profile"), profile);
         }
         ShapeSpec::Union(parts) => {
-            solid::check_parts(findings, &format!("{key}.union"), parts);
+            solid::check_parts(findings, &format!("{key}.union"), parts, check_shape);
         }
         // Its links are checked
         ShapeSpec::Tube(_) => {}

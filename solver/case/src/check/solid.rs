@@ -3,9 +3,8 @@
 use alewife_mesh::spatial::Centreline;
 
 use super::Findings;
-use super::bodies::check_shape;
 use super::space::check_orientation;
-use crate::{HelixShape, PartSpec};
+use crate::{HelixShape, PartSpec, ShapeSpec};
 
 pub fn check_helix(findings: &mut Findings<'_>, key: &str, helix: &HelixShape) {
     let HelixShape { radius, pitch, turns, tube_radius } = *helix;
@@ -53,7 +52,13 @@ pub fn check_profile(findings: &mut Findings<'_>, key: &str, profile: &[[f64; 2]
     }
 }
 
-pub fn check_parts(findings: &mut Findings<'_>, key: &str, parts: &[PartSpec]) {
+/// Parts, each by what checks a shape at a key.
+pub fn check_parts(
+    findings: &mut Findings<'_>,
+    key: &str,
+    parts: &[PartSpec],
+    check_shape: impl Fn(&mut Findings<'_>, &str, &ShapeSpec),
+) {
     if parts.is_empty() {
         let help = "write [{ shape = ..., center = [x, y, z] }, ...]";
         findings.error(key, "a union of no parts is no body".to_owned(), help);

@@ -1,35 +1,14 @@
 //! Bodies that overlap or leave the domain, and probes that are not in the fluid.
 
+mod arrangement;
 mod plane;
 mod space;
 
 use alewife_mesh::{MeshError, SMALLEST_GAP};
 
+use self::arrangement::{Arrangement, Misplaced};
 use super::Findings;
 use crate::Geometry;
-
-/// Distance out of the fluid, over the size of the domain or a body, that is taken for rounding.
-const ROUNDING: f64 = 1e-6;
-
-/// A body that is where it cannot be.
-#[derive(Debug, PartialEq)]
-struct Misplaced {
-    /// The body to move.
-    body: usize,
-    error: MeshError,
-}
-
-/// Where bodies are in a domain.
-trait Arrangement {
-    /// Everything that is wrong with where bodies are.
-    fn misplaced(&self) -> Vec<Misplaced>;
-
-    /// Whether a point (m) is outside the domain by more than rounding.
-    fn is_outside(&self, point: &[f64]) -> bool;
-
-    /// Names of the bodies that a point (m) lies in, by more than rounding.
-    fn around(&self, point: &[f64]) -> Vec<&str>;
-}
 
 pub fn check(findings: &mut Findings<'_>) {
     let model = findings.model();

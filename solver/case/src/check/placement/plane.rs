@@ -2,7 +2,7 @@
 
 use alewife_mesh::{Domain, MeshError, Outline, PlacedShape, Point, check_wrapped_placement};
 
-use super::{Arrangement, Misplaced, ROUNDING};
+use super::arrangement::{Arrangement, Misplaced, ROUNDING};
 use crate::Model;
 use crate::discs::{Disc, DiscGrid};
 

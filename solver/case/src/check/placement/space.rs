@@ -3,7 +3,7 @@
 use alewife_mesh::spatial::{BodySurface, Domain, check_placement};
 use alewife_mesh::{Point, Surface};
 
-use super::{Arrangement, Misplaced, ROUNDING};
+use super::arrangement::{Arrangement, Misplaced, ROUNDING};
 use crate::Model;
 
 /// Bodies in a domain, found by the balls around them.
