@@ -60,6 +60,16 @@ pub enum ShapeSpec {
         /// Radius (m).
         radius: f64,
     },
+    /// Circular cylinder from side to side of a box (spatial).
+    Cylinder {
+        /// Radius (m).
+        radius: f64,
+        /// Coordinate along which it goes through the box.
+        axis: CylinderAxis,
+        /// Length of the box along it (m), which is not written.
+        #[serde(skip)]
+        length: f64,
+    },
     /// Tube along a helix about the body's x axis (spatial).
     Helix(HelixShape),
     /// Smooth profile turned about the body's x axis (spatial).
@@ -69,6 +79,31 @@ pub enum ShapeSpec {
     },
     /// All points of several parts, such as a head and a flagellum (spatial).
     Union(Vec<PartSpec>),
+}
+
+/// A coordinate along which a cylinder goes through a box.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(rename_all = "lowercase")]
+pub enum CylinderAxis {
+    /// From left to right.
+    X,
+    /// From bottom to top.
+    Y,
+    /// From back to front.
+    Z,
+}
+
+impl CylinderAxis {
+    /// 0 for x, 1 for y, 2 for z.
+    #[must_use]
+    pub fn index(self) -> usize {
+        match self {
+            Self::X => 0,
+            Self::Y => 1,
+            Self::Z => 2,
+        }
+    }
 }
 
 /// `helix`: a tube along a helix about the body's x axis, from x = 0 towards +x, with round ends.

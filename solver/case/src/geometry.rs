@@ -25,6 +25,7 @@ impl ShapeSpec {
             Self::Spheroid { .. } => "spheroid",
             Self::Ellipsoid { .. } => "ellipsoid",
             Self::Capsule { .. } => "capsule",
+            Self::Cylinder { .. } => "cylinder",
             Self::Helix(_) => "helix",
             Self::Revolved { .. } => "revolved",
             Self::Union(_) => "union",
@@ -46,6 +47,7 @@ impl ShapeSpec {
             }
             Self::Ellipsoid { .. }
             | Self::Capsule { .. }
+            | Self::Cylinder { .. }
             | Self::Helix(_)
             | Self::Revolved { .. }
             | Self::Union(_) => &[Geometry::Spatial],
@@ -112,6 +114,7 @@ impl ShapeSpec {
             // Shapes in space have none
             Self::Ellipsoid { .. }
             | Self::Capsule { .. }
+            | Self::Cylinder { .. }
             | Self::Helix(_)
             | Self::Revolved { .. }
             | Self::Union(_) => Shape::Spline { points: Vec::new() },
@@ -145,6 +148,7 @@ impl ShapeSpec {
                 0.5 * ellipse([sorted[2], sorted[1]])
             }
             Self::Capsule { length, radius } => length + (PI - 2.0) * radius,
+            Self::Cylinder { length, .. } => *length,
             Self::Helix(_) | Self::Revolved { .. } | Self::Union(_) => {
                 self.measures().map_or(0.0, |measures| measures.length)
             }
@@ -181,6 +185,7 @@ impl ShapeSpec {
             Self::Capsule { length, radius } => {
                 PI * radius * radius * (length - 2.0 / 3.0 * radius)
             }
+            Self::Cylinder { length, radius, .. } => PI * radius * radius * length,
             _ => self.measures().map_or_else(
                 || self.outline().moments().map_or(0.0, |moments| moments.measure),
                 |measures| measures.volume,
@@ -199,7 +204,9 @@ impl ShapeSpec {
                 let mean = (power(a * b) + power(a * c) + power(b * c)) / 3.0;
                 4.0 * PI * mean.powf(1.0 / 1.6075)
             }
-            (Self::Capsule { length, radius }, None) => 2.0 * PI * radius * length,
+            (Self::Capsule { length, radius } | Self::Cylinder { length, radius, .. }, None) => {
+                2.0 * PI * radius * length
+            }
             (_, None) => self.measures().map_or(0.0, |measures| measures.area),
         }
     }
@@ -210,6 +217,7 @@ impl ShapeSpec {
         match self {
             Self::Ellipsoid { semi_axes } => semi_axes.iter().copied().fold(0.0, f64::max),
             Self::Capsule { length, .. } => 0.5 * length,
+            Self::Cylinder { length, radius, .. } => radius.hypot(0.5 * length),
             Self::Helix(_) | Self::Revolved { .. } | Self::Union(_) => {
                 self.measures().map_or(0.0, |measures| measures.reach)
             }
@@ -228,7 +236,7 @@ impl ShapeSpec {
             Self::Ellipsoid { semi_axes } => {
                 semi_axes.iter().copied().fold(f64::INFINITY, f64::min)
             }
-            Self::Capsule { radius, .. } => *radius,
+            Self::Capsule { radius, .. } | Self::Cylinder { radius, .. } => *radius,
             Self::Helix(_) | Self::Revolved { .. } | Self::Union(_) => {
                 self.measures().map_or(0.0, |measures| measures.half_width)
             }

@@ -48,8 +48,8 @@ mod variants;
 
 pub use axial_vector::AxialVector;
 pub use body::{
-    Body, GaitSpec, HelixShape, ImposedMotion, Lock, Motion, Orientation, PartSpec, ShapeSpec,
-    SpringSpec, SquirmerGait,
+    Body, CylinderAxis, GaitSpec, HelixShape, ImposedMotion, Lock, Motion, Orientation, PartSpec,
+    ShapeSpec, SpringSpec, SquirmerGait,
 };
 pub use case::Case;
 pub use check::check;

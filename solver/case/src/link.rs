@@ -73,6 +73,7 @@ impl Link {
             }
             ShapeSpec::Ellipsoid { .. }
             | ShapeSpec::Capsule { .. }
+            | ShapeSpec::Cylinder { .. }
             | ShapeSpec::Helix(_)
             | ShapeSpec::Revolved { .. }
             | ShapeSpec::Union(_) => {

@@ -97,6 +97,12 @@ impl ShapeSpec {
             Self::Capsule { length, radius } => {
                 one(Shape::Capsule { radius: *radius, length: length - 2.0 * radius })
             }
+            Self::Cylinder { radius, axis, .. } => {
+                let mut along = [0.0; 3];
+                along[axis.index()] = 1.0;
+                let pose = place(Vector3::zeros(), Some(&Orientation::Along(along)));
+                Some(vec![Part { shape: Shape::Cylinder { radius: *radius }, pose }])
+            }
             Self::Helix(HelixShape { radius, pitch, turns, tube_radius }) => {
                 let centreline =
                     Centreline::Helix { radius: *radius, pitch: *pitch, turns: *turns };

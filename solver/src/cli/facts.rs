@@ -180,6 +180,10 @@ fn shape_in_words(shape: &ShapeSpec) -> String {
                 significant(*radius)
             )
         }
+        ShapeSpec::Cylinder { radius, axis, .. } => {
+            let along = ["x", "y", "z"][axis.index()];
+            format!("cylinder of radius {} through the box along {along}", significant(*radius))
+        }
         ShapeSpec::Helix(helix) => {
             let [radius, pitch, turns, tube] =
                 [helix.radius, helix.pitch, helix.turns, helix.tube_radius].map(significant);

@@ -193,6 +193,11 @@ pub fn scene(bodies: &[Body], reports: &[BodyReport], geometry: Geometry, time: 
                 let place = Isometry3::translation(origin.x, origin.y, origin.z);
                 solids.parts(&place, &body.shape.parts().unwrap_or_default());
             }
+            ShapeSpec::Cylinder { radius, length, .. } => {
+                for part in body.shape.parts().unwrap_or_default() {
+                    solids.cylinder_along_x(&part.pose, *radius, 0.5 * length);
+                }
+            }
             ShapeSpec::Spline { .. }
             | ShapeSpec::Fish(_)
             | ShapeSpec::Flagellate(_)

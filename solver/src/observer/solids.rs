@@ -22,6 +22,12 @@ impl Solids {
         self.spheres.push(solid(pose, semi_axes, [1.0; 2]));
     }
 
+    /// Draws a cylinder along x of a radius and half a length (m).
+    pub fn cylinder_along_x(&mut self, pose: &Isometry3<f64>, radius: f64, half_length: f64) {
+        let end = Vector3::new(half_length, 0.0, 0.0);
+        self.cone(pose, [-end, end], [radius; 2]);
+    }
+
     /// Draws a cylinder along z of these semi-axes (m) about the origin.
     pub fn cylinder(&mut self, semi_axes: [f64; 3]) {
         self.cylinders.push(solid(&Isometry3::identity(), semi_axes, [1.0; 2]));
@@ -38,6 +44,8 @@ impl Solids {
                     let end = Vector3::new(0.5 * length, 0.0, 0.0);
                     self.tube(&pose, &[-end, end], *radius);
                 }
+                // Drawn by whoever knows how long it is
+                Shape::Cylinder { .. } => {}
                 Shape::Tube { centreline, radius } => {
                     self.tube(&pose, &points(centreline), *radius);
                 }

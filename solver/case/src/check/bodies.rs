@@ -100,7 +100,9 @@ pub(super) fn check_shape(findings: &mut Findings<'_>, key: &str, shape: &ShapeS
     let allowed = match case.geometry {
         Geometry::Planar => "disc, ellipse, spline, fish, flagellate",
         Geometry::Axisymmetric => "sphere, spheroid",
-        Geometry::Spatial => "sphere, spheroid, ellipsoid, capsule, helix, revolved, union",
+        Geometry::Spatial => {
+            "sphere, spheroid, ellipsoid, capsule, cylinder, helix, revolved, union"
+        }
     };
     let name = shape.name();
     if !shape.geometries().contains(&case.geometry) {
@@ -127,6 +129,9 @@ pub(super) fn check_shape(findings: &mut Findings<'_>, key: &str, shape: &ShapeS
                     "the length from end to end is larger than twice the radius",
                 );
             }
+        }
+        ShapeSpec::Cylinder { radius, .. } => {
+            findings.positive(&format!("{key}.cylinder.radius"), *radius);
         }
         ShapeSpec::Fish(_) | ShapeSpec::Flagellate(_) => gait::check_shape(findings, key, shape),
         ShapeSpec::Helix(helix) => solid::check_helix(findings, &format!("{key}.helix"), helix),

@@ -77,6 +77,10 @@ fn message(error: &MeshError) -> String {
     match error {
         MeshError::Outside { body, gap, x, y } => outside(body, None, *gap, &[*x, *y]),
         MeshError::BodyMeetsSide { body, side, gap, at } => outside(body, Some(side), *gap, at),
+        MeshError::BodyMeetsPeriodicSide { body, side, gap, at } => format!(
+            "body \"{body}\" touches or crosses the periodic side `{side}` at {}: gap {gap:.3e}",
+            coordinates(at)
+        ),
         MeshError::Overlap { first, second, gap, x, y } => {
             overlap([first, second], *gap, &[*x, *y])
         }
@@ -123,6 +127,9 @@ fn remedy(error: &MeshError) -> &'static str {
         MeshError::Outside { .. } => "move it inward, make it smaller, or enlarge the domain",
         MeshError::BodyMeetsSide { .. } => {
             "move it inward, make it smaller, enlarge the domain, or make the side a plane of symmetry"
+        }
+        MeshError::BodyMeetsPeriodicSide { .. } => {
+            "bodies in space do not cross periodic sides so far: move all of them, or the corners of the box"
         }
         MeshError::Overlap { .. } | MeshError::BodiesMeet { .. } => {
             "move them apart, or make them smaller"

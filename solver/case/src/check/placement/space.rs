@@ -77,8 +77,12 @@ impl Arrangement for Solids {
 
     fn around(&self, point: &[f64]) -> Vec<&str> {
         let point = in_space(point);
-        let is_inside =
-            |surface: &BodySurface| surface.nearest_point(point).gap < -ROUNDING * surface.reach();
+        let [min, max] = self.domain.corners();
+        // Some bodies are without ends
+        let is_inside = |surface: &BodySurface| {
+            let reach = surface.reach().min((max - min).norm());
+            surface.nearest_point(point).gap < -ROUNDING * reach
+        };
         let around =
             self.bodies.iter().filter(|solid| solid.surface.as_ref().is_some_and(is_inside));
         around.map(|solid| solid.body.name.as_str()).collect()

@@ -62,6 +62,9 @@ impl Solid {
         let volume = match (&body.shape, body.shape.semi_axes()) {
             (_, Some(semi_axes)) => ellipsoid(semi_axes),
             (ShapeSpec::Capsule { length, radius }, None) => capsule(*length, *radius),
+            (ShapeSpec::Cylinder { radius, axis, length }, None) => {
+                cylinder(*length, *radius, axis.index())
+            }
             (_, None) => return Err(no_solid(body)),
         };
         Ok(Self { volume, pose: Pose::spatial(place.translation.vector, place.rotation) })
@@ -116,6 +119,15 @@ fn ellipsoid([a, b, c]: [f64; 3]) -> Inertia {
     let mass = 4.0 / 3.0 * PI * a * b * c;
     let [a, b, c] = [a * a, b * b, c * c];
     let diagonal = Vector3::new(b + c, c + a, a + b) * (mass / 5.0);
+    Inertia { mass, tensor: Matrix3::from_diagonal(&diagonal) }
+}
+
+/// A cylinder about a coordinate, of unit density.
+fn cylinder(length: f64, radius: f64, axis: usize) -> Inertia {
+    let mass = PI * radius * radius * length;
+    let across = mass * (radius * radius / 4.0 + length * length / 12.0);
+    let mut diagonal = Vector3::repeat(across);
+    diagonal[axis] = mass * radius * radius / 2.0;
     Inertia { mass, tensor: Matrix3::from_diagonal(&diagonal) }
 }
 
@@ -186,6 +198,7 @@ mod tests {
         for (solid, slices) in [
             (capsule(length, radius), by_slices(cap, length / 2.0)),
             (ellipsoid([1.3, 0.4, 0.4]), by_slices(spheroid, 1.3)),
+            (cylinder(3.0, 0.4, 0), by_slices(|_| 0.4, 1.5)),
         ] {
             let own = [solid.mass, solid.tensor[(0, 0)], solid.tensor[(1, 1)]];
             for (own, sum) in own.iter().zip(slices) {

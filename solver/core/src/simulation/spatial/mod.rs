@@ -28,7 +28,7 @@ impl CaseMesh<3> for Dimension<3> {
         Ok(resting(model, mesh))
     }
 
-    /// Itself alone: sides in space are not periodic so far.
+    /// Itself alone: periodic sides in space are flat, and the mesh fills the box.
     fn images(_case: &Case, _mesh: &Mesh<3>) -> Vec<Point<3>> {
         vec![Point::<3>::zeros()]
     }
