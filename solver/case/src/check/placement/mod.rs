@@ -129,7 +129,7 @@ fn remedy(error: &MeshError) -> &'static str {
             "move it inward, make it smaller, enlarge the domain, or make the side a plane of symmetry"
         }
         MeshError::BodyMeetsPeriodicSide { .. } => {
-            "bodies in space do not cross periodic sides so far: move all of them, or the corners of the box"
+            "bodies in space do not cross periodic sides so far: move all of them, or the box"
         }
         MeshError::Overlap { .. } | MeshError::BodiesMeet { .. } => {
             "move them apart, or make them smaller"
