@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use super::axial_vector::AxialVector;
-use super::domain::TimeFunction;
+use super::domain::{Geometry, TimeFunction};
 use super::gait::{
     AnguilliformGait, CarangiformGait, FishShape, FlagellateShape, FlagellumGait, JointsGait,
     PulsatingGait, TubeShape,
@@ -178,6 +178,18 @@ pub enum Lock {
     Z,
     /// Turning, about any axis.
     Rotation,
+}
+
+impl Geometry {
+    /// Motions of a free body, each of which may be locked.
+    #[must_use]
+    pub fn motions(self) -> &'static [Lock] {
+        match self {
+            Self::Planar => &[Lock::X, Lock::Y, Lock::Rotation],
+            Self::Axisymmetric => &[Lock::X],
+            Self::Spatial => &[Lock::X, Lock::Y, Lock::Z, Lock::Rotation],
+        }
+    }
 }
 
 /// `orientation`: how the body frame is turned from that of the laboratory, one of these.
