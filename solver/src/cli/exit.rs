@@ -55,6 +55,18 @@ impl Failure {
         Self { exit, message: style::error(message.as_ref()) }
     }
 
+    /// The same, below the name of the case that it is about.
+    pub fn of(self, case: &str) -> Self {
+        Self { message: format!("{case}:\n{}", self.message), ..self }
+    }
+
+    /// Several failures as one, which ends with the code of the first; none if there are none.
+    pub fn all(failures: Vec<Self>) -> Option<Self> {
+        let exit = failures.first()?.exit;
+        let messages: Vec<String> = failures.into_iter().map(|failure| failure.message).collect();
+        Some(Self { exit, message: messages.join("\n\n") })
+    }
+
     /// A case that is wrong, with all its diagnostics.
     pub fn wrong(diagnostics: &[Diagnostic]) -> Self {
         Self { exit: Exit::BadCase, message: style::diagnostics(diagnostics) }

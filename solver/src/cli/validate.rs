@@ -6,11 +6,11 @@ use clap::Args;
 
 use super::engine::RunInto;
 use super::exit::{Exit, Failure};
-use super::read::read_and_check;
+use super::read::{CheckedCase, read_and_check};
 use super::signal::SignalWatch;
 use super::style::{Ink, complain, on_stdout, say};
 use super::{engine, run, threads};
-use crate::case::{Cadence, Case, Numbers, Statistics, library};
+use crate::case::{Cadence, Case, CaseFile, Numbers, Statistics, library};
 use crate::observer::{Earlier, RunDirectory, RunState, Status, read_outcome};
 use crate::simulation::{RunError, RunSummary};
 use crate::validation::{
@@ -60,10 +60,7 @@ pub fn validate(options: &Options) -> Result<Exit, Failure> {
     } else {
         options.cases.clone()
     };
-    let mut members = Vec::new();
-    for name in &names {
-        members.extend(members_of(name, options.quick)?);
-    }
+    let members = all_members(&names, options.quick)?;
     let n_threads = threads::start(options.threads)?;
 
     if members.is_empty() {
@@ -75,9 +72,9 @@ pub fn validate(options: &Options) -> Result<Exit, Failure> {
     let work = Work { options, n_threads, watch: SignalWatch::start()? };
     let mut comparisons: Vec<Comparison> = Vec::new();
     let mut stopped = None;
-    for (index, member) in members.iter().enumerate() {
+    for (index, Member { name: member, file }) in members.iter().enumerate() {
         complain(&format!("[{}/{}] {member}", index + 1, members.len()));
-        match work.validate(member) {
+        match work.validate(file) {
             Ok(rows) => comparisons.extend(rows),
             Err(failure) if failure.exit == Exit::Stopped => {
                 let n = members.len();
@@ -111,6 +108,34 @@ fn print(comparisons: &[Comparison], options: &Options) {
     }
 }
 
+/// A case or a variant that is to be validated.
+struct Member {
+    name: String,
+    file: CaseFile,
+}
+
+/// The members of all these cases, each of them read and checked.
+///
+/// # Errors
+/// With all that is wrong in any of them.
+fn all_members(names: &[String], only_quick: bool) -> Result<Vec<Member>, Failure> {
+    let (mut members, mut failures) = (Vec::new(), Vec::new());
+    for name in names {
+        match members_of(name, only_quick) {
+            Ok(found) => {
+                for name in found {
+                    match read_and_check(&name, &[]) {
+                        Ok(CheckedCase { file, .. }) => members.push(Member { name, file }),
+                        Err(failure) => failures.push(failure.of(&name)),
+                    }
+                }
+            }
+            Err(failure) => failures.push(failure.of(name)),
+        }
+    }
+    Failure::all(failures).map_or(Ok(members), Err)
+}
+
 /// The case and its variants that have something to be compared with.
 fn members_of(name: &str, only_quick: bool) -> Result<Vec<String>, Failure> {
     let file = Case::read(name, &[])?;
@@ -137,8 +162,7 @@ struct Work<'a> {
 impl Work<'_> {
     /// Runs one case, or reads its run; a run that fails is a row of the table, not the end of the
     /// validation.
-    fn validate(&self, member: &str) -> Result<Vec<Comparison>, Failure> {
-        let file = read_and_check(member, &[])?.file;
+    fn validate(&self, file: &CaseFile) -> Result<Vec<Comparison>, Failure> {
         let name = file.full_name();
         let of_run = name.replace('/', "-");
         let watch = self.watch.clone();

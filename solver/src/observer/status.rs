@@ -76,6 +76,8 @@ pub struct StatusFile {
     path: PathBuf,
     status: Status,
     started: Instant,
+    /// CPU seconds the process had taken when the run started: it may have had others before.
+    cpu_before: f64,
     written: Instant,
 }
 
@@ -109,8 +111,9 @@ impl StatusFile {
             updated_at: String::new(),
         };
         let now = Instant::now();
-        let mut file =
-            Self { path: directory.join("status.json"), status, started: now, written: now };
+        let path = directory.join("status.json");
+        let cpu_before = cpu_seconds();
+        let mut file = Self { path, status, started: now, cpu_before, written: now };
         file.write()?;
         Ok(file)
     }
@@ -119,7 +122,8 @@ impl StatusFile {
         self.written = Instant::now();
         let wall = self.written.duration_since(self.started).as_secs_f64();
         self.status.wall_seconds.insert("total".to_owned(), wall);
-        self.status.cpu_seconds.insert("total".to_owned(), cpu_seconds());
+        let cpu = cpu_seconds() - self.cpu_before;
+        self.status.cpu_seconds.insert("total".to_owned(), cpu);
         self.status.peak_memory = process::peak_memory();
         self.status.updated_at = process::now();
         let mut text = serde_json::to_vec_pretty(&self.status)?;

@@ -9,7 +9,7 @@ use nalgebra::Vector3;
 use super::*;
 use crate::body::{Pose, Twist, Wrench};
 use crate::case::{Case, Model};
-use crate::simulation::{BodyReport, RunError, Snapshot, Timing};
+use crate::simulation::{BodyReport, RunError, Snapshot, Timing, cpu_seconds};
 
 const CASE: &str = r#"
 title = "Two triangles"
@@ -231,6 +231,7 @@ fn the_series_reads_back_to_the_last_bit() {
 
 #[test]
 fn the_status_tells_state_and_cost() {
+    while cpu_seconds() < 0.2 {} // Earlier work of the process
     let place = tempfile::tempdir().unwrap();
     let run = Run::new();
     let directory = RunDirectory::create(place.path(), &run.model.case, 1, Earlier::Keep).unwrap();
@@ -244,7 +245,7 @@ fn the_status_tells_state_and_cost() {
     assert_eq!((after.time, after.end), (4.0, Some(4.0)));
     assert_eq!(after.cpu_seconds["factorisation"], 1.0);
     assert_eq!(after.wall_seconds["mesh_motion"], 0.5);
-    assert!(after.wall_seconds.contains_key("total"));
+    assert!(after.wall_seconds["total"] >= 0.0 && after.cpu_seconds["total"] < cpu_seconds() - 0.1);
 }
 
 #[test]

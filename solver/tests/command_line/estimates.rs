@@ -90,11 +90,11 @@ fn the_cpu_time_of_a_run_is_estimated() {
     }
 }
 
-/// The table of docs/performance.md.
+/// Every sixth of the members that docs/performance.md counts, since each is meshed.
 #[test]
-#[ignore = "makes a hundred meshes"]
 fn most_cpu_times_are_estimated() {
-    let long: Vec<Measured> = measured().into_iter().filter(|row| row.seconds >= 3.0).collect();
+    let long = measured().into_iter().filter(|row| row.seconds >= 3.0);
+    let long: Vec<Measured> = long.step_by(6).collect();
     let mut ratios: Vec<f64> = Vec::new();
     for row in &long {
         let ratio = ratio(row);
@@ -102,8 +102,11 @@ fn most_cpu_times_are_estimated() {
         ratios.push(ratio);
     }
     let near = ratios.iter().filter(|ratio| is_near(**ratio)).count();
-    println!("{near} of {} within a factor {FACTOR}", ratios.len());
-    assert!(near as f64 >= 0.85 * ratios.len() as f64);
+    ratios.sort_by(f64::total_cmp);
+    let median = ratios[ratios.len() / 2];
+    println!("{near} of {} within a factor {FACTOR}, median {median:.2}", ratios.len());
+    // Of all, nine in ten are near
+    assert!(near as f64 >= 0.8 * ratios.len() as f64 && (0.8..1.25).contains(&median));
 }
 
 #[test]

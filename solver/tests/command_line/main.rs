@@ -109,6 +109,27 @@ fn validation_judges_and_its_json_has_all_there_is_to_know() {
 }
 
 #[test]
+fn validation_checks_all_cases_and_variants_before_it_runs_one() {
+    let directory = tempfile::tempdir().unwrap();
+    let right = done(directory.path(), &["show", "squirmer-alone", "--source"]);
+    let wrong = |n: usize| {
+        let set = format!("[variant.set]\n\"fluid.viscosity\" = -{n}.0\n");
+        format!("[[variant]]\nname = \"wrong-{n}\"\n{set}\n")
+    };
+    std::fs::write(directory.path().join("right.toml"), &right).unwrap();
+    let mine = format!("{right}\n{}{}", wrong(1), wrong(2));
+    std::fs::write(directory.path().join("mine.toml"), mine).unwrap();
+    let asked = ["validate", "right.toml", "mine.toml", "absent", "--threads", "1"];
+    let output = alewife(directory.path(), &asked);
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(65), "{said}");
+    for name in ["mine.toml/wrong-1", "mine.toml/wrong-2", "absent"] {
+        assert!(said.contains(&format!("{name}:")), "{said}");
+    }
+    assert!(!said.contains("[1/") && output.stdout.is_empty(), "{said}");
+}
+
+#[test]
 fn a_mesh_is_written_with_its_quality() {
     let directory = tempfile::tempdir().unwrap();
     let said = done(directory.path(), &["mesh", "squirmer-alone", "--out", "m.vtu"]);
