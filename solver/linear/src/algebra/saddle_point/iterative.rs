@@ -129,11 +129,12 @@ impl IterativeSolver {
         self.set_up.as_ref().map_or(0, |set_up| set_up.preconditioner.n_bytes())
     }
 
-    /// Solves by FGMRES. Returns none when it stalls.
+    /// Solves by FGMRES until the residual is `reduction` times the right-hand side.
     fn iterate(
         &mut self,
         matrix: &SparseMatrix,
         rhs: &[f64],
+        reduction: f64,
         uses_earlier: bool,
     ) -> Result<Iterated, LinearError> {
         let Some(SetUp { preconditioner, scales, .. }) = &mut self.set_up else {
@@ -142,7 +143,7 @@ impl IterativeSolver {
         let operator = Operator { matrix, groups: &self.groups, scales };
         let b: Vec<f64> =
             rhs.iter().zip(scales.iter()).map(|(value, scale)| value * scale).collect();
-        let tolerance = self.settings.tolerance * norm(&b);
+        let tolerance = reduction * norm(&b);
         let unscaled = |x: &[f64]| -> Vec<f64> {
             x.iter().zip(scales.iter()).map(|(value, scale)| value * scale).collect()
         };
@@ -195,6 +196,20 @@ impl IterativeSolver {
         Ok(Iterated { x: unscaled(&x), iterations, stalled_at: None })
     }
 
+    /// Overwrites a right-hand side with the solution for the matrix of the last set-up, to a Euclidean norm
+    /// of the residual over that of the right-hand side, in place of the one in the settings.
+    ///
+    /// # Errors
+    /// When iterations stall, or a value is not finite.
+    pub fn solve_to(
+        &mut self,
+        matrix: &SparseMatrix,
+        rhs: &mut [f64],
+        reduction: f64,
+    ) -> Result<Accuracy, LinearError> {
+        self.solved(matrix, rhs, reduction, true)
+    }
+
     /// A direct solver for the system, if its factors are small enough.
     fn take_over(&self, matrix: &SparseMatrix, stall: &LinearError) -> Option<DirectSolver> {
         let direct = DirectSolver::new(matrix.pattern(), &self.system.unknowns());
@@ -212,6 +227,7 @@ impl IterativeSolver {
         &mut self,
         matrix: &SparseMatrix,
         rhs: &mut [f64],
+        reduction: f64,
         uses_earlier: bool,
     ) -> Result<Accuracy, LinearError> {
         if let Some(direct) = &mut self.direct {
@@ -220,7 +236,8 @@ impl IterativeSolver {
         if rhs.iter().any(|value| !value.is_finite()) {
             return Err(LinearError::NotFinite);
         }
-        let Iterated { x, iterations, stalled_at } = self.iterate(matrix, rhs, uses_earlier)?;
+        let Iterated { x, iterations, stalled_at } =
+            self.iterate(matrix, rhs, reduction, uses_earlier)?;
         self.iterations = iterations;
         if let Some(residual) = stalled_at {
             let stall = LinearError::Stalled { residual, iterations, n_unknowns: rhs.len() };
@@ -270,7 +287,7 @@ impl LinearSolver for IterativeSolver {
     }
 
     fn solve(&mut self, matrix: &SparseMatrix, rhs: &mut [f64]) -> Result<Accuracy, LinearError> {
-        self.solved(matrix, rhs, true)
+        self.solve_to(matrix, rhs, self.settings.tolerance)
     }
 
     fn solve_with_earlier_set_up(
@@ -298,7 +315,7 @@ impl LinearSolver for IterativeSolver {
         for &unknown in unknowns {
             let mut column = vec![0.0; matrix.n()];
             column[unknown] = 1.0;
-            self.solved(matrix, &mut column, false)?;
+            self.solved(matrix, &mut column, self.settings.tolerance, false)?;
             inverse.extend(unknowns.iter().map(|&row| column[row]));
         }
         Ok(inverse)
