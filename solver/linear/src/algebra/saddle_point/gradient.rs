@@ -91,15 +91,37 @@ impl Gradient {
         self.pressures[entries.clone()].iter().copied().zip(&self.values[entries])
     }
 
-    /// u -= G p.
-    pub fn multiply_subtract(&self, p: &[f32], u: &mut [[f32; B]]) {
+    /// u += G p.
+    pub fn multiply_add(&self, p: &[f32], u: &mut [[f32; B]]) {
         u.par_chunks_mut(ROWS).enumerate().for_each(|(chunk, rows)| {
             for (offset, u) in rows.iter_mut().enumerate() {
                 for (pressure, value) in self.row(chunk * ROWS + offset) {
                     for a in 0..B {
-                        u[a] -= value[a] * p[pressure as usize];
+                        u[a] += value[a] * p[pressure as usize];
                     }
                 }
+            }
+        });
+    }
+
+    /// G^T, where rows and pressures have changed places.
+    pub fn transposed(&self) -> Self {
+        self.rows_of_pressures(self.starts.len() - 1)
+    }
+
+    /// p = G^T u, of the transposed G.
+    pub fn multiply_transposed(&self, u: &[[f32; B]], p: &mut [f32]) {
+        p.par_chunks_mut(ROWS).enumerate().for_each(|(chunk, pressures)| {
+            for (offset, p) in pressures.iter_mut().enumerate() {
+                let terms = self.row(chunk * ROWS + offset);
+                let mut sums = [0.0; B];
+                for (row, value) in terms {
+                    let u = &u[row as usize];
+                    for a in 0..B {
+                        sums[a] += value[a] * u[a];
+                    }
+                }
+                *p = sums.iter().sum();
             }
         });
     }
