@@ -201,12 +201,21 @@ pub enum MeshError {
         /// Where (m).
         at: [f64; 3],
     },
-    /// A box in space has periodic sides.
+    /// A body in space touches a periodic side or crosses it.
     #[error(
-        "meshes of tetrahedra with periodic sides are not made yet: make the sides walls, open, or \
-         planes of symmetry"
+        "body \"{body}\" touches or crosses the periodic side \"{side}\" at {}: gap {gap:.3e}; in \
+         space bodies stay inside of periodic sides: move all of them, or move the box", place(.at)
     )]
-    PeriodicInSpace,
+    BodyMeetsPeriodicSide {
+        /// Name of the body.
+        body: String,
+        /// Name of the side.
+        side: &'static str,
+        /// Smallest signed gap (m).
+        gap: f64,
+        /// Where (m).
+        at: [f64; 3],
+    },
     /// No mesh of tetrahedra with good cells was found.
     #[error(
         "no good tetrahedra near {}: {reason} ({value:.3e}); lower mesh.surface or raise \

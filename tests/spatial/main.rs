@@ -1,6 +1,7 @@
 //! Fluid and a free body in three dimensions, on meshes of a few tetrahedra.
 
 mod iterative;
+mod reciprocity;
 mod scene;
 
 use alewife_core::body::{Inertia, Pose, Twist, Wrench};

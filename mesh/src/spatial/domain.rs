@@ -98,6 +98,22 @@ impl Domain {
         matches!(self, Self::Box { periodic, .. } if periodic[side / 2])
     }
 
+    /// The other side of the periodic pair of a side.
+    #[must_use]
+    pub fn twin(&self, side: usize) -> Option<&'static str> {
+        self.is_periodic(side).then(|| self.sides()[side ^ 1])
+    }
+
+    /// Lengths along which the domain repeats (m), zero along the other axes.
+    #[must_use]
+    pub fn periods(&self) -> Point<3> {
+        let [min, max] = self.corners();
+        Point::<3>::from_fn(|axis, _| {
+            let is_periodic = self.sides().len() == 6 && self.is_periodic(2 * axis);
+            if is_periodic { max[axis] - min[axis] } else { 0.0 }
+        })
+    }
+
     /// Whether a side is a plane of symmetry.
     #[must_use]
     pub fn is_symmetric(&self, side: usize) -> bool {

@@ -23,7 +23,7 @@ pub struct Group {
     pub center: Point<3>,
     /// Its radius (m), infinite for the domain.
     pub reach: f64,
-    /// Planes of symmetry that cut them.
+    /// Planes of symmetry that cut them, and sides that they go through.
     pub cut_by: Vec<usize>,
 }
 
@@ -38,6 +38,8 @@ pub struct Geometry {
     pub boundaries: Vec<Boundary>,
     /// Corners of a box around the fluid (m).
     pub corners: [Point<3>; 2],
+    /// Lengths of the box along which it is periodic (m), zero along others.
+    pub periods: Point<3>,
 }
 
 impl Geometry {
@@ -50,12 +52,14 @@ impl Geometry {
         let mut boundaries = Vec::new();
         for (side, (name, surface)) in domain.sides().iter().zip(&mut surfaces).enumerate() {
             boundaries.push(Boundary { name: (*name).to_owned(), kind: BoundaryKind::Side });
-            let own = sizing.sides.iter().filter(|(named, _)| named == name);
+            let is_own = |named: &str| named == *name || domain.twin(side) == Some(named);
+            let own = sizing.sides.iter().filter(|(named, _)| is_own(named));
             let own = own.map(|(_, size)| *size).fold(f64::INFINITY, f64::min);
             surface.boundary = BoundaryId::new(side);
             surface.size = own.min(sizing.size).min(domain.facing(side) / sizing.gap_layers);
             surface.turn = sizing.turn;
             surface.is_symmetry = domain.is_symmetric(side);
+            surface.is_periodic = domain.is_periodic(side);
         }
         let far = Point::<3>::zeros();
         let mut groups = vec![Group {
@@ -79,7 +83,8 @@ impl Geometry {
             }));
             groups.push(around(&surfaces, first));
         }
-        Ok(Self { surfaces, groups, boundaries, corners: domain.corners() })
+        let corners = domain.corners();
+        Ok(Self { surfaces, groups, boundaries, corners, periods: domain.periods() })
     }
 
     /// Whether a body has several parts, whose surfaces may meet.
@@ -174,6 +179,7 @@ pub fn surfaces_of(body: &Body) -> Result<Vec<SmoothSurface>, MeshError> {
             Shape::Capsule { radius, length } => {
                 Form::Capsule { radius: *radius, half_length: 0.5 * length }
             }
+            Shape::Cylinder { radius } => Form::Cylinder(*radius),
             Shape::Revolved { profile } => {
                 Form::Revolved(Arc::new(Revolved::new(&body.name, profile)?))
             }
@@ -193,8 +199,12 @@ fn around(surfaces: &[SmoothSurface], first: usize) -> Group {
     let center = middle / own.len().max(1) as f64;
     let reach = own.iter().map(|surface| (surface.origin() - center).norm() + surface.reach());
     let reach = reach.fold(0.0, f64::max);
-    let is_cut = |plane: &SmoothSurface| own.iter().any(|surface| surface.crosses(plane));
-    let planes = surfaces[..first].iter().enumerate().filter(|(_, plane)| plane.is_symmetry);
+    let is_cut = |plane: &SmoothSurface| {
+        own.iter().any(|surface| {
+            surface.goes_through(plane) || (plane.is_symmetry && surface.crosses(plane))
+        })
+    };
+    let planes = surfaces[..first].iter().enumerate().filter(|(_, plane)| plane.is_flat());
     let cut_by = planes.filter(|(_, plane)| is_cut(plane)).map(|(side, _)| side).collect();
     Group { first, last: surfaces.len(), center, reach, cut_by }
 }

@@ -6,6 +6,7 @@
 
 mod body_surface;
 mod centreline;
+mod count;
 mod domain;
 mod generate;
 mod geometry;
@@ -16,6 +17,7 @@ mod surface;
 
 pub use body_surface::{BodySurface, MaterialPoint};
 pub use centreline::Centreline;
+pub use count::estimate_cells;
 pub use domain::Domain;
 pub use generate::generate;
 pub use placement::check_placement;

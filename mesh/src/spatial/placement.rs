@@ -30,7 +30,18 @@ pub fn check_placement(domain: &Domain, bodies: &[Body]) -> Result<(), MeshError
         check_body(domain, body, &bodies[..i])?;
         for surface in surfaces_of(body)? {
             for (side, wall) in walls.iter().enumerate() {
+                if surface.goes_through(wall) && !domain.is_periodic(side) {
+                    continue;
+                }
                 let gap = least_gap(&surface, wall);
+                if gap.is_refused(&surface) && domain.is_periodic(side) {
+                    return Err(MeshError::BodyMeetsPeriodicSide {
+                        body: body.name.clone(),
+                        side: domain.sides()[side],
+                        gap: gap.value,
+                        at: gap.at.into(),
+                    });
+                }
                 // A body that crosses a plane of symmetry is cut by it
                 if gap.is_refused(&surface) && !domain.is_symmetric(side) {
                     return Err(MeshError::BodyMeetsSide {
@@ -59,20 +70,40 @@ fn check_apart(
     facing: &SmoothSurface,
 ) -> Result<(), MeshError> {
     let apart = (surface.origin() - facing.origin()).norm();
+    // Never so of a cylinder without ends
     if apart > (surface.reach() + facing.reach()) * (1.0 + SMALLEST_GAP) {
         return Ok(());
     }
-    for gap in [least_gap(surface, facing), least_gap(facing, surface)] {
-        if gap.is_refused(surface) {
-            return Err(MeshError::BodiesMeet {
-                first: other.name.clone(),
-                second: body.name.clone(),
-                gap: gap.value,
-                at: gap.at.into(),
-            });
+    let gap = match (surface.endless_axis(), facing.endless_axis()) {
+        (None, None) => {
+            let [one, two] = [least_gap(surface, facing), least_gap(facing, surface)];
+            if two.value < one.value { two } else { one }
         }
+        (None, Some(_)) => least_gap(surface, facing),
+        (Some(_), None) => least_gap(facing, surface),
+        (Some(one), Some(other)) => between_axes(surface, facing, &one.cross(&other)),
+    };
+    if gap.is_refused(surface) {
+        return Err(MeshError::BodiesMeet {
+            first: other.name.clone(),
+            second: body.name.clone(),
+            gap: gap.value,
+            at: gap.at.into(),
+        });
     }
     Ok(())
+}
+
+/// Gap between two cylinders without ends, whose axes have this product.
+fn between_axes(one: &SmoothSurface, other: &SmoothSurface, normal: &Point<3>) -> Least {
+    let way = other.origin() - one.origin();
+    let distance = if normal.norm() > 0.5 {
+        way.dot(normal).abs()
+    } else {
+        let along = one.endless_axis().unwrap_or_default();
+        (way - along * along.dot(&way)).norm()
+    };
+    Least { value: distance - one.scale() - other.scale(), at: one.origin() + way * 0.5 }
 }
 
 fn check_domain(domain: &Domain) -> Result<(), MeshError> {
@@ -82,10 +113,6 @@ fn check_domain(domain: &Domain) -> Result<(), MeshError> {
         Domain::Cylinder { .. } => ["length", "radius", "radius"],
         Domain::Ball { .. } => ["radius"; 3],
     };
-    if (0..domain.sides().len()).any(|side| domain.is_periodic(side)) {
-        // Not made yet: facets of the two sides would have to match
-        return Err(MeshError::PeriodicInSpace);
-    }
     for (axis, what) in what.into_iter().enumerate() {
         let value = max[axis] - min[axis];
         if !value.is_finite() || value <= 0.0 {
@@ -116,6 +143,18 @@ fn check_body(domain: &Domain, body: &Body, others: &[Body]) -> Result<(), MeshE
                 return refuse(what, value, "positive and finite");
             }
         }
+        if matches!(part.shape, Shape::Cylinder { .. }) {
+            let axis: Point<3> = body.pose * part.pose * nalgebra::Vector3::x();
+            let off_axis = 1.0 - axis.amax();
+            if !matches!(domain, Domain::Box { .. }) || off_axis > 1e-12 {
+                let wanted = "0: the axis is along x, y or z of a box";
+                return refuse("axis off the normals of sides", off_axis, wanted);
+            }
+            if body.parts.len() > 1 {
+                let n = body.parts.len() as f64;
+                return refuse("number of parts", n, "1 of a cylinder without ends");
+            }
+        }
         if let Shape::Tube { centreline, radius } = &part.shape
             && *radius >= centreline.widest_tube()
         {
@@ -134,7 +173,7 @@ struct Length {
 /// The lengths of a shape that must be positive.
 fn lengths(shape: &Shape) -> Vec<Length> {
     let all = match shape {
-        Shape::Sphere { radius } => vec![("radius", *radius)],
+        Shape::Sphere { radius } | Shape::Cylinder { radius } => vec![("radius", *radius)],
         Shape::Ellipsoid { semi_axes } => semi_axes.map(|axis| ("semi_axes", axis)).to_vec(),
         Shape::Capsule { radius, length } => vec![("radius", *radius), ("length", *length)],
         // Checked where its surface is made
@@ -158,7 +197,7 @@ struct Least {
 impl Least {
     /// Whether it is too small for a mesh beside this surface.
     fn is_refused(&self, surface: &SmoothSurface) -> bool {
-        self.value.is_nan() || self.value <= SMALLEST_GAP * surface.reach()
+        self.value.is_nan() || self.value <= SMALLEST_GAP * surface.scale()
     }
 }
 
@@ -166,7 +205,19 @@ impl Least {
 ///
 /// From places all around the surface: to the nearest point of the other one and back, again and
 /// again. The distance never grows, so each ends where it is least.
+///
+/// A cylinder without ends goes along a plane, or through it.
 fn least_gap(surface: &SmoothSurface, other: &SmoothSurface) -> Least {
+    if surface.endless_axis().is_some() {
+        let value = other.gap(surface.origin()) - surface.scale();
+        let value = if surface.goes_through(other) { f64::NEG_INFINITY } else { value };
+        return Least { value, at: surface.origin() };
+    }
+    if let Some(radius) = surface.radius_of_sphere() {
+        let foot = other.foot(surface.origin());
+        let at = surface.origin() - foot.normal * radius;
+        return Least { value: foot.gap - radius, at };
+    }
     let mut starts: Vec<Least> = directions(STARTS)
         .map(|direction| {
             let at = surface.foot(surface.origin() + direction * (2.0 * surface.reach())).point;
@@ -181,19 +232,28 @@ fn least_gap(surface: &SmoothSurface, other: &SmoothSurface) -> Least {
 }
 
 /// Some steps from a point of a surface towards another surface.
+///
+/// Near a place where both touch the way to and fro gets ever shorter, so steps are stretched as long as
+/// that helps.
 fn approach(surface: &SmoothSurface, other: &SmoothSurface, start: Least, steps: usize) -> Least {
     let Least { mut value, mut at } = start;
+    let mut stretch = 1.0;
     for _ in 0..steps {
         if value <= 0.0 {
             break;
         }
-        let next = surface.foot(other.foot(at).point).point;
+        let way = surface.foot(other.foot(at).point).point - at;
+        let next = surface.foot(at + way * stretch).point;
         let shorter = other.gap(next);
-        let is_done = shorter >= value * (1.0 - 1e-10);
-        (at, value) = (next, shorter);
-        if is_done {
-            break;
+        if shorter >= value * (1.0 - 1e-10) {
+            if stretch == 1.0 {
+                break;
+            }
+            stretch = 1.0;
+            continue;
         }
+        (at, value) = (next, shorter);
+        stretch *= 2.0;
     }
     Least { value, at }
 }
@@ -211,7 +271,7 @@ mod tests {
     fn bodies_outside_or_in_each_other_are_refused() {
         let domain = Domain::walls(Point::<3>::repeat(-3.0), Point::<3>::repeat(3.0));
         let check = |bodies: &[Body]| check_placement(&domain, bodies);
-        assert!(check(&[sphere("a", [0.0; 3]), sphere("b", [0.0, 2.001, 0.0])]).is_ok());
+        assert!(check(&[sphere("a", [0.0, -1.0, 0.0]), sphere("b", [0.0, 1.001, 0.0])]).is_ok());
         match check(&[sphere("a", [0.0, 0.0, 2.1])]) {
             Err(MeshError::BodyMeetsSide { side, gap, at, .. }) => {
                 assert_eq!(side, "front");
@@ -230,6 +290,27 @@ mod tests {
         assert!(check(&[sphere("a", [0.0; 3]), inside]).is_err());
         let named = check(&[sphere("top", [0.0; 3])]);
         assert!(matches!(named, Err(MeshError::DuplicateName { .. })));
+    }
+
+    /// Nothing but the last digits keeps bodies apart that touch.
+    #[test]
+    fn bodies_that_touch_are_refused() {
+        let domain = Domain::walls(Point::<3>::repeat(-3.0), Point::<3>::repeat(3.0));
+        let ellipsoid = |semi_axes| Shape::Ellipsoid { semi_axes };
+        let egg = |name: &str, semi_axes, y: f64| {
+            Body::new(name, ellipsoid(semi_axes), Isometry3::translation(0.1, y, 0.0))
+        };
+        let below = egg("a", [1.5, 0.5, 0.8], -0.5);
+        for (above, is_apart) in [(0.0, false), (1e-9, false), (1e-3, true)] {
+            let pair = [below.clone(), egg("b", [0.9, 0.7, 1.4], 0.7 + above)];
+            assert_eq!(check_placement(&domain, &pair).is_ok(), is_apart, "{above}");
+            let top = egg("b", [0.9, 0.7, 1.4], 2.3 - above);
+            assert_eq!(check_placement(&domain, &[top]).is_ok(), is_apart, "{above}");
+        }
+        match check_placement(&domain, &[below, sphere("b", [0.1, 0.9, 0.0])]) {
+            Err(MeshError::BodiesMeet { gap, .. }) => assert!((gap + 0.1).abs() < 1e-12, "{gap}"),
+            other => panic!("{other:?}"),
+        }
     }
 
     #[test]

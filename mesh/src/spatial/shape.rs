@@ -26,6 +26,12 @@ pub enum Shape {
         /// Distance between the centres of the half spheres (m).
         length: f64,
     },
+    /// Cylinder about the x axis without ends: it goes through two opposite sides of a box, and is
+    /// the one part of its body.
+    Cylinder {
+        /// Radius (m).
+        radius: f64,
+    },
     /// A profile turned about the x axis: a smooth curve through points.
     Revolved {
         /// Points (x, distance from the axis) (m), the first and the last on the axis.

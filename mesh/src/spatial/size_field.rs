@@ -1,6 +1,7 @@
 //! `SizeField`: the edge length wanted at a point, from surfaces, gaps and boxes.
 
 use super::domain::Domain;
+use super::generate::shifts;
 use super::geometry::{Geometry, Group};
 use super::placement::check_placement;
 use super::shape::Body;
@@ -10,7 +11,8 @@ use crate::{Bounds, MeshError, Point, SizeBox, Sizing};
 ///
 /// h(x) = min(size, surface sizes + growth · distance, box sizes + growth · distance,
 /// (d + d') / layers), where d and d' are the distances to the two nearest of the bodies and the
-/// walls: across a gap d + d' is its width.
+/// walls: across a gap d + d' is its width. In a periodic box bodies and boxes of sizes repeat, and
+/// between a body and a periodic side is one edge at least.
 #[derive(Debug, Clone)]
 pub struct SizeField {
     geometry: Geometry,
@@ -18,6 +20,8 @@ pub struct SizeField {
     growth: f64,
     layers: f64,
     boxes: Vec<SizeBox<3>>,
+    /// By what bodies and boxes repeat (m), zero first.
+    shifts: Vec<Point<3>>,
 }
 
 /// What one group of surfaces asks for at a point.
@@ -42,6 +46,7 @@ impl SizeField {
     /// The sizes around surfaces.
     pub(super) fn of(geometry: Geometry, sizing: &Sizing<3>) -> Self {
         Self {
+            shifts: shifts(&geometry.periods),
             geometry,
             size: sizing.size,
             growth: sizing.growth,
@@ -65,30 +70,36 @@ impl SizeField {
     #[must_use]
     pub fn at(&self, point: Point<3>) -> f64 {
         let mut size = self.size;
-        for one in &self.boxes {
-            let bounds = Bounds { min: one.min, max: one.max };
+        for (one, shift) in
+            self.boxes.iter().flat_map(|one| self.shifts.iter().map(move |s| (one, s)))
+        {
+            let bounds = Bounds { min: one.min + shift, max: one.max + shift };
             size = size.min(one.size + self.growth * bounds.squared_distance(&point).sqrt());
         }
         // The domain comes first, then bodies as far as they can matter
+        let mut to_walls = f64::INFINITY;
+        let (domain, bodies) = self.geometry.groups.split_at(1);
         let (mut nearest, mut second) = (f64::INFINITY, f64::INFINITY);
-        let domain = &self.geometry.surfaces[..self.geometry.groups[0].last];
-        for group in &self.geometry.groups {
-            let apart = ((point - group.center).norm() - group.reach).max(0.0);
+        let copies = bodies.iter().flat_map(|body| self.shifts.iter().map(move |s| (body, s)));
+        for (group, shift) in domain.iter().zip(&self.shifts).chain(copies) {
+            let seen = point - shift;
+            let apart = ((seen - group.center).norm() - group.reach).max(0.0);
             if apart * self.growth.min(1.0 / self.layers) >= size {
                 continue;
             }
-            let wish = self.wish(group, point);
+            let wish = self.wish(group, seen);
             size = size.min(wish.size);
-            // A body faces its image behind a plane of symmetry that does not cut it
-            if group.first > 0 {
-                for (side, plane) in domain.iter().enumerate().filter(|(_, side)| side.is_symmetry)
-                {
-                    if !group.cut_by.contains(&side) {
-                        let gap = wish.distance + plane.gap(point).abs();
-                        size = size.min(2.0 * gap / self.layers);
-                    }
-                }
+            if group.first == 0 {
+                to_walls = wish.distance;
+                continue;
             }
+            size = size.min(self.size_before_sides(group, wish.distance, point));
+            let facing = if group.cut_by.is_empty() {
+                to_walls
+            } else {
+                self.distance_to_walls(&group.cut_by, point)
+            };
+            size = size.min((wish.distance + facing) / self.layers);
             if wish.distance < nearest {
                 (nearest, second) = (wish.distance, nearest);
             } else if wish.distance < second {
@@ -96,6 +107,30 @@ impl SizeField {
             }
         }
         size.min((nearest + second) / self.layers)
+    }
+
+    /// Distance to the nearest wall but for some sides (m).
+    fn distance_to_walls(&self, but: &[usize], point: Point<3>) -> f64 {
+        let sides = self.geometry.surfaces[..self.geometry.groups[0].last].iter().enumerate();
+        let walls = sides.filter(|(side, plane)| plane.is_solid() && !but.contains(side));
+        walls.map(|(_, plane)| plane.gap(point).abs()).fold(f64::INFINITY, f64::min)
+    }
+
+    /// The edge length wanted between a body at a distance (m) and sides that are no walls.
+    fn size_before_sides(&self, body: &Group, distance: f64, point: Point<3>) -> f64 {
+        let sides = &self.geometry.surfaces[..self.geometry.groups[0].last];
+        let mut size = f64::INFINITY;
+        for (side, plane) in sides.iter().enumerate().filter(|(_, side)| !side.is_solid()) {
+            let gap = distance + plane.gap(point).abs();
+            if plane.is_periodic {
+                // The side stays as it is in the lattice
+                size = size.min(gap);
+            } else if !body.cut_by.contains(&side) {
+                // A body faces its image behind a plane of symmetry that does not cut it
+                size = size.min(2.0 * gap / self.layers);
+            }
+        }
+        size
     }
 
     fn wish(&self, group: &Group, point: Point<3>) -> Wish {
@@ -107,7 +142,7 @@ impl SizeField {
                 let foot = surface.foot(point);
                 (foot.gap, surface.size_at(foot.point))
             };
-            if !surface.is_symmetry {
+            if surface.is_solid() {
                 wish.distance = wish.distance.min(gap.abs());
             }
             wish.size = wish.size.min(own + self.growth * gap.abs());

@@ -1,5 +1,7 @@
 //! Any valid placement of bodies in space gives a good mesh: invariants, angles, volume, surfaces.
 
+mod cylinder;
+mod periodic;
 mod random;
 
 use std::f64::consts::PI;

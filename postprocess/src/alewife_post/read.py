@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 Array = np.ndarray
 
 QUADRATIC_TRIANGLE = 22
+QUADRATIC_TETRAHEDRON = 24
 
 
 @dataclass(frozen=True)
@@ -35,22 +36,23 @@ class Frame:
 
 @dataclass(frozen=True)
 class Field:
-    """Flow on the mesh of one time. Nodes are those of quadratic triangles.
+    """Flow on the mesh of one time. Nodes are those of quadratic triangles or tetrahedra.
 
-    A cell lists its vertices counter-clockwise, then the nodes of its edges 01, 12, 20.
+    A triangle lists its vertices counter-clockwise, then the nodes of its edges 01, 12, 20; a
+    tetrahedron its vertices, then those of 01, 12, 20, 03, 13, 23. There are `d` dimensions.
     """
 
     time: float
     nodes: Array
-    """Positions, `(n_nodes, 2)`."""
+    """Positions, `(n_nodes, d)`."""
     cells: Array
-    """Nodes of each cell, `(n_cells, 6)`."""
+    """Nodes of each cell, `(n_cells, 6)`, in space `(n_cells, 10)`."""
     velocity: Array
-    """`(n_nodes, 2)`."""
+    """`(n_nodes, d)`."""
     pressure: Array
     """`(n_nodes,)`."""
     vorticity: Array
-    """`(n_nodes,)`, counter-clockwise."""
+    """`(n_nodes,)`, counter-clockwise; in space `(n_nodes, 3)`."""
 
 
 @dataclass(frozen=True)
@@ -169,6 +171,11 @@ class Run:
         """Whether x is an axis of revolution and y the distance from it."""
         return self.case["geometry"] == "axisymmetric"
 
+    @property
+    def is_spatial(self) -> bool:
+        """Whether there are three dimensions."""
+        return self.case["geometry"] == "spatial"
+
 
 def open_run(path: str | Path) -> Run:
     """Open a run directory, finished or not."""
@@ -185,14 +192,19 @@ def read_field(path: str | Path) -> Field:
 
     grid = pyvista.read(path)
     by_type = grid.cells_dict
-    if set(by_type) != {QUADRATIC_TRIANGLE}:
-        raise ValueError(f"{path}: cells of VTK types {sorted(by_type)}; only 22 can be drawn")
+    dimensions = {QUADRATIC_TRIANGLE: 2, QUADRATIC_TETRAHEDRON: 3}
+    if len(by_type) != 1 or set(by_type) - set(dimensions):
+        raise ValueError(
+            f"{path}: cells of VTK types {sorted(by_type)}; 22 or 24 alone can be drawn"
+        )
+    ((kind, cells),) = by_type.items()
+    n = dimensions[kind]
     time = grid.field_data.get("TimeValue", [0.0])[0]
     return Field(
         time=float(time),
-        nodes=np.array(grid.points[:, :2], dtype=float),
-        cells=np.array(by_type[QUADRATIC_TRIANGLE]),
-        velocity=np.array(grid.point_data["velocity"][:, :2], dtype=float),
+        nodes=np.array(grid.points[:, :n], dtype=float),
+        cells=np.array(cells),
+        velocity=np.array(grid.point_data["velocity"][:, :n], dtype=float),
         pressure=np.array(grid.point_data["pressure"], dtype=float),
         vorticity=np.array(grid.point_data["vorticity"], dtype=float),
     )

@@ -98,6 +98,48 @@ def render(
     return np.asarray(image)
 
 
+def render_surface(
+    surface,  # noqa: ANN001  (naming the type would load VTK)
+    size: tuple[int, int],
+    camera: tuple[float, float],
+    colour_map: str,
+    limits: style.Limits,
+) -> Array:
+    """An image of a surface coloured by its `values`, cut to what it shows."""
+    import pyvista
+
+    plotter = pyvista.Plotter(off_screen=True, window_size=size)
+    plotter.add_mesh(
+        surface.compute_normals(feature_angle=40.0, split_vertices=True),
+        scalars="values",
+        cmap=colour_map,
+        clim=limits,
+        show_scalar_bar=False,
+        smooth_shading=True,
+        ambient=0.6,
+        diffuse=0.45,
+    )
+    azimuth, elevation = np.radians(camera)
+    towards = np.array(
+        [
+            np.cos(elevation) * np.cos(azimuth),
+            np.cos(elevation) * np.sin(azimuth),
+            np.sin(elevation),
+        ]
+    )
+    up = (0.0, 0.0, 1.0) if abs(towards[2]) < 0.99 else (0.0, 1.0, 0.0)
+    plotter.view_vector(towards, viewup=up)
+    plotter.camera.parallel_projection = True
+    plotter.reset_camera()
+    plotter.enable_anti_aliasing("ssaa")
+    image = np.asarray(plotter.screenshot(transparent_background=True, return_img=True))
+    plotter.close()
+    rows, columns = np.nonzero(image[..., 3])
+    if len(rows) == 0:
+        return image
+    return image[rows.min() : rows.max() + 1, columns.min() : columns.max() + 1]
+
+
 def _grid(field: Field):  # noqa: ANN202  (naming the type would load VTK)
     import pyvista
 

@@ -5,8 +5,6 @@ use std::fmt;
 use serde::de::{self, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-use super::speed::norm;
-
 /// An angular velocity (rad/s) or a torque (N m): a number is its part about z, counter-clockwise; in
 /// three dimensions it may be `[x, y, z]`.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -54,7 +52,7 @@ impl AxialVector {
     /// Its length.
     #[must_use]
     pub fn norm(&self) -> f64 {
-        norm(&self.0)
+        nalgebra::Vector3::from(self.0).norm()
     }
 }
 

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use super::axial_vector::AxialVector;
-use super::domain::TimeFunction;
+use super::domain::{Geometry, TimeFunction};
 use super::gait::{
     AnguilliformGait, CarangiformGait, FishShape, FlagellateShape, FlagellumGait, JointsGait,
     PulsatingGait, TubeShape,
@@ -60,6 +60,80 @@ pub enum ShapeSpec {
         /// Radius (m).
         radius: f64,
     },
+    /// Circular cylinder from side to side of a box (spatial).
+    Cylinder {
+        /// Radius (m).
+        radius: f64,
+        /// Coordinate along which it goes through the box.
+        axis: CylinderAxis,
+        /// Length of the box along it (m), which is not written.
+        #[serde(skip)]
+        length: f64,
+    },
+    /// Tube along a helix about the body's x axis (spatial).
+    Helix(HelixShape),
+    /// Smooth profile turned about the body's x axis (spatial).
+    Revolved {
+        /// Points (x, distance from the axis) of the profile (m), the first and the last on the axis.
+        profile: Vec<[f64; 2]>,
+    },
+    /// All points of several parts, such as a head and a flagellum (spatial).
+    Union(Vec<PartSpec>),
+}
+
+/// A coordinate along which a cylinder goes through a box.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(rename_all = "lowercase")]
+pub enum CylinderAxis {
+    /// From left to right.
+    X,
+    /// From bottom to top.
+    Y,
+    /// From back to front.
+    Z,
+}
+
+impl CylinderAxis {
+    /// 0 for x, 1 for y, 2 for z.
+    #[must_use]
+    pub fn index(self) -> usize {
+        match self {
+            Self::X => 0,
+            Self::Y => 1,
+            Self::Z => 2,
+        }
+    }
+}
+
+/// `helix`: a tube along a helix about the body's x axis, from x = 0 towards +x, with round ends.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct HelixShape {
+    /// Distance of the midline from the axis (m); it starts in the half plane y > 0.
+    pub radius: f64,
+    /// Length along the axis of one turn (m).
+    pub pitch: f64,
+    /// Number of turns: right-handed if positive, left-handed if negative.
+    pub turns: f64,
+    /// Radius of the tube (m).
+    pub tube_radius: f64,
+}
+
+/// A part of a `union`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct PartSpec {
+    /// What it is.
+    pub shape: ShapeSpec,
+    /// Where its origin is in the frame of the body (m).
+    #[serde(default)]
+    pub center: [f64; 3],
+    /// How it is turned from the frame of the body; not at all if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub orientation: Option<Orientation>,
 }
 
 /// How a body moves as a whole.
@@ -106,6 +180,18 @@ pub enum Lock {
     Rotation,
 }
 
+impl Geometry {
+    /// Motions of a free body, each of which may be locked.
+    #[must_use]
+    pub fn motions(self) -> &'static [Lock] {
+        match self {
+            Self::Planar => &[Lock::X, Lock::Y, Lock::Rotation],
+            Self::Axisymmetric => &[Lock::X],
+            Self::Spatial => &[Lock::X, Lock::Y, Lock::Z, Lock::Rotation],
+        }
+    }
+}
+
 /// `orientation`: how the body frame is turned from that of the laboratory, one of these.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
@@ -116,6 +202,8 @@ pub enum Orientation {
         /// Direction of the axis, of any length.
         axis: [f64; 3],
         /// Angle, right-handed about the axis (rad).
+        #[serde(deserialize_with = "super::angle::deserialize")]
+        #[cfg_attr(test, schemars(with = "super::angle::Angle"))]
         angle: f64,
     },
     /// Unit quaternion [w, x, y, z], from the body frame to the laboratory.
@@ -156,7 +244,8 @@ pub struct SquirmerGait {
     pub modes: Vec<f64>,
     /// Direction of the swimming axis in the body frame, from x, counter-clockwise (rad);
     /// 0 or pi for a body on the axis.
-    #[serde(default)]
+    #[serde(default, deserialize_with = "super::angle::deserialize")]
+    #[cfg_attr(test, schemars(with = "super::angle::Angle"))]
     pub heading: f64,
     /// Direction of the swimming axis in the body frame, of any length (spatial); x if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -166,7 +255,11 @@ pub struct SquirmerGait {
     pub factors: BTreeMap<String, TimeFunction>,
     /// Angle in time by which the swimming axis is turned from `heading`, counter-clockwise (rad);
     /// planar only. The body itself does not turn by it.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(
+        default,
+        skip_serializing_if = "Option::is_none",
+        deserialize_with = "super::angle::deserialize"
+    )]
     pub turn: Option<TimeFunction>,
 }
 
@@ -200,7 +293,12 @@ pub struct SpringSpec {
     #[serde(default)]
     pub torsion_damping: f64,
     /// Angle at rest (rad); that at the start, if absent.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(
+        default,
+        skip_serializing_if = "Option::is_none",
+        deserialize_with = "super::angle::deserialize"
+    )]
+    #[cfg_attr(test, schemars(with = "Option<super::angle::Angle>"))]
     pub rest_angle: Option<f64>,
 }
 
@@ -216,7 +314,8 @@ pub struct Body {
     /// Position of the shape's origin (m), one number per dimension.
     pub center: Vec<f64>,
     /// Rotation of the body frame, counter-clockwise (rad; planar).
-    #[serde(default)]
+    #[serde(default, deserialize_with = "super::angle::deserialize")]
+    #[cfg_attr(test, schemars(with = "super::angle::Angle"))]
     pub angle: f64,
     /// Rotation of the body frame in space; none if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]

@@ -7,6 +7,7 @@ use serde::de::value::StrDeserializer;
 use serde::de::{self, DeserializeSeed, IntoDeserializer, Visitor};
 use serde::forward_to_deserialize_any;
 
+use super::angle::{ANGULAR, in_radians};
 use super::source::Origin;
 use super::tree::{TomlNode, TomlValue};
 use super::type_error::{Mismatch, TypeError, with_file};
@@ -45,9 +46,12 @@ impl<'de> de::Deserializer<'de> for &TomlNode {
 
     fn deserialize_newtype_struct<V: Visitor<'de>>(
         self,
-        _name: &'static str,
+        name: &'static str,
         visitor: V,
     ) -> Result<V::Value, TypeError> {
+        if name == ANGULAR {
+            return visitor.visit_newtype_struct(&in_radians(self)?);
+        }
         visitor.visit_newtype_struct(self)
     }
 

@@ -2,8 +2,6 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::body::Lock;
-
 /// Dimension and symmetry of the problem.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
@@ -34,16 +32,6 @@ impl Geometry {
             Self::Planar => "planar",
             Self::Axisymmetric => "axisymmetric",
             Self::Spatial => "spatial",
-        }
-    }
-
-    /// Motions of a free body, each of which may be locked.
-    #[must_use]
-    pub fn motions(self) -> &'static [Lock] {
-        match self {
-            Self::Planar => &[Lock::X, Lock::Y, Lock::Rotation],
-            Self::Axisymmetric => &[Lock::X],
-            Self::Spatial => &[Lock::X, Lock::Y, Lock::Z, Lock::Rotation],
         }
     }
 }

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use alewife_mesh::{FishForm, FlagellateForm, PlacedShape, Point, Profile, Shape, Spline};
 
+use super::solid_shape::{self, Measures};
 use super::{Body, GaitSpec, Geometry, Lock, Motion, ShapeSpec};
 
 /// Directions in which the width of a spline is measured.
@@ -24,6 +25,10 @@ impl ShapeSpec {
             Self::Spheroid { .. } => "spheroid",
             Self::Ellipsoid { .. } => "ellipsoid",
             Self::Capsule { .. } => "capsule",
+            Self::Cylinder { .. } => "cylinder",
+            Self::Helix(_) => "helix",
+            Self::Revolved { .. } => "revolved",
+            Self::Union(_) => "union",
         }
     }
 
@@ -40,7 +45,12 @@ impl ShapeSpec {
             Self::Sphere { .. } | Self::Spheroid { .. } => {
                 &[Geometry::Axisymmetric, Geometry::Spatial]
             }
-            Self::Ellipsoid { .. } | Self::Capsule { .. } => &[Geometry::Spatial],
+            Self::Ellipsoid { .. }
+            | Self::Capsule { .. }
+            | Self::Cylinder { .. }
+            | Self::Helix(_)
+            | Self::Revolved { .. }
+            | Self::Union(_) => &[Geometry::Spatial],
         }
     }
 
@@ -102,7 +112,12 @@ impl ShapeSpec {
             Self::Sphere { radius } => Shape::Sphere { radius },
             Self::Spheroid { semi_axes } => Shape::Spheroid { semi_axes },
             // Shapes in space have none
-            Self::Ellipsoid { .. } | Self::Capsule { .. } => Shape::Spline { points: Vec::new() },
+            Self::Ellipsoid { .. }
+            | Self::Capsule { .. }
+            | Self::Cylinder { .. }
+            | Self::Helix(_)
+            | Self::Revolved { .. }
+            | Self::Union(_) => Shape::Spline { points: Vec::new() },
         }
     }
 
@@ -133,6 +148,20 @@ impl ShapeSpec {
                 0.5 * ellipse([sorted[2], sorted[1]])
             }
             Self::Capsule { length, radius } => length + (PI - 2.0) * radius,
+            Self::Cylinder { length, .. } => *length,
+            Self::Helix(_) | Self::Revolved { .. } | Self::Union(_) => {
+                self.measures().map_or(0.0, |measures| measures.length)
+            }
+        }
+    }
+
+    /// Measures of a solid made of a curve, a profile or parts; `None` of other shapes.
+    fn measures(&self) -> Option<Measures> {
+        match self {
+            Self::Helix(helix) => Some(helix.measures()),
+            Self::Revolved { profile } => Some(solid_shape::revolved(profile)),
+            Self::Union(parts) => Some(solid_shape::union(parts)),
+            _ => None,
         }
     }
 
@@ -147,7 +176,7 @@ impl ShapeSpec {
         }
     }
 
-    /// Volume, of planar shapes area (m3, m2); 0 of a shape that is none.
+    /// Volume, of planar shapes area (m3, m2); 0 of a shape that is none; of a union that of all parts.
     #[must_use]
     pub fn volume(&self) -> f64 {
         use std::f64::consts::PI;
@@ -156,7 +185,11 @@ impl ShapeSpec {
             Self::Capsule { length, radius } => {
                 PI * radius * radius * (length - 2.0 / 3.0 * radius)
             }
-            _ => self.outline().moments().map_or(0.0, |moments| moments.measure),
+            Self::Cylinder { length, radius, .. } => PI * radius * radius * length,
+            _ => self.measures().map_or_else(
+                || self.outline().moments().map_or(0.0, |moments| moments.measure),
+                |measures| measures.volume,
+            ),
         }
     }
 
@@ -171,8 +204,10 @@ impl ShapeSpec {
                 let mean = (power(a * b) + power(a * c) + power(b * c)) / 3.0;
                 4.0 * PI * mean.powf(1.0 / 1.6075)
             }
-            (Self::Capsule { length, radius }, None) => 2.0 * PI * radius * length,
-            (_, None) => 0.0,
+            (Self::Capsule { length, radius } | Self::Cylinder { length, radius, .. }, None) => {
+                2.0 * PI * radius * length
+            }
+            (_, None) => self.measures().map_or(0.0, |measures| measures.area),
         }
     }
 
@@ -182,6 +217,10 @@ impl ShapeSpec {
         match self {
             Self::Ellipsoid { semi_axes } => semi_axes.iter().copied().fold(0.0, f64::max),
             Self::Capsule { length, .. } => 0.5 * length,
+            Self::Cylinder { length, radius, .. } => radius.hypot(0.5 * length),
+            Self::Helix(_) | Self::Revolved { .. } | Self::Union(_) => {
+                self.measures().map_or(0.0, |measures| measures.reach)
+            }
             Self::Disc { radius } | Self::Sphere { radius } => *radius,
             Self::Ellipse { semi_axes: [a, b] } | Self::Spheroid { semi_axes: [a, b] } => a.max(*b),
             Self::Spline { .. } | Self::Fish(_) | Self::Flagellate(_) | Self::Tube(_) => {
@@ -197,7 +236,10 @@ impl ShapeSpec {
             Self::Ellipsoid { semi_axes } => {
                 semi_axes.iter().copied().fold(f64::INFINITY, f64::min)
             }
-            Self::Capsule { radius, .. } => *radius,
+            Self::Capsule { radius, .. } | Self::Cylinder { radius, .. } => *radius,
+            Self::Helix(_) | Self::Revolved { .. } | Self::Union(_) => {
+                self.measures().map_or(0.0, |measures| measures.half_width)
+            }
             Self::Disc { radius } | Self::Sphere { radius } => *radius,
             Self::Ellipse { semi_axes: [a, b] } | Self::Spheroid { semi_axes: [a, b] } => a.min(*b),
             Self::Spline { .. } | Self::Fish(_) | Self::Flagellate(_) | Self::Tube(_) => {

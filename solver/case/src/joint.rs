@@ -36,12 +36,14 @@ pub enum JointKind {
         /// Length (m).
         length: Stroke,
         /// Direction in the parent's frame, from x, counter-clockwise (rad).
-        #[serde(default)]
+        #[serde(default, deserialize_with = "super::angle::deserialize")]
+        #[cfg_attr(test, schemars(with = "super::angle::Angle"))]
         direction: f64,
     },
     /// A pivot bent by a given angle.
     Bent {
         /// Angle of the child less that of the parent (rad).
+        #[serde(deserialize_with = "super::angle::deserialize")]
         angle: Stroke,
     },
     /// A free pivot: torque on the child -stiffness (angle - rest) - damping rate + torque, with the
@@ -119,7 +121,8 @@ pub struct Hinge {
     #[serde(default)]
     pub damping: f64,
     /// Angle at rest (rad).
-    #[serde(default)]
+    #[serde(default, deserialize_with = "super::angle::deserialize")]
+    #[cfg_attr(test, schemars(with = "super::angle::Angle"))]
     pub rest: f64,
     /// Torque of a motor on the child (N m; N planar).
     #[serde(default, skip_serializing_if = "Option::is_none")]

@@ -1,5 +1,6 @@
 //! `Case`: the typed contents of a case file; `Model`: what follows from them.
 
+mod angle;
 mod axial_vector;
 mod body;
 mod case;
@@ -33,6 +34,8 @@ mod reference;
 mod region;
 mod schema;
 mod skin;
+mod solid;
+mod solid_shape;
 mod source;
 mod speed;
 mod stroke;
@@ -45,7 +48,8 @@ mod variants;
 
 pub use axial_vector::AxialVector;
 pub use body::{
-    Body, GaitSpec, ImposedMotion, Lock, Motion, Orientation, ShapeSpec, SpringSpec, SquirmerGait,
+    Body, CylinderAxis, GaitSpec, HelixShape, ImposedMotion, Lock, Motion, Orientation, PartSpec,
+    ShapeSpec, SpringSpec, SquirmerGait,
 };
 pub use case::Case;
 pub use check::check;

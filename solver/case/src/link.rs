@@ -71,7 +71,12 @@ impl Link {
             | ShapeSpec::Spheroid { semi_axes: [half, half_width] } => {
                 Ok(LinkExtent { back: -half, front: *half, half_width: *half_width })
             }
-            ShapeSpec::Ellipsoid { .. } | ShapeSpec::Capsule { .. } => {
+            ShapeSpec::Ellipsoid { .. }
+            | ShapeSpec::Capsule { .. }
+            | ShapeSpec::Cylinder { .. }
+            | ShapeSpec::Helix(_)
+            | ShapeSpec::Revolved { .. }
+            | ShapeSpec::Union(_) => {
                 let half = shape.reach();
                 Ok(LinkExtent { back: -half, front: half, half_width: shape.half_width() })
             }

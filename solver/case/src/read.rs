@@ -19,7 +19,7 @@ use super::source::{Location, Origin, Source};
 use super::tree::{self, Found, TomlNode, TomlValue, TreeError};
 use super::type_error::{Mismatch, TypeError};
 use super::variants::{apply_variant, check_names, variant_names};
-use super::{BoundaryCondition, Case, Model, library, stroke_file};
+use super::{BoundaryCondition, Case, Model, ShapeSpec, library, stroke_file};
 
 /// Keys of a file that those who extend it do not inherit.
 const OWN_KEYS: [&str; 3] = ["reference", "variant", "quick"];
@@ -154,6 +154,7 @@ fn assemble(
     stroke_file::resolve(&mut root).map_err(wrong)?;
     let mut case = typed(&root)?;
     complete_periodic(&mut case);
+    complete_cylinders(&mut case);
     let model = Model::new(case).map_err(|error| located(&root, error))?;
     Ok(CaseFile {
         model,
@@ -298,6 +299,16 @@ fn complete_periodic(case: &mut Case) {
         .collect();
     for (side, partner) in pairs {
         case.boundary.entry(partner).or_insert(BoundaryCondition::Periodic(side));
+    }
+}
+
+/// Cylinders that go through a box are as long as it is.
+fn complete_cylinders(case: &mut Case) {
+    let lengths = case.extent().lengths();
+    for body in &mut case.body {
+        if let ShapeSpec::Cylinder { axis, length, .. } = &mut body.shape {
+            *length = lengths[axis.index()];
+        }
     }
 }
 

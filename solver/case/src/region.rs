@@ -88,6 +88,32 @@ impl Case {
         ["left", "bottom", "back"].map(is_periodic)
     }
 
+    /// The walls of a channel, with its images behind axis and planes of symmetry (m), along each
+    /// coordinate; `None` without walls.
+    #[must_use]
+    pub fn walls_across(&self) -> [Option<[f64; 2]>; 3] {
+        let extent = self.extent();
+        let is_mirror = |side: &str| {
+            let condition = self.boundary.get(side);
+            matches!(condition, Some(BoundaryCondition::Symmetry | BoundaryCondition::Axis))
+        };
+        let is_periodic = self.periodic_axes();
+        let is_axisymmetric = self.geometry == Geometry::Axisymmetric;
+        let pairs = [["left", "right"], ["bottom", "top"], ["back", "front"]];
+        std::array::from_fn(|axis| {
+            let [low, high] = [extent.min[axis], extent.max[axis]];
+            if is_axisymmetric && axis == 1 {
+                return Some([-high, high]);
+            }
+            match pairs[axis].map(is_mirror) {
+                [false, false] => (!is_periodic[axis]).then_some([low, high]),
+                [true, false] => Some([2.0 * low - high, high]),
+                [false, true] => Some([low, 2.0 * high - low]),
+                [true, true] => None,
+            }
+        })
+    }
+
     /// Names of the sides of the domain.
     #[must_use]
     pub fn sides(&self) -> &'static [&'static str] {
@@ -158,5 +184,34 @@ impl Case {
             DomainSpec::HalfDisc { center, radius } => Domain::HalfDisc { center, radius },
             DomainSpec::Cylinder { x, radius } => Domain::Cylinder { x, radius, periodic_x },
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::Case;
+
+    /// A parabola has its largest value at a plane of symmetry, and none where there are no walls.
+    #[test]
+    fn the_walls_of_a_channel_are_behind_its_planes_of_symmetry() {
+        let text = "title = 't'
+geometry = 'spatial'
+fluid = { model = 'stokes', viscosity = 1.0 }
+domain.box = { min = [0.0, 0.0, 1.0], max = [4.0, 2.0, 2.0] }
+boundary = { left = { parabolic = { peak = 1.0 } }, right = 'do-nothing', bottom = 'no-slip', \
+             top = 'no-slip', back = 'no-slip', front = 'symmetry' }
+mesh = { size = 0.3 }
+time = { steady = {} }
+";
+        let across = |settings: &[&str]| {
+            let settings: Vec<String> = settings.iter().map(|&one| one.to_owned()).collect();
+            Case::parse("t.toml", text, &settings).unwrap().model.case.walls_across()
+        };
+        assert_eq!(across(&[])[1..], [Some([0.0, 2.0]), Some([1.0, 3.0])]);
+        let back = "boundary.back='symmetry'";
+        assert_eq!(across(&[back])[2], None);
+        assert_eq!(across(&[back, "boundary.front='no-slip'"])[2], Some([0.0, 2.0]));
+        let pair = ["boundary.back={ periodic = 'front' }", "boundary.front={ periodic = 'back' }"];
+        assert_eq!(across(&pair)[2], None);
     }
 }

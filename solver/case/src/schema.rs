@@ -34,6 +34,10 @@ mod tests {
         if let Some(strokes) = schema["$defs"]["Stroke"]["oneOf"].as_array_mut() {
             strokes.push(json!({ "type": "number", "description": "The same as `constant`." }));
         }
+        // Values of what is an angle in time may have a unit
+        for name in ["Stroke", "TimeFunction"] {
+            allow_units(&mut schema["$defs"][name]);
+        }
         // Values of a file are put in its place before the case is typed
         let mut file = schemars::schema_for!(FileStroke).to_value();
         if let Some(keys) = file.as_object_mut() {
@@ -57,6 +61,25 @@ mod tests {
             );
         }
         schema
+    }
+
+    /// Lets the values of a function of time be angles with a unit, which its own schema does not know.
+    fn allow_units(schema: &mut Value) {
+        match schema {
+            Value::Object(keys) if keys.get("format").is_some_and(|format| format == "double") => {
+                keys.remove("type");
+                keys.remove("format");
+                keys.insert("$ref".to_owned(), json!("#/$defs/Angle"));
+            }
+            Value::Object(keys) => {
+                let is_value = |key: &str| !["period", "phase", "ramp", "duration"].contains(&key);
+                keys.iter_mut()
+                    .filter(|(key, _)| is_value(key))
+                    .for_each(|(_, own)| allow_units(own));
+            }
+            Value::Array(items) => items.iter_mut().for_each(allow_units),
+            _ => {}
+        }
     }
 
     /// To write the file again: `ALEWIFE_UPDATE=1 cargo test --release --workspace schema`.

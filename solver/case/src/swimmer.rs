@@ -21,7 +21,8 @@ pub struct SwimmerSpec {
     #[serde(default)]
     pub center: [f64; 2],
     /// Rotation of that body, counter-clockwise (rad).
-    #[serde(default)]
+    #[serde(default, deserialize_with = "super::angle::deserialize")]
+    #[cfg_attr(test, schemars(with = "super::angle::Angle"))]
     pub angle: f64,
     /// Density (kg/m3); that of the fluid if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -77,7 +78,12 @@ pub enum SwimmerKind {
         /// Distances of their centres from the middle (m).
         arms: Vec<Stroke>,
         /// Directions of the arms, from x, counter-clockwise (rad); evenly around if absent.
-        #[serde(default, skip_serializing_if = "Vec::is_empty")]
+        #[serde(
+            default,
+            skip_serializing_if = "Vec::is_empty",
+            deserialize_with = "super::angle::deserialize"
+        )]
+        #[cfg_attr(test, schemars(with = "Vec<super::angle::Angle>"))]
         directions: Vec<f64>,
     },
     /// Slender links one after the other, with pivots between them (planar); the first one is in
@@ -119,6 +125,7 @@ pub enum Pivot {
     /// Bent by a given angle (rad).
     Bent {
         /// Angle (rad).
+        #[serde(deserialize_with = "super::angle::deserialize")]
         angle: Stroke,
     },
     /// Free, with stiffness, damping and torque.

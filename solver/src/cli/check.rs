@@ -168,10 +168,10 @@ where
         let more = format!("up to {} more where bodies come near", count(round(cost.in_films)));
         let _ = writeln!(text, "  {:<16} {more}", "");
     }
-    let most = if cost.new_meshes >= 1.0 {
-        "for the factorisation, and for new meshes"
-    } else {
-        "most of it for the factorisation"
+    let most = match (D, cost.new_meshes >= 1.0) {
+        (3, _) => "most of it for the matrix and its preconditioner",
+        (_, true) => "for the factorisation, and for new meshes",
+        (_, false) => "most of it for the factorisation",
     };
     let _ = writeln!(text, "  {:<16} {}, {most}", "memory", bytes(cost.memory));
     let systems = if cost.systems == 1.0 {
@@ -182,6 +182,9 @@ where
     let mut line = format!("{} for {systems}", duration(cost.seconds));
     if cost.new_meshes >= 1.0 {
         let _ = write!(line, " and {} new meshes", count(round(cost.new_meshes)));
+    }
+    if let Some(seconds) = cost.step_seconds {
+        let _ = write!(line, ", {} a step", duration_of_step(seconds));
     }
     let _ = writeln!(text, "  {:<16} {line}", "CPU time");
     let _ = write!(text, "  {:<16} {}", "output", bytes(output));
@@ -218,9 +221,12 @@ fn output_size<const D: usize>(model: &Model, mesh: &Mesh<D>) -> f64 {
         Precision::F32 => 4.0,
         Precision::F64 => 8.0,
     };
-    // Positions as doubles; velocity, pressure and vorticity; six indices a cell. zlib halves it.
-    let frame = 0.5
-        * (mesh.n_nodes() as f64 * (3.0 * 8.0 + 5.0 * number) + mesh.n_cells() as f64 * 6.0 * 8.0);
+    // Positions as doubles; velocity, pressure and vorticity; six or ten indices a cell. zlib halves
+    // it in the plane, where one coordinate is always zero.
+    let [values, indices, compressed] = if D == 3 { [7.0, 10.0, 0.65] } else { [5.0, 6.0, 0.5] };
+    let frame = compressed
+        * (mesh.n_nodes() as f64 * (3.0 * 8.0 + values * number)
+            + mesh.n_cells() as f64 * indices * 8.0);
     // A row of text, and a message a body.
     let row = 20.0 * known_quantities(model).len() as f64 + 300.0 * model.bodies.len() as f64;
     times(case.output.fields) * frame + times(case.output.series) * row
@@ -244,6 +250,16 @@ fn bytes(size: f64) -> String {
         }
     }
     unit.map_or_else(|| format!("{number:.0} bytes"), |unit| format!("{number:.1} {unit}"))
+}
+
+/// Steps are short: down to milliseconds.
+fn duration_of_step(seconds: f64) -> String {
+    match seconds {
+        s if s < 1e-3 => "less than 1 ms".to_owned(),
+        s if s < 0.0995 => format!("{:.0} ms", 1e3 * s),
+        s if s < 1.0 => format!("{s:.2} s"),
+        s => duration(s),
+    }
 }
 
 fn duration(seconds: f64) -> String {

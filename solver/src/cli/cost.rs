@@ -1,7 +1,7 @@
 //! What a run would cost: steps, linear systems, new meshes, and the CPU time and memory for them.
 
 use crate::case::{
-    Convection, FlowModel, JointKind, Model, Motion, Scheme, TimeSettings, Unsteady,
+    Convection, FlowModel, Geometry, JointKind, Model, Motion, Scheme, TimeSettings, Unsteady,
 };
 use crate::coupling::memory_estimate;
 use crate::simulation::DOFS_OF_CELL;
@@ -34,6 +34,18 @@ const MESHES_OF_PERIOD: f64 = 4.0;
 /// Memory of a run with new meshes over that of one system, and with inertia.
 const REMESHED_MEMORY: [f64; 2] = [1.7, 2.3];
 
+// In space, fitted to runs with 7 10^3 to 4.3 10^5 unknowns, which are solved for by iterations.
+
+/// CPU time of mesh, analysis and files with 10^5 unknowns (s); it goes with their number.
+const START_IN_SPACE: f64 = 1.9;
+/// CPU time of a linear system of a steady flow with 10^5 unknowns (s): assembly, preconditioner,
+/// iterations, loads.
+const SYSTEM_IN_SPACE: f64 = 3.4;
+/// Power of the unknowns it goes with.
+const GROWTH_IN_SPACE: f64 = 1.2;
+/// Part of it that a system of a time step takes.
+const OF_STEP_IN_SPACE: f64 = 0.7;
+
 /// An estimate of what a run costs.
 ///
 /// A run is made of passes, each of which solves one linear system, and of new meshes; both go with the
@@ -48,6 +60,8 @@ pub struct Cost {
     pub in_films: f64,
     /// CPU time on one core (s).
     pub seconds: f64,
+    /// That of one step of an unsteady run (s).
+    pub step_seconds: Option<f64>,
     /// Memory at most (bytes).
     pub memory: f64,
 }
@@ -67,6 +81,9 @@ impl Cost {
     /// The cost of a case whose first mesh is known.
     #[must_use]
     pub fn of(model: &Model, mesh: &FirstMesh) -> Self {
+        if model.case.geometry == Geometry::Spatial {
+            return Self::in_space(model, mesh);
+        }
         let Films { most, mean } = Films::of(model);
         let unknowns = mesh.free as f64 + mean;
         let systems = n_systems(model, mesh.shortest_edge);
@@ -83,9 +100,29 @@ impl Cost {
         let start = NEW_MESH[0] * mesh.free as f64 / 1e4;
         let seconds =
             start + systems * part * pass + new_meshes * NEW_MESH[inertia] * unknowns / 1e4;
-        let memory = memory_estimate(mesh.on_mesh as f64 + most);
+        let memory = memory_estimate(2, mesh.on_mesh as f64 + most);
         let memory = if new_meshes >= 1.0 { REMESHED_MEMORY[inertia] * memory } else { memory };
-        Self { systems, new_meshes, in_films: most, seconds, memory }
+        let in_steps = (seconds - start) * (1.0 - START_SYSTEMS / systems);
+        let steps = steps_of(model, mesh.shortest_edge);
+        let step_seconds = steps.map(|steps| in_steps / steps);
+        Self { systems, new_meshes, in_films: most, seconds, step_seconds, memory }
+    }
+
+    /// That in space, on a mesh that stays.
+    fn in_space(model: &Model, mesh: &FirstMesh) -> Self {
+        let unknowns = mesh.free as f64 / 1e5;
+        let systems = n_systems(model, mesh.shortest_edge);
+        let steps = steps_of(model, mesh.shortest_edge);
+        let part = if steps.is_some() { OF_STEP_IN_SPACE } else { 1.0 };
+        let in_systems = systems * part * SYSTEM_IN_SPACE * unknowns.powf(GROWTH_IN_SPACE);
+        Self {
+            systems,
+            new_meshes: 0.0,
+            in_films: 0.0,
+            seconds: START_IN_SPACE * unknowns + in_systems,
+            step_seconds: steps.map(|steps| in_systems * (1.0 - START_SYSTEMS / systems) / steps),
+            memory: memory_estimate(3, mesh.on_mesh as f64),
+        }
     }
 }
 
@@ -122,6 +159,14 @@ pub fn n_steps(model: &Model, time: &Unsteady, shortest_edge: f64) -> f64 {
     let moving = crossing.unwrap_or(largest).min(largest);
     let rest = model.time_to_rest().unwrap_or(time.end).min(time.end);
     rest / moving + (time.end - rest) / largest + ADAPTIVE_STEPS
+}
+
+/// Steps of an unsteady run.
+fn steps_of(model: &Model, shortest_edge: f64) -> Option<f64> {
+    match &model.case.time {
+        TimeSettings::Steady(_) => None,
+        TimeSettings::Unsteady(time) => Some(n_steps(model, time, shortest_edge).max(1.0)),
+    }
 }
 
 /// Linear systems a run solves: exact for steady Stokes flow.

@@ -120,31 +120,7 @@ fn condition_name(condition: &BoundaryCondition) -> &'static str {
 }
 
 fn body_line(case: &Case, body: &crate::case::Body) -> String {
-    let shape = match &body.shape {
-        ShapeSpec::Disc { radius } | ShapeSpec::Sphere { radius } => {
-            format!("{} of radius {}", body.shape.name(), significant(*radius))
-        }
-        ShapeSpec::Ellipse { semi_axes } | ShapeSpec::Spheroid { semi_axes } => {
-            format!("{} with semi-axes {semi_axes:?}", body.shape.name())
-        }
-        ShapeSpec::Ellipsoid { semi_axes } => format!("ellipsoid with semi-axes {semi_axes:?}"),
-        ShapeSpec::Capsule { length, radius } => {
-            format!(
-                "capsule of length {} and radius {}",
-                significant(*length),
-                significant(*radius)
-            )
-        }
-        ShapeSpec::Spline { points } => format!("spline through {} points", points.len()),
-        ShapeSpec::Fish(fish) => format!("fish of length {}", significant(fish.length)),
-        ShapeSpec::Flagellate(flagellate) => {
-            let length = significant(flagellate.tail_length);
-            format!("flagellate with a tail of length {length}")
-        }
-        ShapeSpec::Tube(tube) => {
-            format!("skin of {} links, {} long", tube.sections.len(), significant(tube.length))
-        }
-    };
+    let shape = shape_in_words(&body.shape);
     let motion = match &body.motion {
         Motion::Held => "held",
         Motion::Free => "free",
@@ -185,6 +161,51 @@ fn body_line(case: &Case, body: &crate::case::Body) -> String {
         body.name,
         count(edges)
     )
+}
+
+/// A shape with its lengths.
+fn shape_in_words(shape: &ShapeSpec) -> String {
+    match shape {
+        ShapeSpec::Disc { radius } | ShapeSpec::Sphere { radius } => {
+            format!("{} of radius {}", shape.name(), significant(*radius))
+        }
+        ShapeSpec::Ellipse { semi_axes } | ShapeSpec::Spheroid { semi_axes } => {
+            format!("{} with semi-axes {semi_axes:?}", shape.name())
+        }
+        ShapeSpec::Ellipsoid { semi_axes } => format!("ellipsoid with semi-axes {semi_axes:?}"),
+        ShapeSpec::Capsule { length, radius } => {
+            format!(
+                "capsule of length {} and radius {}",
+                significant(*length),
+                significant(*radius)
+            )
+        }
+        ShapeSpec::Cylinder { radius, axis, .. } => {
+            let along = ["x", "y", "z"][axis.index()];
+            format!("cylinder of radius {} through the box along {along}", significant(*radius))
+        }
+        ShapeSpec::Helix(helix) => {
+            let [radius, pitch, turns, tube] =
+                [helix.radius, helix.pitch, helix.turns, helix.tube_radius].map(significant);
+            format!(
+                "helix of radius {radius}, pitch {pitch} and {turns} turns, a tube of radius {tube}"
+            )
+        }
+        ShapeSpec::Revolved { profile } => format!("turned profile of {} points", profile.len()),
+        ShapeSpec::Union(parts) => {
+            let names: Vec<&str> = parts.iter().map(|part| part.shape.name()).collect();
+            format!("union of {}", names.join(" and "))
+        }
+        ShapeSpec::Spline { points } => format!("spline through {} points", points.len()),
+        ShapeSpec::Fish(fish) => format!("fish of length {}", significant(fish.length)),
+        ShapeSpec::Flagellate(flagellate) => {
+            let length = significant(flagellate.tail_length);
+            format!("flagellate with a tail of length {length}")
+        }
+        ShapeSpec::Tube(tube) => {
+            format!("skin of {} links, {} long", tube.sections.len(), significant(tube.length))
+        }
+    }
 }
 
 /// An angle in radians and degrees.

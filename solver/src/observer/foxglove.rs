@@ -3,11 +3,10 @@
 //! Viewers recognise a schema by its name alone, so the names of the `foxglove` messages and
 //! their fields are theirs. Times are simulated seconds.
 
-use std::f64::consts::FRAC_PI_2;
-
-use nalgebra::{UnitQuaternion, Vector3};
+use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 use serde_json::{Value, json};
 
+use super::solids::{Solids, body_colour, quaternion, vector};
 use crate::body::{Pose, Twist, Wrench, in_space};
 use crate::case::{Body, Geometry, ShapeSpec};
 use crate::simulation::{BodyReport, Snapshot};
@@ -172,23 +171,32 @@ pub fn transforms(bodies: &[BodyReport], time: f64) -> Value {
     json!({"transforms": transforms.collect::<Vec<_>>()})
 }
 
-/// Outlines of all bodies, which stay with the bodies' frames.
-pub fn scene(bodies: &[Body], geometry: Geometry, time: f64) -> Value {
-    let entities = bodies.iter().map(|body| {
-        let (mut spheres, mut cylinders, mut lines) = (vec![], vec![], vec![]);
+/// Outlines of all bodies, which stay with the bodies' frames: with where those are.
+pub fn scene(bodies: &[Body], reports: &[BodyReport], geometry: Geometry, time: f64) -> Value {
+    let entities = bodies.iter().zip(reports).map(|(body, report)| {
+        let (mut solids, mut lines) = (Solids::default(), vec![]);
+        let centered = Isometry3::identity();
         match &body.shape {
-            ShapeSpec::Disc { radius } => cylinders.push(solid([*radius, *radius, *radius / 50.0])),
-            ShapeSpec::Ellipse { semi_axes: [a, b] } => cylinders.push(solid([*a, *b, *b / 50.0])),
+            // A flat cylinder
+            ShapeSpec::Disc { radius } => solids.cylinder([*radius, *radius, *radius / 50.0]),
+            ShapeSpec::Ellipse { semi_axes: [a, b] } => solids.cylinder([*a, *b, *b / 50.0]),
             ShapeSpec::Sphere { .. } | ShapeSpec::Spheroid { .. } | ShapeSpec::Ellipsoid { .. } => {
-                spheres.extend(body.shape.semi_axes().map(solid));
+                body.shape.semi_axes().into_iter().for_each(|own| solids.ellipsoid(&centered, own));
             }
-            ShapeSpec::Capsule { length, radius } => {
-                let half = 0.5 * length - radius;
-                // Cylinders of viewers are along z
-                let along_x = UnitQuaternion::from_axis_angle(&Vector3::y_axis(), FRAC_PI_2);
-                cylinders.push(placed_solid(0.0, &along_x, [*radius, *radius, half]));
-                let end = |x| placed_solid(x, &UnitQuaternion::identity(), [*radius; 3]);
-                spheres.extend([-half, half].map(end));
+            ShapeSpec::Capsule { .. }
+            | ShapeSpec::Helix(_)
+            | ShapeSpec::Revolved { .. }
+            | ShapeSpec::Union(_) => {
+                // The frame is at the centre of mass, the origin of the shape is not
+                let from = report.pose.rotation().inverse();
+                let origin = from * (body.pose_in_space().translation.vector - report.pose.center);
+                let place = Isometry3::translation(origin.x, origin.y, origin.z);
+                solids.parts(&place, &body.shape.parts().unwrap_or_default());
+            }
+            ShapeSpec::Cylinder { radius, length, .. } => {
+                for part in body.shape.parts().unwrap_or_default() {
+                    solids.cylinder_along_x(&part.pose, *radius, 0.5 * length);
+                }
             }
             ShapeSpec::Spline { .. }
             | ShapeSpec::Fish(_)
@@ -197,6 +205,7 @@ pub fn scene(bodies: &[Body], geometry: Geometry, time: f64) -> Value {
                 lines.push(closed_line(&body.shape.points()));
             }
         }
+        let Solids { spheres, cylinders } = solids;
         json!({
             "timestamp": timestamp(time),
             "frame_id": body.name,
@@ -304,46 +313,14 @@ fn list(items: Value) -> Value {
     json!({"type": "array", "items": items})
 }
 
-fn vector(vector: &Vector3<f64>) -> Value {
-    json!({"x": vector.x, "y": vector.y, "z": vector.z})
-}
-
-fn quaternion(rotation: &UnitQuaternion<f64>) -> Value {
-    json!({"x": rotation.i, "y": rotation.j, "z": rotation.k, "w": rotation.w})
-}
-
 fn wrench(wrench: &Wrench) -> Value {
     json!({"force": vector(&wrench.force), "torque": vector(&wrench.torque)})
-}
-
-fn body_colour() -> Value {
-    json!({"r": 0.25, "g": 0.27, "b": 0.30, "a": 1.0})
 }
 
 fn no_offset() -> Value {
     json!({
         "position": vector(&Vector3::zeros()),
         "orientation": quaternion(&UnitQuaternion::identity()),
-    })
-}
-
-/// A sphere or cylinder with these semi-axes.
-fn solid(semi_axes: [f64; 3]) -> Value {
-    placed_solid(0.0, &UnitQuaternion::identity(), semi_axes)
-}
-
-/// The same, turned, with its centre on the x axis of the body.
-fn placed_solid(x: f64, rotation: &UnitQuaternion<f64>, semi_axes: [f64; 3]) -> Value {
-    let size = 2.0 * Vector3::from(semi_axes);
-    json!({
-        "pose": {
-            "position": vector(&Vector3::new(x, 0.0, 0.0)),
-            "orientation": quaternion(rotation),
-        },
-        "size": vector(&size),
-        "bottom_scale": 1.0,
-        "top_scale": 1.0,
-        "color": body_colour(),
     })
 }
 

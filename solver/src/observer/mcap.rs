@@ -190,7 +190,7 @@ impl MessageFile {
         if is_first {
             let title = format!("start: {}", self.title);
             self.log(Severity::Info, &title)?;
-            let scene = foxglove::scene(&self.bodies, self.geometry, self.time);
+            let scene = foxglove::scene(&self.bodies, snapshot.bodies, self.geometry, self.time);
             self.send("/scene", Kind::Scene, &scene)?;
         }
         if self.schedule.is_due(snapshot.step, snapshot.time, snapshot.is_last) {

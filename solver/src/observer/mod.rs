@@ -27,6 +27,7 @@ mod progress;
 mod provenance;
 mod run_directory;
 mod schedule;
+mod solids;
 mod state_file;
 mod status;
 mod terminal;

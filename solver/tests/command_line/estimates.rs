@@ -108,8 +108,13 @@ fn most_cpu_times_are_estimated() {
 
 #[test]
 fn the_memory_of_a_run_is_estimated() {
+    for member in ["squirmer-re/puller-5-re-5", "sphere-in-sphere-3d/moved-2"] {
+        check_memory(member);
+    }
+}
+
+fn check_memory(member: &str) {
     let directory = tempfile::tempdir().unwrap();
-    let member = "squirmer-re/puller-5-re-5";
     let run = ["run", member, "--out", "run", "--threads", "1", "--quiet"];
     let output = alewife(directory.path(), &run);
     assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
@@ -118,5 +123,5 @@ fn the_memory_of_a_run_is_estimated() {
     // Not every system tells
     let Some(peak) = status["peak_memory"].as_f64() else { return };
     let ratio = peak / estimate(member, "memory");
-    assert!((0.75..1.33).contains(&ratio), "{ratio:.2} of the estimate");
+    assert!((0.75..1.33).contains(&ratio), "{member}: {ratio:.2} of the estimate");
 }

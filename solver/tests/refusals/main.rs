@@ -5,6 +5,7 @@ mod bodies;
 mod domain;
 mod reading;
 mod references;
+mod space;
 mod swimmers;
 mod time;
 

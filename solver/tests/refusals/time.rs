@@ -94,9 +94,9 @@ fn degrees_and_phases_in_radians_are_warned_about() {
     for (setting, wanted) in [
         (
             "body.0.angle=45",
-            ["`body.0.angle` is 45: angles are in radians", "degrees write 0.785398"],
+            ["`body.0.angle` is 45: angles are in radians", "degrees write \"45 deg\""],
         ),
-        ("body.0.angle=-180", ["is -180: angles are in radians", "write -3.14159"]),
+        ("body.0.angle=-180", ["is -180: angles are in radians", "write \"-180 deg\""]),
         (
             "body.0.load_factor.sine.phase=1.5707963",
             ["phases are parts of a period", "for 1.5707963 rad write 0.25"],
@@ -107,11 +107,11 @@ fn degrees_and_phases_in_radians_are_warned_about() {
         ),
         (
             "body.0.gait.squirmer={modes=[1.0], turn={table=[[0.0, 0.0], [60.0, 90.0]]}}",
-            ["`body.0.gait.squirmer.turn.table.1.1` is 90", "write 1.5708"],
+            ["`body.0.gait.squirmer.turn.table.1.1` is 90", "write \"90 deg\""],
         ),
         (
             "body.0.gait.squirmer={modes=[1.0], heading=180.0}",
-            ["`body.0.gait.squirmer.heading` is 180", "write 3.14159"],
+            ["`body.0.gait.squirmer.heading` is 180", "write \"180 deg\""],
         ),
     ] {
         let said = check(&text, &["--set", setting]);
@@ -120,6 +120,12 @@ fn degrees_and_phases_in_radians_are_warned_about() {
             assert!(said.stderr.contains(wanted), "`{wanted}` is not in:\n{}", said.stderr);
         }
     }
+    let said = check(&text, &["--set", "body.0.gait.squirmer={modes=[1.0], heading='180 deg'}"]);
+    assert_accepted(&said);
+    assert!(said.stdout.contains("heading 3.14159 rad (180.0 degrees)"), "{}", said.stdout);
+    assert_accepted(&check(&text, &["--set", "body.0.angle=45 deg"]));
+    let wrong = check(&text, &["--set", "body.0.angle=45 grad"]);
+    assert_refused(&wrong, &["`body.0.angle`: \"45 grad\" is not an angle", "\"30 deg\""]);
     // More than a turn in time is one
     let turning = "body.0.gait.squirmer={modes=[1.0], turn={table=[[0.0, 0.0], [60.0, 12.5]]}}";
     assert_eq!(check(&text, &["--set", turning]).stderr, "");

@@ -5,7 +5,6 @@ use std::collections::BinaryHeap;
 use super::improver::Improver;
 use super::measure::{EDGES, middle};
 use super::split::Split;
-use super::surface_set::SurfaceSet;
 use crate::{MeshError, Point};
 
 /// Edges longer than this many wanted lengths are split.
@@ -49,23 +48,23 @@ impl Improver<'_> {
             heap.extend(above.filter_map(|other| self.long_edge([vertex, *other])));
         }
         while let Some(top) = heap.pop() {
-            self.mesh.shell(top.ends[0], top.ends[1], &mut shell);
+            self.shell_of_images(top.ends, &mut shell);
             if shell.is_empty() {
                 continue;
             }
             let ends = self.longest_around(top.ends, &mut shell);
-            let [a, b] = ends;
-            let point = middle(self.mesh.point(a), self.mesh.point(b));
-            let surfaces = SurfaceSet::EMPTY;
-            let split = Split { ends, point, surfaces, least_quality: 0.0 };
-            let Some(vertex) = self.split(&split, &shell) else { continue };
-            self.mesh.sizes[vertex as usize] += self.depth(point);
+            let new = self.bisect(ends, &mut shell);
+            if new.is_empty() {
+                continue;
+            }
             if ends != top.ends {
                 heap.push(top);
             }
-            self.mesh.neighbours(vertex, &mut neighbours);
-            let ends = neighbours.iter().map(|&other| [other.min(vertex), other.max(vertex)]);
-            heap.extend(ends.filter_map(|ends| self.long_edge(ends)));
+            for vertex in new {
+                self.mesh.neighbours(vertex, &mut neighbours);
+                let ends = neighbours.iter().map(|&other| [other.min(vertex), other.max(vertex)]);
+                heap.extend(ends.filter_map(|ends| self.long_edge(ends)));
+            }
             if self.mesh.points.len() > MOST_VERTICES {
                 let smallest = self.mesh.sizes.iter().copied().fold(f64::INFINITY, f64::min);
                 let what = "vertices";
@@ -79,6 +78,25 @@ impl Improver<'_> {
             }
         }
         Ok(())
+    }
+
+    /// Splits an edge and its images in the middle; gives the new vertices.
+    fn bisect(&mut self, ends: [u32; 2], shell: &mut Vec<u32>) -> Vec<u32> {
+        let mut new = Vec::new();
+        for [a, b] in self.images(ends) {
+            let point = middle(self.mesh.point(a), self.mesh.point(b));
+            let surfaces = self.mesh.edge_surfaces(a, b);
+            let split = Split { ends: [a, b], point, surfaces, least_quality: 0.0 };
+            self.mesh.shell(a, b, shell);
+            if let Some(vertex) = self.split(&split, shell) {
+                self.mesh.sizes[vertex as usize] += self.depth(point);
+                new.push(vertex);
+            }
+        }
+        if new.len() > 1 {
+            self.twins.link(&new);
+        }
+        new
     }
 
     /// How far a point is outside the fluid (m), by which edges of the lattice may be longer there.
@@ -125,7 +143,7 @@ impl Improver<'_> {
             if ends == before {
                 return ends;
             }
-            self.mesh.shell(ends[0], ends[1], shell);
+            self.shell_of_images(ends, shell);
         }
     }
 }

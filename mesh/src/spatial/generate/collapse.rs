@@ -48,7 +48,8 @@ impl Improver<'_> {
         self.mesh.shell(gone, kept, &mut shell);
         let edge = self.mesh.edge_surfaces(gone, kept);
         // A vertex moves along its surfaces only
-        if shell.is_empty() || !self.mesh.surfaces(gone).is_subset_of(edge) {
+        let is_fixed = self.is_fixed(self.mesh.surfaces(gone));
+        if shell.is_empty() || is_fixed || !self.mesh.surfaces(gone).is_subset_of(edge) {
             return false;
         }
         let ball = self.mesh.around(gone).to_vec();

@@ -167,7 +167,7 @@ impl Cut<'_, '_> {
             let Some(surfaces) = self.improver.mesh.surfaces(vertex).with(self.index) else {
                 continue;
             };
-            if !is_near {
+            if !is_near || self.improver.is_fixed(surfaces) {
                 continue;
             }
             let point = self.improver.project(surfaces, self.improver.mesh.point(vertex));
@@ -282,7 +282,8 @@ impl Improver<'_> {
     pub fn pull_vertices(&mut self) {
         for vertex in 0..self.mesh.end_of_vertices() {
             let surfaces = self.mesh.surfaces(vertex);
-            if surfaces.is_empty() || self.mesh.around(vertex).is_empty() {
+            let is_settled = surfaces.is_empty() || self.is_fixed(surfaces);
+            if is_settled || self.mesh.around(vertex).is_empty() {
                 continue;
             }
             let here = self.mesh.point(vertex);

@@ -53,7 +53,7 @@ impl Improver<'_> {
             return false;
         }
         let surfaces = self.mesh.edge_surfaces(ends[0], ends[1]);
-        if surfaces.len() > 1 {
+        if surfaces.len() > 1 || self.is_fixed(surfaces) {
             return false;
         }
         let Some(ring) = self.ring(ends, &shell, !surfaces.is_empty()) else {

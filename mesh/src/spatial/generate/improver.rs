@@ -4,6 +4,7 @@ use super::measure::{EDGES, least_coefficient, least_sine, middle, volume_length
 use super::projections::Projections;
 use super::surface_set::SurfaceSet;
 use super::tetrahedra::Tetrahedra;
+use super::twins::Twins;
 use crate::Point;
 use crate::spatial::geometry::Geometry;
 use crate::spatial::size_field::SizeField;
@@ -77,6 +78,8 @@ pub struct Improver<'a> {
     pub sizes: &'a SizeField,
     /// The surfaces.
     pub geometry: &'a Geometry,
+    /// Vertices on periodic sides that are one and the same.
+    pub twins: Twins,
     projections: Projections<'a>,
     measure: Measure,
     is_curved: Vec<bool>,
@@ -92,6 +95,7 @@ impl<'a> Improver<'a> {
         let geometry = sizes.geometry();
         Self {
             mesh: Tetrahedra::default(),
+            twins: Twins::default(),
             sizes,
             geometry,
             projections: Projections::new(geometry),

@@ -1,18 +1,33 @@
 //! The body-centred cubic lattice of tetrahedra that the mesh is cut from.
 
+use super::boundary_edges::{INNER, tag_of};
 use super::improver::Improver;
 use super::measure::six_volumes;
 use super::surface_set::SurfaceSet;
+use super::tetrahedra::Face;
 use crate::Point;
 use crate::number::whole;
 
 /// Part of a cube by which the lattice reaches beyond the fluid.
 const MARGIN: f64 = 0.6;
 
+/// Fewest cubes along an edge of a box, so that no cell reaches from a side to its image.
+const FEWEST_CUBES: usize = 2;
+
+/// Edge lengths that are tried for the cubes of a box.
+const EDGES_TRIED: u32 = 24;
+
+/// The part by which they are shorter than wanted at most.
+const MOST_SHORTER: f64 = 0.55;
+
+/// What shorter cubes count against those that are stretched.
+const SHORTER: f64 = 0.2;
+
 /// A block of cubes, of which only those tetrahedra are made that lie between two of their centres.
 struct Block {
     min: Point<3>,
-    edge: f64,
+    /// Edges of a cube, of nearly the same length (m).
+    edges: Point<3>,
     n: [usize; 3],
 }
 
@@ -29,7 +44,7 @@ impl Block {
     }
 
     fn point(&self, at: [usize; 3], offset: f64) -> Point<3> {
-        self.min + Point::from(at.map(|i| i as f64 + offset)) * self.edge
+        self.min + Point::from(at.map(|i| i as f64 + offset)).component_mul(&self.edges)
     }
 }
 
@@ -50,10 +65,51 @@ impl Improver<'_> {
         let n: [usize; 3] = std::array::from_fn(|axis| {
             whole(((high[axis] + MARGIN * edge - min[axis]) / edge).ceil()) + 1
         });
-        let block = Block { min, edge, n };
+        let block = Block { min, edges: Point::repeat(edge), n };
         for at in grid(n.map(|n| n + 1)) {
             self.add_vertex(block.point(at, 0.0), SurfaceSet::EMPTY);
         }
+        self.fill(&block);
+    }
+
+    /// Fills a box with a lattice of cubes of about an edge length (m), whose sides are faces of cubes;
+    /// those of periodic sides are images of each other.
+    pub fn fill_box_with_lattice(&mut self, edge: f64) {
+        let [min, max] = self.geometry.corners;
+        let size = max - min;
+        let edge = common_edge(&size, edge);
+        let n = std::array::from_fn(|axis| n_cubes(size[axis], edge));
+        let edges = Point::<3>::from_fn(|axis, _| size[axis] / n[axis] as f64);
+        let block = Block { min, edges, n };
+        for at in grid(n.map(|n| n + 1)) {
+            let mut surfaces = SurfaceSet::EMPTY;
+            for axis in 0..3 {
+                for is_max in [false, true] {
+                    if at[axis] == if is_max { n[axis] } else { 0 } {
+                        surfaces = surfaces.with(side(axis, is_max)).unwrap_or(surfaces);
+                    }
+                }
+            }
+            self.add_vertex(block.point(at, 0.0), surfaces);
+        }
+        self.fill(&block);
+        self.link_corners(&block);
+        for axis in 0..3 {
+            for at in grid(n).filter(|at| at[axis] == 0) {
+                let mut opposite = at;
+                opposite[axis] = n[axis] - 1;
+                let pair =
+                    [self.close(&block, at, axis, false), self.close(&block, opposite, axis, true)];
+                if self.geometry.periods[axis] > 0.0 {
+                    self.twins.link(&pair);
+                }
+            }
+        }
+    }
+
+    /// Adds the centres of the cubes, whose corners are there, and the cells between them.
+    fn fill(&mut self, block: &Block) {
+        let n = block.n;
         for at in grid(n) {
             self.add_vertex(block.point(at, 0.5), SurfaceSet::EMPTY);
         }
@@ -62,32 +118,118 @@ impl Improver<'_> {
                 let mut next = at;
                 next[axis] += 1;
                 if next[axis] < n[axis] {
-                    self.add_between(&block, at, next, axis);
+                    let ends = [block.center(at), block.center(next)];
+                    self.add_between(block, ends, next, axis);
                 }
             }
         }
     }
 
-    /// The four tetrahedra between the centres of two cubes that are neighbours along an axis.
-    fn add_between(&mut self, block: &Block, at: [usize; 3], next: [usize; 3], axis: usize) {
+    /// Links the corners of cubes on periodic sides with their images.
+    fn link_corners(&mut self, block: &Block) {
+        let is_periodic = |axis: &usize| self.geometry.periods[*axis] > 0.0;
+        let axes: Vec<usize> = (0..3).filter(is_periodic).collect();
+        for at in grid(block.n.map(|n| n + 1)) {
+            if axes.iter().any(|axis| at[*axis] == block.n[*axis]) {
+                continue;
+            }
+            let mut ring = vec![at];
+            for &axis in axes.iter().filter(|axis| at[**axis] == 0) {
+                for i in 0..ring.len() {
+                    let mut image = ring[i];
+                    image[axis] = block.n[axis];
+                    ring.push(image);
+                }
+            }
+            let ring: Vec<u32> =
+                ring.iter().map(|at| crate::number::index_u32(block.corner(*at))).collect();
+            if ring.len() > 1 {
+                self.twins.link(&ring);
+            }
+        }
+    }
+
+    /// Adds the middle of a face of a cube on a side of the box and the four tetrahedra between it and
+    /// the centre of the cube; gives the middle.
+    fn close(&mut self, block: &Block, at: [usize; 3], axis: usize, is_max: bool) -> u32 {
+        let surface = side(axis, is_max);
+        let mut face = at;
+        face[axis] += usize::from(is_max);
+        let mut place = block.point(at, 0.5);
+        place[axis] = block.point(face, 0.0)[axis];
+        let middle = self.add_vertex(place, SurfaceSet::of(surface));
+        let center = block.center(at);
+        let cells = self.add_between(block, [center, middle as usize], face, axis);
+        for cell in cells {
+            let vertices = self.mesh.cell(cell);
+            let opposite = vertices.iter().position(|vertex| *vertex as usize == center);
+            if let Some(opposite) = opposite {
+                self.mesh.set_tag(Face { cell, opposite }, tag_of(surface));
+            }
+        }
+        middle
+    }
+
+    /// The four tetrahedra between the centres of two cubes that are neighbours along an axis, or between
+    /// that of one and the middle of a face; `next` is the first corner of the face between them.
+    fn add_between(
+        &mut self,
+        block: &Block,
+        ends: [usize; 2],
+        next: [usize; 3],
+        axis: usize,
+    ) -> [u32; 4] {
         let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
         let mut ring = [next; 4];
         ring[1][u] += 1;
         ring[2][u] += 1;
         ring[2][v] += 1;
         ring[3][v] += 1;
-        for i in 0..4 {
-            let vertices = [
-                block.center(at),
-                block.center(next),
-                block.corner(ring[i]),
-                block.corner(ring[(i + 1) % 4]),
-            ];
+        std::array::from_fn(|i| {
+            let vertices =
+                [ends[0], ends[1], block.corner(ring[i]), block.corner(ring[(i + 1) % 4])];
             let mut vertices = vertices.map(crate::number::index_u32);
             if six_volumes(&self.mesh.corners(vertices)) < 0.0 {
                 vertices.swap(2, 3);
             }
-            self.mesh.add_cell(vertices, [0; 4]);
+            self.mesh.add_cell(vertices, [INNER; 4])
+        })
+    }
+}
+
+/// Number of a side of the box.
+fn side(axis: usize, is_max: bool) -> u16 {
+    [[0, 1], [2, 3], [4, 5]][axis][usize::from(is_max)]
+}
+
+/// Number of cubes of about an edge length (m) along one of a box.
+fn n_cubes(length: f64, edge: f64) -> usize {
+    whole((length / edge).round()).max(FEWEST_CUBES)
+}
+
+/// The edge length up to one that is wanted (m) with which the cubes that fill a box are nearest to cubes.
+fn common_edge(size: &Point<3>, wanted: f64) -> f64 {
+    let misfit = |edge: f64| {
+        let stretch = size.map(|length| (length / (n_cubes(length, edge) as f64 * edge)).ln());
+        stretch.max() - stretch.min() + SHORTER * (wanted / edge).ln()
+    };
+    let edges = (0..EDGES_TRIED)
+        .map(|i| wanted * (1.0 - MOST_SHORTER * f64::from(i) / f64::from(EDGES_TRIED)));
+    edges.min_by(|a, b| misfit(*a).total_cmp(&misfit(*b))).unwrap_or(wanted)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cubes_that_fill_a_box_are_nearly_cubes() {
+        for size in [[1.0, 1.0, 1.0], [1.0, 2.0, 3.3], [0.41, 0.41, 2.5], [1.0, 1.37, 9.1]] {
+            let size = Point::from(size);
+            let edge = common_edge(&size, 0.4);
+            let edges = size.map(|length| length / n_cubes(length, edge) as f64);
+            assert!(edges.max() / edges.min() < 1.35, "{edges}");
+            assert!(edges.max() < 0.55, "{edges}");
         }
     }
 }

@@ -23,10 +23,12 @@ mod split;
 mod surface_faces;
 mod surface_set;
 mod tetrahedra;
+mod twins;
 mod verdict;
 mod worst_cells;
 
 use improver::Improver;
+pub(super) use twins::shifts;
 use verdict::Verdict;
 
 use super::domain::Domain;
@@ -72,12 +74,22 @@ pub fn generate(
     Ok(improver.quadratic(sizing.curved))
 }
 
-/// The mesh from a lattice moved by a part of its cubes.
+/// The mesh from a lattice moved by a part of its cubes, or in a periodic box from one with cubes so much
+/// smaller.
 fn attempt(sizes: &SizeField, shift: f64) -> Result<Improver<'_>, MeshError> {
     let mut improver = Improver::new(sizes);
-    improver.fill_with_lattice(CUBE * sizes.largest(), shift);
+    let cube = CUBE * sizes.largest();
+    let is_periodic = sizes.geometry().periods.amax() > 0.0;
+    let mut first = 0;
+    if is_periodic {
+        improver.fill_box_with_lattice(cube * (1.0 - shift));
+        // The sides are those of the lattice
+        first = sizes.geometry().groups[0].last;
+    } else {
+        improver.fill_with_lattice(cube, shift);
+    }
     improver.refine_lattice()?;
-    for index in 0..sizes.geometry().surfaces.len() {
+    for index in first..sizes.geometry().surfaces.len() {
         let index = u16::try_from(index).map_err(|_| too_many_surfaces(sizes))?;
         improver.cut(index)?;
     }

@@ -16,7 +16,8 @@ impl Improver<'_> {
             return false;
         }
         let tag = tags[on_boundary[0]];
-        if on_boundary.iter().any(|local| tags[*local] != tag) {
+        let surface = SurfaceSet::of(surface_of(tag));
+        if self.is_fixed(surface) || on_boundary.iter().any(|local| tags[*local] != tag) {
             return false;
         }
         let mut behind = Vec::new();

@@ -5,7 +5,9 @@ use std::collections::HashMap;
 
 use super::boundary_edges::{INNER, surface_of};
 use super::improver::Improver;
-use crate::{BoundaryId, CellId, Facet, Mesh, NodeId, Simplex};
+use super::surface_set::SurfaceSet;
+use super::tetrahedra::Face;
+use crate::{BoundaryId, CellId, Facet, Mesh, NodeId, PeriodicPair, Simplex};
 
 impl Improver<'_> {
     /// The mesh with quadratic geometry.
@@ -43,7 +45,41 @@ impl Improver<'_> {
             facets.extend(self.facets_of(cell, CellId::new(index)));
         }
         let boundaries = self.geometry.boundaries.clone();
-        Mesh { nodes, n_vertices, cells, curved, facets, boundaries, periodic: Vec::new() }
+        let periodic = self.pairs(|a, b| {
+            if a == b {
+                Some(numbers[a as usize])
+            } else {
+                middles.get(&[a.min(b), a.max(b)]).copied()
+            }
+        });
+        Mesh { nodes, n_vertices, cells, curved, facets, boundaries, periodic }
+    }
+
+    /// Periodic pairs of nodes by the number of the node between two vertices, or at one taken twice.
+    fn pairs(&self, number: impl Fn(u32, u32) -> Option<NodeId>) -> Vec<PeriodicPair> {
+        let mut pairs = Vec::new();
+        let mut add = |a: u32, b: u32, surfaces: SurfaceSet| {
+            let (to_a, to_b) = (self.original(a, surfaces), self.original(b, surfaces));
+            if let (Some(copy), Some(original)) = (number(a, b), number(to_a, to_b))
+                && copy != original
+            {
+                pairs.push(PeriodicPair { copy, original });
+            }
+        };
+        for cell in self.mesh.cells() {
+            for (opposite, tag) in self.mesh.tags(cell).into_iter().enumerate() {
+                if tag != INNER && self.is_fixed(SurfaceSet::of(surface_of(tag))) {
+                    let [a, b, c] = self.mesh.face_vertices(Face { cell, opposite });
+                    for [a, b] in [[a, b], [b, c], [c, a]] {
+                        add(a, a, self.mesh.surfaces(a));
+                        add(a, b, self.mesh.edge_surfaces(a, b));
+                    }
+                }
+            }
+        }
+        pairs.sort_unstable();
+        pairs.dedup();
+        pairs
     }
 
     /// The boundary facets of a cell, which has a new number.

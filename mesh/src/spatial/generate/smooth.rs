@@ -35,7 +35,8 @@ impl Improver<'_> {
     /// some; with `climb` also where the way to the middle leads to no better place.
     pub fn smooth(&mut self, vertex: u32, climb: bool) -> bool {
         let surfaces = self.mesh.surfaces(vertex);
-        if self.mesh.around(vertex).is_empty() || surfaces.len() >= 3 {
+        let is_fixed = surfaces.len() >= 3 || self.is_fixed(surfaces);
+        if self.mesh.around(vertex).is_empty() || is_fixed {
             return false;
         }
         let around = self.mesh.around(vertex).to_vec();

@@ -75,13 +75,17 @@ impl Improver<'_> {
             return false;
         }
         let split = self.split_in_middle(ends, LEAST_HALF);
-        self.is_split_in_fluid(&split) && self.split(&split, &shell).is_some()
+        self.may_split(&split) && self.split(&split, &shell).is_some()
     }
 
-    /// Whether the point of a split is far enough from all surfaces, where it is not on one.
-    pub fn is_split_in_fluid(&self, split: &Split) -> bool {
+    /// Whether the point of a split is far enough from all surfaces, or on one that may change.
+    pub fn may_split(&self, split: &Split) -> bool {
         let [a, b] = split.ends.map(|end| self.mesh.point(end));
         let distance = LEAST_CLEARANCE * (a - b).norm();
-        !split.surfaces.is_empty() || self.is_in_fluid(split.point, distance)
+        if split.surfaces.is_empty() {
+            self.is_in_fluid(split.point, distance)
+        } else {
+            !self.is_fixed(split.surfaces)
+        }
     }
 }

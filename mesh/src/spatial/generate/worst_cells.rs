@@ -98,7 +98,7 @@ impl Improver<'_> {
         self.mesh.shell(ends[0], ends[1], &mut shell);
         let before = self.least_quality(&shell);
         let split = self.split_in_middle(ends, 1e-3);
-        if !self.is_split_in_fluid(&split) {
+        if !self.may_split(&split) {
             return false;
         }
         let Some(vertex) = self.split(&split, &shell) else {

@@ -65,6 +65,8 @@ pub struct SmoothSurface {
     pub turn: f64,
     /// Whether it is a plane of symmetry, which is no wall.
     pub is_symmetry: bool,
+    /// Whether it is one of a pair of periodic sides, where the fluid goes on.
+    pub is_periodic: bool,
     /// Places on it where it bends more than around them, with the edge lengths wanted there.
     pub bends: Vec<Bend>,
 }
@@ -94,6 +96,7 @@ impl SmoothSurface {
             size: f64::INFINITY,
             turn: f64::INFINITY,
             is_symmetry: false,
+            is_periodic: false,
             bends: Vec::new(),
         }
     }
@@ -122,6 +125,12 @@ impl SmoothSurface {
         self.origin
     }
 
+    /// Whether it is a wall or a body, which other surfaces may leave a gap to.
+    #[must_use]
+    pub fn is_solid(&self) -> bool {
+        !self.is_symmetry && !self.is_periodic
+    }
+
     /// Radius of a ball about the origin that holds the surface (m); infinite without one.
     #[must_use]
     pub fn reach(&self) -> f64 {
@@ -133,6 +142,32 @@ impl SmoothSurface {
             Form::Tube(tube) => tube.reach(),
             Form::Revolved(revolved) => revolved.reach(),
         }
+    }
+
+    /// Its radius of a cylinder without ends, else that of [`Self::reach`] (m).
+    #[must_use]
+    pub fn scale(&self) -> f64 {
+        if let Form::Cylinder(radius) = &self.form { *radius } else { self.reach() }
+    }
+
+    /// The direction of a cylinder without ends.
+    #[must_use]
+    pub fn endless_axis(&self) -> Option<Point<3>> {
+        matches!(self.form, Form::Cylinder(_)).then(|| self.axis())
+    }
+
+    /// Whether it is a cylinder that goes through a plane.
+    #[must_use]
+    pub fn goes_through(&self, plane: &Self) -> bool {
+        let along = self.endless_axis().map(|axis| axis.dot(&plane.axis()));
+        along.is_some_and(|along| along.abs() > 0.5)
+    }
+
+    /// Radius (m) of a solid sphere; `None` of other surfaces.
+    #[must_use]
+    pub fn radius_of_sphere(&self) -> Option<f64> {
+        let Form::Sphere(radius) = self.form else { return None };
+        (!self.is_hollow).then_some(radius)
     }
 
     /// A lower bound of the gap to a point (m), at little cost.
@@ -252,6 +287,9 @@ impl SmoothSurface {
     /// Whether a plane cuts it, or touches it.
     #[must_use]
     pub fn crosses(&self, plane: &Self) -> bool {
+        if self.endless_axis().is_some() {
+            return self.goes_through(plane) || plane.gap(self.origin) <= self.scale();
+        }
         let on =
             directions(SAMPLES).map(|to| self.foot(self.origin + to * (2.0 * self.reach())).point);
         let mut gaps = on.map(|point| plane.gap(point));
@@ -296,97 +334,4 @@ pub fn directions(n: usize) -> impl Iterator<Item = Point<3>> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::spatial::centreline::Centreline;
-    use nalgebra::{Translation3, UnitQuaternion};
-
-    fn forms() -> Vec<Form> {
-        vec![
-            Form::Plane,
-            Form::Sphere(0.7),
-            Form::Cylinder(0.4),
-            Form::Capsule { radius: 0.3, half_length: 0.5 },
-            Form::Ellipsoid(Ellipsoid::new([0.9, 0.5, 0.3])),
-            Form::Tube(Arc::new(Tube::new(helix(), 0.1))),
-            Form::Revolved(Arc::new(Revolved::new("bean", &bean()).unwrap())),
-        ]
-    }
-
-    fn helix() -> Centreline {
-        Centreline::Helix { radius: 0.4, pitch: 0.9, turns: -1.3 }
-    }
-
-    fn bean() -> Vec<[f64; 2]> {
-        let on = |t: f64| [-0.8 * t.cos(), t.sin() * (0.3 + 0.1 * t.cos())];
-        let mut points: Vec<_> =
-            (0..=12).map(|i| on(f64::from(i) / 12.0 * std::f64::consts::PI)).collect();
-        points[12][1] = 0.0;
-        points
-    }
-
-    fn pose() -> Isometry3<f64> {
-        let rotation = UnitQuaternion::from_euler_angles(0.3, -0.5, 1.1);
-        Isometry3::from_parts(Translation3::new(0.1, -0.2, 0.3), rotation)
-    }
-
-    fn points() -> impl Iterator<Item = Point<3>> {
-        let part = |i: usize, k: f64| (0.618_034 * k * (i + 1) as f64).fract() - 0.5;
-        (0..200).map(move |i| Point::<3>::new(part(i, 1.0), part(i, 7.0), part(i, 31.0)) * 3.0)
-    }
-
-    #[test]
-    fn the_foot_is_on_the_surface_and_the_way_to_it_is_normal() {
-        for form in forms() {
-            for is_hollow in [false, true] {
-                let surface = SmoothSurface::new(form.clone(), &pose(), is_hollow);
-                for x in points() {
-                    let foot = surface.foot(x);
-                    assert!(surface.gap(foot.point).abs() < 1e-12, "{form:?}");
-                    assert!((foot.gap - surface.gap(x)).abs() < 1e-12);
-                    assert!((foot.normal.norm() - 1.0).abs() < 1e-12);
-                    let back = foot.point + foot.normal * foot.gap;
-                    assert!((back - x).norm() < 1e-10, "{form:?} {x} {back}");
-                }
-            }
-        }
-    }
-
-    /// No point of the surface is nearer than the foot: the gap changes by no more than the way.
-    #[test]
-    fn gaps_are_distances() {
-        let points: Vec<_> = points().collect();
-        for form in forms() {
-            let surface = SmoothSurface::new(form.clone(), &pose(), false);
-            for pair in points.windows(2) {
-                let change = surface.gap(pair[0]) - surface.gap(pair[1]);
-                assert!(change.abs() <= (pair[0] - pair[1]).norm() + 1e-12, "{form:?}");
-            }
-        }
-    }
-
-    /// In the direction in which it bends most, a surface leaves its tangent by s²/2R.
-    #[test]
-    fn the_radius_of_curvature_is_that_of_the_sharpest_section() {
-        for form in forms().into_iter().skip(1) {
-            let surface = SmoothSurface::new(form.clone(), &pose(), false);
-            for x in points().take(30) {
-                let foot = surface.foot(x);
-                let [u, v] = tangents(&foot.normal);
-                let step = 1e-4;
-                let least = (0..720).map(|i| f64::from(i) * 0.5_f64.to_radians()).map(|angle| {
-                    let to = foot.point + (u * angle.cos() + v * angle.sin()) * step;
-                    step * step / (2.0 * surface.gap(to).abs().max(1e-300))
-                });
-                let least = least.fold(f64::INFINITY, f64::min);
-                let radius = surface.radius_of_curvature(foot.point);
-                assert!((least / radius - 1.0).abs() < 1e-2, "{form:?} {least} {radius}");
-            }
-        }
-    }
-
-    fn tangents(normal: &Point<3>) -> [Point<3>; 2] {
-        let u = normal.cross(&Point::<3>::new(0.3, 0.5, -0.8)).normalize();
-        [u, normal.cross(&u)]
-    }
-}
+mod tests;

@@ -29,7 +29,12 @@ pub fn check(findings: &mut Findings<'_>, file: &CaseFile) {
             findings.warning(
                 key,
                 format!("`{key}` is {value}: angles are in radians, and this is more than a turn"),
-                &format!("for {value} degrees write {}", significant(value.to_radians())),
+                // Columns of a file, which become cubic polynomials, are numbers
+                &if key.contains(".cubic.") {
+                    format!("for {value} degrees write {}", significant(value.to_radians()))
+                } else {
+                    format!("for {value} degrees write \"{value} deg\"")
+                },
             );
         }
         if last == "phase" && value.abs() > 1.0 {

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 
 use super::Findings;
 use super::boundary::check_factor;
-use super::{gait, spring};
+use super::{gait, solid, spring};
 use crate::names::{LONGEST_NAME, is_word};
 use crate::{Body, GaitSpec, Geometry, Lock, Motion, ShapeSpec};
 
@@ -93,13 +93,16 @@ fn check_name(findings: &mut Findings<'_>, key: &str, name: &str, taken: &HashSe
     }
 }
 
-fn check_shape(findings: &mut Findings<'_>, key: &str, shape: &ShapeSpec) {
+/// A shape that can stand in the case, of lengths that make one.
+pub(super) fn check_shape(findings: &mut Findings<'_>, key: &str, shape: &ShapeSpec) {
     let case = findings.case();
     let geometry = case.geometry.name();
     let allowed = match case.geometry {
         Geometry::Planar => "disc, ellipse, spline, fish, flagellate",
         Geometry::Axisymmetric => "sphere, spheroid",
-        Geometry::Spatial => "sphere, spheroid, ellipsoid, capsule",
+        Geometry::Spatial => {
+            "sphere, spheroid, ellipsoid, capsule, cylinder, helix, revolved, union"
+        }
     };
     let name = shape.name();
     if !shape.geometries().contains(&case.geometry) {
@@ -127,7 +130,17 @@ fn check_shape(findings: &mut Findings<'_>, key: &str, shape: &ShapeSpec) {
                 );
             }
         }
+        ShapeSpec::Cylinder { radius, .. } => {
+            findings.positive(&format!("{key}.cylinder.radius"), *radius);
+        }
         ShapeSpec::Fish(_) | ShapeSpec::Flagellate(_) => gait::check_shape(findings, key, shape),
+        ShapeSpec::Helix(helix) => solid::check_helix(findings, &format!("{key}.helix"), helix),
+        ShapeSpec::Revolved { profile } => {
+            solid::check_profile(findings, &format!("{key}.revolved.profile"), profile);
+        }
+        ShapeSpec::Union(parts) => {
+            solid::check_parts(findings, &format!("{key}.union"), parts, check_shape);
+        }
         // Its links are checked
         ShapeSpec::Tube(_) => {}
         ShapeSpec::Spline { points } => {

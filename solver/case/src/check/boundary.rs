@@ -312,8 +312,11 @@ fn inflow(case: &Case, side: &str, condition: &BoundaryCondition) -> f64 {
         BoundaryCondition::Parabolic { peak, .. } if axis == 0 => {
             peak * match (&case.domain, case.geometry) {
                 (DomainSpec::Cylinder { .. }, _) => 1.0 / 2.0,
-                (_, Geometry::Spatial) => 4.0 / 9.0,
-                (_, _) => 2.0 / 3.0,
+                (_, geometry) => {
+                    let n_across = if geometry == Geometry::Spatial { 2 } else { 1 };
+                    let across = case.walls_across().into_iter().skip(1).take(n_across);
+                    across.flatten().map(|_| 2.0 / 3.0).product()
+                }
             }
         }
         BoundaryCondition::Shear { rate, origin, .. } if axis == 0 => {

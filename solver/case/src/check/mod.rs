@@ -20,6 +20,7 @@ mod near;
 mod placement;
 mod references;
 mod skin;
+mod solid;
 mod space;
 mod spring;
 mod strokes;
@@ -58,10 +59,10 @@ pub fn check(file: &CaseFile) -> Vec<Diagnostic> {
     if findings.has_no_error() {
         cells::check(&mut findings);
     }
-    let in_plane = file.model.case.geometry != Geometry::Spatial;
-    if in_plane && findings.has_no_error() {
+    if findings.has_no_error() {
         placement::check(&mut findings);
     }
+    let in_plane = file.model.case.geometry != Geometry::Spatial;
     if in_plane && findings.has_no_error() {
         strokes::check(&mut findings);
         near::check(&mut findings);

@@ -2,7 +2,7 @@
 
 use super::Findings;
 use crate::speed::norm;
-use crate::{Body, GaitSpec, Geometry, Motion};
+use crate::{Body, DomainSpec, GaitSpec, Geometry, Motion, Orientation, ShapeSpec};
 
 /// Difference of the length of a quaternion from 1 that is taken for rounding.
 const ROUNDING: f64 = 1e-6;
@@ -16,6 +16,7 @@ pub fn check(findings: &mut Findings<'_>) {
         let key = format!("body.{index}");
         if is_spatial {
             check_turns(findings, &key, body);
+            check_cylinder(findings, &key, body);
         } else {
             refuse_turns(findings, &key, body);
         }
@@ -25,11 +26,13 @@ pub fn check(findings: &mut Findings<'_>) {
 /// What is not solved in three dimensions so far.
 fn check_supported(findings: &mut Findings<'_>) {
     let (case, model) = (findings.case(), findings.model());
+    let has_periods = case.periodic_axes().contains(&true);
+    let is_box = matches!(case.domain, DomainSpec::Box { .. });
     let missing = [
         ("joint", !case.joint.is_empty(), "joints"),
         ("swimmer", !case.swimmer.is_empty(), "swimmers of several bodies"),
         ("contact", case.contact.is_some(), "contact"),
-        ("boundary", case.periodic_axes().contains(&true), "periodic sides"),
+        ("boundary", has_periods && !is_box, "periodic sides of other domains than a box"),
         ("frame", case.frame.is_some() && model.mesh_moves(), "a frame that other bodies move in"),
     ];
     for (key, is_there, what) in missing {
@@ -51,6 +54,56 @@ fn check_supported(findings: &mut Findings<'_>) {
     }
 }
 
+/// A cylinder goes through a box from side to side, and does not leave its sides.
+fn check_cylinder(findings: &mut Findings<'_>, key: &str, body: &Body) {
+    let ShapeSpec::Cylinder { axis, length, .. } = &body.shape else { return };
+    let case = findings.case();
+    let (name, axis) = (&body.name, axis.index());
+    let along = ["x", "y", "z"][axis];
+    if !matches!(case.domain, DomainSpec::Box { .. }) {
+        findings.error(
+            &format!("{key}.shape.cylinder"),
+            format!("\"{name}\" goes through a box from side to side, and the domain is none"),
+            "take domain.box, or a capsule",
+        );
+        return;
+    }
+    if body.motion == Motion::Free {
+        findings.error(
+            &format!("{key}.motion"),
+            format!("\"{name}\" ends at two sides of the box and cannot be free"),
+            "write motion = \"held\", or { imposed = ... }; a capsule may be free",
+        );
+    }
+    if body.orientation.is_some() {
+        findings.error(
+            &format!("{key}.orientation"),
+            format!("\"{name}\" would be turned away from the sides it ends at"),
+            "leave it out, and write shape.cylinder.axis = \"x\", \"y\" or \"z\"",
+        );
+    }
+    let middle = case.extent().min[axis] + 0.5 * length;
+    let center = body.center.get(axis).copied().unwrap_or(middle);
+    if (center - middle).abs() > ROUNDING * length {
+        findings.error(
+            &format!("{key}.center"),
+            format!(
+                "the centre of \"{name}\" along {along} is {center}, not in the middle of the box"
+            ),
+            &format!("write {middle} there: the cylinder goes from side to side"),
+        );
+    }
+    if case.periodic_axes()[axis] {
+        findings.error(
+            &format!("{key}.shape.cylinder.axis"),
+            format!(
+                "\"{name}\" goes through periodic sides, which bodies in space cannot do so far"
+            ),
+            "make them planes of symmetry or walls",
+        );
+    }
+}
+
 /// Turns of a body in space are about an axis.
 fn check_turns(findings: &mut Findings<'_>, key: &str, body: &Body) {
     if body.angle != 0.0 {
@@ -61,25 +114,8 @@ fn check_turns(findings: &mut Findings<'_>, key: &str, body: &Body) {
              orientation = { along = [x, y, z] } for the direction of the body's x axis",
         );
     }
-    use crate::Orientation::{Along, Quaternion, Turned};
-    let mut no_direction = |name: &str, vector: &[f64]| {
-        if norm(vector) == 0.0 {
-            findings.error(
-                &format!("{key}.{name}"),
-                format!("`{key}.{name}` is zero and points nowhere"),
-                "write a direction such as [1.0, 0.0, 0.0]",
-            );
-        }
-    };
-    match &body.orientation {
-        Some(Turned { axis, .. }) => no_direction("orientation.turned.axis", axis),
-        Some(Along(direction)) => no_direction("orientation.along", direction),
-        Some(Quaternion(parts)) if (norm(parts) - 1.0).abs() > ROUNDING => findings.error(
-            &format!("{key}.orientation.quaternion"),
-            format!("the quaternion {parts:?} has the length {:.6}", norm(parts)),
-            "write [w, x, y, z] of length 1; without a turn it is [1.0, 0.0, 0.0, 0.0]",
-        ),
-        Some(Quaternion(_)) | None => {}
+    if let Some(orientation) = &body.orientation {
+        check_orientation(findings, key, orientation);
     }
     if let Some(GaitSpec::Squirmer(squirmer)) = &body.gait {
         let gait = format!("{key}.gait.squirmer");
@@ -110,6 +146,29 @@ fn check_turns(findings: &mut Findings<'_>, key: &str, body: &Body) {
             "a spring against turning works in the plane only so far".to_owned(),
             "leave out torsion, torsion_damping and rest_angle",
         );
+    }
+}
+
+/// An orientation about an axis that points somewhere.
+pub(super) fn check_orientation(findings: &mut Findings<'_>, key: &str, orientation: &Orientation) {
+    let mut no_direction = |name: &str, vector: &[f64]| {
+        if norm(vector) == 0.0 {
+            findings.error(
+                &format!("{key}.{name}"),
+                format!("`{key}.{name}` is zero and points nowhere"),
+                "write a direction such as [1.0, 0.0, 0.0]",
+            );
+        }
+    };
+    match orientation {
+        Orientation::Turned { axis, .. } => no_direction("orientation.turned.axis", axis),
+        Orientation::Along(direction) => no_direction("orientation.along", direction),
+        Orientation::Quaternion(parts) if (norm(parts) - 1.0).abs() > ROUNDING => findings.error(
+            &format!("{key}.orientation.quaternion"),
+            format!("the quaternion {parts:?} has the length {:.6}", norm(parts)),
+            "write [w, x, y, z] of length 1; without a turn it is [1.0, 0.0, 0.0, 0.0]",
+        ),
+        Orientation::Quaternion(_) => {}
     }
 }
 
@@ -187,12 +246,48 @@ body = [{{ name = 'b', shape = {{ {shape} = {{ radius = 1.0 }} }}, center = [{ce
             ("body.0.center=[0.0, 0.0]", "body.0.center"),
             ("domain.box.max=[4.0, 4.0]", "domain.box.max"),
             ("body.0.shape={ disc = { radius = 1.0 } }", "body.0.shape"),
-            ("boundary.left={ periodic = 'right' }", "boundary"),
             ("time={ unsteady = { step = 0.1, end = 1.0 } }", "time"),
         ] {
             let found = space(&[setting]);
             assert!(found.contains(&key.to_owned()), "{setting}: {found:?}");
         }
+    }
+
+    #[test]
+    fn boxes_may_be_periodic_and_other_domains_may_not() {
+        let space = |settings: &[&str]| wrong("spatial", "0.0, 0.0, 0.0", settings);
+        let pair = "boundary={ left = { periodic = 'right' }, bottom = 'no-slip', top = 'no-slip', \
+                    back = 'no-slip', front = 'no-slip' }";
+        assert!(space(&[pair]).is_empty());
+        let tube = "domain={ cylinder = { x = [-4.0, 4.0], radius = 4.0 } }";
+        let pair = "boundary={ left = { periodic = 'right' }, wall = 'no-slip' }";
+        assert!(space(&[tube, pair]).contains(&"boundary".to_owned()));
+    }
+
+    #[test]
+    fn cylinders_go_from_side_to_side_and_stay_there() {
+        let space = |center: &str, settings: &[&str]| {
+            let mut all = vec!["body.0.shape={ cylinder = { radius = 0.5, axis = 'z' } }"];
+            all.extend(settings);
+            wrong("spatial", center, &all)
+        };
+        let held = "body.0.motion='held'";
+        assert!(space("0.5, 0.2, 0.0", &[held]).is_empty());
+        assert_eq!(space("0.5, 0.2, 0.1", &[held]), ["body.0.center"]);
+        assert_eq!(space("0.5, 0.2, 0.0", &[]), ["body.0.motion"]);
+        let turned = "body.0.orientation={ along = [0.0, 1.0, 1.0] }";
+        assert_eq!(space("0.5, 0.2, 0.0", &[held, turned]), ["body.0.orientation"]);
+        let pair = "boundary={ back = { periodic = 'front' }, bottom = 'no-slip', top = 'no-slip', \
+                    left = 'no-slip', right = 'no-slip' }";
+        assert_eq!(space("0.5, 0.2, 0.0", &[held, pair]), ["body.0.shape.cylinder.axis"]);
+        let ball = "domain={ sphere = { center = [0.0, 0.0, 0.0], radius = 4.0 } }";
+        let wall = "boundary={ wall = 'no-slip' }";
+        assert_eq!(space("0.5, 0.2, 0.0", &[held, ball, wall]), ["body.0.shape.cylinder"]);
+        let thin = "body.0.shape.cylinder.radius=-0.5";
+        assert!(
+            space("0.5, 0.2, 0.0", &[held, thin])
+                .contains(&"body.0.shape.cylinder.radius".to_owned())
+        );
     }
 
     #[test]

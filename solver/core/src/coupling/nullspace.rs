@@ -101,11 +101,17 @@ fn weights<const D: usize>(mesh: &Mesh<D>) -> Vec<NodeWeights<D>> {
     let mut volume = Point::<D>::zeros();
     let mut all: Vec<NodeWeights<D>> = Vec::new();
     for facet in &mesh.facets {
-        // Vertices may be copies of another pair of sides, inner nodes are not
+        // Those of its nodes where it meets another pair of sides may be copies of that or farther ones
         let mut inner = mesh.facet_inner_nodes(facet);
-        let Some(copy) = inner.clone().next() else { continue };
-        let Some(of) = original[copy] else { continue };
-        let way = mesh.nodes[copy] - mesh.nodes[of];
+        let mut ways = Vec::with_capacity(3);
+        for node in inner.clone() {
+            ways.extend(original[node].map(|of| mesh.nodes[node] - mesh.nodes[of]));
+        }
+        if ways.len() < inner.clone().count() {
+            continue;
+        }
+        let shortest = ways.into_iter().min_by(|a, b| a.norm().total_cmp(&b.norm()));
+        let Some(way) = shortest else { continue };
         let vertices = mesh.facet_vertices(facet);
         let outward = vector_area(&vertices.map(|vertex| mesh.nodes[vertex]));
         let mut add = |node: NodeId, mean: f64| {

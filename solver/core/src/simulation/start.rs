@@ -41,7 +41,8 @@ pub(super) fn step_scheme<const D: usize>(case: &Case, problem: &Problem<D>) -> 
 
 const GIGABYTE: f64 = 1e9;
 
-/// Unknowns over cells of a large planar mesh: velocities at vertices and edges, pressures at vertices.
+/// Unknowns over cells of a large mesh, planar or spatial: velocities at vertices and edges, pressures
+/// at vertices.
 pub const DOFS_OF_CELL: f64 = 4.5;
 
 /// Part by which an estimate of cells may be too high.
@@ -50,7 +51,7 @@ const UNCERTAIN: f64 = 1.4;
 /// Refuses a mesh whose system would not fit into the memory that is free, where the system tells.
 pub(super) fn check_memory<const D: usize>(mesh: &Mesh<D>) -> Result<(), RunError> {
     let n_dofs = D * mesh.n_nodes() + mesh.n_vertices;
-    let needed = memory_estimate(n_dofs as f64) / GIGABYTE;
+    let needed = memory_estimate(D, n_dofs as f64) / GIGABYTE;
     match free_memory() {
         Some(available) if needed > available => {
             Err(RunError::TooLarge { n_dofs, needed, available })
@@ -59,13 +60,13 @@ pub(super) fn check_memory<const D: usize>(mesh: &Mesh<D>) -> Result<(), RunErro
     }
 }
 
-/// Refuses a planar mesh before it is made, by an estimate of its cells, which gets the number from
-/// which on they need not be counted.
-pub(super) fn check_cells(
+/// Refuses a mesh before it is made, by an estimate of its cells, which gets the number from which on
+/// they need not be counted.
+pub(super) fn check_cells<const D: usize>(
     estimate: impl FnOnce(f64) -> Result<f64, MeshError>,
 ) -> Result<(), RunError> {
     let Some(available) = free_memory() else { return Ok(()) };
-    let memory = |n_cells: f64| memory_estimate(DOFS_OF_CELL * n_cells) / GIGABYTE;
+    let memory = |n_cells: f64| memory_estimate(D, DOFS_OF_CELL * n_cells) / GIGABYTE;
     // In proportion to what a million cells need
     let fitting = UNCERTAIN * 1e6 * available / memory(1e6);
     let limit = 10.0 * fitting;
@@ -74,7 +75,7 @@ pub(super) fn check_cells(
         return Ok(());
     }
     let n_cells = n_cells.min(limit);
-    let coarser = (n_cells / fitting).sqrt();
+    let coarser = (n_cells / fitting).powf(1.0 / D as f64);
     Err(RunError::TooManyCells { n_cells, needed: memory(n_cells), available, coarser })
 }
 
@@ -92,16 +93,21 @@ mod tests {
 
     #[test]
     fn more_cells_than_fit_are_refused_with_what_would_fit() {
-        assert!(check_cells(|_| Ok(1e3)).is_ok());
+        assert!(check_cells::<2>(|_| Ok(1e3)).is_ok());
         if free_memory().is_none() {
             return;
         }
-        match check_cells(|_| Ok(f64::INFINITY)) {
-            Err(RunError::TooManyCells { coarser, needed, available, .. }) => {
-                assert!((coarser - 10f64.sqrt()).abs() < 1e-9, "{coarser}");
-                assert!(needed > available);
+        let infinite = |_| Ok(f64::INFINITY);
+        for (refused, power) in
+            [(check_cells::<2>(infinite), 1.0 / 2.0), (check_cells::<3>(infinite), 1.0 / 3.0)]
+        {
+            match refused {
+                Err(RunError::TooManyCells { coarser, needed, available, .. }) => {
+                    assert!((coarser - 10f64.powf(power)).abs() < 1e-9, "{coarser}");
+                    assert!(needed > available);
+                }
+                other => panic!("{other:?}"),
             }
-            other => panic!("{other:?}"),
         }
     }
 }

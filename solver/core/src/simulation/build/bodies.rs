@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use alewife_mesh::BoundaryId;
+use alewife_mesh::{BoundaryId, Mesh};
 use nalgebra::Vector3;
 
 use super::solid::Solid;
@@ -28,13 +28,14 @@ fn vector(values: &[f64]) -> Vector3<f64> {
 }
 
 /// A body of a case with its boundary in the mesh.
-pub(super) fn rigid_body(
+pub(super) fn rigid_body<const D: usize>(
     case: &Case,
     body: &Body,
+    mesh: &Mesh<D>,
     boundary: BoundaryId,
     metric: Metric,
 ) -> Result<RigidBody, RunError> {
-    let Solid { volume, pose } = Solid::of(body, case.geometry)?;
+    let Solid { volume, pose } = Solid::of(body, case.geometry, mesh, boundary)?;
     let density = body.density.unwrap_or(case.fluid.density);
     let inertia = match case.fluid.model {
         FlowModel::Stokes => Inertia::default(),

@@ -10,7 +10,7 @@ use alewife_mesh::{BoundaryId, BoundaryKind, Mesh, Point};
 use self::bodies::rigid_body;
 use self::joints::add_joint;
 use self::sides::side;
-pub(super) use self::solid::{no_solid, rotation};
+pub(super) use self::solid::no_solid;
 use super::RunError;
 use crate::body::Pose;
 use crate::case::{
@@ -51,7 +51,7 @@ pub fn build_problem<const D: usize>(
         sides.push(match known.kind {
             BoundaryKind::Body(body) => {
                 let boundary = BoundaryId::new(boundary);
-                bodies.push(rigid_body(case, &model.bodies[body], boundary, metric)?);
+                bodies.push(rigid_body(case, &model.bodies[body], mesh, boundary, metric)?);
                 None
             }
             BoundaryKind::Axis => Some(Side::Symmetry { normal_axis: Metric::RADIAL }),

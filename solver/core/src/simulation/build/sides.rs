@@ -68,8 +68,8 @@ fn mirror_axis(case: &Case, side: &str) -> Result<usize, RunError> {
     }
 }
 
-/// A velocity along x that is zero at both ends of a side, a parabola across each axis; in a round
-/// section that of Poiseuille.
+/// A velocity along x that is zero at walls, a parabola across each axis with its largest value in the
+/// middle or at a plane of symmetry; in a round section that of Poiseuille.
 fn parabola<const D: usize>(case: &Case, peak: f64) -> VelocityProfile<D> {
     if let (DomainSpec::Cylinder { radius, .. }, Geometry::Spatial) = (&case.domain, case.geometry)
     {
@@ -79,14 +79,11 @@ fn parabola<const D: usize>(case: &Case, peak: f64) -> VelocityProfile<D> {
             along_x(peak * (1.0 - distance / square))
         });
     }
-    let extent = case.extent();
-    let mut low = extent.min;
-    if case.geometry == Geometry::Axisymmetric {
-        low[1] = -extent.max[1];
-    }
+    let across = case.walls_across();
     Box::new(move |point, _| {
-        let parts = (1..D).map(|axis| {
-            let s = (point[axis] - low[axis]) / (extent.max[axis] - low[axis]);
+        let parts = across.iter().take(D).enumerate().skip(1).map(|(axis, ends)| {
+            let Some([low, high]) = *ends else { return 1.0 };
+            let s = (point[axis] - low) / (high - low);
             4.0 * s * (1.0 - s)
         });
         along_x(peak * parts.product::<f64>())

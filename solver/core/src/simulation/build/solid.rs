@@ -2,12 +2,14 @@
 
 use std::f64::consts::PI;
 
-use nalgebra::{Matrix3, Quaternion, Rotation2, UnitQuaternion, UnitVector3, Vector3};
+use alewife_mesh::{BoundaryId, Mesh, Point};
+use nalgebra::{Matrix3, Rotation2, Vector3};
 
 use crate::body::{Inertia, Pose};
-use crate::case::{Body, Geometry, Orientation, ShapeSpec};
+use crate::case::{Body, Geometry, ShapeSpec};
 use crate::coupling::second_moments;
 use crate::simulation::RunError;
+use crate::space::{FacetRule, Metric};
 
 /// A body of unit density, and where it is.
 pub(super) struct Solid {
@@ -19,10 +21,15 @@ pub(super) struct Solid {
 
 impl Solid {
     /// That of a body at time zero.
-    pub fn of(body: &Body, geometry: Geometry) -> Result<Self, RunError> {
+    pub fn of<const D: usize>(
+        body: &Body,
+        geometry: Geometry,
+        mesh: &Mesh<D>,
+        boundary: BoundaryId,
+    ) -> Result<Self, RunError> {
         match geometry {
             Geometry::Planar | Geometry::Axisymmetric => Self::in_plane(body),
-            Geometry::Spatial => Self::in_space(body),
+            Geometry::Spatial => Self::in_space(body, || enclosed(mesh, boundary)),
         }
     }
 
@@ -38,14 +45,29 @@ impl Solid {
         Ok(Self { volume, pose: Pose::planar(pose.center.x, pose.center.y, pose.heading()) })
     }
 
-    fn in_space(body: &Body) -> Result<Self, RunError> {
+    /// Of shapes without a closed form by what their surface in the mesh encloses.
+    fn in_space(body: &Body, enclosed: impl FnOnce() -> Enclosed) -> Result<Self, RunError> {
+        let place = body.pose_in_space();
+        let has_closed_form = !matches!(
+            body.shape,
+            ShapeSpec::Helix(_) | ShapeSpec::Revolved { .. } | ShapeSpec::Union(_)
+        );
+        if !has_closed_form {
+            let Enclosed { mass, centroid, tensor } = enclosed();
+            let turn = place.rotation.to_rotation_matrix();
+            let tensor = turn.transpose() * tensor * turn;
+            let pose = Pose::spatial(centroid, place.rotation);
+            return Ok(Self { volume: Inertia { mass, tensor }, pose });
+        }
         let volume = match (&body.shape, body.shape.semi_axes()) {
             (_, Some(semi_axes)) => ellipsoid(semi_axes),
             (ShapeSpec::Capsule { length, radius }, None) => capsule(*length, *radius),
+            (ShapeSpec::Cylinder { radius, axis, length }, None) => {
+                cylinder(*length, *radius, axis.index())
+            }
             (_, None) => return Err(no_solid(body)),
         };
-        let center = Vector3::from_fn(|axis, _| body.center.get(axis).copied().unwrap_or(0.0));
-        Ok(Self { volume, pose: Pose::spatial(center, rotation(body.orientation.as_ref())) })
+        Ok(Self { volume, pose: Pose::spatial(place.translation.vector, place.rotation) })
     }
 }
 
@@ -55,24 +77,41 @@ pub(in crate::simulation) fn no_solid(body: &Body) -> RunError {
     RunError::Unsupported(format!("body `{name}`: a {shape} is planar"))
 }
 
-/// Rotation from the body frame to the world.
-pub(in crate::simulation) fn rotation(orientation: Option<&Orientation>) -> UnitQuaternion<f64> {
-    match orientation {
-        None => UnitQuaternion::identity(),
-        Some(Orientation::Turned { axis, angle }) => {
-            let axis = UnitVector3::new_normalize(Vector3::from(*axis));
-            UnitQuaternion::from_axis_angle(&axis, *angle)
-        }
-        Some(Orientation::Quaternion([w, x, y, z])) => {
-            UnitQuaternion::from_quaternion(Quaternion::new(*w, *x, *y, *z))
-        }
-        Some(Orientation::Along(direction)) => {
-            // Opposite directions leave the axis open: about z
-            let half_turn = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), PI);
-            UnitQuaternion::rotation_between(&Vector3::x(), &Vector3::from(*direction))
-                .unwrap_or(half_turn)
-        }
+/// What a closed surface in a mesh encloses, at unit density.
+struct Enclosed {
+    mass: f64,
+    centroid: Vector3<f64>,
+    /// Inertia about the centroid, in the axes of the laboratory (m5).
+    tensor: Matrix3<f64>,
+}
+
+/// Volume and moments of a body by the divergence theorem on its boundary; the normal of the mesh is into
+/// the body.
+fn enclosed<const D: usize>(mesh: &Mesh<D>, boundary: BoundaryId) -> Enclosed {
+    let rule = FacetRule::new(Metric::Cartesian);
+    let in_space =
+        |vector: &Point<D>| Vector3::from_fn(|axis, _| if axis < D { vector[axis] } else { 0.0 });
+    let facets = || mesh.facets.iter().filter(|facet| facet.boundary == boundary);
+    // About a point near it, for the sake of rounding
+    let near = facets()
+        .next()
+        .map_or_else(Vector3::zeros, |facet| in_space(&mesh.nodes[mesh.cell(facet.cell)[0]]));
+    let (mut mass, mut first, mut second) = (0.0, Vector3::zeros(), Matrix3::zeros());
+    for facet in facets() {
+        rule.for_each_point(mesh, facet, |at| {
+            let x = in_space(&at.position) - near;
+            let outward = -in_space(&at.normal_ds);
+            let flux = x.dot(&outward);
+            // div(x) = 3, div(x_i x) = 4 x_i, div(x_i x_j x) = 5 x_i x_j
+            mass += flux / 3.0;
+            first += x * (flux / 4.0);
+            second += x * x.transpose() * (flux / 5.0);
+        });
     }
+    let centroid = first / mass;
+    let central = second - centroid * centroid.transpose() * mass;
+    let tensor = Matrix3::identity() * central.trace() - central;
+    Enclosed { mass, centroid: near + centroid, tensor }
 }
 
 /// An ellipsoid of unit density: m (b^2 + c^2) / 5 about its first axis.
@@ -80,6 +119,15 @@ fn ellipsoid([a, b, c]: [f64; 3]) -> Inertia {
     let mass = 4.0 / 3.0 * PI * a * b * c;
     let [a, b, c] = [a * a, b * b, c * c];
     let diagonal = Vector3::new(b + c, c + a, a + b) * (mass / 5.0);
+    Inertia { mass, tensor: Matrix3::from_diagonal(&diagonal) }
+}
+
+/// A cylinder about a coordinate, of unit density.
+fn cylinder(length: f64, radius: f64, axis: usize) -> Inertia {
+    let mass = PI * radius * radius * length;
+    let across = mass * (radius * radius / 4.0 + length * length / 12.0);
+    let mut diagonal = Vector3::repeat(across);
+    diagonal[axis] = mass * radius * radius / 2.0;
     Inertia { mass, tensor: Matrix3::from_diagonal(&diagonal) }
 }
 
@@ -99,7 +147,29 @@ fn capsule(length: f64, radius: f64) -> Inertia {
 
 #[cfg(test)]
 mod tests {
+    use alewife_mesh::Sizing;
+    use alewife_mesh::spatial::{Body as SolidBody, Domain, Shape, generate};
+    use nalgebra::{Isometry3, Translation3, UnitQuaternion};
+
     use super::*;
+
+    #[test]
+    fn the_surface_of_an_ellipsoid_encloses_its_volume_and_inertia() {
+        let semi_axes = [0.9, 0.6, 0.4];
+        let turn = UnitQuaternion::from_euler_angles(0.4, 0.7, -0.3);
+        let center = Vector3::new(0.3, -0.2, 0.1);
+        let pose = Isometry3::from_parts(Translation3::from(center), turn);
+        let domain = Domain::walls(Point::<3>::repeat(-2.0), Point::<3>::repeat(2.0));
+        let body = SolidBody::new("a", Shape::Ellipsoid { semi_axes }, pose);
+        let mesh = generate(&domain, &[body], &Sizing::graded(0.12, 0.4, 0.8)).unwrap();
+        let Enclosed { mass, centroid, tensor } = enclosed(&mesh, BoundaryId::new(6));
+        let exact = ellipsoid(semi_axes);
+        assert!((mass / exact.mass - 1.0).abs() < 1e-3, "{mass} {}", exact.mass);
+        assert!((centroid - center).norm() < 1e-4, "{centroid}");
+        let turn = turn.to_rotation_matrix();
+        let own = turn.transpose() * tensor * turn;
+        assert!((own - exact.tensor).amax() < 2e-3 * exact.tensor.amax(), "{own} {}", exact.tensor);
+    }
 
     /// Volume and second moments about x and y of a body of revolution about x, by summing slices.
     fn by_slices(radius_at: impl Fn(f64) -> f64, reach: f64) -> [f64; 3] {
@@ -128,25 +198,12 @@ mod tests {
         for (solid, slices) in [
             (capsule(length, radius), by_slices(cap, length / 2.0)),
             (ellipsoid([1.3, 0.4, 0.4]), by_slices(spheroid, 1.3)),
+            (cylinder(3.0, 0.4, 0), by_slices(|_| 0.4, 1.5)),
         ] {
             let own = [solid.mass, solid.tensor[(0, 0)], solid.tensor[(1, 1)]];
             for (own, sum) in own.iter().zip(slices) {
                 assert!((own / sum - 1.0).abs() < 1e-8, "{own} {sum}");
             }
-        }
-    }
-
-    #[test]
-    fn orientations_turn_the_axis_of_the_body() {
-        let ahead = |orientation| rotation(Some(&orientation)) * Vector3::x();
-        let turned = Orientation::Turned { axis: [0.0, 0.0, 2.0], angle: PI / 2.0 };
-        assert!((ahead(turned) - Vector3::y()).norm() < 1e-15);
-        let quarter = (PI / 4.0).sin_cos();
-        let quaternion = Orientation::Quaternion([quarter.1, 0.0, quarter.0, 0.0]);
-        assert!((ahead(quaternion) + Vector3::z()).norm() < 1e-15);
-        for along in [[1.0, 2.0, -2.0], [-3.0, 0.0, 0.0]] {
-            let direction = Vector3::from(along).normalize();
-            assert!((ahead(Orientation::Along(along)) - direction).norm() < 1e-15);
         }
     }
 }

@@ -97,7 +97,7 @@ impl MeshedCell {
     pub fn generate(model: &Model) -> Result<Self, RunError> {
         let case = &model.case;
         let (domain, bodies, sizing) = (case.mesh_domain(), placed_bodies(model)?, sizing(case));
-        check_cells(|limit| estimate_cells(&domain, &bodies, &sizing, limit))?;
+        check_cells::<2>(|limit| estimate_cells(&domain, &bodies, &sizing, limit))?;
         let cell = initial_cell(&domain, bodies)?;
         let mut mesh = cell.mesh(&sizing)?;
         // The side of a sheet is straight at first, but will not stay so

@@ -1,20 +1,15 @@
-//! Bodies that overlap or leave the domain, and probes that are not in the fluid.
+//! Where bodies are in a planar or axisymmetric domain.
 
-use alewife_mesh::{
-    Domain, MeshError, Outline, PlacedShape, Point, SMALLEST_GAP, check_wrapped_placement,
-};
+use alewife_mesh::{Domain, MeshError, Outline, PlacedShape, Point, check_wrapped_placement};
 
-use super::Findings;
+use super::arrangement::{Arrangement, Misplaced, ROUNDING};
+use crate::Model;
 use crate::discs::{Disc, DiscGrid};
 
-/// Distance out of the fluid, over the size of the domain or a body, that is taken for rounding.
-const ROUNDING: f64 = 1e-6;
-
-pub fn check(findings: &mut Findings<'_>) {
-    let (case, model) = (findings.case(), findings.model());
-    let domain = case.mesh_domain();
-    let mut bodies: Vec<PlacedShape> =
-        model.bodies.iter().map(|body| body.placed(case.mesh.scale)).collect();
+/// The bodies of a model in their places in a domain.
+pub fn placed_bodies(model: &Model, domain: &Domain) -> Vec<PlacedShape> {
+    let scale = model.case.mesh.scale;
+    let mut bodies: Vec<PlacedShape> = model.bodies.iter().map(|body| body.placed(scale)).collect();
     // What hangs on another body may reach beyond a periodic side
     for (index, placed) in bodies.iter_mut().enumerate() {
         if model.joint_above(index).is_some() {
@@ -24,73 +19,14 @@ pub fn check(findings: &mut Findings<'_>) {
             placed.center = images.max_by(|a, b| inside(a).total_cmp(&inside(b))).unwrap_or(center);
         }
     }
-    let layout = Layout::new(&domain, &bodies, case.extent().in_plane());
-    let misplaced = layout.misplaced();
-    for Misplaced { body, error } in &misplaced {
-        let help = remedy(error);
-        findings.error(&format!("body.{body}.center"), message(error), help);
-    }
-    for (index, probe) in case.probe.iter().enumerate() {
-        let minus = Some(&probe.minus).filter(|minus| !minus.is_empty());
-        for (name, point) in [("point", Some(&probe.point)), ("minus", minus)] {
-            let key = format!("probe.{index}.{name}");
-            let Some(point) = point.filter(|point| findings.vector(&key, point)) else { continue };
-            if is_in_domain(findings, &key, &domain, point) && misplaced.is_empty() {
-                check_outside_bodies(findings, &key, &layout, point);
-            }
-        }
-    }
-}
-
-/// What is wrong with where a body is.
-fn message(error: &MeshError) -> String {
-    match error {
-        MeshError::Outside { body, gap, x, y } if *gap > 0.0 => {
-            format!(
-                "body \"{body}\" is {gap:.3e} from the boundary at ({x:.4}, {y:.4}): {}",
-                thin()
-            )
-        }
-        MeshError::Outside { body, gap, x, y } => format!(
-            "body \"{body}\" touches or leaves the domain at ({x:.4}, {y:.4}): gap {gap:.3e}"
-        ),
-        MeshError::Overlap { first, second, gap, x, y } if *gap > 0.0 => format!(
-            "bodies \"{first}\" and \"{second}\" are {gap:.3e} apart at ({x:.4}, {y:.4}): {}",
-            thin()
-        ),
-        MeshError::Overlap { first, second, gap, x, y } => format!(
-            "bodies \"{first}\" and \"{second}\" touch or overlap at ({x:.4}, {y:.4}): \
-             gap {gap:.3e}"
-        ),
-        other => other.to_string(),
-    }
-}
-
-/// What is said of a gap that is too small.
-fn thin() -> String {
-    format!("gaps below {SMALLEST_GAP:e} of the size of a body cannot be meshed")
-}
-
-/// What to do about it.
-fn remedy(error: &MeshError) -> &'static str {
-    match error {
-        MeshError::Outside { .. } => "move it inward, make it smaller, or enlarge the domain",
-        MeshError::Overlap { .. } => "move them apart, or make them smaller",
-        _ => "",
-    }
-}
-
-/// A body that is where it cannot be.
-#[derive(Debug, PartialEq)]
-struct Misplaced {
-    /// The body to move.
-    body: usize,
-    error: MeshError,
+    bodies
 }
 
 /// Bodies in a domain, found by the circles around them.
-struct Layout<'a> {
+pub struct Layout<'a> {
     domain: &'a Domain,
+    /// Lower left and upper right corner (m).
+    extent: [[f64; 2]; 2],
     images: Vec<Point<2>>,
     bodies: &'a [PlacedShape],
     /// `None` of a shape that has none.
@@ -100,7 +36,7 @@ struct Layout<'a> {
 
 impl<'a> Layout<'a> {
     /// Bodies in a domain with the corners `extent` (m).
-    fn new(domain: &'a Domain, bodies: &'a [PlacedShape], extent: [[f64; 2]; 2]) -> Self {
+    pub fn new(domain: &'a Domain, bodies: &'a [PlacedShape], extent: [[f64; 2]; 2]) -> Self {
         let outlines: Vec<Option<Outline>> =
             bodies.iter().map(|body| Outline::new(body).ok()).collect();
         let mut grid = DiscGrid::new(extent[0], extent[1], bodies.len());
@@ -109,35 +45,7 @@ impl<'a> Layout<'a> {
                 grid.insert(body, &circle(outline));
             }
         }
-        Self { domain, images: domain.images(), bodies, outlines, grid }
-    }
-
-    /// Everything that is wrong with where bodies are.
-    fn misplaced(&self) -> Vec<Misplaced> {
-        let mut misplaced = Vec::new();
-        let mut is_inside = vec![false; self.bodies.len()];
-        for (index, body) in self.bodies.iter().enumerate() {
-            let mut refuse = |error| misplaced.push(Misplaced { body: index, error });
-            if let Err(error) = check_wrapped_placement(self.domain, std::slice::from_ref(body)) {
-                refuse(error);
-                continue;
-            }
-            // Across a periodic side a body may lie, beyond it it may not
-            let gap = self.domain.clearance(body.center);
-            if gap < 0.0 {
-                let (x, y) = (body.center.x, body.center.y);
-                refuse(MeshError::Outside { body: body.name.clone(), gap, x, y });
-                continue;
-            }
-            for other in self.near(index).into_iter().filter(|other| is_inside[*other]) {
-                let pair = [self.bodies[other].clone(), body.clone()];
-                if let Err(error) = check_wrapped_placement(self.domain, &pair) {
-                    refuse(error);
-                }
-            }
-            is_inside[index] = true;
-        }
-        misplaced
+        Self { domain, extent, images: domain.images(), bodies, outlines, grid }
     }
 
     /// Bodies with circles around them that may meet that of a body or of an image of it, itself
@@ -165,7 +73,7 @@ impl<'a> Layout<'a> {
     }
 
     /// Bodies that a point lies in, by more than rounding.
-    fn around(&self, point: Point<2>) -> Vec<usize> {
+    fn bodies_around(&self, point: Point<2>) -> Vec<usize> {
         let is_inside = |body: &usize| {
             self.outlines[*body].as_ref().is_some_and(|outline| {
                 let gaps = self.images.iter().map(|shift| outline.nearest(point + shift).gap);
@@ -177,50 +85,56 @@ impl<'a> Layout<'a> {
     }
 }
 
+impl Arrangement for Layout<'_> {
+    fn misplaced(&self) -> Vec<Misplaced> {
+        let mut misplaced = Vec::new();
+        let mut is_inside = vec![false; self.bodies.len()];
+        for (index, body) in self.bodies.iter().enumerate() {
+            let mut refuse = |error| misplaced.push(Misplaced { body: index, error });
+            if let Err(error) = check_wrapped_placement(self.domain, std::slice::from_ref(body)) {
+                refuse(error);
+                continue;
+            }
+            // Across a periodic side a body may lie, beyond it it may not
+            let gap = self.domain.clearance(body.center);
+            if gap < 0.0 {
+                let (x, y) = (body.center.x, body.center.y);
+                refuse(MeshError::Outside { body: body.name.clone(), gap, x, y });
+                continue;
+            }
+            for other in self.near(index).into_iter().filter(|other| is_inside[*other]) {
+                let pair = [self.bodies[other].clone(), body.clone()];
+                if let Err(error) = check_wrapped_placement(self.domain, &pair) {
+                    refuse(error);
+                }
+            }
+            is_inside[index] = true;
+        }
+        misplaced
+    }
+
+    fn is_outside(&self, point: &[f64]) -> bool {
+        let point = in_plane(point);
+        let [min, max] = self.extent;
+        let size = (max[0] - min[0]).hypot(max[1] - min[1]);
+        let below_axis = if self.domain.is_axisymmetric() { -point.y } else { 0.0 };
+        self.domain.clearance(point) < -ROUNDING * size || below_axis > ROUNDING * size
+    }
+
+    fn around(&self, point: &[f64]) -> Vec<&str> {
+        let around = self.bodies_around(in_plane(point)).into_iter();
+        around.map(|body| self.bodies[body].name.as_str()).collect()
+    }
+}
+
+/// The point with these coordinates (m).
+fn in_plane(point: &[f64]) -> Point<2> {
+    Point::<2>::from_fn(|axis, _| point.get(axis).copied().unwrap_or(f64::NAN))
+}
+
 /// The circle around an outline, with room for the smallest gap there may be.
 fn circle(outline: &Outline) -> Disc {
     Disc { center: outline.center(), radius: (1.0 + ROUNDING) * outline.reach() }
-}
-
-/// Whether a point is in the domain, or on a side of it.
-fn is_in_domain(
-    findings: &mut Findings<'_>,
-    key: &str,
-    domain: &Domain,
-    coordinates: &[f64],
-) -> bool {
-    let point = Point::<2>::new(coordinates[0], coordinates[1]);
-    let [min, max] = findings.case().extent().in_plane();
-    let size = (max[0] - min[0]).hypot(max[1] - min[1]);
-    let below_axis = if domain.is_axisymmetric() { -point.y } else { 0.0 };
-    let is_outside = domain.clearance(point) < -ROUNDING * size || below_axis > ROUNDING * size;
-    if is_outside {
-        findings.error(
-            key,
-            format!("the point {coordinates:?} is outside the domain"),
-            &format!("the domain reaches from {min:?} to {max:?}"),
-        );
-    }
-    !is_outside
-}
-
-/// A point must be in the fluid, or on the surface of a body.
-fn check_outside_bodies(
-    findings: &mut Findings<'_>,
-    key: &str,
-    layout: &Layout<'_>,
-    coordinates: &[f64],
-) {
-    for body in layout.around(Point::<2>::new(coordinates[0], coordinates[1])) {
-        findings.error(
-            key,
-            format!(
-                "the point {coordinates:?} is inside the body \"{}\"",
-                layout.bodies[body].name
-            ),
-            "move it into the fluid, or on to the surface of the body",
-        );
-    }
 }
 
 #[cfg(test)]
@@ -303,7 +217,7 @@ mod tests {
                 let mut images = domain.images().into_iter();
                 images.any(|shift| outline.nearest(point + shift).gap < -1e-5)
             };
-            let around = layout.around(point);
+            let around = layout.bodies_around(point);
             n_found += around.len();
             assert_eq!(around, (0..bodies.len()).filter(is_around).collect::<Vec<_>>());
         }

@@ -1,0 +1,153 @@
+//! How many tetrahedra a size field asks for, before any of them is made.
+
+use super::domain::Domain;
+use super::shape::Body;
+use super::size_field::SizeField;
+use crate::{MeshError, Point, Sizing};
+
+/// Cells over volume / size^3 where the size varies, fitted to meshes of the generator.
+const CELLS: f64 = 10.2;
+
+/// The same in the lattice as it is, at the largest size.
+const COARSEST: f64 = 6.2;
+
+/// Halvings of the domain after which a cube is taken as it is.
+const DEEPEST: u32 = 40;
+
+/// Most that the size changes from the middle of a cube to its sides.
+const CHANGE: f64 = 0.25;
+
+/// About how many cells [`generate`](super::generate) would make; infinite where there would be more
+/// than `limit`.
+///
+/// The integral of a constant over h^3 over the fluid, by cubes in which h hardly changes.
+///
+/// # Errors
+/// What [`check_placement`](super::check_placement) and [`Sizing::check`] refuse.
+pub fn estimate_cells(
+    domain: &Domain,
+    bodies: &[Body],
+    sizing: &Sizing<3>,
+    limit: f64,
+) -> Result<f64, MeshError> {
+    let sizes = SizeField::new(domain, bodies, sizing)?;
+    Ok(Count { sizes: &sizes, growth: sizing.growth, limit }.total(domain))
+}
+
+/// A cube of the domain.
+struct Cube {
+    center: Point<3>,
+    /// Half its edge (m).
+    half: f64,
+    depth: u32,
+}
+
+impl Cube {
+    fn eighths(&self) -> impl Iterator<Item = Self> + '_ {
+        let (half, depth) = (0.5 * self.half, self.depth + 1);
+        (0..8u8).map(move |corner| {
+            let to = |axis: u8| if corner >> axis & 1 == 1 { half } else { -half };
+            let center = self.center + Point::<3>::new(to(0), to(1), to(2));
+            Self { center, half, depth }
+        })
+    }
+}
+
+/// The integral over the fluid.
+struct Count<'a> {
+    sizes: &'a SizeField,
+    growth: f64,
+    limit: f64,
+}
+
+impl Count<'_> {
+    fn total(&self, domain: &Domain) -> f64 {
+        let [min, max] = domain.corners();
+        let half = 0.5 * (max - min).max();
+        let mut total = 0.0;
+        let mut stack = vec![Cube { center: (min + max) * 0.5, half, depth: 0 }];
+        while let Some(cube) = stack.pop() {
+            total += self.cells_of(&cube, &mut stack);
+            if total > self.limit {
+                return f64::INFINITY;
+            }
+        }
+        total
+    }
+
+    /// Cells in a cube, or 0 and its eighths for later.
+    fn cells_of(&self, cube: &Cube, stack: &mut Vec<Cube>) -> f64 {
+        let Cube { center, half, depth } = *cube;
+        let reach = 3.0_f64.sqrt() * half;
+        let inside = self.sizes.geometry().clearance(center, reach);
+        if inside < -reach {
+            return 0.0;
+        }
+        let h = self.sizes.at(center);
+        let is_cut = inside < reach && half > h;
+        if depth < DEEPEST && (half * self.growth > CHANGE * h || is_cut) {
+            stack.extend(cube.eighths());
+            return 0.0;
+        }
+        let part = (0.5 + 0.5 * inside / half).clamp(0.0, 1.0);
+        let is_coarsest = h > 0.97 * self.sizes.largest();
+        let density = if is_coarsest { COARSEST } else { CELLS };
+        density * part * (2.0 * half / h).powi(3)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::spatial::{Centreline, Part, Shape, generate};
+    use nalgebra::{Isometry3, UnitQuaternion};
+
+    fn check(name: &str, domain: &Domain, bodies: &[Body], sizing: &Sizing<3>) {
+        let estimate = estimate_cells(domain, bodies, sizing, 1e9).unwrap();
+        let cells = generate(domain, bodies, sizing).unwrap().n_cells() as f64;
+        let ratio = cells / estimate;
+        println!("{name}: {cells} cells, {ratio:.3} of the estimate");
+        assert!((1.0 / 1.3..1.3).contains(&ratio), "{name}: {ratio}");
+    }
+
+    fn at(x: f64, y: f64, z: f64) -> Isometry3<f64> {
+        Isometry3::translation(x, y, z)
+    }
+
+    #[test]
+    fn cells_are_estimated_around_bodies_of_all_kinds() {
+        let sphere = Shape::Sphere { radius: 0.2 };
+        let tube = Domain::Cylinder { x: [-3.0, 3.0], radius: 1.0 };
+        let graded = Sizing::graded(0.06, 0.25, 0.35);
+        check("tube", &tube, &[Body::new("a", sphere.clone(), at(0.0, 0.0, 0.0))], &graded);
+        let coarse = Sizing::graded(0.1, 0.5, 0.35);
+        check("coarse", &tube, &[Body::new("a", sphere.clone(), at(0.0, 0.5, 0.0))], &coarse);
+        let ball = Domain::Ball { center: Point::<3>::zeros(), radius: 2.0 };
+        let large = Body::new("a", Shape::Sphere { radius: 1.0 }, at(0.0, 0.0, 0.0));
+        let shell = Sizing { gap_layers: 4.0, ..Sizing::graded(0.25, 0.25, 0.5) };
+        check("shell", &ball, &[large], &shell);
+        let walls = Domain::walls(Point::<3>::repeat(-1.5), Point::<3>::repeat(1.5));
+        check("box", &walls, &[], &Sizing::graded(0.2, 0.3, 0.2));
+        let pair = [
+            Body::new("a", Shape::Sphere { radius: 0.4 }, at(-0.42, 0.0, 0.0)),
+            Body::new("b", Shape::Sphere { radius: 0.4 }, at(0.42, 0.0, 0.0)),
+        ];
+        check("pair", &walls, &pair, &Sizing::graded(0.15, 0.3, 0.4));
+        let turn = nalgebra::convert(UnitQuaternion::from_euler_angles(0.4, 0.7, -0.3));
+        let thin = Shape::Ellipsoid { semi_axes: [0.6, 0.3, 0.1] };
+        check("ellipsoid", &walls, &[Body::new("a", thin, turn)], &Sizing::graded(0.15, 0.3, 0.5));
+        let mut swimmer = Body::new("a", Shape::Sphere { radius: 0.25 }, at(-0.7, 0.0, 0.0));
+        let centreline = Centreline::Helix { radius: 0.12, pitch: 0.5, turns: 2.0 };
+        let tail = Shape::Tube { centreline, radius: 0.05 };
+        swimmer.parts.push(Part { shape: tail, pose: at(0.2, 0.0, 0.0) });
+        check("tail", &walls, &[swimmer], &Sizing::graded(0.1, 0.4, 0.5));
+    }
+
+    #[test]
+    fn counting_ends_at_the_limit() {
+        let walls = Domain::walls(Point::<3>::repeat(-1.5), Point::<3>::repeat(1.5));
+        let sizing = Sizing::graded(1e-7, 0.3, 0.2);
+        let body = Body::new("a", Shape::Sphere { radius: 0.4 }, at(0.0, 0.0, 0.0));
+        assert_eq!(estimate_cells(&walls, &[body], &sizing, 1e6), Ok(f64::INFINITY));
+    }
+}

@@ -1,0 +1,190 @@
+"""Runs in space: tetrahedra read, sampled and drawn."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from conftest import CAN_RENDER
+from matplotlib.figure import Figure
+
+from alewife_post import Run, open_run, space
+from alewife_post.cli import picture
+from alewife_post.read import QUADRATIC_TETRAHEDRON
+
+CASE = """
+title = "A block in a box"
+geometry = "spatial"
+units = "SI"
+[domain.box]
+min = [0.0, 0.0, 0.0]
+max = [3.0, 3.0, 3.0]
+[[body]]
+name = "block"
+center = [1.5, 1.5, 1.5]
+[time.steady]
+"""
+
+EDGES = ((0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3))
+
+
+def block() -> tuple[np.ndarray, np.ndarray]:
+    """Quadratic tetrahedra in a box of 27 cubes without the one in the middle."""
+    nodes: list[tuple[float, ...]] = []
+    number: dict[tuple[float, ...], int] = {}
+
+    def node(at: np.ndarray) -> int:
+        key = tuple(at.tolist())
+        if key not in number:
+            number[key] = len(nodes)
+            nodes.append(key)
+        return number[key]
+
+    cells = []
+    for corner in np.ndindex(3, 3, 3):
+        if corner == (1, 1, 1):
+            continue
+        for order in [(0, 1, 2), (1, 2, 0), (2, 0, 1), (0, 2, 1), (2, 1, 0), (1, 0, 2)]:
+            steps = np.eye(3)[list(order)]
+            vertices = np.array(corner) + np.vstack([np.zeros(3), np.cumsum(steps, axis=0)])
+            if np.linalg.det(vertices[1:] - vertices[0]) < 0:
+                vertices[[2, 3]] = vertices[[3, 2]]
+            middles = [0.5 * (vertices[i] + vertices[j]) for i, j in EDGES]
+            cells.append([node(point) for point in [*vertices, *middles]])
+    return np.array(nodes), np.array(cells)
+
+
+@pytest.fixture(scope="module")
+def run(tmp_path_factory: pytest.TempPathFactory) -> Run:
+    """A run in space whose flow is quadratic, so that sampling it is exact."""
+    import pyvista
+
+    path = tmp_path_factory.mktemp("spatial")
+    nodes, cells = block()
+    x, y, z = nodes.T
+    grid = pyvista.UnstructuredGrid({QUADRATIC_TETRAHEDRON: cells}, nodes)
+    grid.point_data["velocity"] = np.stack([y**2, z * x, 1.0 + x], axis=1)
+    grid.point_data["pressure"] = x + 2 * y - z
+    grid.point_data["vorticity"] = np.stack([1 - x, -1.0 + 0 * x, z - 2 * y], axis=1)
+    grid.field_data["TimeValue"] = [0.0]
+    (path / "fields").mkdir()
+    grid.save(path / "fields/000000.vtu")
+    (path / "fields.pvd").write_text(
+        '<VTKFile type="Collection" version="1.0"><Collection>'
+        '<DataSet timestep="0.0" part="0" file="fields/000000.vtu"/></Collection></VTKFile>\n'
+    )
+    (path / "case.toml").write_text(CASE)
+    from mcap.writer import Writer
+
+    with (path / "run.mcap").open("wb") as file:
+        writer = Writer(file)
+        writer.start()
+        writer.finish()
+    return open_run(path)
+
+
+def test_fields_are_read_with_three_components(run: Run) -> None:
+    field = run.field()
+    assert run.is_spatial
+    assert field.nodes.shape[1] == field.velocity.shape[1] == field.vorticity.shape[1] == 3
+    assert field.cells.shape == (26 * 6, 10)
+
+
+def test_samples_are_those_of_the_quadratic_flow_and_masked_in_bodies(run: Run) -> None:
+    points = np.array([[0.3, 0.4, 0.2], [2.7, 1.1, 0.9], [1.5, 1.5, 1.5]])
+    found = space.sample(run.field(), points, "speed")
+    x, y, z = points[:2].T
+    velocity = np.stack([y**2, z * x, 1.0 + x], axis=1)
+    # A quarter of the second derivative, over pieces half as wide as the cells
+    assert found["velocity"].data[:2] == pytest.approx(velocity, abs=0.07)
+    nodes = run.field().nodes[::7]
+    exact = np.stack([nodes[:, 1] ** 2, nodes[:, 2] * nodes[:, 0], 1.0 + nodes[:, 0]], axis=1)
+    assert space.sample(run.field(), nodes, "speed")["velocity"].data == pytest.approx(
+        exact, abs=1e-5
+    )
+    assert found["values"].mask.tolist() == [False, False, True]
+
+
+def test_the_surface_of_bodies_has_no_sides_of_the_domain(run: Run) -> None:
+    surface = space.bodies_surface(run, run.field(), "pressure")
+    assert surface.area == pytest.approx(6.0, rel=1e-6)
+    x, y, z = np.asarray(surface.points, dtype=float).T
+    assert min(x.min(), y.min(), z.min()) == pytest.approx(1.0)
+    assert surface.point_data["values"] == pytest.approx(x + 2 * y - z, abs=1e-5)
+
+
+def test_pieces_fill_their_tetrahedron() -> None:
+    corners = np.vstack([np.zeros(3), np.eye(3)])
+    nodes = np.vstack([corners, [0.5 * (corners[i] + corners[j]) for i, j in EDGES]])
+    pieces = nodes[space.PIECES]
+    volumes = np.linalg.det(pieces[:, 1:] - pieces[:, :1]) / 6
+    assert (np.abs(volumes) > 0.02).all()
+    assert np.abs(volumes).sum() == pytest.approx(1 / 6)
+
+
+def test_a_plane_cuts_the_block_in_a_square(run: Run) -> None:
+    (square,) = space.sections(run, run.field(), 2, 1.4)
+    assert square[:, 2] == pytest.approx(1.4)
+    assert np.ptp(square[:, :2], axis=0) == pytest.approx([1.0, 1.0], abs=1e-6)
+    assert space.sections(run, run.field(), 2, 0.5) == []
+
+
+@pytest.mark.parametrize("domain", ["cylinder", "sphere"])
+def test_nodes_on_round_sides_are_found(domain: str) -> None:
+    case = {
+        "cylinder": {"domain": {"cylinder": {"x": [-1.0, 1.0], "radius": 2.0}}},
+        "sphere": {"domain": {"sphere": {"radius": 2.0}}},
+    }[domain]
+    nodes = np.array([[0.0, 1.2, 1.6], [0.3, 0.4, 0.5]])
+    least = np.abs(space.distances_to_sides(case, nodes)).min(axis=1)
+    assert least[0] < 1e-12 < least[1]
+
+
+def test_a_slice_is_across_an_axis_within_the_domain(run: Run) -> None:
+    drawn = space.slice_picture(run, plane="y=0.5")
+    assert isinstance(drawn, Figure)
+    axes = drawn.axes[0]
+    assert axes.get_xlabel().startswith("$x$") or "x" in axes.get_xlabel()
+    assert "z" in axes.get_ylabel()
+    image = axes.images[0].get_array()
+    assert not np.ma.getmaskarray(image).any()
+    through = space.slice_picture(run, "pressure", view=(0.0, 3.0, 0.0, 3.0)).axes[0].images[0]
+    # The block is a ninth of the plane
+    assert np.ma.getmaskarray(through.get_array()).mean() == pytest.approx(1 / 9, abs=0.01)
+    for plane, reason in [("y=4", "outside"), ("w=0", "not a plane"), ("z", "not a plane")]:
+        with pytest.raises(ValueError, match=reason):
+            space.slice_picture(run, plane=plane)
+
+
+def test_a_picture_is_written_by_the_command(run: Run, tmp_path: Path) -> None:
+    out = tmp_path / "slice.png"
+    assert picture([str(run.path), "--out", str(out), "--slice", "z=0.5"]) == 0
+    assert out.stat().st_size > 10_000
+    assert picture([str(run.path), "--out", str(out), "--slice", "z=9"]) == 1
+
+
+@pytest.mark.skipif(not CAN_RENDER, reason="VTK has no window here")
+def test_the_camera_chooses_what_is_seen(run: Run) -> None:
+    def image(camera: tuple[float, float]) -> np.ndarray:
+        drawn = space.surface_picture(run, camera=camera)
+        return np.asarray(drawn.axes[0].images[0].get_array())
+
+    front, above = image((0.0, 0.0)), image((0.0, 89.9))
+    assert front.shape[2] == 4
+    # A face of the cube is a square from everywhere along an axis, with other pressures on it
+    assert abs(front.shape[0] / front.shape[1] - 1) < 0.02
+    assert not np.array_equal(front[:200, :200], above[:200, :200])
+    corner = image((45.0, 0.0))
+    assert corner.shape[1] > 1.3 * corner.shape[0]
+
+
+def test_fields_of_other_cells_are_refused(tmp_path: Path) -> None:
+    import pyvista
+
+    from alewife_post.read import read_field
+
+    path = tmp_path / "tetra.vtu"
+    pyvista.UnstructuredGrid({10: np.array([[0, 1, 2, 3]])}, np.eye(4)[:, :3]).save(path)
+    with pytest.raises(ValueError, match="22 or 24"):
+        read_field(path)
