@@ -52,7 +52,7 @@ fn cylinders_are_along_axes_of_a_box_and_apart() {
     let upright = |x: f64| cylinder("c", 0.05, at(x, 0.2, 0.2), Vector3::z());
     assert!(check(&[upright(0.3)]).is_ok());
     assert!(check(&[upright(0.3), sphere("s", 0.1, at(0.5, 0.2, 0.2))]).is_ok());
-    let touched = check(&[upright(0.3), sphere("s", 0.1, at(0.4, 0.2, 0.3))]);
+    let touched = check(&[upright(0.3), sphere("s", 0.1, at(0.4, 0.2, 0.25))]);
     assert!(matches!(touched, Err(MeshError::BodiesMeet { gap, .. }) if gap < 0.0));
     let across = cylinder("d", 0.1, at(0.42, 0.2, 0.2), Vector3::y());
     let crossed = check(&[upright(0.3), across]);

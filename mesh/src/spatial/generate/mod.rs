@@ -14,6 +14,7 @@ mod lattice;
 mod measure;
 mod passes;
 mod peel;
+mod periodic_edges;
 mod projections;
 mod quadratic;
 mod replace;
