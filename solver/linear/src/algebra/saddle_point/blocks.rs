@@ -1,7 +1,8 @@
 //! The velocity block of a matrix in blocks of three, and the transfer from its coarser level.
 
 use super::data::Interpolation;
-use super::numbering::{B, Numbering, Place};
+use super::numbering::{Numbering, Place};
+use super::vector::B;
 use crate::multigrid::{Block, BlockMatrix, RowBuilder};
 use crate::sparse::SparseMatrix;
 use crate::sparse::index::to_u32;
@@ -18,7 +19,7 @@ pub(super) fn velocity_block(matrix: &SparseMatrix, numbering: &Numbering) -> Bl
         let unknowns = numbering.blocks[own].iter().enumerate();
         unknowns.filter_map(|(b, unknown)| unknown.map(|unknown| (b, unknown as usize)))
     };
-    let velocity = |unknown: usize| match numbering.places[unknown] {
+    let velocity = |unknown: u32| match numbering.places[unknown as usize] {
         Place::Velocity { row, component } => Some((row as usize, usize::from(component))),
         Place::Pressure(_) => None,
     };

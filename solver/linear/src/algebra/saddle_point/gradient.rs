@@ -2,7 +2,8 @@
 
 use rayon::prelude::*;
 
-use super::numbering::{B, Numbering, Place};
+use super::numbering::{Numbering, Place};
+use super::vector::B;
 use crate::multigrid::{BlockMatrix, RowBuilder};
 use crate::sparse::SparseMatrix;
 use crate::sparse::index::to_u32;
@@ -50,7 +51,7 @@ impl Gradient {
         const NONE: u32 = u32::MAX;
         let mut last = vec![NONE; n_rows];
         let mut counts = vec![0; n_rows];
-        let velocity = |row: usize| match numbering.places[row] {
+        let velocity = |row: u32| match numbering.places[row as usize] {
             Place::Velocity { row, component } => Some((row as usize, usize::from(component))),
             Place::Pressure(_) => None,
         };
@@ -68,8 +69,9 @@ impl Gradient {
         let (mut pressures, mut values) = (vec![0; n_entries], vec![[0.0; B]; n_entries]);
         last.fill(NONE);
         for (index, &unknown) in numbering.pressures.iter().enumerate() {
-            for entry in pattern.entries(unknown as usize) {
-                let Some((row, component)) = velocity(pattern.rows[entry]) else { continue };
+            let rows = pattern.column(unknown as usize);
+            for (&row, entry) in rows.iter().zip(pattern.entries(unknown as usize)) {
+                let Some((row, component)) = velocity(row) else { continue };
                 if last[row] != to_u32(index) {
                     last[row] = to_u32(index);
                     pressures[next[row]] = to_u32(index);

@@ -1,15 +1,9 @@
 //! `Numbering`: unknowns as blocks of three velocities, two blocks for a body, and as pressures.
 
 use super::data::{Part, SaddlePoint};
-use super::vector::Blocks;
+use super::vector::{B, Blocks};
 use crate::sparse::index::to_u32;
 use crate::sparse::single::single;
-
-/// Unknowns in a block.
-pub(super) const B: usize = 3;
-
-/// A vector of the velocities, nodes first and then the bodies.
-pub(super) type BlockVector = Vec<[f32; B]>;
 
 /// Where an unknown stands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -27,15 +27,14 @@ impl ColumnGroups {
         let mut starts = vec![0];
         let mut column = 0;
         while column < n {
-            let first = pattern.column(column);
-            let is_alike = |other: &usize| *other < n && pattern.column(*other) == first;
+            let is_alike = |other: &usize| *other < n && pattern.is_like_last(*other);
             column += 1 + (column + 1..column + GROUP).take_while(is_alike).count();
             starts.push(to_u32(column));
         }
         let n_groups = starts.len() - 1;
         let end = |part: usize| {
             let wanted = pattern.n_entries() / PARTS * part;
-            starts.partition_point(|&column| pattern.columns[column as usize] < wanted)
+            starts.partition_point(|&column| pattern.starts()[column as usize] < wanted)
         };
         let bounds: Vec<usize> = (0..PARTS).map(end).chain([n_groups]).collect();
         let parts = bounds.windows(2).map(|pair| pair[0].min(n_groups)..pair[1]).collect();
@@ -81,13 +80,13 @@ impl Operator<'_> {
             let [a, b, c] = [factor(first), factor(first + 1), factor(first + 2)];
             let all = values(first).iter().zip(values(first + 1)).zip(values(first + 2));
             for (&row, ((u, v), w)) in rows.iter().zip(all) {
-                sum[row] += u * a + v * b + w * c;
+                sum[row as usize] += u * a + v * b + w * c;
             }
         } else {
             for column in columns {
                 let factor = factor(column);
                 for (&row, value) in rows.iter().zip(values(column)) {
-                    sum[row] += value * factor;
+                    sum[row as usize] += value * factor;
                 }
             }
         }

@@ -5,10 +5,10 @@ use std::sync::Arc;
 use super::blocks::{transfer, velocity_block};
 use super::data::{SaddlePoint, Weights};
 use super::gradient::Gradient;
-use super::numbering::{B, Numbering};
+use super::numbering::Numbering;
 use super::scales::Scales;
 use super::schur::SchurComplement;
-use super::vector::Blocks;
+use super::vector::{B, Blocks};
 use crate::multigrid::{BlockMatrix, Chebyshev, Hierarchy, HierarchySettings, Spectrum};
 use crate::sparse::SparseMatrix;
 

@@ -1,7 +1,7 @@
 //! `Scales`: factors of the equations that make those of momentum, mass, forces and torques weigh the same.
 
-use super::numbering::{B, Numbering, Place};
-use super::vector::Blocks;
+use super::numbering::{Numbering, Place};
+use super::vector::{B, Blocks};
 use crate::sparse::SparseMatrix;
 use crate::sparse::single::single;
 
@@ -63,7 +63,7 @@ impl Scales {
 
     /// Multiplies all values by their factors.
     pub fn multiply(&self, vector: &mut Blocks) {
-        self.apply(vector, |scale| single(scale));
+        self.apply(vector, single);
     }
 
     /// Divides all values by their factors.

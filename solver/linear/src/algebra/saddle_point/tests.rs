@@ -27,10 +27,7 @@ fn system() -> SaddlePoint {
 /// A dense matrix with different entries.
 fn matrix() -> SparseMatrix {
     let n = 6;
-    let pattern = Pattern {
-        columns: (0..=n).map(|column| column * n).collect(),
-        rows: (0..n * n).map(|entry| entry % n).collect(),
-    };
+    let pattern = Pattern::from_columns((0..n).map(|_| 0..n));
     SparseMatrix::new(pattern, (0..n * n).map(|entry| 1.0 + entry as f64).collect())
 }
 

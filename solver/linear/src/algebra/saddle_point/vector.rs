@@ -2,8 +2,10 @@
 
 use rayon::prelude::*;
 
-use super::numbering::{B, BlockVector};
 use crate::sparse::single::single;
+
+/// Unknowns in a block.
+pub(super) const B: usize = 3;
 
 /// Numbers that are summed up on their own, whatever the number of threads.
 const CHUNK: usize = 12_288;
@@ -13,8 +15,8 @@ const LANES: usize = 16;
 /// A vector of the unknowns by what they are.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Blocks {
-    /// Velocities of nodes and bodies; zero where a component is no unknown.
-    pub velocity: BlockVector,
+    /// Velocities of nodes, then of bodies; zero where a component is no unknown.
+    pub velocity: Vec<[f32; B]>,
     /// Pressures.
     pub pressure: Vec<f32>,
 }
