@@ -25,7 +25,7 @@ use super::solution::Solution;
 use super::surface_load::SurfaceStress;
 use crate::algebra::{Accuracy, AffineConstraints, SparseMatrix, Term, Unknowns};
 use crate::body::{Modes, Pose};
-use crate::flow::{Assembly, FlowTerms, assemble, residual};
+use crate::flow::{Assembly, Convection, FlowTerms, assemble, residual};
 use crate::space::{DofLayout, FacetRule, Tables};
 use crate::timing::{Stage, Timing};
 
@@ -285,8 +285,11 @@ impl<const D: usize> FluidSystem<D> {
         if let Some(nullspace) = &self.nullspace {
             nullspace.check_balance(at.bodies, &at.mean_flow)?;
         }
-        let coefficients =
-            Coefficients { viscosity: terms.viscosity, inertia: terms.density * terms.rate };
+        let coefficients = Coefficients {
+            viscosity: terms.viscosity,
+            inertia: terms.density * terms.rate,
+            has_convection: terms.convection != Convection::None,
+        };
         let discretised = Discretised {
             mesh: at.mesh,
             layout: &self.layout,

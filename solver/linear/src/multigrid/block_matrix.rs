@@ -118,6 +118,13 @@ impl<const B: usize> BlockMatrix<B> {
         columns.zip(&self.blocks[entries])
     }
 
+    /// Columns of a row, and its blocks to be changed.
+    pub(super) fn row_mut(&mut self, row: usize) -> impl Iterator<Item = (usize, &mut Block<B>)> {
+        let entries = self.entries(row);
+        let columns = self.columns[entries.clone()].iter().map(|&column| column as usize);
+        columns.zip(&mut self.blocks[entries])
+    }
+
     /// The product of one row with a vector.
     #[inline(always)]
     fn row_product(&self, row: usize, x: &[[f32; B]]) -> [f32; B] {

@@ -7,6 +7,7 @@ use super::block_matrix::BlockMatrix;
 use super::chebyshev::{Chebyshev, Spectrum};
 use super::dense::DenseInverse;
 use super::product::galerkin;
+use super::upwind::upwinded;
 
 /// Unknowns, but for those of pairs, up to which a matrix is inverted.
 const COARSEST: usize = 300;
@@ -26,6 +27,8 @@ pub(crate) struct HierarchySettings {
     pub degree: usize,
     /// Whether constants are in the nullspace of the matrix.
     pub is_singular: bool,
+    /// Whether there is convection: coarser levels, where it is more against diffusion, are upwinded.
+    pub is_convective: bool,
 }
 
 /// Levels from the finest to the one before the coarsest, and the inverse of that.
@@ -61,8 +64,13 @@ impl<const B: usize> Level<B> {
         Self { matrix, smoother, prolongation, restriction, residual, coarse_rhs, coarse }
     }
 
-    fn coarse_matrix(&self) -> Arc<BlockMatrix<B>> {
-        Arc::new(galerkin(&self.restriction, &self.matrix, &self.prolongation))
+    /// The matrix of the next level, with so many pairs if it is to be upwinded.
+    fn coarse_matrix(&self, upwinded_pairs: Option<usize>) -> Arc<BlockMatrix<B>> {
+        let matrix = galerkin(&self.restriction, &self.matrix, &self.prolongation);
+        Arc::new(match upwinded_pairs {
+            Some(n_pairs) => upwinded(&matrix, n_pairs).matrix,
+            None => matrix,
+        })
     }
 
     fn n_bytes(&self) -> usize {
@@ -78,13 +86,13 @@ impl<const B: usize> Hierarchy<B> {
         transfer: Option<BlockMatrix<B>>,
         settings: HierarchySettings,
     ) -> Self {
-        let HierarchySettings { n_pairs, degree, is_singular } = settings;
+        let HierarchySettings { n_pairs, degree, is_singular, is_convective } = settings;
         let mut levels = Vec::new();
         let mut matrix = matrix.into();
         if let Some(transfer) = transfer {
             let smoother = Chebyshev::new(&matrix, n_pairs, SMOOTHED, degree);
             let level = Level::new(matrix, smoother, transfer);
-            matrix = level.coarse_matrix();
+            matrix = level.coarse_matrix(is_convective.then_some(n_pairs));
             levels.push(level);
         }
         while (matrix.n_rows() - 2 * n_pairs) * B > COARSEST {
@@ -95,7 +103,7 @@ impl<const B: usize> Hierarchy<B> {
             let smoother = Chebyshev::new(&matrix, n_pairs, SMOOTHED, DEGREE);
             let prolongation = smoothed_prolongation(&matrix, &smoother, &aggregates);
             let level = Level::new(matrix, smoother, prolongation);
-            matrix = level.coarse_matrix();
+            matrix = level.coarse_matrix(is_convective.then_some(n_pairs));
             levels.push(level);
         }
         Self { levels, coarsest: Coarsest::new(&matrix, n_pairs, is_singular) }

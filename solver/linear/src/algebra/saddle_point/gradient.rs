@@ -83,6 +83,11 @@ impl Gradient {
         Self { n_pressures: numbering.pressures.len(), starts, pressures, values }
     }
 
+    /// Number of pressures.
+    pub fn n_pressures(&self) -> usize {
+        self.n_pressures
+    }
+
     /// Memory (bytes).
     pub fn n_bytes(&self) -> usize {
         self.values.len() * (size_of::<[f32; B]>() + size_of::<u32>())
@@ -130,7 +135,7 @@ impl Gradient {
 
     /// The same with one more pressure, the one that is held: together they have no gradient where they
     /// are equal.
-    fn with_held_pressure(&self) -> Self {
+    pub fn with_held_pressure(&self) -> Self {
         let mut all = Self {
             n_pressures: self.n_pressures + 1,
             starts: vec![0],
@@ -158,10 +163,7 @@ impl Gradient {
 
     /// G^T D^-1 G over the first rows, those of nodes, for a diagonal matrix D; components where D is not
     /// positive are left out.
-    pub fn laplacian(&self, damping: &[[f32; B]], has_held_pressure: bool) -> BlockMatrix<1> {
-        if has_held_pressure {
-            return self.with_held_pressure().laplacian(damping, false);
-        }
+    pub fn laplacian(&self, damping: &[[f32; B]]) -> BlockMatrix<1> {
         let columns = self.rows_of_pressures(damping.len());
         let mut place = vec![u32::MAX; self.n_pressures];
         let mut rows = RowBuilder::new(self.n_pressures);

@@ -30,7 +30,7 @@ pub struct IterativeSettings {
 impl Default for IterativeSettings {
     fn default() -> Self {
         // Factors of three gigabytes
-        Self { tolerance: 1e-8, restart: 60, max_iterations: 180, max_factor_entries: 400_000_000 }
+        Self { tolerance: 1e-8, restart: 240, max_iterations: 480, max_factor_entries: 400_000_000 }
     }
 }
 
@@ -39,6 +39,11 @@ impl Default for IterativeSettings {
 const CYCLE: f64 = 1e-3;
 /// Part of the tolerance that they are to reach, since their own residual is not exact.
 const AIM: f64 = 0.8;
+
+/// Iterations after which the residual is looked at.
+const LONG: usize = 60;
+/// Part of the first residual that iterations without hope leave then.
+const HOPELESS: f64 = 0.7;
 
 /// FGMRES with the preconditioner of the last set-up.
 #[derive(Debug)]
@@ -158,7 +163,7 @@ impl IterativeSolver {
                 (iterate, reached) = (better, norm);
             }
         }
-        let (mut space, mut iterations) = (KrylovSpace::default(), 0);
+        let (mut space, mut iterations, start) = (KrylovSpace::default(), 0, reached);
         loop {
             if !reached.is_finite() {
                 return Err(LinearError::NotFinite);
@@ -167,14 +172,15 @@ impl IterativeSolver {
                 break;
             }
             let left = self.settings.max_iterations.saturating_sub(iterations);
-            if left == 0 {
+            let is_hopeless = iterations >= LONG && reached > HOPELESS * start;
+            if left == 0 || is_hopeless {
                 let stalled_at = Some(reached / initial);
                 return Ok(Iterated { iterate, iterations, stalled_at });
             }
             if space.n_directions() >= self.settings.restart {
                 space = KrylovSpace::default();
             }
-            let most = left.min(self.settings.restart - space.n_directions());
+            let most = left.min(LONG).min(self.settings.restart - space.n_directions());
             let wanted = (AIM * tolerance / reached).max(CYCLE);
             let b = system.single(&iterate.residual, reached);
             let Correction { x, iterations: more } =
@@ -203,17 +209,25 @@ impl IterativeSolver {
         self.solved(matrix, rhs, reduction, true)
     }
 
-    /// A direct solver for the system, if its factors are small enough.
-    fn take_over(&self, matrix: &SparseMatrix, stall: &LinearError) -> Option<DirectSolver> {
+    /// A direct solver for the system, if its factors are small enough, once iterations have left a part
+    /// of the right-hand side.
+    fn take_over(&self, matrix: &SparseMatrix, residual: f64) -> Result<DirectSolver, LinearError> {
         let direct = DirectSolver::new(matrix.pattern(), &self.system.unknowns());
-        let entries = direct.n_factor_entries();
-        let is_affordable = entries <= self.settings.max_factor_entries;
-        if is_affordable {
-            tracing::warn!(
-                "{stall}; a direct solver takes over, with {entries} entries of factors"
-            );
+        let n_factor_entries = direct.n_factor_entries();
+        let (iterations, n_unknowns) = (self.iterations, matrix.n());
+        if n_factor_entries > self.settings.max_factor_entries {
+            return Err(LinearError::Stalled {
+                residual,
+                iterations,
+                n_unknowns,
+                n_factor_entries,
+            });
         }
-        is_affordable.then_some(direct)
+        tracing::warn!(
+            "{iterations} iterations with {n_unknowns} unknowns leave {residual:.1e} of the right-hand \
+             side; a direct solver takes over, with {n_factor_entries} entries of factors"
+        );
+        Ok(direct)
     }
 
     fn solved(
@@ -233,8 +247,7 @@ impl IterativeSolver {
             self.iterate(matrix, rhs, reduction, uses_earlier)?;
         self.iterations = iterations;
         if let Some(residual) = stalled_at {
-            let stall = LinearError::Stalled { residual, iterations, n_unknowns: rhs.len() };
-            let Some(mut direct) = self.take_over(matrix, &stall) else { return Err(stall) };
+            let mut direct = self.take_over(matrix, residual)?;
             direct.set_up(matrix)?;
             let accuracy = direct.solve(matrix, rhs)?;
             self.direct = Some(Box::new(direct));

@@ -6,6 +6,7 @@
 //! flow and mesh here.
 
 mod blocks;
+mod commutator;
 mod data;
 mod gradient;
 mod guess;

@@ -9,7 +9,9 @@ use super::numbering::Numbering;
 use super::scales::Scales;
 use super::schur::SchurComplement;
 use super::vector::{B, Blocks};
-use crate::multigrid::{BlockMatrix, Chebyshev, Hierarchy, HierarchySettings, Spectrum};
+use crate::multigrid::{
+    BlockMatrix, Chebyshev, Hierarchy, HierarchySettings, Spectrum, Upwinded, upwinded,
+};
 use crate::sparse::SparseMatrix;
 
 /// Degree of the smoother of the first level of a multigrid cycle.
@@ -21,6 +23,9 @@ const SPECTRUM: Spectrum = Spectrum::UpperEnd(1.0 / 10.0);
 /// Part of the diagonal of F that is no derivative, in the median over the unknowns, from which the
 /// coarser levels are left out.
 const DOMINANT: f64 = 0.2;
+/// Part of the diagonal of the upwinded F that is upwinding, from which convection decides how pressures are
+/// found in steady flow.
+const CONVECTIVE: f64 = 1e-3;
 
 /// A saddle-point matrix in single precision with an approximate inverse.
 #[derive(Debug)]
@@ -55,16 +60,28 @@ impl Preconditioner {
         let block = Arc::new(velocity_block(matrix, numbering));
         let n_pairs = numbering.n_bodies;
         let is_dominated = damped_part(weights, numbering, matrix) > DOMINANT;
+        let smooth = smooth_block(&block, n_pairs, weights.has_convection && !is_dominated);
+        let is_convective = smooth.part > CONVECTIVE;
         let velocity = if is_dominated {
             let chebyshev = Chebyshev::new(&block, n_pairs, SPECTRUM, DEGREE);
             VelocitySolver::Polynomial(Box::new(chebyshev))
         } else {
             let transfer = transfer(&weights.interpolation, numbering);
-            let settings = HierarchySettings { n_pairs, degree: SMOOTHING, is_singular: false };
-            VelocitySolver::Cycle(Hierarchy::new(Arc::clone(&block), Some(transfer), settings))
+            let settings = HierarchySettings {
+                n_pairs,
+                degree: SMOOTHING,
+                is_singular: false,
+                is_convective: weights.has_convection,
+            };
+            VelocitySolver::Cycle(Hierarchy::new(smooth.matrix, Some(transfer), settings))
         };
         let gradient = Gradient::new(matrix, numbering);
-        let schur = SchurComplement::new(weights, &gradient, numbering, system.has_held_pressure);
+        let has_held_pressure = system.has_held_pressure;
+        let schur = if is_convective && weights.damping.is_none() {
+            SchurComplement::convective(&block, &gradient, numbering, has_held_pressure)
+        } else {
+            SchurComplement::new(weights, &gradient, numbering, has_held_pressure)
+        };
         let divergence = gradient.transposed();
         let scales = Scales::new(matrix, numbering);
         let scaled = Blocks::zeros(numbering.blocks.len(), numbering.pressures.len());
@@ -113,6 +130,22 @@ impl Preconditioner {
         }
         scales.divide(z);
     }
+}
+
+/// What stands for F in the cycles.
+struct SmoothBlock {
+    matrix: Arc<BlockMatrix<B>>,
+    /// Part of its diagonal that is upwinding.
+    part: f64,
+}
+
+fn smooth_block(block: &Arc<BlockMatrix<B>>, n_pairs: usize, has_convection: bool) -> SmoothBlock {
+    if !has_convection {
+        return SmoothBlock { matrix: Arc::clone(block), part: 0.0 };
+    }
+    let Upwinded { matrix, part } = upwinded(block, n_pairs);
+    tracing::debug!(part, "upwinded");
+    SmoothBlock { matrix: Arc::new(matrix), part }
 }
 
 /// Median over the velocities at nodes of what is no derivative in the diagonal of F.
