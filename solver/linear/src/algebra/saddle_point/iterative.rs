@@ -1,4 +1,4 @@
-//! `IterativeSolver`: FGMRES for saddle-point systems, with a direct solver as the last resort.
+//! `IterativeSolver`: GCR for saddle-point systems, with a direct solver as the last resort.
 
 use super::super::direct::DirectSolver;
 use super::super::fingerprint::Fingerprints;
@@ -19,7 +19,7 @@ pub struct IterativeSettings {
     /// Euclidean norm of the residual over that of the right-hand side that is reached; momentum and
     /// mass are scaled against each other.
     pub tolerance: f64,
-    /// Iterations after which FGMRES starts anew.
+    /// Iterations after which GCR starts anew.
     pub restart: usize,
     /// Iterations of one solution at most.
     pub max_iterations: usize,
@@ -45,7 +45,7 @@ const LONG: usize = 60;
 /// Part of the first residual that iterations without hope leave then.
 const HOPELESS: f64 = 0.7;
 
-/// FGMRES with the preconditioner of the last set-up.
+/// GCR with the preconditioner of the last set-up.
 #[derive(Debug)]
 pub struct IterativeSolver {
     system: SaddlePoint,
@@ -138,7 +138,7 @@ impl IterativeSolver {
         self.set_up.as_ref().map_or(0, |set_up| set_up.preconditioner.n_bytes())
     }
 
-    /// Solves by FGMRES until the residual is `reduction` times the right-hand side.
+    /// Solves by GCR until the residual is `reduction` times the right-hand side.
     fn iterate(
         &mut self,
         matrix: &SparseMatrix,

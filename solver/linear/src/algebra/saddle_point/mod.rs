@@ -1,4 +1,4 @@
-//! Saddle-point systems by FGMRES with a block-triangular preconditioner: A = [F G; G^T 0].
+//! Saddle-point systems by GCR with a block-triangular preconditioner: A = [F G; G^T 0].
 //!
 //! F is the velocity block, rigid velocities of bodies included, and has a multigrid cycle in place of
 //! its inverse; the Schur complement -G^T F^-1 G has a scaled mass matrix of the pressures and a discrete
