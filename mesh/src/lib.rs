@@ -12,6 +12,7 @@ mod error;
 mod index;
 mod locate;
 mod mesh;
+mod msh;
 mod number;
 mod planar;
 mod quadrature;
@@ -32,6 +33,7 @@ pub use error::MeshError;
 pub use index::{BoundaryId, CellId, FacetId, NodeId};
 pub use locate::{Located, Locator};
 pub use mesh::{Boundary, BoundaryKind, Edge, Facet, Mesh, PeriodicPair, Point};
+pub use msh::{Encoding, MshError, Place, read_msh, write_msh};
 pub use number::whole;
 pub use planar::{
     Closest, Cut, Domain, FishForm, FlagellateForm, GapQuery, Moments, Nearest, Outline,

@@ -1,0 +1,17 @@
+//! Meshes in files of Gmsh, MSH 4.1: read with their named sides, and written.
+//!
+//! Text and binary, triangles and tetrahedra of order 1 and 2. Physical names of curves (in the
+//! plane) or of surfaces (in space) are the sides of the domain.
+
+mod assemble;
+mod divide;
+mod error;
+mod facets;
+mod file;
+mod input;
+mod kind;
+mod write;
+
+pub use assemble::read_msh;
+pub use error::{MshError, Place};
+pub use write::{Encoding, write_msh};
