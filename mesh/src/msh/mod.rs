@@ -12,6 +12,24 @@ mod input;
 mod kind;
 mod write;
 
+use crate::Mesh;
+
 pub use assemble::read_msh;
 pub use error::{MshError, Place};
 pub use write::{Encoding, write_msh};
+
+/// Reads a mesh of triangles, as [`read_msh`].
+///
+/// # Errors
+/// [`MshError`] with the place and what would be accepted.
+pub fn read_planar_msh(bytes: &[u8], scale: f64) -> Result<Mesh<2>, MshError> {
+    read_msh(bytes, scale)
+}
+
+/// Reads a mesh of tetrahedra, as [`read_msh`].
+///
+/// # Errors
+/// [`MshError`] with the place and what would be accepted.
+pub fn read_spatial_msh(bytes: &[u8], scale: f64) -> Result<Mesh<3>, MshError> {
+    read_msh(bytes, scale)
+}

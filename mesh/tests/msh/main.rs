@@ -1,5 +1,6 @@
 //! Meshes in files of Gmsh: as it writes them, written and read back, damaged, and refused.
 
+mod bodies;
 mod damaged;
 mod refused;
 
