@@ -24,6 +24,21 @@ pub struct SideShape {
     pub circle: Option<Circle>,
 }
 
+impl SideShape {
+    /// The coordinate axis that a flat side is normal to; `None` of other sides.
+    #[must_use]
+    pub fn normal_axis(&self) -> Option<usize> {
+        let along = self.area.amax() / self.area.norm();
+        (self.is_flat && along > 1.0 - FLAT).then(|| self.area.iamax())
+    }
+
+    /// The unit normal of a flat side into the domain.
+    #[must_use]
+    pub fn inward(&self) -> Vector3<f64> {
+        -self.area / self.area.norm()
+    }
+}
+
 /// A circle around the normal of a side; in the plane two points.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Circle {
@@ -152,7 +167,7 @@ mod tests {
             assert!((circle.radius - 1.0).abs() < 1e-10, "{circle:?}");
             assert!((circle.center - Vector3::new(x, 0.0, 0.0)).norm() < 1e-10, "{circle:?}");
         }
-        assert!(!wall.is_flat && wall.area.norm() < 1e-12);
+        assert!(!wall.is_flat && (left.area + right.area + wall.area).norm() < 1e-12);
         let cube = cube_of_twelve().side_shape(BoundaryId::new(0));
         assert!(!cube.is_flat && cube.area.norm() < 1e-14);
     }

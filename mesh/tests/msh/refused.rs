@@ -75,7 +75,7 @@ fn other_files_are_refused() {
         Place::Line(4),
         &["partitions"],
     );
-    check(&with("$Elements", "$Other"), Place::Line(25), &["$Other"]);
+    check(&with("$Elements", "$Other"), Place::Line(26), &["$Other"]);
     check(&with("4\n0 0 0", "3\n0 0 0"), Place::Line(18), &["second node 3"]);
 }
 

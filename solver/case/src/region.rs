@@ -14,6 +14,7 @@ impl DomainSpec {
             Self::HalfDisc { .. } => &[Geometry::Axisymmetric],
             Self::Cylinder { .. } => &[Geometry::Axisymmetric, Geometry::Spatial],
             Self::Sphere { .. } => &[Geometry::Spatial],
+            Self::Mesh(_) => &[Geometry::Planar, Geometry::Spatial],
         }
     }
 }
@@ -85,7 +86,7 @@ impl Case {
     pub fn periodic_axes(&self) -> [bool; 3] {
         let is_periodic =
             |side: &str| matches!(self.boundary.get(side), Some(BoundaryCondition::Periodic(_)));
-        ["left", "bottom", "back"].map(is_periodic)
+        ["left", "bottom", "back"].map(|side| self.given_mesh().is_none() && is_periodic(side))
     }
 
     /// The walls of a channel, with its images behind axis and planes of symmetry (m), along each
@@ -116,18 +117,19 @@ impl Case {
 
     /// Names of the sides of the domain.
     #[must_use]
-    pub fn sides(&self) -> &'static [&'static str] {
+    pub fn sides(&self) -> Vec<&str> {
         match (&self.domain, self.geometry) {
             (DomainSpec::Box { .. }, Geometry::Spatial) => {
-                &["left", "right", "bottom", "top", "back", "front"]
+                vec!["left", "right", "bottom", "top", "back", "front"]
             }
             (DomainSpec::Box { .. } | DomainSpec::Channel { .. }, _) => {
-                &["left", "right", "bottom", "top"]
+                vec!["left", "right", "bottom", "top"]
             }
-            (DomainSpec::Disc { .. } | DomainSpec::Sphere { .. }, _) => &["wall"],
-            (DomainSpec::HalfDisc { .. }, _) => &["wall", "axis"],
-            (DomainSpec::Cylinder { .. }, Geometry::Spatial) => &["left", "right", "wall"],
-            (DomainSpec::Cylinder { .. }, _) => &["left", "right", "wall", "axis"],
+            (DomainSpec::Disc { .. } | DomainSpec::Sphere { .. }, _) => vec!["wall"],
+            (DomainSpec::HalfDisc { .. }, _) => vec!["wall", "axis"],
+            (DomainSpec::Cylinder { .. }, Geometry::Spatial) => vec!["left", "right", "wall"],
+            (DomainSpec::Cylinder { .. }, _) => vec!["left", "right", "wall", "axis"],
+            (DomainSpec::Mesh(file), _) => file.side_names(),
         }
     }
 
@@ -148,6 +150,7 @@ impl Case {
             }
             DomainSpec::Cylinder { x, radius } => Extent::between(&x[..1], &[x[1], *radius]),
             DomainSpec::Sphere { center, radius } => Extent::around(*center, [*radius; 3]),
+            DomainSpec::Mesh(file) => file.extent(),
         }
     }
 
@@ -163,7 +166,8 @@ impl Case {
         self.scales.is_some() && self.fluid.density > 0.0
     }
 
-    /// The planar domain to be meshed, with its periodic pairs; of a domain in space its section.
+    /// The planar domain to be meshed, with its periodic pairs; of a domain in space its section, of a
+    /// given mesh, which no bodies are in, the box around it.
     #[must_use]
     pub fn mesh_domain(&self) -> Domain {
         let is_periodic =
@@ -173,6 +177,10 @@ impl Case {
             is_periodic("bottom") || is_periodic("top"),
         );
         match self.domain {
+            DomainSpec::Mesh(_) => {
+                let [min, max] = self.extent().in_plane().map(Into::into);
+                Domain::Box { min, max, periodic_x: false, periodic_y: false }
+            }
             DomainSpec::Box { .. } | DomainSpec::Channel { .. } => {
                 let [min, max] = self.extent().in_plane();
                 Domain::Box { min: min.into(), max: max.into(), periodic_x, periodic_y }
