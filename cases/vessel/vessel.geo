@@ -1,4 +1,4 @@
-// A vessel of radius 1 that branches, in a ball, into two of radius 0.8, 40 degrees to either side of
+// A vessel of radius 1 that branches, in a ball, into two of radius 0.8, each turned by 40 degrees.
 //
 // gmsh -3 -bin vessel.geo -o vessel.msh      (Gmsh 4.15 made the mesh beside this file)
 
