@@ -7,6 +7,7 @@ use super::error::MshError;
 use super::facets::{NAMES, NamedFacets, entity_name};
 use super::file::MshFile;
 use super::kind::node_order;
+use super::parts::{Middle, Parts, edges_of, facet_of};
 use crate::check::check_mesh;
 use crate::curved::jacobian_coefficients;
 use crate::{Boundary, BoundaryId, CellId, Facet, Mesh, NodeId, Point, Simplex};
@@ -23,30 +24,6 @@ const IN_PLANE: f64 = 1e-9;
 /// A cell that is flatter than this has no volume: D! times its measure over its longest edge to
 /// the power D.
 const NO_VOLUME: f64 = 1e-14;
-
-/// Vertices, cells and named facets on the way to a mesh.
-#[derive(Debug)]
-pub struct Parts<const D: usize> {
-    /// Positions of the vertices (m).
-    pub vertices: Vec<Point<D>>,
-    /// Vertices of each cell, D + 1 of them, the cells positive.
-    pub cells: Vec<Vec<usize>>,
-    /// Elements the cells are from.
-    pub tags: Vec<u64>,
-    /// Boundaries of the facets on the boundary, by their vertices in ascending order.
-    pub sides: BTreeMap<[usize; D], BoundaryId>,
-    /// Tag and position (m) of the nodes given in edges, by the ends in ascending order.
-    pub middles: BTreeMap<[usize; 2], Middle<D>>,
-}
-
-/// A node in an edge.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Middle<const D: usize> {
-    /// Its tag in the file.
-    pub tag: u64,
-    /// Where it is (m).
-    pub point: Point<D>,
-}
 
 /// Reads a mesh of triangles (D = 2) or tetrahedra (D = 3) in MSH 4.1, its lengths multiplied by a
 /// factor.
@@ -191,13 +168,6 @@ fn turn<const D: usize>(
     Ok(())
 }
 
-/// Vertices of a facet of a cell, ascending.
-pub fn facet_of<const D: usize>(cell: &[usize], side: usize) -> [usize; D] {
-    let mut vertices = Simplex::<D>::facet_vertices(side).map(|local| cell[local]);
-    vertices.sort_unstable();
-    vertices
-}
-
 /// The boundaries of all facets with one cell.
 fn sides<const D: usize>(
     parts: &Parts<D>,
@@ -339,15 +309,6 @@ fn mesh_of<const D: usize>(
     mesh.nodes = nodes;
     check_folds(&mesh, &tags)?;
     Ok(mesh)
-}
-
-/// Edges of facets, by their ends in ascending order.
-pub fn edges_of<const D: usize>(sides: &BTreeMap<[usize; D], BoundaryId>) -> BTreeSet<[usize; 2]> {
-    let pairs = sides.keys().flat_map(|vertices| {
-        let each = vertices.iter().enumerate();
-        each.flat_map(|(i, a)| vertices[i + 1..].iter().map(|b| [*a, *b]))
-    });
-    pairs.collect()
 }
 
 /// Whether curved cells are positive everywhere.

@@ -1,6 +1,6 @@
 //! The division of cells without enough free velocities: those with two sides on the boundary.
 
-use super::assemble::{Parts, edges_of, facet_of};
+use super::parts::{Parts, edges_of, facet_of};
 use crate::{Point, Simplex};
 
 /// Divides cells with two facets on the boundary, or with all their edges there, at their centroids:

@@ -10,6 +10,7 @@ mod facets;
 mod file;
 mod input;
 mod kind;
+mod parts;
 mod write;
 
 use crate::Mesh;

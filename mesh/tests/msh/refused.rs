@@ -76,7 +76,7 @@ fn other_files_are_refused() {
         &["partitions"],
     );
     check(&with("$Elements", "$Other"), Place::Line(26), &["$Other"]);
-    check(&with("4\n0 0 0", "3\n0 0 0"), Place::Line(18), &["second node 3"]);
+    check(&with("4\n0 0 0", "3\n0 0 0"), Place::Line(23), &["second node 3"]);
 }
 
 #[test]

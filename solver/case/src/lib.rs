@@ -13,6 +13,7 @@ mod diagnostic;
 mod discs;
 mod domain;
 mod encounters;
+mod extent;
 mod fluid;
 mod gait;
 mod geometry;
@@ -31,6 +32,7 @@ mod parts;
 mod problem_keys;
 mod quantity;
 mod read;
+mod read_mesh;
 mod reference;
 mod region;
 mod schema;
@@ -58,6 +60,7 @@ pub use contact::ContactSpec;
 pub use diagnostic::{CaseError, Diagnostic, Severity, printable};
 pub use domain::{BoundaryCondition, DomainSpec, Geometry, TimeFunction};
 pub use encounters::Encounter;
+pub use extent::Extent;
 pub use fluid::{FlowModel, Fluid};
 pub use gait::{
     AnguilliformGait, BentJoint, CarangiformGait, FishShape, FlagellateShape, FlagellumGait,
@@ -80,7 +83,7 @@ pub use read::CaseFile;
 pub use reference::{
     ForceComponent, Numbers, Reference, ReferenceKind, Scales, Statistic, Statistics, Variant,
 };
-pub use region::{Extent, normal_axis, opposite};
+pub use region::{normal_axis, opposite};
 pub use schema::schema;
 pub use source::Location;
 pub use stroke::{Stroke, smooth_ramp};

@@ -2,6 +2,8 @@
 
 use alewife_mesh::Domain;
 
+use super::extent::Extent;
+use super::mesh_file::MeshFile;
 use super::{BoundaryCondition, Case, DomainSpec, Geometry};
 
 impl DomainSpec {
@@ -16,42 +18,6 @@ impl DomainSpec {
             Self::Sphere { .. } => &[Geometry::Spatial],
             Self::Mesh(_) => &[Geometry::Planar, Geometry::Spatial],
         }
-    }
-}
-
-/// The smallest box around a region, flat in planar and axisymmetric cases.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Extent {
-    /// Least coordinates (m).
-    pub min: [f64; 3],
-    /// Largest coordinates (m).
-    pub max: [f64; 3],
-}
-
-impl Extent {
-    fn around([x, y, z]: [f64; 3], [a, b, c]: [f64; 3]) -> Self {
-        Self { min: [x - a, y - b, z - c], max: [x + a, y + b, z + c] }
-    }
-
-    /// That of two corners with any number of coordinates; those that are not given are zero.
-    #[must_use]
-    pub fn between(min: &[f64], max: &[f64]) -> Self {
-        let corner = |given: &[f64]| {
-            std::array::from_fn(|axis| given.get(axis).copied().unwrap_or_default())
-        };
-        Self { min: corner(min), max: corner(max) }
-    }
-
-    /// Lengths along the axes (m).
-    #[must_use]
-    pub fn lengths(&self) -> [f64; 3] {
-        std::array::from_fn(|axis| self.max[axis] - self.min[axis])
-    }
-
-    /// Lower left and upper right corner in the plane (m).
-    #[must_use]
-    pub fn in_plane(&self) -> [[f64; 2]; 2] {
-        [self.min, self.max].map(|[x, y, _]| [x, y])
     }
 }
 
@@ -81,6 +47,25 @@ pub fn opposite(side: &str) -> Option<&'static str> {
 }
 
 impl Case {
+    /// The mesh the domain is given by; `None` of other domains.
+    #[must_use]
+    pub fn given_mesh(&self) -> Option<&MeshFile> {
+        match &self.domain {
+            DomainSpec::Mesh(file) => Some(file),
+            _ => None,
+        }
+    }
+
+    /// The same case with the file of its mesh, where one is given, under another name.
+    #[must_use]
+    pub fn naming_mesh(&self, file: &str) -> Self {
+        let mut case = self.clone();
+        if let DomainSpec::Mesh(mesh) = &mut case.domain {
+            file.clone_into(&mut mesh.file);
+        }
+        case
+    }
+
     /// Along which coordinates the domain is periodic.
     #[must_use]
     pub fn periodic_axes(&self) -> [bool; 3] {

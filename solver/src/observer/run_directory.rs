@@ -9,7 +9,7 @@ use thiserror::Error;
 use super::atomic::{AtPath, UNFINISHED, write_atomic};
 use super::provenance::{self, Provenance};
 use super::status::{RunState, Status};
-use crate::case::{Case, DomainSpec};
+use crate::case::{Case, MeshFile};
 
 /// The file by which a run directory is known.
 const MARKER_FILE: &str = ".alewife-run";
@@ -136,18 +136,10 @@ impl RunDirectory {
         }
 
         // A given mesh is part of the run
-        let mut written = case.clone();
-        let mesh = match &mut written.domain {
-            DomainSpec::Mesh(mesh) => {
-                MESH_FILE.clone_into(&mut mesh.file);
-                mesh.bytes().map(<[u8]>::to_vec)
-            }
-            _ => None,
-        };
-        if let Some(mesh) = &mesh {
+        if let Some(mesh) = case.given_mesh().and_then(MeshFile::bytes) {
             write_atomic(&path.join(MESH_FILE), mesh)?;
         }
-        let case_text = written.to_toml()?;
+        let case_text = case.naming_mesh(MESH_FILE).to_toml()?;
         let provenance = Provenance::of_this_process(&case_text, threads);
         let provenance = match earlier {
             Earlier::Continue => provenance.continuing(path),

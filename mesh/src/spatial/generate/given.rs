@@ -1,42 +1,13 @@
 //! A given mesh in the place of the lattice: its sides stay, with the nodes of their bent edges.
 
-use std::collections::HashMap;
-
 use super::boundary_edges::{INNER, tag_of};
+use super::given_nodes::GivenPart;
 use super::improver::Improver;
 use super::surface_set::SurfaceSet;
 use super::tetrahedra::Face;
 use crate::number::index_u32;
 use crate::spatial::surface::is_bent;
-use crate::{Mesh, Point, Simplex};
-
-/// Nodes in the bent edges of given sides, by the ends of the edges.
-#[derive(Debug, Clone, Default)]
-pub struct GivenNodes(HashMap<[u32; 2], Point<3>>);
-
-/// A node in an edge from a new vertex.
-#[derive(Debug, Clone, Copy)]
-pub struct GivenPart {
-    /// The other end of the edge.
-    end: u32,
-    /// The node (m).
-    node: Point<3>,
-}
-
-impl GivenNodes {
-    /// Adds the nodes in edges from a new vertex.
-    pub fn add(&mut self, vertex: u32, parts: &[GivenPart]) {
-        for part in parts {
-            self.0.insert([vertex.min(part.end), vertex.max(part.end)], part.node);
-        }
-    }
-
-    /// The node in an edge (m), if it is a bent one of a given side.
-    #[inline]
-    pub fn of(&self, [a, b]: [u32; 2]) -> Option<Point<3>> {
-        self.0.get(&[a.min(b), a.max(b)]).copied()
-    }
-}
+use crate::{Mesh, Simplex};
 
 impl Improver<'_> {
     /// Fills the mesh with a given one, whose boundaries are the first surfaces.
@@ -69,7 +40,7 @@ impl Improver<'_> {
                 let node = given.nodes[nodes[3 + edge]];
                 if is_bent(&a, &b, &node) {
                     let [a, b] = ends.map(u32::from);
-                    self.given.0.insert([a.min(b), a.max(b)], node);
+                    self.given.add(a, &[GivenPart { end: b, node }]);
                 }
             }
         }

@@ -1,6 +1,6 @@
 //! `Improver`: a mesh with the surfaces and sizes it is to follow, and the quality of its cells.
 
-use super::given::GivenNodes;
+use super::given_nodes::GivenNodes;
 use super::measure::{EDGES, least_coefficient, least_sine, middle, volume_length};
 use super::projections::Projections;
 use super::surface_set::SurfaceSet;

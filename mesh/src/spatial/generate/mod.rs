@@ -10,6 +10,7 @@ mod cut;
 mod edge_removal;
 mod face_swap;
 mod given;
+mod given_nodes;
 mod improver;
 mod lattice;
 mod measure;

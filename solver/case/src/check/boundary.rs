@@ -2,9 +2,7 @@
 
 use std::f64::consts::PI;
 
-use alewife_mesh::SideShape;
-
-use super::Findings;
+use super::{Findings, given_mesh};
 use crate::region::{normal_axis, opposite};
 use crate::type_error::suggestion;
 use crate::{BoundaryCondition, Case, DomainSpec, Geometry, TimeFunction, TimeSettings};
@@ -55,7 +53,11 @@ fn check_side(findings: &mut Findings<'_>, key: &str, side: &str, condition: &Bo
         DomainSpec::Box { .. } | DomainSpec::Channel { .. } => false,
         DomainSpec::Disc { .. } | DomainSpec::HalfDisc { .. } | DomainSpec::Sphere { .. } => true,
         DomainSpec::Cylinder { .. } => side == "wall" && !is_axisymmetric,
-        DomainSpec::Mesh(_) => return check_given_side(findings, key, side, condition),
+        DomainSpec::Mesh(_) => {
+            given_mesh::check_side(findings, key, side, condition);
+            check_factor_of(findings, key, condition);
+            return;
+        }
     };
     match (side, condition) {
         ("axis", BoundaryCondition::Axis) => {}
@@ -94,45 +96,6 @@ fn check_side(findings: &mut Findings<'_>, key: &str, side: &str, condition: &Bo
         }
         (_, BoundaryCondition::WavingSheet { .. }) => {
             check_sheet(findings, &format!("{key}.waving-sheet"), side, condition);
-        }
-        _ => {}
-    }
-    check_factor_of(findings, key, condition);
-}
-
-/// Whether a condition can hold on a side of a given mesh.
-fn check_given_side(
-    findings: &mut Findings<'_>,
-    key: &str,
-    side: &str,
-    condition: &BoundaryCondition,
-) {
-    let mesh = findings.case().given_mesh();
-    let Some(shape) = mesh.and_then(|mesh| mesh.side_shape(side)) else { return };
-    match condition {
-        BoundaryCondition::Periodic(_) | BoundaryCondition::WavingSheet { .. } => findings.error(
-            key,
-            "sides of a given mesh are neither periodic nor do they wave".to_owned(),
-            "take domain.box for that",
-        ),
-        BoundaryCondition::Axis => findings.error(
-            key,
-            format!("`axis` holds on the axis only, not on `{side}`"),
-            "for a mirror plane or a frictionless wall write \"symmetry\"",
-        ),
-        BoundaryCondition::Symmetry if shape.normal_axis().is_none() => findings.error(
-            key,
-            format!("`symmetry` holds on flat sides normal to x, y or z, and `{side}` is none"),
-            "write \"no-slip\" or \"traction-free\", or turn the mesh in Gmsh",
-        ),
-        BoundaryCondition::Parabolic { .. } if shape.circle.is_none() => findings.error(
-            key,
-            format!("`{side}` is not straight, or in space not flat with a round rim"),
-            "a parabolic velocity has its largest value in the middle of a straight side, or of a \
-             round flat one; on others write { velocity = { value = [...] } }",
-        ),
-        BoundaryCondition::Velocity { value, .. } => {
-            findings.vector(&format!("{key}.velocity.value"), value);
         }
         _ => {}
     }
@@ -346,7 +309,7 @@ fn factor_in_time(condition: &BoundaryCondition) -> Option<&TimeFunction> {
 fn inflow(case: &Case, side: &str, condition: &BoundaryCondition) -> f64 {
     if let Some(mesh) = case.given_mesh() {
         let shape = mesh.side_shape(side);
-        return shape.map_or(0.0, |shape| inflow_through(case, shape, condition));
+        return shape.map_or(0.0, |shape| given_mesh::inflow_through(case, shape, condition));
     }
     let Some(axis) = normal_axis(side) else { return wall_inflow(&case.domain, condition) };
     let extent = case.extent();
@@ -377,24 +340,6 @@ fn inflow(case: &Case, side: &str, condition: &BoundaryCondition) -> f64 {
     };
     let inward = if matches!(side, "left" | "bottom" | "back") { 1.0 } else { -1.0 };
     inward * mean_velocity * area
-}
-
-/// The same through a side of a given mesh.
-fn inflow_through(case: &Case, shape: &SideShape, condition: &BoundaryCondition) -> f64 {
-    match condition {
-        BoundaryCondition::Velocity { value, .. } => {
-            -value.iter().zip(shape.area.iter()).map(|(u, area)| u * area).sum::<f64>()
-        }
-        BoundaryCondition::Parabolic { peak, .. } => {
-            let mean = if case.geometry == Geometry::Spatial { 1.0 / 2.0 } else { 2.0 / 3.0 };
-            peak * mean * shape.area.norm()
-        }
-        BoundaryCondition::Shear { rate, origin, .. } => {
-            let height = shape.circle.map_or(0.0, |circle| circle.center.y - origin);
-            -rate * height * shape.area.x
-        }
-        _ => 0.0,
-    }
 }
 
 /// The same through a side that is not straight: what enters on one side of a closed surface leaves
