@@ -129,6 +129,12 @@ impl<const D: usize> FluidSystem<D> {
         self.linear.choose(choice, D);
     }
 
+    /// Whether systems are solved by iterations: how accurately is then a choice.
+    #[must_use]
+    pub fn is_iterative(&self) -> bool {
+        self.linear.is_iterative()
+    }
+
     /// Memory of the preconditioner of an iterative solver (bytes).
     #[must_use]
     pub fn preconditioner_bytes(&self) -> usize {
@@ -257,6 +263,9 @@ impl<const D: usize> FluidSystem<D> {
     /// One Newton step: assembles and factorises the Jacobian at `solution` and returns the next
     /// solution for a given reduced residual.
     ///
+    /// Where systems are solved by iterations, what the linear equations leave of the residual is
+    /// `reduction` (1), by default the tolerance of the solver.
+    ///
     /// # Errors
     /// When the matrix is singular or the solution not finite.
     pub fn newton_step(
@@ -265,6 +274,7 @@ impl<const D: usize> FluidSystem<D> {
         terms: &FlowTerms<'_, D>,
         solution: &Solution<D>,
         reduced: &[f64],
+        reduction: Option<f64>,
         timing: &mut Timing,
     ) -> Result<Solution<D>, SolveError> {
         timing.measure(Stage::Assembly, || {
@@ -286,7 +296,7 @@ impl<const D: usize> FluidSystem<D> {
         self.linear.prepare(coefficients, || discretised.weights(coefficients), timing);
         let mut free = at.constraints.pick(&self.pinned(solution).to_raw(self.modes));
         let mut step: Vec<f64> = reduced.iter().map(|value| -value).collect();
-        let solved = self.linear.solve_correction(&free, &mut step, timing);
+        let solved = self.linear.solve_correction(&free, &mut step, reduction, timing);
         solved.map_err(|error| self.explain(at, error))?;
         for (value, correction) in free.iter_mut().zip(&step) {
             *value += correction;

@@ -59,6 +59,16 @@ impl<const B: usize> RowBuilder<B> {
 }
 
 impl<const B: usize> BlockMatrix<B> {
+    /// From the start of each row, and the end of the last, in the columns and blocks of all.
+    pub fn new(
+        n_columns: usize,
+        starts: Vec<usize>,
+        columns: Vec<u32>,
+        blocks: Vec<Block<B>>,
+    ) -> Self {
+        Self { n_columns, starts, columns, blocks }
+    }
+
     /// The rows of several matrices, one after the other.
     pub(super) fn stacked(n_columns: usize, parts: Vec<Self>) -> Self {
         let n_blocks = parts.iter().map(|part| part.columns.len()).sum();

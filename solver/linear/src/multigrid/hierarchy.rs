@@ -1,5 +1,7 @@
 //! `Hierarchy`: levels of a multigrid method, and one V-cycle through them.
 
+use std::sync::Arc;
+
 use super::aggregation::{aggregate, smoothed_prolongation};
 use super::block_matrix::BlockMatrix;
 use super::chebyshev::{Chebyshev, Spectrum};
@@ -36,7 +38,7 @@ pub(crate) struct Hierarchy<const B: usize> {
 /// One level with the transfers to the next.
 #[derive(Debug)]
 struct Level<const B: usize> {
-    matrix: BlockMatrix<B>,
+    matrix: Arc<BlockMatrix<B>>,
     smoother: Chebyshev<B>,
     prolongation: BlockMatrix<B>,
     restriction: BlockMatrix<B>,
@@ -47,7 +49,11 @@ struct Level<const B: usize> {
 }
 
 impl<const B: usize> Level<B> {
-    fn new(matrix: BlockMatrix<B>, smoother: Chebyshev<B>, prolongation: BlockMatrix<B>) -> Self {
+    fn new(
+        matrix: Arc<BlockMatrix<B>>,
+        smoother: Chebyshev<B>,
+        prolongation: BlockMatrix<B>,
+    ) -> Self {
         let restriction = prolongation.transposed();
         let residual = vec![[0.0; B]; matrix.n_rows()];
         let coarse_rhs = vec![[0.0; B]; prolongation.n_columns()];
@@ -55,8 +61,8 @@ impl<const B: usize> Level<B> {
         Self { matrix, smoother, prolongation, restriction, residual, coarse_rhs, coarse }
     }
 
-    fn coarse_matrix(&self) -> BlockMatrix<B> {
-        galerkin(&self.restriction, &self.matrix, &self.prolongation)
+    fn coarse_matrix(&self) -> Arc<BlockMatrix<B>> {
+        Arc::new(galerkin(&self.restriction, &self.matrix, &self.prolongation))
     }
 
     fn n_bytes(&self) -> usize {
@@ -68,13 +74,13 @@ impl<const B: usize> Hierarchy<B> {
     /// The levels below a matrix; `transfer`, if given, is the prolongation from the second level to
     /// the first.
     pub fn new(
-        matrix: BlockMatrix<B>,
+        matrix: impl Into<Arc<BlockMatrix<B>>>,
         transfer: Option<BlockMatrix<B>>,
         settings: HierarchySettings,
     ) -> Self {
         let HierarchySettings { n_pairs, degree, is_singular } = settings;
         let mut levels = Vec::new();
-        let mut matrix = matrix;
+        let mut matrix = matrix.into();
         if let Some(transfer) = transfer {
             let smoother = Chebyshev::new(&matrix, n_pairs, SMOOTHED, degree);
             let level = Level::new(matrix, smoother, transfer);

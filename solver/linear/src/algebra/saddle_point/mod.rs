@@ -10,12 +10,15 @@ mod data;
 mod gradient;
 mod guess;
 mod iterative;
+mod krylov_space;
 mod numbering;
 mod operator;
 mod preconditioner;
+mod scales;
 mod schur;
 #[cfg(test)]
 mod tests;
+mod vector;
 
 pub use data::{Interpolation, Part, SaddlePoint, Weights};
 pub use iterative::{IterativeSettings, IterativeSolver};

@@ -6,12 +6,12 @@
 
 use super::data::Weights;
 use super::gradient::Gradient;
-use super::numbering::{B, Numbering, Place};
+use super::numbering::{Numbering, Place};
+use super::vector::B;
 use crate::multigrid::{
     BlockMatrix, Chebyshev, Hierarchy, HierarchySettings, RowBuilder, Spectrum,
 };
 use crate::sparse::SparseMatrix;
-use crate::sparse::index::to_u32;
 use crate::sparse::single::single;
 
 /// Eigenvalues of the mass matrix of linear elements over its diagonal, in the plane and in space
@@ -92,8 +92,8 @@ fn single_precision(matrix: &SparseMatrix) -> BlockMatrix<1> {
     let pattern = matrix.pattern();
     let mut rows = RowBuilder::new(matrix.n());
     for column in 0..matrix.n() {
-        for entry in pattern.entries(column) {
-            rows.push(to_u32(pattern.rows[entry]), [[single(matrix.values()[entry])]]);
+        for (&row, entry) in pattern.column(column).iter().zip(pattern.entries(column)) {
+            rows.push(row, [[single(matrix.values()[entry])]]);
         }
         rows.end_row();
     }

@@ -27,10 +27,7 @@ fn system() -> SaddlePoint {
 /// A dense matrix with different entries.
 fn matrix() -> SparseMatrix {
     let n = 6;
-    let pattern = Pattern {
-        columns: (0..=n).map(|column| column * n).collect(),
-        rows: (0..n * n).map(|entry| entry % n).collect(),
-    };
+    let pattern = Pattern::from_columns((0..n).map(|_| 0..n));
     SparseMatrix::new(pattern, (0..n * n).map(|entry| 1.0 + entry as f64).collect())
 }
 
@@ -92,9 +89,14 @@ fn the_laplacian_is_the_product_of_gradients() {
     let numbering = Numbering::new(&system());
     let gradient = Gradient::new(&matrix(), &numbering);
     let mut u = vec![[0.0; 3]; 4];
-    gradient.multiply_subtract(&[1.0, 0.0], &mut u);
-    assert_eq!(u[0], [-value(0, 3), -value(1, 3), 0.0]);
-    assert_eq!(u[3], [0.0, 0.0, -value(5, 3)]);
+    gradient.multiply_add(&[1.0, 0.0], &mut u);
+    assert_eq!(u[0], [value(0, 3), value(1, 3), 0.0]);
+    assert_eq!(u[3], [0.0, 0.0, value(5, 3)]);
+    let mut p = vec![f32::NAN; 2];
+    gradient
+        .transposed()
+        .multiply_transposed(&[[0.0, 1.0, 9.0], [0.0; 3], [0.0; 3], [0.0, 9.0, 1.0]], &mut p);
+    assert_eq!(p, [3, 4].map(|column| value(1, column) + value(5, column)));
     let damping = [[2.0, 4.0, 0.0], [8.0, 0.0, 0.0]];
     let laplacian = gradient.laplacian(&damping, false);
     let expected = |p: usize, q: usize| {
