@@ -180,7 +180,7 @@ pub enum MeshError {
         /// Name of the body.
         body: String,
         /// Name of the side.
-        side: String,
+        side: Box<str>,
         /// Smallest signed gap (m).
         gap: f64,
         /// Where (m).
@@ -210,7 +210,7 @@ pub enum MeshError {
         /// Name of the body.
         body: String,
         /// Name of the side.
-        side: String,
+        side: Box<str>,
         /// Smallest signed gap (m).
         gap: f64,
         /// Where (m).

@@ -41,7 +41,7 @@ pub fn check_placement(domain: &Domain, bodies: &[Body]) -> Result<(), MeshError
                 if gap.is_refused(&surface) && domain.is_periodic(side) {
                     return Err(MeshError::BodyMeetsPeriodicSide {
                         body: body.name.clone(),
-                        side: names[side].to_owned(),
+                        side: names[side].into(),
                         gap: gap.value,
                         at: gap.at.into(),
                     });
@@ -50,7 +50,7 @@ pub fn check_placement(domain: &Domain, bodies: &[Body]) -> Result<(), MeshError
                 if gap.is_refused(&surface) && !domain.is_symmetric(side) {
                     return Err(MeshError::BodyMeetsSide {
                         body: body.name.clone(),
-                        side: names[side].to_owned(),
+                        side: names[side].into(),
                         gap: gap.value,
                         at: gap.at.into(),
                     });
@@ -74,7 +74,7 @@ fn check_inside(
     surface: &SmoothSurface,
 ) -> Result<(), MeshError> {
     let refuse = |side: usize, gap: f64, at: Point<3>| {
-        let side = imported.mesh().boundaries[side].name.clone();
+        let side = imported.mesh().boundaries[side].name.as_str().into();
         Err(MeshError::BodyMeetsSide { body: body.name.clone(), side, gap, at: at.into() })
     };
     let n_sides = imported.mesh().boundaries.len();
@@ -311,7 +311,7 @@ mod tests {
         assert!(check(&[sphere("a", [0.0, -1.0, 0.0]), sphere("b", [0.0, 1.001, 0.0])]).is_ok());
         match check(&[sphere("a", [0.0, 0.0, 2.1])]) {
             Err(MeshError::BodyMeetsSide { side, gap, at, .. }) => {
-                assert_eq!(side, "front");
+                assert_eq!(&*side, "front");
                 assert!(gap < 0.0 && at[2] > 2.9, "{gap} {at:?}");
             }
             other => panic!("{other:?}"),

@@ -35,7 +35,7 @@ pub fn mesh(argument: &str, settings: &[String], target: Target) -> Result<Exit,
         (true, true) => Some(Encoding::Text),
         (false, true) => {
             let reason = "--text is for files of Gmsh: let the name given to --out end in .msh";
-            return Err(Failure::new(Exit::Usage, reason.to_owned()));
+            return Err(Failure::new(Exit::Usage, reason));
         }
     };
     match file.case().geometry.dimensions() {
