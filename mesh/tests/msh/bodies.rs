@@ -36,7 +36,8 @@ fn cut(given: &Mesh<3>, body: &Body, sizing: &Sizing<3>) -> Mesh<3> {
     let domain = Domain::Imported(Imported::new(given.clone()));
     let mesh = generate(&domain, std::slice::from_ref(body), sizing).expect("it can be meshed");
     check_mesh(&mesh).expect("it keeps the invariants");
-    let estimate = estimate_cells(&domain, std::slice::from_ref(body), sizing, 1e6).unwrap();
+    let estimate = estimate_cells(&domain, std::slice::from_ref(body), sizing, 1e6)
+        .expect("cells can be counted");
     let ratio = mesh.n_cells() as f64 / estimate;
     println!("{}{ratio} of the estimate", Quality::of(&mesh));
     assert!((0.3..3.0).contains(&ratio), "{ratio}");
