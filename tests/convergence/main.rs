@@ -3,4 +3,5 @@
 
 mod sides;
 mod space;
+mod spatial;
 mod time;

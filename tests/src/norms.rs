@@ -20,10 +20,10 @@ pub struct Errors {
 
 /// Errors of a solution at a time.
 #[must_use]
-pub fn errors(
-    mesh: &Mesh<2>,
-    solution: &Solution<2>,
-    exact: &dyn Exact,
+pub fn errors<const D: usize>(
+    mesh: &Mesh<D>,
+    solution: &Solution<D>,
+    exact: &dyn Exact<D>,
     time: f64,
     metric: Metric,
 ) -> Errors {
@@ -34,8 +34,8 @@ pub fn errors(
     for cell in mesh.cell_ids() {
         let nodes = mesh.cell(cell);
         workspace.for_each_point(&tables, mesh, cell, |at| {
-            let mut velocity = Point::<2>::zeros();
-            let mut gradient = SMatrix::<f64, 2, 2>::zeros();
+            let mut velocity = Point::<D>::zeros();
+            let mut gradient = SMatrix::<f64, D, D>::zeros();
             for (a, &node) in nodes.iter().enumerate() {
                 velocity += solution.velocity[node] * at.phi[a];
                 gradient += solution.velocity[node] * at.grad_phi[a].transpose();
@@ -44,11 +44,11 @@ pub fn errors(
                 nodes.iter().zip(at.psi).map(|(&node, psi)| solution.pressure[node] * psi).sum();
             let place = at.position;
             velocity_sum += (velocity - exact.velocity(&place, time)).norm_squared() * at.dx;
-            let mut expected = SMatrix::<f64, 2, 2>::zeros();
+            let mut expected = SMatrix::<f64, D, D>::zeros();
             // Central differences are exact to 1e-9 here, far below the errors measured.
             let step = 1e-5;
-            for axis in 0..2 {
-                let mut shift = Point::<2>::zeros();
+            for axis in 0..D {
+                let mut shift = Point::<D>::zeros();
                 shift[axis] = step;
                 let ahead = exact.velocity(&(place + shift), time);
                 let behind = exact.velocity(&(place - shift), time);

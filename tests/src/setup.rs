@@ -13,10 +13,10 @@ pub fn rest() -> VelocityProfile<2> {
 
 /// The same velocity on every side; the axis is a symmetry plane.
 #[must_use]
-pub fn sides(
-    mesh: &Mesh<2>,
-    profile: impl Fn(&Point<2>, f64) -> Point<2> + Send + Sync + Clone + 'static,
-) -> Vec<Option<Side<2>>> {
+pub fn sides<const D: usize>(
+    mesh: &Mesh<D>,
+    profile: impl Fn(&Point<D>, f64) -> Point<D> + Send + Sync + Clone + 'static,
+) -> Vec<Option<Side<D>>> {
     mesh.boundaries
         .iter()
         .map(|boundary| match boundary.kind {

@@ -22,7 +22,7 @@ impl Kovasznay {
     }
 }
 
-impl Exact for Kovasznay {
+impl Exact<2> for Kovasznay {
     fn velocity(&self, place: &Point<2>, _time: f64) -> Point<2> {
         let rate = self.rate();
         let decay = (rate * place[0]).exp();

@@ -1,28 +1,30 @@
-//! Stokes flow past a held sphere of radius 1 in a uniform stream of speed 1 along x, viscosity 1.
+//! Stokes flow past a held sphere of radius 1 in a uniform stream U, viscosity 1.
 //!
-//! With R the distance from the centre and c = x / R:
-//! u_R = c (1 - 3/(2R) + 1/(2R^3)), u_theta = -s (1 - 3/(4R) - 1/(4R^3)), p = -3 c / (2 R^2).
+//! With R the distance from the centre and n = x / R:
+//! u = U - 3/(4R) (U + n n.U) - 1/(4R^3) (U - 3 n n.U), p = -3 n.U / (2 R^2).
 
 use alewife_mesh::Point;
 
 use super::Exact;
 
-/// The flow in the meridian plane: x along the axis, y the distance from it.
+/// The flow in space, or in the meridian plane: x along the axis, y the distance from it.
 #[derive(Debug, Clone, Copy)]
-pub struct StokesSphere;
+pub struct StokesSphere<const D: usize> {
+    /// Velocity far away; along x in the meridian plane.
+    pub stream: Point<D>,
+}
 
-impl Exact for StokesSphere {
-    fn velocity(&self, place: &Point<2>, _time: f64) -> Point<2> {
+impl<const D: usize> Exact<D> for StokesSphere<D> {
+    fn velocity(&self, place: &Point<D>, _time: f64) -> Point<D> {
         let distance = place.norm();
         let outward = place / distance;
-        let along = Point::<2>::new(-outward[1], outward[0]);
-        let inverse = 1.0 / distance;
-        let radial = outward[0] * (1.0 - 1.5 * inverse + 0.5 * inverse.powi(3));
-        let tangential = -outward[1] * (1.0 - 0.75 * inverse - 0.25 * inverse.powi(3));
-        outward * radial + along * tangential
+        let radial = outward * outward.dot(&self.stream);
+        self.stream
+            - (self.stream + radial) * (0.75 / distance)
+            - (self.stream - radial * 3.0) * (0.25 / distance.powi(3))
     }
 
-    fn pressure(&self, place: &Point<2>, _time: f64) -> f64 {
-        -1.5 * place[0] / place.norm().powi(3)
+    fn pressure(&self, place: &Point<D>, _time: f64) -> f64 {
+        -1.5 * place.dot(&self.stream) / place.norm().powi(3)
     }
 }

@@ -45,7 +45,7 @@ impl SwirlingCells {
     }
 }
 
-impl Exact for SwirlingCells {
+impl Exact<2> for SwirlingCells {
     fn velocity(&self, place: &Point<2>, _time: f64) -> Point<2> {
         let (x, r) = (place[0], place[1]);
         let (sin, cos) = (PI * x).sin_cos();

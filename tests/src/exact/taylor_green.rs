@@ -22,7 +22,7 @@ impl TaylorGreen {
     }
 }
 
-impl Exact for TaylorGreen {
+impl Exact<2> for TaylorGreen {
     fn velocity(&self, place: &Point<2>, time: f64) -> Point<2> {
         let ((sin_x, cos_x), (sin_y, cos_y)) =
             ((PI * place[0]).sin_cos(), (PI * place[1]).sin_cos());
