@@ -32,7 +32,7 @@ pub enum MeshError {
         /// The name asked for.
         name: String,
         /// The names of the domain.
-        sides: Vec<&'static str>,
+        sides: Vec<String>,
     },
     /// Two boundaries would carry the same name.
     #[error(
@@ -180,7 +180,7 @@ pub enum MeshError {
         /// Name of the body.
         body: String,
         /// Name of the side.
-        side: &'static str,
+        side: Box<str>,
         /// Smallest signed gap (m).
         gap: f64,
         /// Where (m).
@@ -210,7 +210,7 @@ pub enum MeshError {
         /// Name of the body.
         body: String,
         /// Name of the side.
-        side: &'static str,
+        side: Box<str>,
         /// Smallest signed gap (m).
         gap: f64,
         /// Where (m).

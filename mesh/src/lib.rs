@@ -12,10 +12,12 @@ mod error;
 mod index;
 mod locate;
 mod mesh;
+mod msh;
 mod number;
 mod planar;
 mod quadrature;
 mod quality;
+mod side_shape;
 mod simplex;
 mod sizing;
 pub mod spatial;
@@ -32,6 +34,7 @@ pub use error::MeshError;
 pub use index::{BoundaryId, CellId, FacetId, NodeId};
 pub use locate::{Located, Locator};
 pub use mesh::{Boundary, BoundaryKind, Edge, Facet, Mesh, PeriodicPair, Point};
+pub use msh::{Encoding, MshError, Place, read_msh, read_planar_msh, read_spatial_msh, write_msh};
 pub use number::whole;
 pub use planar::{
     Closest, Cut, Domain, FishForm, FlagellateForm, GapQuery, Moments, Nearest, Outline,
@@ -40,6 +43,7 @@ pub use planar::{
     estimate_cells, generate, generate_along, on_meridian, overlap, thickness, wall_features,
 };
 pub use quality::{CellQuality, Quality, WorstCell};
+pub use side_shape::{Circle, SideShape};
 pub use simplex::{NodeArray, Simplex};
 pub use sizing::{SizeBox, Sizing};
 pub use surface::{Facing, FacingSurfaces, NearSurface, Surface, SurfacePoint};

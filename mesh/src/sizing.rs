@@ -62,11 +62,11 @@ impl<const D: usize> Sizing<D> {
     ///
     /// # Errors
     /// [`MeshError::Sizing`] or [`MeshError::UnknownSide`].
-    pub fn check(&self, sides: &[&'static str]) -> Result<(), MeshError> {
+    pub fn check(&self, sides: &[&str]) -> Result<(), MeshError> {
         let refuse = |what: String, value, wanted| Err(MeshError::Sizing { what, value, wanted });
         for (name, _) in &self.sides {
             if !sides.contains(&name.as_str()) {
-                let sides = sides.to_vec();
+                let sides = sides.iter().map(|side| (*side).to_owned()).collect();
                 return Err(MeshError::UnknownSide { name: name.clone(), sides });
             }
         }

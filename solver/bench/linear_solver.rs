@@ -65,7 +65,8 @@ fn multifrontal(criterion: &mut Criterion<CpuTime>, size: usize, system: &Linear
 fn by_faer(criterion: &mut Criterion<CpuTime>, size: usize, system: &LinearSystem) {
     let LinearSystem { matrix, rhs, .. } = system;
     let (n, pattern) = (matrix.n(), matrix.pattern());
-    let shape = SymbolicSparseColMatRef::new_checked(n, n, &pattern.columns, None, &pattern.rows);
+    let rows = pattern.rows();
+    let shape = SymbolicSparseColMatRef::new_checked(n, n, pattern.starts(), None, &rows);
     let symbolic = factorize_symbolic_lu(shape, LuSymbolicParams::default())
         .expect("the analysis fits into memory");
     time(criterion, "faer-analyse", size, || {

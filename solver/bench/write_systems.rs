@@ -88,7 +88,8 @@ fn multifrontal(system: &LinearSystem) -> Figures {
 fn by_faer(system: &LinearSystem) -> Figures {
     let LinearSystem { matrix, rhs, .. } = system;
     let (n, pattern) = (matrix.n(), matrix.pattern());
-    let shape = SymbolicSparseColMatRef::new_checked(n, n, &pattern.columns, None, &pattern.rows);
+    let rows = pattern.rows();
+    let shape = SymbolicSparseColMatRef::new_checked(n, n, pattern.starts(), None, &rows);
     let matrix = SparseColMatRef::new(shape, matrix.values());
     let analyse =
         || factorize_symbolic_lu(shape, LuSymbolicParams::default()).expect("it fits into memory");
@@ -169,7 +170,7 @@ fn write_system(folder: &Path, system: &LinearSystem) -> std::io::Result<()> {
         values.iter().flat_map(|value| value.to_le_bytes()).collect()
     };
     let pattern = system.matrix.pattern();
-    for (name, values) in [("columns", &pattern.columns), ("rows", &pattern.rows)] {
+    for (name, values) in [("columns", pattern.starts()), ("rows", &pattern.rows())] {
         write_array(&folder.join(format!("{name}.npy")), "<u8", values.len(), &whole(values))?;
     }
     for (name, values) in [("values", system.matrix.values()), ("rhs", &system.rhs)] {

@@ -1,4 +1,4 @@
-//! Embeds `cases/*/case.toml` in the program.
+//! Embeds `cases/*/case.toml` and the meshes beside them in the program.
 
 use std::error::Error;
 use std::fmt::Write as _;
@@ -18,12 +18,23 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
     folders.sort();
 
+    let mut files =
+        String::from("/// Files of shipped cases.\nstatic FILES: &[ShippedFile] = &[\n");
     let mut table = String::from("/// Shipped cases, by name.\nstatic SHIPPED: &[Shipped] = &[\n");
     for folder in folders {
         let file = folder.join("case.toml");
         let Some(name) = folder.file_name().and_then(|name| name.to_str()) else { continue };
         if !file.is_file() {
             continue;
+        }
+        for mesh in meshes(&folder)? {
+            let Some(file) = mesh.file_name().and_then(|file| file.to_str()) else { continue };
+            let path = format!("cases/{name}/{file}");
+            let bytes = mesh.canonicalize()?;
+            writeln!(
+                files,
+                "    ShippedFile {{ path: {path:?}, bytes: include_bytes!({bytes:?}) }},"
+            )?;
         }
         let path = format!("cases/{name}/case.toml");
         let text = file.canonicalize()?;
@@ -33,6 +44,21 @@ fn main() -> Result<(), Box<dyn Error>> {
         )?;
     }
     table.push_str("];\n");
+    table.push_str(&files);
+    table.push_str("];\n");
     fs::write(Path::new(&env::var("OUT_DIR")?).join("shipped_cases.rs"), table)?;
     Ok(())
+}
+
+/// Files of Gmsh in a folder.
+fn meshes(folder: &Path) -> Result<Vec<PathBuf>, Box<dyn Error>> {
+    let mut meshes = Vec::new();
+    for entry in fs::read_dir(folder)? {
+        let path = entry?.path();
+        if path.extension().is_some_and(|extension| extension == "msh") {
+            meshes.push(path);
+        }
+    }
+    meshes.sort();
+    Ok(meshes)
 }

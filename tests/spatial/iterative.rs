@@ -2,14 +2,15 @@
 
 use alewife_core::algebra::IterativeSettings;
 use alewife_core::body::{Inertia, Pose, Wrench};
+use alewife_core::case::Steady;
 use alewife_core::coupling::{
     FluidSystem, Problem, RigidBody, Side, Solution, SolveError, SolverChoice,
 };
-use alewife_core::simulation::Timing;
+use alewife_core::simulation::{SteadyFlow, Timing};
 use alewife_core::space::Metric;
 use alewife_mesh::{BoundaryId, BoundaryKind, Mesh, Point};
 use nalgebra::{Matrix3, UnitQuaternion, Vector3};
-use tests::{BoxOfTetrahedra, fluid_only, one_system_from_rest};
+use tests::{BoxOfTetrahedra, fluid_only, one_system_from_rest, steady_with, workspace};
 
 /// Viscosity and density far from one: sizes of forces and pressures are not those of velocities.
 const VISCOSITY: f64 = 2e-3;
@@ -145,6 +146,36 @@ fn finer_meshes_take_no_more_iterations() {
             [6, 9, 12].map(|cubes| Setting::stokes(cubes, has_body).iterations());
         let most = 1.3 * coarse as f64;
         assert!(middle as f64 <= most && fine as f64 <= most, "{coarse} {middle} {fine}");
+    }
+}
+
+/// The steady flow through an open box around a body at a Reynolds number.
+fn steady_flow(reynolds: f64, choice: SolverChoice) -> SteadyFlow<3> {
+    let box_of = BoxOfTetrahedra { cubes: 6, has_body: true };
+    let mesh = box_of.mesh();
+    let setting = Setting { box_of, is_open: true, rate: 0.0 };
+    let density = reynolds * VISCOSITY / 2.0;
+    let problem = Problem { density, has_convection: true, ..setting.problem(&mesh) };
+    let mut work = workspace(&problem, &mesh);
+    work.system.choose_solver(choice);
+    let settings = Steady { tolerance: 1e-9, max_iterations: 12 };
+    steady_with(&mut work, &problem, &settings, true)
+}
+
+#[test]
+fn steady_flow_with_convection_is_found_by_iterations() {
+    for (reynolds, max_iterations) in [(1.0, 30), (20.0, 40), (100.0, 60)] {
+        let direct = steady_flow(reynolds, SolverChoice::Direct);
+        // More iterations than that would be an error
+        let settings = IterativeSettings {
+            max_iterations,
+            max_factor_entries: 0,
+            ..IterativeSettings::default()
+        };
+        let flow = steady_flow(reynolds, SolverChoice::Iterative(settings));
+        let differences = difference(&direct.solution, &flow.solution);
+        println!("Reynolds number {reynolds}: {differences:?}");
+        assert!(differences.iter().all(|difference| *difference < 1e-6), "{differences:?}");
     }
 }
 

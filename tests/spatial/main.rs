@@ -1,5 +1,6 @@
 //! Fluid and a free body in three dimensions, on meshes of a few tetrahedra.
 
+mod imported;
 mod iterative;
 mod reciprocity;
 mod scene;

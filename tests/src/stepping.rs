@@ -97,7 +97,7 @@ pub fn one_system_from_rest<const D: usize>(
     let start = system.at_rest(&constraints);
     let raw = timing.measure(Stage::Assembly, || system.fluid_residual(&at, &terms, &start));
     let reduced = system.reduced_residual(&at, &start, &raw);
-    system.newton_step(&at, &terms, &start, &reduced, timing)
+    system.newton_step(&at, &terms, &start, &reduced, None, timing)
 }
 
 /// A problem without contact that is stepped in time.

@@ -62,6 +62,10 @@ struct Count<'a> {
 
 impl Count<'_> {
     fn total(&self, domain: &Domain) -> f64 {
+        let imported = self.sizes.geometry().imported.as_ref();
+        if let Some(imported) = imported.filter(|_| self.sizes.geometry().groups.len() == 1) {
+            return imported.mesh().n_cells() as f64;
+        }
         let [min, max] = domain.corners();
         let half = 0.5 * (max - min).max();
         let mut total = 0.0;
@@ -79,7 +83,11 @@ impl Count<'_> {
     fn cells_of(&self, cube: &Cube, stack: &mut Vec<Cube>) -> f64 {
         let Cube { center, half, depth } = *cube;
         let reach = 3.0_f64.sqrt() * half;
-        let inside = self.sizes.geometry().clearance(center, reach);
+        let geometry = self.sizes.geometry();
+        let mut inside = geometry.clearance(center, reach);
+        if geometry.imported.as_ref().is_some_and(|imported| !imported.contains(center)) {
+            inside = -inside.abs();
+        }
         if inside < -reach {
             return 0.0;
         }

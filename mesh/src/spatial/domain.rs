@@ -1,5 +1,6 @@
 //! `Domain`: the region in space that fluid and bodies share, with its named sides.
 
+use super::imported::Imported;
 use crate::Point;
 
 /// The region of a problem in space before bodies are cut out of it.
@@ -30,6 +31,8 @@ pub enum Domain {
         /// Radius (m).
         radius: f64,
     },
+    /// Region of a given mesh; sides as its boundaries are named.
+    Imported(Imported),
 }
 
 impl Domain {
@@ -41,11 +44,14 @@ impl Domain {
 
     /// Names of the sides, in the order in which they are numbered in a mesh.
     #[must_use]
-    pub fn sides(&self) -> &'static [&'static str] {
+    pub fn sides(&self) -> Vec<&str> {
         match self {
-            Self::Box { .. } => &["left", "right", "bottom", "top", "back", "front"],
-            Self::Cylinder { .. } => &["left", "right", "wall"],
-            Self::Ball { .. } => &["wall"],
+            Self::Box { .. } => vec!["left", "right", "bottom", "top", "back", "front"],
+            Self::Cylinder { .. } => vec!["left", "right", "wall"],
+            Self::Ball { .. } => vec!["wall"],
+            Self::Imported(imported) => {
+                imported.mesh().boundaries.iter().map(|side| side.name.as_str()).collect()
+            }
         }
     }
 
@@ -60,6 +66,7 @@ impl Domain {
             Self::Ball { center, radius } => {
                 [center - Point::<3>::repeat(radius), center + Point::<3>::repeat(radius)]
             }
+            Self::Imported(ref imported) => imported.corners(),
         }
     }
 
@@ -79,6 +86,10 @@ impl Domain {
                 [point.x - x[0], x[1] - point.x, radius - point.y.hypot(point.z)][side]
             }
             Self::Ball { center, radius } => radius - (point - center).norm(),
+            Self::Imported(imported) => {
+                let gap = imported.side(side).foot(point).gap;
+                if imported.contains(point) { gap } else { -gap }
+            }
         }
     }
 
@@ -89,6 +100,7 @@ impl Domain {
             Self::Box { min, max, .. } => (max - min)[side / 2],
             Self::Cylinder { x, radius } => [x[1] - x[0], x[1] - x[0], 2.0 * radius][side],
             Self::Ball { radius, .. } => 2.0 * radius,
+            Self::Imported(_) => f64::INFINITY,
         }
     }
 
@@ -100,7 +112,7 @@ impl Domain {
 
     /// The other side of the periodic pair of a side.
     #[must_use]
-    pub fn twin(&self, side: usize) -> Option<&'static str> {
+    pub fn twin(&self, side: usize) -> Option<&str> {
         self.is_periodic(side).then(|| self.sides()[side ^ 1])
     }
 
@@ -109,7 +121,7 @@ impl Domain {
     pub fn periods(&self) -> Point<3> {
         let [min, max] = self.corners();
         Point::<3>::from_fn(|axis, _| {
-            let is_periodic = self.sides().len() == 6 && self.is_periodic(2 * axis);
+            let is_periodic = self.is_periodic(2 * axis);
             if is_periodic { max[axis] - min[axis] } else { 0.0 }
         })
     }

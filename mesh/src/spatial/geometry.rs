@@ -5,6 +5,7 @@ use std::sync::Arc;
 use nalgebra::{Isometry3, Matrix3, Translation3};
 
 use super::domain::Domain;
+use super::imported::Imported;
 use super::shape::{Body, Part, Shape};
 use super::surface::{Ellipsoid, Form, Revolved, SmoothSurface, Tube};
 use crate::{Boundary, BoundaryId, BoundaryKind, MeshError, Point, Sizing};
@@ -40,6 +41,8 @@ pub struct Geometry {
     pub corners: [Point<3>; 2],
     /// Lengths of the box along which it is periodic (m), zero along others.
     pub periods: Point<3>,
+    /// The mesh that is to be cut by the bodies, where one is given.
+    pub imported: Option<Imported>,
 }
 
 impl Geometry {
@@ -84,7 +87,11 @@ impl Geometry {
             groups.push(around(&surfaces, first));
         }
         let corners = domain.corners();
-        Ok(Self { surfaces, groups, boundaries, corners, periods: domain.periods() })
+        let imported = match domain {
+            Domain::Imported(imported) => Some(imported.clone()),
+            Domain::Box { .. } | Domain::Cylinder { .. } | Domain::Ball { .. } => None,
+        };
+        Ok(Self { surfaces, groups, boundaries, corners, periods: domain.periods(), imported })
     }
 
     /// Whether a body has several parts, whose surfaces may meet.
@@ -164,6 +171,7 @@ pub fn sides(domain: &Domain) -> Vec<SmoothSurface> {
             let pose = Isometry3::from_parts(Translation3::from(*center), nalgebra::one());
             vec![SmoothSurface::new(Form::Sphere(*radius), &pose, true)]
         }
+        Domain::Imported(imported) => imported.surfaces(),
     }
 }
 

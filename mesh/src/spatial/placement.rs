@@ -3,6 +3,7 @@
 use super::centreline::Centreline;
 use super::domain::Domain;
 use super::geometry::{sides, surfaces_of};
+use super::imported::Imported;
 use super::shape::{Body, Shape};
 use super::surface::{SmoothSurface, directions};
 use crate::{MeshError, Point, SMALLEST_GAP};
@@ -25,10 +26,13 @@ const MOST_STEPS: usize = 200;
 /// The first of the reasons found, with the names of the bodies and the gap.
 pub fn check_placement(domain: &Domain, bodies: &[Body]) -> Result<(), MeshError> {
     check_domain(domain)?;
-    let walls = sides(domain);
+    let (walls, names) = (sides(domain), domain.sides());
     for (i, body) in bodies.iter().enumerate() {
         check_body(domain, body, &bodies[..i])?;
         for surface in surfaces_of(body)? {
+            if let Domain::Imported(imported) = domain {
+                check_inside(imported, body, &surface)?;
+            }
             for (side, wall) in walls.iter().enumerate() {
                 if surface.goes_through(wall) && !domain.is_periodic(side) {
                     continue;
@@ -37,7 +41,7 @@ pub fn check_placement(domain: &Domain, bodies: &[Body]) -> Result<(), MeshError
                 if gap.is_refused(&surface) && domain.is_periodic(side) {
                     return Err(MeshError::BodyMeetsPeriodicSide {
                         body: body.name.clone(),
-                        side: domain.sides()[side],
+                        side: names[side].into(),
                         gap: gap.value,
                         at: gap.at.into(),
                     });
@@ -46,7 +50,7 @@ pub fn check_placement(domain: &Domain, bodies: &[Body]) -> Result<(), MeshError
                 if gap.is_refused(&surface) && !domain.is_symmetric(side) {
                     return Err(MeshError::BodyMeetsSide {
                         body: body.name.clone(),
-                        side: domain.sides()[side],
+                        side: names[side].into(),
                         gap: gap.value,
                         at: gap.at.into(),
                     });
@@ -57,6 +61,38 @@ pub fn check_placement(domain: &Domain, bodies: &[Body]) -> Result<(), MeshError
                     check_apart(body, &surface, other, &facing)?;
                 }
             }
+        }
+    }
+    Ok(())
+}
+
+/// Whether a part of a body is inside a given mesh: places all around it are, and none of the sides is
+/// in it.
+fn check_inside(
+    imported: &Imported,
+    body: &Body,
+    surface: &SmoothSurface,
+) -> Result<(), MeshError> {
+    let refuse = |side: usize, gap: f64, at: Point<3>| {
+        let side = imported.mesh().boundaries[side].name.as_str().into();
+        Err(MeshError::BodyMeetsSide { body: body.name.clone(), side, gap, at: at.into() })
+    };
+    let n_sides = imported.mesh().boundaries.len();
+    for direction in directions(STARTS) {
+        let at = surface.foot(surface.origin() + direction * (2.0 * surface.reach())).point;
+        if !imported.contains(at) {
+            let gaps = (0..n_sides).map(|side| imported.side(side).foot(at).gap).enumerate();
+            let nearest = gaps.min_by(|one, other| one.1.total_cmp(&other.1));
+            let (side, gap) = nearest.unwrap_or_default();
+            return refuse(side, -gap, at);
+        }
+    }
+    for side in 0..n_sides {
+        let gaps = imported.side(side).points().map(|point| (surface.gap(point), point));
+        if let Some((gap, at)) = gaps.min_by(|one, other| one.0.total_cmp(&other.0))
+            && gap <= 0.0
+        {
+            return refuse(side, gap, at);
         }
     }
     Ok(())
@@ -112,6 +148,7 @@ fn check_domain(domain: &Domain) -> Result<(), MeshError> {
         Domain::Box { .. } => ["max x - min x", "max y - min y", "max z - min z"],
         Domain::Cylinder { .. } => ["length", "radius", "radius"],
         Domain::Ball { .. } => ["radius"; 3],
+        Domain::Imported(_) => ["width"; 3],
     };
     for (axis, what) in what.into_iter().enumerate() {
         let value = max[axis] - min[axis];
@@ -274,7 +311,7 @@ mod tests {
         assert!(check(&[sphere("a", [0.0, -1.0, 0.0]), sphere("b", [0.0, 1.001, 0.0])]).is_ok());
         match check(&[sphere("a", [0.0, 0.0, 2.1])]) {
             Err(MeshError::BodyMeetsSide { side, gap, at, .. }) => {
-                assert_eq!(side, "front");
+                assert_eq!(&*side, "front");
                 assert!(gap < 0.0 && at[2] > 2.9, "{gap} {at:?}");
             }
             other => panic!("{other:?}"),

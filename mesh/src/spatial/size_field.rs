@@ -38,7 +38,7 @@ impl SizeField {
     /// # Errors
     /// What [`check_placement`](super::check_placement) and [`Sizing::check`] refuse.
     pub fn new(domain: &Domain, bodies: &[Body], sizing: &Sizing<3>) -> Result<Self, MeshError> {
-        sizing.check(domain.sides())?;
+        sizing.check(&domain.sides())?;
         check_placement(domain, bodies)?;
         Ok(Self::of(Geometry::new(domain, bodies, sizing)?, sizing))
     }

@@ -58,7 +58,8 @@ fn cylinders_are_along_axes_of_a_box_and_apart() {
     let crossed = check(&[upright(0.3), across]);
     let is_right = |gap: f64| (gap + 0.03).abs() < 1e-9;
     assert!(matches!(crossed, Err(MeshError::BodiesMeet { gap, .. }) if is_right(gap)));
-    assert!(matches!(check(&[upright(0.04)]), Err(MeshError::BodyMeetsSide { side: "left", .. })));
+    let found = check(&[upright(0.04)]);
+    assert!(matches!(&found, Err(MeshError::BodyMeetsSide { side, .. }) if &**side == "left"));
     let oblique = cylinder("c", 0.05, at(0.3, 0.2, 0.2), Vector3::new(0.0, 0.1, 1.0));
     assert!(matches!(check(&[oblique]), Err(MeshError::Body { .. })));
     let ball = Domain::Ball { center: Point::<3>::zeros(), radius: 1.0 };

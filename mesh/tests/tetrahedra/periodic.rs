@@ -112,7 +112,7 @@ fn bodies_stay_inside_of_periodic_sides() {
     let crossing = [sphere("s", 0.3, at(0.0, 0.0, 0.3))];
     match check_placement(&unit_box([false, false, true]), &crossing) {
         Err(MeshError::BodyMeetsPeriodicSide { body, side, gap, .. }) => {
-            assert_eq!((body.as_str(), side), ("s", "front"));
+            assert_eq!((body.as_str(), &*side), ("s", "front"));
             assert!(gap < 0.0);
         }
         other => panic!("{other:?}"),

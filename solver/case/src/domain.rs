@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::mesh_file::MeshFile;
+
 /// Dimension and symmetry of the problem.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
@@ -88,6 +90,8 @@ pub enum DomainSpec {
         /// Radius (m).
         radius: f64,
     },
+    /// The region of a mesh made by Gmsh, with its physical names as sides (planar, spatial).
+    Mesh(MeshFile),
 }
 
 /// A named function of time (1), used as a factor.
@@ -151,9 +155,10 @@ pub enum BoundaryCondition {
         factor: Option<TimeFunction>,
     },
     /// Parabolic velocity along x, zero at both ends of the side (on a cylinder: largest on the axis;
-    /// on a box in space: a parabola along y times one along z).
+    /// on a box in space: a parabola along y times one along z). On a straight or a round flat side of
+    /// `domain.mesh`: normal to the side, into the domain.
     Parabolic {
-        /// Largest velocity (m/s), negative towards -x.
+        /// Largest velocity (m/s), negative towards -x, or out of a `domain.mesh`.
         peak: f64,
         /// Factor in time.
         #[serde(default, skip_serializing_if = "Option::is_none")]

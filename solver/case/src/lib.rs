@@ -13,6 +13,7 @@ mod diagnostic;
 mod discs;
 mod domain;
 mod encounters;
+mod extent;
 mod fluid;
 mod gait;
 mod geometry;
@@ -21,6 +22,7 @@ pub mod library;
 mod link;
 mod mean_flow;
 mod mesh;
+mod mesh_file;
 mod model;
 mod names;
 mod nearest;
@@ -30,6 +32,7 @@ mod parts;
 mod problem_keys;
 mod quantity;
 mod read;
+mod read_mesh;
 mod reference;
 mod region;
 mod schema;
@@ -57,6 +60,7 @@ pub use contact::ContactSpec;
 pub use diagnostic::{CaseError, Diagnostic, Severity, printable};
 pub use domain::{BoundaryCondition, DomainSpec, Geometry, TimeFunction};
 pub use encounters::Encounter;
+pub use extent::Extent;
 pub use fluid::{FlowModel, Fluid};
 pub use gait::{
     AnguilliformGait, BentJoint, CarangiformGait, FishShape, FlagellateShape, FlagellumGait,
@@ -66,6 +70,7 @@ pub use joint::{Hinge, Joint, JointKind};
 pub use link::{Link, ShapedLink};
 pub use mean_flow::MeanFlowSpec;
 pub use mesh::{MeshEquation, MeshSettings, MovingMesh, RefinementBox};
+pub use mesh_file::MeshFile;
 pub use model::{Model, SwimmerModel};
 pub use nearest::nearest;
 pub use numbers::{DerivedNumber, derived_numbers, geometry_name, number_table, significant};
@@ -78,7 +83,7 @@ pub use read::CaseFile;
 pub use reference::{
     ForceComponent, Numbers, Reference, ReferenceKind, Scales, Statistic, Statistics, Variant,
 };
-pub use region::{Extent, normal_axis, opposite};
+pub use region::{normal_axis, opposite};
 pub use schema::schema;
 pub use source::Location;
 pub use stroke::{Stroke, smooth_ramp};

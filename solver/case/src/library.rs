@@ -11,13 +11,28 @@ pub struct Shipped {
     pub text: &'static str,
 }
 
-// `SHIPPED: &[Shipped]`, by name; written by build.rs.
+/// A file that a shipped case names.
+struct ShippedFile {
+    /// Its path in the repository.
+    path: &'static str,
+    bytes: &'static [u8],
+}
+
+// `SHIPPED: &[Shipped]`, by name, and `FILES: &[ShippedFile]`; written by build.rs.
 include!(concat!(env!("OUT_DIR"), "/shipped_cases.rs"));
 
 /// All shipped cases, by name.
 #[must_use]
 pub fn list() -> &'static [Shipped] {
     SHIPPED
+}
+
+/// The content of a file that is shipped beside the file of a case.
+#[must_use]
+pub fn file_beside(case_file: &str, name: &str) -> Option<&'static [u8]> {
+    let folder = case_file.strip_suffix("case.toml")?;
+    let is_it = |file: &&ShippedFile| file.path.strip_prefix(folder) == Some(name);
+    FILES.iter().find(is_it).map(|file| file.bytes)
 }
 
 /// The shipped case of that name.

@@ -24,6 +24,8 @@ impl Case {
                 collect(table.to_owned(), value, &mut keys);
             }
         }
+        // A file is known by its checksum, wherever it is
+        keys.remove("domain.mesh.file");
         Ok(keys)
     }
 }

@@ -19,7 +19,7 @@ use super::source::{Location, Origin, Source};
 use super::tree::{self, Found, TomlNode, TomlValue, TreeError};
 use super::type_error::{Mismatch, TypeError};
 use super::variants::{apply_variant, check_names, variant_names};
-use super::{BoundaryCondition, Case, Model, ShapeSpec, library, stroke_file};
+use super::{BoundaryCondition, Case, Model, ShapeSpec, library, read_mesh, stroke_file};
 
 /// Keys of a file that those who extend it do not inherit.
 const OWN_KEYS: [&str; 3] = ["reference", "variant", "quick"];
@@ -153,6 +153,7 @@ fn assemble(
     }
     stroke_file::resolve(&mut root).map_err(wrong)?;
     let mut case = typed(&root)?;
+    read_mesh::read_into(&mut case, &root).map_err(wrong)?;
     complete_periodic(&mut case);
     complete_cylinders(&mut case);
     let model = Model::new(case).map_err(|error| located(&root, error))?;

@@ -2,6 +2,8 @@
 
 use alewife_mesh::Domain;
 
+use super::extent::Extent;
+use super::mesh_file::MeshFile;
 use super::{BoundaryCondition, Case, DomainSpec, Geometry};
 
 impl DomainSpec {
@@ -14,43 +16,8 @@ impl DomainSpec {
             Self::HalfDisc { .. } => &[Geometry::Axisymmetric],
             Self::Cylinder { .. } => &[Geometry::Axisymmetric, Geometry::Spatial],
             Self::Sphere { .. } => &[Geometry::Spatial],
+            Self::Mesh(_) => &[Geometry::Planar, Geometry::Spatial],
         }
-    }
-}
-
-/// The smallest box around a region, flat in planar and axisymmetric cases.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Extent {
-    /// Least coordinates (m).
-    pub min: [f64; 3],
-    /// Largest coordinates (m).
-    pub max: [f64; 3],
-}
-
-impl Extent {
-    fn around([x, y, z]: [f64; 3], [a, b, c]: [f64; 3]) -> Self {
-        Self { min: [x - a, y - b, z - c], max: [x + a, y + b, z + c] }
-    }
-
-    /// That of two corners with any number of coordinates; those that are not given are zero.
-    #[must_use]
-    pub fn between(min: &[f64], max: &[f64]) -> Self {
-        let corner = |given: &[f64]| {
-            std::array::from_fn(|axis| given.get(axis).copied().unwrap_or_default())
-        };
-        Self { min: corner(min), max: corner(max) }
-    }
-
-    /// Lengths along the axes (m).
-    #[must_use]
-    pub fn lengths(&self) -> [f64; 3] {
-        std::array::from_fn(|axis| self.max[axis] - self.min[axis])
-    }
-
-    /// Lower left and upper right corner in the plane (m).
-    #[must_use]
-    pub fn in_plane(&self) -> [[f64; 2]; 2] {
-        [self.min, self.max].map(|[x, y, _]| [x, y])
     }
 }
 
@@ -80,12 +47,31 @@ pub fn opposite(side: &str) -> Option<&'static str> {
 }
 
 impl Case {
+    /// The mesh the domain is given by; `None` of other domains.
+    #[must_use]
+    pub fn given_mesh(&self) -> Option<&MeshFile> {
+        match &self.domain {
+            DomainSpec::Mesh(file) => Some(file),
+            _ => None,
+        }
+    }
+
+    /// The same case with the file of its mesh, where one is given, under another name.
+    #[must_use]
+    pub fn naming_mesh(&self, file: &str) -> Self {
+        let mut case = self.clone();
+        if let DomainSpec::Mesh(mesh) = &mut case.domain {
+            file.clone_into(&mut mesh.file);
+        }
+        case
+    }
+
     /// Along which coordinates the domain is periodic.
     #[must_use]
     pub fn periodic_axes(&self) -> [bool; 3] {
         let is_periodic =
             |side: &str| matches!(self.boundary.get(side), Some(BoundaryCondition::Periodic(_)));
-        ["left", "bottom", "back"].map(is_periodic)
+        ["left", "bottom", "back"].map(|side| self.given_mesh().is_none() && is_periodic(side))
     }
 
     /// The walls of a channel, with its images behind axis and planes of symmetry (m), along each
@@ -116,18 +102,19 @@ impl Case {
 
     /// Names of the sides of the domain.
     #[must_use]
-    pub fn sides(&self) -> &'static [&'static str] {
+    pub fn sides(&self) -> Vec<&str> {
         match (&self.domain, self.geometry) {
             (DomainSpec::Box { .. }, Geometry::Spatial) => {
-                &["left", "right", "bottom", "top", "back", "front"]
+                vec!["left", "right", "bottom", "top", "back", "front"]
             }
             (DomainSpec::Box { .. } | DomainSpec::Channel { .. }, _) => {
-                &["left", "right", "bottom", "top"]
+                vec!["left", "right", "bottom", "top"]
             }
-            (DomainSpec::Disc { .. } | DomainSpec::Sphere { .. }, _) => &["wall"],
-            (DomainSpec::HalfDisc { .. }, _) => &["wall", "axis"],
-            (DomainSpec::Cylinder { .. }, Geometry::Spatial) => &["left", "right", "wall"],
-            (DomainSpec::Cylinder { .. }, _) => &["left", "right", "wall", "axis"],
+            (DomainSpec::Disc { .. } | DomainSpec::Sphere { .. }, _) => vec!["wall"],
+            (DomainSpec::HalfDisc { .. }, _) => vec!["wall", "axis"],
+            (DomainSpec::Cylinder { .. }, Geometry::Spatial) => vec!["left", "right", "wall"],
+            (DomainSpec::Cylinder { .. }, _) => vec!["left", "right", "wall", "axis"],
+            (DomainSpec::Mesh(file), _) => file.side_names(),
         }
     }
 
@@ -148,6 +135,7 @@ impl Case {
             }
             DomainSpec::Cylinder { x, radius } => Extent::between(&x[..1], &[x[1], *radius]),
             DomainSpec::Sphere { center, radius } => Extent::around(*center, [*radius; 3]),
+            DomainSpec::Mesh(file) => file.extent(),
         }
     }
 
@@ -163,7 +151,8 @@ impl Case {
         self.scales.is_some() && self.fluid.density > 0.0
     }
 
-    /// The planar domain to be meshed, with its periodic pairs; of a domain in space its section.
+    /// The planar domain to be meshed, with its periodic pairs; of a domain in space its section, of a
+    /// given mesh, which no bodies are in, the box around it.
     #[must_use]
     pub fn mesh_domain(&self) -> Domain {
         let is_periodic =
@@ -173,6 +162,10 @@ impl Case {
             is_periodic("bottom") || is_periodic("top"),
         );
         match self.domain {
+            DomainSpec::Mesh(_) => {
+                let [min, max] = self.extent().in_plane().map(Into::into);
+                Domain::Box { min, max, periodic_x: false, periodic_y: false }
+            }
             DomainSpec::Box { .. } | DomainSpec::Channel { .. } => {
                 let [min, max] = self.extent().in_plane();
                 Domain::Box { min: min.into(), max: max.into(), periodic_x, periodic_y }

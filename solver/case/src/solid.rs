@@ -54,6 +54,7 @@ impl Case {
             DomainSpec::Sphere { center, radius } => {
                 Some(Domain::Ball { center: (*center).into(), radius: *radius })
             }
+            DomainSpec::Mesh(file) => file.spatial().cloned().map(Domain::Imported),
             DomainSpec::Channel { .. } | DomainSpec::Disc { .. } | DomainSpec::HalfDisc { .. } => {
                 None
             }

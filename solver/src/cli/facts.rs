@@ -26,8 +26,8 @@ pub fn facts(file: &CaseFile) -> String {
     line("geometry", units);
     line("fluid", fluid(case));
     line("domain", domain(case));
-    let sides = case.sides().iter().filter(|side| **side != "axis").map(|side| {
-        let condition = case.boundary.get(*side).map_or("nothing", condition_name);
+    let sides = case.sides().into_iter().filter(|side| *side != "axis").map(|side| {
+        let condition = case.boundary.get(side).map_or("nothing", condition_name);
         format!("{side} {condition}")
     });
     line("boundary", sides.collect::<Vec<_>>().join(", "));
@@ -93,6 +93,15 @@ fn domain(case: &Case) -> String {
         DomainSpec::Channel { length, height } => {
             format!("channel {} long, {} high", significant(*length), significant(*height))
         }
+        DomainSpec::Mesh(file) => format!(
+            "mesh of {} cells in {}, {}",
+            file.n_cells(),
+            printable(&file.file),
+            match case.geometry.dimensions() {
+                2 => format!("of area {}", significant(file.measure())),
+                _ => format!("of volume {}", significant(file.measure())),
+            }
+        ),
         DomainSpec::Disc { radius, .. } => format!("disc of radius {}", significant(*radius)),
         DomainSpec::HalfDisc { radius, .. } | DomainSpec::Sphere { radius, .. } => {
             format!("ball of radius {}", significant(*radius))

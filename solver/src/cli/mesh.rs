@@ -1,30 +1,54 @@
 //! `mesh`: the mesh of a case as a file, and how good it is.
 
-use std::fs::File;
-use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 
-use alewife_mesh::write_vtu;
+use alewife_mesh::{Encoding, write_msh, write_vtu};
 
 use super::engine;
 use super::exit::{Exit, Failure};
 use super::read::read_case;
 use super::style::say;
 use crate::case::Model;
+use crate::observer::write_atomic;
 use crate::simulation::{Dimension, Solve};
 
-/// Makes the mesh of a case, writes it as VTU, and reports its quality.
-pub fn mesh(argument: &str, settings: &[String], out: Option<PathBuf>) -> Result<Exit, Failure> {
+/// Where a mesh is written, and how.
+#[derive(Debug)]
+pub struct Target {
+    /// The file; `<case>.vtu` here if absent.
+    pub out: Option<PathBuf>,
+    /// Whether a file of Gmsh has its numbers as text.
+    pub as_text: bool,
+}
+
+/// Makes the mesh of a case, writes it as VTU, or as MSH where the name of the file ends so, and reports
+/// its quality.
+pub fn mesh(argument: &str, settings: &[String], target: Target) -> Result<Exit, Failure> {
     let file = read_case(argument, settings)?;
-    let path =
-        out.unwrap_or_else(|| PathBuf::from(format!("{}.vtu", file.full_name().replace('/', "-"))));
+    let path = target
+        .out
+        .unwrap_or_else(|| PathBuf::from(format!("{}.vtu", file.full_name().replace('/', "-"))));
+    let is_msh = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("msh"));
+    let encoding = match (is_msh, target.as_text) {
+        (false, false) => None,
+        (true, false) => Some(Encoding::Binary),
+        (true, true) => Some(Encoding::Text),
+        (false, true) => {
+            let reason = "--text is for files of Gmsh: let the name given to --out end in .msh";
+            return Err(Failure::new(Exit::Usage, reason));
+        }
+    };
     match file.case().geometry.dimensions() {
-        2 => write::<2>(&file.model, &path),
-        _ => write::<3>(&file.model, &path),
+        2 => write::<2>(&file.model, &path, encoding),
+        _ => write::<3>(&file.model, &path, encoding),
     }
 }
 
-fn write<const D: usize>(model: &Model, path: &Path) -> Result<Exit, Failure>
+fn write<const D: usize>(
+    model: &Model,
+    path: &Path,
+    encoding: Option<Encoding>,
+) -> Result<Exit, Failure>
 where
     Dimension<D>: Solve<D>,
 {
@@ -32,8 +56,16 @@ where
     let failed = |error: std::io::Error| {
         Failure::new(Exit::InputOutput, format!("cannot write {}: {error}", path.display()))
     };
-    let writer = BufWriter::new(File::create(path).map_err(failed)?);
-    write_vtu(writer, &mesh, None, &[], &[]).map_err(failed)?;
+    let mut bytes = Vec::new();
+    match encoding {
+        Some(encoding) => write_msh(&mut bytes, &mesh, encoding),
+        None => write_vtu(&mut bytes, &mesh, None, &[], &[]),
+    }
+    .map_err(failed)?;
+    // A pipe or a device is written to, not replaced
+    let is_special = std::fs::metadata(path).is_ok_and(|found| !found.is_file());
+    if is_special { std::fs::write(path, &bytes) } else { write_atomic(path, &bytes) }
+        .map_err(failed)?;
     say(Dimension::<D>::quality(&mesh).to_string().trim_end());
     say(&format!("written to {}", path.display()));
     Ok(Exit::Done)

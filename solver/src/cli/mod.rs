@@ -76,15 +76,19 @@ enum Command {
         #[arg(long)]
         no_mesh: bool,
     },
-    /// Make the mesh of a case, write it as VTU, and report its quality
+    /// Make the mesh of a case, write it as VTU or for Gmsh, and report its quality
     Mesh {
         /// Which case
         case: String,
         #[command(flatten)]
         settings: Settings,
-        /// Where to write it; `<case>.vtu` here if absent
+        /// Where to write it; `<case>.vtu` here if absent. A name that ends in .msh makes it a file of
+        /// Gmsh, MSH 4.1 in binary
         #[arg(long, short, value_name = "FILE")]
         out: Option<PathBuf>,
+        /// Write a file of Gmsh as text
+        #[arg(long)]
+        text: bool,
     },
     /// Run a case and compare it with its references
     Run(run::Options),
@@ -132,7 +136,9 @@ fn dispatch(command: Command) -> Result<Exit, Failure> {
         Command::Check { cases, settings, no_mesh } => {
             check::check(&cases, &settings.set, !no_mesh)
         }
-        Command::Mesh { case, settings, out } => mesh::mesh(&case, &settings.set, out),
+        Command::Mesh { case, settings, out, text } => {
+            mesh::mesh(&case, &settings.set, mesh::Target { out, as_text: text })
+        }
         Command::Run(options) => run::run(&options),
         Command::Validate(options) => validate::validate(&options),
         Command::Schema => {

@@ -195,9 +195,10 @@ fn kept(directory: &Path, case: &Case) -> Result<RunSummary, Failure> {
         Failure::new(exit, format!("--from: {}: {reason}", directory.display()))
     };
     let path = directory.join("case.toml");
-    let text = std::fs::read_to_string(&path)
-        .map_err(|error| refuse(Exit::NoInput, format!("its case.toml: {error}")))?;
-    let was = Case::parse(&path.display().to_string(), &text, &[])?.model.case;
+    if let Err(error) = std::fs::metadata(&path) {
+        return Err(refuse(Exit::NoInput, format!("its case.toml: {error}")));
+    }
+    let was = Case::read(&path.display().to_string(), &[])?.model.case;
     if computed(&was) != computed(case) {
         let reason = "the case has changed since, not only its references; run it again";
         return Err(refuse(Exit::BadCase, reason.to_owned()));

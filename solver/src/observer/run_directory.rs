@@ -9,7 +9,7 @@ use thiserror::Error;
 use super::atomic::{AtPath, UNFINISHED, write_atomic};
 use super::provenance::{self, Provenance};
 use super::status::{RunState, Status};
-use crate::case::Case;
+use crate::case::{Case, MeshFile};
 
 /// The file by which a run directory is known.
 const MARKER_FILE: &str = ".alewife-run";
@@ -18,8 +18,9 @@ const MARKER_FILE: &str = ".alewife-run";
 const MARKER: &str = "This directory holds a run of alewife; another run may replace its files.\n";
 
 /// Files of a run. Only these, and those of its folders, are ever removed.
-const FILES: [&str; 9] = [
+const FILES: [&str; 10] = [
     "case.toml",
+    MESH_FILE,
     "provenance.json",
     "status.json",
     "log.jsonl",
@@ -29,6 +30,9 @@ const FILES: [&str; 9] = [
     "comparison.json",
     STATE_FILE,
 ];
+
+/// The mesh of the domain, where one is given.
+const MESH_FILE: &str = "domain.msh";
 
 /// The state from which a run that was stopped resumes.
 pub const STATE_FILE: &str = "state.json";
@@ -131,7 +135,11 @@ impl RunDirectory {
             clear(path).at(path)?;
         }
 
-        let case_text = case.to_toml()?;
+        // A given mesh is part of the run
+        if let Some(mesh) = case.given_mesh().and_then(MeshFile::bytes) {
+            write_atomic(&path.join(MESH_FILE), mesh)?;
+        }
+        let case_text = case.naming_mesh(MESH_FILE).to_toml()?;
         let provenance = Provenance::of_this_process(&case_text, threads);
         let provenance = match earlier {
             Earlier::Continue => provenance.continuing(path),

@@ -135,6 +135,55 @@ fn a_mesh_is_written_with_its_quality() {
     let said = done(directory.path(), &["mesh", "squirmer-alone", "--out", "m.vtu"]);
     assert!(said.contains("smallest angle"), "{said}");
     assert!(directory.path().join("m.vtu").metadata().unwrap().len() > 1000);
+    for (name, options, start) in [
+        ("m.msh", &[][..], "$MeshFormat\n4.1 1 8\n"),
+        ("t.msh", &["--text"][..], "$MeshFormat\n4.1 0 8\n"),
+    ] {
+        let arguments = [&["mesh", "squirmer-alone", "--out", name], options].concat();
+        done(directory.path(), &arguments);
+        let bytes = std::fs::read(directory.path().join(name)).unwrap();
+        assert!(bytes.starts_with(start.as_bytes()), "{name}");
+    }
+    let output = alewife(directory.path(), &["mesh", "squirmer-alone", "--text"]);
+    assert_eq!(output.status.code(), Some(2));
+}
+
+/// A run keeps the mesh it was made on; its own case file is enough to run it again.
+#[test]
+fn a_run_in_a_given_mesh_keeps_it() {
+    let directory = tempfile::tempdir().unwrap();
+    let meshes = concat!(env!("CARGO_MANIFEST_DIR"), "/../mesh/tests/msh/data");
+    std::fs::copy(format!("{meshes}/square-1-text.msh"), directory.path().join("a.msh")).unwrap();
+    let case = "title = 't'
+geometry = 'planar'
+fluid = { model = 'stokes', viscosity = 1.0 }
+domain.mesh.file = 'a.msh'
+boundary = { inlet = { parabolic = { peak = 1.0 } }, outlet = 'do-nothing', wall = 'no-slip' }
+mesh.size = 0.5
+time.steady = {}
+[[probe]]
+name = 'a'
+point = [0.5, 0.5]
+minus = [1.5, 0.5]
+[[reference]]
+quantity = 'a.pressure'
+value = 8.0
+relative = 1e-9
+kind = 'exact'
+source = 'Poiseuille flow'
+";
+    std::fs::write(directory.path().join("c.toml"), case).unwrap();
+    let said = done(directory.path(), &["check", "c.toml"]);
+    assert!(said.contains("mesh of") && said.contains("in a.msh, of area 2"), "{said}");
+    let said = done(directory.path(), &["run", "c.toml", "--out", "r/c"]);
+    assert!(said.contains("within"), "{said}");
+    let said = done(directory.path(), &["validate", "c.toml", "--from", "r"]);
+    assert!(said.contains("within"), "{said}");
+    std::fs::remove_file(directory.path().join("a.msh")).unwrap();
+    let said = done(directory.path(), &["run", "r/c/case.toml", "--out", "s"]);
+    assert!(said.contains("within"), "{said}");
+    let kept = |run: &str| std::fs::read(directory.path().join(run).join("domain.msh")).unwrap();
+    assert!(kept("r/c") == kept("s"));
 }
 
 #[test]

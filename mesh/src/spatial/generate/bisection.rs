@@ -84,11 +84,14 @@ impl Improver<'_> {
     fn bisect(&mut self, ends: [u32; 2], shell: &mut Vec<u32>) -> Vec<u32> {
         let mut new = Vec::new();
         for [a, b] in self.images(ends) {
-            let point = middle(self.mesh.point(a), self.mesh.point(b));
             let surfaces = self.mesh.edge_surfaces(a, b);
-            let split = Split { ends: [a, b], point, surfaces, least_quality: 0.0 };
             self.mesh.shell(a, b, shell);
+            let given = self.given_parts([a, b], shell);
+            let straight = middle(self.mesh.point(a), self.mesh.point(b));
+            let point = self.given.of([a, b]).unwrap_or(straight);
+            let split = Split { ends: [a, b], point, surfaces, least_quality: 0.0 };
             if let Some(vertex) = self.split(&split, shell) {
+                self.given.add(vertex, &given);
                 self.mesh.sizes[vertex as usize] += self.depth(point);
                 new.push(vertex);
             }

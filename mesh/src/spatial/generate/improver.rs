@@ -1,5 +1,6 @@
 //! `Improver`: a mesh with the surfaces and sizes it is to follow, and the quality of its cells.
 
+use super::given_nodes::GivenNodes;
 use super::measure::{EDGES, least_coefficient, least_sine, middle, volume_length};
 use super::projections::Projections;
 use super::surface_set::SurfaceSet;
@@ -69,6 +70,16 @@ pub enum Pending {
     NewEdge { ends: [u32; 2], surfaces: SurfaceSet },
 }
 
+impl Pending {
+    /// What a vertex is called after the change.
+    fn name_after(&self, of: u32) -> u32 {
+        match *self {
+            Self::Merge { vertex, other } if vertex == of => other,
+            _ => of,
+        }
+    }
+}
+
 /// A mesh that is being improved.
 #[derive(Debug)]
 pub struct Improver<'a> {
@@ -80,6 +91,8 @@ pub struct Improver<'a> {
     pub geometry: &'a Geometry,
     /// Vertices on periodic sides that are one and the same.
     pub twins: Twins,
+    /// Nodes in bent edges of a given mesh.
+    pub given: GivenNodes,
     projections: Projections<'a>,
     measure: Measure,
     is_curved: Vec<bool>,
@@ -96,6 +109,7 @@ impl<'a> Improver<'a> {
         Self {
             mesh: Tetrahedra::default(),
             twins: Twins::default(),
+            given: GivenNodes::default(),
             sizes,
             geometry,
             projections: Projections::new(geometry),
@@ -139,8 +153,18 @@ impl<'a> Improver<'a> {
     /// The node in an edge (m): its middle, on the surfaces the edge is on.
     pub fn middle_node(&self, a: u32, b: u32) -> Point<3> {
         let straight = middle(self.mesh.point(a), self.mesh.point(b));
-        let surfaces = self.mesh.edge_surfaces(a, b);
-        if self.has_curved(surfaces) { self.project(surfaces, straight) } else { straight }
+        self.node_on(self.mesh.edge_surfaces(a, b), [a, b], straight)
+    }
+
+    /// The node in an edge on some surfaces, from its middle (m).
+    fn node_on(&self, surfaces: SurfaceSet, ends: [u32; 2], straight: Point<3>) -> Point<3> {
+        if !self.has_curved(surfaces) {
+            straight
+        } else if self.is_fixed(surfaces) {
+            self.given.of(ends).unwrap_or(straight)
+        } else {
+            self.project(surfaces, straight)
+        }
     }
 
     fn straight_quality(&self, corners: &[Point<3>; 4]) -> f64 {
@@ -172,7 +196,8 @@ impl<'a> Improver<'a> {
             n_edges += usize::from(!surfaces.is_empty());
             if self.has_curved(surfaces) {
                 let straight = middle(corners[i], corners[j]);
-                offsets[edge] = self.project(surfaces, straight) - straight;
+                let ends = [vertices[i], vertices[j]].map(|vertex| pending.name_after(vertex));
+                offsets[edge] = self.node_on(surfaces, ends, straight) - straight;
                 has_curved = true;
             }
         }

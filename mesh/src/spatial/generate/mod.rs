@@ -9,6 +9,8 @@ mod collapse;
 mod cut;
 mod edge_removal;
 mod face_swap;
+mod given;
+mod given_nodes;
 mod improver;
 mod lattice;
 mod measure;
@@ -45,7 +47,8 @@ const SHIFTS: [f64; 4] = [0.013, 0.231, 0.372, 0.117];
 
 /// Mesh of the fluid in a domain around bodies.
 ///
-/// Boundaries are the sides in the order of [`Domain::sides`], then the bodies in theirs.
+/// Boundaries are the sides in the order of [`Domain::sides`], then the bodies in theirs. A given mesh
+/// stays as it is where there are no bodies, and keeps its sides.
 ///
 /// # Errors
 /// What [`check_placement`](super::check_placement) and [`Sizing::check`] refuse,
@@ -56,6 +59,9 @@ pub fn generate(
     sizing: &Sizing<3>,
 ) -> Result<Mesh<3>, MeshError> {
     let sizes = SizeField::new(domain, bodies, sizing)?;
+    if let (Domain::Imported(imported), []) = (domain, bodies) {
+        return Ok(imported.mesh().clone());
+    }
     let mut best: Option<(Improver<'_>, Verdict)> = None;
     for shift in SHIFTS {
         let improver = attempt(&sizes, shift)?;
@@ -64,7 +70,8 @@ pub fn generate(
         if best.as_ref().is_none_or(|(_, known)| verdict.is_better_than(known)) {
             best = Some((improver, verdict));
         }
-        if is_good {
+        // A given mesh cannot be moved
+        if is_good || sizes.geometry().imported.is_some() {
             break;
         }
     }
@@ -82,7 +89,10 @@ fn attempt(sizes: &SizeField, shift: f64) -> Result<Improver<'_>, MeshError> {
     let cube = CUBE * sizes.largest();
     let is_periodic = sizes.geometry().periods.amax() > 0.0;
     let mut first = 0;
-    if is_periodic {
+    if let Some(imported) = &sizes.geometry().imported {
+        improver.fill_with_mesh(imported.mesh());
+        first = sizes.geometry().groups[0].last;
+    } else if is_periodic {
         improver.fill_box_with_lattice(cube * (1.0 - shift));
         // The sides are those of the lattice
         first = sizes.geometry().groups[0].last;

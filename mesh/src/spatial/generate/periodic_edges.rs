@@ -7,10 +7,10 @@ use super::surface_set::SurfaceSet;
 const ROUNDING: f64 = 1e-6;
 
 impl Improver<'_> {
-    /// Whether what is on these surfaces stays as it is, being on a periodic side.
+    /// Whether what is on these surfaces stays as it is, being on a periodic or a given side.
     pub fn is_fixed(&self, surfaces: SurfaceSet) -> bool {
         let sides = &self.geometry.surfaces;
-        surfaces.as_slice().iter().any(|surface| sides[usize::from(*surface)].is_periodic)
+        surfaces.as_slice().iter().any(|surface| sides[usize::from(*surface)].is_fixed())
     }
 
     /// An edge, and its images where it is on a periodic side.

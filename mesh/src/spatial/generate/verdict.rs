@@ -14,6 +14,9 @@ const LEAST_ANGLE: f64 = 12.0;
 /// Least Bezier coefficient of det J over the mean in a curved cell.
 const LEAST_COEFFICIENT: f64 = 0.1;
 
+/// Part of the quality of a given mesh that one made of it has at least.
+const AS_GIVEN: f64 = 0.9;
+
 /// Distance of a boundary vertex from its surfaces over the size wanted there.
 const OFF_SURFACE: f64 = 1e-9;
 
@@ -46,6 +49,10 @@ pub struct Verdict {
     closed: Worst,
     /// Angle of a good mesh of this geometry (degrees).
     good_angle: f64,
+    /// Smallest angle that is given away (degrees): no better than that of a given mesh.
+    least_angle: f64,
+    /// The same of the coefficients.
+    least_coefficient: f64,
 }
 
 impl Verdict {
@@ -59,14 +66,25 @@ impl Verdict {
             off_surface: none(0.0),
             closed: none(0.0),
             good_angle,
+            least_angle: LEAST_ANGLE,
+            least_coefficient: LEAST_COEFFICIENT,
         };
+        if let Some(imported) = &improver.geometry.imported {
+            verdict.least_angle = LEAST_ANGLE.min(AS_GIVEN * imported.smallest_angle());
+            verdict.least_coefficient =
+                LEAST_COEFFICIENT.min(AS_GIVEN * imported.least_coefficient());
+        }
         for cell in improver.mesh.cells() {
             verdict.take_cell(improver, improver.mesh.cell(cell));
         }
         for vertex in improver.mesh.vertices() {
             let here = improver.mesh.point(vertex);
             for surface in improver.mesh.surfaces(vertex).as_slice() {
-                let gap = improver.geometry.surfaces[usize::from(*surface)].gap(here).abs();
+                let surface = &improver.geometry.surfaces[usize::from(*surface)];
+                if surface.is_fixed() {
+                    continue;
+                }
+                let gap = surface.gap(here).abs();
                 verdict.off_surface.take_less(-gap / improver.mesh.sizes[vertex as usize], here);
             }
         }
@@ -107,8 +125,8 @@ impl Verdict {
     }
 
     fn is_acceptable(&self) -> bool {
-        self.angle.value >= LEAST_ANGLE
-            && self.coefficient.value >= LEAST_COEFFICIENT
+        self.angle.value >= self.least_angle
+            && self.coefficient.value >= self.least_coefficient
             && self.off_surface.value >= -OFF_SURFACE
             && self.closed.value >= 0.0
     }
@@ -141,7 +159,7 @@ impl Verdict {
             let reason = "cells have all their nodes on the boundary, their number";
             return refuse(reason, -self.closed.value, &self.closed);
         }
-        if self.coefficient.value < LEAST_COEFFICIENT {
+        if self.coefficient.value < self.least_coefficient {
             let reason = "a curved cell is nearly folded, its least det J over the mean";
             return refuse(reason, self.coefficient.value, &self.coefficient);
         }

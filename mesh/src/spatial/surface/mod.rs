@@ -1,10 +1,12 @@
 //! `SmoothSurface`: a side of the domain or a part of a body, with exact distance and curvature.
 
 mod ellipsoid;
+mod facets;
 mod revolved;
 mod tube;
 
 pub use ellipsoid::Ellipsoid;
+pub use facets::{Facets, is_bent};
 pub use revolved::Revolved;
 pub use tube::Tube;
 
@@ -36,6 +38,8 @@ pub enum Form {
     Tube(Arc<Tube>),
     /// A surface of revolution about the x axis.
     Revolved(Arc<Revolved>),
+    /// A side of a given mesh, in the frame of the mesh.
+    Facets(Arc<Facets>),
 }
 
 /// The point of a smooth surface nearest to another point.
@@ -113,10 +117,26 @@ impl SmoothSurface {
         surface
     }
 
+    /// A side of a given mesh; its distances are never negative.
+    #[must_use]
+    pub fn of_facets(facets: Arc<Facets>) -> Self {
+        Self::new(Form::Facets(facets), &Isometry3::identity(), false)
+    }
+
     /// Whether edges on it are straight.
     #[must_use]
     pub fn is_flat(&self) -> bool {
-        self.form == Form::Plane
+        match &self.form {
+            Form::Plane => true,
+            Form::Facets(facets) => !facets.is_curved(),
+            _ => false,
+        }
+    }
+
+    /// Whether what is on it stays as it is: a side of a given mesh, or a periodic one.
+    #[must_use]
+    pub fn is_fixed(&self) -> bool {
+        self.is_periodic || matches!(self.form, Form::Facets(_))
     }
 
     /// Position of the origin of its own frame (m).
@@ -135,7 +155,7 @@ impl SmoothSurface {
     #[must_use]
     pub fn reach(&self) -> f64 {
         match &self.form {
-            Form::Plane | Form::Cylinder(_) => f64::INFINITY,
+            Form::Plane | Form::Cylinder(_) | Form::Facets(_) => f64::INFINITY,
             Form::Sphere(radius) => *radius,
             Form::Capsule { radius, half_length } => radius + half_length,
             Form::Ellipsoid(ellipsoid) => ellipsoid.reach(),
@@ -194,7 +214,11 @@ impl SmoothSurface {
                 let local = self.rotation.tr_mul(&off);
                 self.rotation * (local - tube.on_centreline(local))
             }
-            Form::Plane | Form::Sphere(_) | Form::Ellipsoid(_) | Form::Revolved(_) => off,
+            Form::Plane
+            | Form::Sphere(_)
+            | Form::Ellipsoid(_)
+            | Form::Revolved(_)
+            | Form::Facets(_) => off,
         }
     }
 
@@ -207,7 +231,9 @@ impl SmoothSurface {
                 self.off_skeleton(point).norm() - radius
             }
             Form::Tube(tube) => self.off_skeleton(point).norm() - tube.radius(),
-            Form::Ellipsoid(_) | Form::Revolved(_) => return self.foot(point).gap,
+            Form::Ellipsoid(_) | Form::Revolved(_) | Form::Facets(_) => {
+                return self.foot(point).gap;
+            }
         };
         if self.is_hollow { -gap } else { gap }
     }
@@ -227,6 +253,7 @@ impl SmoothSurface {
             Form::Tube(tube) => self.foot_around(point, tube.radius()),
             Form::Ellipsoid(ellipsoid) => self.to_world(&ellipsoid.foot(self.to_local(point))),
             Form::Revolved(revolved) => self.to_world(&revolved.foot(self.to_local(point))),
+            Form::Facets(facets) => facets.foot(point),
         };
         if self.is_hollow {
             foot.normal = -foot.normal;
@@ -261,7 +288,7 @@ impl SmoothSurface {
     #[must_use]
     pub fn radius_of_curvature(&self, on: Point<3>) -> f64 {
         match &self.form {
-            Form::Plane => f64::INFINITY,
+            Form::Plane | Form::Facets(_) => f64::INFINITY,
             Form::Sphere(radius) | Form::Cylinder(radius) | Form::Capsule { radius, .. } => *radius,
             Form::Tube(tube) => tube.radius(),
             Form::Ellipsoid(ellipsoid) => ellipsoid.radius_of_curvature(self.to_local(on)),

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::Findings;
+use super::{Findings, given_mesh};
 use crate::region::{normal_axis, opposite};
 use crate::type_error::suggestion;
 use crate::{BoundaryCondition, Case, DomainSpec, Geometry, TimeFunction, TimeSettings};
@@ -21,7 +21,7 @@ pub fn check(findings: &mut Findings<'_>) {
             findings.error(
                 &key,
                 format!("this domain has no side `{side}`"),
-                &suggestion(side, sides),
+                &suggestion(side, &sides),
             );
         }
     }
@@ -53,6 +53,11 @@ fn check_side(findings: &mut Findings<'_>, key: &str, side: &str, condition: &Bo
         DomainSpec::Box { .. } | DomainSpec::Channel { .. } => false,
         DomainSpec::Disc { .. } | DomainSpec::HalfDisc { .. } | DomainSpec::Sphere { .. } => true,
         DomainSpec::Cylinder { .. } => side == "wall" && !is_axisymmetric,
+        DomainSpec::Mesh(_) => {
+            given_mesh::check_side(findings, key, side, condition);
+            check_factor_of(findings, key, condition);
+            return;
+        }
     };
     match (side, condition) {
         ("axis", BoundaryCondition::Axis) => {}
@@ -94,6 +99,11 @@ fn check_side(findings: &mut Findings<'_>, key: &str, side: &str, condition: &Bo
         }
         _ => {}
     }
+    check_factor_of(findings, key, condition);
+}
+
+/// The factor in time of a condition, if it has one.
+fn check_factor_of(findings: &mut Findings<'_>, key: &str, condition: &BoundaryCondition) {
     let (name, factor) = match condition {
         BoundaryCondition::Velocity { factor, .. } => ("velocity", factor),
         BoundaryCondition::Parabolic { factor, .. } => ("parabolic", factor),
@@ -297,6 +307,10 @@ fn factor_in_time(condition: &BoundaryCondition) -> Option<&TimeFunction> {
 
 /// Flow into the domain through a side without its factor in time (m2/s planar, m3/s otherwise).
 fn inflow(case: &Case, side: &str, condition: &BoundaryCondition) -> f64 {
+    if let Some(mesh) = case.given_mesh() {
+        let shape = mesh.side_shape(side);
+        return shape.map_or(0.0, |shape| given_mesh::inflow_through(case, shape, condition));
+    }
     let Some(axis) = normal_axis(side) else { return wall_inflow(&case.domain, condition) };
     let extent = case.extent();
     let lengths = extent.lengths();

@@ -21,6 +21,10 @@ const TETRAHEDRA: f64 = 8.485_281_374_238_57;
 /// Each size alone, as if the rest of the mesh were coarse.
 pub fn check(findings: &mut Findings<'_>) {
     let case = findings.case();
+    if case.given_mesh().is_some() && findings.model().bodies.is_empty() {
+        // It stays as it is
+        return;
+    }
     let mesh = &case.mesh;
     let scale = mesh.scale;
     let in_space = case.geometry == Geometry::Spatial;
@@ -107,6 +111,7 @@ fn refuse(findings: &mut Findings<'_>, key: &str, size: f64, cells: f64, power: 
 fn measure(case: &Case) -> f64 {
     use std::f64::consts::PI;
     match (&case.domain, case.geometry) {
+        (DomainSpec::Mesh(file), _) => file.measure(),
         (DomainSpec::Disc { radius, .. }, _) => PI * radius * radius,
         (DomainSpec::HalfDisc { radius, .. }, _) => 0.5 * PI * radius * radius,
         (DomainSpec::Sphere { radius, .. }, _) => 4.0 / 3.0 * PI * radius.powi(3),

@@ -1,6 +1,6 @@
 //! Problems of title, geometry, domain and frame of reference.
 
-use super::Findings;
+use super::{Findings, given_mesh};
 use crate::type_error::suggestion;
 use crate::{DomainSpec, Geometry};
 
@@ -15,9 +15,9 @@ pub fn check(findings: &mut Findings<'_>) {
     }
     let wanted = case.geometry.name();
     let domains = match case.geometry {
-        Geometry::Planar => "box, channel, disc",
+        Geometry::Planar => "box, channel, disc, mesh",
         Geometry::Axisymmetric => "half-disc, cylinder",
-        Geometry::Spatial => "box, cylinder, sphere",
+        Geometry::Spatial => "box, cylinder, sphere, mesh",
     };
     if !case.domain.geometries().contains(&case.geometry) {
         findings.error(
@@ -48,6 +48,7 @@ fn check_domain(findings: &mut Findings<'_>) {
             findings.positive("domain.channel.length", *length);
             findings.positive("domain.channel.height", *height);
         }
+        DomainSpec::Mesh(_) => given_mesh::check(findings),
         DomainSpec::Disc { radius, .. } => findings.positive("domain.disc.radius", *radius),
         DomainSpec::Sphere { radius, .. } => findings.positive("domain.sphere.radius", *radius),
         DomainSpec::HalfDisc { radius, .. } => {

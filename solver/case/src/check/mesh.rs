@@ -40,7 +40,7 @@ pub fn check(findings: &mut Findings<'_>) {
         let key = format!("mesh.sides.{side}");
         findings.positive(&key, *size);
         if !sides.contains(&side.as_str()) {
-            let help = suggestion(side, sides);
+            let help = suggestion(side, &sides);
             findings.error(&key, format!("this domain has no side `{side}`"), &help);
         }
     }

@@ -13,6 +13,7 @@ mod findings;
 mod fluid;
 mod gait;
 mod general;
+mod given_mesh;
 mod joints;
 mod mean_flow;
 mod mesh;

@@ -147,17 +147,31 @@ impl LinearSystem {
         self.accuracy
     }
 
-    /// Solves with the matrix, in place, for a correction of the free unknowns `free`.
+    /// Whether systems are solved by iterations: how accurately is then a choice.
+    pub(super) fn is_iterative(&self) -> bool {
+        self.settings.is_some()
+    }
+
+    /// Solves with the matrix, in place, for a correction of the free unknowns `free`. Iterations end at a
+    /// residual of `reduction` times the right-hand side, by default that of the settings.
     pub(super) fn solve_correction(
         &mut self,
         free: &[f64],
         rhs: &mut [f64],
+        reduction: Option<f64>,
         timing: &mut Timing,
     ) -> Result<(), LinearError> {
         let (matrix, unknowns) = (&self.matrix, &self.unknowns);
         let solver = timing.measure(Stage::Factorisation, || {
-            self.solver.get_or_insert_with(|| analyse(matrix, unknowns)).get()
+            self.solver.get_or_insert_with(|| analyse(matrix, unknowns))
         });
+        if let (Solver::Iterative(solver), Some(reduction)) = (&mut *solver, reduction) {
+            timing.measure(Stage::Factorisation, || solver.set_up(matrix))?;
+            let solved = timing.measure(Stage::Solve, || solver.solve_to(matrix, rhs, reduction));
+            self.accuracy = solved?;
+            return Ok(());
+        }
+        let solver = solver.get();
         let is_solved =
             timing.measure(Stage::Solve, || solver.solve_with_earlier_set_up(matrix, rhs, free))?;
         if !is_solved {

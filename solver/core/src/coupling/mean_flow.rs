@@ -151,7 +151,7 @@ impl MeanFlowResponse {
             let integral = at.constraints.restrict(&at.cell.raw(at.layout, at.modes, axis));
             let mut answer = integral.clone();
             match earlier.get(nth).filter(|earlier| earlier.len() == answer.len()) {
-                Some(typical) => linear.solve_correction(typical, &mut answer, timing)?,
+                Some(typical) => linear.solve_correction(typical, &mut answer, None, timing)?,
                 None => linear.solve(&mut answer, timing)?,
             }
             self.answers.push(answer);

@@ -65,6 +65,8 @@ pub(super) struct Coefficients {
     pub viscosity: f64,
     /// Density times the factor of the new velocity in its rate (kg/m^3/s), zero without inertia.
     pub inertia: f64,
+    /// Whether the fluid is convected.
+    pub has_convection: bool,
 }
 
 /// Spaces on a mesh, under constraints.
@@ -78,11 +80,11 @@ pub(super) struct Discretised<'a, const D: usize> {
 impl<const D: usize> Discretised<'_, D> {
     /// The weights of a preconditioner.
     pub fn weights(&self, coefficients: Coefficients) -> Weights {
-        let Coefficients { viscosity, inertia } = coefficients;
+        let Coefficients { viscosity, inertia, has_convection } = coefficients;
         let interpolation = self.interpolation();
         let integrals = self.integrals(1.0 / (2.0 * viscosity));
         let damping = (inertia > 0.0).then(|| self.restricted(&integrals.lumped_mass, inertia));
-        Weights { interpolation, pressure_mass: integrals.pressure_mass, damping }
+        Weights { interpolation, pressure_mass: integrals.pressure_mass, damping, has_convection }
     }
 
     /// Velocities on edges by those of the vertices at their ends, the others by themselves.

@@ -25,7 +25,7 @@ use super::solution::Solution;
 use super::surface_load::SurfaceStress;
 use crate::algebra::{Accuracy, AffineConstraints, SparseMatrix, Term, Unknowns};
 use crate::body::{Modes, Pose};
-use crate::flow::{Assembly, FlowTerms, assemble, residual};
+use crate::flow::{Assembly, Convection, FlowTerms, assemble, residual};
 use crate::space::{DofLayout, FacetRule, Tables};
 use crate::timing::{Stage, Timing};
 
@@ -127,6 +127,12 @@ impl<const D: usize> FluidSystem<D> {
     /// Chooses the method by which systems are solved from now on.
     pub fn choose_solver(&mut self, choice: SolverChoice) {
         self.linear.choose(choice, D);
+    }
+
+    /// Whether systems are solved by iterations: how accurately is then a choice.
+    #[must_use]
+    pub fn is_iterative(&self) -> bool {
+        self.linear.is_iterative()
     }
 
     /// Memory of the preconditioner of an iterative solver (bytes).
@@ -257,6 +263,9 @@ impl<const D: usize> FluidSystem<D> {
     /// One Newton step: assembles and factorises the Jacobian at `solution` and returns the next
     /// solution for a given reduced residual.
     ///
+    /// Where systems are solved by iterations, what the linear equations leave of the residual is
+    /// `reduction` (1), by default the tolerance of the solver.
+    ///
     /// # Errors
     /// When the matrix is singular or the solution not finite.
     pub fn newton_step(
@@ -265,6 +274,7 @@ impl<const D: usize> FluidSystem<D> {
         terms: &FlowTerms<'_, D>,
         solution: &Solution<D>,
         reduced: &[f64],
+        reduction: Option<f64>,
         timing: &mut Timing,
     ) -> Result<Solution<D>, SolveError> {
         timing.measure(Stage::Assembly, || {
@@ -275,8 +285,11 @@ impl<const D: usize> FluidSystem<D> {
         if let Some(nullspace) = &self.nullspace {
             nullspace.check_balance(at.bodies, &at.mean_flow)?;
         }
-        let coefficients =
-            Coefficients { viscosity: terms.viscosity, inertia: terms.density * terms.rate };
+        let coefficients = Coefficients {
+            viscosity: terms.viscosity,
+            inertia: terms.density * terms.rate,
+            has_convection: terms.convection != Convection::None,
+        };
         let discretised = Discretised {
             mesh: at.mesh,
             layout: &self.layout,
@@ -286,7 +299,7 @@ impl<const D: usize> FluidSystem<D> {
         self.linear.prepare(coefficients, || discretised.weights(coefficients), timing);
         let mut free = at.constraints.pick(&self.pinned(solution).to_raw(self.modes));
         let mut step: Vec<f64> = reduced.iter().map(|value| -value).collect();
-        let solved = self.linear.solve_correction(&free, &mut step, timing);
+        let solved = self.linear.solve_correction(&free, &mut step, reduction, timing);
         solved.map_err(|error| self.explain(at, error))?;
         for (value, correction) in free.iter_mut().zip(&step) {
             *value += correction;

@@ -119,8 +119,8 @@ fn check_symmetry<const D: usize>(mesh: Mesh<D>, metric: Metric) {
     let pattern = &setting.pattern;
     let most = matrix.iter().fold(0.0f64, |most, value| most.max(value.abs()));
     for column in 0..setting.layout.n_fluid() {
-        for position in pattern.columns[column]..pattern.columns[column + 1] {
-            let row = pattern.rows[position];
+        for (position, &row) in pattern.entries(column).zip(pattern.column(column)) {
+            let row = row as usize;
             let mirrored = pattern.entry(column, row).expect("the pattern is symmetric");
             assert!((matrix[position] - matrix[mirrored]).abs() < 1e-14 * most);
         }

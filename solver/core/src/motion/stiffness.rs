@@ -138,8 +138,10 @@ impl Stiffness {
     pub fn load(&self, constraints: &AffineConstraints, given: &[f64]) -> Vec<f64> {
         let mut load = vec![0.0; given.len()];
         for (column, &value) in given.iter().enumerate().filter(|(_, value)| **value != 0.0) {
-            for entry in self.matrix.pattern().entries(column) {
-                load[self.matrix.pattern().rows[entry]] -= self.matrix.values()[entry] * value;
+            let pattern = self.matrix.pattern();
+            let entries = &self.matrix.values()[pattern.entries(column)];
+            for (&row, entry) in pattern.column(column).iter().zip(entries) {
+                load[row as usize] -= entry * value;
             }
         }
         constraints.restrict(&load)

@@ -54,7 +54,36 @@ pub(super) struct Criterion {
     pub is_linear: bool,
     /// Growth of the residual over the least one from which there is no return, if that is looked for.
     pub divergence: Option<f64>,
+    /// How far iterations solve the linear systems.
+    pub reduction: Reduction,
 }
+
+/// What the solution of a linear system by iterations leaves of the residual.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Reduction {
+    /// This part.
+    Fixed(f64),
+    /// As much as the tolerance allows: the equations are linear.
+    ToTolerance,
+    /// What the next step of Newton's method would leave anyway, were the system solved exactly
+    /// (@eisenstat1996).
+    Inexact,
+}
+
+/// Part of a residual that the linear equations of a step leave, which start from the last solution: the
+/// error of all steps together is this part of the change of the flow, far below that of the scheme,
+/// which is of second order in the step over the time of change.
+const OF_STEP: f64 = 1e-6;
+/// Largest part that the solution of a linear system leaves.
+const LEAST_REDUCTION: f64 = 0.1;
+/// Part that the first system of Newton's method leaves, and what stands for the square of the last
+/// residual over the one before.
+const FIRST_REDUCTION: f64 = 1e-2;
+const QUADRATIC: f64 = 0.9;
+/// Part of the tolerance that iterations are to reach: it is in another norm than theirs.
+const MARGIN: f64 = 0.5;
+/// Smallest part: beyond that there is rounding.
+const MOST_REDUCTION: f64 = 1e-12;
 
 impl Criterion {
     /// For the flow of one pass of a step.
@@ -68,6 +97,7 @@ impl Criterion {
             accepts_start: false,
             is_linear,
             divergence: None,
+            reduction: if is_linear { Reduction::Fixed(OF_STEP) } else { Reduction::Inexact },
         }
     }
 }
@@ -176,7 +206,8 @@ pub(super) fn newton<const D: usize>(
             let end = end(solution, iterations);
             return Err(NewtonFailure { reason: NewtonStop::Requested, end });
         }
-        let next = match system.newton_step(at, &terms, &solution, &reduced, timing) {
+        let reduction = Some(progress.reduction(relative));
+        let next = match system.newton_step(at, &terms, &solution, &reduced, reduction, timing) {
             Ok(next) => next,
             Err(error) => {
                 let end = end(solution, iterations + 1);
@@ -234,6 +265,18 @@ impl<'a> Progress<'a> {
         let is_rounding = relative < rounding && relative > NO_PROGRESS * self.last;
         let may_end = accepts_start || self.iterations > 0;
         may_end && (relative <= tolerance || is_rounding || self.is_stationary)
+    }
+
+    /// What is to be left of this residual by the next linear system.
+    fn reduction(&self, relative: f64) -> f64 {
+        let enough = MARGIN * self.criterion.tolerance / relative;
+        let wanted = match self.criterion.reduction {
+            Reduction::Fixed(part) => return part,
+            Reduction::ToTolerance => enough,
+            Reduction::Inexact if self.iterations == 0 => enough.max(FIRST_REDUCTION),
+            Reduction::Inexact => enough.max(QUADRATIC * (relative / self.last).powi(2)),
+        };
+        wanted.clamp(MOST_REDUCTION, LEAST_REDUCTION)
     }
 
     fn is_hopeless(&self, relative: f64) -> bool {

@@ -8,7 +8,8 @@ use alewife_mesh::Point;
 
 use super::RunError;
 use super::newton::{
-    Criterion, Flow, FlowEquations, Iterate, NewtonFailure, NewtonStop, flow_residual, newton,
+    Criterion, Flow, FlowEquations, Iterate, NewtonFailure, NewtonStop, Reduction, flow_residual,
+    newton,
 };
 use super::stop_request::StopRequest;
 use super::workspace::Workspace;
@@ -23,6 +24,8 @@ const ROUNDING: f64 = 1e-8;
 const STATIONARY: f64 = 1e-8;
 /// Smallest step of the continuation, as a part of the whole density.
 const SMALLEST_STEP: f64 = 1.0 / 64.0;
+/// Residual of a Stokes flow that is only a start.
+const START: f64 = 1e-4;
 /// Growth of the residual from which there is no return.
 const DIVERGENCE: f64 = 1e4;
 
@@ -184,15 +187,20 @@ impl<const D: usize> Continuation<'_, D> {
         start: Solution<D>,
         part: f64,
     ) -> Result<Attempt<D>, SteadyFailure<D>> {
+        let is_stokes = part == 0.0;
+        // Where iterations give it, the Stokes flow that convection is added to is not better than needed
+        let is_start = is_stokes && self.task.has_convection && work.system.is_iterative();
+        let tolerance = self.task.settings.tolerance;
         let criterion = Criterion {
-            tolerance: self.task.settings.tolerance,
+            tolerance: if is_start { tolerance.max(START) } else { tolerance },
             rounding: ROUNDING,
-            stationary: (part == 0.0).then_some(STATIONARY),
+            stationary: is_stokes.then_some(STATIONARY),
             max_iterations: self.task.settings.max_iterations,
             scale: self.scale,
             accepts_start: true,
             is_linear: false,
             divergence: Some(DIVERGENCE),
+            reduction: if is_stokes { Reduction::ToTolerance } else { Reduction::Inexact },
         };
         let equations = SteadyEquations { problem: self.problem, part, stop: self.task.stop };
         let Workspace { system, timing, .. } = work;

@@ -2,13 +2,10 @@
 
 use std::sync::Arc;
 
-use super::cell_pattern::{CellUnknowns, EntryFinder, NO_UNKNOWN, build_pattern};
+use super::cell_pattern::{CellEntries, CellUnknowns, NO_UNKNOWN, build_pattern};
 use super::constraints::{AffineConstraints, Term};
 use crate::sparse::Pattern;
 use crate::sparse::index::{to_u16, to_u32};
-
-/// Marks an entry of a cell's matrix that belongs to a given value, or couples nothing.
-const NOT_STORED: u32 = u32::MAX;
 
 /// For each cell, its raw unknowns, and where the entries of its matrix are stored.
 ///
@@ -21,10 +18,7 @@ pub struct CellMaps {
     pattern: Arc<Pattern>,
     n_local_raw: usize,
     raw: Vec<u32>,
-    /// Start of each cell in `entries`, and the end of the last.
-    entry_offsets: Vec<usize>,
-    /// Stored entry of each entry of the cells' matrices, column by column.
-    entries: Vec<u32>,
+    entries: CellEntries,
     /// The folded cells, in order.
     folded: Vec<FoldedCell>,
     /// Index in `folded` of each cell, if it is one of them.
@@ -89,25 +83,17 @@ impl CellMaps {
         unknowns.unknowns.reserve(raw.len());
         let mut folded = Vec::new();
         let mut folded_index = Vec::with_capacity(raw.len() / n_local_raw);
-        let mut entry_offsets = vec![0];
-        let (mut n_entries, mut largest) = (0, n_local_raw * n_local_raw);
+        let mut largest = n_local_raw * n_local_raw;
         for (cell, raw) in raw.chunks_exact(n_local_raw).enumerate() {
             let cell_folded = unknowns.push(raw, constraints);
             folded_index.push(cell_folded.as_ref().map_or(NOT_FOLDED, |_| to_u32(folded.len())));
             folded.extend(cell_folded);
-            let size = (unknowns.offsets[cell + 1] - unknowns.offsets[cell]).pow(2);
-            largest = largest.max(size);
-            n_entries += size;
-            entry_offsets.push(n_entries);
+            largest = largest.max((unknowns.offsets[cell + 1] - unknowns.offsets[cell]).pow(2));
         }
         let pattern = build_pattern(constraints.n_unknowns(), &unknowns, &couples);
-        let mut entries = Vec::with_capacity(n_entries);
-        let mut finder = EntryFinder::new(&pattern);
-        for local in unknowns.cells() {
-            finder.for_each_entry(local, |entry| entries.push(entry.unwrap_or(NOT_STORED)));
-        }
+        let entries = CellEntries::new(&pattern, &unknowns);
         let pattern = Arc::new(pattern);
-        Self { pattern, n_local_raw, raw, entry_offsets, entries, folded, folded_index, largest }
+        Self { pattern, n_local_raw, raw, entries, folded, folded_index, largest }
     }
 
     /// The sparsity pattern of the constrained system.
@@ -179,12 +165,7 @@ impl CellMaps {
 
     /// Adds a cell's matrix, folded where it has to be, to the stored values.
     pub fn scatter(&self, cell: usize, matrix: &[f64], values: &mut [f64]) {
-        let entries = &self.entries[self.entry_offsets[cell]..self.entry_offsets[cell + 1]];
-        for (&entry, value) in entries.iter().zip(matrix) {
-            if entry != NOT_STORED {
-                values[entry as usize] += value;
-            }
-        }
+        self.entries.for_each(cell, |local, entry| values[entry] += matrix[local]);
     }
 }
 
@@ -203,7 +184,7 @@ mod tests {
         let pattern = maps.pattern();
         // Columns of [[2, -1], [-3, 4]].
         let cell = [2.0, -3.0, -1.0, 4.0];
-        let mut values = vec![0.0; pattern.rows.len()];
+        let mut values = vec![0.0; pattern.n_entries()];
         let mut folded = vec![0.0; maps.largest_matrix()];
         assert!(!maps.is_folded(0) && maps.is_folded(1));
         maps.scatter(0, &cell, &mut values);
@@ -236,16 +217,17 @@ mod tests {
             if maps.is_folded(cell) {
                 local.retain(Option::is_some);
             }
-            let entries = &maps.entries[maps.entry_offsets[cell]..maps.entry_offsets[cell + 1]];
-            for (&entry, (column, row)) in entries
-                .iter()
-                .zip(local.iter().flat_map(|column| local.iter().map(move |row| (column, row))))
-            {
-                let expected = column
+            let mut expected = Vec::new();
+            let pairs = local.iter().flat_map(|column| local.iter().map(move |row| (column, row)));
+            for (index, (column, row)) in pairs.enumerate() {
+                let entry = column
                     .zip(*row)
                     .and_then(|(column, row)| maps.pattern().entry(row as usize, column as usize));
-                assert_eq!((entry != NOT_STORED).then_some(entry as usize), expected);
+                expected.extend(entry.map(|entry| (index, entry)));
             }
+            let mut entries = Vec::new();
+            maps.entries.for_each(cell, |local, entry| entries.push((local, entry)));
+            assert_eq!(entries, expected);
         }
     }
 
@@ -258,7 +240,7 @@ mod tests {
         let maps = CellMaps::new(2, vec![0, 1, 1, 2], &constraints, |_, _| true);
         let pattern = maps.pattern();
         let cell = [2.0, -3.0, -1.0, 4.0];
-        let mut values = vec![0.0; pattern.rows.len()];
+        let mut values = vec![0.0; pattern.n_entries()];
         for index in 0..2 {
             assert!(!maps.is_folded(index));
             maps.scatter(index, &cell, &mut values);

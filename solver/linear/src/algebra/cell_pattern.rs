@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use crate::sparse::Pattern;
-use crate::sparse::index::to_u32;
+use crate::sparse::index::{to_u8, to_u32};
 
 /// Marks a row or column of a given value.
 pub(super) const NO_UNKNOWN: u32 = u32::MAX;
@@ -58,6 +58,9 @@ impl Lists {
     }
 }
 
+/// Unknowns of a run at most.
+const LONGEST: usize = 64;
+
 /// Unknowns with consecutive numbers that are alike, such as the velocities at a node.
 #[derive(Debug)]
 pub(super) struct Runs {
@@ -71,13 +74,29 @@ impl Runs {
     fn new(n: usize, is_like_last: impl Fn(usize) -> bool) -> Self {
         let mut runs = Self { of_unknown: Vec::with_capacity(n), starts: Vec::new() };
         for unknown in 0..n {
-            if unknown == 0 || !is_like_last(unknown) {
+            let length = runs.starts.last().map_or(LONGEST, |start| unknown - *start as usize);
+            if length == LONGEST || !is_like_last(unknown) {
                 runs.starts.push(to_u32(unknown));
             }
             runs.of_unknown.push(to_u32(runs.starts.len() - 1));
         }
         runs.starts.push(to_u32(n));
         runs
+    }
+
+    /// Number of runs.
+    fn n(&self) -> usize {
+        self.starts.len() - 1
+    }
+
+    /// Place of an unknown among the distinct runs of its cell.
+    fn place(&self, unknown: u32, distinct: &[u32]) -> Place {
+        let Some(&run) = self.of_unknown.get(unknown as usize) else {
+            return Place { run: GIVEN, offset: 0 };
+        };
+        let index = distinct.iter().take_while(|&&other| other != run).count();
+        let offset = unknown - self.starts[run as usize];
+        Place { run: to_u8(index), offset: to_u8(offset as usize) }
     }
 
     fn unknowns(&self, run: u32) -> Range<usize> {
@@ -111,11 +130,11 @@ pub(super) fn build_pattern(
         of_cells.items.extend(&distinct);
         of_cells.starts.push(of_cells.items.len());
     }
-    let mut pattern = Pattern { columns: Vec::with_capacity(n + 1), rows: Vec::new() };
-    pattern.columns.push(0);
-    let mut last_near = vec![NO_UNKNOWN; runs.starts.len() - 1];
+    let mut pattern = Pattern::default();
+    let mut last_near = vec![NO_UNKNOWN; runs.n()];
     let mut near: Vec<u32> = Vec::new();
-    for run in 0..to_u32(runs.starts.len() - 1) {
+    let mut rows: Vec<u32> = Vec::new();
+    for run in 0..to_u32(runs.n()) {
         near.clear();
         for &cell in cells.list(runs.unknowns(run).start) {
             for &other in of_cells.list(cell as usize) {
@@ -127,69 +146,99 @@ pub(super) fn build_pattern(
         }
         near.sort_unstable();
         for column in runs.unknowns(run) {
-            let rows = near.iter().flat_map(|&other| runs.unknowns(other));
-            pattern.rows.extend(rows.filter(|&row| couples(row, column)));
-            pattern.columns.push(pattern.rows.len());
+            rows.clear();
+            let all = near.iter().flat_map(|&other| runs.unknowns(other));
+            rows.extend(all.filter(|&row| couples(row, column)).map(to_u32));
+            pattern.push(&rows);
         }
     }
-    pattern.rows.shrink_to_fit();
+    pattern.shrink();
     pattern
 }
 
-/// The stored entries of the matrices of cells, found by runs.
-#[derive(Debug)]
-pub(super) struct EntryFinder<'a> {
-    pattern: &'a Pattern,
-    /// Unknowns with entries in the same rows.
-    runs: Runs,
-    distinct: Vec<u32>,
-    /// Place of each run among those of the cell at hand.
-    place: Vec<u32>,
-    /// For each two runs of the cell the first entry of the one in the first column of the other.
-    first: Vec<Option<u32>>,
+/// Where the matrices of cells go: for each two runs of unknowns of a cell the first entry that they have.
+#[derive(Debug, Clone)]
+pub(super) struct CellEntries {
+    /// Start of each cell in `places`, and the end of the last.
+    place_offsets: Vec<usize>,
+    /// Of each row and column of the matrix of each cell.
+    places: Vec<Place>,
+    /// Start of each cell in `lengths`, and the end of the last.
+    run_offsets: Vec<usize>,
+    /// Length of the columns of each run of each cell.
+    lengths: Vec<u32>,
+    /// Start of each cell in `first`.
+    first_offsets: Vec<usize>,
+    /// For each two runs of a cell the entry of the first row of one in the first column of the
+    /// other, column by column; `NOT_STORED` for pairs that do not couple.
+    first: Vec<u32>,
 }
 
-impl<'a> EntryFinder<'a> {
+/// Where a row or column stands.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Place {
+    /// Its run, among those of the cell; `GIVEN` for a given value.
+    run: u8,
+    /// Its number in the run.
+    offset: u8,
+}
+
+/// Marks a row or column of a given value.
+const GIVEN: u8 = u8::MAX;
+/// Marks two runs that do not couple.
+const NOT_STORED: u32 = u32::MAX;
+
+impl CellEntries {
     /// In a pattern with the transposed of each of its entries.
-    pub fn new(pattern: &'a Pattern) -> Self {
-        let runs = Runs::new(pattern.n(), |unknown| {
-            pattern.column(unknown) == pattern.column(unknown - 1)
-        });
-        let place = vec![0; runs.starts.len() - 1];
-        Self { pattern, runs, distinct: Vec::new(), place, first: Vec::new() }
+    pub fn new(pattern: &Pattern, unknowns: &CellUnknowns) -> Self {
+        let runs = Runs::new(pattern.n(), |unknown| pattern.is_like_last(unknown));
+        let mut all = Self {
+            place_offsets: vec![0],
+            places: Vec::with_capacity(unknowns.unknowns.len()),
+            run_offsets: vec![0],
+            lengths: Vec::new(),
+            first_offsets: Vec::with_capacity(unknowns.offsets.len()),
+            first: Vec::new(),
+        };
+        let mut distinct = Vec::new();
+        for cell in unknowns.cells() {
+            runs.distinct(cell, &mut distinct);
+            all.places.extend(cell.iter().map(|&unknown| runs.place(unknown, &distinct)));
+            all.place_offsets.push(all.places.len());
+            all.first_offsets.push(all.first.len());
+            for &run in &distinct {
+                let column = runs.unknowns(run).start;
+                all.lengths.push(to_u32(pattern.column(column).len()));
+                all.first.extend(distinct.iter().map(|&other| {
+                    let entry = pattern.entry(runs.unknowns(other).start, column);
+                    entry.map_or(NOT_STORED, to_u32)
+                }));
+            }
+            all.run_offsets.push(all.lengths.len());
+        }
+        all.lengths.shrink_to_fit();
+        all.first.shrink_to_fit();
+        all
     }
 
-    /// Calls `visit` with each entry of the matrix of a cell, column by column; none where there is none.
-    pub fn for_each_entry(&mut self, cell: &[u32], mut visit: impl FnMut(Option<u32>)) {
-        let Self { pattern, runs, distinct, place, first } = self;
-        runs.distinct(cell, distinct);
-        first.clear();
-        for (index, &run) in distinct.iter().enumerate() {
-            place[run as usize] = to_u32(index);
-            let column = runs.unknowns(run).start;
-            first.extend(
-                distinct
-                    .iter()
-                    .map(|&other| pattern.entry(runs.unknowns(other).start, column).map(to_u32)),
-            );
-        }
-        let n_runs = distinct.len();
-        for &column in cell {
-            if column == NO_UNKNOWN {
-                cell.iter().for_each(|_| visit(None));
-                continue;
-            }
-            let run = runs.of_unknown[column as usize];
-            let shift =
-                pattern.columns[column as usize] - pattern.columns[runs.unknowns(run).start];
-            let first = &first[place[run as usize] as usize * n_runs..][..n_runs];
-            for &row in cell {
-                let entry = (row != NO_UNKNOWN).then(|| runs.of_unknown[row as usize]);
-                let entry = entry.and_then(|run| {
-                    let offset = row as usize - runs.unknowns(run).start;
-                    first[place[run as usize] as usize].map(|entry| entry + to_u32(shift + offset))
-                });
-                visit(entry);
+    /// Calls `visit` with the place of each stored entry in the matrix of a cell, which is column by column,
+    /// and its index among the entries of the pattern.
+    #[inline(always)]
+    pub fn for_each(&self, cell: usize, mut visit: impl FnMut(usize, usize)) {
+        let places = &self.places[self.place_offsets[cell]..self.place_offsets[cell + 1]];
+        let lengths = &self.lengths[self.run_offsets[cell]..self.run_offsets[cell + 1]];
+        let first = &self.first[self.first_offsets[cell]..][..lengths.len() * lengths.len()];
+        let n = places.len();
+        for (column, place) in places.iter().enumerate().filter(|(_, place)| place.run != GIVEN) {
+            let run = usize::from(place.run);
+            let shift = u32::from(place.offset) * lengths[run];
+            let first = &first[run * lengths.len()..][..lengths.len()];
+            for (row, place) in places.iter().enumerate() {
+                let Some(&first) = first.get(usize::from(place.run)) else { continue };
+                if first != NOT_STORED {
+                    let entry = first + shift + u32::from(place.offset);
+                    visit(column * n + row, entry as usize);
+                }
             }
         }
     }

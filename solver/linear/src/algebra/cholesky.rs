@@ -50,8 +50,8 @@ impl Cholesky {
     /// When the matrix is not positive definite, or memory runs out.
     pub fn factorise(matrix: &SparseMatrix) -> Result<Self, CholeskyError> {
         let (n, pattern) = (matrix.n(), matrix.pattern());
-        let view =
-            SymbolicSparseColMatRef::new_checked(n, n, &pattern.columns, None, &pattern.rows);
+        let rows = pattern.rows();
+        let view = SymbolicSparseColMatRef::new_checked(n, n, pattern.starts(), None, &rows);
         let symbolic = factorize_symbolic_cholesky(
             view,
             Side::Lower,
@@ -119,16 +119,11 @@ mod tests {
 
     /// The matrix of -u'' on n points with `shift` on its diagonal.
     fn chain(n: usize, shift: f64) -> SparseMatrix {
-        let mut pattern = Pattern { columns: vec![0], rows: Vec::new() };
-        let mut values = Vec::new();
-        for column in 0..n {
-            for row in column.saturating_sub(1)..(column + 2).min(n) {
-                pattern.rows.push(row);
-                values.push(if row == column { 2.0 + shift } else { -1.0 });
-            }
-            pattern.columns.push(pattern.rows.len());
-        }
-        SparseMatrix::new(pattern, values)
+        let rows = |column: usize| column.saturating_sub(1)..(column + 2).min(n);
+        let value = |row, column| if row == column { 2.0 + shift } else { -1.0 };
+        let of_column = |column| rows(column).map(move |row| value(row, column));
+        let values = (0..n).flat_map(of_column).collect();
+        SparseMatrix::new(Pattern::from_columns((0..n).map(rows)), values)
     }
 
     #[test]

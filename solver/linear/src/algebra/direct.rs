@@ -194,12 +194,11 @@ mod tests {
     /// A chain of velocities with a pressure at every third.
     fn chain(n: usize) -> (SparseMatrix, Unknowns) {
         let is_pressure: Vec<bool> = (0..n).map(|index| index % 3 == 2).collect();
-        let mut pattern = Pattern { columns: vec![0], rows: Vec::new() };
-        for column in 0..n {
+        let couples = |row: usize, column: usize| !is_pressure[row] || !is_pressure[column];
+        let pattern = Pattern::from_columns((0..n).map(|column| {
             let rows = column.saturating_sub(3)..(column + 4).min(n);
-            pattern.rows.extend(rows.filter(|&row| !is_pressure[row] || !is_pressure[column]));
-            pattern.columns.push(pattern.rows.len());
-        }
+            rows.filter(move |&row| couples(row, column))
+        }));
         let mut matrix = SparseMatrix::zeros(pattern);
         let node = (0u32..).take(n).collect();
         let unknowns = Unknowns { node, is_pressure, dense: Vec::new() };
@@ -212,8 +211,8 @@ mod tests {
         let pattern = matrix.pattern().clone();
         let values = matrix.values_mut();
         for column in 0..pattern.n() {
-            for entry in pattern.entries(column) {
-                let row = pattern.rows[entry];
+            for (entry, &row) in pattern.entries(column).zip(pattern.column(column)) {
+                let row = row as usize;
                 let distance = row as f64 - column as f64;
                 let has_pressure = unknowns.is_pressure[row] || unknowns.is_pressure[column];
                 values[entry] = match (has_pressure, row == column) {

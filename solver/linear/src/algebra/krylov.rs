@@ -23,22 +23,21 @@ pub(super) struct KrylovSolution {
 /// Solves A x = b from x = 0.
 ///
 /// `multiply` overwrites its second argument with A times the first, `precondition` with an
-/// approximation of A^-1 times the first, in numbers Z of any precision. `continues` is asked before each
-/// iteration, with the number of those so far and the norm of the residual. Sums run in the order of the
+/// approximation of A^-1 times the first. `continues` is asked before each iteration, with the number of those so far and the norm of the residual. Sums run in the order of the
 /// unknowns.
-pub(super) fn fgmres<Z: Copy + Default + Into<f64>>(
-    mut multiply: impl FnMut(&[Z], &mut [f64]),
-    mut precondition: impl FnMut(&[f64], &mut [Z]),
+pub(super) fn fgmres(
+    mut multiply: impl FnMut(&[f64], &mut [f64]),
+    mut precondition: impl FnMut(&[f64], &mut [f64]),
     b: &[f64],
     continues: impl Fn(usize, f64) -> bool,
 ) -> KrylovSolution {
     let n = b.len();
     let initial = norm(b);
     let mut basis = vec![b.iter().map(|value| value / initial).collect::<Vec<f64>>()];
-    let mut directions: Vec<Vec<Z>> = Vec::new();
+    let mut directions: Vec<Vec<f64>> = Vec::new();
     let mut hessenberg = Hessenberg::new(initial);
     while continues(hessenberg.n_columns(), hessenberg.residual) {
-        let mut direction = vec![Z::default(); n];
+        let mut direction = vec![0.0; n];
         precondition(&basis[hessenberg.n_columns()], &mut direction);
         let mut image = vec![0.0; n];
         multiply(&direction, &mut image);
@@ -63,7 +62,7 @@ pub(super) fn fgmres<Z: Copy + Default + Into<f64>>(
     let mut x = vec![0.0; n];
     for (weight, direction) in hessenberg.weights().iter().zip(&directions) {
         for (x, &value) in x.iter_mut().zip(direction) {
-            *x += weight * value.into();
+            *x += weight * value;
         }
     }
     KrylovSolution { x, iterations: hessenberg.n_columns(), residual: hessenberg.residual }

@@ -26,8 +26,8 @@ pub enum LinearError {
     /// Iterations ended far from a solution.
     #[error(
         "{iterations} iterations with {n_unknowns} unknowns leave {residual:.1e} of the right-hand \
-         side, and factors of the matrix would take too much memory; look for flat cells and for gaps \
-         narrower than one cell in the mesh, take a smaller time step, or a coarser mesh"
+         side, and its factors would have {n_factor_entries} entries, too many; look for flat cells and \
+         for gaps narrower than one cell in the mesh, take a smaller time step, or a coarser mesh"
     )]
     Stalled {
         /// Euclidean norm of the residual over that of the right-hand side.
@@ -36,6 +36,8 @@ pub enum LinearError {
         iterations: usize,
         /// Number of unknowns.
         n_unknowns: usize,
+        /// Entries that the factors of the matrix would have.
+        n_factor_entries: usize,
     },
     /// A value of the matrix, the right-hand side or the solution is infinite or not a number.
     #[error("the matrix, the right-hand side or the solution is not finite")]

@@ -73,6 +73,7 @@ impl Graph {
             seen[from as usize] = Some(from);
             for &column in unknowns.of(from as usize) {
                 for &row in pattern.column(column as usize) {
+                    let row = row as usize;
                     let to = vertex[row];
                     if seen[to as usize] != Some(from) {
                         seen[to as usize] = Some(from);

@@ -20,17 +20,12 @@ impl System {
     /// Stores the entries of a dense matrix that are not zero.
     fn new(dense: &[Vec<f64>], unknowns: Unknowns) -> Self {
         let n = dense.len();
-        let (mut columns, mut rows, mut values) = (vec![0], Vec::new(), Vec::new());
-        for column in 0..n {
-            for row in 0..n {
-                if dense[row][column] != 0.0 {
-                    rows.push(row);
-                    values.push(dense[row][column]);
-                }
-            }
-            columns.push(rows.len());
-        }
-        Self { matrix: SparseMatrix::new(Pattern { columns, rows }, values), unknowns }
+        let is_stored = |&[row, column]: &[usize; 2]| dense[row][column] != 0.0;
+        let stored = |column: usize| (0..n).map(move |row| [row, column]).filter(is_stored);
+        let rows = |column: usize| stored(column).map(|[row, _]| row).collect::<Vec<_>>();
+        let pattern = Pattern::from_columns((0..n).map(rows));
+        let values = (0..n).flat_map(stored).map(|[row, column]| dense[row][column]).collect();
+        Self { matrix: SparseMatrix::new(pattern, values), unknowns }
     }
 
     fn n(&self) -> usize {
@@ -45,8 +40,9 @@ impl System {
         let pattern = self.matrix.pattern();
         let mut dense = Mat::zeros(self.n(), self.n());
         for column in 0..self.n() {
-            for entry in pattern.entries(column) {
-                dense[(pattern.rows[entry], column)] = self.matrix.values()[entry];
+            let values = &self.matrix.values()[pattern.entries(column)];
+            for (&row, value) in pattern.column(column).iter().zip(values) {
+                dense[(row as usize, column)] = *value;
             }
         }
         dense

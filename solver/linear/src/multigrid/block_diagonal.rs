@@ -1,8 +1,13 @@
 //! `BlockDiagonal`: the inverse of the blocks on the diagonal, those of pairs of rows taken together.
 
+use rayon::prelude::*;
+
 use super::block_matrix::{Block, BlockMatrix};
 use super::dense::invert;
 use crate::sparse::single::single;
+
+/// Rows that one task works on.
+const ROWS: usize = 2048;
 
 /// The inverse of the diagonal blocks of a matrix whose last rows are pairs.
 #[derive(Debug)]
@@ -20,7 +25,8 @@ impl<const B: usize> BlockDiagonal<B> {
     /// inverse is zero.
     pub fn new(matrix: &BlockMatrix<B>, n_pairs: usize) -> Self {
         let n_single = matrix.n_rows() - 2 * n_pairs;
-        let blocks = (0..n_single).map(|row| inverse(matrix, [row])[0][0]).collect();
+        let blocks =
+            (0..n_single).into_par_iter().map(|row| inverse(matrix, [row])[0][0]).collect();
         let pair = |pair: usize| {
             let first = n_single + 2 * pair;
             inverse(matrix, [first, first + 1])
@@ -31,9 +37,12 @@ impl<const B: usize> BlockDiagonal<B> {
     /// Overwrites z with the inverse times r.
     pub fn apply(&self, r: &[[f32; B]], z: &mut [[f32; B]]) {
         let n_single = self.blocks.len();
-        for ((block, r), z) in self.blocks.iter().zip(r).zip(z.iter_mut()) {
-            *z = times(block, r);
-        }
+        let chunks = z[..n_single].par_chunks_mut(ROWS).zip(self.blocks.par_chunks(ROWS));
+        chunks.zip(r[..n_single].par_chunks(ROWS)).for_each(|((z, blocks), r)| {
+            for ((z, block), r) in z.iter_mut().zip(blocks).zip(r) {
+                *z = times(block, r);
+            }
+        });
         let in_pairs = z[n_single..].chunks_exact_mut(2).zip(r[n_single..].chunks_exact(2));
         for (pair, (z, r)) in self.pairs.iter().zip(in_pairs) {
             for (z, blocks) in z.iter_mut().zip(pair) {

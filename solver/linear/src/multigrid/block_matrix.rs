@@ -59,6 +59,16 @@ impl<const B: usize> RowBuilder<B> {
 }
 
 impl<const B: usize> BlockMatrix<B> {
+    /// From the start of each row, and the end of the last, in the columns and blocks of all.
+    pub fn new(
+        n_columns: usize,
+        starts: Vec<usize>,
+        columns: Vec<u32>,
+        blocks: Vec<Block<B>>,
+    ) -> Self {
+        Self { n_columns, starts, columns, blocks }
+    }
+
     /// The rows of several matrices, one after the other.
     pub(super) fn stacked(n_columns: usize, parts: Vec<Self>) -> Self {
         let n_blocks = parts.iter().map(|part| part.columns.len()).sum();
@@ -106,6 +116,13 @@ impl<const B: usize> BlockMatrix<B> {
         let entries = self.entries(row);
         let columns = self.columns[entries.clone()].iter().map(|&column| column as usize);
         columns.zip(&self.blocks[entries])
+    }
+
+    /// Columns of a row, and its blocks to be changed.
+    pub(super) fn row_mut(&mut self, row: usize) -> impl Iterator<Item = (usize, &mut Block<B>)> {
+        let entries = self.entries(row);
+        let columns = self.columns[entries.clone()].iter().map(|&column| column as usize);
+        columns.zip(&mut self.blocks[entries])
     }
 
     /// The product of one row with a vector.

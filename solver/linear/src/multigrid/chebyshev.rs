@@ -3,12 +3,16 @@
 //! As a smoother the part is the upper end (@adams2003), which power steps find; as a solver it is the
 //! whole spectrum, where its bounds are known.
 
+use rayon::prelude::*;
+
 use super::block_diagonal::BlockDiagonal;
 use super::block_matrix::BlockMatrix;
 use crate::sparse::single::single;
 
 /// Power steps towards the largest eigenvalue of D^-1 A.
 const POWER_STEPS: usize = 15;
+/// Numbers that one task works on.
+const CHUNK: usize = 8192;
 /// What the value after them is multiplied by: it is a bound from below.
 const SAFETY: f32 = 1.1;
 
@@ -81,26 +85,32 @@ impl<const B: usize> Chebyshev<B> {
         let ratio = center / radius;
         let mut weight = 1.0 / ratio;
         self.diagonal.apply(&self.residual, &mut self.step);
-        for (step, x) in self.step.iter_mut().zip(x.iter_mut()) {
-            for a in 0..B {
-                step[a] /= center;
-                x[a] += step[a];
-            }
-        }
+        update(&mut self.step, x, |_, step| *step /= center);
         for _ in 1..self.degree {
             matrix.multiply_subtract(&self.step, &mut self.residual);
             self.diagonal.apply(&self.residual, &mut self.image);
             let next = 1.0 / (2.0 * ratio - weight);
             let (old, new) = (next * weight, 2.0 * next / radius);
-            for ((step, image), x) in self.step.iter_mut().zip(&self.image).zip(x.iter_mut()) {
-                for a in 0..B {
-                    step[a] = old * step[a] + new * image[a];
-                    x[a] += step[a];
-                }
-            }
+            let image = self.image.as_flattened();
+            update(&mut self.step, x, |at, step| *step = old * *step + new * image[at]);
             weight = next;
         }
     }
+}
+
+/// Lets `change` have each number of a step with its index, and adds the step to x.
+fn update<const B: usize>(
+    step: &mut [[f32; B]],
+    x: &mut [[f32; B]],
+    change: impl Fn(usize, &mut f32) + Sync,
+) {
+    let steps = step.as_flattened_mut().par_chunks_mut(CHUNK).enumerate();
+    steps.zip(x.as_flattened_mut().par_chunks_mut(CHUNK)).for_each(|((chunk, steps), x)| {
+        for (index, (step, x)) in steps.iter_mut().zip(x).enumerate() {
+            change(chunk * CHUNK + index, step);
+            *x += *step;
+        }
+    });
 }
 
 /// The largest eigenvalue of D^-1 A by power steps, from below.

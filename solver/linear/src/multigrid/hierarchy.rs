@@ -1,10 +1,13 @@
 //! `Hierarchy`: levels of a multigrid method, and one V-cycle through them.
 
+use std::sync::Arc;
+
 use super::aggregation::{aggregate, smoothed_prolongation};
 use super::block_matrix::BlockMatrix;
 use super::chebyshev::{Chebyshev, Spectrum};
 use super::dense::DenseInverse;
 use super::product::galerkin;
+use super::upwind::upwinded;
 
 /// Unknowns, but for those of pairs, up to which a matrix is inverted.
 const COARSEST: usize = 300;
@@ -24,6 +27,8 @@ pub(crate) struct HierarchySettings {
     pub degree: usize,
     /// Whether constants are in the nullspace of the matrix.
     pub is_singular: bool,
+    /// Whether there is convection: coarser levels, where it is more against diffusion, are upwinded.
+    pub is_convective: bool,
 }
 
 /// Levels from the finest to the one before the coarsest, and the inverse of that.
@@ -36,7 +41,7 @@ pub(crate) struct Hierarchy<const B: usize> {
 /// One level with the transfers to the next.
 #[derive(Debug)]
 struct Level<const B: usize> {
-    matrix: BlockMatrix<B>,
+    matrix: Arc<BlockMatrix<B>>,
     smoother: Chebyshev<B>,
     prolongation: BlockMatrix<B>,
     restriction: BlockMatrix<B>,
@@ -47,7 +52,11 @@ struct Level<const B: usize> {
 }
 
 impl<const B: usize> Level<B> {
-    fn new(matrix: BlockMatrix<B>, smoother: Chebyshev<B>, prolongation: BlockMatrix<B>) -> Self {
+    fn new(
+        matrix: Arc<BlockMatrix<B>>,
+        smoother: Chebyshev<B>,
+        prolongation: BlockMatrix<B>,
+    ) -> Self {
         let restriction = prolongation.transposed();
         let residual = vec![[0.0; B]; matrix.n_rows()];
         let coarse_rhs = vec![[0.0; B]; prolongation.n_columns()];
@@ -55,8 +64,13 @@ impl<const B: usize> Level<B> {
         Self { matrix, smoother, prolongation, restriction, residual, coarse_rhs, coarse }
     }
 
-    fn coarse_matrix(&self) -> BlockMatrix<B> {
-        galerkin(&self.restriction, &self.matrix, &self.prolongation)
+    /// The matrix of the next level, with so many pairs if it is to be upwinded.
+    fn coarse_matrix(&self, upwinded_pairs: Option<usize>) -> Arc<BlockMatrix<B>> {
+        let matrix = galerkin(&self.restriction, &self.matrix, &self.prolongation);
+        Arc::new(match upwinded_pairs {
+            Some(n_pairs) => upwinded(&matrix, n_pairs).matrix,
+            None => matrix,
+        })
     }
 
     fn n_bytes(&self) -> usize {
@@ -68,17 +82,17 @@ impl<const B: usize> Hierarchy<B> {
     /// The levels below a matrix; `transfer`, if given, is the prolongation from the second level to
     /// the first.
     pub fn new(
-        matrix: BlockMatrix<B>,
+        matrix: impl Into<Arc<BlockMatrix<B>>>,
         transfer: Option<BlockMatrix<B>>,
         settings: HierarchySettings,
     ) -> Self {
-        let HierarchySettings { n_pairs, degree, is_singular } = settings;
+        let HierarchySettings { n_pairs, degree, is_singular, is_convective } = settings;
         let mut levels = Vec::new();
-        let mut matrix = matrix;
+        let mut matrix = matrix.into();
         if let Some(transfer) = transfer {
             let smoother = Chebyshev::new(&matrix, n_pairs, SMOOTHED, degree);
             let level = Level::new(matrix, smoother, transfer);
-            matrix = level.coarse_matrix();
+            matrix = level.coarse_matrix(is_convective.then_some(n_pairs));
             levels.push(level);
         }
         while (matrix.n_rows() - 2 * n_pairs) * B > COARSEST {
@@ -89,7 +103,7 @@ impl<const B: usize> Hierarchy<B> {
             let smoother = Chebyshev::new(&matrix, n_pairs, SMOOTHED, DEGREE);
             let prolongation = smoothed_prolongation(&matrix, &smoother, &aggregates);
             let level = Level::new(matrix, smoother, prolongation);
-            matrix = level.coarse_matrix();
+            matrix = level.coarse_matrix(is_convective.then_some(n_pairs));
             levels.push(level);
         }
         Self { levels, coarsest: Coarsest::new(&matrix, n_pairs, is_singular) }

@@ -15,7 +15,9 @@ mod hierarchy;
 mod product;
 #[cfg(test)]
 mod tests;
+mod upwind;
 
 pub(crate) use block_matrix::{Block, BlockMatrix, RowBuilder};
 pub(crate) use chebyshev::{Chebyshev, Spectrum};
 pub(crate) use hierarchy::{Hierarchy, HierarchySettings};
+pub(crate) use upwind::{Upwinded, upwinded};

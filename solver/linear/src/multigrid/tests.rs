@@ -5,7 +5,7 @@ use super::chebyshev::{Chebyshev, Spectrum};
 use super::dense::{DenseInverse, invert};
 use super::hierarchy::{Hierarchy, HierarchySettings};
 use super::product::{galerkin, product};
-use super::{Block, BlockMatrix, RowBuilder};
+use super::{Block, BlockMatrix, RowBuilder, Upwinded, upwinded};
 
 fn diagonal<const B: usize>(value: f32) -> Block<B> {
     std::array::from_fn(|b| std::array::from_fn(|a| if a == b { value } else { 0.0 }))
@@ -162,7 +162,7 @@ fn a_polynomial_on_the_whole_spectrum_solves() {
 /// How much the residual shrinks in each of the last of ten cycles, in the worse of two components.
 fn contraction<const B: usize>(n: usize, is_singular: bool) -> f64 {
     let matrix = laplacian::<B>(n, is_singular);
-    let settings = HierarchySettings { n_pairs: 0, degree: 2, is_singular };
+    let settings = HierarchySettings { n_pairs: 0, degree: 2, is_singular, is_convective: false };
     let mut hierarchy = Hierarchy::new(matrix.clone(), None, settings);
     let mut residual: Vec<[f32; B]> =
         (0..n * n).map(|row| std::array::from_fn(|a| whole(row * 5 + a))).collect();
@@ -191,5 +191,38 @@ fn cycles_converge_alike_on_any_size() {
         let singular = contraction::<1>(n, true);
         println!("{n}: {regular:.3}, {singular:.3}");
         assert!(regular < 0.35 && singular < 0.35, "{n}: {regular} {singular}");
+    }
+}
+
+/// Convection and diffusion along a line, with a pair of rows at the end.
+fn convection(convection: f32) -> BlockMatrix<2> {
+    matrix(8, 8, |row, column| {
+        let coupling = match (column, row) {
+            _ if column == row => 2.0,
+            _ if column == row + 1 => convection - 1.0,
+            _ if column + 1 == row => -convection - 1.0,
+            _ => 0.0,
+        };
+        diagonal(coupling)
+    })
+}
+
+#[test]
+fn upwinding_adds_the_least_diffusion_without_positive_couplings() {
+    for (size, added) in [(0.0, 0.0), (0.5, 0.0), (3.0, 2.0), (-3.0, 2.0)] {
+        let Upwinded { matrix, part } = upwinded(&convection(size), 1);
+        assert_eq!(part > 0.0, added > 0.0);
+        for row in 1..5 {
+            let value = |other: usize| {
+                let block = matrix.row(row).find(|(column, _)| *column == other);
+                block.map_or(f32::NAN, |(_, block)| block[0][0])
+            };
+            assert_eq!(value(row), 2.0 + 2.0 * added);
+            assert_eq!(value(row + 1), size - 1.0 - added);
+            assert_eq!(value(row - 1), -size - 1.0 - added);
+        }
+        // The couplings with the pair stay
+        let last: Vec<f32> = matrix.row(5).map(|(_, block)| block[1][1]).collect();
+        assert_eq!(last, [-size - 1.0 - added, 2.0 + added, size - 1.0]);
     }
 }

@@ -21,6 +21,17 @@ pub(crate) fn to_u16(index: usize) -> u16 {
     u16::try_from(index).expect("indices among the unknowns of a cell take at most 16 bits")
 }
 
+/// An index among the few groups of unknowns of one cell, below 255.
+///
+/// # Panics
+/// When there are more.
+#[inline(always)]
+#[track_caller]
+pub(crate) fn to_u8(index: usize) -> u8 {
+    let index = u8::try_from(index).ok().filter(|index| *index < u8::MAX);
+    index.expect("a cell has fewer than 255 groups of unknowns")
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -29,6 +40,7 @@ mod tests {
     fn what_fits_is_kept() {
         assert_eq!(to_u32(u32::MAX as usize), u32::MAX);
         assert_eq!(to_u16(usize::from(u16::MAX)), u16::MAX);
+        assert_eq!(to_u8(254), 254);
     }
 
     #[test]

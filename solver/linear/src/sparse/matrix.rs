@@ -88,8 +88,9 @@ impl SparseMatrix {
     pub fn absolute_product(&self, x: &[f64]) -> Vec<f64> {
         let mut sums = vec![0.0; self.n()];
         for (column, &factor) in x.iter().enumerate() {
-            for entry in self.pattern.entries(column) {
-                sums[self.pattern.rows[entry]] += (self.values[entry] * factor).abs();
+            let values = &self.values[self.pattern.entries(column)];
+            for (&row, value) in self.pattern.column(column).iter().zip(values) {
+                sums[row as usize] += (value * factor).abs();
             }
         }
         sums
@@ -101,11 +102,11 @@ impl SparseMatrix {
         let mut defect = b.to_vec();
         let mut size: Vec<f64> = b.iter().map(|value| value.abs()).collect();
         for (column, &factor) in x.iter().enumerate() {
-            for entry in self.pattern.entries(column) {
-                let row = self.pattern.rows[entry];
-                let product = self.values[entry] * factor;
-                defect[row] -= product;
-                size[row] += product.abs();
+            let values = &self.values[self.pattern.entries(column)];
+            for (&row, value) in self.pattern.column(column).iter().zip(values) {
+                let product = value * factor;
+                defect[row as usize] -= product;
+                size[row as usize] += product.abs();
             }
         }
         Residual { defect, size }
@@ -142,10 +143,7 @@ mod tests {
 
     /// [[2, 1], [0, 4]].
     fn matrix() -> SparseMatrix {
-        SparseMatrix::new(
-            Pattern { columns: vec![0, 1, 3], rows: vec![0, 0, 1] },
-            vec![2.0, 1.0, 4.0],
-        )
+        SparseMatrix::new(Pattern::from_columns([vec![0], vec![0, 1]]), vec![2.0, 1.0, 4.0])
     }
 
     #[test]

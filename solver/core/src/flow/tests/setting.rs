@@ -138,7 +138,7 @@ impl<const D: usize> Setting<D> {
     }
 
     pub fn matrix(&self, convection: Convection) -> Vec<f64> {
-        let mut values = vec![f64::NAN; self.pattern.rows.len()];
+        let mut values = vec![f64::NAN; self.pattern.n_entries()];
         self.with_terms(convection, |terms, fields| {
             let Self { assembly, mesh, constraints, .. } = self;
             assemble(assembly, mesh, constraints, terms, fields, &mut values);

@@ -1,6 +1,6 @@
 //! What holds on the sides of a domain.
 
-use alewife_mesh::Point;
+use alewife_mesh::{Circle, Point, SideShape};
 
 use crate::case::{BoundaryCondition, Case, DomainSpec, Geometry, TimeFunction, normal_axis};
 use crate::coupling::{Side, VelocityProfile};
@@ -44,7 +44,13 @@ pub(super) fn side<const D: usize>(case: &Case, name: &str) -> Result<Side<D>, R
             let value = Point::<D>::from_fn(|axis, _| value.get(axis).copied().unwrap_or(0.0));
             scaled(Box::new(move |_, _| value), factor)
         }
-        BoundaryCondition::Parabolic { peak, factor } => scaled(parabola(case, *peak), factor),
+        BoundaryCondition::Parabolic { peak, factor } => {
+            let profile = match case.given_mesh() {
+                Some(mesh) => parabola_through(mesh.side_shape(name), *peak, name)?,
+                None => parabola(case, *peak),
+            };
+            scaled(profile, factor)
+        }
         BoundaryCondition::Shear { rate, origin, factor } => {
             let (rate, origin) = (*rate, *origin);
             scaled(Box::new(move |point, _| along_x(rate * (point[1] - origin))), factor)
@@ -58,6 +64,11 @@ fn along_x<const D: usize>(speed: f64) -> Point<D> {
 
 /// The axis a mirror plane is normal to.
 fn mirror_axis(case: &Case, side: &str) -> Result<usize, RunError> {
+    if let Some(shape) = case.given_mesh().and_then(|mesh| mesh.side_shape(side)) {
+        return shape.normal_axis().ok_or_else(|| {
+            RunError::Unsupported(format!("side `{side}` is not flat and normal to x, y or z"))
+        });
+    }
     let is_cylinder = matches!(case.domain, DomainSpec::Cylinder { .. });
     match normal_axis(side) {
         Some(axis) => Ok(axis),
@@ -66,6 +77,24 @@ fn mirror_axis(case: &Case, side: &str) -> Result<usize, RunError> {
             "side `{side}` is curved, and a symmetry plane is straight"
         ))),
     }
+}
+
+/// A velocity into a given mesh that is largest in the middle of a side, and zero at its ends or its
+/// round rim.
+fn parabola_through<const D: usize>(
+    shape: Option<&SideShape>,
+    peak: f64,
+    side: &str,
+) -> Result<VelocityProfile<D>, RunError> {
+    let known = shape.and_then(|shape| Some((shape.inward(), shape.circle?)));
+    let Some((inward, Circle { center, radius })) = known else {
+        return Err(RunError::Unsupported(format!("side `{side}` has no round rim")));
+    };
+    let velocity = Point::<D>::from_fn(|axis, _| peak * inward[axis]);
+    let center = Point::<D>::from_fn(|axis, _| center[axis]);
+    Ok(Box::new(move |point, _| {
+        velocity * (1.0 - (point - center).norm_squared() / (radius * radius))
+    }))
 }
 
 /// A velocity along x that is zero at walls, a parabola across each axis with its largest value in the

@@ -5,7 +5,7 @@ use alewife_mesh::{Domain, Mesh, PlacedShape, Sizing, estimate_cells};
 use super::periodic_cell::{PeriodicCell, initial_cell};
 use super::shape_motion::shape_motion;
 use crate::body::Pose;
-use crate::case::{Body, BoundaryCondition, Case, MeshEquation, Model};
+use crate::case::{Body, BoundaryCondition, Case, MeshEquation, MeshFile, Model};
 use crate::coupling::{Problem, ShapeError};
 use crate::gait::WavingSheet;
 use crate::motion::{Limits, MotionKind, Stiffening};
@@ -96,6 +96,9 @@ impl MeshedCell {
     /// Generates the mesh of a case at time zero.
     pub fn generate(model: &Model) -> Result<Self, RunError> {
         let case = &model.case;
+        if let Some(mesh) = case.given_mesh().and_then(MeshFile::planar) {
+            return Self::of(model, mesh.clone());
+        }
         let (domain, bodies, sizing) = (case.mesh_domain(), placed_bodies(model)?, sizing(case));
         check_cells::<2>(|limit| estimate_cells(&domain, &bodies, &sizing, limit))?;
         let cell = initial_cell(&domain, bodies)?;

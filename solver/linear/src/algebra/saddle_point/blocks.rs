@@ -1,59 +1,73 @@
 //! The velocity block of a matrix in blocks of three, and the transfer from its coarser level.
 
 use super::data::Interpolation;
-use super::numbering::{B, Numbering, Place};
+use super::numbering::{Numbering, Place};
+use super::vector::B;
 use crate::multigrid::{Block, BlockMatrix, RowBuilder};
 use crate::sparse::SparseMatrix;
 use crate::sparse::index::to_u32;
 use crate::sparse::single::single;
 
 /// F in single precision. Components that are no unknowns get the mean of the others on their diagonal.
+///
+/// Columns are taken in their order, so that those of each row ascend.
 pub(super) fn velocity_block(matrix: &SparseMatrix, numbering: &Numbering) -> BlockMatrix<B> {
+    const NONE: u32 = u32::MAX;
+    let pattern = matrix.pattern();
     let n = numbering.blocks.len();
-    let by_column = transposed_block(matrix, numbering, n);
-    // By rows: the transposed of the columns
-    by_column.transposed()
-}
-
-/// The transposed of F: its rows are the columns of the matrix.
-fn transposed_block(matrix: &SparseMatrix, numbering: &Numbering, n: usize) -> BlockMatrix<B> {
-    const ABSENT: u32 = u32::MAX;
-    let (pattern, values) = (matrix.pattern(), matrix.values());
-    let mut rows = RowBuilder::new(n);
-    let mut position = vec![ABSENT; n];
-    let mut touched: Vec<u32> = Vec::new();
-    let mut blocks: Vec<Block<B>> = Vec::new();
-    for (own, unknowns) in numbering.blocks.iter().enumerate() {
-        for (b, unknown) in unknowns.iter().enumerate() {
-            let Some(column) = unknown else { continue };
-            for entry in pattern.entries(*column as usize) {
-                let Place::Velocity { row, component } = numbering.places[pattern.rows[entry]]
-                else {
-                    continue;
-                };
-                let slot = &mut position[row as usize];
-                if *slot == ABSENT {
-                    *slot = to_u32(blocks.len());
-                    touched.push(row);
-                    blocks.push([[0.0; B]; B]);
+    let columns_of = |own: usize| {
+        let unknowns = numbering.blocks[own].iter().enumerate();
+        unknowns.filter_map(|(b, unknown)| unknown.map(|unknown| (b, unknown as usize)))
+    };
+    let velocity = |unknown: u32| match numbering.places[unknown as usize] {
+        Place::Velocity { row, component } => Some((row as usize, usize::from(component))),
+        Place::Pressure(_) => None,
+    };
+    // The column in which a row had an entry last
+    let mut last = vec![NONE; n];
+    let mut starts = vec![0; n + 1];
+    for own in 0..n {
+        for (_, column) in columns_of(own) {
+            for (row, _) in pattern.column(column).iter().filter_map(|&row| velocity(row)) {
+                if last[row] != to_u32(own) {
+                    last[row] = to_u32(own);
+                    starts[row + 1] += 1;
                 }
-                // Transposed: entry (a, b) of a block becomes (b, a)
-                blocks[*slot as usize][usize::from(component)][b] = single(values[entry]);
             }
         }
-        pad_diagonal(unknowns, position[own], &mut blocks);
-        for (row, block) in touched.drain(..).zip(blocks.drain(..)) {
-            position[row as usize] = ABSENT;
-            rows.push(row, block);
-        }
-        rows.end_row();
     }
-    rows.build()
+    for row in 0..n {
+        starts[row + 1] += starts[row];
+    }
+    let mut next = starts.clone();
+    let (mut columns, mut blocks) = (vec![0; starts[n]], vec![[[0.0; B]; B]; starts[n]]);
+    last.fill(NONE);
+    for own in 0..n {
+        for (b, column) in columns_of(own) {
+            let values = &matrix.values()[pattern.entries(column)];
+            for (&unknown, value) in pattern.column(column).iter().zip(values) {
+                let Some((row, component)) = velocity(unknown) else { continue };
+                if last[row] != to_u32(own) {
+                    last[row] = to_u32(own);
+                    columns[next[row]] = to_u32(own);
+                    next[row] += 1;
+                }
+                blocks[next[row] - 1][b][component] = single(*value);
+            }
+        }
+    }
+    for (row, unknowns) in numbering.blocks.iter().enumerate() {
+        let entries = starts[row]..starts[row + 1];
+        let diagonal = columns[entries.clone()].binary_search(&to_u32(row));
+        if let Ok(position) = diagonal {
+            pad_diagonal(unknowns, &mut blocks[entries][position]);
+        }
+    }
+    BlockMatrix::new(n, starts, columns, blocks)
 }
 
 /// Gives components that are no unknowns a diagonal entry.
-fn pad_diagonal(unknowns: &[Option<u32>; B], position: u32, blocks: &mut [Block<B>]) {
-    let Some(block) = blocks.get_mut(position as usize) else { return };
+fn pad_diagonal(unknowns: &[Option<u32>; B], block: &mut Block<B>) {
     let free = unknowns.iter().flatten().count().max(1);
     let trace: f32 = (0..B).map(|a| block[a][a]).sum();
     let mean = if trace > 0.0 { trace / free as f32 } else { 1.0 };

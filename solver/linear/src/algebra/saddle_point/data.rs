@@ -59,6 +59,8 @@ pub struct Weights {
     /// integral of the basis function. Not read of pressures and rigid velocities. Without it the
     /// Schur complement has no Laplacian.
     pub damping: Option<Vec<f64>>,
+    /// Whether F has convection.
+    pub has_convection: bool,
 }
 
 impl SaddlePoint {

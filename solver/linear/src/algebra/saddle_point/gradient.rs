@@ -2,7 +2,8 @@
 
 use rayon::prelude::*;
 
-use super::numbering::{B, Numbering, Place};
+use super::numbering::{Numbering, Place};
+use super::vector::B;
 use crate::multigrid::{BlockMatrix, RowBuilder};
 use crate::sparse::SparseMatrix;
 use crate::sparse::index::to_u32;
@@ -50,7 +51,7 @@ impl Gradient {
         const NONE: u32 = u32::MAX;
         let mut last = vec![NONE; n_rows];
         let mut counts = vec![0; n_rows];
-        let velocity = |row: usize| match numbering.places[row] {
+        let velocity = |row: u32| match numbering.places[row as usize] {
             Place::Velocity { row, component } => Some((row as usize, usize::from(component))),
             Place::Pressure(_) => None,
         };
@@ -68,8 +69,9 @@ impl Gradient {
         let (mut pressures, mut values) = (vec![0; n_entries], vec![[0.0; B]; n_entries]);
         last.fill(NONE);
         for (index, &unknown) in numbering.pressures.iter().enumerate() {
-            for entry in pattern.entries(unknown as usize) {
-                let Some((row, component)) = velocity(pattern.rows[entry]) else { continue };
+            let rows = pattern.column(unknown as usize);
+            for (&row, entry) in rows.iter().zip(pattern.entries(unknown as usize)) {
+                let Some((row, component)) = velocity(row) else { continue };
                 if last[row] != to_u32(index) {
                     last[row] = to_u32(index);
                     pressures[next[row]] = to_u32(index);
@@ -79,6 +81,11 @@ impl Gradient {
             }
         }
         Self { n_pressures: numbering.pressures.len(), starts, pressures, values }
+    }
+
+    /// Number of pressures.
+    pub fn n_pressures(&self) -> usize {
+        self.n_pressures
     }
 
     /// Memory (bytes).
@@ -91,22 +98,44 @@ impl Gradient {
         self.pressures[entries.clone()].iter().copied().zip(&self.values[entries])
     }
 
-    /// u -= G p.
-    pub fn multiply_subtract(&self, p: &[f32], u: &mut [[f32; B]]) {
+    /// u += G p.
+    pub fn multiply_add(&self, p: &[f32], u: &mut [[f32; B]]) {
         u.par_chunks_mut(ROWS).enumerate().for_each(|(chunk, rows)| {
             for (offset, u) in rows.iter_mut().enumerate() {
                 for (pressure, value) in self.row(chunk * ROWS + offset) {
                     for a in 0..B {
-                        u[a] -= value[a] * p[pressure as usize];
+                        u[a] += value[a] * p[pressure as usize];
                     }
                 }
             }
         });
     }
 
+    /// G^T, where rows and pressures have changed places.
+    pub fn transposed(&self) -> Self {
+        self.rows_of_pressures(self.starts.len() - 1)
+    }
+
+    /// p = G^T u, of the transposed G.
+    pub fn multiply_transposed(&self, u: &[[f32; B]], p: &mut [f32]) {
+        p.par_chunks_mut(ROWS).enumerate().for_each(|(chunk, pressures)| {
+            for (offset, p) in pressures.iter_mut().enumerate() {
+                let terms = self.row(chunk * ROWS + offset);
+                let mut sums = [0.0; B];
+                for (row, value) in terms {
+                    let u = &u[row as usize];
+                    for a in 0..B {
+                        sums[a] += value[a] * u[a];
+                    }
+                }
+                *p = sums.iter().sum();
+            }
+        });
+    }
+
     /// The same with one more pressure, the one that is held: together they have no gradient where they
     /// are equal.
-    fn with_held_pressure(&self) -> Self {
+    pub fn with_held_pressure(&self) -> Self {
         let mut all = Self {
             n_pressures: self.n_pressures + 1,
             starts: vec![0],
@@ -134,10 +163,7 @@ impl Gradient {
 
     /// G^T D^-1 G over the first rows, those of nodes, for a diagonal matrix D; components where D is not
     /// positive are left out.
-    pub fn laplacian(&self, damping: &[[f32; B]], has_held_pressure: bool) -> BlockMatrix<1> {
-        if has_held_pressure {
-            return self.with_held_pressure().laplacian(damping, false);
-        }
+    pub fn laplacian(&self, damping: &[[f32; B]]) -> BlockMatrix<1> {
         let columns = self.rows_of_pressures(damping.len());
         let mut place = vec![u32::MAX; self.n_pressures];
         let mut rows = RowBuilder::new(self.n_pressures);

@@ -1,14 +1,16 @@
-//! `IterativeSolver`: FGMRES for saddle-point systems, with a direct solver as the last resort.
+//! `IterativeSolver`: GCR for saddle-point systems, with a direct solver as the last resort.
 
 use super::super::direct::DirectSolver;
 use super::super::fingerprint::Fingerprints;
-use super::super::krylov::{fgmres, norm};
+use super::super::krylov::norm;
 use super::super::solver::{Accuracy, LinearError, LinearSolver};
 use super::data::{SaddlePoint, Weights};
-use super::guess::{EarlierSolutions, Guess};
-use super::numbering::{Numbering, Place};
+use super::guess::EarlierSolutions;
+use super::krylov_space::{Correction, KrylovSpace};
+use super::numbering::Numbering;
 use super::operator::{ColumnGroups, Operator};
 use super::preconditioner::Preconditioner;
+use super::vector::Blocks;
 use crate::sparse::{Pattern, SparseMatrix};
 
 /// When iterations end, and what happens then.
@@ -17,7 +19,7 @@ pub struct IterativeSettings {
     /// Euclidean norm of the residual over that of the right-hand side that is reached; momentum and
     /// mass are scaled against each other.
     pub tolerance: f64,
-    /// Iterations after which FGMRES starts anew.
+    /// Iterations after which GCR starts anew.
     pub restart: usize,
     /// Iterations of one solution at most.
     pub max_iterations: usize,
@@ -28,14 +30,22 @@ pub struct IterativeSettings {
 impl Default for IterativeSettings {
     fn default() -> Self {
         // Factors of three gigabytes
-        Self { tolerance: 1e-8, restart: 60, max_iterations: 180, max_factor_entries: 400_000_000 }
+        Self { tolerance: 1e-8, restart: 240, max_iterations: 480, max_factor_entries: 400_000_000 }
     }
 }
 
-/// The residual that the sum of the corrections may leave beyond what was asked for, by rounding.
-const ROUNDING: f64 = 2.0;
+/// What iterations in single precision reduce a residual to at most; the next one is computed in double
+/// precision.
+const CYCLE: f64 = 1e-3;
+/// Part of the tolerance that they are to reach, since their own residual is not exact.
+const AIM: f64 = 0.8;
 
-/// FGMRES with the preconditioner of the last set-up.
+/// Iterations after which the residual is looked at.
+const LONG: usize = 60;
+/// Part of the first residual that iterations without hope leave then.
+const HOPELESS: f64 = 0.7;
+
+/// GCR with the preconditioner of the last set-up.
 #[derive(Debug)]
 pub struct IterativeSolver {
     system: SaddlePoint,
@@ -56,7 +66,6 @@ pub struct IterativeSolver {
 struct SetUp {
     matrix: u64,
     preconditioner: Preconditioner,
-    scales: Vec<f64>,
 }
 
 impl IterativeSolver {
@@ -129,89 +138,103 @@ impl IterativeSolver {
         self.set_up.as_ref().map_or(0, |set_up| set_up.preconditioner.n_bytes())
     }
 
-    /// Solves by FGMRES. Returns none when it stalls.
+    /// Solves by GCR until the residual is `reduction` times the right-hand side.
     fn iterate(
         &mut self,
         matrix: &SparseMatrix,
         rhs: &[f64],
+        reduction: f64,
         uses_earlier: bool,
     ) -> Result<Iterated, LinearError> {
-        let Some(SetUp { preconditioner, scales, .. }) = &mut self.set_up else {
+        let Some(SetUp { preconditioner, .. }) = &mut self.set_up else {
             return Err(LinearError::NotFinite);
         };
-        let operator = Operator { matrix, groups: &self.groups, scales };
-        let b: Vec<f64> =
-            rhs.iter().zip(scales.iter()).map(|(value, scale)| value * scale).collect();
-        let tolerance = self.settings.tolerance * norm(&b);
-        let unscaled = |x: &[f64]| -> Vec<f64> {
-            x.iter().zip(scales.iter()).map(|(value, scale)| value * scale).collect()
-        };
-        let Guess { mut x, mut residual } = if uses_earlier {
-            self.earlier.guess(
-                |x, y| {
-                    let scaled: Vec<f64> =
-                        x.iter().zip(scales.iter()).map(|(x, scale)| x / scale).collect();
-                    operator.multiply(&scaled, y);
-                },
-                &b,
-            )
-        } else {
-            Guess { x: vec![0.0; b.len()], residual: b.clone() }
-        };
-        // The guess is in the unknowns, the corrections are scaled
-        for (x, scale) in x.iter_mut().zip(scales.iter()) {
-            *x /= scale;
+        let operator = Operator { matrix, groups: &self.groups };
+        let mut system = Scaled { operator, numbering: &self.numbering, preconditioner };
+        let initial = system.norm(rhs);
+        let tolerance = reduction * initial;
+        let mut iterate = Iterate { x: vec![0.0; rhs.len()], residual: rhs.to_vec() };
+        let mut reached = initial;
+        if uses_earlier && !self.earlier.is_empty() && initial > 0.0 {
+            let guess = system.guess(&self.earlier, rhs, initial);
+            let better = system.corrected(&iterate, rhs, initial, &guess);
+            let norm = system.norm(&better.residual);
+            if norm < reached {
+                (iterate, reached) = (better, norm);
+            }
         }
-        let mut iterations = 0;
+        let (mut space, mut iterations, start) = (KrylovSpace::default(), 0, reached);
         loop {
-            let reached = norm(&residual);
             if !reached.is_finite() {
                 return Err(LinearError::NotFinite);
             }
-            if reached <= ROUNDING * tolerance {
+            if reached <= tolerance {
                 break;
             }
             let left = self.settings.max_iterations.saturating_sub(iterations);
-            if left == 0 {
-                let reached = reached / norm(&b);
-                return Ok(Iterated { x: unscaled(&x), iterations, stalled_at: Some(reached) });
+            let is_hopeless = iterations >= LONG && reached > HOPELESS * start;
+            if left == 0 || is_hopeless {
+                let stalled_at = Some(reached / initial);
+                return Ok(Iterated { iterate, iterations, stalled_at });
             }
-            let most = left.min(self.settings.restart);
-            let found = fgmres(
-                |z: &[f32], y| operator.multiply(z, y),
-                |r, z| preconditioner.apply(&self.numbering, scales, r, z),
-                &residual,
-                |iterations, residual| iterations < most && residual > tolerance,
-            );
-            iterations += found.iterations.max(1);
-            for (x, correction) in x.iter_mut().zip(&found.x) {
-                *x += correction;
+            if space.n_directions() >= self.settings.restart {
+                space = KrylovSpace::default();
             }
-            operator.multiply(&x, &mut residual);
-            for (residual, b) in residual.iter_mut().zip(&b) {
-                *residual = b - *residual;
-            }
+            let most = left.min(LONG).min(self.settings.restart - space.n_directions());
+            let wanted = (AIM * tolerance / reached).max(CYCLE);
+            let b = system.single(&iterate.residual, reached);
+            let Correction { x, iterations: more } =
+                space.correction(system.preconditioner, b, |iterations, residual| {
+                    iterations < most && residual > wanted
+                });
+            iterations += more.max(1);
+            iterate = system.corrected(&iterate, rhs, reached, &x);
+            reached = system.norm(&iterate.residual);
+            tracing::trace!(iterations, residual = reached / initial, "iterations");
         }
-        Ok(Iterated { x: unscaled(&x), iterations, stalled_at: None })
+        Ok(Iterated { iterate, iterations, stalled_at: None })
     }
 
-    /// A direct solver for the system, if its factors are small enough.
-    fn take_over(&self, matrix: &SparseMatrix, stall: &LinearError) -> Option<DirectSolver> {
+    /// Overwrites a right-hand side with the solution for the matrix of the last set-up, to a Euclidean norm
+    /// of the residual over that of the right-hand side, in place of the one in the settings.
+    ///
+    /// # Errors
+    /// When iterations stall, or a value is not finite.
+    pub fn solve_to(
+        &mut self,
+        matrix: &SparseMatrix,
+        rhs: &mut [f64],
+        reduction: f64,
+    ) -> Result<Accuracy, LinearError> {
+        self.solved(matrix, rhs, reduction, true)
+    }
+
+    /// A direct solver for the system, if its factors are small enough, once iterations have left a part
+    /// of the right-hand side.
+    fn take_over(&self, matrix: &SparseMatrix, residual: f64) -> Result<DirectSolver, LinearError> {
         let direct = DirectSolver::new(matrix.pattern(), &self.system.unknowns());
-        let entries = direct.n_factor_entries();
-        let is_affordable = entries <= self.settings.max_factor_entries;
-        if is_affordable {
-            tracing::warn!(
-                "{stall}; a direct solver takes over, with {entries} entries of factors"
-            );
+        let n_factor_entries = direct.n_factor_entries();
+        let (iterations, n_unknowns) = (self.iterations, matrix.n());
+        if n_factor_entries > self.settings.max_factor_entries {
+            return Err(LinearError::Stalled {
+                residual,
+                iterations,
+                n_unknowns,
+                n_factor_entries,
+            });
         }
-        is_affordable.then_some(direct)
+        tracing::warn!(
+            "{iterations} iterations with {n_unknowns} unknowns leave {residual:.1e} of the right-hand \
+             side; a direct solver takes over, with {n_factor_entries} entries of factors"
+        );
+        Ok(direct)
     }
 
     fn solved(
         &mut self,
         matrix: &SparseMatrix,
         rhs: &mut [f64],
+        reduction: f64,
         uses_earlier: bool,
     ) -> Result<Accuracy, LinearError> {
         if let Some(direct) = &mut self.direct {
@@ -220,29 +243,90 @@ impl IterativeSolver {
         if rhs.iter().any(|value| !value.is_finite()) {
             return Err(LinearError::NotFinite);
         }
-        let Iterated { x, iterations, stalled_at } = self.iterate(matrix, rhs, uses_earlier)?;
+        let Iterated { iterate, iterations, stalled_at } =
+            self.iterate(matrix, rhs, reduction, uses_earlier)?;
         self.iterations = iterations;
         if let Some(residual) = stalled_at {
-            let stall = LinearError::Stalled { residual, iterations, n_unknowns: rhs.len() };
-            let Some(mut direct) = self.take_over(matrix, &stall) else { return Err(stall) };
+            let mut direct = self.take_over(matrix, residual)?;
             direct.set_up(matrix)?;
             let accuracy = direct.solve(matrix, rhs)?;
             self.direct = Some(Box::new(direct));
             return Ok(accuracy);
         }
-        let residual = matrix.residual(&x, rhs).relative();
-        rhs.copy_from_slice(&x);
+        let largest = |values: &[f64]| values.iter().fold(0.0f64, |most, v| most.max(v.abs()));
+        let size = largest(rhs);
+        let residual = if size > 0.0 { largest(&iterate.residual) / size } else { 0.0 };
+        rhs.copy_from_slice(&iterate.x);
         if uses_earlier {
-            self.earlier.keep(x);
+            self.earlier.keep(self.numbering.split(&iterate.x, |_| 1.0));
         }
         tracing::debug!(iterations, residual, "solved by iterations");
         Ok(Accuracy { residual, refinements: iterations })
     }
 }
 
+/// An approximation x of the solution of A x = b, and b - A x.
+struct Iterate {
+    x: Vec<f64>,
+    residual: Vec<f64>,
+}
+
+/// A system with its rows and columns scaled, by the preconditioner.
+struct Scaled<'a> {
+    operator: Operator<'a>,
+    numbering: &'a Numbering,
+    preconditioner: &'a mut Preconditioner,
+}
+
+impl Scaled<'_> {
+    /// Euclidean norm of a residual.
+    fn norm(&self, residual: &[f64]) -> f64 {
+        let scales = self.preconditioner.scales();
+        let places = self.numbering.places.iter();
+        let scaled = residual.iter().zip(places).map(|(value, place)| value * scales.of(*place));
+        norm(&scaled.collect::<Vec<f64>>())
+    }
+
+    /// A residual of this size, as one of norm one in single precision.
+    fn single(&self, residual: &[f64], size: f64) -> Blocks {
+        let scales = self.preconditioner.scales();
+        self.numbering.split(residual, |place| scales.of(place) / size)
+    }
+
+    /// The combination of earlier solutions with the least residual, for a right-hand side of this size.
+    fn guess(&mut self, earlier: &EarlierSolutions, rhs: &[f64], size: f64) -> Blocks {
+        let b = self.single(rhs, size);
+        let image = |x: &mut Blocks, image: &mut Blocks| {
+            self.preconditioner.scales().divide(x);
+            self.preconditioner.multiply(x, image);
+        };
+        earlier.guess(image, &b)
+    }
+
+    /// The iterate with a correction for a residual of this size.
+    fn corrected(
+        &mut self,
+        from: &Iterate,
+        rhs: &[f64],
+        size: f64,
+        correction: &Blocks,
+    ) -> Iterate {
+        let mut unscaled = correction.clone();
+        self.preconditioner.scales().multiply(&mut unscaled);
+        let mut x = from.x.clone();
+        self.numbering.add(size, &unscaled, &mut x);
+        let mut residual = vec![0.0; x.len()];
+        self.operator.multiply(&x, &mut residual);
+        for (residual, b) in residual.iter_mut().zip(rhs) {
+            *residual = b - *residual;
+        }
+        Iterate { x, residual }
+    }
+}
+
 /// What iterations have led to.
 struct Iterated {
-    x: Vec<f64>,
+    iterate: Iterate,
     iterations: usize,
     /// Residual over the right-hand side, where it is too large.
     stalled_at: Option<f64>,
@@ -263,14 +347,13 @@ impl LinearSolver for IterativeSolver {
         }
         let preconditioner =
             Preconditioner::new(&self.system, &self.numbering, &self.weights, matrix);
-        let scales = scales(matrix, &self.numbering);
         tracing::debug!(bytes = preconditioner.n_bytes(), "set up a preconditioner");
-        self.set_up = Some(SetUp { matrix: hash, preconditioner, scales });
+        self.set_up = Some(SetUp { matrix: hash, preconditioner });
         Ok(())
     }
 
     fn solve(&mut self, matrix: &SparseMatrix, rhs: &mut [f64]) -> Result<Accuracy, LinearError> {
-        self.solved(matrix, rhs, true)
+        self.solve_to(matrix, rhs, self.settings.tolerance)
     }
 
     fn solve_with_earlier_set_up(
@@ -298,46 +381,9 @@ impl LinearSolver for IterativeSolver {
         for &unknown in unknowns {
             let mut column = vec![0.0; matrix.n()];
             column[unknown] = 1.0;
-            self.solved(matrix, &mut column, false)?;
+            self.solved(matrix, &mut column, self.settings.tolerance, false)?;
             inverse.extend(unknowns.iter().map(|&row| column[row]));
         }
         Ok(inverse)
     }
-}
-
-/// Factors of the equations that make those of momentum, mass, forces and torques weigh the same: rows and
-/// columns of pressures get the ratio of the velocities' diagonal to the gradient, those of rotations the
-/// inverse of the body's radius of resistance.
-fn scales(matrix: &SparseMatrix, numbering: &Numbering) -> Vec<f64> {
-    let pattern = matrix.pattern();
-    let diagonal = |unknown: u32| {
-        let entry = pattern.entry(unknown as usize, unknown as usize);
-        entry.map_or(0.0, |entry| matrix.values()[entry].abs())
-    };
-    let mean = |blocks: &[[Option<u32>; 3]]| {
-        let unknowns = || blocks.iter().flatten().flatten();
-        unknowns().map(|&unknown| diagonal(unknown)).sum::<f64>() / unknowns().count().max(1) as f64
-    };
-    let velocity = mean(&numbering.blocks[..numbering.n_nodes]);
-    let largest = |&unknown: &u32| {
-        let values = &matrix.values()[pattern.entries(unknown as usize)];
-        values.iter().fold(0.0f64, |most, value| most.max(value.abs()))
-    };
-    let gradient = numbering.pressures.iter().map(largest).sum::<f64>()
-        / numbering.pressures.len().max(1) as f64;
-    let positive = |value: f64| if value.is_normal() && value > 0.0 { value } else { 1.0 };
-    let pressure = positive(velocity / gradient);
-    let mut rotation = Vec::with_capacity(numbering.n_bodies);
-    for blocks in numbering.blocks[numbering.n_nodes..].chunks_exact(2) {
-        let [translation, turn] = [mean(&blocks[..1]), mean(&blocks[1..])];
-        rotation.push(positive((translation / turn).sqrt()));
-    }
-    let scale = |place: &Place| match *place {
-        Place::Pressure(_) => pressure,
-        Place::Velocity { row, .. } => match (row as usize).checked_sub(numbering.n_nodes) {
-            Some(row) if row % 2 == 1 => rotation[row / 2],
-            _ => 1.0,
-        },
-    };
-    numbering.places.iter().map(scale).collect()
 }

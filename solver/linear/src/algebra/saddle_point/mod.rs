@@ -1,4 +1,4 @@
-//! Saddle-point systems by FGMRES with a block-triangular preconditioner: A = [F G; G^T 0].
+//! Saddle-point systems by GCR with a block-triangular preconditioner: A = [F G; G^T 0].
 //!
 //! F is the velocity block, rigid velocities of bodies included, and has a multigrid cycle in place of
 //! its inverse; the Schur complement -G^T F^-1 G has a scaled mass matrix of the pressures and a discrete
@@ -6,16 +6,20 @@
 //! flow and mesh here.
 
 mod blocks;
+mod commutator;
 mod data;
 mod gradient;
 mod guess;
 mod iterative;
+mod krylov_space;
 mod numbering;
 mod operator;
 mod preconditioner;
+mod scales;
 mod schur;
 #[cfg(test)]
 mod tests;
+mod vector;
 
 pub use data::{Interpolation, Part, SaddlePoint, Weights};
 pub use iterative::{IterativeSettings, IterativeSolver};

@@ -1,14 +1,9 @@
 //! `Numbering`: unknowns as blocks of three velocities, two blocks for a body, and as pressures.
 
 use super::data::{Part, SaddlePoint};
+use super::vector::{B, Blocks};
 use crate::sparse::index::to_u32;
 use crate::sparse::single::single;
-
-/// Unknowns in a block.
-pub(super) const B: usize = 3;
-
-/// A vector of the velocities, nodes first and then the bodies.
-pub(super) type BlockVector = Vec<[f32; B]>;
 
 /// Where an unknown stands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -90,27 +85,31 @@ impl Numbering {
         Self { places, blocks, pressures, n_nodes, n_bodies }
     }
 
-    /// Splits a vector of the unknowns, each divided by its scale.
-    pub fn split(&self, values: &[f64], scales: &[f64], u: &mut BlockVector, p: &mut [f32]) {
-        for ((place, value), scale) in self.places.iter().zip(values).zip(scales) {
-            let value = single(value / scale);
-            match *place {
+    /// The vector of unknowns with these values, each times `factor` (place).
+    pub fn split(&self, values: &[f64], factor: impl Fn(Place) -> f64) -> Blocks {
+        let mut blocks = Blocks::zeros(self.blocks.len(), self.pressures.len());
+        for (&place, value) in self.places.iter().zip(values) {
+            let value = single(value * factor(place));
+            match place {
                 Place::Velocity { row, component } => {
-                    u[row as usize][usize::from(component)] = value;
+                    blocks.velocity[row as usize][usize::from(component)] = value;
                 }
-                Place::Pressure(index) => p[index as usize] = value,
+                Place::Pressure(index) => blocks.pressure[index as usize] = value,
             }
         }
+        blocks
     }
 
-    /// The vector of the unknowns, each divided by its scale.
-    pub fn join(&self, u: &BlockVector, p: &[f32], scales: &[f64], values: &mut [f32]) {
-        for ((place, value), scale) in self.places.iter().zip(values).zip(scales) {
+    /// Adds a vector times a factor to values of the unknowns.
+    pub fn add(&self, factor: f64, blocks: &Blocks, values: &mut [f64]) {
+        for (place, value) in self.places.iter().zip(values) {
             let part = match *place {
-                Place::Velocity { row, component } => u[row as usize][usize::from(component)],
-                Place::Pressure(index) => p[index as usize],
+                Place::Velocity { row, component } => {
+                    blocks.velocity[row as usize][usize::from(component)]
+                }
+                Place::Pressure(index) => blocks.pressure[index as usize],
             };
-            *value = single(f64::from(part) / scale);
+            *value += factor * f64::from(part);
         }
     }
 }

@@ -1,4 +1,4 @@
-//! `Operator`: products with a matrix in double precision, rows and columns scaled.
+//! `Operator`: products with a matrix in double precision.
 
 use std::ops::Range;
 
@@ -8,7 +8,7 @@ use crate::sparse::index::to_u32;
 use crate::sparse::{Pattern, SparseMatrix};
 
 /// Parts of the columns that are summed up on their own, whatever the number of threads.
-const PARTS: usize = 8;
+const PARTS: usize = 4;
 /// Columns that are taken together at most.
 const GROUP: usize = 3;
 
@@ -27,15 +27,14 @@ impl ColumnGroups {
         let mut starts = vec![0];
         let mut column = 0;
         while column < n {
-            let first = pattern.column(column);
-            let is_alike = |other: &usize| *other < n && pattern.column(*other) == first;
+            let is_alike = |other: &usize| *other < n && pattern.is_like_last(*other);
             column += 1 + (column + 1..column + GROUP).take_while(is_alike).count();
             starts.push(to_u32(column));
         }
         let n_groups = starts.len() - 1;
         let end = |part: usize| {
             let wanted = pattern.n_entries() / PARTS * part;
-            starts.partition_point(|&column| pattern.columns[column as usize] < wanted)
+            starts.partition_point(|&column| pattern.starts()[column as usize] < wanted)
         };
         let bounds: Vec<usize> = (0..PARTS).map(end).chain([n_groups]).collect();
         let parts = bounds.windows(2).map(|pair| pair[0].min(n_groups)..pair[1]).collect();
@@ -43,17 +42,15 @@ impl ColumnGroups {
     }
 }
 
-/// S A S for a diagonal matrix S.
+/// A matrix by parts.
 pub(super) struct Operator<'a> {
     pub matrix: &'a SparseMatrix,
     pub groups: &'a ColumnGroups,
-    /// The diagonal of S.
-    pub scales: &'a [f64],
 }
 
 impl Operator<'_> {
-    /// Overwrites y with S A S x.
-    pub fn multiply<Z: Copy + Into<f64> + Sync>(&self, x: &[Z], y: &mut [f64]) {
+    /// Overwrites y with A x.
+    pub fn multiply(&self, x: &[f64], y: &mut [f64]) {
         let n = y.len();
         let parts = self.groups.parts.par_iter().map(|groups| {
             let mut sum = vec![0.0; n];
@@ -70,18 +67,12 @@ impl Operator<'_> {
                 *y += value;
             }
         }
-        for (y, scale) in y.iter_mut().zip(self.scales) {
-            *y *= scale;
-        }
     }
 
-    /// Adds some columns with entries in the same rows, each times its value in S x.
-    fn add_columns<Z: Copy + Into<f64>>(&self, columns: Range<usize>, x: &[Z], sum: &mut [f64]) {
+    /// Adds some columns with entries in the same rows, each times its value in x.
+    fn add_columns(&self, columns: Range<usize>, x: &[f64], sum: &mut [f64]) {
         let pattern = self.matrix.pattern();
-        let factor = |column: usize| -> f64 {
-            let x: f64 = x[column].into();
-            x * self.scales[column]
-        };
+        let factor = |column: usize| x[column];
         let values = |column: usize| &self.matrix.values()[pattern.entries(column)];
         let rows = pattern.column(columns.start);
         let first = columns.start;
@@ -89,13 +80,13 @@ impl Operator<'_> {
             let [a, b, c] = [factor(first), factor(first + 1), factor(first + 2)];
             let all = values(first).iter().zip(values(first + 1)).zip(values(first + 2));
             for (&row, ((u, v), w)) in rows.iter().zip(all) {
-                sum[row] += u * a + v * b + w * c;
+                sum[row as usize] += u * a + v * b + w * c;
             }
         } else {
             for column in columns {
                 let factor = factor(column);
                 for (&row, value) in rows.iter().zip(values(column)) {
-                    sum[row] += value * factor;
+                    sum[row as usize] += value * factor;
                 }
             }
         }

@@ -2,16 +2,18 @@
 //!
 //! Where viscosity dominates, the mass matrix of the pressures over twice the viscosity: the form has the
 //! symmetric gradient. Where F is mostly density over time step, or drag in a gap, G^T D^-1 G with the
-//! lumped D. The sum of both inverses serves all between (@cahouet1988).
+//! lumped D. The sum of both inverses serves all between (@cahouet1988). Where convection is more than
+//! diffusion in steady flow, the least-squares commutator.
 
+use std::sync::Arc;
+
+use super::commutator::{Commutator, laplacian};
 use super::data::Weights;
 use super::gradient::Gradient;
-use super::numbering::{B, Numbering, Place};
-use crate::multigrid::{
-    BlockMatrix, Chebyshev, Hierarchy, HierarchySettings, RowBuilder, Spectrum,
-};
+use super::numbering::{Numbering, Place};
+use super::vector::B;
+use crate::multigrid::{BlockMatrix, Chebyshev, Hierarchy, RowBuilder, Spectrum};
 use crate::sparse::SparseMatrix;
-use crate::sparse::index::to_u32;
 use crate::sparse::single::single;
 
 /// Eigenvalues of the mass matrix of linear elements over its diagonal, in the plane and in space
@@ -19,19 +21,21 @@ use crate::sparse::single::single;
 const MASS_SPECTRUM: Spectrum = Spectrum::Between(0.5, 2.5);
 /// Degree of the polynomial that takes the place of its inverse.
 const MASS_DEGREE: usize = 4;
-/// Degree of the smoothers of the Laplacian.
-const SMOOTHING: usize = 2;
 
 /// Approximate inverse of the Schur complement.
 #[derive(Debug)]
 pub(super) struct SchurComplement {
-    mass: BlockMatrix<1>,
-    mass_inverse: Chebyshev<1>,
-    laplacian: Option<Hierarchy<1>>,
+    inverse: Inverse,
     has_held_pressure: bool,
     rhs: Vec<[f32; 1]>,
     solution: Vec<[f32; 1]>,
-    part: Vec<[f32; 1]>,
+}
+
+#[derive(Debug)]
+enum Inverse {
+    Masses(Box<Masses>),
+    /// Where convection is more than diffusion and flow is steady.
+    Commutator(Box<Commutator>),
 }
 
 impl SchurComplement {
@@ -42,23 +46,34 @@ impl SchurComplement {
         numbering: &Numbering,
         has_held_pressure: bool,
     ) -> Self {
-        let mass = single_precision(&weights.pressure_mass);
-        let mass_inverse = Chebyshev::new(&mass, 0, MASS_SPECTRUM, MASS_DEGREE);
-        let laplacian = weights.damping.as_ref().map(|damping| {
-            let damping = by_blocks(damping, numbering);
-            let matrix = gradient.laplacian(&damping, has_held_pressure);
-            let settings =
-                HierarchySettings { n_pairs: 0, degree: SMOOTHING, is_singular: has_held_pressure };
-            Hierarchy::new(matrix, None, settings)
-        });
-        let empty = vec![[0.0]; mass.n_rows()];
-        let [rhs, solution, part] = [empty.clone(), empty.clone(), empty];
-        Self { mass, mass_inverse, laplacian, has_held_pressure, rhs, solution, part }
+        let masses = Masses::new(weights, gradient, numbering, has_held_pressure);
+        let n = masses.mass.n_rows();
+        Self::with(Inverse::Masses(Box::new(masses)), n, has_held_pressure)
+    }
+
+    /// For a velocity block in which convection is more than diffusion, in steady flow.
+    pub fn convective(
+        block: &Arc<BlockMatrix<B>>,
+        gradient: &Gradient,
+        numbering: &Numbering,
+        has_held_pressure: bool,
+    ) -> Self {
+        let commutator = Commutator::new(block, gradient, numbering, has_held_pressure);
+        let n = numbering.pressures.len() + usize::from(has_held_pressure);
+        Self::with(Inverse::Commutator(Box::new(commutator)), n, has_held_pressure)
+    }
+
+    fn with(inverse: Inverse, n: usize, has_held_pressure: bool) -> Self {
+        let rhs = vec![[0.0]; n];
+        Self { inverse, has_held_pressure, solution: rhs.clone(), rhs }
     }
 
     /// Memory of the matrices (bytes).
     pub fn n_bytes(&self) -> usize {
-        self.mass.n_bytes() + self.laplacian.as_ref().map_or(0, Hierarchy::n_bytes)
+        match &self.inverse {
+            Inverse::Masses(masses) => masses.n_bytes(),
+            Inverse::Commutator(commutator) => commutator.n_bytes(),
+        }
     }
 
     /// Overwrites pressures p with the inverse times p.
@@ -73,16 +88,55 @@ impl SchurComplement {
             let sum: f64 = p.iter().map(|value| f64::from(*value)).sum();
             self.rhs[p.len()] = [single(-sum)];
         }
-        self.mass_inverse.solve(&self.mass, &self.rhs, &mut self.solution);
-        if let Some(laplacian) = &mut self.laplacian {
-            laplacian.cycle(&self.rhs, &mut self.part);
-            for (value, part) in self.solution.iter_mut().zip(&self.part) {
-                value[0] += part[0];
-            }
+        match &mut self.inverse {
+            Inverse::Masses(masses) => masses.solve(&self.rhs, &mut self.solution),
+            Inverse::Commutator(commutator) => commutator.solve(&self.rhs, &mut self.solution),
         }
         let level = if self.has_held_pressure { self.solution[p.len()][0] } else { 0.0 };
         for (value, solution) in p.iter_mut().zip(&self.solution) {
             *value = solution[0] - level;
+        }
+    }
+}
+
+/// Mass matrix and Laplacian of the pressures.
+#[derive(Debug)]
+struct Masses {
+    mass: BlockMatrix<1>,
+    mass_inverse: Chebyshev<1>,
+    laplacian: Option<Hierarchy<1>>,
+    part: Vec<[f32; 1]>,
+}
+
+impl Masses {
+    fn new(
+        weights: &Weights,
+        gradient: &Gradient,
+        numbering: &Numbering,
+        has_held_pressure: bool,
+    ) -> Self {
+        let mass = single_precision(&weights.pressure_mass);
+        let mass_inverse = Chebyshev::new(&mass, 0, MASS_SPECTRUM, MASS_DEGREE);
+        let laplacian = weights.damping.as_ref().map(|damping| {
+            let held = has_held_pressure.then(|| gradient.with_held_pressure());
+            let gradient = held.as_ref().unwrap_or(gradient);
+            laplacian(gradient, &by_blocks(damping, numbering), has_held_pressure)
+        });
+        let part = vec![[0.0]; mass.n_rows()];
+        Self { mass, mass_inverse, laplacian, part }
+    }
+
+    fn n_bytes(&self) -> usize {
+        self.mass.n_bytes() + self.laplacian.as_ref().map_or(0, Hierarchy::n_bytes)
+    }
+
+    fn solve(&mut self, rhs: &[[f32; 1]], solution: &mut [[f32; 1]]) {
+        self.mass_inverse.solve(&self.mass, rhs, solution);
+        if let Some(laplacian) = &mut self.laplacian {
+            laplacian.cycle(rhs, &mut self.part);
+            for (value, part) in solution.iter_mut().zip(&self.part) {
+                value[0] += part[0];
+            }
         }
     }
 }
@@ -92,8 +146,8 @@ fn single_precision(matrix: &SparseMatrix) -> BlockMatrix<1> {
     let pattern = matrix.pattern();
     let mut rows = RowBuilder::new(matrix.n());
     for column in 0..matrix.n() {
-        for entry in pattern.entries(column) {
-            rows.push(to_u32(pattern.rows[entry]), [[single(matrix.values()[entry])]]);
+        for (&row, entry) in pattern.column(column).iter().zip(pattern.entries(column)) {
+            rows.push(row, [[single(matrix.values()[entry])]]);
         }
         rows.end_row();
     }

@@ -1,10 +1,14 @@
 //! Parts of the preconditioner against what they stand for, on systems of a few unknowns.
 
+use std::sync::Arc;
+
 use super::blocks::{transfer, velocity_block};
+use super::commutator::Commutator;
 use super::gradient::Gradient;
 use super::numbering::Numbering;
 use super::{Interpolation, Part, SaddlePoint};
 use crate::algebra::Term;
+use crate::sparse::single::single;
 use crate::sparse::{Pattern, SparseMatrix};
 
 /// Two nodes in the plane, of which the second has no second component, two pressures and a body that
@@ -27,10 +31,7 @@ fn system() -> SaddlePoint {
 /// A dense matrix with different entries.
 fn matrix() -> SparseMatrix {
     let n = 6;
-    let pattern = Pattern {
-        columns: (0..=n).map(|column| column * n).collect(),
-        rows: (0..n * n).map(|entry| entry % n).collect(),
-    };
+    let pattern = Pattern::from_columns((0..n).map(|_| 0..n));
     SparseMatrix::new(pattern, (0..n * n).map(|entry| 1.0 + entry as f64).collect())
 }
 
@@ -92,11 +93,16 @@ fn the_laplacian_is_the_product_of_gradients() {
     let numbering = Numbering::new(&system());
     let gradient = Gradient::new(&matrix(), &numbering);
     let mut u = vec![[0.0; 3]; 4];
-    gradient.multiply_subtract(&[1.0, 0.0], &mut u);
-    assert_eq!(u[0], [-value(0, 3), -value(1, 3), 0.0]);
-    assert_eq!(u[3], [0.0, 0.0, -value(5, 3)]);
+    gradient.multiply_add(&[1.0, 0.0], &mut u);
+    assert_eq!(u[0], [value(0, 3), value(1, 3), 0.0]);
+    assert_eq!(u[3], [0.0, 0.0, value(5, 3)]);
+    let mut p = vec![f32::NAN; 2];
+    gradient
+        .transposed()
+        .multiply_transposed(&[[0.0, 1.0, 9.0], [0.0; 3], [0.0; 3], [0.0, 9.0, 1.0]], &mut p);
+    assert_eq!(p, [3, 4].map(|column| value(1, column) + value(5, column)));
     let damping = [[2.0, 4.0, 0.0], [8.0, 0.0, 0.0]];
-    let laplacian = gradient.laplacian(&damping, false);
+    let laplacian = gradient.laplacian(&damping);
     let expected = |p: usize, q: usize| {
         let damped = [(0, 2.0), (1, 4.0), (2, 8.0)];
         damped.map(|(row, by)| value(row, p) * value(row, q) / by).iter().sum::<f32>()
@@ -106,6 +112,37 @@ fn the_laplacian_is_the_product_of_gradients() {
     assert_eq!(y, [[expected(3, 3)], [expected(4, 3)]]);
     // With the one that is held, constants have no gradient
     let mut y = vec![[f32::NAN]; 3];
-    gradient.laplacian(&damping, true).multiply(&[[1.0]; 3], &mut y);
+    gradient.with_held_pressure().laplacian(&damping).multiply(&[[1.0]; 3], &mut y);
     assert!(y.iter().all(|value| value[0].abs() < 1e-2 * expected(3, 3)), "{y:?}");
+}
+
+#[test]
+fn the_commutator_inverts_the_schur_complement_of_a_diagonal_block() {
+    let numbering = Numbering::new(&system());
+    let (diagonal, gradient) = ([2.0, 4.0, 8.0], [[1.0, 0.0], [2.0, 1.0], [0.0, 3.0]]);
+    // F diagonal, without the body
+    let entry = |row: usize, column: usize| match (row, column) {
+        (row, column) if row == column => diagonal.get(row).copied().unwrap_or(0.0),
+        (0..3, 3..5) => gradient[row][column - 3],
+        (3..5, 0..3) => gradient[column][row - 3],
+        _ => 0.0,
+    };
+    let values = (0..36).map(|index| entry(index % 6, index / 6)).collect();
+    let matrix = SparseMatrix::new(Pattern::from_columns((0..6).map(|_| 0..6)), values);
+    let block = Arc::new(velocity_block(&matrix, &numbering));
+    let of_matrix = Gradient::new(&matrix, &numbering);
+    let mut commutator = Commutator::new(&block, &of_matrix, &numbering, false);
+    let p = [3.0f64, -2.0];
+    let schur = |row: usize| -> f64 {
+        let terms = (0..3).flat_map(|velocity| {
+            let factor = entry(velocity, 3 + row) / diagonal[velocity];
+            (0..2).map(move |column| factor * entry(velocity, 3 + column) * p[column])
+        });
+        terms.sum()
+    };
+    let mut solution = [[f32::NAN]; 2];
+    commutator.solve(&[[single(schur(0))], [single(schur(1))]], &mut solution);
+    for (found, expected) in solution.iter().zip(p) {
+        assert!((f64::from(found[0]) - expected).abs() < 1e-5 * expected.abs(), "{solution:?}");
+    }
 }

@@ -1,0 +1,329 @@
+//! From a file to a mesh: cells made positive, sides by their names, edges with their inner nodes.
+
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+
+use super::divide::divide;
+use super::error::MshError;
+use super::facets::{NAMES, NamedFacets, entity_name};
+use super::file::MshFile;
+use super::kind::node_order;
+use super::parts::{Middle, Parts, edges_of, facet_of};
+use crate::check::check_mesh;
+use crate::curved::jacobian_coefficients;
+use crate::{Boundary, BoundaryId, CellId, Facet, Mesh, NodeId, Point, Simplex};
+
+/// Inner nodes this near to the middle of their edge are on it, in lengths of the edge.
+const IN_MIDDLE: f64 = 1e-12;
+
+/// The same on the boundary, below which a side is straight.
+const FLAT: f64 = 1e-9;
+
+/// Heights over the plane z = 0 that count as none, in lengths of the mesh.
+const IN_PLANE: f64 = 1e-9;
+
+/// A cell that is flatter than this has no volume: D! times its measure over its longest edge to
+/// the power D.
+const NO_VOLUME: f64 = 1e-14;
+
+/// Reads a mesh of triangles (D = 2) or tetrahedra (D = 3) in MSH 4.1, its lengths multiplied by a
+/// factor.
+///
+/// Cells that are negative are turned, nodes without cells left out, edges inside made straight;
+/// cells with two sides on the boundary are divided at their centroids. Elements that are no cells
+/// matter only where they are facets with a physical name. The boundaries are in the order of the
+/// tags of their physical groups.
+///
+/// # Errors
+/// [`MshError`] with the place and what would be accepted.
+pub fn read_msh<const D: usize>(bytes: &[u8], scale: f64) -> Result<Mesh<D>, MshError> {
+    let file = MshFile::read(bytes)?;
+    let mut facets = NamedFacets::<D>::of(&file)?;
+    facets.forget_unused();
+    let mut parts = parts_of(&file, &facets, scale)?;
+    divide(&mut parts);
+    let mesh = mesh_of(parts, facets.boundaries)?;
+    check_mesh(&mesh).map_err(|error| {
+        MshError::of_mesh(format!("no conforming mesh: {error}"), "mesh the model anew in Gmsh")
+    })?;
+    Ok(mesh)
+}
+
+/// Coordinates for a message.
+fn at<const D: usize>(point: &Point<D>) -> String {
+    let coordinates: Vec<String> = point.iter().map(|x| format!("{x:.4}")).collect();
+    format!("at ({})", coordinates.join(", "))
+}
+
+fn parts_of<const D: usize>(
+    file: &MshFile,
+    facets: &NamedFacets<D>,
+    scale: f64,
+) -> Result<Parts<D>, MshError> {
+    let order = order_of_cells::<D>(file)?;
+    let cells = || {
+        let blocks = file.blocks.iter().filter(|block| block.kind.dimension == D);
+        blocks.flat_map(|block| block.elements())
+    };
+    // Vertices are numbered by their tags
+    let mut numbers: BTreeMap<u64, usize> =
+        cells().flat_map(|(_, nodes)| nodes[..=D].iter().map(|tag| (*tag, 0))).collect();
+    let mut vertices = Vec::with_capacity(numbers.len());
+    for (tag, number) in &mut numbers {
+        *number = vertices.len();
+        vertices.push(position::<D>(file, *tag, scale)?);
+    }
+    let mut parts = Parts {
+        vertices,
+        cells: Vec::new(),
+        tags: Vec::new(),
+        sides: BTreeMap::new(),
+        middles: BTreeMap::new(),
+    };
+    for (tag, nodes) in cells() {
+        let mut own: Vec<usize> = nodes[..=D].iter().map(|node| numbers[node]).collect();
+        if order == 2 {
+            for (edge, [i, j]) in Simplex::<D>::EDGES.iter().enumerate() {
+                let node = nodes[node_order::<D>()[D + 1 + edge]];
+                if numbers.contains_key(&node) {
+                    let found = format!(
+                        "node {node} is a corner of one element, and inside an \
+                                         edge of element {tag}"
+                    );
+                    return Err(MshError::of_mesh(found, "save the whole mesh with one order"));
+                }
+                let ends = [own[*i].min(own[*j]), own[*i].max(own[*j])];
+                let middle = Middle { tag: node, point: position::<D>(file, node, scale)? };
+                let known = parts.middles.insert(ends, middle);
+                if known.is_some_and(|known| known.tag != node) {
+                    let found = format!("two nodes in one edge of element {tag}");
+                    return Err(MshError::of_mesh(found, "neighbours share nodes"));
+                }
+            }
+        }
+        turn(&parts.vertices, tag, &mut own)?;
+        parts.cells.push(own);
+        parts.tags.push(tag);
+    }
+    parts.sides = sides(&parts, facets, &numbers)?;
+    check_connected(&parts)?;
+    Ok(parts)
+}
+
+/// The order of all cells of a file.
+fn order_of_cells<const D: usize>(file: &MshFile) -> Result<usize, MshError> {
+    let [wanted, others] = if D == 2 {
+        ["triangles in the plane z = 0, which a planar case needs", "tetrahedra"]
+    } else {
+        ["tetrahedra, which a case in space needs", "no tetrahedra"]
+    };
+    if D == 2 && file.blocks.iter().any(|block| block.kind.dimension == 3) {
+        return Err(MshError::of_mesh(others.to_owned(), &format!("save {wanted}")));
+    }
+    let mut cells = file.blocks.iter().filter(|b| b.kind.dimension == D && !b.tags.is_empty());
+    let Some(first) = cells.next() else {
+        let found = if D == 2 { "no triangles" } else { others };
+        return Err(MshError::of_mesh(found.to_owned(), &format!("save {wanted}")));
+    };
+    if cells.any(|block| block.kind.order != first.kind.order) {
+        let found = "cells of order 1 and of order 2".to_owned();
+        return Err(MshError::of_mesh(found, "save the whole mesh with one order"));
+    }
+    Ok(first.kind.order)
+}
+
+/// Position of a node (m).
+fn position<const D: usize>(file: &MshFile, tag: u64, scale: f64) -> Result<Point<D>, MshError> {
+    let point = file.nodes.get(&tag).copied().unwrap_or_default() * scale;
+    if D == 2 && point.z.abs() > IN_PLANE * point.amax() {
+        let found = format!("node {tag} has z = {:e}", point.z);
+        return Err(MshError::of_mesh(found, "the mesh of a planar case lies in the plane z = 0"));
+    }
+    if !point.iter().all(|x| x.is_finite() && x.abs() < 1e100) {
+        let found = format!("node {tag} is at {:e}", point.amax());
+        return Err(MshError::of_mesh(found, "coordinates below 1e100 are read"));
+    }
+    Ok(Point::from_fn(|axis, _| point[axis]))
+}
+
+/// Makes a cell positive.
+fn turn<const D: usize>(
+    vertices: &[Point<D>],
+    tag: u64,
+    cell: &mut [usize],
+) -> Result<(), MshError> {
+    let corner = |local: usize| vertices[cell[local]];
+    let columns: [Point<D>; D] = std::array::from_fn(|axis| corner(axis + 1) - corner(0));
+    let longest = Simplex::<D>::EDGES.iter().map(|[i, j]| (corner(*i) - corner(*j)).norm());
+    let longest = longest.fold(0.0, f64::max);
+    // Of scaled columns, which cannot overflow
+    let measure = crate::curved::determinant(&columns.map(|column| column / longest));
+    if measure.is_nan() || measure.abs() <= NO_VOLUME {
+        let kind = if D == 2 { "no area" } else { "no volume" };
+        let found = format!("element {tag} {} has {kind}", at(&corner(0)));
+        return Err(MshError::of_mesh(found, "mesh the model anew in Gmsh"));
+    }
+    if measure < 0.0 {
+        cell.swap(D - 1, D);
+    }
+    Ok(())
+}
+
+/// The boundaries of all facets with one cell.
+fn sides<const D: usize>(
+    parts: &Parts<D>,
+    facets: &NamedFacets<D>,
+    numbers: &BTreeMap<u64, usize>,
+) -> Result<BTreeMap<[usize; D], BoundaryId>, MshError> {
+    let mut n_cells: HashMap<[usize; D], usize> = HashMap::new();
+    for (cell, tag) in parts.cells.iter().zip(&parts.tags) {
+        for side in 0..=D {
+            let n = n_cells.entry(facet_of::<D>(cell, side)).or_default();
+            *n += 1;
+            if *n > 2 {
+                let place = at(&parts.vertices[cell[0]]);
+                let found =
+                    format!("more than two elements share a facet of element {tag} {place}");
+                return Err(MshError::of_mesh(found, "cells may not overlap: mesh the model anew"));
+            }
+        }
+    }
+    let mut named: BTreeMap<[usize; D], BoundaryId> = BTreeMap::new();
+    for (tags, boundary) in &facets.of {
+        // Vertices are numbered in the order of their tags
+        let vertices = tags.map(|tag| numbers.get(&tag).copied().unwrap_or(usize::MAX));
+        if n_cells.get(&vertices) == Some(&1) {
+            named.insert(vertices, *boundary);
+            continue;
+        }
+        let name = &facets.boundaries[*boundary].name;
+        let where_it_is = match n_cells.get(&vertices) {
+            Some(_) => "has cells on both sides",
+            None => "is no facet of a cell",
+        };
+        let found = format!("an element of \"{name}\" with node {} {where_it_is}", tags[0]);
+        let accepted =
+            format!("only {}s on the boundary of the fluid get physical names", entity_name::<D>());
+        return Err(MshError::of_mesh(found, &accepted));
+    }
+    let all = parts.cells.iter().flat_map(|cell| (0..=D).map(|side| facet_of::<D>(cell, side)));
+    let mut nameless = all.filter(|facet| n_cells[facet] == 1 && !named.contains_key(facet));
+    if let Some(first) = nameless.next() {
+        let center = first.iter().map(|v| parts.vertices[*v]).sum::<Point<D>>() / D as f64;
+        let n = 1 + nameless.count();
+        let facets = if n == 1 { "one facet".to_owned() } else { format!("{n} facets") };
+        let found = format!("{facets} of the boundary without a name, the first {}", at(&center));
+        return Err(MshError::of_mesh(found, NAMES));
+    }
+    Ok(named)
+}
+
+/// Whether all cells are in one piece.
+fn check_connected<const D: usize>(parts: &Parts<D>) -> Result<(), MshError> {
+    let mut pieces: Vec<usize> = (0..parts.vertices.len()).collect();
+    fn root(pieces: &mut [usize], mut at: usize) -> usize {
+        while pieces[at] != at {
+            pieces[at] = pieces[pieces[at]];
+            at = pieces[at];
+        }
+        at
+    }
+    let mut n_pieces = pieces.len();
+    for cell in &parts.cells {
+        for vertex in &cell[1..] {
+            let (one, other) = (root(&mut pieces, cell[0]), root(&mut pieces, *vertex));
+            if one != other {
+                pieces[one.max(other)] = one.min(other);
+                n_pieces -= 1;
+            }
+        }
+    }
+    if n_pieces > 1 {
+        let found = format!("{n_pieces} pieces that do not touch");
+        return Err(MshError::of_mesh(
+            found,
+            "the fluid is in one piece: Coherence in Gmsh joins \
+                                             volumes that have the same faces",
+        ));
+    }
+    Ok(())
+}
+
+/// The mesh, with quadratic nodes and boundary facets.
+fn mesh_of<const D: usize>(
+    parts: Parts<D>,
+    boundaries: Vec<Boundary>,
+) -> Result<Mesh<D>, MshError> {
+    let Parts { vertices, cells, tags, sides, middles } = parts;
+    let n_vertices = vertices.len();
+    let on_boundary = edges_of(&sides);
+    let mut nodes = vertices;
+    // Nodes of the file in the order of their tags, then those of other edges
+    let mut given: Vec<([usize; 2], Middle<D>)> = middles.into_iter().collect();
+    given.sort_by_key(|(_, middle)| middle.tag);
+    let mut numbers: BTreeMap<[usize; 2], NodeId> = BTreeMap::new();
+    let mut is_bent = BTreeSet::new();
+    for ([a, b], middle) in given {
+        let straight = (nodes[a] + nodes[b]) * 0.5;
+        let off = (middle.point - straight).norm() / (nodes[a] - nodes[b]).norm();
+        if off > FLAT && on_boundary.contains(&[a, b]) {
+            is_bent.insert([a, b]);
+        }
+        numbers.insert([a, b], NodeId::new(nodes.len()));
+        let is_kept = off <= IN_MIDDLE || on_boundary.contains(&[a, b]);
+        nodes.push(if is_kept { middle.point } else { straight });
+    }
+    let mut mesh = Mesh {
+        nodes: Vec::new(),
+        n_vertices,
+        cells: Vec::with_capacity(Simplex::<D>::N_NODES * cells.len()),
+        curved: Vec::with_capacity(cells.len()),
+        facets: Vec::with_capacity(sides.len()),
+        boundaries,
+        periodic: Vec::new(),
+    };
+    for (index, cell) in cells.iter().enumerate() {
+        mesh.cells.extend(cell.iter().map(|vertex| NodeId::new(*vertex)));
+        let mut is_curved = false;
+        for ends in Simplex::<D>::EDGES {
+            let [a, b] = ends.map(|local| cell[local]);
+            let ends = [a.min(b), a.max(b)];
+            is_curved |= is_bent.contains(&ends);
+            mesh.cells.push(*numbers.entry(ends).or_insert_with(|| {
+                nodes.push((nodes[a] + nodes[b]) * 0.5);
+                NodeId::new(nodes.len() - 1)
+            }));
+        }
+        mesh.curved.push(is_curved);
+        for side in 0..=D {
+            if let Some(boundary) = sides.get(&facet_of::<D>(cell, side)) {
+                #[expect(clippy::cast_possible_truncation, reason = "a simplex has few facets")]
+                let side = side as u8;
+                mesh.facets.push(Facet { cell: CellId::new(index), side, boundary: *boundary });
+            }
+        }
+    }
+    if u32::try_from(nodes.len()).is_err() {
+        let found = format!("a mesh of {} nodes", nodes.len());
+        return Err(MshError::of_mesh(found, "meshes up to 4 billion nodes are read"));
+    }
+    mesh.nodes = nodes;
+    check_folds(&mesh, &tags)?;
+    Ok(mesh)
+}
+
+/// Whether curved cells are positive everywhere.
+fn check_folds<const D: usize>(mesh: &Mesh<D>, tags: &[u64]) -> Result<(), MshError> {
+    let is_folded = |cell: &CellId| {
+        mesh.curved[*cell]
+            && jacobian_coefficients(&mesh.cell_nodes(*cell)).iter().any(|c| *c <= 0.0)
+    };
+    match mesh.cell_ids().find(is_folded) {
+        None => Ok(()),
+        Some(cell) => {
+            let (tag, place) = (tags[cell], at(&mesh.cell_center(cell)));
+            let found = format!("element {tag} {place} is folded by its curved side");
+            let accepted = "use smaller elements there, or save the mesh with order 1";
+            Err(MshError::of_mesh(found, accepted))
+        }
+    }
+}

@@ -1,0 +1,244 @@
+//! `MshFile`: the sections of a file that matter, as they are written.
+
+use std::collections::BTreeMap;
+
+use super::error::MshError;
+use super::input::Input;
+use super::kind::Kind;
+use crate::Point;
+
+/// What is read of a file.
+#[derive(Debug, Default)]
+pub struct MshFile {
+    /// Names of physical groups, by dimension and tag.
+    pub names: BTreeMap<(usize, i32), String>,
+    /// Physical groups of the entities of each dimension, by the tag of the entity.
+    pub groups: [BTreeMap<i32, Vec<i32>>; 4],
+    /// Positions of the nodes by their tags.
+    pub nodes: BTreeMap<u64, Point<3>>,
+    /// Elements of one kind on one entity each.
+    pub blocks: Vec<Block>,
+}
+
+/// Elements of one kind on one entity.
+#[derive(Debug)]
+pub struct Block {
+    /// What they are.
+    pub kind: Kind,
+    /// Tag of the entity they are on.
+    pub entity: i32,
+    /// Their tags.
+    pub tags: Vec<u64>,
+    /// Tags of their nodes, one element after the other.
+    pub nodes: Vec<u64>,
+}
+
+impl Block {
+    /// Tag and tags of the nodes of each element.
+    pub fn elements(&self) -> impl Iterator<Item = (u64, &[u64])> {
+        self.tags.iter().copied().zip(self.nodes.chunks_exact(self.kind.n_nodes))
+    }
+}
+
+/// What is asked of a version.
+const VERSION: &str = "MSH 4.1 is read: Mesh.MshFileVersion = 4.1 in Gmsh, `gmsh -format msh41`";
+
+/// What is asked of elements.
+const ELEMENTS: &str = "triangles and tetrahedra of order 1 and 2 are read, with their edges and \
+                        points (types 1, 2, 4, 8, 9, 11, 15)";
+
+impl MshFile {
+    /// Reads a file.
+    ///
+    /// # Errors
+    /// When it is not of version 4.1, is damaged, or has elements that are no simplices.
+    pub fn read(bytes: &[u8]) -> Result<Self, MshError> {
+        let mut input = Input::new(bytes);
+        let mut file = Self::default();
+        read_version(&mut input)?;
+        let mut seen = Vec::new();
+        while !input.is_at_end() {
+            let start = input.at();
+            let section = input.section()?;
+            if ["Entities", "Nodes", "Elements"].contains(&section) && seen.contains(&section) {
+                let found = format!("a second section ${section}");
+                return Err(input.refuse_at(start, found, "one of each is read"));
+            }
+            seen.push(section);
+            match section {
+                "PhysicalNames" => input.as_text(|input| file.read_names(input))?,
+                "Entities" => file.read_entities(&mut input)?,
+                "Nodes" => file.read_nodes(&mut input)?,
+                "Elements" => file.read_elements(&mut input)?,
+                "PartitionedEntities" => {
+                    let whole = "save the mesh in one part: Mesh.SaveAll = 0, no partitions";
+                    return Err(input.refuse_at(start, "a mesh in partitions", whole));
+                }
+                other => {
+                    input.skip(other)?;
+                    continue;
+                }
+            }
+            input.end_of(section)?;
+        }
+        for needed in ["Nodes", "Elements"] {
+            if !seen.contains(&needed) {
+                return Err(input.refuse(
+                    format!("no section ${needed}"),
+                    "generate the mesh in Gmsh before it is saved",
+                ));
+            }
+        }
+        Ok(file)
+    }
+
+    fn read_names(&mut self, input: &mut Input<'_>) -> Result<(), MshError> {
+        let n = input.count("physical names", 6)?;
+        for _ in 0..n {
+            let dimension = dimension(input)?;
+            let tag = input.integer()?;
+            let start = input.at();
+            let line = input.line()?;
+            let name = line.strip_prefix('"').and_then(|rest| rest.strip_suffix('"'));
+            let Some(name) = name.filter(|name| !name.is_empty() && !name.contains('"')) else {
+                let found = "a physical name that is not in quotes";
+                return Err(input.refuse_at(start, found, "write \"inlet\", for example"));
+            };
+            self.names.insert((dimension, tag), name.to_owned());
+        }
+        Ok(())
+    }
+
+    fn read_entities(&mut self, input: &mut Input<'_>) -> Result<(), MshError> {
+        let mut counts = [0; 4];
+        for count in &mut counts {
+            *count = input.count("entities", 8)?;
+        }
+        for (dimension, n) in counts.into_iter().enumerate() {
+            for _ in 0..n {
+                let tag = input.integer()?;
+                // A point, or the corners of a box around the entity
+                for _ in 0..if dimension == 0 { 3 } else { 6 } {
+                    input.float()?;
+                }
+                let n_groups = input.count("physical groups", 2)?;
+                let mut groups = Vec::new();
+                for _ in 0..n_groups {
+                    groups.push(input.integer()?.saturating_abs());
+                }
+                self.groups[dimension].insert(tag, groups);
+                if dimension > 0 {
+                    for _ in 0..input.count("bounding entities", 2)? {
+                        input.integer()?;
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn read_nodes(&mut self, input: &mut Input<'_>) -> Result<(), MshError> {
+        let n_blocks = input.count("blocks of nodes", 8)?;
+        input.count("nodes", 8)?;
+        input.number()?;
+        input.number()?;
+        for _ in 0..n_blocks {
+            let dimension = dimension(input)?;
+            input.integer()?;
+            let is_parametric = input.integer()? != 0;
+            let n = input.count("nodes", 8)?;
+            let mut tags = Vec::new();
+            for _ in 0..n {
+                tags.push(input.number()?);
+            }
+            for tag in tags {
+                let point = Point::<3>::new(input.float()?, input.float()?, input.float()?);
+                for _ in 0..if is_parametric { dimension } else { 0 } {
+                    input.float()?;
+                }
+                if self.nodes.insert(tag, point).is_some() {
+                    return Err(input.refuse(format!("a second node {tag}"), "tags are unique"));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn read_elements(&mut self, input: &mut Input<'_>) -> Result<(), MshError> {
+        let n_blocks = input.count("blocks of elements", 8)?;
+        input.count("elements", 4)?;
+        input.number()?;
+        input.number()?;
+        for _ in 0..n_blocks {
+            dimension(input)?;
+            let entity = input.integer()?;
+            let start = input.at();
+            let number = input.integer()?;
+            let kind = Kind::of(number).map_err(|name| {
+                input.refuse_at(start, format!("elements of type {number}: {name}"), ELEMENTS)
+            })?;
+            let n = input.count("elements", 4)?;
+            let (mut tags, mut nodes) = (Vec::new(), Vec::new());
+            for _ in 0..n {
+                tags.push(input.number()?);
+                for _ in 0..kind.n_nodes {
+                    let start = input.at();
+                    let node = input.number()?;
+                    if !self.nodes.contains_key(&node) {
+                        let found = format!("node {node}, which is not in $Nodes");
+                        return Err(input.refuse_at(
+                            start,
+                            found,
+                            "elements have nodes of the file",
+                        ));
+                    }
+                    nodes.push(node);
+                }
+            }
+            self.blocks.push(Block { kind, entity, tags, nodes });
+        }
+        Ok(())
+    }
+}
+
+/// Reads the section that every file begins with.
+fn read_version(input: &mut Input<'_>) -> Result<(), MshError> {
+    let start = input.at();
+    if input.is_at_end() || input.line().ok() != Some("$MeshFormat") {
+        let found = "a file that does not begin with $MeshFormat";
+        return Err(input.refuse_at(start, found, VERSION));
+    }
+    let start = input.at();
+    let line = input.line()?;
+    let words: Vec<&str> = line.split_whitespace().collect();
+    let &[version, kind, size] = words.as_slice() else {
+        return Err(input.refuse_at(start, "no version", VERSION));
+    };
+    if version != "4.1" {
+        let version: String = version.chars().take(20).collect();
+        return Err(input.refuse_at(start, format!("version {version}"), VERSION));
+    }
+    if size != "8" {
+        let found = "numbers that have not 8 bytes";
+        return Err(input.refuse_at(start, found, "files with a data size of 8 are read"));
+    }
+    match kind {
+        "0" => {}
+        "1" => input.set_binary()?,
+        _ => {
+            let found = "a file type that is neither text nor binary";
+            return Err(input.refuse_at(start, found, "0 is text, 1 is binary"));
+        }
+    }
+    input.end_of("MeshFormat")
+}
+
+/// The dimension of an entity.
+fn dimension(input: &mut Input<'_>) -> Result<usize, MshError> {
+    let start = input.at();
+    let found = input.integer()?;
+    match usize::try_from(found) {
+        Ok(dimension) if dimension <= 3 => Ok(dimension),
+        _ => Err(input.refuse_at(start, format!("the dimension {found}"), "0, 1, 2 or 3")),
+    }
+}

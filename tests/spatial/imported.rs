@@ -1,0 +1,90 @@
+//! Flow in meshes made by Gmsh: Poiseuille flow in the plane and in a tube, and a sphere in a box.
+
+use alewife_core::case::{Case, CaseFile, check};
+use alewife_core::simulation::{RunSummary, simulate};
+
+/// A case, its mesh a file of the tests of the mesher where a name is given.
+fn case(text: &str, mesh: Option<&str>) -> CaseFile {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../mesh/tests/msh/data");
+    let settings = mesh.map(|name| format!("domain.mesh.file={folder}/{name}.msh"));
+    let settings: Vec<String> = settings.into_iter().collect();
+    let file = Case::parse("t.toml", text, &settings).unwrap_or_else(|error| panic!("{error}"));
+    assert!(check(&file).iter().all(|found| found.severity != alewife_core::case::Severity::Error));
+    file
+}
+
+fn last(run: &RunSummary, name: &str) -> f64 {
+    let column = run.series.column(name).expect("the quantity is measured");
+    *column.last().expect("there is a row")
+}
+
+const POISEUILLE: &str = r#"
+title = "t"
+fluid = { model = "stokes", viscosity = 1.0 }
+boundary = { inlet = { parabolic = { peak = 1.0 } }, outlet = "do-nothing", wall = "no-slip" }
+mesh = { size = 0.5 }
+time = { steady = {} }
+"#;
+
+/// A velocity of second order is found exactly: the pressure falls by 8 mu U / H^2.
+#[test]
+fn poiseuille_flow_in_a_plane_mesh_is_exact() {
+    for mesh in ["square-1-text", "square-2-binary"] {
+        let text = format!(
+            "{POISEUILLE}geometry = 'planar'\n[[probe]]\nname = 'a'\npoint = [0.5, 0.3]\n\
+             minus = [1.5, 0.6]\n"
+        );
+        let file = case(&text, Some(mesh));
+        let run = simulate::<2>(&file.model, &mut []).expect("it is solved");
+        assert!((last(&run, "a.pressure") - 8.0).abs() < 1e-9, "{}", last(&run, "a.pressure"));
+        assert!(last(&run, "flow.mass_defect").abs() < 1e-12);
+    }
+}
+
+/// Bent walls follow the tube nearly: the pressure falls by 4 mu U / R^2; straight walls make it
+/// narrower.
+#[test]
+fn poiseuille_flow_in_a_tube_is_nearly_exact_with_bent_walls() {
+    let text = format!(
+        "{POISEUILLE}geometry = 'spatial'\n[[probe]]\nname = 'a'\npoint = [0.5, 0.1, 0.2]\n\
+         minus = [1.5, -0.2, 0.1]\n"
+    );
+    let error = |mesh: &str| {
+        let run = simulate::<3>(&case(&text, Some(mesh)).model, &mut []).expect("it is solved");
+        assert!(last(&run, "flow.mass_defect").abs() < 1e-10);
+        last(&run, "a.pressure") / 4.0 - 1.0
+    };
+    let [bent, straight] = ["pipe-2-binary", "pipe-1-binary"].map(error);
+    println!("{bent:.2e} {straight:.2e}");
+    assert!(bent.abs() < 0.03 && straight > 3.0 * bent.abs(), "{bent} {straight}");
+}
+
+/// A sphere in a box that is given, against the same in a box of the mesher.
+#[test]
+fn a_sphere_in_a_given_box_has_the_resistance_of_one_in_a_box() {
+    let sphere = r#"
+title = "t"
+geometry = "spatial"
+fluid = { model = "stokes", viscosity = 1.0 }
+mesh = { size = 0.5, surface = 0.08, growth = 0.4, gap_layers = 2 }
+time = { steady = {} }
+[[body]]
+name = "sphere"
+shape.sphere.radius = 0.3
+center = [0.1, -0.1, 0.05]
+motion = { imposed = { velocity = [1.0, 0.5, 0.0] } }
+"#;
+    let given = format!("{sphere}[boundary]\nwall = 'no-slip'\n");
+    let given = simulate::<3>(&case(&given, Some("box-1-text")).model, &mut []).expect("is solved");
+    let sides = ["left", "right", "bottom", "top", "back", "front"];
+    let sides: String = sides.iter().map(|side| format!("{side} = 'no-slip'\n")).collect();
+    let built = format!(
+        "{sphere}[domain.box]\nmin = [-1.0, -1.0, -1.0]\nmax = [1.0, 1.0, 1.0]\n[boundary]\n{sides}"
+    );
+    let built = simulate::<3>(&case(&built, None).model, &mut []).expect("is solved");
+    for name in ["sphere.force.x", "sphere.force.y"] {
+        let [one, other] = [&given, &built].map(|run| last(run, name));
+        println!("{name} {one} {other}");
+        assert!((one / other - 1.0).abs() < 2e-3, "{name}: {one} {other}");
+    }
+}
