@@ -42,6 +42,7 @@ pub use planar::{
     Wall, check_placement, check_wrapped_placement, closest, closest_features, closest_to_wall,
     estimate_cells, generate, generate_along, on_meridian, overlap, thickness, wall_features,
 };
+pub use quadrature::GaussRule;
 pub use quality::{CellQuality, Quality, WorstCell};
 pub use side_shape::{Circle, SideShape};
 pub use simplex::{NodeArray, Simplex};

@@ -1,10 +1,9 @@
 //! `ClosedCurve`: a spline through moving points, with the exact rates of its integrals.
 
-use alewife_mesh::Spline;
+use alewife_mesh::{GaussRule, Spline};
 use num_dual::{Dual64, DualNum};
 
 use super::number::cross;
-use super::rule::Rule;
 
 /// A spline with the spline of its velocities: the curve is linear in its points.
 #[derive(Debug, Clone)]
@@ -56,7 +55,7 @@ impl ClosedCurve {
 
     /// Area enclosed by this curve plus a small number times another one: its value and both
     /// derivatives over their factorials.
-    pub fn area_along(&self, rule: &Rule, other: &Self) -> [Dual64; 3] {
+    pub fn area_along(&self, rule: &GaussRule, other: &Self) -> [Dual64; 3] {
         let mut sums = [Dual64::from(0.0); 3];
         self.each_point(rule, |piece, part, weight| {
             let ([p, dp], [q, dq]) = (self.at(piece, part), other.at(piece, part));
@@ -69,7 +68,7 @@ impl ClosedCurve {
     }
 
     /// By Green's theorem: ∫ |x|^k dA = ∮ |x|^k (x dy - y dx) / (k + 2), exact for cubic pieces.
-    pub fn enclosed(&self, rule: &Rule) -> Enclosed {
+    pub fn enclosed(&self, rule: &GaussRule) -> Enclosed {
         let zero = Dual64::from(0.0);
         let (mut area, mut first, mut second) = (zero, [zero; 2], zero);
         self.each_point(rule, |piece, part, weight| {
@@ -84,7 +83,7 @@ impl ClosedCurve {
         Enclosed { area, center, polar }
     }
 
-    fn each_point(&self, rule: &Rule, mut visit: impl FnMut(usize, f64, f64)) {
+    fn each_point(&self, rule: &GaussRule, mut visit: impl FnMut(usize, f64, f64)) {
         for (piece, ends) in self.points.knots().windows(2).enumerate() {
             let span = ends[1] - ends[0];
             for (x, weight) in rule.points.iter().zip(&rule.weights) {

@@ -1,9 +1,8 @@
 //! `Grid`: Gauss points along a midline, and integrals up to each of them and to the material points.
 
-use alewife_mesh::{Profile, Station};
+use alewife_mesh::{GaussRule, Profile, Station};
 
 use super::number::Number;
-use super::rule::Rule;
 use alewife_mesh::whole;
 
 /// Gauss points of a panel.
@@ -66,7 +65,7 @@ struct PartialPanel {
 impl Grid {
     /// Grid of a profile; panels end at `discontinuities`, distances along the midline (m).
     pub fn new(profile: &Profile, discontinuities: &[f64]) -> Self {
-        let rule = Rule::new(POINTS);
+        let rule = GaussRule::new(POINTS);
         let panels = panels(profile, discontinuities);
         let mut nodes = Vec::new();
         for Panel { piece, from, step } in &panels {

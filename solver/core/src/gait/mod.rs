@@ -12,7 +12,6 @@ mod number;
 mod pulse;
 mod recoil;
 mod recoil_motion;
-mod rule;
 mod sheet;
 mod slender_body;
 mod squirmer;

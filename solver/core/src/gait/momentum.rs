@@ -4,12 +4,12 @@
 //! (w/g) m + k (w/g)² / 2, curvature k and stretch g of the midline. Then dA = w dm ds at all times:
 //! the interior is incompressible, so its linear momentum is area times velocity of the centre.
 
+use alewife_mesh::GaussRule;
 use num_dual::Dual64;
 
 use super::grid::Node;
 use super::midline::Frame;
 use super::number::{Number, cross};
-use super::rule::Rule;
 
 /// Gauss points across the width.
 const POINTS: usize = 4;
@@ -36,7 +36,7 @@ pub fn offset<D: Number>(frame: &Frame<D>, half_width: f64, across: f64) -> D {
 impl Interior {
     /// Of a midline at the nodes of a grid.
     pub fn of(nodes: &[Node], frames: &[Frame<Dual64>]) -> Self {
-        let rule = Rule::new(POINTS);
+        let rule = GaussRule::new(POINTS);
         let (mut area, mut turning) = (0.0, 0.0);
         let zero = Dual64::from(0.0);
         let (mut first, mut second) = ([zero; 2], 0.0);

@@ -1,8 +1,7 @@
 //! Outlines have no linear momentum, and what is told to be subtracted for that is what is.
 
-use alewife_mesh::{Point, Shape};
+use alewife_mesh::{GaussRule, Point, Shape};
 
-use super::rule::Rule;
 use super::tests::{all, difference};
 use super::*;
 
@@ -12,7 +11,7 @@ use super::*;
 fn no_linear_momentum_is_left() {
     for (name, profile, midline, times) in all() {
         let swimmer = SlenderBody::new(&profile, midline).unwrap();
-        let rule = Rule::new(9);
+        let rule = GaussRule::new(9);
         for time in times {
             let now = swimmer.at(time).unwrap();
             let Shape::Curve { spline } = now.shape() else { panic!("is a curve") };

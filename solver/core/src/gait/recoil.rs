@@ -2,9 +2,9 @@
 
 use std::sync::{Mutex, PoisonError};
 
+use alewife_mesh::{GaussRule, whole};
+
 use super::error::GaitError;
-use super::rule::Rule;
-use alewife_mesh::whole;
 
 /// Intervals of the table in a period.
 const INTERVALS: usize = 16;
@@ -15,7 +15,7 @@ const POINTS: usize = 8;
 /// Integral over time of a rate that is periodic after some time.
 #[derive(Debug)]
 pub struct RecoilAngle {
-    rule: Rule,
+    rule: GaussRule,
     /// Duration after which the rate is periodic (s), and intervals up to there.
     transient: f64,
     before: usize,
@@ -36,7 +36,7 @@ impl RecoilAngle {
     pub fn new(transient: f64, period: f64) -> Self {
         let before = whole((transient / period * INTERVALS as f64).ceil());
         let table = Mutex::new(Vec::new());
-        Self { rule: Rule::new(POINTS), transient, before, period, table }
+        Self { rule: GaussRule::new(POINTS), transient, before, period, table }
     }
 
     /// Integral of the rate from 0 to a time (s); before 0 the rate is zero.

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use alewife_mesh::{Moments, Point, Profile, SecondMoments, Shape, Spline};
+use alewife_mesh::{GaussRule, Moments, Point, Profile, SecondMoments, Shape, Spline};
 use num_dual::{Dual64, DualNum};
 
 use super::closed_curve::ClosedCurve;
@@ -13,7 +13,6 @@ use super::midline::{Frame, Midline};
 use super::momentum::Interior;
 use super::recoil::RecoilAngle;
 use super::recoil_motion::{Recoil, RecoilMotion};
-use super::rule::Rule;
 
 /// Largest speed of the correction of the area, over the mean normal speed of a cycle.
 const LARGEST_CORRECTION: f64 = 1e-3;
@@ -31,7 +30,7 @@ pub struct SlenderBody {
     midline: Midline,
     rest: Arc<Spline>,
     rest_area: f64,
-    rule: Rule,
+    rule: GaussRule,
     recoil_angle: RecoilAngle,
 }
 
@@ -64,7 +63,7 @@ impl SlenderBody {
             midline,
             rest,
             rest_area,
-            rule: Rule::new(RULE_POINTS),
+            rule: GaussRule::new(RULE_POINTS),
             recoil_angle: RecoilAngle::new(transient, period),
         };
         body.validate()?;

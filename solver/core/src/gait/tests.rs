@@ -2,13 +2,14 @@
 
 use std::time::Instant;
 
-use alewife_mesh::{FishForm, FlagellateForm, Outline, PlacedShape, Point, Profile, Shape};
+use alewife_mesh::{
+    FishForm, FlagellateForm, GaussRule, Outline, PlacedShape, Point, Profile, Shape,
+};
 
 use super::grid::Grid;
 use super::midline::Frames;
 use super::momentum::offset;
 use super::number::cross;
-use super::rule::Rule;
 use super::*;
 
 fn fish() -> Profile {
@@ -167,7 +168,7 @@ fn no_angular_momentum_is_left() {
         joints.extend((1..101).map(|i| length * f64::from(i) / 101.0));
         joints.sort_by(f64::total_cmp);
         let grid = Grid::new(&profile, &joints);
-        let rule = Rule::new(11);
+        let rule = GaussRule::new(11);
         let across: Vec<f64> = rule.points.iter().map(|x| 2.0 * x - 1.0).collect();
         let weights: Vec<f64> = grid
             .nodes

@@ -4,6 +4,7 @@ mod tabulated;
 mod tetrahedron;
 mod triangle;
 
+use alewife_mesh::GaussRule;
 use nalgebra::SVector;
 
 pub use self::tabulated::Rule;
@@ -26,24 +27,10 @@ pub fn simplex_rule<const D: usize>(degree: usize) -> Rule<D> {
 }
 
 /// The Gauss rule with 4 points on \[0, 1\], exact up to degree 7.
-///
-/// # Source
-/// @abramowitz1964, table 25.4.
 #[must_use]
 pub fn interval_rule() -> Rule<1> {
-    const POINTS: [f64; 4] = [
-        0.069_431_844_202_973_71,
-        0.330_009_478_207_571_87,
-        0.669_990_521_792_428_1,
-        0.930_568_155_797_026_2,
-    ];
-    const WEIGHTS: [f64; 4] = [
-        0.173_927_422_568_726_84,
-        0.326_072_577_431_273_1,
-        0.326_072_577_431_273,
-        0.173_927_422_568_726_84,
-    ];
-    Rule { points: POINTS.map(SVector::<f64, 1>::new).to_vec(), weights: WEIGHTS.to_vec() }
+    let GaussRule { points, weights } = GaussRule::new(4);
+    Rule { points: points.into_iter().map(SVector::<f64, 1>::new).collect(), weights }
 }
 
 #[cfg(test)]
