@@ -4,6 +4,8 @@ use std::f64::consts::TAU;
 use std::fmt::Write as _;
 use std::path::Path;
 
+use serde_json::Value;
+
 use super::done;
 
 /// Three links under a skin in a tank, with the angles of their two joints.
@@ -41,6 +43,24 @@ fn way(directory: &Path, case: &str, out: &str) -> [f64; 3] {
     })
 }
 
+/// Translation of the recoil as `check` tells it.
+fn translation(directory: &Path, case: &str) -> f64 {
+    let said = done(directory, &["check", "--no-mesh", case]);
+    let (_, rest) = said.split_once("eel: translation up to ").unwrap();
+    rest.split(' ').next().unwrap().parse().unwrap()
+}
+
+/// Angles of the recoil in the messages of a run.
+fn recoil_angles(directory: &Path, out: &str) -> Vec<f64> {
+    let bytes = std::fs::read(directory.join(out).join("run.mcap")).unwrap();
+    let messages = mcap::MessageStream::new(&bytes).unwrap().map(Result::unwrap);
+    messages
+        .filter(|message| message.channel.topic == "/body/eel")
+        .map(|message| serde_json::from_slice::<Value>(&message.data).unwrap())
+        .map(|body| body["recoil"]["angle"].as_f64().unwrap())
+        .collect()
+}
+
 /// Angles that are sampled from sines, fifty times a period, make the way of the sines; and the run keeps
 /// them, so that its own case file needs no other.
 #[test]
@@ -69,6 +89,14 @@ fn a_skin_swims_by_the_angles_of_a_file() {
     };
     println!("{exact:?}, {recorded:?}: {:e} apart", off(exact, recorded));
     assert!(off(exact, recorded) < 1e-5 * exact[0], "{exact:?} {recorded:?}");
+    // What is subtracted from the gait is told, of a recording over all of it
+    let [one, other] =
+        ["sine.toml", "recorded.toml"].map(|case| translation(directory.path(), case));
+    assert!((one - other).abs() < 0.05 * one, "{one} {other}");
+    let [one, other] = ["sine", "recorded"].map(|out| recoil_angles(directory.path(), out));
+    assert_eq!(one.len(), 21);
+    assert!(one.iter().any(|angle| angle.abs() > 0.05), "{one:?}");
+    assert!(one.iter().zip(&other).all(|(a, b)| (a - b).abs() < 1e-5), "{one:?} {other:?}");
     std::fs::remove_file(directory.path().join("angles.csv")).unwrap();
     let again = way(directory.path(), "recorded/case.toml", "again");
     assert_eq!(again, recorded);
