@@ -14,6 +14,7 @@ mod iterative;
 mod krylov_space;
 mod numbering;
 mod operator;
+mod permeability;
 mod preconditioner;
 mod scaled;
 mod scales;

@@ -6,6 +6,7 @@ use super::blocks::{transfer, velocity_block};
 use super::data::{SaddlePoint, Weights};
 use super::gradient::Gradient;
 use super::numbering::Numbering;
+use super::permeability::permeability;
 use super::scales::Scales;
 use super::schur::SchurComplement;
 use super::vector::{B, Blocks};
@@ -13,6 +14,7 @@ use crate::multigrid::{
     BlockMatrix, Chebyshev, Hierarchy, HierarchySettings, Spectrum, Upwinded, upwinded,
 };
 use crate::sparse::SparseMatrix;
+use crate::sparse::single::single;
 
 /// Degree of the smoother of the first level of a multigrid cycle.
 const SMOOTHING: usize = 2;
@@ -62,11 +64,21 @@ impl Preconditioner {
         let is_dominated = damped_part(weights, numbering, matrix) > DOMINANT;
         let smooth = smooth_block(&block, n_pairs, weights.has_convection && !is_dominated);
         let is_convective = smooth.part > CONVECTIVE;
+        let is_commutator = is_convective && weights.inertia == 0.0;
+        let mut damping = Vec::new();
+        let masses = numbering.split(&weights.lumped_mass, |_| 1.0).velocity;
         let velocity = if is_dominated {
+            damping = masses[..numbering.n_nodes].to_vec();
+            let inertia = single(weights.inertia);
+            damping.iter_mut().flatten().for_each(|value| *value *= inertia);
             let chebyshev = Chebyshev::new(&block, n_pairs, SPECTRUM, DEGREE);
             VelocitySolver::Polynomial(Box::new(chebyshev))
         } else {
             let transfer = transfer(&weights.interpolation, numbering);
+            if !is_commutator && std::env::var("NOLUB").is_err() {
+                damping =
+                    damping_of(&smooth.matrix, &transfer, numbering, &masses, weights.inertia);
+            }
             let settings = HierarchySettings {
                 n_pairs,
                 degree: SMOOTHING,
@@ -77,10 +89,10 @@ impl Preconditioner {
         };
         let gradient = Gradient::new(matrix, numbering);
         let has_held_pressure = system.has_held_pressure;
-        let schur = if is_convective && weights.damping.is_none() {
+        let schur = if is_commutator {
             SchurComplement::convective(&block, &gradient, numbering, has_held_pressure)
         } else {
-            SchurComplement::new(weights, &gradient, numbering, has_held_pressure)
+            SchurComplement::new(weights, &gradient, &damping, has_held_pressure)
         };
         let divergence = gradient.transposed();
         let scales = Scales::new(matrix, numbering);
@@ -150,13 +162,15 @@ fn smooth_block(block: &Arc<BlockMatrix<B>>, n_pairs: usize, has_convection: boo
 
 /// Median over the velocities at nodes of what is no derivative in the diagonal of F.
 fn damped_part(weights: &Weights, numbering: &Numbering, matrix: &SparseMatrix) -> f64 {
-    let Some(damping) = &weights.damping else { return 0.0 };
+    if weights.inertia == 0.0 {
+        return 0.0;
+    }
     let unknowns = numbering.blocks[..numbering.n_nodes].iter().flatten().flatten();
     let mut parts: Vec<f64> = unknowns
         .filter_map(|&unknown| {
             let unknown = unknown as usize;
             let entry = matrix.pattern().entry(unknown, unknown)?;
-            Some(damping[unknown] / matrix.values()[entry])
+            Some(weights.inertia * weights.lumped_mass[unknown] / matrix.values()[entry])
         })
         .collect();
     let middle = parts.len() / 2;
@@ -164,4 +178,28 @@ fn damped_part(weights: &Weights, numbering: &Numbering, matrix: &SparseMatrix) 
         return 0.0;
     }
     *parts.select_nth_unstable_by(middle, f64::total_cmp).1
+}
+
+/// Lumped D for the Laplacian.
+fn damping_of(
+    block: &BlockMatrix<B>,
+    transfer: &BlockMatrix<B>,
+    numbering: &Numbering,
+    masses: &[[f32; B]],
+    inertia: f64,
+) -> Vec<[f32; B]> {
+    let of_nodes = numbering.blocks[..numbering.n_nodes].iter().zip(masses);
+    let mean: Vec<f32> = of_nodes
+        .map(|(unknowns, masses)| {
+            masses.iter().sum::<f32>() / unknowns.iter().flatten().count() as f32
+        })
+        .collect();
+    let w = permeability(block, transfer, numbering, &mean);
+    let inertia = single(inertia);
+    w.iter()
+        .zip(masses)
+        .map(|(w, masses)| {
+            masses.map(|mass| if *w > 0.0 { mass * (1.0 / w + 0.25 * inertia) } else { 0.0 })
+        })
+        .collect()
 }
