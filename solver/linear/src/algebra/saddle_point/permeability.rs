@@ -15,8 +15,10 @@ use crate::sparse::index::to_u32;
 
 /// Degree of the smoothers.
 const SMOOTHING: usize = 2;
-/// Cycles by which w is found: a tenth of it is accurate enough.
-const CYCLES: usize = 4;
+/// Part of w at each node that the last cycle may change.
+const ACCURACY: f32 = 0.1;
+/// Cycles at most.
+const CYCLES: usize = 16;
 
 /// w at each node, of the velocity block, the transfer from its coarser level and masses of the nodes, with bodies
 /// at rest.
@@ -40,13 +42,20 @@ pub(super) fn permeability(
     let rhs: Vec<[f32; 1]> = masses.iter().map(|mass| [4.0 * mass]).collect();
     let mut w = vec![[0.0]; rhs.len()];
     let mut change = w.clone();
-    for _ in 0..CYCLES {
-        let mut residual = rhs.clone();
-        matrix.multiply_subtract(&w, &mut residual);
+    let mut residual = rhs.clone();
+    for cycle in 0..CYCLES {
         hierarchy.cycle(&residual, &mut change);
-        for (w, change) in w.iter_mut().zip(&change) {
-            w[0] += change[0];
+        let mut is_accurate = true;
+        for ([w], [change]) in w.iter_mut().zip(&change) {
+            *w += change;
+            is_accurate &= change.abs() <= ACCURACY * w.abs();
         }
+        if is_accurate {
+            tracing::debug!(cycle, "permeability");
+            break;
+        }
+        residual.copy_from_slice(&rhs);
+        matrix.multiply_subtract(&w, &mut residual);
     }
     w.into_iter().map(|[w]| w).collect()
 }
