@@ -3,10 +3,10 @@
 use std::sync::Arc;
 
 use super::blocks::{transfer, velocity_block};
+use super::damping::damping_at_nodes;
 use super::data::{SaddlePoint, Weights};
 use super::gradient::Gradient;
 use super::numbering::Numbering;
-use super::permeability::permeability;
 use super::scales::Scales;
 use super::schur::SchurComplement;
 use super::vector::{B, Blocks};
@@ -14,7 +14,6 @@ use crate::multigrid::{
     BlockMatrix, Chebyshev, Hierarchy, HierarchySettings, Spectrum, Upwinded, upwinded,
 };
 use crate::sparse::SparseMatrix;
-use crate::sparse::single::single;
 
 /// Degree of the smoother of the first level of a multigrid cycle.
 const SMOOTHING: usize = 2;
@@ -65,19 +64,17 @@ impl Preconditioner {
         let smooth = smooth_block(&block, n_pairs, weights.has_convection && !is_dominated);
         let is_convective = smooth.part > CONVECTIVE;
         let is_commutator = is_convective && weights.inertia == 0.0;
+        // Of the Laplacian of the pressures, where there is one
         let mut damping = Vec::new();
-        let masses = numbering.split(&weights.lumped_mass, |_| 1.0).velocity;
         let velocity = if is_dominated {
-            damping = masses[..numbering.n_nodes].to_vec();
-            let inertia = single(weights.inertia);
-            damping.iter_mut().flatten().for_each(|value| *value *= inertia);
+            let inertia = numbering.split(&weights.lumped_mass, |_| weights.inertia);
+            damping.extend_from_slice(&inertia.velocity[..numbering.n_nodes]);
             let chebyshev = Chebyshev::new(&block, n_pairs, SPECTRUM, DEGREE);
             VelocitySolver::Polynomial(Box::new(chebyshev))
         } else {
             let transfer = transfer(&weights.interpolation, numbering);
-            if !is_commutator && std::env::var("NOLUB").is_err() {
-                damping =
-                    damping_of(&smooth.matrix, &transfer, numbering, &masses, weights.inertia);
+            if !is_commutator {
+                damping = damping_at_nodes(&smooth.matrix, &transfer, numbering, weights);
             }
             let settings = HierarchySettings {
                 n_pairs,
@@ -178,28 +175,4 @@ fn damped_part(weights: &Weights, numbering: &Numbering, matrix: &SparseMatrix) 
         return 0.0;
     }
     *parts.select_nth_unstable_by(middle, f64::total_cmp).1
-}
-
-/// Lumped D for the Laplacian.
-fn damping_of(
-    block: &BlockMatrix<B>,
-    transfer: &BlockMatrix<B>,
-    numbering: &Numbering,
-    masses: &[[f32; B]],
-    inertia: f64,
-) -> Vec<[f32; B]> {
-    let of_nodes = numbering.blocks[..numbering.n_nodes].iter().zip(masses);
-    let mean: Vec<f32> = of_nodes
-        .map(|(unknowns, masses)| {
-            masses.iter().sum::<f32>() / unknowns.iter().flatten().count() as f32
-        })
-        .collect();
-    let w = permeability(block, transfer, numbering, &mean);
-    let inertia = single(inertia);
-    w.iter()
-        .zip(masses)
-        .map(|(w, masses)| {
-            masses.map(|mass| if *w > 0.0 { mass * (1.0 / w + 0.25 * inertia) } else { 0.0 })
-        })
-        .collect()
 }
