@@ -9,6 +9,7 @@ use super::gradient::Gradient;
 use super::numbering::Numbering;
 use super::{Interpolation, Part, SaddlePoint, Weights};
 use crate::algebra::Term;
+use crate::sparse::index::to_u32;
 use crate::sparse::single::single;
 use crate::sparse::{Pattern, SparseMatrix};
 
@@ -152,11 +153,10 @@ fn the_commutator_inverts_the_schur_complement_of_a_diagonal_block() {
 #[test]
 fn the_damping_between_walls_is_that_of_a_film() {
     let (n, width, viscosity) = (63, 0.2, 3.0);
+    let axes: [u8; 3] = [0, 1, 2];
     let h = width / (n + 1) as f64;
-    let parts = (0..3 * n).map(|unknown| Part::Velocity {
-        node: (unknown / 3) as u32,
-        component: (unknown % 3) as u8,
-    });
+    let of_node = |node| axes.map(|component| Part::Velocity { node: to_u32(node), component });
+    let parts = (0..n).flat_map(of_node);
     let system = SaddlePoint { parts: parts.collect(), has_held_pressure: false };
     let numbering = Numbering::new(&system);
     let rows = |unknown: usize| {
@@ -182,7 +182,7 @@ fn the_damping_between_walls_is_that_of_a_film() {
                 rows(unknown).filter(|row| *row != unknown).collect()
             };
             let weight = if is_coarse { 1.0 } else { 0.5 };
-            interpolation.push(of.into_iter().map(|row| Term { unknown: row as u32, weight }));
+            interpolation.push(of.into_iter().map(|row| Term { unknown: to_u32(row), weight }));
         }
         let pressure_mass =
             SparseMatrix::new(Pattern::from_columns(std::iter::empty::<[usize; 0]>()), Vec::new());
