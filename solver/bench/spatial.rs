@@ -2,7 +2,7 @@
 //!
 //! `cargo bench -p benches --bench spatial [-- CUBES ...]`, on one thread; `--bodies` leaves a body
 //! free in the middle, `--rate R` adds the factor R (1/s) of the new velocity in its rate,
-//! `--threads N` takes N threads.
+//! `--threads N` takes N threads; `--spheres` takes chains of free spheres in place of boxes.
 
 use std::time::Instant;
 
@@ -12,13 +12,18 @@ use alewife_core::simulation::{Stage, Timing, cpu_seconds};
 use alewife_core::space::Metric;
 use alewife_mesh::{BoundaryId, Mesh, Point};
 use nalgebra::Vector3;
-use tests::{BoxOfTetrahedra, fluid_only, one_system_from_rest};
+use tests::{BoxOfTetrahedra, ChainOfSpheres, fluid_only, one_system_from_rest};
 
 /// Cubes along the edges of the boxes: 5, 12, 41, 86 and 270 thousand unknowns.
 const CUBES: [usize; 5] = [6, 9, 15, 18, 27];
 
+/// Numbers of spheres in a chain, and their gaps in radii.
+const CHAINS: [(usize, f64); 8] =
+    [(1, 0.1), (2, 0.1), (2, 0.02), (2, 0.01), (10, 0.1), (30, 0.1), (10, 0.02), (10, 0.01)];
+
 struct Options {
     cubes: Vec<usize>,
+    has_spheres: bool,
     has_body: bool,
     rate: f64,
     threads: usize,
@@ -26,10 +31,12 @@ struct Options {
 
 impl Options {
     fn read() -> Self {
-        let mut options = Self { cubes: Vec::new(), has_body: false, rate: 0.0, threads: 1 };
+        let mut options =
+            Self { cubes: Vec::new(), has_spheres: false, has_body: false, rate: 0.0, threads: 1 };
         let mut words = std::env::args().skip(1).filter(|word| word != "--bench");
         while let Some(word) = words.next() {
             match word.as_str() {
+                "--spheres" => options.has_spheres = true,
                 "--bodies" => options.has_body = true,
                 "--rate" => options.rate = following(words.next()),
                 "--threads" => options.threads = following(words.next()),
@@ -58,8 +65,18 @@ fn main() {
         "unknowns  iterations  residual  analysis s  assembly s  set-up s  solve s  wall s  \
          preconditioner MB  peak MB"
     );
+    if options.has_spheres {
+        for (n, gap) in CHAINS {
+            let chain = ChainOfSpheres { n, gap, surface: 0.35 };
+            let mesh = chain.mesh();
+            print!("{n:3} spheres, gap {gap:4}: ");
+            measure(&mesh, &chain.problem(&mesh), 0.0);
+        }
+        return;
+    }
     for &cubes in &options.cubes {
-        measure(BoxOfTetrahedra { cubes, has_body: options.has_body }, options.rate);
+        let mesh = BoxOfTetrahedra { cubes, has_body: options.has_body }.mesh();
+        measure(&mesh, &problem(&mesh, f64::from(options.rate > 0.0)), options.rate);
     }
 }
 
@@ -80,15 +97,13 @@ fn problem(mesh: &Mesh<3>, density: f64) -> Problem<3> {
     Problem { bodies, has_convection: false, ..fluid }
 }
 
-fn measure(box_of: BoxOfTetrahedra, rate: f64) {
-    let mesh = box_of.mesh();
-    let problem = problem(&mesh, if rate > 0.0 { 1.0 } else { 0.0 });
+fn measure(mesh: &Mesh<3>, problem: &Problem<3>, rate: f64) {
     let poses: Vec<Pose> = problem.bodies.iter().map(|body| body.pose).collect();
     let (start_wall, start) = (Instant::now(), cpu_seconds());
-    let mut system = FluidSystem::new(&problem, &mesh, &poses, false);
+    let mut system = FluidSystem::new(problem, mesh, &poses, false);
     let analysis = cpu_seconds() - start;
     let mut timing = Timing::default();
-    let solved = one_system_from_rest(&mut system, &problem, &mesh, rate, &mut timing);
+    let solved = one_system_from_rest(&mut system, problem, mesh, rate, &mut timing);
     let _flow = solved.expect("the system is solved");
     let seconds = |stage: Stage| timing.cpu[stage as usize];
     println!(

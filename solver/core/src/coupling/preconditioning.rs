@@ -83,8 +83,9 @@ impl<const D: usize> Discretised<'_, D> {
         let Coefficients { viscosity, inertia, has_convection } = coefficients;
         let interpolation = self.interpolation();
         let integrals = self.integrals(1.0 / (2.0 * viscosity));
-        let damping = (inertia > 0.0).then(|| self.restricted(&integrals.lumped_mass, inertia));
-        Weights { interpolation, pressure_mass: integrals.pressure_mass, damping, has_convection }
+        let lumped_mass = self.restricted(&integrals.lumped_mass);
+        let pressure_mass = integrals.pressure_mass;
+        Weights { interpolation, pressure_mass, lumped_mass, inertia, has_convection }
     }
 
     /// Velocities on edges by those of the vertices at their ends, the others by themselves.
@@ -184,16 +185,16 @@ impl<const D: usize> Discretised<'_, D> {
         PressureMaps { maps, constraints }
     }
 
-    /// Numbers of the nodes as numbers of the unknowns, times a factor: what constrained velocities have
-    /// goes to those they depend on.
-    fn restricted(&self, of_nodes: &[f64], factor: f64) -> Vec<f64> {
+    /// Numbers of the nodes as numbers of the unknowns: what constrained velocities have goes to those they
+    /// depend on.
+    fn restricted(&self, of_nodes: &[f64]) -> Vec<f64> {
         let Self { layout, constraints, .. } = self;
         let mut values = vec![0.0; constraints.n_unknowns()];
         for node in layout.nodes() {
             for axis in 0..D {
                 for term in constraints.row(layout.velocity(node, axis)) {
                     values[term.unknown as usize] +=
-                        factor * term.weight * term.weight * of_nodes[node.index()];
+                        term.weight * term.weight * of_nodes[node.index()];
                 }
             }
         }

@@ -55,10 +55,10 @@ pub struct Weights {
     /// pressures over twice the viscosity. A row for each pressure in the order of the unknowns, and
     /// then one for the pressure that is held, if there is one.
     pub pressure_mass: SparseMatrix,
-    /// For each unknown the part of F that is no derivative, lumped: density and drag times the
-    /// integral of the basis function. Not read of pressures and rigid velocities. Without it the
-    /// Schur complement has no Laplacian.
-    pub damping: Option<Vec<f64>>,
+    /// For each unknown its lumped mass (m^3). Not read of pressures and rigid velocities.
+    pub lumped_mass: Vec<f64>,
+    /// What the mass is multiplied by in F: density over time step (kg/m^3/s), zero without inertia.
+    pub inertia: f64,
     /// Whether F has convection.
     pub has_convection: bool,
 }

@@ -114,9 +114,7 @@ impl IterativeSolver {
             self.numbering.pressures.len() + usize::from(self.system.has_held_pressure);
         assert_eq!(weights.interpolation.n(), n, "a sum for each unknown");
         assert_eq!(weights.pressure_mass.n(), n_pressures, "a row for each pressure");
-        if let Some(damping) = &weights.damping {
-            assert_eq!(damping.len(), n, "a damping for each unknown");
-        }
+        assert_eq!(weights.lumped_mass.len(), n, "a mass for each unknown");
     }
 
     /// Iterations of the last solution.

@@ -7,6 +7,7 @@
 
 mod blocks;
 mod commutator;
+mod damping;
 mod data;
 mod gradient;
 mod guess;
@@ -14,6 +15,7 @@ mod iterative;
 mod krylov_space;
 mod numbering;
 mod operator;
+
 mod preconditioner;
 mod scaled;
 mod scales;

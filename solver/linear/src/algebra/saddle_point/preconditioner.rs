@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::blocks::{transfer, velocity_block};
+use super::damping::damping_at_nodes;
 use super::data::{SaddlePoint, Weights};
 use super::gradient::Gradient;
 use super::numbering::Numbering;
@@ -62,11 +63,19 @@ impl Preconditioner {
         let is_dominated = damped_part(weights, numbering, matrix) > DOMINANT;
         let smooth = smooth_block(&block, n_pairs, weights.has_convection && !is_dominated);
         let is_convective = smooth.part > CONVECTIVE;
+        let is_commutator = is_convective && weights.inertia == 0.0;
+        // Of the Laplacian of the pressures, where there is one
+        let mut damping = Vec::new();
         let velocity = if is_dominated {
+            let inertia = numbering.split(&weights.lumped_mass, |_| weights.inertia);
+            damping.extend_from_slice(&inertia.velocity[..numbering.n_nodes]);
             let chebyshev = Chebyshev::new(&block, n_pairs, SPECTRUM, DEGREE);
             VelocitySolver::Polynomial(Box::new(chebyshev))
         } else {
             let transfer = transfer(&weights.interpolation, numbering);
+            if !is_commutator {
+                damping = damping_at_nodes(&smooth.matrix, &transfer, numbering, weights);
+            }
             let settings = HierarchySettings {
                 n_pairs,
                 degree: SMOOTHING,
@@ -77,10 +86,10 @@ impl Preconditioner {
         };
         let gradient = Gradient::new(matrix, numbering);
         let has_held_pressure = system.has_held_pressure;
-        let schur = if is_convective && weights.damping.is_none() {
+        let schur = if is_commutator {
             SchurComplement::convective(&block, &gradient, numbering, has_held_pressure)
         } else {
-            SchurComplement::new(weights, &gradient, numbering, has_held_pressure)
+            SchurComplement::new(weights, &gradient, &damping, has_held_pressure)
         };
         let divergence = gradient.transposed();
         let scales = Scales::new(matrix, numbering);
@@ -150,13 +159,15 @@ fn smooth_block(block: &Arc<BlockMatrix<B>>, n_pairs: usize, has_convection: boo
 
 /// Median over the velocities at nodes of what is no derivative in the diagonal of F.
 fn damped_part(weights: &Weights, numbering: &Numbering, matrix: &SparseMatrix) -> f64 {
-    let Some(damping) = &weights.damping else { return 0.0 };
+    if weights.inertia == 0.0 {
+        return 0.0;
+    }
     let unknowns = numbering.blocks[..numbering.n_nodes].iter().flatten().flatten();
     let mut parts: Vec<f64> = unknowns
         .filter_map(|&unknown| {
             let unknown = unknown as usize;
             let entry = matrix.pattern().entry(unknown, unknown)?;
-            Some(damping[unknown] / matrix.values()[entry])
+            Some(weights.inertia * weights.lumped_mass[unknown] / matrix.values()[entry])
         })
         .collect();
     let middle = parts.len() / 2;

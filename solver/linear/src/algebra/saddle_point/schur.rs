@@ -10,7 +10,7 @@ use std::sync::Arc;
 use super::commutator::{Commutator, laplacian};
 use super::data::Weights;
 use super::gradient::Gradient;
-use super::numbering::{Numbering, Place};
+use super::numbering::Numbering;
 use super::vector::B;
 use crate::multigrid::{BlockMatrix, Chebyshev, Hierarchy, RowBuilder, Spectrum};
 use crate::sparse::SparseMatrix;
@@ -39,14 +39,14 @@ enum Inverse {
 }
 
 impl SchurComplement {
-    /// By the weights of a system with this gradient.
+    /// By the weights of a system with this gradient, and what the Laplacian is damped by at each node.
     pub fn new(
         weights: &Weights,
         gradient: &Gradient,
-        numbering: &Numbering,
+        damping: &[[f32; B]],
         has_held_pressure: bool,
     ) -> Self {
-        let masses = Masses::new(weights, gradient, numbering, has_held_pressure);
+        let masses = Masses::new(weights, gradient, damping, has_held_pressure);
         let n = masses.mass.n_rows();
         Self::with(Inverse::Masses(Box::new(masses)), n, has_held_pressure)
     }
@@ -112,15 +112,14 @@ impl Masses {
     fn new(
         weights: &Weights,
         gradient: &Gradient,
-        numbering: &Numbering,
+        damping: &[[f32; B]],
         has_held_pressure: bool,
     ) -> Self {
         let mass = single_precision(&weights.pressure_mass);
         let mass_inverse = Chebyshev::new(&mass, 0, MASS_SPECTRUM, MASS_DEGREE);
-        let laplacian = weights.damping.as_ref().map(|damping| {
+        let laplacian = (!damping.is_empty()).then(|| {
             let held = has_held_pressure.then(|| gradient.with_held_pressure());
-            let gradient = held.as_ref().unwrap_or(gradient);
-            laplacian(gradient, &by_blocks(damping, numbering), has_held_pressure)
+            laplacian(held.as_ref().unwrap_or(gradient), damping, has_held_pressure)
         });
         let part = vec![[0.0]; mass.n_rows()];
         Self { mass, mass_inverse, laplacian, part }
@@ -152,17 +151,4 @@ fn single_precision(matrix: &SparseMatrix) -> BlockMatrix<1> {
         rows.end_row();
     }
     rows.build()
-}
-
-/// Numbers of the velocities at nodes by blocks, zero for what is no unknown.
-fn by_blocks(values: &[f64], numbering: &Numbering) -> Vec<[f32; B]> {
-    let mut blocks = vec![[0.0; B]; numbering.n_nodes];
-    for (place, value) in numbering.places.iter().zip(values) {
-        if let Place::Velocity { row, component } = *place
-            && let Some(block) = blocks.get_mut(row as usize)
-        {
-            block[usize::from(component)] = single(*value);
-        }
-    }
-    blocks
 }

@@ -4,10 +4,12 @@ use std::sync::Arc;
 
 use super::blocks::{transfer, velocity_block};
 use super::commutator::Commutator;
+use super::damping::damping_at_nodes;
 use super::gradient::Gradient;
 use super::numbering::Numbering;
-use super::{Interpolation, Part, SaddlePoint};
+use super::{Interpolation, Part, SaddlePoint, Weights};
 use crate::algebra::Term;
+use crate::sparse::index::to_u32;
 use crate::sparse::single::single;
 use crate::sparse::{Pattern, SparseMatrix};
 
@@ -144,5 +146,56 @@ fn the_commutator_inverts_the_schur_complement_of_a_diagonal_block() {
     commutator.solve(&[[single(schur(0))], [single(schur(1))]], &mut solution);
     for (found, expected) in solution.iter().zip(p) {
         assert!((f64::from(found[0]) - expected).abs() < 1e-5 * expected.abs(), "{solution:?}");
+    }
+}
+
+/// A film of width g between walls: linear elements across it, 4/3 of a Laplacian for each component.
+#[test]
+fn the_damping_between_walls_is_that_of_a_film() {
+    let (n, width, viscosity) = (63, 0.2, 3.0);
+    let axes: [u8; 3] = [0, 1, 2];
+    let h = width / (n + 1) as f64;
+    let of_node = |node| axes.map(|component| Part::Velocity { node: to_u32(node), component });
+    let parts = (0..n).flat_map(of_node);
+    let system = SaddlePoint { parts: parts.collect(), has_held_pressure: false };
+    let numbering = Numbering::new(&system);
+    let rows = |unknown: usize| {
+        let near = [unknown.checked_sub(3), Some(unknown), Some(unknown + 3)];
+        near.into_iter().flatten().filter(|row| *row < 3 * n)
+    };
+    let stiffness = 4.0 / 3.0 * viscosity / h;
+    for inertia in [0.0, 1e6] {
+        let mass = inertia * h;
+        let entry = |row: usize, column: usize| {
+            if row == column { 2.0 * stiffness + mass } else { -stiffness }
+        };
+        let values = (0..3 * n).flat_map(|column| rows(column).map(move |row| entry(row, column)));
+        let pattern = Pattern::from_columns((0..3 * n).map(rows));
+        let matrix = SparseMatrix::new(pattern, values.collect());
+        let block = velocity_block(&matrix, &numbering);
+        let mut interpolation = Interpolation::with_capacity(3 * n);
+        for unknown in 0..3 * n {
+            let is_coarse = unknown / 3 % 2 == 1;
+            let of = if is_coarse {
+                vec![unknown]
+            } else {
+                rows(unknown).filter(|row| *row != unknown).collect()
+            };
+            let weight = if is_coarse { 1.0 } else { 0.5 };
+            interpolation.push(of.into_iter().map(|row| Term { unknown: to_u32(row), weight }));
+        }
+        let pressure_mass =
+            SparseMatrix::new(Pattern::from_columns(std::iter::empty::<[usize; 0]>()), Vec::new());
+        let lumped_mass = vec![h; 3 * n];
+        let transfer = transfer(&interpolation, &numbering);
+        let weights =
+            Weights { interpolation, pressure_mass, lumped_mass, inertia, has_convection: false };
+        let damping = damping_at_nodes(&block, &transfer, &numbering, &weights);
+        let mobility: f64 = damping.iter().map(|d| h * h / f64::from(d[1])).sum();
+        // Mean of y (g - y) / 2 mu, which is g^2 / 12 mu; with inertia alone its inverse
+        let expected =
+            if inertia == 0.0 { width * width / (12.0 * viscosity) } else { 1.0 / inertia };
+        let relative = mobility / width / expected - 1.0;
+        assert!(relative.abs() < 0.03, "{inertia}: {relative}");
     }
 }
