@@ -138,10 +138,7 @@ impl MshFile {
     }
 
     fn read_nodes(&mut self, input: &mut Input<'_>) -> Result<(), MshError> {
-        let n_blocks = input.count("blocks of nodes", 8)?;
-        input.count("nodes", 8)?;
-        input.number()?;
-        input.number()?;
+        let n_blocks = n_blocks(input, "nodes", 8)?;
         for _ in 0..n_blocks {
             let dimension = dimension(input)?;
             input.integer()?;
@@ -165,10 +162,7 @@ impl MshFile {
     }
 
     fn read_elements(&mut self, input: &mut Input<'_>) -> Result<(), MshError> {
-        let n_blocks = input.count("blocks of elements", 8)?;
-        input.count("elements", 4)?;
-        input.number()?;
-        input.number()?;
+        let n_blocks = n_blocks(input, "elements", 4)?;
         for _ in 0..n_blocks {
             dimension(input)?;
             let entity = input.integer()?;
@@ -231,6 +225,16 @@ fn read_version(input: &mut Input<'_>) -> Result<(), MshError> {
         }
     }
     input.end_of("MeshFormat")
+}
+
+/// The number of blocks at the start of a section, whose things take some bytes in the file at least.
+fn n_blocks(input: &mut Input<'_>, what: &str, least_bytes: usize) -> Result<usize, MshError> {
+    let n_blocks = input.count(&format!("blocks of {what}"), 8)?;
+    input.count(what, least_bytes)?;
+    // Least and greatest tag
+    input.number()?;
+    input.number()?;
+    Ok(n_blocks)
 }
 
 /// The dimension of an entity.

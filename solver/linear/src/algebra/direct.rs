@@ -77,9 +77,7 @@ impl DirectSolver {
             factors.solve(analysis, z);
         };
         let stopping = Stopping { tolerance, max_iterations: self.policy.affordable_iterations() };
-        let initial = norm(scaled_rhs);
-        let continues = |iterations, residual| stopping.continues(initial, iterations, residual);
-        fgmres(multiply, precondition, scaled_rhs, continues)
+        fgmres(multiply, precondition, scaled_rhs, stopping)
     }
 }
 

@@ -2,7 +2,6 @@
 
 use super::super::direct::DirectSolver;
 use super::super::fingerprint::Fingerprints;
-use super::super::krylov::norm;
 use super::super::solver::{Accuracy, LinearError, LinearSolver};
 use super::data::{SaddlePoint, Weights};
 use super::guess::EarlierSolutions;
@@ -10,7 +9,7 @@ use super::krylov_space::{Correction, KrylovSpace};
 use super::numbering::Numbering;
 use super::operator::{ColumnGroups, Operator};
 use super::preconditioner::Preconditioner;
-use super::vector::Blocks;
+use super::scaled::{Iterate, Scaled};
 use crate::sparse::{Pattern, SparseMatrix};
 
 /// When iterations end, and what happens then.
@@ -262,65 +261,6 @@ impl IterativeSolver {
         }
         tracing::debug!(iterations, residual, "solved by iterations");
         Ok(Accuracy { residual, refinements: iterations })
-    }
-}
-
-/// An approximation x of the solution of A x = b, and b - A x.
-struct Iterate {
-    x: Vec<f64>,
-    residual: Vec<f64>,
-}
-
-/// A system with its rows and columns scaled, by the preconditioner.
-struct Scaled<'a> {
-    operator: Operator<'a>,
-    numbering: &'a Numbering,
-    preconditioner: &'a mut Preconditioner,
-}
-
-impl Scaled<'_> {
-    /// Euclidean norm of a residual.
-    fn norm(&self, residual: &[f64]) -> f64 {
-        let scales = self.preconditioner.scales();
-        let places = self.numbering.places.iter();
-        let scaled = residual.iter().zip(places).map(|(value, place)| value * scales.of(*place));
-        norm(&scaled.collect::<Vec<f64>>())
-    }
-
-    /// A residual of this size, as one of norm one in single precision.
-    fn single(&self, residual: &[f64], size: f64) -> Blocks {
-        let scales = self.preconditioner.scales();
-        self.numbering.split(residual, |place| scales.of(place) / size)
-    }
-
-    /// The combination of earlier solutions with the least residual, for a right-hand side of this size.
-    fn guess(&mut self, earlier: &EarlierSolutions, rhs: &[f64], size: f64) -> Blocks {
-        let b = self.single(rhs, size);
-        let image = |x: &mut Blocks, image: &mut Blocks| {
-            self.preconditioner.scales().divide(x);
-            self.preconditioner.multiply(x, image);
-        };
-        earlier.guess(image, &b)
-    }
-
-    /// The iterate with a correction for a residual of this size.
-    fn corrected(
-        &mut self,
-        from: &Iterate,
-        rhs: &[f64],
-        size: f64,
-        correction: &Blocks,
-    ) -> Iterate {
-        let mut unscaled = correction.clone();
-        self.preconditioner.scales().multiply(&mut unscaled);
-        let mut x = from.x.clone();
-        self.numbering.add(size, &unscaled, &mut x);
-        let mut residual = vec![0.0; x.len()];
-        self.operator.multiply(&x, &mut residual);
-        for (residual, b) in residual.iter_mut().zip(rhs) {
-            *residual = b - *residual;
-        }
-        Iterate { x, residual }
     }
 }
 

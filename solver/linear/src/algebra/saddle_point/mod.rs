@@ -15,6 +15,7 @@ mod krylov_space;
 mod numbering;
 mod operator;
 mod preconditioner;
+mod scaled;
 mod scales;
 mod schur;
 #[cfg(test)]

@@ -1,0 +1,67 @@
+//! `Scaled`: a saddle-point system with scaled rows and columns, in double and in single precision.
+
+use super::super::krylov::norm;
+use super::guess::EarlierSolutions;
+use super::numbering::Numbering;
+use super::operator::Operator;
+use super::preconditioner::Preconditioner;
+use super::vector::Blocks;
+
+/// An approximation x of the solution of A x = b, and b - A x.
+pub(super) struct Iterate {
+    pub x: Vec<f64>,
+    pub residual: Vec<f64>,
+}
+
+/// A system with its rows and columns scaled, by the preconditioner.
+pub(super) struct Scaled<'a> {
+    pub operator: Operator<'a>,
+    pub numbering: &'a Numbering,
+    pub preconditioner: &'a mut Preconditioner,
+}
+
+impl Scaled<'_> {
+    /// Euclidean norm of a residual.
+    pub fn norm(&self, residual: &[f64]) -> f64 {
+        let scales = self.preconditioner.scales();
+        let places = self.numbering.places.iter();
+        let scaled = residual.iter().zip(places).map(|(value, place)| value * scales.of(*place));
+        norm(&scaled.collect::<Vec<f64>>())
+    }
+
+    /// A residual of this size, as one of norm one in single precision.
+    pub fn single(&self, residual: &[f64], size: f64) -> Blocks {
+        let scales = self.preconditioner.scales();
+        self.numbering.split(residual, |place| scales.of(place) / size)
+    }
+
+    /// The combination of earlier solutions with the least residual, for a right-hand side of this size.
+    pub fn guess(&mut self, earlier: &EarlierSolutions, rhs: &[f64], size: f64) -> Blocks {
+        let b = self.single(rhs, size);
+        let image = |x: &mut Blocks, image: &mut Blocks| {
+            self.preconditioner.scales().divide(x);
+            self.preconditioner.multiply(x, image);
+        };
+        earlier.guess(image, &b)
+    }
+
+    /// The iterate with a correction for a residual of this size.
+    pub fn corrected(
+        &mut self,
+        from: &Iterate,
+        rhs: &[f64],
+        size: f64,
+        correction: &Blocks,
+    ) -> Iterate {
+        let mut unscaled = correction.clone();
+        self.preconditioner.scales().multiply(&mut unscaled);
+        let mut x = from.x.clone();
+        self.numbering.add(size, &unscaled, &mut x);
+        let mut residual = vec![0.0; x.len()];
+        self.operator.multiply(&x, &mut residual);
+        for (residual, b) in residual.iter_mut().zip(rhs) {
+            *residual = b - *residual;
+        }
+        Iterate { x, residual }
+    }
+}
