@@ -1,7 +1,7 @@
 //! Flow driven along periodic directions: by a pressure gradient, a body force, or a mean velocity.
 
 use alewife_core::simulation::RunSummary;
-use tests::cases::{case, last, run};
+use tests::cases::{PERIODIC_BOX, PERIODIC_CHANNEL, case, last, run};
 
 /// A disc in a doubly periodic box, whose mesh does not know of its symmetries.
 fn disc(flow: &str, motion: &str) -> RunSummary {
@@ -14,7 +14,7 @@ fn disc(flow: &str, motion: &str) -> RunSummary {
         domain.box = {{ min = [-0.5, -0.4], max = [0.7, 0.6] }}
         mesh = {{ size = 0.1, surface = 0.05 }}
         time.steady = {{}}
-        boundary = {{ left.periodic = "right", right.periodic = "left", bottom.periodic = "top", top.periodic = "bottom" }}
+        {PERIODIC_BOX}
         [[body]]
         name = "disc"
         shape.disc.radius = 0.25
@@ -112,7 +112,7 @@ fn a_channel_has_the_mean_velocity_of_poiseuille_flow() {
             domain.channel = {{ length = 1.0, height = 2.0 }}
             mesh.size = 0.4
             time.{time}
-            boundary = {{ left.periodic = "right", right.periodic = "left", bottom = "no-slip", top = "no-slip" }}
+            {PERIODIC_CHANNEL}
             "#
         )));
         let exact = sign * 3.0 * 4.0 / (12.0 * 0.5);
@@ -124,8 +124,7 @@ fn a_channel_has_the_mean_velocity_of_poiseuille_flow() {
 /// A suspension with inertia keeps the mean velocity in every step, remeshing included, and its energy.
 #[test]
 fn a_mean_velocity_holds_in_every_step() {
-    let outcome = run(&case(
-        r#"
+    let rest = r#"
         title = "two discs in a driven channel"
         geometry = "planar"
         fluid = { model = "navier-stokes", density = 1.0, viscosity = 0.05 }
@@ -134,7 +133,6 @@ fn a_mean_velocity_holds_in_every_step() {
         mesh = { size = 0.2, surface = 0.08, gap_layers = 2, moving.quality = 0.8 }
         time.unsteady = { step = 0.02, end = 1.2, initial = "stokes" }
         contact.barrier = { range = 0.05, stiffness = 5.0 }
-        boundary = { left.periodic = "right", right.periodic = "left", bottom = "no-slip", top = "no-slip" }
         [[body]]
         name = "first"
         shape.disc.radius = 0.15
@@ -146,8 +144,8 @@ fn a_mean_velocity_holds_in_every_step() {
         center = [-0.1, -0.2]
         density = 2.0
         motion = "free"
-        "#,
-    ));
+        "#;
+    let outcome = run(&case(&format!("{PERIODIC_CHANNEL}{rest}")));
     let means = outcome.series.column("flow.mean_velocity.x").expect("a column");
     assert!(means.iter().all(|mean| (mean - 1.0).abs() < 1e-8), "{means:?}");
     assert!(last(&outcome, "flow.remeshes") >= 1.0);
@@ -172,7 +170,7 @@ fn a_mean_velocity_that_is_switched_on_or_changes_does_work() {
                 domain.box = {{ min = [-1.0, -0.5], max = [1.0, 0.5] }}
                 mesh = {{ size = 0.1, surface = 0.05 }}
                 time.unsteady = {{ step = {step}, end = 1.0 }}
-                boundary = {{ left.periodic = "right", right.periodic = "left", bottom = "no-slip", top = "no-slip" }}
+                {PERIODIC_CHANNEL}
                 [[body]]
                 name = "disc"
                 shape.disc.radius = 0.15

@@ -79,10 +79,11 @@ fn a_law_too_weak_for_a_body_is_named() {
     }
 }
 
-/// A body that is driven into a wall stops the run with both names and the gap that is left.
+/// A body that is driven into a wall stops the run with both names and the gap that is left; where bodies
+/// could give way, contact is proposed.
 #[test]
 fn a_body_driven_into_a_wall_stops_the_run() {
-    let text = tank("stokes", "step = 0.1, end = 4.0", "size = 0.3, surface = 0.1")
+    let alone = tank("stokes", "step = 0.1, end = 4.0", "size = 0.3, surface = 0.1")
         + r#"
         [[body]]
         name = "piston"
@@ -90,10 +91,20 @@ fn a_body_driven_into_a_wall_stops_the_run() {
         center = [0.0, -1.0]
         motion.imposed = { velocity = [0.0, -0.5] }
         "#;
-    let error = simulate::<2>(&case(&text), &mut []).expect_err("there is a wall");
-    let told = error.to_string();
-    println!("{told}");
-    for word in ["`piston`", "`bottom`", "step 5 ", "failure/"] {
-        assert!(told.contains(word), "{word}: {told}");
+    let other = r#"
+        [[body]]
+        name = "other"
+        shape = { disc = { radius = 0.25 } }
+        center = [0.0, 0.6]
+        motion = "free"
+        "#;
+    for (text, is_proposed) in [(alone.clone(), false), (alone + other, true)] {
+        let error = simulate::<2>(&case(&text), &mut []).expect_err("there is a wall");
+        let told = error.to_string();
+        println!("{told}");
+        for word in ["`piston`", "`bottom`", "step 5 ", "failure/"] {
+            assert!(told.contains(word), "{word}: {told}");
+        }
+        assert_eq!(told.contains("[contact] keeps bodies apart"), is_proposed, "{told}");
     }
 }

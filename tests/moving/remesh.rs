@@ -4,7 +4,7 @@ use std::sync::{Arc, Mutex};
 
 use alewife_core::simulation::{Observer, Snapshot, simulate};
 use alewife_core::space::{CellValues, Metric, Tables};
-use tests::cases::{case, column, last, run};
+use tests::cases::{PERIODIC_BOX, case, column, last, run};
 
 use super::tank;
 
@@ -74,7 +74,7 @@ fn momentum_of_fluid_and_bodies_is_conserved() {
             domain.box = {{ min = [-1.0, -1.0], max = [1.0, 1.0] }}
             mesh = {{ size = 0.15, surface = 0.05 }}
             time.unsteady = {{ step = {step}, end = 1.0 }}
-            boundary = {{ left.periodic = "right", right.periodic = "left", bottom.periodic = "top", top.periodic = "bottom" }}
+            {PERIODIC_BOX}
             [[body]]
             name = "one"
             shape = {{ disc = {{ radius = 0.2 }} }}

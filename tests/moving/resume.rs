@@ -2,7 +2,7 @@
 
 use alewife_core::case::{Model, TimeSettings};
 use alewife_core::simulation::RunSummary;
-use tests::cases::{case, last, run};
+use tests::cases::{PERIODIC_CHANNEL, case, last, run};
 use tests::{resumed, stopped, stopped_within_a_step};
 
 fn two_bodies(adaptive: &str) -> Model {
@@ -15,7 +15,7 @@ fn two_bodies(adaptive: &str) -> Model {
         mesh = {{ size = 0.25, surface = 0.1, gap_layers = 2.5 }}
         time.unsteady = {{ step = 0.02, end = 2.0{adaptive} }}
         contact.barrier = {{ range = 0.05, stiffness = 50.0 }}
-        boundary = {{ left.periodic = "right", right.periodic = "left", bottom = "no-slip", top = "no-slip" }}
+        {PERIODIC_CHANNEL}
         [[body]]
         name = "ellipse"
         shape = {{ ellipse = {{ semi_axes = [0.3, 0.15] }} }}

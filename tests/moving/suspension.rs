@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 use std::fmt::Write as _;
 
 use alewife_core::simulation::{RunSummary, simulate};
-use tests::cases::{case, last, run};
+use tests::cases::{PERIODIC_BOX, case, last, run};
 
 /// Place and heading of swimmers in a cell of this length, which leave no straight strip free.
 const LENGTH: f64 = 6.0;
@@ -21,7 +21,7 @@ fn cell(time: &str, by: [f64; 2], more: &str) -> String {
         domain.box = {{ min = [0.0, 0.0], max = [{LENGTH}, {LENGTH}] }}
         mesh = {{ size = 0.4, surface = 0.12, growth = 0.25, gap_layers = 2.5 }}
         time.{time}
-        boundary = {{ left.periodic = "right", right.periodic = "left", bottom.periodic = "top", top.periodic = "bottom" }}
+        {PERIODIC_BOX}
         {more}
         "#
     );
@@ -120,7 +120,7 @@ fn an_array_of_neutral_squirmers_swims_slower_by_its_own_volume() {
             domain.box = {{ min = [0.0, 0.0], max = [{length}, {length}] }}
             mesh = {{ size = 0.5, surface = 0.07, growth = 0.15 }}
             time.steady = {{}}
-            boundary = {{ left.periodic = "right", right.periodic = "left", bottom.periodic = "top", top.periodic = "bottom" }}
+            {PERIODIC_BOX}
             [[body]]
             name = "s"
             shape.disc.radius = 1.0

@@ -3,6 +3,12 @@
 use alewife_core::case::{Case, Model};
 use alewife_core::simulation::{RunSummary, simulate};
 
+/// Sides of a channel that is periodic along x.
+pub const PERIODIC_CHANNEL: &str = r#"boundary = { left.periodic = "right", right.periodic = "left", bottom = "no-slip", top = "no-slip" }"#;
+
+/// Sides of a box that is periodic along x and y.
+pub const PERIODIC_BOX: &str = r#"boundary = { left.periodic = "right", right.periodic = "left", bottom.periodic = "top", top.periodic = "bottom" }"#;
+
 /// A case from its text, with what follows from it.
 ///
 /// # Panics

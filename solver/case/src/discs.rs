@@ -30,7 +30,8 @@ impl DiscGrid {
     /// An empty grid between two corners (m), with about as many cells as discs are expected.
     pub fn new(min: [f64; 2], max: [f64; 2], expected: usize) -> Self {
         let size = [0, 1].map(|axis| max[axis] - min[axis]);
-        let spacing = (size[0] * size[1] / expected.max(1) as f64).sqrt();
+        // Roots first: the area of a domain in wrong units may be too small for a number
+        let spacing = size[0].sqrt() * size[1].sqrt() / (expected.max(1) as f64).sqrt();
         let counts = size.map(|length| 1 + whole(length / spacing).min(MOST_CELLS - 1));
         let density = [0, 1].map(|axis| counts[axis] as f64 / size[axis]);
         Self { min, density, counts, cells: vec![Vec::new(); counts[0] * counts[1]] }
@@ -107,5 +108,13 @@ mod tests {
         let disc = |x: f64| Disc { center: Point::<2>::new(x, 1.0), radius: 0.1 };
         grid.insert(4, &disc(2.0));
         assert!(grid.near(&disc(2.1)).any(|found| found == 4));
+    }
+
+    #[test]
+    fn cells_are_about_as_many_as_discs_whatever_the_units() {
+        for size in [1e-300, 1e-160, 1.0, 1e160, 1e300] {
+            let n_cells = DiscGrid::new([0.0, 0.0], [size, 2.0 * size], 10).cells.len();
+            assert!((10..30).contains(&n_cells), "{size:e}: {n_cells}");
+        }
     }
 }

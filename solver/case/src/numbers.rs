@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use alewife_mesh::{Point, whole};
 
+use super::diagnostic::printable;
 use super::discs::{Disc, DiscGrid};
 use super::{
     Body, Case, ContactSpec, FlowModel, GaitSpec, Geometry, Model, ShapeSpec, SquirmerGait,
@@ -236,7 +237,7 @@ fn gaps(model: &Model) -> Vec<DerivedNumber> {
     found.into_iter().map(number).collect()
 }
 
-/// The derived numbers as lines `name  value  formula`.
+/// The derived numbers as lines `name  value  formula`, printable whatever the names of bodies are.
 #[must_use]
 pub fn number_table(model: &Model) -> String {
     let numbers = derived_numbers(model);
@@ -247,7 +248,7 @@ pub fn number_table(model: &Model) -> String {
         // Writing to a String cannot fail.
         let _ = writeln!(text, "  {name:<width$}  {:<12}  = {formula}", significant(value));
     }
-    text
+    printable(&text)
 }
 
 /// A number with six digits, in the shorter of both notations.

@@ -117,7 +117,8 @@ fn recoil_line(recoil: &BodyRecoil) -> String {
     let turn = if turn.abs() < 5e-3 {
         String::new()
     } else {
-        format!(", and it turns by {turn:.2} degrees a period")
+        let time = significant(motion.duration);
+        format!(", and it turns by {turn:.2} degrees in {time} units of time")
     };
     format!(
         "{name}: translation up to {} (speed up to {}, rms {}), rotation up to {:.2} degrees (up to \

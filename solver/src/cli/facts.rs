@@ -19,9 +19,9 @@ pub fn facts(file: &CaseFile) -> String {
     let mut text = String::new();
     let mut line = |what: &str, value: String| {
         // Writing to a String cannot fail.
-        let _ = writeln!(text, "  {what:<10} {value}");
+        let _ = writeln!(text, "  {what:<10} {}", printable(&value));
     };
-    line("file", printable(&file.file));
+    line("file", file.file.clone());
     let units = format!("{}, units: {}", geometry_name(case.geometry), one_line(&case.units));
     line("geometry", units);
     line("fluid", fluid(case));
@@ -96,7 +96,7 @@ fn domain(case: &Case) -> String {
         DomainSpec::Mesh(file) => format!(
             "mesh of {} cells in {}, {}",
             file.n_cells(),
-            printable(&file.file),
+            file.file,
             match case.geometry.dimensions() {
                 2 => format!("of area {}", significant(file.measure())),
                 _ => format!("of volume {}", significant(file.measure())),

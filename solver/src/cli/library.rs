@@ -97,16 +97,16 @@ fn summary(file: &CaseFile) -> String {
 
 /// A reference with its source and note, each line after an indent.
 fn reference_lines(reference: &Reference, indent: &str) -> String {
-    let source = printable(&reference.source);
     let mut text = format!(
-        "{indent}{}\n{indent}  {}: {source}\n",
+        "{indent}{}\n{indent}  {}: {}\n",
         reference_line(reference),
-        reference.kind.name()
+        reference.kind.name(),
+        reference.source
     );
     if let Some(note) = &reference.note {
-        let _ = writeln!(text, "{indent}  note: {}", printable(note));
+        let _ = writeln!(text, "{indent}  note: {note}");
     }
-    text
+    printable(&text)
 }
 
 /// A reference in one line.

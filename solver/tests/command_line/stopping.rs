@@ -9,6 +9,11 @@ use super::alewife;
 /// A run of a falling sphere far too long to end by itself, stopped in `fall` once it has written rows;
 /// what it says.
 fn stopped_fall(directory: &Path) -> String {
+    stopped_fall_by("INT", directory)
+}
+
+/// The same by another signal.
+fn stopped_fall_by(signal: &str, directory: &Path) -> String {
     let mut run = Command::new(env!("CARGO_BIN_EXE_alewife"))
         .args(["run", "sphere-free-fall", "--out", "fall", "--quiet", "--threads", "1"])
         .args(["--set", "time.unsteady.end=1e6", "--set", "mesh.scale=2"])
@@ -24,10 +29,10 @@ fn stopped_fall(directory: &Path) -> String {
         assert!(run.try_wait().unwrap().is_none(), "the run ended by itself");
         std::thread::sleep(std::time::Duration::from_millis(20));
     }
-    let killed = Command::new("kill").args(["-INT", &run.id().to_string()]).status().unwrap();
-    assert!(killed.success());
+    let kill = ["-s", signal, &run.id().to_string()];
+    assert!(Command::new("kill").args(kill).status().unwrap().success());
     let output = run.wait_with_output().unwrap();
-    assert_eq!(output.status.code(), Some(75));
+    assert_eq!(output.status.code(), Some(75), "{signal}");
     String::from_utf8(output.stderr).unwrap()
 }
 
@@ -44,6 +49,17 @@ fn a_signal_ends_a_run_after_its_step_with_all_files_complete() {
     assert!(out.join("fields/stopped.vtu").is_file());
     let series = std::fs::read_to_string(out.join("series.csv")).unwrap();
     assert!(series.ends_with('\n') && series.lines().count() > 1);
+}
+
+/// What a batch system sends, and a terminal that is closed.
+#[test]
+fn all_signals_that_end_programs_leave_a_state() {
+    for signal in ["TERM", "HUP", "XCPU", "USR1"] {
+        let directory = tempfile::tempdir().unwrap();
+        let told = stopped_fall_by(signal, directory.path());
+        assert!(told.contains("--resume fall/state.json"), "{signal}: {told}");
+        assert!(directory.path().join("fall/state.json").is_file(), "{signal}");
+    }
 }
 
 #[test]

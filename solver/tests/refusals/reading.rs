@@ -256,6 +256,16 @@ fn control_characters_of_a_file_stay_off_the_terminal() {
     assert!(said.stdout.contains("A \\u{1b}[31mdisc in a channel"), "{}", said.stdout);
     let said = check(&edited("name = \"disc\"", "name = \"\\u001bdisc\""), &[]);
     assert_refused(&said, &["\"\\u{1b}disc\" cannot be a name"]);
+    // What is wrong may be shown, too
+    let directory = tempfile::tempdir().unwrap();
+    let text = edited("name = \"disc\"", "name = \"\\u001bdisc\"")
+        .replace("quantity = \"", "quantity = \"\\u001b");
+    std::fs::write(directory.path().join("wrong.toml"), text).unwrap();
+    let shown = alewife(directory.path(), &["show", "wrong.toml"]).stdout;
+    for name in ["\\u{1b}disc: disc of radius", "\\u{1b}disc.drag_coefficient ="] {
+        assert!(shown.contains(name), "{name} is not in:\n{shown}");
+    }
+    assert!(!shown.contains('\u{1b}'), "{shown:?}");
 }
 
 #[test]

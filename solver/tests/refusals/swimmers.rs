@@ -205,6 +205,30 @@ fn numbers_of_copies_are_limited() {
     );
 }
 
+/// Pairs of bodies are found by their places, not by going through all pairs.
+#[test]
+fn two_thousand_bodies_are_checked_at_once() {
+    let text = r#"
+        title = "many discs"
+        geometry = "planar"
+        fluid = { model = "stokes", viscosity = 1.0 }
+        domain.box = { min = [0.0, 0.0], max = [200.0, 160.0] }
+        boundary = { left = "no-slip", right = "no-slip", bottom = "no-slip", top = "no-slip" }
+        mesh = { size = 2.0, surface = 0.5 }
+        time.unsteady = { step = 0.1, end = 1.0 }
+        [[swimmer]]
+        name = "disc"
+        center = [4.0, 4.0]
+        copies.lattice = { counts = [50, 40], spacing = [3.9, 3.9] }
+        kind.body = { shape.disc.radius = 1.0, gait.squirmer.modes = [1.0] }
+    "#;
+    let started = std::time::Instant::now();
+    let said = check(text, &[]);
+    assert_accepted(&said);
+    assert!(said.stdout.contains("disc-2000"), "{}", said.stdout);
+    assert!(started.elapsed().as_secs_f64() < 2.0, "{:?}", started.elapsed());
+}
+
 #[test]
 fn names_of_swimmers_are_words_of_some_length() {
     refused_swimming(

@@ -1,29 +1,31 @@
-//! `RecoilMotion`: how large the rigid motion is that a body's gait leaves out over a period.
+//! `RecoilMotion`: how large the rigid motion is that a body's gait leaves out over a period or a recording.
 
 use alewife_mesh::Point;
 
 use super::error::GaitError;
 
 /// Times of a period at which the motion is taken: the largest values are then within 1e-3.
-const TIMES: u32 = 128;
+const TIMES: usize = 128;
 
 /// The rigid motion of a body by which its gait, prescribed as seen from the head, differs from the
 /// gait without momentum.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct RecoilMotion {
-    /// Largest distance of the centre of area from its mean over a period (m).
+    /// What it is taken over: a period, or all of a gait that is recorded (s).
+    pub duration: f64,
+    /// Largest distance of the centre of area from its mean (m).
     pub translation: f64,
     /// Largest speed of the centre of area (m/s), and its root mean square.
     pub largest_speed: f64,
     /// Root mean square of that speed (m/s).
     pub rms_speed: f64,
-    /// Largest angle from its mean over a period (rad).
+    /// Largest angle from its mean (rad).
     pub rotation: f64,
     /// Largest angular velocity (rad/s).
     pub largest_angular_velocity: f64,
     /// Root mean square of the angular velocity (rad/s).
     pub rms_angular_velocity: f64,
-    /// Angle by which a period turns the body (rad).
+    /// Angle by which the body is turned in all (rad).
     pub turn: f64,
 }
 
@@ -39,18 +41,20 @@ pub(super) struct Recoil {
 }
 
 impl RecoilMotion {
-    /// Over a period (s) after a transient (s).
+    /// From a start (s) on for a duration (s), which is a number of periods.
     pub(super) fn over(
-        transient: f64,
-        period: f64,
+        start: f64,
+        duration: f64,
+        n_periods: usize,
         recoil: impl Fn(f64) -> Result<Recoil, GaitError>,
     ) -> Result<Self, GaitError> {
-        let at = |i: u32| recoil(transient + period * f64::from(i) / f64::from(TIMES));
-        let cycle = (0..TIMES).map(at).collect::<Result<Vec<_>, _>>()?;
-        let count = f64::from(TIMES);
+        let times = TIMES * n_periods;
+        let count = times as f64;
+        let at = |i: usize| recoil(start + duration * i as f64 / count);
+        let cycle = (0..times).map(at).collect::<Result<Vec<_>, _>>()?;
         let center = cycle.iter().map(|at| at.center).sum::<Point<2>>() / count;
-        // Angles since the start of the period, by the trapezoidal rule
-        let step = period / count;
+        // Angles since the start, by the trapezoidal rule
+        let step = duration / count;
         let angles: Vec<f64> = cycle
             .windows(2)
             .map(|pair| 0.5 * step * (pair[0].angular_velocity + pair[1].angular_velocity))
@@ -66,6 +70,7 @@ impl RecoilMotion {
             (cycle.iter().map(|at| f(at).powi(2)).sum::<f64>() / count).sqrt()
         };
         Ok(Self {
+            duration,
             translation: largest(&|at| (at.center - center).norm()),
             largest_speed: largest(&|at| at.velocity.norm()),
             rms_speed: rms(&|at| at.velocity.norm()),
@@ -93,7 +98,7 @@ mod tests {
                 angular_velocity: 0.2 * TAU / 2.0 * cos + 0.05,
             })
         };
-        let motion = RecoilMotion::over(1.0, 2.0, recoil).unwrap();
+        let motion = RecoilMotion::over(1.0, 2.0, 1, recoil).unwrap();
         let speed = 0.3 * TAU / 2.0;
         assert!((motion.translation - 0.3).abs() < 1e-3);
         assert!((motion.largest_speed - speed).abs() < 1e-3);
@@ -101,10 +106,14 @@ mod tests {
         assert!((motion.largest_angular_velocity - 0.2 * TAU / 2.0 - 0.05).abs() < 1e-3);
         assert!((motion.turn - 0.1).abs() < 1e-12);
         assert!(motion.rotation > 0.15 && motion.rotation < 0.25);
+        // A recording is as dense as its periods
+        let recorded = RecoilMotion::over(0.0, 8.0, 4, recoil).unwrap();
+        assert!((recorded.largest_speed - speed).abs() < 1e-3);
+        assert!((recorded.turn - 0.4).abs() < 1e-12 && recorded.duration == 8.0);
         let back_and_forth = |t: f64| Ok(Recoil { angular_velocity: t.cos(), ..recoil(t)? });
-        let motion = RecoilMotion::over(0.3, TAU, back_and_forth).unwrap();
+        let motion = RecoilMotion::over(0.3, TAU, 1, back_and_forth).unwrap();
         assert!((motion.rotation - 1.0).abs() < 1e-3, "{}", motion.rotation);
         let failing = |time: f64| Err(GaitError::Midline { time });
-        assert!(RecoilMotion::over(0.0, 1.0, failing).is_err());
+        assert!(RecoilMotion::over(0.0, 1.0, 1, failing).is_err());
     }
 }

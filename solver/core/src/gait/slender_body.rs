@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use alewife_mesh::{GaussRule, Moments, Point, Profile, SecondMoments, Shape, Spline};
+use alewife_mesh::{GaussRule, Moments, Point, Profile, SecondMoments, Shape, Spline, whole};
 use num_dual::{Dual64, DualNum};
 
 use super::closed_curve::ClosedCurve;
@@ -19,6 +19,9 @@ const LARGEST_CORRECTION: f64 = 1e-3;
 
 /// Times of a period, and of a ramp, at which a gait is evaluated before a run.
 const TRIALS: u32 = 24;
+
+/// Periods of a recording that are looked at each by itself.
+const MOST_PERIODS: usize = 32;
 
 /// Points of the Gauss rule on each piece of the outline: exact for all its moments.
 const RULE_POINTS: usize = 6;
@@ -217,7 +220,8 @@ impl ShapeMotion for SlenderBody {
     }
 
     fn recoil(&self) -> Result<RecoilMotion, GaitError> {
-        let [transient, period] = self.midline.cycle();
-        RecoilMotion::over(transient, period, |time| self.recoil_at(time))
+        let ([start, duration], [_, period]) = (self.midline.span(), self.midline.cycle());
+        let n_periods = whole((duration / period).ceil()).clamp(1, MOST_PERIODS);
+        RecoilMotion::over(start, duration, n_periods, |time| self.recoil_at(time))
     }
 }

@@ -80,6 +80,7 @@ fn log_recoils<const D: usize>(problem: &Problem<D>) -> Result<(), RunError> {
             largest_angular_velocity = motion.largest_angular_velocity,
             rms_angular_velocity = motion.rms_angular_velocity,
             turn = motion.turn,
+            duration = motion.duration,
             "recoil subtracted from the gait"
         );
     }

@@ -27,6 +27,8 @@ pub struct Joints {
     pub rounding: f64,
     /// Duration after which the gait is periodic (s), and the period (s).
     pub cycle: [f64; 2],
+    /// Whether it is recorded: what happens before that duration is all of it.
+    pub is_recorded: bool,
 }
 
 /// A joint of a midline.
@@ -124,7 +126,7 @@ mod tests {
                 is_behind_root: nth == 1,
             }
         };
-        Joints { joints: vec![joint(0), joint(1)], rounding, cycle: [0.0, 1.0] }
+        Joints { joints: vec![joint(0), joint(1)], rounding, cycle: [0.0, 1.0], is_recorded: false }
     }
 
     fn swimmer(rounding: f64, amplitude: f64) -> SlenderBody {

@@ -46,6 +46,14 @@ impl Midline {
         }
     }
 
+    /// Start (s) and duration (s) of what the gait does again and again, or of all it does.
+    pub fn span(&self) -> [f64; 2] {
+        match self {
+            Self::Joints(gait) if gait.is_recorded => [0.0, gait.cycle[0]],
+            _ => self.cycle(),
+        }
+    }
+
     /// Distances along the midline (m) at which a derivative of it jumps.
     pub fn discontinuities(&self) -> Vec<f64> {
         match self {

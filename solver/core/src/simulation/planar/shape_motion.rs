@@ -140,7 +140,8 @@ fn joints(gait: &JointsGait) -> Joints {
     // Angles that are all constant have any period
     let period = if period.is_finite() { period } else { 1.0 };
     let joints = gait.joints.iter().map(bent).collect();
-    Joints { joints, rounding: gait.rounding, cycle: [transient, period] }
+    let is_recorded = spacing.is_finite();
+    Joints { joints, rounding: gait.rounding, cycle: [transient, period], is_recorded }
 }
 
 #[cfg(test)]

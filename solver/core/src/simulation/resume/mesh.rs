@@ -72,3 +72,32 @@ impl SavedMesh {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_points_beyond_the_mesh_is_not_consistent() {
+        let right = SavedMesh {
+            n_vertices: 3,
+            cells: vec![0, 1, 2, 3, 4, 5],
+            curved: vec![false],
+            facets: vec![(0, 2, 1)],
+            periodic: vec![(1, 0)],
+        };
+        let is_consistent = |mesh: &SavedMesh| mesh.is_consistent::<2>(6, 2);
+        assert!(is_consistent(&right));
+        for wrong in [
+            SavedMesh { facets: vec![(0, 3, 1)], ..right.clone() },
+            SavedMesh { facets: vec![(1, 2, 1)], ..right.clone() },
+            SavedMesh { facets: vec![(0, 2, 2)], ..right.clone() },
+            SavedMesh { periodic: vec![(6, 0)], ..right.clone() },
+            SavedMesh { cells: vec![0, 1, 2, 3, 4, 6], ..right.clone() },
+            SavedMesh { cells: vec![0, 1, 2], ..right.clone() },
+            SavedMesh { n_vertices: 7, ..right.clone() },
+        ] {
+            assert!(!is_consistent(&wrong), "{wrong:?}");
+        }
+    }
+}
