@@ -22,6 +22,6 @@ pub use count::estimate_cells;
 pub use domain::Domain;
 pub use generate::generate;
 pub use imported::Imported;
-pub use placement::check_placement;
+pub use placement::{check_placement, cutting_planes};
 pub use shape::{Body, Part, Shape};
 pub use size_field::SizeField;

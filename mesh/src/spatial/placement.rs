@@ -66,6 +66,22 @@ pub fn check_placement(domain: &Domain, bodies: &[Body]) -> Result<(), MeshError
     Ok(())
 }
 
+/// Planes of symmetry that cut a body, by the index of their side.
+///
+/// # Errors
+/// When the body has no surface.
+pub fn cutting_planes(domain: &Domain, body: &Body) -> Result<Vec<usize>, MeshError> {
+    let surfaces = surfaces_of(body)?;
+    let cuts = |wall: &SmoothSurface| {
+        surfaces.iter().any(|surface| least_gap(surface, wall).is_refused(surface))
+    };
+    let walls = sides(domain).into_iter().enumerate();
+    Ok(walls
+        .filter(|(side, wall)| domain.is_symmetric(*side) && cuts(wall))
+        .map(|(side, _)| side)
+        .collect())
+}
+
 /// Whether a part of a body is inside a given mesh: places all around it are, and none of the sides is
 /// in it.
 fn check_inside(

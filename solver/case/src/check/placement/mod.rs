@@ -3,6 +3,7 @@
 mod arrangement;
 mod plane;
 mod space;
+mod symmetry;
 
 use alewife_mesh::{MeshError, SMALLEST_GAP};
 
@@ -14,6 +15,7 @@ pub fn check(findings: &mut Findings<'_>) {
     let model = findings.model();
     if model.case.geometry == Geometry::Spatial {
         if let Some(domain) = model.case.domain_in_space() {
+            symmetry::check(findings, &domain);
             report(findings, &space::Solids::new(domain, model));
         }
     } else {
