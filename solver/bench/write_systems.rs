@@ -6,7 +6,6 @@
 mod systems;
 
 use std::fs;
-use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
 use alewife_core::multifrontal::{Analysis, Factors, Ordering};
@@ -16,6 +15,7 @@ use faer::sparse::linalg::lu::{LuRef, LuSymbolicParams, NumericLu, factorize_sym
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Conj, MatMut, Par};
 
+use benches::{write_matrix, write_reals};
 use systems::{LinearSystem, TimeStep, name_of_size};
 
 const SIZES: [usize; 3] = [10_000, 50_000, 200_000];
@@ -146,37 +146,10 @@ fn residual(system: &LinearSystem, x: &[f64]) -> f64 {
     defect / norm(&mut system.rhs.iter().copied())
 }
 
-/// One array in NumPy's format, version 1.0.
-fn write_array(path: &Path, kind: &str, length: usize, bytes: &[u8]) -> std::io::Result<()> {
-    let mut header =
-        format!("{{'descr': '{kind}', 'fortran_order': False, 'shape': ({length},), }}");
-    // The header with its prefix of 10 bytes ends in a line feed at a multiple of 64.
-    let padded = (10 + header.len() + 1).next_multiple_of(64) - 10;
-    header.extend(std::iter::repeat_n(' ', padded - 1 - header.len()));
-    header.push('\n');
-    let mut file = fs::File::create(path)?;
-    file.write_all(b"\x93NUMPY\x01\x00")?;
-    file.write_all(&u16::try_from(padded).expect("the header is short").to_le_bytes())?;
-    file.write_all(header.as_bytes())?;
-    file.write_all(bytes)
-}
-
 fn write_system(folder: &Path, system: &LinearSystem) -> std::io::Result<()> {
     fs::create_dir_all(folder)?;
-    let whole = |values: &[usize]| -> Vec<u8> {
-        values.iter().flat_map(|&value| (value as u64).to_le_bytes()).collect()
-    };
-    let real = |values: &[f64]| -> Vec<u8> {
-        values.iter().flat_map(|value| value.to_le_bytes()).collect()
-    };
-    let pattern = system.matrix.pattern();
-    for (name, values) in [("columns", pattern.starts()), ("rows", &pattern.rows())] {
-        write_array(&folder.join(format!("{name}.npy")), "<u8", values.len(), &whole(values))?;
-    }
-    for (name, values) in [("values", system.matrix.values()), ("rhs", &system.rhs)] {
-        write_array(&folder.join(format!("{name}.npy")), "<f8", values.len(), &real(values))?;
-    }
-    Ok(())
+    write_matrix(folder, &system.matrix)?;
+    write_reals(&folder.join("rhs.npy"), &system.rhs)
 }
 
 fn main() -> std::io::Result<()> {
