@@ -1,22 +1,18 @@
 //! Iterations among many spheres, and across narrow gaps.
 
 use alewife_core::algebra::IterativeSettings;
-use alewife_core::body::Pose;
-use alewife_core::coupling::{FluidSystem, SolverChoice};
-use alewife_core::simulation::Timing;
-use tests::{ChainOfSpheres, one_system_from_rest};
+use alewife_core::coupling::SolverChoice;
+use tests::ChainOfSpheres;
+
+use super::iterative::{Solved, solve_from_rest};
 
 fn iterations(n: usize, gap: f64) -> usize {
     let chain = ChainOfSpheres { n, gap, surface: 0.45 };
     let mesh = chain.mesh();
-    let problem = chain.problem(&mesh);
-    let poses: Vec<Pose> = problem.bodies.iter().map(|body| body.pose).collect();
-    let mut system = FluidSystem::new(&problem, &mesh, &poses, false);
-    system.choose_solver(SolverChoice::Iterative(IterativeSettings::default()));
-    one_system_from_rest(&mut system, &problem, &mesh, 0.0, &mut Timing::default())
-        .expect("the system is solved");
-    let iterations = system.accuracy().refinements;
-    println!("{chain:?}: {} unknowns, {iterations} iterations", system.n_unknowns);
+    let choice = SolverChoice::Iterative(IterativeSettings::default());
+    let solved = solve_from_rest(&chain.problem(&mesh), &mesh, 0.0, choice);
+    let Solved { n_unknowns, iterations, .. } = solved.expect("the system is solved");
+    println!("{chain:?}: {n_unknowns} unknowns, {iterations} iterations");
     iterations
 }
 

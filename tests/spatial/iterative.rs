@@ -77,14 +77,7 @@ impl Setting {
 
     fn try_solve(&self, choice: SolverChoice) -> Result<Solved, SolveError> {
         let mesh = self.box_of.mesh();
-        let problem = self.problem(&mesh);
-        let poses: Vec<Pose> = problem.bodies.iter().map(|body| body.pose).collect();
-        let mut system = FluidSystem::new(&problem, &mesh, &poses, false);
-        system.choose_solver(choice);
-        let mut timing = Timing::default();
-        let next = one_system_from_rest(&mut system, &problem, &mesh, self.rate, &mut timing);
-        let iterations = system.accuracy().refinements;
-        next.map(|solution| Solved { solution, n_unknowns: system.n_unknowns, iterations })
+        solve_from_rest(&self.problem(&mesh), &mesh, self.rate, choice)
     }
 
     fn iterations(&self) -> usize {
@@ -94,10 +87,25 @@ impl Setting {
     }
 }
 
-struct Solved {
+pub(super) struct Solved {
     solution: Solution<3>,
-    n_unknowns: usize,
-    iterations: usize,
+    pub n_unknowns: usize,
+    pub iterations: usize,
+}
+
+/// One linear system from rest, with the factor `rate` (1/s) of the new velocity in its rate.
+pub(super) fn solve_from_rest(
+    problem: &Problem<3>,
+    mesh: &Mesh<3>,
+    rate: f64,
+    choice: SolverChoice,
+) -> Result<Solved, SolveError> {
+    let poses: Vec<Pose> = problem.bodies.iter().map(|body| body.pose).collect();
+    let mut system = FluidSystem::new(problem, mesh, &poses, false);
+    system.choose_solver(choice);
+    let next = one_system_from_rest(&mut system, problem, mesh, rate, &mut Timing::default());
+    let iterations = system.accuracy().refinements;
+    next.map(|solution| Solved { solution, n_unknowns: system.n_unknowns, iterations })
 }
 
 /// Largest difference of two flows over the largest value, of velocities and pressures.

@@ -15,7 +15,6 @@ mod iterative;
 mod krylov_space;
 mod numbering;
 mod operator;
-
 mod preconditioner;
 mod scaled;
 mod scales;
