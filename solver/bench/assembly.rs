@@ -21,7 +21,7 @@ fn matrix_and_residual(criterion: &mut Criterion<CpuTime>) {
 }
 
 fn time(criterion: &mut Criterion<CpuTime>, kind: &str, size: usize, step: &TimeStep) {
-    let mut values = vec![0.0; step.assembly.pattern().n_entries()];
+    let mut values = vec![0.0; step.maps.pattern().n_entries()];
     let cells = Throughput::Elements(step.mesh.n_cells() as u64);
     let mut group = criterion.benchmark_group(format!("matrix{kind}"));
     group.sample_size(10).throughput(cells.clone());

@@ -171,7 +171,7 @@ fn write(
     }
     let mut rhs = vec![0.0; x.len()];
     matrix.multiply_add(&x, &mut rhs);
-    write_matrix(folder, matrix)?;
+    write_matrix(folder, &matrix)?;
     write_reals(&folder.join("rhs.npy"), &rhs)?;
     let nodes: Vec<usize> = unknowns.node.iter().map(|node| *node as usize).collect();
     write_integers(&folder.join("nodes.npy"), &nodes)?;

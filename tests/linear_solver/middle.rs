@@ -150,10 +150,6 @@ fn is_in_contact(simulation: &Simulation<2>) -> bool {
     !simulation.state.contact.contacts.is_empty()
 }
 
-fn copy(matrix: &SparseMatrix) -> SparseMatrix {
-    SparseMatrix::new(matrix.pattern().clone(), matrix.values().to_vec())
-}
-
 /// Matrices of the last two steps of a run, with what is wrong with the solutions of the run itself.
 fn matrices(run: &Run<'_>) -> Result<Matrices, String> {
     let settings: Vec<String> = run.settings.iter().map(|&setting| setting.to_owned()).collect();
@@ -177,7 +173,7 @@ fn matrices(run: &Run<'_>) -> Result<Matrices, String> {
         if accuracy.residual > RESIDUAL || accuracy.refinements > 1 {
             return Err(format!("step {step}: {accuracy:?}"));
         }
-        let latest = copy(system.matrix());
+        let latest = system.matrix();
         if let Some(earlier) = earlier.take_if(|_| step >= run.steps)
             && SparseMatrix::pattern(&earlier) == latest.pattern()
         {

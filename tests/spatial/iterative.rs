@@ -101,8 +101,7 @@ pub(super) fn solve_from_rest(
     choice: SolverChoice,
 ) -> Result<Solved, SolveError> {
     let poses: Vec<Pose> = problem.bodies.iter().map(|body| body.pose).collect();
-    let mut system = FluidSystem::new(problem, mesh, &poses, false);
-    system.choose_solver(choice);
+    let mut system = FluidSystem::with_solver(problem, mesh, &poses, false, choice);
     let next = one_system_from_rest(&mut system, problem, mesh, rate, &mut Timing::default());
     let iterations = system.accuracy().refinements;
     next.map(|solution| Solved { solution, n_unknowns: system.n_unknowns, iterations })
@@ -165,7 +164,8 @@ fn steady_flow(reynolds: f64, choice: SolverChoice) -> SteadyFlow<3> {
     let density = reynolds * VISCOSITY / 2.0;
     let problem = Problem { density, has_convection: true, ..setting.problem(&mesh) };
     let mut work = workspace(&problem, &mesh);
-    work.system.choose_solver(choice);
+    let poses: Vec<Pose> = problem.bodies.iter().map(|body| body.pose).collect();
+    work.system = FluidSystem::with_solver(&problem, &mesh, &poses, false, choice);
     let settings = Steady { tolerance: 1e-9, max_iterations: 12 };
     steady_with(&mut work, &problem, &settings, true)
 }

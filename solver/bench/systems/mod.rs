@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use alewife_core::algebra::{AffineConstraints, SparseMatrix, Unknowns};
+use alewife_core::algebra::{AffineConstraints, CellMaps, SparseMatrix, Unknowns};
 use alewife_core::case::{Case, Model};
 use alewife_core::coupling::{BodiesAt, BodyShapes, FluidSystem, Problem, Solution};
 use alewife_core::flow::{Assembly, Convection, FlowTerms, assemble, residual};
@@ -25,7 +25,8 @@ pub struct TimeStep {
     pub constraints: AffineConstraints,
     problem: Problem<2>,
     /// Pattern and maps of the mesh.
-    pub assembly: Assembly<2>,
+    assembly: Assembly<2>,
+    pub maps: CellMaps,
     solution: Solution<2>,
     /// The inflow's parabola everywhere, which convects.
     crossing: Vec<Point<2>>,
@@ -79,6 +80,7 @@ impl TimeStep {
         let sides = problem.do_nothing_sides();
         let assembly =
             Assembly::new(&mesh, system.layout, &constraints, problem.metric, &sides, None);
+        let maps = assembly.maps(&constraints);
         let (peak, height) = (1.5, 0.41);
         let parabola = |place: &Point<2>| {
             let s = place[1] / height;
@@ -95,6 +97,7 @@ impl TimeStep {
             constraints,
             problem,
             assembly,
+            maps,
             solution,
             crossing,
             history,
@@ -117,8 +120,10 @@ impl TimeStep {
 
     /// Overwrites `values` with the matrix.
     pub fn assemble(&self, values: &mut [f64]) {
+        values.fill(0.0);
         let fields = self.solution.fields();
-        assemble(&self.assembly, &self.mesh, &self.constraints, &self.terms(), &fields, values);
+        let scatter = |cell, matrix: &[f64]| self.maps.scatter(cell, matrix, values);
+        assemble(&self.assembly, &self.mesh, &self.constraints, &self.terms(), &fields, scatter);
     }
 
     /// The raw residual.
@@ -136,7 +141,7 @@ impl TimeStep {
     /// The system to be solved for the change of the free unknowns.
     #[allow(dead_code, reason = "not every benchmark solves the system")]
     pub fn linear_system(&self) -> LinearSystem {
-        let mut matrix = SparseMatrix::zeros(Arc::clone(self.assembly.pattern()));
+        let mut matrix = SparseMatrix::zeros(Arc::clone(self.maps.pattern()));
         self.assemble(matrix.values_mut());
         let rhs = self.constraints.restrict(&self.residual()).iter().map(|value| -value).collect();
         LinearSystem { matrix, rhs, unknowns: self.unknowns.clone() }

@@ -3,12 +3,11 @@
 use nalgebra::DMatrix;
 
 use super::error::SolveError;
-use super::linear_system::Factorised;
 use super::solution::Solution;
 use super::system::FluidSystem;
 use crate::algebra::{AffineConstraints, Term};
 use crate::body::RigidVector;
-use crate::timing::{Stage, Timing};
+use crate::timing::Timing;
 
 /// A load on a body.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -40,8 +39,7 @@ impl<const D: usize> FluidSystem<D> {
             rows.iter().flat_map(|row| row.iter().map(|term| term.unknown as usize)).collect();
         masters.sort_unstable();
         masters.dedup();
-        let Factorised { matrix, solver } = self.linear.factorised(timing)?;
-        let inverse = timing.measure(Stage::Solve, || solver.inverse_of_dense(matrix, &masters))?;
+        let inverse = self.linear.inverse_of(&masters, timing)?;
         // Velocities by loads on the masters, one column each
         let inverse = DMatrix::from_column_slice(masters.len(), masters.len(), &inverse);
         let mut weights: DMatrix<f64> = DMatrix::zeros(rows.len(), masters.len());

@@ -27,7 +27,7 @@ pub use boundaries::{Boundaries, BoundaryNode};
 pub use constrain::{BodiesAt, BoundaryValues, count_unknowns, impose_boundary_values};
 pub use error::{SolveError, coordinates};
 pub use joint_loads::{BodyStates, JointReport, joint_reports};
-pub use linear_system::SolverChoice;
+pub use linear_system::{SolverChoice, memory_estimate};
 pub use loads::{BodyLoads, ResidualOnMesh, SurfaceLoads, surface_loads};
 pub use mean_flow::MeanFlowReport;
 pub use mobility::BodyLoad;
@@ -45,4 +45,4 @@ pub use rigid_equations::{
 pub use shapes::{BodyShapes, MovingSurface, ShapeError};
 pub use solution::Solution;
 pub use surface_load::SurfaceStress;
-pub use system::{Configuration, FluidSystem, memory_estimate};
+pub use system::{Configuration, FluidSystem};

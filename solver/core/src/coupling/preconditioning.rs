@@ -5,8 +5,8 @@ use std::sync::Arc;
 use alewife_mesh::{Mesh, NodeId, Simplex};
 
 use crate::algebra::{
-    AffineConstraints, CellMaps, ConstraintBuilder, Interpolation, Part, SaddlePoint, SparseMatrix,
-    Term, Weights,
+    AffineConstraints, CellFolds, CellMaps, ConstraintBuilder, Interpolation, Part, SaddlePoint,
+    SparseMatrix, Term, Weights,
 };
 use crate::body::Modes;
 use crate::space::{CellValues, DofLayout, Tables};
@@ -124,12 +124,13 @@ impl<const D: usize> Discretised<'_, D> {
     /// not positive for quadratic elements (@hinton1976).
     fn integrals(&self, factor: f64) -> Integrals {
         let Self { mesh, layout, tables, .. } = self;
-        let PressureMaps { maps, constraints } = self.pressure_maps();
+        let PressureCells { folds, constraints } = self.pressure_cells();
+        let maps = CellMaps::new(&folds.unknowns(&constraints), |_, _| true);
         let mut values = vec![0.0; maps.pattern().n_entries()];
         let mut lumped_mass = vec![0.0; layout.n_nodes];
         let mut workspace = CellValues::default();
         let n = D + 1;
-        let mut matrix = vec![0.0; maps.largest_matrix()];
+        let mut matrix = vec![0.0; folds.largest_matrix()];
         let mut folded = matrix.clone();
         let mut squares = vec![0.0; Simplex::<D>::N_NODES];
         for cell in mesh.cell_ids() {
@@ -152,8 +153,8 @@ impl<const D: usize> Discretised<'_, D> {
                 lumped_mass[node.index()] += square * scale;
             }
             let local = cell.index();
-            if maps.is_folded(local) {
-                maps.fold(local, &constraints, &matrix[..n * n], &mut folded);
+            if folds.is_folded(local) {
+                folds.fold(local, &constraints, &matrix[..n * n], &mut folded);
                 maps.scatter(local, &folded, &mut values);
             } else {
                 maps.scatter(local, &matrix, &mut values);
@@ -163,8 +164,8 @@ impl<const D: usize> Discretised<'_, D> {
         Integrals { pressure_mass, lumped_mass }
     }
 
-    /// Where the entries of the pressures of each cell go, periodic copies to their originals.
-    fn pressure_maps(&self) -> PressureMaps {
+    /// The pressures of each cell, periodic copies folded to their originals.
+    fn pressure_cells(&self) -> PressureCells {
         let Self { mesh, layout, constraints, .. } = self;
         let n = layout.n_vertices;
         let held = held_pressure(layout, constraints);
@@ -181,8 +182,8 @@ impl<const D: usize> Discretised<'_, D> {
         let vertices = mesh.cell_ids().flat_map(|cell| mesh.cell_vertices(cell));
         let raw = vertices.map(|vertex| index(place(vertex.index()))).collect();
         let constraints = builder.build();
-        let maps = CellMaps::new(D + 1, raw, &constraints, |_, _| true);
-        PressureMaps { maps, constraints }
+        let folds = CellFolds::new(D + 1, raw, &constraints);
+        PressureCells { folds, constraints }
     }
 
     /// Numbers of the nodes as numbers of the unknowns: what constrained velocities have goes to those they
@@ -210,8 +211,8 @@ struct Integrals {
 }
 
 /// Pressures of the cells, and which of them are equal.
-struct PressureMaps {
-    maps: CellMaps,
+struct PressureCells {
+    folds: CellFolds,
     constraints: AffineConstraints,
 }
 

@@ -14,7 +14,8 @@ use super::pressure_mean::PressureMean;
 use super::problem::{Problem, Side};
 
 use crate::algebra::{
-    AffineConstraints, ConstraintBuilder, DirectSolver, LinearError, LinearSolver, SparseMatrix,
+    AffineConstraints, CellMaps, ConstraintBuilder, DirectSolver, LinearError, LinearSolver,
+    SparseMatrix,
 };
 use crate::flow::{Assembly, Convection, Fields, FlowTerms, assemble, residual};
 use crate::space::DofLayout;
@@ -30,6 +31,7 @@ pub struct DivergenceFreeProjection<const D: usize> {
     layout: DofLayout<D>,
     constraints: AffineConstraints,
     assembly: Assembly<D>,
+    maps: CellMaps,
     matrix: SparseMatrix,
     solver: DirectSolver,
     /// Distributes a net flux where the flow is enclosed.
@@ -59,9 +61,11 @@ impl<const D: usize> DivergenceFreeProjection<D> {
         let constraints = hold_given_velocities(problem, mesh, &layout);
         let assembly = Assembly::new(mesh, layout, &constraints, problem.metric, &[], None);
         let unknowns = saddle_point(&layout, &constraints, problem.modes()).unknowns();
-        let solver = DirectSolver::new(assembly.pattern(), &unknowns);
-        let matrix = SparseMatrix::zeros(Arc::clone(assembly.pattern()));
-        let mut projection = Self { layout, constraints, assembly, matrix, solver, enclosed: None };
+        let maps = assembly.maps(&constraints);
+        let solver = DirectSolver::new(maps.pattern(), &unknowns);
+        let matrix = SparseMatrix::zeros(Arc::clone(maps.pattern()));
+        let mut projection =
+            Self { layout, constraints, assembly, maps, matrix, solver, enclosed: None };
         projection.move_to(problem, mesh)?;
         Ok(projection)
     }
@@ -74,8 +78,10 @@ impl<const D: usize> DivergenceFreeProjection<D> {
         let velocity = vec![Point::<D>::zeros(); self.layout.n_nodes];
         let pressure = vec![0.0; self.layout.n_vertices];
         let fields = Fields { velocity: &velocity, pressure: &pressure };
-        let (constraints, values) = (&self.constraints, self.matrix.values_mut());
-        assemble(&self.assembly, mesh, constraints, &terms(1.0), &fields, values);
+        let (constraints, maps, values) = (&self.constraints, &self.maps, self.matrix.values_mut());
+        values.fill(0.0);
+        let scatter = |cell, matrix: &[f64]| maps.scatter(cell, matrix, values);
+        assemble(&self.assembly, mesh, constraints, &terms(1.0), &fields, scatter);
         self.solver.set_up(&self.matrix)?;
         self.enclosed =
             problem.is_enclosed().then(|| PressureMean::new(mesh, self.assembly.tables()));

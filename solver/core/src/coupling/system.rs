@@ -5,8 +5,6 @@
 //! m dU/dt - F_ext and d(I omega)/dt - T_ext: no interface stress, no multiplier, and no added-mass
 //! instability at any density ratio.
 
-use std::sync::Arc;
-
 use alewife_mesh::{Mesh, Point};
 
 use super::boundaries::Boundaries;
@@ -70,6 +68,18 @@ impl<const D: usize> FluidSystem<D> {
     /// convection.
     #[must_use]
     pub fn new(problem: &Problem<D>, mesh: &Mesh<D>, poses: &[Pose], unknown_frame: bool) -> Self {
+        Self::with_solver(problem, mesh, poses, unknown_frame, SolverChoice::default())
+    }
+
+    /// The same, with systems solved by a chosen method.
+    #[must_use]
+    pub fn with_solver(
+        problem: &Problem<D>,
+        mesh: &Mesh<D>,
+        poses: &[Pose],
+        unknown_frame: bool,
+        choice: SolverChoice,
+    ) -> Self {
         let modes = problem.modes();
         let layout = DofLayout::new(mesh, problem.bodies.len(), modes.len());
         let boundaries = Boundaries::new(mesh);
@@ -90,7 +100,7 @@ impl<const D: usize> FluidSystem<D> {
         let driven = problem.mean_flow.as_ref();
         let cell = driven.map(|_| CellIntegrals::new(problem, mesh, assembly.tables()));
         let saddle_point = saddle_point(&layout, &constraints, modes);
-        let linear = LinearSystem::new(Arc::clone(assembly.pattern()), saddle_point, D);
+        let linear = LinearSystem::new(&assembly, &constraints, saddle_point, choice);
         Self {
             layout,
             boundaries,
@@ -109,7 +119,7 @@ impl<const D: usize> FluidSystem<D> {
     /// Entries of the matrix.
     #[must_use]
     pub fn n_entries(&self) -> usize {
-        self.linear.pattern().n_entries()
+        self.linear.n_entries()
     }
 
     /// What the linear solver is given of each free unknown.
@@ -124,11 +134,6 @@ impl<const D: usize> FluidSystem<D> {
         self.linear.accuracy()
     }
 
-    /// Chooses the method by which systems are solved from now on.
-    pub fn choose_solver(&mut self, choice: SolverChoice) {
-        self.linear.choose(choice, D);
-    }
-
     /// Whether systems are solved by iterations: how accurately is then a choice.
     #[must_use]
     pub fn is_iterative(&self) -> bool {
@@ -141,9 +146,9 @@ impl<const D: usize> FluidSystem<D> {
         self.linear.preconditioner_bytes()
     }
 
-    /// The matrix last assembled.
+    /// A copy of the matrix last assembled.
     #[must_use]
-    pub fn matrix(&self) -> &SparseMatrix {
+    pub fn matrix(&self) -> SparseMatrix {
         self.linear.matrix()
     }
 
@@ -278,8 +283,10 @@ impl<const D: usize> FluidSystem<D> {
         timing: &mut Timing,
     ) -> Result<Solution<D>, SolveError> {
         timing.measure(Stage::Assembly, || {
-            let (fields, values) = (solution.fields(), self.linear.values_mut());
-            assemble(&self.assembly, at.mesh, at.constraints, terms, &fields, values);
+            let (assembly, fields) = (&self.assembly, solution.fields());
+            self.linear.assemble(|scatter| {
+                assemble(assembly, at.mesh, at.constraints, terms, &fields, scatter);
+            });
             self.add_rigid_matrix(at);
         });
         if let Some(nullspace) = &self.nullspace {
@@ -385,16 +392,4 @@ impl<const D: usize> FluidSystem<D> {
             self.pressure.center(&mut solution.pressure);
         }
     }
-}
-
-/// Memory a system takes with its factors, or in space with its preconditioner (bytes), from the
-/// velocities and pressures of its mesh.
-///
-/// Fitted to the peaks of 40 runs of planar cases with 7 10^3 to 5 10^4 free unknowns, which lie within
-/// 0.87 and 1.25 of it; 1.9 10^5 take 0.88 of it. In space, to four Stokes flows with 7 10^4 to 7 10^5,
-/// within 2 %.
-#[must_use]
-pub fn memory_estimate(dimensions: usize, n_dofs: f64) -> f64 {
-    let of_ten_thousand = if dimensions == 3 { 21.5e6 } else { 33e6 };
-    12e6 + of_ten_thousand * n_dofs / 1e4
 }

@@ -13,7 +13,7 @@ use super::open_side::OpenSides;
 use super::parallel::for_each_cell;
 use super::taylor_hood::quadratic_kernel;
 use super::terms::{Convection, Fields, FlowTerms};
-use crate::algebra::{AffineConstraints, CellMaps, Pattern};
+use crate::algebra::{AffineConstraints, CellFolds, CellMaps, CellUnknowns};
 use crate::space::{DofLayout, Metric, Tables};
 
 /// What assembling needs of a mesh: derived from it, replaced with it.
@@ -21,13 +21,13 @@ use crate::space::{DofLayout, Metric, Tables};
 pub struct Assembly<const D: usize> {
     tables: Tables<D>,
     kernel: Arc<dyn CellKernel<D>>,
-    maps: CellMaps,
+    folds: CellFolds,
     open_sides: OpenSides<D>,
     layout: DofLayout<D>,
 }
 
 impl<const D: usize> Assembly<D> {
-    /// Pattern and maps of a mesh under constraints.
+    /// For a mesh under constraints.
     ///
     /// `open_boundaries` lists the sides with the do-nothing condition; `frame` is the body whose
     /// velocity is an unknown of every cell, if any.
@@ -43,19 +43,24 @@ impl<const D: usize> Assembly<D> {
         let tables = Tables::new(metric);
         let kernel = quadratic_kernel(&tables, frame.is_some());
         let local = kernel.layout();
-        let is_pressure = pressure_unknowns(&layout, constraints);
         let raw = raw_unknowns(mesh, &layout, local, frame);
-        let maps = CellMaps::new(local.n_local(), raw, constraints, |row, column| {
-            !(is_pressure[row] && is_pressure[column])
-        });
+        let folds = CellFolds::new(local.n_local(), raw, constraints);
         let open_sides = OpenSides::new(mesh, open_boundaries, metric);
-        Self { tables, kernel, maps, open_sides, layout }
+        Self { tables, kernel, folds, open_sides, layout }
     }
 
-    /// The sparsity pattern of the system.
+    /// The unknowns of the matrix of each cell.
     #[must_use]
-    pub fn pattern(&self) -> &Arc<Pattern> {
-        self.maps.pattern()
+    pub fn cell_unknowns(&self, constraints: &AffineConstraints) -> CellUnknowns {
+        self.folds.unknowns(constraints)
+    }
+
+    /// Where the matrices of cells go in one by compressed columns.
+    #[must_use]
+    pub fn maps(&self, constraints: &AffineConstraints) -> CellMaps {
+        let is_pressure = pressure_unknowns(&self.layout, constraints);
+        let couples = |row: usize, column: usize| !(is_pressure[row] && is_pressure[column]);
+        CellMaps::new(&self.cell_unknowns(constraints), couples)
     }
 
     /// Basis tables.
@@ -84,10 +89,10 @@ impl<const D: usize> Assembly<D> {
         }
         let mut raw = Vec::new();
         for (cell, matrix) in cells.zip(matrices.chunks_exact_mut(stride)) {
-            if self.maps.is_folded(cell) {
+            if self.folds.is_folded(cell) {
                 raw.clear();
                 raw.extend_from_slice(&matrix[..n_entries]);
-                self.maps.fold(cell, constraints, &raw, matrix);
+                self.folds.fold(cell, constraints, &raw, matrix);
             }
         }
     }
@@ -148,25 +153,25 @@ pub fn pressure_unknowns<const D: usize>(
     is_pressure
 }
 
-/// Overwrites `values` with P^T A P of the terms, linearised at the fields.
+/// Gives `scatter` what each cell has of P^T A P, in the order of the cells, for the matrix A of the terms,
+/// linearised at the fields.
 pub fn assemble<const D: usize>(
     assembly: &Assembly<D>,
     mesh: &Mesh<D>,
     constraints: &AffineConstraints,
     terms: &FlowTerms<'_, D>,
     fields: &Fields<'_, D>,
-    values: &mut [f64],
+    scatter: impl FnMut(usize, &[f64]) + Send,
 ) {
     let has_frame = assembly.kernel.layout().n_frame > 0;
     debug_assert!(has_frame || terms.convection != Convection::NewtonInFrame);
-    values.fill(0.0);
     let input = CellInput { mesh, terms, fields };
-    let stride = assembly.maps.largest_matrix();
+    let stride = assembly.folds.largest_matrix();
     for_each_cell(
         mesh.n_cells(),
         stride,
         |cells, matrices| assembly.matrices(constraints, input, cells, stride, matrices),
-        |cell, matrix| assembly.maps.scatter(cell, matrix, values),
+        scatter,
     );
 }
 
@@ -185,7 +190,7 @@ pub fn residual<const D: usize>(
         assembly.kernel.layout().n_fluid(),
         |cells, residuals| assembly.residuals(input, cells, residuals),
         |cell, local| {
-            for (&raw, value) in assembly.maps.raw_unknowns(cell).iter().zip(local) {
+            for (&raw, value) in assembly.folds.raw_unknowns(cell).iter().zip(local) {
                 total[raw as usize] += value;
             }
         },

@@ -36,7 +36,7 @@ fn check_derivative<const D: usize>(mesh: &Mesh<D>, metric: Metric) {
         let difference: Vec<f64> =
             ahead.iter().zip(&behind).map(|(ahead, behind)| ahead - behind).collect();
         let mut product = vec![0.0; direction.len()];
-        setting.pattern.multiply_add(&matrix, &direction, &mut product);
+        setting.maps.pattern().multiply_add(&matrix, &direction, &mut product);
         let error = largest_difference(&difference, &product);
         assert!(error < 1e-12, "{D}, {convection:?}, {metric:?}: {error}");
     }
@@ -116,7 +116,7 @@ fn check_symmetry<const D: usize>(mesh: Mesh<D>, metric: Metric) {
     let mut setting = Setting::closed(mesh, metric);
     setting.density = 0.0;
     let matrix = setting.matrix(Convection::None);
-    let pattern = &setting.pattern;
+    let pattern = setting.maps.pattern();
     let most = matrix.iter().fold(0.0f64, |most, value| most.max(value.abs()));
     for column in 0..setting.layout.n_fluid() {
         for (position, &row) in pattern.entries(column).zip(pattern.column(column)) {

@@ -6,7 +6,7 @@ use alewife_mesh::{CellId, Mesh, NodeId};
 use nalgebra::SVector;
 
 use super::surface_distance::surface_distances;
-use crate::algebra::{AffineConstraints, CellMaps, ConstraintBuilder, SparseMatrix};
+use crate::algebra::{AffineConstraints, CellFolds, CellMaps, ConstraintBuilder, SparseMatrix};
 use crate::space::{StraightCell, straight_cell};
 
 /// The equation the displacement of the mesh solves; by default the one that lets a body go
@@ -160,13 +160,14 @@ fn sum_of_cells(
     constraints: &AffineConstraints,
     n_local: usize,
 ) -> SparseMatrix {
-    let maps = CellMaps::new(n_local, raw.to_vec(), constraints, |_, _| true);
+    let folds = CellFolds::new(n_local, raw.to_vec(), constraints);
+    let maps = CellMaps::new(&folds.unknowns(constraints), |_, _| true);
     let mut values = vec![0.0; maps.pattern().n_entries()];
-    let mut folded = vec![0.0; maps.largest_matrix()];
+    let mut folded = vec![0.0; folds.largest_matrix()];
     // The matrices are symmetric: rows are columns.
     for (cell, matrix) in cells.chunks_exact(n_local * n_local).enumerate() {
-        if maps.is_folded(cell) {
-            maps.fold(cell, constraints, matrix, &mut folded);
+        if folds.is_folded(cell) {
+            folds.fold(cell, constraints, matrix, &mut folded);
             maps.scatter(cell, &folded, &mut values);
         } else {
             maps.scatter(cell, matrix, &mut values);

@@ -2,61 +2,10 @@
 
 use std::ops::Range;
 
+use super::cell_unknowns::{CellUnknowns, NO_UNKNOWN};
 use crate::sparse::Pattern;
 use crate::sparse::index::{to_u8, to_u32};
-
-/// Marks a row or column of a given value.
-pub(super) const NO_UNKNOWN: u32 = u32::MAX;
-
-/// The unknown of each row and column of the matrix of each cell, `NO_UNKNOWN` for a given value.
-#[derive(Debug)]
-pub(super) struct CellUnknowns {
-    /// Start of each cell in `unknowns`, and the end of the last.
-    pub offsets: Vec<usize>,
-    /// The unknowns of all cells.
-    pub unknowns: Vec<u32>,
-}
-
-impl CellUnknowns {
-    /// The unknowns of each cell.
-    pub fn cells(&self) -> impl Iterator<Item = &[u32]> {
-        self.offsets.windows(2).map(|range| &self.unknowns[range[0]..range[1]])
-    }
-
-    /// The cells of each of n unknowns, each once for each time it has the unknown.
-    fn cells_of_unknowns(&self, n: usize) -> Lists {
-        let mut starts = vec![0; n + 1];
-        let free = |cell: &[u32]| cell.iter().filter(|&&one| one != NO_UNKNOWN).count();
-        for &unknown in self.unknowns.iter().filter(|&&unknown| unknown != NO_UNKNOWN) {
-            starts[unknown as usize + 1] += 1;
-        }
-        for unknown in 0..n {
-            starts[unknown + 1] += starts[unknown];
-        }
-        let mut next = starts.clone();
-        let mut items = vec![0; self.cells().map(free).sum()];
-        for (cell, unknowns) in self.cells().enumerate() {
-            for &unknown in unknowns.iter().filter(|&&unknown| unknown != NO_UNKNOWN) {
-                items[next[unknown as usize]] = to_u32(cell);
-                next[unknown as usize] += 1;
-            }
-        }
-        Lists { starts, items }
-    }
-}
-
-/// Lists one after the other.
-#[derive(Debug)]
-struct Lists {
-    starts: Vec<usize>,
-    items: Vec<u32>,
-}
-
-impl Lists {
-    fn list(&self, index: usize) -> &[u32] {
-        &self.items[self.starts[index]..self.starts[index + 1]]
-    }
-}
+use crate::sparse::lists::Lists;
 
 /// Unknowns of a run at most.
 const LONGEST: usize = 64;
@@ -121,14 +70,13 @@ pub(super) fn build_pattern(
     unknowns: &CellUnknowns,
     couples: &impl Fn(usize, usize) -> bool,
 ) -> Pattern {
-    let cells = unknowns.cells_of_unknowns(n);
+    let cells = unknowns.by_cells().inverted(n);
     let runs = Runs::new(n, |unknown| cells.list(unknown) == cells.list(unknown - 1));
-    let mut of_cells = Lists { starts: vec![0], items: Vec::new() };
+    let mut of_cells = Lists::default();
     let mut distinct = Vec::new();
     for cell in unknowns.cells() {
         runs.distinct(cell, &mut distinct);
-        of_cells.items.extend(&distinct);
-        of_cells.starts.push(of_cells.items.len());
+        of_cells.push(distinct.iter().copied());
     }
     let mut pattern = Pattern::default();
     let mut last_near = vec![NO_UNKNOWN; runs.n()];
@@ -194,10 +142,10 @@ impl CellEntries {
         let runs = Runs::new(pattern.n(), |unknown| pattern.is_like_last(unknown));
         let mut all = Self {
             place_offsets: vec![0],
-            places: Vec::with_capacity(unknowns.unknowns.len()),
+            places: Vec::with_capacity(unknowns.n_rows()),
             run_offsets: vec![0],
             lengths: Vec::new(),
-            first_offsets: Vec::with_capacity(unknowns.offsets.len()),
+            first_offsets: Vec::with_capacity(unknowns.cells().count()),
             first: Vec::new(),
         };
         let mut distinct = Vec::new();

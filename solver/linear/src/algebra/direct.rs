@@ -81,9 +81,18 @@ impl DirectSolver {
     }
 }
 
+impl DirectSolver {
+    fn hash_of(&mut self, matrix: &SparseMatrix) -> u64 {
+        let values = matrix.values().iter().map(|value| value.to_bits());
+        self.fingerprints.hash_of(matrix.revision(), values)
+    }
+}
+
 impl LinearSolver for DirectSolver {
+    type Matrix = SparseMatrix;
+
     fn set_up(&mut self, matrix: &SparseMatrix) -> Result<(), LinearError> {
-        let hash = Some(self.fingerprints.hash_of(matrix));
+        let hash = Some(self.hash_of(matrix));
         if self.factorised == hash {
             return Ok(());
         }
@@ -144,7 +153,7 @@ impl LinearSolver for DirectSolver {
             return Err(LinearError::NotFinite);
         }
         let Some(factorised) = self.factorised else { return Ok(false) };
-        if factorised == self.fingerprints.hash_of(matrix) {
+        if factorised == self.hash_of(matrix) {
             return Ok(false);
         }
         // Pressures and momentum have other units: scaled, rows weigh the same.

@@ -1,6 +1,6 @@
 //! `Fingerprints`: whether the values of a matrix are those it had before.
 
-use crate::sparse::{Revision, SparseMatrix};
+use crate::sparse::Revision;
 
 /// The hash of the values of a matrix at the revision last asked for.
 #[derive(Debug, Default)]
@@ -16,29 +16,27 @@ struct Fingerprint {
 }
 
 impl Fingerprints {
-    /// Hash of the values of a matrix, taken once for each revision.
+    /// Hash of the values of a matrix at a revision, taken once for each.
     ///
     /// A revision alone does not tell whether the factors at hand are those of a matrix: assembled again
     /// from the same terms it has equal values at another revision.
-    pub fn hash_of(&mut self, matrix: &SparseMatrix) -> u64 {
-        let known = self.latest.as_ref().filter(|latest| latest.revision == *matrix.revision());
-        let hash = known.map_or_else(|| hash(matrix.values()), |known| known.hash);
-        self.latest = Some(Fingerprint { revision: matrix.revision().clone(), hash });
+    pub fn hash_of(&mut self, revision: &Revision, values: impl Iterator<Item = u64>) -> u64 {
+        let known = self.latest.as_ref().filter(|latest| latest.revision == *revision);
+        let hash = known.map_or_else(|| hash(values), |known| known.hash);
+        self.latest = Some(Fingerprint { revision: revision.clone(), hash });
         hash
     }
 }
 
 /// A hash of all bits of all values.
-fn hash(values: &[f64]) -> u64 {
+fn hash(values: impl Iterator<Item = u64>) -> u64 {
     const MIX: u64 = 0x9E37_79B9_7F4A_7C15;
-    let mut lanes = [1u64, 2, 3, 4];
-    let chunks = values.chunks_exact(4);
-    let rest = chunks.remainder();
-    for chunk in chunks {
-        for (lane, value) in lanes.iter_mut().zip(chunk) {
-            *lane = (*lane ^ value.to_bits()).wrapping_mul(MIX).rotate_left(29);
-        }
+    let mix = |hash: u64, value: u64| (hash ^ value).wrapping_mul(MIX).rotate_left(29);
+    // Lanes do not wait for each other
+    let mut lanes = [1, 2, 3, 4];
+    for (index, value) in values.enumerate() {
+        let lane = &mut lanes[index % 4];
+        *lane = mix(*lane, value);
     }
-    let all = lanes.into_iter().chain(rest.iter().map(|value| value.to_bits()));
-    all.fold(0, |hash, part| (hash ^ part).wrapping_mul(MIX).rotate_left(29))
+    lanes.into_iter().fold(0, mix)
 }

@@ -2,6 +2,7 @@
 
 mod cell_maps;
 mod cell_pattern;
+mod cell_unknowns;
 mod cholesky;
 mod constraints;
 mod direct;
@@ -14,10 +15,11 @@ mod solver;
 pub use crate::multifrontal::Singular;
 pub use crate::sparse::{Pattern, SparseMatrix, Unknowns};
 pub use cell_maps::CellMaps;
+pub use cell_unknowns::{CellFolds, CellUnknowns};
 pub use cholesky::{Cholesky, CholeskyError};
 pub use constraints::{AffineConstraints, ConstraintBuilder, Term};
 pub use direct::DirectSolver;
 pub use saddle_point::{
-    Interpolation, IterativeSettings, IterativeSolver, Part, SaddlePoint, Weights,
+    Interpolation, IterativeSettings, IterativeSolver, Part, SaddleMatrix, SaddlePoint, Weights,
 };
 pub use solver::{Accuracy, LinearError, LinearSolver};

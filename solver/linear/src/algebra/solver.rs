@@ -9,7 +9,6 @@ use std::fmt::Debug;
 use thiserror::Error;
 
 use crate::multifrontal::Singular;
-use crate::sparse::SparseMatrix;
 
 /// Why a linear system was not solved.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -65,18 +64,21 @@ pub struct Accuracy {
 /// changed is solved with it as it is, one that has changed a little may be solved with it iteratively.
 /// The same calls give the same bits: no decision depends on a clock or on the number of threads.
 pub trait LinearSolver: Debug + Send {
+    /// In what form it takes matrices.
+    type Matrix;
+
     /// Factorises a matrix, or sets up its preconditioner, unless the set-up at hand is that of equal
     /// values.
     ///
     /// # Errors
     /// When the matrix is singular, or a value is not finite.
-    fn set_up(&mut self, matrix: &SparseMatrix) -> Result<(), LinearError>;
+    fn set_up(&mut self, matrix: &Self::Matrix) -> Result<(), LinearError>;
 
     /// Overwrites a right-hand side with the solution for the matrix of the last set-up.
     ///
     /// # Errors
     /// When the residual stays large, or a value is not finite.
-    fn solve(&mut self, matrix: &SparseMatrix, rhs: &mut [f64]) -> Result<Accuracy, LinearError>;
+    fn solve(&mut self, matrix: &Self::Matrix, rhs: &mut [f64]) -> Result<Accuracy, LinearError>;
 
     /// Overwrites a right-hand side with the solution for a matrix that has changed since the last
     /// set-up, by that set-up.
@@ -89,7 +91,7 @@ pub trait LinearSolver: Debug + Send {
     /// When the right-hand side or `typical` is not finite.
     fn solve_with_earlier_set_up(
         &mut self,
-        matrix: &SparseMatrix,
+        matrix: &Self::Matrix,
         rhs: &mut [f64],
         typical: &[f64],
     ) -> Result<bool, LinearError>;
@@ -106,7 +108,7 @@ pub trait LinearSolver: Debug + Send {
     /// When one of them is not among the unknowns with dense rows, or a value is not finite.
     fn inverse_of_dense(
         &mut self,
-        matrix: &SparseMatrix,
+        matrix: &Self::Matrix,
         unknowns: &[usize],
     ) -> Result<Vec<f64>, LinearError>;
 }

@@ -5,6 +5,7 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use crate::sparse::index::to_u32;
+use crate::sparse::lists::{Lists, Parts};
 
 /// A dense block, column by column.
 pub(crate) type Block<const B: usize> = [[f32; B]; B];
@@ -59,14 +60,11 @@ impl<const B: usize> RowBuilder<B> {
 }
 
 impl<const B: usize> BlockMatrix<B> {
-    /// From the start of each row, and the end of the last, in the columns and blocks of all.
-    pub fn new(
-        n_columns: usize,
-        starts: Vec<usize>,
-        columns: Vec<u32>,
-        blocks: Vec<Block<B>>,
-    ) -> Self {
-        Self { n_columns, starts, columns, blocks }
+    /// Zeros in these columns of each row.
+    pub fn zeros(columns: Lists, n_columns: usize) -> Self {
+        let Parts { starts, items } = columns.into_parts();
+        let blocks = vec![[[0.0; B]; B]; items.len()];
+        Self { n_columns, starts, columns: items, blocks }
     }
 
     /// The rows of several matrices, one after the other.
@@ -107,7 +105,36 @@ impl<const B: usize> BlockMatrix<B> {
         self.n_blocks() * (size_of::<Block<B>>() + size_of::<u32>())
     }
 
-    fn entries(&self, row: usize) -> Range<usize> {
+    /// All blocks, row by row.
+    pub fn blocks(&self) -> &[Block<B>] {
+        &self.blocks
+    }
+
+    /// All blocks, row by row, to be changed.
+    pub fn blocks_mut(&mut self) -> &mut [Block<B>] {
+        &mut self.blocks
+    }
+
+    /// Index of a block among all, if it is stored, in a matrix with rows whose columns ascend.
+    pub fn find(&self, row: usize, column: u32) -> Option<usize> {
+        let entries = self.entries(row);
+        let place = self.columns[entries.clone()].binary_search(&column);
+        place.ok().map(|place| entries.start + place)
+    }
+
+    /// The diagonal of a row of blocks, zero where it is not stored.
+    pub fn diagonal(&self, row: usize) -> [f32; B] {
+        let block = self.row(row).find(|(column, _)| *column == row);
+        block.map_or([0.0; B], |(_, block)| std::array::from_fn(|a| block[a][a]))
+    }
+
+    /// Columns of a row.
+    pub fn columns(&self, row: usize) -> &[u32] {
+        &self.columns[self.entries(row)]
+    }
+
+    /// The blocks of a row, among all.
+    pub fn entries(&self, row: usize) -> Range<usize> {
         self.starts[row]..self.starts[row + 1]
     }
 

@@ -1,7 +1,5 @@
 //! `Hierarchy`: levels of a multigrid method, and one V-cycle through them.
 
-use std::sync::Arc;
-
 use super::aggregation::{aggregate, smoothed_prolongation};
 use super::block_matrix::BlockMatrix;
 use super::chebyshev::{Chebyshev, Spectrum};
@@ -31,50 +29,49 @@ pub(crate) struct HierarchySettings {
     pub is_convective: bool,
 }
 
-/// Levels from the finest to the one before the coarsest, and the inverse of that.
+/// Levels from the finest to the one before the coarsest, and the inverse of that. The finest matrix stays
+/// with whoever has it.
 #[derive(Debug)]
 pub(crate) struct Hierarchy<const B: usize> {
     levels: Vec<Level<B>>,
     coarsest: Coarsest<B>,
 }
 
-/// One level with the transfers to the next.
+/// One level with the transfers to the next, and the matrix of that.
 #[derive(Debug)]
 struct Level<const B: usize> {
-    matrix: Arc<BlockMatrix<B>>,
     smoother: Chebyshev<B>,
     prolongation: BlockMatrix<B>,
     restriction: BlockMatrix<B>,
     residual: Vec<[f32; B]>,
+    coarse_matrix: BlockMatrix<B>,
     /// Right-hand side and solution of the next level.
     coarse_rhs: Vec<[f32; B]>,
     coarse: Vec<[f32; B]>,
 }
 
 impl<const B: usize> Level<B> {
+    /// Above the level that a prolongation begins on, which is upwinded if it has so many pairs.
     fn new(
-        matrix: Arc<BlockMatrix<B>>,
+        matrix: &BlockMatrix<B>,
         smoother: Chebyshev<B>,
         prolongation: BlockMatrix<B>,
+        upwinded_pairs: Option<usize>,
     ) -> Self {
         let restriction = prolongation.transposed();
+        let product = galerkin(&restriction, matrix, &prolongation);
+        let coarse_matrix = match upwinded_pairs {
+            Some(n_pairs) => upwinded(&product, n_pairs).matrix,
+            None => product,
+        };
         let residual = vec![[0.0; B]; matrix.n_rows()];
         let coarse_rhs = vec![[0.0; B]; prolongation.n_columns()];
         let coarse = coarse_rhs.clone();
-        Self { matrix, smoother, prolongation, restriction, residual, coarse_rhs, coarse }
-    }
-
-    /// The matrix of the next level, with so many pairs if it is to be upwinded.
-    fn coarse_matrix(&self, upwinded_pairs: Option<usize>) -> Arc<BlockMatrix<B>> {
-        let matrix = galerkin(&self.restriction, &self.matrix, &self.prolongation);
-        Arc::new(match upwinded_pairs {
-            Some(n_pairs) => upwinded(&matrix, n_pairs).matrix,
-            None => matrix,
-        })
+        Self { smoother, prolongation, restriction, residual, coarse_matrix, coarse_rhs, coarse }
     }
 
     fn n_bytes(&self) -> usize {
-        self.matrix.n_bytes() + self.prolongation.n_bytes() + self.restriction.n_bytes()
+        self.coarse_matrix.n_bytes() + self.prolongation.n_bytes() + self.restriction.n_bytes()
     }
 }
 
@@ -82,62 +79,101 @@ impl<const B: usize> Hierarchy<B> {
     /// The levels below a matrix; `transfer`, if given, is the prolongation from the second level to
     /// the first.
     pub fn new(
-        matrix: impl Into<Arc<BlockMatrix<B>>>,
+        matrix: &BlockMatrix<B>,
         transfer: Option<BlockMatrix<B>>,
         settings: HierarchySettings,
     ) -> Self {
         let HierarchySettings { n_pairs, degree, is_singular, is_convective } = settings;
-        let mut levels = Vec::new();
-        let mut matrix = matrix.into();
+        let upwinded_pairs = is_convective.then_some(n_pairs);
+        let mut levels: Vec<Level<B>> = Vec::new();
         if let Some(transfer) = transfer {
-            let smoother = Chebyshev::new(&matrix, n_pairs, SMOOTHED, degree);
-            let level = Level::new(matrix, smoother, transfer);
-            matrix = level.coarse_matrix(is_convective.then_some(n_pairs));
-            levels.push(level);
+            let smoother = Chebyshev::new(matrix, n_pairs, SMOOTHED, degree);
+            levels.push(Level::new(matrix, smoother, transfer, upwinded_pairs));
         }
-        while (matrix.n_rows() - 2 * n_pairs) * B > COARSEST {
-            let aggregates = aggregate(&matrix, n_pairs);
+        loop {
+            let matrix = levels.last().map_or(matrix, |level| &level.coarse_matrix);
+            if (matrix.n_rows() - 2 * n_pairs) * B <= COARSEST {
+                break;
+            }
+            let aggregates = aggregate(matrix, n_pairs);
             if aggregates.count as f64 > COARSENING * matrix.n_rows() as f64 {
                 break;
             }
-            let smoother = Chebyshev::new(&matrix, n_pairs, SMOOTHED, DEGREE);
-            let prolongation = smoothed_prolongation(&matrix, &smoother, &aggregates);
-            let level = Level::new(matrix, smoother, prolongation);
-            matrix = level.coarse_matrix(is_convective.then_some(n_pairs));
+            let smoother = Chebyshev::new(matrix, n_pairs, SMOOTHED, DEGREE);
+            let prolongation = smoothed_prolongation(matrix, &smoother, &aggregates);
+            let level = Level::new(matrix, smoother, prolongation, upwinded_pairs);
             levels.push(level);
         }
-        Self { levels, coarsest: Coarsest::new(&matrix, n_pairs, is_singular) }
+        let matrix = levels.last().map_or(matrix, |level| &level.coarse_matrix);
+        let coarsest = Coarsest::new(matrix, n_pairs, is_singular);
+        Self { levels, coarsest }
     }
 
-    /// Memory of the matrices (bytes).
+    /// Memory of the matrices below the finest (bytes).
     pub fn n_bytes(&self) -> usize {
         self.levels.iter().map(Level::n_bytes).sum()
     }
 
-    /// Overwrites x with an approximation of A^-1 b by one V-cycle.
-    pub fn cycle(&mut self, b: &[[f32; B]], x: &mut [[f32; B]]) {
-        cycle(&mut self.levels, &mut self.coarsest, b, x);
+    /// Overwrites x with an approximation of A^-1 b by one V-cycle, for the finest matrix A.
+    pub fn cycle(&mut self, matrix: &BlockMatrix<B>, b: &[[f32; B]], x: &mut [[f32; B]]) {
+        cycle(&mut self.levels, &mut self.coarsest, matrix, b, x);
     }
 }
 
 fn cycle<const B: usize>(
     levels: &mut [Level<B>],
     coarsest: &mut Coarsest<B>,
+    matrix: &BlockMatrix<B>,
     b: &[[f32; B]],
     x: &mut [[f32; B]],
 ) {
     let Some((level, coarser)) = levels.split_first_mut() else {
-        coarsest.apply(b, x);
+        coarsest.apply(matrix, b, x);
         return;
     };
-    let Level { matrix, smoother, prolongation, restriction, residual, coarse_rhs, coarse } = level;
+    let Level { smoother, prolongation, restriction, residual, coarse_matrix, coarse_rhs, coarse } =
+        level;
     smoother.solve(matrix, b, x);
     residual.copy_from_slice(b);
     matrix.multiply_subtract(x, residual);
     restriction.multiply(residual, coarse_rhs);
-    cycle(coarser, coarsest, coarse_rhs, coarse);
+    cycle(coarser, coarsest, coarse_matrix, coarse_rhs, coarse);
     prolongation.multiply_add(coarse, x);
     smoother.improve(matrix, b, x);
+}
+
+/// A matrix with the levels below it.
+#[derive(Debug)]
+pub(crate) struct Multigrid<const B: usize> {
+    matrix: BlockMatrix<B>,
+    hierarchy: Hierarchy<B>,
+}
+
+impl<const B: usize> Multigrid<B> {
+    /// See [`Hierarchy::new`].
+    pub fn new(
+        matrix: BlockMatrix<B>,
+        transfer: Option<BlockMatrix<B>>,
+        settings: HierarchySettings,
+    ) -> Self {
+        let hierarchy = Hierarchy::new(&matrix, transfer, settings);
+        Self { matrix, hierarchy }
+    }
+
+    /// The finest matrix.
+    pub fn matrix(&self) -> &BlockMatrix<B> {
+        &self.matrix
+    }
+
+    /// Memory of the matrices (bytes).
+    pub fn n_bytes(&self) -> usize {
+        self.matrix.n_bytes() + self.hierarchy.n_bytes()
+    }
+
+    /// Overwrites x with an approximation of A^-1 b by one V-cycle.
+    pub fn cycle(&mut self, b: &[[f32; B]], x: &mut [[f32; B]]) {
+        self.hierarchy.cycle(&self.matrix, b, x);
+    }
 }
 
 /// What stands for the inverse on the coarsest level.
@@ -145,7 +181,7 @@ fn cycle<const B: usize>(
 enum Coarsest<const B: usize> {
     Dense(DenseInverse),
     /// Where the matrix is singular, or large because aggregation has ended.
-    Smoother(Box<(BlockMatrix<B>, Chebyshev<B>)>),
+    Smoother(Box<Chebyshev<B>>),
 }
 
 /// Unknowns above which the coarsest matrix is not inverted.
@@ -162,19 +198,16 @@ impl<const B: usize> Coarsest<B> {
             || {
                 let spectrum = Spectrum::UpperEnd(1.0 / 100.0);
                 let smoother = Chebyshev::new(matrix, n_pairs, spectrum, COARSEST_DEGREE);
-                Self::Smoother(Box::new((matrix.clone(), smoother)))
+                Self::Smoother(Box::new(smoother))
             },
             Self::Dense,
         )
     }
 
-    fn apply(&mut self, b: &[[f32; B]], x: &mut [[f32; B]]) {
+    fn apply(&mut self, matrix: &BlockMatrix<B>, b: &[[f32; B]], x: &mut [[f32; B]]) {
         match self {
             Self::Dense(inverse) => inverse.apply(b.as_flattened(), x.as_flattened_mut()),
-            Self::Smoother(smoother) => {
-                let (matrix, smoother) = smoother.as_mut();
-                smoother.solve(matrix, b, x);
-            }
+            Self::Smoother(smoother) => smoother.solve(matrix, b, x),
         }
     }
 }

@@ -19,5 +19,5 @@ mod upwind;
 
 pub(crate) use block_matrix::{Block, BlockMatrix, RowBuilder};
 pub(crate) use chebyshev::{Chebyshev, Spectrum};
-pub(crate) use hierarchy::{Hierarchy, HierarchySettings};
-pub(crate) use upwind::{Upwinded, upwinded};
+pub(crate) use hierarchy::{Hierarchy, HierarchySettings, Multigrid};
+pub(crate) use upwind::upwinded;

@@ -5,7 +5,8 @@ use super::chebyshev::{Chebyshev, Spectrum};
 use super::dense::{DenseInverse, invert};
 use super::hierarchy::{Hierarchy, HierarchySettings};
 use super::product::{galerkin, product};
-use super::{Block, BlockMatrix, RowBuilder, Upwinded, upwinded};
+use super::upwind::{Upwinded, upwinded};
+use super::{Block, BlockMatrix, RowBuilder};
 
 fn diagonal<const B: usize>(value: f32) -> Block<B> {
     std::array::from_fn(|b| std::array::from_fn(|a| if a == b { value } else { 0.0 }))
@@ -163,7 +164,7 @@ fn a_polynomial_on_the_whole_spectrum_solves() {
 fn contraction<const B: usize>(n: usize, is_singular: bool) -> f64 {
     let matrix = laplacian::<B>(n, is_singular);
     let settings = HierarchySettings { n_pairs: 0, degree: 2, is_singular, is_convective: false };
-    let mut hierarchy = Hierarchy::new(matrix.clone(), None, settings);
+    let mut hierarchy = Hierarchy::new(&matrix, None, settings);
     let mut residual: Vec<[f32; B]> =
         (0..n * n).map(|row| std::array::from_fn(|a| whole(row * 5 + a))).collect();
     for a in 0..B {
@@ -177,7 +178,7 @@ fn contraction<const B: usize>(n: usize, is_singular: bool) -> f64 {
     let mut last = 1.0;
     for _ in 0..5 {
         let before = size(&residual);
-        hierarchy.cycle(&residual, &mut x);
+        hierarchy.cycle(&matrix, &residual, &mut x);
         matrix.multiply_subtract(&x, &mut residual);
         last = size(&residual) / before;
     }

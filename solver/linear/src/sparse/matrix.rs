@@ -13,6 +13,20 @@ pub struct Revision {
     number: u64,
 }
 
+impl Default for Revision {
+    /// Of another matrix than all so far.
+    fn default() -> Self {
+        Self { matrix: Arc::new(()), number: 0 }
+    }
+}
+
+impl Revision {
+    /// The next state of the same matrix.
+    pub(crate) fn advance(&mut self) {
+        self.number += 1;
+    }
+}
+
 impl PartialEq for Revision {
     fn eq(&self, other: &Self) -> bool {
         self.number == other.number && Arc::ptr_eq(&self.matrix, &other.matrix)
@@ -36,7 +50,7 @@ impl SparseMatrix {
     pub fn new(pattern: impl Into<Arc<Pattern>>, values: Vec<f64>) -> Self {
         let pattern = pattern.into();
         assert_eq!(values.len(), pattern.n_entries(), "a value for each entry of the pattern");
-        Self { pattern, values, revision: Revision { matrix: Arc::new(()), number: 0 } }
+        Self { pattern, values, revision: Revision::default() }
     }
 
     /// A matrix whose stored entries are all zero.
@@ -45,6 +59,12 @@ impl SparseMatrix {
         let pattern = pattern.into();
         let values = vec![0.0; pattern.n_entries()];
         Self::new(pattern, values)
+    }
+
+    /// Another matrix with the same values.
+    #[must_use]
+    pub fn copied(&self) -> Self {
+        Self::new(Arc::clone(&self.pattern), self.values.clone())
     }
 
     /// Which entries are stored.
@@ -68,8 +88,15 @@ impl SparseMatrix {
     /// The values of the stored entries, to be changed: the matrix gets another revision.
     #[must_use]
     pub fn values_mut(&mut self) -> &mut [f64] {
-        self.revision.number += 1;
+        self.revision.advance();
         &mut self.values
+    }
+
+    /// Adds to an entry, if it is stored.
+    pub fn add(&mut self, row: usize, column: usize, value: f64) {
+        if let Some(entry) = self.pattern.entry(row, column) {
+            self.values_mut()[entry] += value;
+        }
     }
 
     /// The state of the values.

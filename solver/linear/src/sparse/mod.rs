@@ -1,6 +1,7 @@
 //! Sparse matrices: sparsity patterns, values on them, and what each unknown is.
 
 pub(crate) mod index;
+pub(crate) mod lists;
 mod matrix;
 mod pattern;
 pub(crate) mod single;

@@ -1,10 +1,8 @@
 //! `Setting`: sample meshes with fields on them, whose residuals and matrices are tested.
 
-use std::sync::Arc;
-
 use alewife_mesh::{Domain, Mesh, Point, Sizing, generate};
 
-use crate::algebra::{AffineConstraints, ConstraintBuilder, Pattern};
+use crate::algebra::{AffineConstraints, CellMaps, ConstraintBuilder};
 use crate::flow::*;
 use crate::space::sample_mesh::{bent, two_simplices};
 use crate::space::{DofLayout, Metric};
@@ -55,7 +53,7 @@ pub struct Setting<const D: usize> {
     pub metric: Metric,
     pub layout: DofLayout<D>,
     pub constraints: AffineConstraints,
-    pub pattern: Arc<Pattern>,
+    pub maps: CellMaps,
     pub assembly: Assembly<D>,
     pub velocity: Vec<Point<D>>,
     pub pressure: Vec<f64>,
@@ -97,8 +95,8 @@ impl<const D: usize> Setting<D> {
             mesh,
             metric,
             layout,
+            maps: assembly.maps(&constraints),
             constraints,
-            pattern: Arc::clone(assembly.pattern()),
             assembly,
         }
     }
@@ -138,10 +136,11 @@ impl<const D: usize> Setting<D> {
     }
 
     pub fn matrix(&self, convection: Convection) -> Vec<f64> {
-        let mut values = vec![f64::NAN; self.pattern.n_entries()];
+        let mut values = vec![0.0; self.maps.pattern().n_entries()];
         self.with_terms(convection, |terms, fields| {
-            let Self { assembly, mesh, constraints, .. } = self;
-            assemble(assembly, mesh, constraints, terms, fields, &mut values);
+            let Self { assembly, mesh, constraints, maps, .. } = self;
+            let scatter = |cell, matrix: &[f64]| maps.scatter(cell, matrix, &mut values);
+            assemble(assembly, mesh, constraints, terms, fields, scatter);
         });
         values
     }

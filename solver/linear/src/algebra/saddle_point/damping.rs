@@ -6,12 +6,10 @@
 //! longer than the gap then have the Schur complement G^T D^-1 G with D = m / w and lumped masses m, and not
 //! a mass over the viscosity.
 
-use std::sync::Arc;
-
 use super::data::Weights;
 use super::numbering::Numbering;
 use super::vector::B;
-use crate::multigrid::{BlockMatrix, Hierarchy, HierarchySettings, RowBuilder};
+use crate::multigrid::{BlockMatrix, HierarchySettings, Multigrid, RowBuilder};
 use crate::sparse::index::to_u32;
 use crate::sparse::single::single;
 
@@ -55,7 +53,7 @@ fn permeability(
     numbering: &Numbering,
     masses: Vec<f32>,
 ) -> Vec<f32> {
-    let matrix = Arc::new(trace(block, numbering));
+    let matrix = trace(block, numbering);
     let settings = HierarchySettings {
         n_pairs: 0,
         degree: SMOOTHING,
@@ -63,13 +61,13 @@ fn permeability(
         is_convective: false,
     };
     let transfer = scalar_transfer(transfer, numbering);
-    let mut hierarchy = Hierarchy::new(Arc::clone(&matrix), Some(transfer), settings);
+    let mut multigrid = Multigrid::new(matrix, Some(transfer), settings);
     let rhs: Vec<[f32; 1]> = masses.into_iter().map(|mass| [4.0 * mass]).collect();
     let mut w = vec![[0.0]; rhs.len()];
     let mut change = w.clone();
     let mut residual = rhs.clone();
     for _ in 0..CYCLES {
-        hierarchy.cycle(&residual, &mut change);
+        multigrid.cycle(&residual, &mut change);
         let mut is_accurate = true;
         for ([w], [change]) in w.iter_mut().zip(&change) {
             *w += change;
@@ -79,7 +77,7 @@ fn permeability(
             break;
         }
         residual.copy_from_slice(&rhs);
-        matrix.multiply_subtract(&w, &mut residual);
+        multigrid.matrix().multiply_subtract(&w, &mut residual);
     }
     w.into_iter().map(|[w]| w).collect()
 }

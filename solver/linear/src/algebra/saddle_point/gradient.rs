@@ -1,13 +1,13 @@
 //! `Gradient`: the block G that couples velocities to pressures.
 
+use std::ops::Range;
+
 use rayon::prelude::*;
 
-use super::numbering::{Numbering, Place};
 use super::vector::B;
 use crate::multigrid::{BlockMatrix, RowBuilder};
-use crate::sparse::SparseMatrix;
 use crate::sparse::index::to_u32;
-use crate::sparse::single::single;
+use crate::sparse::lists::{Lists, Parts};
 
 /// Rows that one task works on.
 const ROWS: usize = 256;
@@ -24,63 +24,39 @@ pub(super) struct Gradient {
     values: Vec<[f32; B]>,
 }
 
-/// Lists by compressed rows under construction: entries are put where counting has made room.
-struct Lists {
-    starts: Vec<usize>,
-    next: Vec<usize>,
-}
-
-impl Lists {
-    fn with_counts(counts: &[usize]) -> Self {
-        let mut starts = vec![0];
-        let mut end = 0;
-        starts.extend(counts.iter().map(|count| {
-            end += count;
-            end
-        }));
-        Self { next: starts.clone(), starts }
-    }
-}
-
 impl Gradient {
-    /// The columns of the pressures in the rows of the velocities.
-    pub fn new(matrix: &SparseMatrix, numbering: &Numbering) -> Self {
-        let pattern = matrix.pattern();
-        let n_rows = numbering.blocks.len();
-        // The row that a pressure had an entry in last
-        const NONE: u32 = u32::MAX;
-        let mut last = vec![NONE; n_rows];
-        let mut counts = vec![0; n_rows];
-        let velocity = |row: u32| match numbering.places[row as usize] {
-            Place::Velocity { row, component } => Some((row as usize, usize::from(component))),
-            Place::Pressure(_) => None,
-        };
-        for (index, &unknown) in numbering.pressures.iter().enumerate() {
-            for (row, _) in pattern.column(unknown as usize).iter().filter_map(|&row| velocity(row))
-            {
-                if last[row] != to_u32(index) {
-                    last[row] = to_u32(index);
-                    counts[row] += 1;
-                }
-            }
-        }
-        let Lists { starts, mut next } = Lists::with_counts(&counts);
-        let n_entries = starts[n_rows];
-        let (mut pressures, mut values) = (vec![0; n_entries], vec![[0.0; B]; n_entries]);
-        last.fill(NONE);
-        for (index, &unknown) in numbering.pressures.iter().enumerate() {
-            let rows = pattern.column(unknown as usize);
-            for (&row, entry) in rows.iter().zip(pattern.entries(unknown as usize)) {
-                let Some((row, component)) = velocity(row) else { continue };
-                if last[row] != to_u32(index) {
-                    last[row] = to_u32(index);
-                    pressures[next[row]] = to_u32(index);
-                    next[row] += 1;
-                }
-                values[next[row] - 1][component] = single(matrix.values()[entry]);
-            }
-        }
-        Self { n_pressures: numbering.pressures.len(), starts, pressures, values }
+    /// Zeros for these pressures of each row.
+    pub fn zeros(pressures: Lists, n_pressures: usize) -> Self {
+        let Parts { starts, items } = pressures.into_parts();
+        let values = vec![[0.0; B]; items.len()];
+        Self { n_pressures, starts, pressures: items, values }
+    }
+
+    /// Index of the entry of a pressure in a row, if it is stored, where the pressures of rows ascend.
+    pub fn find(&self, row: usize, pressure: u32) -> Option<usize> {
+        let entries = self.entries(row);
+        let place = self.pressures[entries.clone()].binary_search(&pressure);
+        place.ok().map(|place| entries.start + place)
+    }
+
+    /// The entries of a row, among all.
+    pub fn entries(&self, row: usize) -> Range<usize> {
+        self.starts[row]..self.starts[row + 1]
+    }
+
+    /// All entries, row by row.
+    pub fn values(&self) -> &[[f32; B]] {
+        &self.values
+    }
+
+    /// All entries, row by row, to be changed.
+    pub fn values_mut(&mut self) -> &mut [[f32; B]] {
+        &mut self.values
+    }
+
+    /// The pressures of all entries, row by row.
+    pub fn pressures(&self) -> &[u32] {
+        &self.pressures
     }
 
     /// Number of pressures.
@@ -94,7 +70,7 @@ impl Gradient {
     }
 
     fn row(&self, row: usize) -> impl Iterator<Item = (u32, &[f32; B])> {
-        let entries = self.starts[row]..self.starts[row + 1];
+        let entries = self.entries(row);
         self.pressures[entries.clone()].iter().copied().zip(&self.values[entries])
     }
 
@@ -195,11 +171,14 @@ impl Gradient {
 
     /// For each pressure its rows among the first ones, in place of the pressures of each row.
     fn rows_of_pressures(&self, n_rows: usize) -> Self {
-        let mut counts = vec![0; self.n_pressures];
+        let mut starts = vec![0; self.n_pressures + 1];
         for &pressure in &self.pressures[..self.starts[n_rows]] {
-            counts[pressure as usize] += 1;
+            starts[pressure as usize + 1] += 1;
         }
-        let Lists { starts, mut next } = Lists::with_counts(&counts);
+        for pressure in 0..self.n_pressures {
+            starts[pressure + 1] += starts[pressure];
+        }
+        let mut next = starts.clone();
         let n_entries = starts[self.n_pressures];
         let (mut rows, mut values) = (vec![0; n_entries], vec![[0.0; B]; n_entries]);
         for row in 0..n_rows {

@@ -6,11 +6,10 @@ use super::super::solver::{Accuracy, LinearError, LinearSolver};
 use super::data::{SaddlePoint, Weights};
 use super::guess::EarlierSolutions;
 use super::krylov_space::{Correction, KrylovSpace};
-use super::numbering::Numbering;
-use super::operator::{ColumnGroups, Operator};
+use super::matrix::SaddleMatrix;
 use super::preconditioner::Preconditioner;
 use super::scaled::{Iterate, Scaled};
-use crate::sparse::{Pattern, SparseMatrix};
+use crate::sparse::SparseMatrix;
 
 /// When iterations end, and what happens then.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -50,15 +49,20 @@ pub struct IterativeSolver {
     system: SaddlePoint,
     weights: Weights,
     settings: IterativeSettings,
-    numbering: Numbering,
-    groups: ColumnGroups,
     fingerprints: Fingerprints,
     /// Of the matrix and weights it was made for.
     set_up: Option<SetUp>,
     earlier: EarlierSolutions,
     iterations: usize,
     /// In place of everything else, once iterations have stalled.
-    direct: Option<Box<DirectSolver>>,
+    direct: Option<Box<Direct>>,
+}
+
+/// A direct solver with the matrix in its form.
+#[derive(Debug)]
+struct Direct {
+    solver: DirectSolver,
+    matrix: SparseMatrix,
 }
 
 #[derive(Debug)]
@@ -68,26 +72,16 @@ struct SetUp {
 }
 
 impl IterativeSolver {
-    /// For the matrices of a pattern.
+    /// For the matrices of a system.
     ///
     /// # Panics
-    /// When parts, weights and pattern have different numbers of unknowns.
+    /// When parts and weights have different numbers of unknowns.
     #[must_use]
-    pub fn new(
-        pattern: &Pattern,
-        system: SaddlePoint,
-        weights: Weights,
-        settings: IterativeSettings,
-    ) -> Self {
-        assert_eq!(system.parts.len(), pattern.n(), "a part for each unknown");
-        let numbering = Numbering::new(&system);
-        let groups = ColumnGroups::new(pattern);
+    pub fn new(system: SaddlePoint, weights: Weights, settings: IterativeSettings) -> Self {
         let solver = Self {
             system,
             weights,
             settings,
-            numbering,
-            groups,
             fingerprints: Fingerprints::default(),
             set_up: None,
             earlier: EarlierSolutions::default(),
@@ -110,8 +104,7 @@ impl IterativeSolver {
 
     fn check(&self, weights: &Weights) {
         let n = self.system.parts.len();
-        let n_pressures =
-            self.numbering.pressures.len() + usize::from(self.system.has_held_pressure);
+        let n_pressures = self.system.n_pressures() + usize::from(self.system.has_held_pressure);
         assert_eq!(weights.interpolation.n(), n, "a sum for each unknown");
         assert_eq!(weights.pressure_mass.n(), n_pressures, "a row for each pressure");
         assert_eq!(weights.lumped_mass.len(), n, "a mass for each unknown");
@@ -138,7 +131,7 @@ impl IterativeSolver {
     /// Solves by GCR until the residual is `reduction` times the right-hand side.
     fn iterate(
         &mut self,
-        matrix: &SparseMatrix,
+        matrix: &SaddleMatrix,
         rhs: &[f64],
         reduction: f64,
         uses_earlier: bool,
@@ -146,8 +139,7 @@ impl IterativeSolver {
         let Some(SetUp { preconditioner, .. }) = &mut self.set_up else {
             return Err(LinearError::NotFinite);
         };
-        let operator = Operator { matrix, groups: &self.groups };
-        let mut system = Scaled { operator, numbering: &self.numbering, preconditioner };
+        let mut system = Scaled { matrix, preconditioner };
         let initial = system.norm(rhs);
         let tolerance = reduction * initial;
         let mut iterate = Iterate { x: vec![0.0; rhs.len()], residual: rhs.to_vec() };
@@ -181,7 +173,7 @@ impl IterativeSolver {
             let wanted = (AIM * tolerance / reached).max(CYCLE);
             let b = system.single(&iterate.residual, reached);
             let Correction { x, iterations: more } =
-                space.correction(system.preconditioner, b, |iterations, residual| {
+                space.correction(&mut system, b, |iterations, residual| {
                     iterations < most && residual > wanted
                 });
             iterations += more.max(1);
@@ -199,7 +191,7 @@ impl IterativeSolver {
     /// When iterations stall, or a value is not finite.
     pub fn solve_to(
         &mut self,
-        matrix: &SparseMatrix,
+        matrix: &SaddleMatrix,
         rhs: &mut [f64],
         reduction: f64,
     ) -> Result<Accuracy, LinearError> {
@@ -208,9 +200,10 @@ impl IterativeSolver {
 
     /// A direct solver for the system, if its factors are small enough, once iterations have left a part
     /// of the right-hand side.
-    fn take_over(&self, matrix: &SparseMatrix, residual: f64) -> Result<DirectSolver, LinearError> {
-        let direct = DirectSolver::new(matrix.pattern(), &self.system.unknowns());
-        let n_factor_entries = direct.n_factor_entries();
+    fn take_over(&self, matrix: &SaddleMatrix, residual: f64) -> Result<Direct, LinearError> {
+        let matrix = matrix.to_sparse();
+        let solver = DirectSolver::new(matrix.pattern(), &self.system.unknowns());
+        let n_factor_entries = solver.n_factor_entries();
         let (iterations, n_unknowns) = (self.iterations, matrix.n());
         if n_factor_entries > self.settings.max_factor_entries {
             return Err(LinearError::Stalled {
@@ -224,18 +217,18 @@ impl IterativeSolver {
             "{iterations} iterations with {n_unknowns} unknowns leave {residual:.1e} of the right-hand \
              side; a direct solver takes over, with {n_factor_entries} entries of factors"
         );
-        Ok(direct)
+        Ok(Direct { solver, matrix })
     }
 
     fn solved(
         &mut self,
-        matrix: &SparseMatrix,
+        matrix: &SaddleMatrix,
         rhs: &mut [f64],
         reduction: f64,
         uses_earlier: bool,
     ) -> Result<Accuracy, LinearError> {
         if let Some(direct) = &mut self.direct {
-            return direct.solve(matrix, rhs);
+            return direct.solver.solve(&direct.matrix, rhs);
         }
         if rhs.iter().any(|value| !value.is_finite()) {
             return Err(LinearError::NotFinite);
@@ -245,8 +238,8 @@ impl IterativeSolver {
         self.iterations = iterations;
         if let Some(residual) = stalled_at {
             let mut direct = self.take_over(matrix, residual)?;
-            direct.set_up(matrix)?;
-            let accuracy = direct.solve(matrix, rhs)?;
+            direct.solver.set_up(&direct.matrix)?;
+            let accuracy = direct.solver.solve(&direct.matrix, rhs)?;
             self.direct = Some(Box::new(direct));
             return Ok(accuracy);
         }
@@ -255,7 +248,7 @@ impl IterativeSolver {
         let residual = if size > 0.0 { largest(&iterate.residual) / size } else { 0.0 };
         rhs.copy_from_slice(&iterate.x);
         if uses_earlier {
-            self.earlier.keep(self.numbering.split(&iterate.x, |_| 1.0));
+            self.earlier.keep(matrix.numbering().split(&iterate.x, |_| 1.0));
         }
         tracing::debug!(iterations, residual, "solved by iterations");
         Ok(Accuracy { residual, refinements: iterations })
@@ -271,49 +264,57 @@ struct Iterated {
 }
 
 impl LinearSolver for IterativeSolver {
-    fn set_up(&mut self, matrix: &SparseMatrix) -> Result<(), LinearError> {
-        if let Some(direct) = &mut self.direct {
-            return direct.set_up(matrix);
-        }
-        let hash = self.fingerprints.hash_of(matrix);
+    type Matrix = SaddleMatrix;
+
+    fn set_up(&mut self, matrix: &SaddleMatrix) -> Result<(), LinearError> {
+        let bits = |[leading, rest]: [f32; 2]| {
+            u64::from(leading.to_bits()) << 32 | u64::from(rest.to_bits())
+        };
+        let hash = self.fingerprints.hash_of(matrix.revision(), matrix.numbers().map(bits));
         if self.set_up.as_ref().is_some_and(|set_up| set_up.matrix == hash) {
             return Ok(());
         }
         self.set_up = None;
-        if matrix.values().iter().any(|value| !value.is_finite()) {
+        if !matrix.is_finite() {
             return Err(LinearError::NotFinite);
         }
-        let preconditioner =
-            Preconditioner::new(&self.system, &self.numbering, &self.weights, matrix);
+        if let Some(direct) = &mut self.direct {
+            direct.matrix = matrix.to_sparse();
+            return direct.solver.set_up(&direct.matrix);
+        }
+        let preconditioner = Preconditioner::new(&self.system, &self.weights, matrix);
         tracing::debug!(bytes = preconditioner.n_bytes(), "set up a preconditioner");
         self.set_up = Some(SetUp { matrix: hash, preconditioner });
         Ok(())
     }
 
-    fn solve(&mut self, matrix: &SparseMatrix, rhs: &mut [f64]) -> Result<Accuracy, LinearError> {
+    fn solve(&mut self, matrix: &SaddleMatrix, rhs: &mut [f64]) -> Result<Accuracy, LinearError> {
         self.solve_to(matrix, rhs, self.settings.tolerance)
     }
 
     fn solve_with_earlier_set_up(
         &mut self,
-        matrix: &SparseMatrix,
+        matrix: &SaddleMatrix,
         rhs: &mut [f64],
         typical: &[f64],
     ) -> Result<bool, LinearError> {
         // A set-up costs no more than a few iterations: one for each matrix
         match &mut self.direct {
-            Some(direct) => direct.solve_with_earlier_set_up(matrix, rhs, typical),
+            Some(direct) => {
+                direct.matrix = matrix.to_sparse();
+                direct.solver.solve_with_earlier_set_up(&direct.matrix, rhs, typical)
+            }
             None => Ok(false),
         }
     }
 
     fn inverse_of_dense(
         &mut self,
-        matrix: &SparseMatrix,
+        matrix: &SaddleMatrix,
         unknowns: &[usize],
     ) -> Result<Vec<f64>, LinearError> {
         if let Some(direct) = &mut self.direct {
-            return direct.inverse_of_dense(matrix, unknowns);
+            return direct.solver.inverse_of_dense(&direct.matrix, unknowns);
         }
         let mut inverse = Vec::with_capacity(unknowns.len() * unknowns.len());
         for &unknown in unknowns {

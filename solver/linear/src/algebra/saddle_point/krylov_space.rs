@@ -4,7 +4,7 @@
 //! residual is computed anew in double precision: what they have of it is taken off, and convergence goes on
 //! as if nothing had been rounded.
 
-use super::preconditioner::Preconditioner;
+use super::scaled::Scaled;
 use super::vector::Blocks;
 
 /// An image that is smaller than this part of what it was before those of the others were taken off
@@ -38,7 +38,7 @@ impl KrylovSpace {
     /// residual. The space is empty afterwards where it cannot grow any more.
     pub fn correction(
         &mut self,
-        system: &mut Preconditioner,
+        system: &mut Scaled<'_>,
         mut residual: Blocks,
         continues: impl Fn(usize, f64) -> bool,
     ) -> Correction {

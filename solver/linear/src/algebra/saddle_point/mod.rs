@@ -5,7 +5,7 @@
 //! Laplacian (@cahouet1988, @elman2014). What is in [`SaddlePoint`] and [`Weights`] is all that is known of
 //! flow and mesh here.
 
-mod blocks;
+mod block_maps;
 mod commutator;
 mod damping;
 mod data;
@@ -13,15 +13,17 @@ mod gradient;
 mod guess;
 mod iterative;
 mod krylov_space;
+mod matrix;
 mod numbering;
-mod operator;
 mod preconditioner;
 mod scaled;
 mod scales;
 mod schur;
 #[cfg(test)]
 mod tests;
+mod transfer;
 mod vector;
 
 pub use data::{Interpolation, Part, SaddlePoint, Weights};
 pub use iterative::{IterativeSettings, IterativeSolver};
+pub use matrix::SaddleMatrix;

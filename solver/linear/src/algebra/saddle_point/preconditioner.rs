@@ -1,19 +1,15 @@
-//! `Preconditioner`: the matrix in single precision, and the upper block-triangular matrix [F G; 0 -S] with approximate inverses of F and S.
+//! `Preconditioner`: the upper block-triangular matrix [F G; 0 -S] with approximate inverses of F and S.
 
-use std::sync::Arc;
-
-use super::blocks::{transfer, velocity_block};
 use super::damping::damping_at_nodes;
 use super::data::{SaddlePoint, Weights};
 use super::gradient::Gradient;
+use super::matrix::SaddleMatrix;
 use super::numbering::Numbering;
 use super::scales::Scales;
 use super::schur::SchurComplement;
+use super::transfer::transfer;
 use super::vector::{B, Blocks};
-use crate::multigrid::{
-    BlockMatrix, Chebyshev, Hierarchy, HierarchySettings, Spectrum, Upwinded, upwinded,
-};
-use crate::sparse::SparseMatrix;
+use crate::multigrid::{BlockMatrix, Chebyshev, Hierarchy, HierarchySettings, Spectrum, upwinded};
 
 /// Degree of the smoother of the first level of a multigrid cycle.
 const SMOOTHING: usize = 2;
@@ -28,13 +24,12 @@ const DOMINANT: f64 = 0.2;
 /// found in steady flow.
 const CONVECTIVE: f64 = 1e-3;
 
-/// A saddle-point matrix in single precision with an approximate inverse.
+/// An approximate inverse of a saddle-point matrix, which stays with whoever has it.
 #[derive(Debug)]
 pub(super) struct Preconditioner {
-    /// F.
-    block: Arc<BlockMatrix<B>>,
+    /// F with diffusion added, where there is convection.
+    upwinded: Option<BlockMatrix<B>>,
     velocity: VelocitySolver,
-    gradient: Gradient,
     divergence: Gradient,
     schur: SchurComplement,
     scales: Scales,
@@ -45,65 +40,69 @@ pub(super) struct Preconditioner {
 #[derive(Debug)]
 enum VelocitySolver {
     /// Where derivatives dominate.
-    Cycle(Hierarchy<B>),
+    Cycle(Box<Hierarchy<B>>),
     /// Where density over time step does: F is nearly a mass matrix.
     Polynomial(Box<Chebyshev<B>>),
 }
 
 impl Preconditioner {
     /// For a matrix of this system.
-    pub fn new(
-        system: &SaddlePoint,
-        numbering: &Numbering,
-        weights: &Weights,
-        matrix: &SparseMatrix,
-    ) -> Self {
-        let block = Arc::new(velocity_block(matrix, numbering));
+    pub fn new(system: &SaddlePoint, weights: &Weights, matrix: &SaddleMatrix) -> Self {
+        let (block, gradient) = (matrix.velocity(), matrix.gradient());
+        let numbering = matrix.numbering();
         let n_pairs = numbering.n_bodies;
-        let is_dominated = damped_part(weights, numbering, matrix) > DOMINANT;
-        let smooth = smooth_block(&block, n_pairs, weights.has_convection && !is_dominated);
-        let is_convective = smooth.part > CONVECTIVE;
-        let is_commutator = is_convective && weights.inertia == 0.0;
+        let is_dominated = damped_part(weights, numbering, block) > DOMINANT;
+        let smooth = (weights.has_convection && !is_dominated).then(|| upwinded(block, n_pairs));
+        let part = smooth.as_ref().map_or(0.0, |smooth| smooth.part);
+        tracing::debug!(part, "upwinded");
+        let upwinded = smooth.map(|smooth| smooth.matrix);
+        let is_commutator = part > CONVECTIVE && weights.inertia == 0.0;
+        let smooth = upwinded.as_ref().unwrap_or(block);
+        let transfer = (!is_dominated).then(|| transfer(&weights.interpolation, numbering));
         // Of the Laplacian of the pressures, where there is one
-        let mut damping = Vec::new();
-        let velocity = if is_dominated {
-            let inertia = numbering.split(&weights.lumped_mass, |_| weights.inertia);
-            damping.extend_from_slice(&inertia.velocity[..numbering.n_nodes]);
-            let chebyshev = Chebyshev::new(&block, n_pairs, SPECTRUM, DEGREE);
-            VelocitySolver::Polynomial(Box::new(chebyshev))
-        } else {
-            let transfer = transfer(&weights.interpolation, numbering);
-            if !is_commutator {
-                damping = damping_at_nodes(&smooth.matrix, &transfer, numbering, weights);
-            }
+        let damping = match &transfer {
+            None => Some(numbering.split(&weights.lumped_mass, |_| weights.inertia).velocity),
+            Some(_) if is_commutator => None,
+            Some(transfer) => Some(damping_at_nodes(smooth, transfer, numbering, weights)),
+        };
+        let velocity = if let Some(transfer) = transfer {
             let settings = HierarchySettings {
                 n_pairs,
                 degree: SMOOTHING,
                 is_singular: false,
                 is_convective: weights.has_convection,
             };
-            VelocitySolver::Cycle(Hierarchy::new(smooth.matrix, Some(transfer), settings))
-        };
-        let gradient = Gradient::new(matrix, numbering);
-        let has_held_pressure = system.has_held_pressure;
-        let schur = if is_commutator {
-            SchurComplement::convective(&block, &gradient, numbering, has_held_pressure)
+            VelocitySolver::Cycle(Box::new(Hierarchy::new(smooth, Some(transfer), settings)))
         } else {
-            SchurComplement::new(weights, &gradient, &damping, has_held_pressure)
+            let chebyshev = Chebyshev::new(block, n_pairs, SPECTRUM, DEGREE);
+            VelocitySolver::Polynomial(Box::new(chebyshev))
         };
-        let divergence = gradient.transposed();
-        let scales = Scales::new(matrix, numbering);
-        let scaled = Blocks::zeros(numbering.blocks.len(), numbering.pressures.len());
-        Self { block, velocity, gradient, divergence, schur, scales, scaled }
+        let has_held_pressure = system.has_held_pressure;
+        let schur = match damping {
+            Some(damping) => {
+                let damping = &damping[..numbering.n_nodes];
+                SchurComplement::new(weights, gradient, damping, has_held_pressure)
+            }
+            None => SchurComplement::convective(block, gradient, numbering, has_held_pressure),
+        };
+        Self {
+            upwinded,
+            velocity,
+            divergence: gradient.transposed(),
+            schur,
+            scales: Scales::new(matrix),
+            scaled: Blocks::zeros(numbering.blocks.len(), numbering.pressures.len()),
+        }
     }
 
     /// Memory of the matrices (bytes).
     pub fn n_bytes(&self) -> usize {
         let velocity = match &self.velocity {
             VelocitySolver::Cycle(hierarchy) => hierarchy.n_bytes(),
-            VelocitySolver::Polynomial(_) => self.block.n_bytes(),
+            VelocitySolver::Polynomial(_) => 0,
         };
-        velocity + 2 * self.gradient.n_bytes() + self.schur.n_bytes()
+        let upwinded = self.upwinded.as_ref().map_or(0, BlockMatrix::n_bytes);
+        velocity + upwinded + self.divergence.n_bytes() + self.schur.n_bytes()
     }
 
     /// The factors of rows and columns.
@@ -112,27 +111,31 @@ impl Preconditioner {
     }
 
     /// Overwrites y with S A S x, with S the diagonal matrix of the scales.
-    pub fn multiply(&mut self, x: &Blocks, y: &mut Blocks) {
-        let Self { block, gradient, divergence, scales, scaled, .. } = self;
+    pub fn multiply(&mut self, matrix: &SaddleMatrix, x: &Blocks, y: &mut Blocks) {
+        let Self { divergence, scales, scaled, .. } = self;
         scaled.clone_from(x);
         scales.multiply(scaled);
-        block.multiply(&scaled.velocity, &mut y.velocity);
-        gradient.multiply_add(&scaled.pressure, &mut y.velocity);
+        matrix.velocity().multiply(&scaled.velocity, &mut y.velocity);
+        matrix.gradient().multiply_add(&scaled.pressure, &mut y.velocity);
         divergence.multiply_transposed(&scaled.velocity, &mut y.pressure);
         scales.multiply(y);
     }
 
     /// Overwrites z with S^-1 M^-1 S^-1 r for the approximation M of the matrix.
-    pub fn apply(&mut self, r: &Blocks, z: &mut Blocks) {
-        let Self { block, velocity, gradient, schur, scales, scaled, .. } = self;
+    pub fn apply(&mut self, matrix: &SaddleMatrix, r: &Blocks, z: &mut Blocks) {
+        let Self { upwinded, velocity, schur, scales, scaled, .. } = self;
+        let block = matrix.velocity();
         scaled.clone_from(r);
         scales.divide(scaled);
         z.pressure.copy_from_slice(&scaled.pressure);
-        schur.solve(&mut z.pressure);
-        gradient.multiply_add(&z.pressure, &mut scaled.velocity);
+        schur.solve(block, &mut z.pressure);
+        matrix.gradient().multiply_add(&z.pressure, &mut scaled.velocity);
         z.pressure.iter_mut().for_each(|value| *value = -*value);
         match velocity {
-            VelocitySolver::Cycle(hierarchy) => hierarchy.cycle(&scaled.velocity, &mut z.velocity),
+            VelocitySolver::Cycle(hierarchy) => {
+                let smooth = upwinded.as_ref().unwrap_or(block);
+                hierarchy.cycle(smooth, &scaled.velocity, &mut z.velocity);
+            }
             VelocitySolver::Polynomial(chebyshev) => {
                 chebyshev.solve(block, &scaled.velocity, &mut z.velocity);
             }
@@ -141,35 +144,19 @@ impl Preconditioner {
     }
 }
 
-/// What stands for F in the cycles.
-struct SmoothBlock {
-    matrix: Arc<BlockMatrix<B>>,
-    /// Part of its diagonal that is upwinding.
-    part: f64,
-}
-
-fn smooth_block(block: &Arc<BlockMatrix<B>>, n_pairs: usize, has_convection: bool) -> SmoothBlock {
-    if !has_convection {
-        return SmoothBlock { matrix: Arc::clone(block), part: 0.0 };
-    }
-    let Upwinded { matrix, part } = upwinded(block, n_pairs);
-    tracing::debug!(part, "upwinded");
-    SmoothBlock { matrix: Arc::new(matrix), part }
-}
-
 /// Median over the velocities at nodes of what is no derivative in the diagonal of F.
-fn damped_part(weights: &Weights, numbering: &Numbering, matrix: &SparseMatrix) -> f64 {
+fn damped_part(weights: &Weights, numbering: &Numbering, block: &BlockMatrix<B>) -> f64 {
     if weights.inertia == 0.0 {
         return 0.0;
     }
-    let unknowns = numbering.blocks[..numbering.n_nodes].iter().flatten().flatten();
-    let mut parts: Vec<f64> = unknowns
-        .filter_map(|&unknown| {
-            let unknown = unknown as usize;
-            let entry = matrix.pattern().entry(unknown, unknown)?;
-            Some(weights.inertia * weights.lumped_mass[unknown] / matrix.values()[entry])
-        })
-        .collect();
+    let mut parts: Vec<f64> = Vec::with_capacity(B * numbering.n_nodes);
+    for (row, unknowns) in numbering.blocks[..numbering.n_nodes].iter().enumerate() {
+        for (unknown, value) in unknowns.iter().zip(block.diagonal(row)) {
+            let Some(unknown) = unknown else { continue };
+            let mass = weights.lumped_mass[*unknown as usize];
+            parts.push(weights.inertia * mass / f64::from(value));
+        }
+    }
     let middle = parts.len() / 2;
     if parts.is_empty() {
         return 0.0;

@@ -2,8 +2,7 @@
 
 use super::super::krylov::norm;
 use super::guess::EarlierSolutions;
-use super::numbering::Numbering;
-use super::operator::Operator;
+use super::matrix::SaddleMatrix;
 use super::preconditioner::Preconditioner;
 use super::vector::Blocks;
 
@@ -15,16 +14,25 @@ pub(super) struct Iterate {
 
 /// A system with its rows and columns scaled, by the preconditioner.
 pub(super) struct Scaled<'a> {
-    pub operator: Operator<'a>,
-    pub numbering: &'a Numbering,
+    pub matrix: &'a SaddleMatrix,
     pub preconditioner: &'a mut Preconditioner,
 }
 
 impl Scaled<'_> {
+    /// Overwrites y with A x in single precision.
+    pub fn multiply(&mut self, x: &Blocks, y: &mut Blocks) {
+        self.preconditioner.multiply(self.matrix, x, y);
+    }
+
+    /// Overwrites z with an approximation of A^-1 r.
+    pub fn apply(&mut self, r: &Blocks, z: &mut Blocks) {
+        self.preconditioner.apply(self.matrix, r, z);
+    }
+
     /// Euclidean norm of a residual.
     pub fn norm(&self, residual: &[f64]) -> f64 {
         let scales = self.preconditioner.scales();
-        let places = self.numbering.places.iter();
+        let places = self.matrix.numbering().places.iter();
         let scaled = residual.iter().zip(places).map(|(value, place)| value * scales.of(*place));
         norm(&scaled.collect::<Vec<f64>>())
     }
@@ -32,7 +40,7 @@ impl Scaled<'_> {
     /// A residual of this size, as one of norm one in single precision.
     pub fn single(&self, residual: &[f64], size: f64) -> Blocks {
         let scales = self.preconditioner.scales();
-        self.numbering.split(residual, |place| scales.of(place) / size)
+        self.matrix.numbering().split(residual, |place| scales.of(place) / size)
     }
 
     /// The combination of earlier solutions with the least residual, for a right-hand side of this size.
@@ -40,7 +48,7 @@ impl Scaled<'_> {
         let b = self.single(rhs, size);
         let image = |x: &mut Blocks, image: &mut Blocks| {
             self.preconditioner.scales().divide(x);
-            self.preconditioner.multiply(x, image);
+            self.multiply(x, image);
         };
         earlier.guess(image, &b)
     }
@@ -56,9 +64,9 @@ impl Scaled<'_> {
         let mut unscaled = correction.clone();
         self.preconditioner.scales().multiply(&mut unscaled);
         let mut x = from.x.clone();
-        self.numbering.add(size, &unscaled, &mut x);
+        self.matrix.numbering().add(size, &unscaled, &mut x);
         let mut residual = vec![0.0; x.len()];
-        self.operator.multiply(&x, &mut residual);
+        self.matrix.multiply(&x, &mut residual);
         for (residual, b) in residual.iter_mut().zip(rhs) {
             *residual = b - *residual;
         }

@@ -1,8 +1,10 @@
 //! `Scales`: factors of the equations that make those of momentum, mass, forces and torques weigh the same.
 
+use std::ops::Range;
+
+use super::matrix::SaddleMatrix;
 use super::numbering::{Numbering, Place};
-use super::vector::{B, Blocks};
-use crate::sparse::SparseMatrix;
+use super::vector::Blocks;
 use crate::sparse::single::single;
 
 /// Factors of rows and columns; those of velocities at nodes and of translations are one.
@@ -17,36 +19,38 @@ pub(super) struct Scales {
 
 impl Scales {
     /// For a matrix.
-    pub fn new(matrix: &SparseMatrix, numbering: &Numbering) -> Self {
-        let pattern = matrix.pattern();
-        let diagonal = |unknown: u32| {
-            let entry = pattern.entry(unknown as usize, unknown as usize);
-            entry.map_or(0.0, |entry| matrix.values()[entry].abs())
+    pub fn new(matrix: &SaddleMatrix) -> Self {
+        let Numbering { blocks, n_nodes, pressures, .. } = matrix.numbering();
+        let diagonal = |row: usize| matrix.velocity().diagonal(row);
+        let mean = |rows: Range<usize>| {
+            let (mut sum, mut count) = (0.0, 0);
+            for row in rows {
+                let free = blocks[row].iter().zip(diagonal(row));
+                for (_, value) in free.filter(|(unknown, _)| unknown.is_some()) {
+                    sum += f64::from(value.abs());
+                    count += 1;
+                }
+            }
+            sum / f64::from(count.max(1))
         };
-        let mean = |blocks: &[[Option<u32>; B]]| {
-            let unknowns = || blocks.iter().flatten().flatten();
-            unknowns().map(|&unknown| diagonal(unknown)).sum::<f64>()
-                / unknowns().count().max(1) as f64
-        };
-        let velocity = mean(&numbering.blocks[..numbering.n_nodes]);
-        let largest = |&unknown: &u32| {
-            let values = &matrix.values()[pattern.entries(unknown as usize)];
-            values.iter().fold(0.0f64, |most, value| most.max(value.abs()))
-        };
-        let gradient = numbering.pressures.iter().map(largest).sum::<f64>()
-            / numbering.pressures.len().max(1) as f64;
+        let velocity = mean(0..*n_nodes);
+        let gradient = matrix.gradient();
+        let mut largest = vec![0.0f32; pressures.len()];
+        for (&pressure, values) in gradient.pressures().iter().zip(gradient.values()) {
+            let most = &mut largest[pressure as usize];
+            *most = values.iter().fold(*most, |most, value| most.max(value.abs()));
+        }
+        let gradient = largest.iter().map(|value| f64::from(*value)).sum::<f64>()
+            / largest.len().max(1) as f64;
         let positive = |value: f64| if value.is_normal() && value > 0.0 { value } else { 1.0 };
-        let rotation = |blocks: &[[Option<u32>; B]]| {
-            let [translation, turn] = [mean(&blocks[..1]), mean(&blocks[1..])];
-            positive((translation / turn).sqrt())
+        let rotation = |body: usize| {
+            let row = n_nodes + 2 * body;
+            positive((mean(row..row + 1) / mean(row + 1..row + 2)).sqrt())
         };
         Self {
-            n_nodes: numbering.n_nodes,
+            n_nodes: *n_nodes,
             pressure: positive(velocity / gradient),
-            rotations: numbering.blocks[numbering.n_nodes..]
-                .chunks_exact(2)
-                .map(rotation)
-                .collect(),
+            rotations: (0..matrix.numbering().n_bodies).map(rotation).collect(),
         }
     }
 

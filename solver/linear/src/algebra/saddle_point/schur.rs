@@ -5,14 +5,12 @@
 //! lumped D. The sum of both inverses serves all between (@cahouet1988). Where convection is more than
 //! diffusion in steady flow, the least-squares commutator.
 
-use std::sync::Arc;
-
 use super::commutator::{Commutator, laplacian};
 use super::data::Weights;
 use super::gradient::Gradient;
 use super::numbering::Numbering;
 use super::vector::B;
-use crate::multigrid::{BlockMatrix, Chebyshev, Hierarchy, RowBuilder, Spectrum};
+use crate::multigrid::{BlockMatrix, Chebyshev, Multigrid, RowBuilder, Spectrum};
 use crate::sparse::SparseMatrix;
 use crate::sparse::single::single;
 
@@ -53,7 +51,7 @@ impl SchurComplement {
 
     /// For a velocity block in which convection is more than diffusion, in steady flow.
     pub fn convective(
-        block: &Arc<BlockMatrix<B>>,
+        block: &BlockMatrix<B>,
         gradient: &Gradient,
         numbering: &Numbering,
         has_held_pressure: bool,
@@ -76,11 +74,11 @@ impl SchurComplement {
         }
     }
 
-    /// Overwrites pressures p with the inverse times p.
+    /// Overwrites pressures p with the inverse times p, for the velocity block.
     ///
     /// Where one more pressure is held, its equation is minus the sum of the others, and the pressures
     /// found for all are shifted to let it be zero.
-    pub fn solve(&mut self, p: &mut [f32]) {
+    pub fn solve(&mut self, block: &BlockMatrix<B>, p: &mut [f32]) {
         for (rhs, value) in self.rhs.iter_mut().zip(p.iter()) {
             rhs[0] = *value;
         }
@@ -90,7 +88,9 @@ impl SchurComplement {
         }
         match &mut self.inverse {
             Inverse::Masses(masses) => masses.solve(&self.rhs, &mut self.solution),
-            Inverse::Commutator(commutator) => commutator.solve(&self.rhs, &mut self.solution),
+            Inverse::Commutator(commutator) => {
+                commutator.solve(block, &self.rhs, &mut self.solution);
+            }
         }
         let level = if self.has_held_pressure { self.solution[p.len()][0] } else { 0.0 };
         for (value, solution) in p.iter_mut().zip(&self.solution) {
@@ -104,7 +104,7 @@ impl SchurComplement {
 struct Masses {
     mass: BlockMatrix<1>,
     mass_inverse: Chebyshev<1>,
-    laplacian: Option<Hierarchy<1>>,
+    laplacian: Multigrid<1>,
     part: Vec<[f32; 1]>,
 }
 
@@ -117,25 +117,22 @@ impl Masses {
     ) -> Self {
         let mass = single_precision(&weights.pressure_mass);
         let mass_inverse = Chebyshev::new(&mass, 0, MASS_SPECTRUM, MASS_DEGREE);
-        let laplacian = (!damping.is_empty()).then(|| {
-            let held = has_held_pressure.then(|| gradient.with_held_pressure());
-            laplacian(held.as_ref().unwrap_or(gradient), damping, has_held_pressure)
-        });
+        let held = has_held_pressure.then(|| gradient.with_held_pressure());
+        let gradient = held.as_ref().unwrap_or(gradient);
+        let laplacian = laplacian(gradient, damping, has_held_pressure);
         let part = vec![[0.0]; mass.n_rows()];
         Self { mass, mass_inverse, laplacian, part }
     }
 
     fn n_bytes(&self) -> usize {
-        self.mass.n_bytes() + self.laplacian.as_ref().map_or(0, Hierarchy::n_bytes)
+        self.mass.n_bytes() + self.laplacian.n_bytes()
     }
 
     fn solve(&mut self, rhs: &[[f32; 1]], solution: &mut [[f32; 1]]) {
         self.mass_inverse.solve(&self.mass, rhs, solution);
-        if let Some(laplacian) = &mut self.laplacian {
-            laplacian.cycle(rhs, &mut self.part);
-            for (value, part) in solution.iter_mut().zip(&self.part) {
-                value[0] += part[0];
-            }
+        self.laplacian.cycle(rhs, &mut self.part);
+        for (value, part) in solution.iter_mut().zip(&self.part) {
+            value[0] += part[0];
         }
     }
 }

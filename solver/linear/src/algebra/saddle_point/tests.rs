@@ -1,14 +1,12 @@
 //! Parts of the preconditioner against what they stand for, on systems of a few unknowns.
 
-use std::sync::Arc;
-
-use super::blocks::{transfer, velocity_block};
 use super::commutator::Commutator;
 use super::damping::damping_at_nodes;
-use super::gradient::Gradient;
+use super::matrix::SaddleMatrix;
 use super::numbering::Numbering;
+use super::transfer::transfer;
 use super::{Interpolation, Part, SaddlePoint, Weights};
-use crate::algebra::Term;
+use crate::algebra::{CellFolds, CellMaps, ConstraintBuilder, Term};
 use crate::sparse::index::to_u32;
 use crate::sparse::single::single;
 use crate::sparse::{Pattern, SparseMatrix};
@@ -30,11 +28,21 @@ fn system() -> SaddlePoint {
     }
 }
 
-/// A dense matrix with different entries.
-fn matrix() -> SparseMatrix {
-    let n = 6;
-    let pattern = Pattern::from_columns((0..n).map(|_| 0..n));
-    SparseMatrix::new(pattern, (0..n * n).map(|entry| 1.0 + entry as f64).collect())
+/// A matrix from one cell that has all unknowns, with what stands in each row and column.
+fn matrix(system: &SaddlePoint, entry: impl Fn(usize, usize) -> f64) -> SaddleMatrix {
+    let n = system.parts.len();
+    let constraints = ConstraintBuilder::new(n).build();
+    let folds = CellFolds::new(n, (0..n).map(to_u32).collect(), &constraints);
+    let mut matrix = SaddleMatrix::new(system, &folds.unknowns(&constraints));
+    let values: Vec<f64> = (0..n * n).map(|index| entry(index % n, index / n)).collect();
+    matrix.add_cell(0, &values);
+    matrix.complete();
+    matrix
+}
+
+/// Different entries, but for the rows of pressures, which are their columns.
+fn different(row: usize, column: usize) -> f64 {
+    f64::from(if (3..5).contains(&row) { value(column, row) } else { value(row, column) })
 }
 
 fn value(row: usize, column: usize) -> f32 {
@@ -43,20 +51,20 @@ fn value(row: usize, column: usize) -> f32 {
 
 #[test]
 fn velocities_stand_in_blocks_with_bodies_last() {
-    let system = system();
-    let numbering = Numbering::new(&system);
+    let numbering = Numbering::new(&system());
     assert_eq!((numbering.n_nodes, numbering.n_bodies), (2, 1));
     assert_eq!(numbering.blocks[1], [Some(2), None, None]);
     assert_eq!(numbering.blocks[2..], [[None; 3], [None, None, Some(5)]]);
     assert_eq!(numbering.pressures, [3, 4]);
-    let block = velocity_block(&matrix(), &numbering);
+    let matrix = matrix(&system(), different);
+    let block = matrix.velocity();
     let mut y = vec![[0.0; 3]; 4];
     // Unknown 1 alone
     block.multiply(&[[0.0, 1.0, 0.0], [0.0; 3], [0.0; 3], [0.0; 3]], &mut y);
     assert_eq!(y[0], [value(0, 1), value(1, 1), 0.0]);
     assert_eq!(y[1], [value(2, 1), 0.0, 0.0]);
     assert_eq!(y[3], [0.0, 0.0, value(5, 1)]);
-    let unknowns = system.unknowns();
+    let unknowns = system().unknowns();
     assert_eq!(unknowns.dense, [5]);
     assert_eq!(unknowns.is_pressure, [false, false, false, true, true, false]);
     assert_eq!(unknowns.node[..5], [7, 7, 4, 7, 4]);
@@ -64,8 +72,8 @@ fn velocities_stand_in_blocks_with_bodies_last() {
 
 #[test]
 fn components_that_are_no_unknowns_leave_the_block_regular() {
-    let numbering = Numbering::new(&system());
-    let block = velocity_block(&matrix(), &numbering);
+    let matrix = matrix(&system(), different);
+    let block = matrix.velocity();
     let mut y = vec![[0.0; 3]; 4];
     block.multiply(&[[0.0; 3], [0.0, 1.0, 1.0], [0.0; 3], [1.0, 0.0, 0.0]], &mut y);
     assert_eq!(y[1], [0.0, value(2, 2), value(2, 2)]);
@@ -92,8 +100,8 @@ fn the_transfer_takes_a_node_from_another_and_from_a_body() {
 
 #[test]
 fn the_laplacian_is_the_product_of_gradients() {
-    let numbering = Numbering::new(&system());
-    let gradient = Gradient::new(&matrix(), &numbering);
+    let matrix = matrix(&system(), different);
+    let gradient = matrix.gradient();
     let mut u = vec![[0.0; 3]; 4];
     gradient.multiply_add(&[1.0, 0.0], &mut u);
     assert_eq!(u[0], [value(0, 3), value(1, 3), 0.0]);
@@ -120,7 +128,6 @@ fn the_laplacian_is_the_product_of_gradients() {
 
 #[test]
 fn the_commutator_inverts_the_schur_complement_of_a_diagonal_block() {
-    let numbering = Numbering::new(&system());
     let (diagonal, gradient) = ([2.0, 4.0, 8.0], [[1.0, 0.0], [2.0, 1.0], [0.0, 3.0]]);
     // F diagonal, without the body
     let entry = |row: usize, column: usize| match (row, column) {
@@ -129,11 +136,9 @@ fn the_commutator_inverts_the_schur_complement_of_a_diagonal_block() {
         (3..5, 0..3) => gradient[column][row - 3],
         _ => 0.0,
     };
-    let values = (0..36).map(|index| entry(index % 6, index / 6)).collect();
-    let matrix = SparseMatrix::new(Pattern::from_columns((0..6).map(|_| 0..6)), values);
-    let block = Arc::new(velocity_block(&matrix, &numbering));
-    let of_matrix = Gradient::new(&matrix, &numbering);
-    let mut commutator = Commutator::new(&block, &of_matrix, &numbering, false);
+    let matrix = matrix(&system(), entry);
+    let (block, of_matrix) = (matrix.velocity(), matrix.gradient());
+    let mut commutator = Commutator::new(block, of_matrix, matrix.numbering(), false);
     let p = [3.0f64, -2.0];
     let schur = |row: usize| -> f64 {
         let terms = (0..3).flat_map(|velocity| {
@@ -143,54 +148,61 @@ fn the_commutator_inverts_the_schur_complement_of_a_diagonal_block() {
         terms.sum()
     };
     let mut solution = [[f32::NAN]; 2];
-    commutator.solve(&[[single(schur(0))], [single(schur(1))]], &mut solution);
+    commutator.solve(block, &[[single(schur(0))], [single(schur(1))]], &mut solution);
     for (found, expected) in solution.iter().zip(p) {
         assert!((f64::from(found[0]) - expected).abs() < 1e-5 * expected.abs(), "{solution:?}");
     }
 }
 
-/// A film of width g between walls: linear elements across it, 4/3 of a Laplacian for each component.
-#[test]
-fn the_damping_between_walls_is_that_of_a_film() {
-    let (n, width, viscosity) = (63, 0.2, 3.0);
+/// Linear elements across a film of width g between walls: 4/3 of a Laplacian for each of three components, and
+/// a lumped mass.
+fn film(width: f64, n: usize, viscosity: f64, inertia: f64) -> SaddleMatrix {
     let axes: [u8; 3] = [0, 1, 2];
     let h = width / (n + 1) as f64;
     let of_node = |node| axes.map(|component| Part::Velocity { node: to_u32(node), component });
-    let parts = (0..n).flat_map(of_node);
-    let system = SaddlePoint { parts: parts.collect(), has_held_pressure: false };
-    let numbering = Numbering::new(&system);
-    let rows = |unknown: usize| {
-        let near = [unknown.checked_sub(3), Some(unknown), Some(unknown + 3)];
-        near.into_iter().flatten().filter(|row| *row < 3 * n)
-    };
+    let parts = (0..n).flat_map(of_node).collect();
+    let system = SaddlePoint { parts, has_held_pressure: false };
+    // Nodes on the walls come first and last
+    let mut builder = ConstraintBuilder::new(3 * (n + 2));
+    (0..3).chain(3 * (n + 1)..3 * (n + 2)).for_each(|raw| builder.fix(raw, 0.0));
+    let constraints = builder.build();
+    let raw = (0..=n).flat_map(|cell| (0..6).map(move |local| to_u32(3 * cell + local)));
+    let folds = CellFolds::new(6, raw.collect(), &constraints);
+    let mut matrix = SaddleMatrix::new(&system, &folds.unknowns(&constraints));
     let stiffness = 4.0 / 3.0 * viscosity / h;
+    let entry = |row: usize, column: usize| match row.abs_diff(column) {
+        0 => stiffness + 0.5 * inertia * h,
+        3 => -stiffness,
+        _ => 0.0,
+    };
+    let values: Vec<f64> = (0..36).map(|index| entry(index % 6, index / 6)).collect();
+    (0..=n).for_each(|cell| matrix.add_cell(cell, &values));
+    matrix.complete();
+    matrix
+}
+
+#[test]
+fn the_damping_between_walls_is_that_of_a_film() {
+    let (n, width, viscosity) = (63, 0.2, 3.0);
+    let h = width / (n + 1) as f64;
     for inertia in [0.0, 1e6] {
-        let mass = inertia * h;
-        let entry = |row: usize, column: usize| {
-            if row == column { 2.0 * stiffness + mass } else { -stiffness }
-        };
-        let values = (0..3 * n).flat_map(|column| rows(column).map(move |row| entry(row, column)));
-        let pattern = Pattern::from_columns((0..3 * n).map(rows));
-        let matrix = SparseMatrix::new(pattern, values.collect());
-        let block = velocity_block(&matrix, &numbering);
+        let matrix = film(width, n, viscosity, inertia);
         let mut interpolation = Interpolation::with_capacity(3 * n);
         for unknown in 0..3 * n {
             let is_coarse = unknown / 3 % 2 == 1;
-            let of = if is_coarse {
-                vec![unknown]
-            } else {
-                rows(unknown).filter(|row| *row != unknown).collect()
-            };
+            let near = [unknown.checked_sub(3), Some(unknown + 3).filter(|row| *row < 3 * n)];
+            let of = if is_coarse { [Some(unknown), None] } else { near };
             let weight = if is_coarse { 1.0 } else { 0.5 };
-            interpolation.push(of.into_iter().map(|row| Term { unknown: to_u32(row), weight }));
+            let terms = of.into_iter().flatten();
+            interpolation.push(terms.map(|row| Term { unknown: to_u32(row), weight }));
         }
         let pressure_mass =
             SparseMatrix::new(Pattern::from_columns(std::iter::empty::<[usize; 0]>()), Vec::new());
         let lumped_mass = vec![h; 3 * n];
-        let transfer = transfer(&interpolation, &numbering);
+        let transfer = transfer(&interpolation, matrix.numbering());
         let weights =
             Weights { interpolation, pressure_mass, lumped_mass, inertia, has_convection: false };
-        let damping = damping_at_nodes(&block, &transfer, &numbering, &weights);
+        let damping = damping_at_nodes(matrix.velocity(), &transfer, matrix.numbering(), &weights);
         let mobility: f64 = damping.iter().map(|d| h * h / f64::from(d[1])).sum();
         // Mean of y (g - y) / 2 mu, which is g^2 / 12 mu; with inertia alone its inverse
         let expected =
@@ -198,4 +210,72 @@ fn the_damping_between_walls_is_that_of_a_film() {
         let relative = mobility / width / expected - 1.0;
         assert!(relative.abs() < 0.03, "{inertia}: {relative}");
     }
+}
+
+/// Cells with a folded one, given values, and a body: what `CellMaps` stores is stored.
+#[test]
+fn cells_add_up_to_the_same_matrix_in_blocks_and_in_columns() {
+    let velocity = |node, component| Part::Velocity { node, component };
+    let parts = vec![
+        velocity(0, 0),
+        velocity(0, 2),
+        velocity(1, 0),
+        velocity(1, 1),
+        velocity(1, 2),
+        Part::Pressure { node: 0 },
+        Part::Pressure { node: 1 },
+        Part::Rigid { body: 0, mode: 1 },
+        Part::Rigid { body: 0, mode: 5 },
+    ];
+    let is_pressure = |unknown: usize| (5..7).contains(&unknown);
+    let system = SaddlePoint { parts, has_held_pressure: false };
+    // Raw unknown 9 is given, 10 moves with the body, 11 is a periodic copy
+    let mut builder = ConstraintBuilder::new(12);
+    builder.fix(9, 1.0);
+    let terms = [(7, 1.0), (8, -0.3)].map(|(unknown, weight)| Term { unknown, weight });
+    builder.constrain(10, terms.to_vec(), 0.0);
+    builder.equate(11, 3);
+    let constraints = builder.build();
+    let raw = vec![0, 1, 2, 9, 5, 6, 10, 3, 4, 5, 6, 11, 0, 10, 2, 9, 5, 6];
+    let folds = CellFolds::new(6, raw, &constraints);
+    let cells = folds.unknowns(&constraints);
+    let maps = CellMaps::new(&cells, |row, column| !(is_pressure(row) && is_pressure(column)));
+    let mut expected = SparseMatrix::zeros(std::sync::Arc::clone(maps.pattern()));
+    let mut matrix = SaddleMatrix::new(&system, &cells);
+    for cell in 0..folds.n_cells() {
+        // Symmetric, as pressures are; a third has no end in either precision
+        let entry = |row: usize, column: usize| {
+            ((row + 1) * (column + 1) + cell) as f64 / 3.0 + (row + column) as f64
+        };
+        let raw: Vec<f64> = (0..36).map(|index| entry(index % 6, index / 6)).collect();
+        let mut folded = vec![0.0; folds.largest_matrix()];
+        let values = if folds.is_folded(cell) {
+            folds.fold(cell, &constraints, &raw, &mut folded);
+            &folded
+        } else {
+            &raw
+        };
+        maps.scatter(cell, values, expected.values_mut());
+        matrix.add_cell(cell, values);
+    }
+    matrix.add(7, 8, 0.25);
+    let entry = maps.pattern().entry(7, 8).expect("bodies are in a cell");
+    expected.values_mut()[entry] += 0.25;
+    matrix.complete();
+    let n = system.parts.len();
+    let sparse = matrix.to_sparse();
+    for unknown in 0..n {
+        let mut x = vec![0.0; n];
+        x[unknown] = 1.0;
+        let [mut found, mut wanted, mut of_sparse] = [(); 3].map(|()| vec![0.0; n]);
+        matrix.multiply(&x, &mut found);
+        expected.multiply_add(&x, &mut wanted);
+        sparse.multiply_add(&x, &mut of_sparse);
+        for row in 0..n {
+            assert!((found[row] - wanted[row]).abs() <= 1e-13 * wanted[row].abs(), "{unknown}");
+            assert!((of_sparse[row] - wanted[row]).abs() <= 1e-13 * wanted[row].abs());
+        }
+    }
+    matrix.clear();
+    assert!(matrix.numbers().all(|number| number == [0.0; 2]));
 }

@@ -1,0 +1,334 @@
+//! `SaddleMatrix`: a saddle-point matrix in blocks, each number the sum of two in single precision.
+//!
+//! The leading numbers are what the preconditioner computes with, so that it needs no copy; with the rest, 48
+//! bits together, residuals have the accuracy of double precision.
+
+use std::ops::Range;
+
+use rayon::prelude::*;
+
+use super::super::cell_unknowns::CellUnknowns;
+use super::block_maps::{BlockMaps, BlockPattern, CellBlocks, RowsOfCells};
+use super::data::SaddlePoint;
+use super::gradient::Gradient;
+use super::numbering::{Numbering, Place};
+use super::vector::B;
+use crate::multigrid::{Block, BlockMatrix};
+use crate::sparse::index::to_u32;
+use crate::sparse::single::single;
+use crate::sparse::{Pattern, Revision, SparseMatrix};
+
+/// Rows that one task works on.
+const ROWS: usize = 256;
+/// Parts of the rows whose products with pressures are summed up on their own, whatever the number of threads.
+const PARTS: usize = 4;
+
+/// The matrix [F G; G^T 0] on the unknowns of a system.
+///
+/// Columns of the rows ascend. Of G^T nothing is stored: cells give its transposed.
+#[derive(Debug)]
+pub struct SaddleMatrix {
+    numbering: Numbering,
+    maps: BlockMaps,
+    /// F.
+    velocity: BlockMatrix<B>,
+    velocity_rest: Vec<Block<B>>,
+    /// G.
+    gradient: Gradient,
+    gradient_rest: Vec<[f32; B]>,
+    revision: Revision,
+}
+
+/// Velocities in blocks, and pressures.
+struct Vectors {
+    velocity: Vec<[f64; B]>,
+    pressure: Vec<f64>,
+}
+
+impl SaddleMatrix {
+    /// Zeros, for cells with these unknowns.
+    ///
+    /// # Panics
+    /// When parts and cells have different numbers of unknowns.
+    #[must_use]
+    pub fn new(system: &SaddlePoint, cells: &CellUnknowns) -> Self {
+        assert_eq!(system.parts.len(), cells.n(), "a part for each unknown");
+        let numbering = Numbering::new(system);
+        let of_cells = RowsOfCells::new(cells, &numbering);
+        let BlockPattern { columns, pressures } = of_cells.pattern(&numbering);
+        let velocity = BlockMatrix::zeros(columns, numbering.blocks.len());
+        let gradient = Gradient::zeros(pressures, numbering.pressures.len());
+        let maps = BlockMaps::new(cells, &numbering, &of_cells, &velocity, &gradient);
+        Self {
+            maps,
+            velocity_rest: velocity.blocks().to_vec(),
+            gradient_rest: gradient.values().to_vec(),
+            velocity,
+            gradient,
+            numbering,
+            revision: Revision::default(),
+        }
+    }
+
+    /// Number of unknowns.
+    #[must_use]
+    pub fn n(&self) -> usize {
+        self.numbering.places.len()
+    }
+
+    /// Number of stored entries, blocks as wholes.
+    #[must_use]
+    pub fn n_entries(&self) -> usize {
+        B * (B * self.velocity.n_blocks() + self.gradient.values().len())
+    }
+
+    /// The state of the values.
+    #[must_use]
+    pub fn revision(&self) -> &Revision {
+        &self.revision
+    }
+
+    pub(super) fn numbering(&self) -> &Numbering {
+        &self.numbering
+    }
+
+    /// F in single precision. Components that are no unknowns have the mean of the others on their diagonal.
+    pub(super) fn velocity(&self) -> &BlockMatrix<B> {
+        &self.velocity
+    }
+
+    /// G in single precision.
+    pub(super) fn gradient(&self) -> &Gradient {
+        &self.gradient
+    }
+
+    /// Whether all values are finite.
+    pub(super) fn is_finite(&self) -> bool {
+        let mut values = self.numbers();
+        values.all(|[leading, rest]| leading.is_finite() && rest.is_finite())
+    }
+
+    /// All numbers, with the rest of each.
+    pub(crate) fn numbers(&self) -> impl Iterator<Item = [f32; 2]> {
+        let velocity = self.velocity.blocks().as_flattened().as_flattened().iter();
+        let velocity = velocity.zip(self.velocity_rest.as_flattened().as_flattened());
+        let gradient = self.gradient.values().as_flattened().iter();
+        let gradient = gradient.zip(self.gradient_rest.as_flattened());
+        velocity.chain(gradient).map(|(leading, rest)| [*leading, *rest])
+    }
+
+    /// Sets all values to zero.
+    pub fn clear(&mut self) {
+        self.revision.advance();
+        self.velocity.blocks_mut().fill([[0.0; B]; B]);
+        self.velocity_rest.fill([[0.0; B]; B]);
+        self.gradient.values_mut().fill([0.0; B]);
+        self.gradient_rest.fill([0.0; B]);
+    }
+
+    /// Adds the matrix of a cell, column by column and folded where it has to be. Rows of pressures are
+    /// not read: they are the columns of pressures.
+    pub fn add_cell(&mut self, cell: usize, matrix: &[f64]) {
+        let CellBlocks { size, rows, pressures, blocks, entries } = self.maps.of_cell(cell);
+        // Nothing where there is no unknown: `NO_ROW` is beyond all columns
+        let column =
+            |column: u16| matrix.chunks_exact(size.max(1)).nth(usize::from(column)).unwrap_or(&[]);
+        let value = |column: &[f64], row: u16| column.get(usize::from(row)).copied().unwrap_or(0.0);
+        // Cells whose velocities are all given have neither rows nor entries
+        let n_rows = rows.len().max(1);
+        let (leading, rest) = (self.velocity.blocks_mut(), &mut self.velocity_rest);
+        for (columns, blocks) in rows.iter().zip(blocks.chunks_exact(n_rows)) {
+            let columns = columns.map(column);
+            for (rows, &index) in rows.iter().zip(blocks) {
+                let (leading, rest) = (&mut leading[index as usize], &mut rest[index as usize]);
+                for b in 0..B {
+                    for a in 0..B {
+                        add(&mut leading[b][a], &mut rest[b][a], value(columns[b], rows[a]));
+                    }
+                }
+            }
+        }
+        let (leading, rest) = (self.gradient.values_mut(), &mut self.gradient_rest);
+        for (&pressure, entries) in pressures.iter().zip(entries.chunks_exact(n_rows)) {
+            let column = column(pressure);
+            for (rows, &index) in rows.iter().zip(entries) {
+                let (leading, rest) = (&mut leading[index as usize], &mut rest[index as usize]);
+                for a in 0..B {
+                    add(&mut leading[a], &mut rest[a], value(column, rows[a]));
+                }
+            }
+        }
+    }
+
+    /// Adds to the entry of two velocities, if it is stored.
+    pub fn add(&mut self, row: usize, column: usize, value: f64) {
+        self.revision.advance();
+        let [row, column] = [row, column].map(|unknown| self.numbering.places[unknown]);
+        let Place::Velocity { row, component: a } = row else { return };
+        let Place::Velocity { row: column, component: b } = column else { return };
+        let Some(index) = self.velocity.find(row as usize, column) else { return };
+        let [a, b] = [a, b].map(usize::from);
+        let leading = &mut self.velocity.blocks_mut()[index][b][a];
+        add(leading, &mut self.velocity_rest[index][b][a], value);
+    }
+
+    /// Gives components that are no unknowns a diagonal entry, once all has been added.
+    pub fn complete(&mut self) {
+        for (row, unknowns) in self.numbering.blocks.iter().enumerate() {
+            if unknowns.iter().all(Option::is_some) {
+                continue;
+            }
+            if let Some(index) = self.velocity.find(row, to_u32(row)) {
+                pad_diagonal(unknowns, &mut self.velocity.blocks_mut()[index]);
+            }
+        }
+    }
+
+    /// Overwrites y with A x.
+    pub(super) fn multiply(&self, x: &[f64], y: &mut [f64]) {
+        let Vectors { velocity, pressure } = self.split(x);
+        let mut result = Vectors {
+            velocity: vec![[0.0; B]; velocity.len()],
+            pressure: self.divergence(&velocity),
+        };
+        result.velocity.par_chunks_mut(ROWS).enumerate().for_each(|(chunk, rows)| {
+            for (offset, sum) in rows.iter_mut().enumerate() {
+                *sum = self.row_product(chunk * ROWS + offset, &velocity, &pressure);
+            }
+        });
+        for (place, y) in self.numbering.places.iter().zip(y) {
+            *y = match *place {
+                Place::Velocity { row, component } => {
+                    result.velocity[row as usize][usize::from(component)]
+                }
+                Place::Pressure(index) => result.pressure[index as usize],
+            };
+        }
+    }
+
+    fn split(&self, values: &[f64]) -> Vectors {
+        let Numbering { places, blocks, pressures, .. } = &self.numbering;
+        let mut vectors = Vectors {
+            velocity: vec![[0.0; B]; blocks.len()],
+            pressure: vec![0.0; pressures.len()],
+        };
+        for (place, &value) in places.iter().zip(values) {
+            match *place {
+                Place::Velocity { row, component } => {
+                    vectors.velocity[row as usize][usize::from(component)] = value;
+                }
+                Place::Pressure(index) => vectors.pressure[index as usize] = value,
+            }
+        }
+        vectors
+    }
+
+    /// A row of F u + G p.
+    fn row_product(&self, row: usize, u: &[[f64; B]], p: &[f64]) -> [f64; B] {
+        let mut sum = [0.0; B];
+        let entries = self.velocity.entries(row);
+        let blocks = self.velocity.blocks()[entries.clone()].iter();
+        let blocks = blocks.zip(&self.velocity_rest[entries]);
+        for (&column, (leading, rest)) in self.velocity.columns(row).iter().zip(blocks) {
+            let u = &u[column as usize];
+            for b in 0..B {
+                for a in 0..B {
+                    sum[a] += (f64::from(leading[b][a]) + f64::from(rest[b][a])) * u[b];
+                }
+            }
+        }
+        let entries = self.gradient.entries(row);
+        let values = self.gradient.values()[entries.clone()].iter();
+        let values = values.zip(&self.gradient_rest[entries.clone()]);
+        for (&pressure, (leading, rest)) in self.gradient.pressures()[entries].iter().zip(values) {
+            for a in 0..B {
+                sum[a] += (f64::from(leading[a]) + f64::from(rest[a])) * p[pressure as usize];
+            }
+        }
+        sum
+    }
+
+    /// G^T u.
+    fn divergence(&self, u: &[[f64; B]]) -> Vec<f64> {
+        let part = |rows: Range<usize>| {
+            let mut sums = vec![0.0; self.numbering.pressures.len()];
+            for (row, u) in rows.clone().zip(&u[rows]) {
+                for entry in self.gradient.entries(row) {
+                    let (leading, rest) =
+                        (self.gradient.values()[entry], self.gradient_rest[entry]);
+                    let value = |a: usize| f64::from(leading[a]) + f64::from(rest[a]);
+                    let sum: f64 = (0..B).map(|a| value(a) * u[a]).sum();
+                    sums[self.gradient.pressures()[entry] as usize] += sum;
+                }
+            }
+            sums
+        };
+        let n = u.len();
+        let parts: Vec<Range<usize>> =
+            (0..PARTS).map(|index| n * index / PARTS..n * (index + 1) / PARTS).collect();
+        let parts: Vec<Vec<f64>> = parts.into_par_iter().map(part).collect();
+        let mut sums = vec![0.0; self.numbering.pressures.len()];
+        for part in &parts {
+            sums.iter_mut().zip(part).for_each(|(sum, value)| *sum += value);
+        }
+        sums
+    }
+
+    /// The same with compressed columns, G^T included, for a direct solver.
+    #[must_use]
+    pub fn to_sparse(&self) -> SparseMatrix {
+        let Numbering { places, blocks, pressures, .. } = &self.numbering;
+        // Column of each unknown as rows with their values; both triangles have the same pattern
+        let mut columns: Vec<Vec<(u32, f64)>> = vec![Vec::new(); self.n()];
+        for (row, unknowns) in blocks.iter().enumerate() {
+            let own = || unknowns.iter().enumerate().filter_map(|(a, one)| one.map(|one| (a, one)));
+            for (&column, index) in
+                self.velocity.columns(row).iter().zip(self.velocity.entries(row))
+            {
+                let (leading, rest) = (self.velocity.blocks()[index], self.velocity_rest[index]);
+                for (b, other) in blocks[column as usize].iter().enumerate() {
+                    let Some(other) = other else { continue };
+                    for (a, one) in own() {
+                        let value = f64::from(leading[b][a]) + f64::from(rest[b][a]);
+                        columns[*other as usize].push((one, value));
+                    }
+                }
+            }
+            for index in self.gradient.entries(row) {
+                let pressure = pressures[self.gradient.pressures()[index] as usize];
+                let (leading, rest) = (self.gradient.values()[index], self.gradient_rest[index]);
+                for (a, one) in own() {
+                    let value = f64::from(leading[a]) + f64::from(rest[a]);
+                    columns[pressure as usize].push((one, value));
+                    columns[one as usize].push((pressure, value));
+                }
+            }
+        }
+        debug_assert_eq!(columns.len(), places.len());
+        columns.iter_mut().for_each(|column| column.sort_unstable_by_key(|(row, _)| *row));
+        let rows = |column: &Vec<(u32, f64)>| -> Vec<usize> {
+            column.iter().map(|(row, _)| *row as usize).collect()
+        };
+        let pattern = Pattern::from_columns(columns.iter().map(rows));
+        let values = columns.iter().flatten().map(|(_, value)| *value).collect();
+        SparseMatrix::new(pattern, values)
+    }
+}
+
+/// Adds to a number that is the sum of two.
+#[inline(always)]
+fn add(leading: &mut f32, rest: &mut f32, value: f64) {
+    let sum = f64::from(*leading) + f64::from(*rest) + value;
+    *leading = single(sum);
+    *rest = single(sum - f64::from(*leading));
+}
+
+/// Gives components that are no unknowns a diagonal entry.
+fn pad_diagonal(unknowns: &[Option<u32>; B], block: &mut Block<B>) {
+    let free = unknowns.iter().flatten().count().max(1);
+    let trace: f32 = (0..B).filter(|&a| unknowns[a].is_some()).map(|a| block[a][a]).sum();
+    let mean = if trace > 0.0 { trace / free as f32 } else { 1.0 };
+    for a in (0..B).filter(|&a| unknowns[a].is_none()) {
+        block[a][a] = mean;
+    }
+}
