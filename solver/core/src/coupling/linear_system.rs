@@ -293,10 +293,10 @@ fn prepared(solver: &mut Option<Box<IterativeSolver>>) -> &mut IterativeSolver {
 /// velocities and pressures of its mesh.
 ///
 /// Fitted to the peaks of 40 runs of planar cases with 7 10^3 to 5 10^4 free unknowns, which lie within
-/// 0.87 and 1.25 of it; 1.9 10^5 take 0.88 of it. In space, to four Stokes flows with 7 10^4 to 7 10^5,
-/// within 2 %.
+/// 0.87 and 1.25 of it; 1.9 10^5 take 0.88 of it. In space, to four Stokes flows with 7 10^4 to 1.2 10^6,
+/// within 9 %.
 #[must_use]
 pub fn memory_estimate(dimensions: usize, n_dofs: f64) -> f64 {
-    let of_ten_thousand = if dimensions == 3 { 21.5e6 } else { 33e6 };
+    let of_ten_thousand = if dimensions == 3 { 16e6 } else { 33e6 };
     12e6 + of_ten_thousand * n_dofs / 1e4
 }

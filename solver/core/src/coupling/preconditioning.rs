@@ -1,14 +1,16 @@
 //! Data of mesh, fluid and constraints that the preconditioner of an iterative solver is made from.
 
+use std::ops::Range;
 use std::sync::Arc;
 
-use alewife_mesh::{Mesh, NodeId, Simplex};
+use alewife_mesh::{CellId, Mesh, NodeId, Simplex};
 
 use crate::algebra::{
     AffineConstraints, CellFolds, CellMaps, ConstraintBuilder, Interpolation, Part, SaddlePoint,
     SparseMatrix, Term, Weights,
 };
 use crate::body::Modes;
+use crate::flow::for_each_cell;
 use crate::space::{CellValues, DofLayout, Tables};
 
 /// An index in 32 bits, as the linear algebra stores it.
@@ -128,38 +130,43 @@ impl<const D: usize> Discretised<'_, D> {
         let maps = CellMaps::new(&folds.unknowns(&constraints), |_, _| true);
         let mut values = vec![0.0; maps.pattern().n_entries()];
         let mut lumped_mass = vec![0.0; layout.n_nodes];
-        let mut workspace = CellValues::default();
-        let n = D + 1;
-        let mut matrix = vec![0.0; folds.largest_matrix()];
-        let mut folded = matrix.clone();
-        let mut squares = vec![0.0; Simplex::<D>::N_NODES];
-        for cell in mesh.cell_ids() {
-            matrix[..n * n].fill(0.0);
-            squares.fill(0.0);
-            let mut volume = 0.0;
-            workspace.for_each_point(tables, mesh, cell, |at| {
-                volume += at.dx;
-                for (square, phi) in squares.iter_mut().zip(at.phi) {
-                    *square += phi * phi * at.dx;
-                }
-                for (j, column) in at.psi.iter().enumerate() {
-                    for (i, row) in at.psi.iter().enumerate() {
-                        matrix[j * n + i] += factor * row * column * at.dx;
+        let mut folded = vec![0.0; folds.largest_matrix()];
+        let n_entries = (D + 1) * (D + 1);
+        let size = n_entries + Simplex::<D>::N_NODES;
+        let compute = |cells: Range<usize>, integrals: &mut [f64]| {
+            let mut workspace = CellValues::default();
+            for (cell, of_cell) in cells.map(CellId::new).zip(integrals.chunks_exact_mut(size)) {
+                let (matrix, lumped) = of_cell.split_at_mut(n_entries);
+                matrix.fill(0.0);
+                lumped.fill(0.0);
+                let mut volume = 0.0;
+                workspace.for_each_point(tables, mesh, cell, |at| {
+                    volume += at.dx;
+                    for (square, phi) in lumped.iter_mut().zip(at.phi) {
+                        *square += phi * phi * at.dx;
                     }
-                }
-            });
-            let scale = volume / squares.iter().sum::<f64>();
-            for (&node, square) in mesh.cell(cell).iter().zip(&squares) {
-                lumped_mass[node.index()] += square * scale;
+                    for (column, of_column) in at.psi.iter().zip(matrix.chunks_exact_mut(D + 1)) {
+                        for (row, entry) in at.psi.iter().zip(of_column) {
+                            *entry += factor * row * column * at.dx;
+                        }
+                    }
+                });
+                let scale = volume / lumped.iter().sum::<f64>();
+                lumped.iter_mut().for_each(|mass| *mass *= scale);
             }
-            let local = cell.index();
-            if folds.is_folded(local) {
-                folds.fold(local, &constraints, &matrix[..n * n], &mut folded);
-                maps.scatter(local, &folded, &mut values);
+        };
+        for_each_cell(mesh.n_cells(), size, compute, |cell, of_cell| {
+            let (matrix, lumped) = of_cell.split_at(n_entries);
+            for (&node, mass) in mesh.cell(CellId::new(cell)).iter().zip(lumped) {
+                lumped_mass[node.index()] += mass;
+            }
+            if folds.is_folded(cell) {
+                folds.fold(cell, &constraints, matrix, &mut folded);
+                maps.scatter(cell, &folded, &mut values);
             } else {
-                maps.scatter(local, &matrix, &mut values);
+                maps.scatter(cell, matrix, &mut values);
             }
-        }
+        });
         let pressure_mass = SparseMatrix::new(Arc::clone(maps.pattern()), values);
         Integrals { pressure_mass, lumped_mass }
     }

@@ -12,7 +12,7 @@ const CELLS_PER_TASK: usize = 64;
 /// of threads.
 ///
 /// While one thread adds what a block of cells gave, the others work on the next block.
-pub(super) fn for_each_cell(
+pub(crate) fn for_each_cell(
     n_cells: usize,
     size: usize,
     compute: impl Fn(Range<usize>, &mut [f64]) + Sync,
