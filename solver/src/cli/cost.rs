@@ -1,7 +1,8 @@
 //! What a run would cost: steps, linear systems, new meshes, and the CPU time and memory for them.
 
 use crate::case::{
-    Convection, FlowModel, Geometry, JointKind, Model, Motion, Scheme, TimeSettings, Unsteady,
+    Adaptive, Convection, FlowModel, Geometry, JointKind, Model, Motion, Scheme, TimeSettings,
+    Unsteady,
 };
 use crate::coupling::memory_estimate;
 use crate::simulation::DOFS_OF_CELL;
@@ -23,8 +24,19 @@ const START_SYSTEMS: f64 = 5.0;
 const NEWTON_SYSTEMS: f64 = 2.7;
 /// Linear systems of a steady flow with convection.
 const STEADY_SYSTEMS: f64 = 6.0;
-/// Steps of an adaptive run besides those of its largest step.
-const ADAPTIVE_STEPS: f64 = 120.0;
+/// Part of a pass that one takes once nothing moves any more, on a mesh that could: old factors serve.
+const OF_STILL_PASS: f64 = 0.55;
+/// Steps of an adaptive run until their size is that of its error, without and with inertia, where it
+/// begins with an acceleration and steps get longer by a fifth each.
+const FIRST_STEPS: [f64; 2] = [12.0, 30.0];
+/// Part of a gap that closes in a step, over the third root of the tolerance: errors of gaps count ten times,
+/// and go with the third power of that part.
+const CLOSING: f64 = 0.5;
+/// Steps in which a body in contact loses its speed down to a thousandth, where steps no longer follow it.
+const SETTLING_STEPS: f64 = 60.0;
+/// Passes of these steps with inertia besides the first: of a round body, and of one that contact turns as
+/// well.
+const MORE_PASSES: [f64; 2] = [0.4, 1.8];
 /// CPU time of a new mesh with 10^4 unknowns (s), and with inertia, which asks for projections.
 const NEW_MESH: [f64; 2] = [0.05, 0.12];
 /// New meshes for each reach that bodies move.
@@ -90,10 +102,15 @@ impl Cost {
         let pass = PASS * (unknowns / 1e4).powf(GROWTH);
         let flow = model.case.fluid.model;
         let part = match (&model.case.time, model.mesh_moves()) {
+            (TimeSettings::Steady(_), _) => 1.0,
             (TimeSettings::Unsteady(_), false) => {
                 ON_FIXED_MESH[usize::from(flow == FlowModel::NavierStokes)]
             }
-            _ => 1.0,
+            (TimeSettings::Unsteady(time), true) => {
+                let still =
+                    model.time_to_stop().map_or(0.0, |stop| (1.0 - stop / time.end).max(0.0));
+                1.0 - still * (1.0 - OF_STILL_PASS)
+            }
         };
         let new_meshes = n_new_meshes(model);
         let inertia = usize::from(flow != FlowModel::Stokes);
@@ -160,7 +177,18 @@ pub fn n_steps(model: &Model, time: &Unsteady, shortest_edge: f64) -> f64 {
     let crossing = model.expected_speed().map(|speed| adaptive.cfl * shortest_edge / speed);
     let moving = crossing.unwrap_or(largest).min(largest);
     let rest = model.time_to_rest().unwrap_or(time.end).min(time.end);
-    rest / moving + (time.end - rest) / largest + ADAPTIVE_STEPS
+    rest / moving + (time.end - rest) / largest + steps_by_error(model, adaptive)
+}
+
+/// Steps of an adaptive run that are as long as their error allows.
+fn steps_by_error(model: &Model, adaptive: &Adaptive) -> f64 {
+    let has_inertia = model.case.fluid.model != FlowModel::Stokes;
+    let met = model.encounters();
+    let closing = met.iter().map(|met| met.closing).fold(0.0, f64::max);
+    let part = (CLOSING * adaptive.tolerance.cbrt()).min(adaptive.gap);
+    let settles = has_inertia && model.case.contact.is_some() && !met.is_empty();
+    let settling = if settles { SETTLING_STEPS * model.bouncing().max(1.0) } else { 0.0 };
+    FIRST_STEPS[usize::from(has_inertia)] + closing / part + settling
 }
 
 /// Steps of an unsteady run.
@@ -182,7 +210,7 @@ fn n_systems(model: &Model, shortest_edge: f64) -> f64 {
     let is_newton =
         time.convection == Convection::Newton && case.fluid.model == FlowModel::NavierStokes;
     let iterations = if is_newton { NEWTON_SYSTEMS } else { 1.0 };
-    let steps = n_steps(model, time, shortest_edge);
+    let steps = n_steps(model, time, shortest_edge) + more_passes(model, time);
     START_SYSTEMS + (steps + trial_steps(model, time)) * passes(model, time) * iterations
 }
 
@@ -192,6 +220,15 @@ fn trial_steps(model: &Model, time: &Unsteady) -> f64 {
     let longest = periods.fold(0.0, f64::max);
     let is_made = model.case.fluid.model == FlowModel::Stokes && time.adaptive.is_none();
     if is_made && longest <= time.end { 0.5 * longest / time.step } else { 0.0 }
+}
+
+/// Passes of an adaptive run with contact besides one of each step.
+fn more_passes(model: &Model, time: &Unsteady) -> f64 {
+    let has_inertia = model.case.fluid.model != FlowModel::Stokes;
+    let Some(adaptive) = time.adaptive.as_ref().filter(|_| has_inertia) else { return 0.0 };
+    let is_turned = model.bodies.iter().any(|body| body.turns() && !body.is_round());
+    let more = MORE_PASSES[usize::from(is_turned)];
+    if model.case.contact.is_some() { more * steps_by_error(model, adaptive) } else { 0.0 }
 }
 
 /// Passes of a step: until bodies are where the mesh was made for.
