@@ -20,7 +20,7 @@ pub struct Encounter {
     pub time: f64,
     /// Cells that the film takes on a mesh with as many layers as are wanted (1).
     pub film_cells: f64,
-    /// Logarithm of the gap at the start over that at the end (1).
+    /// Logarithm of the gap at the start, or of the radius if that is less, over the gap at the end (1).
     pub closing: f64,
 }
 
@@ -104,7 +104,8 @@ impl Model {
     pub fn expected_paths(&self, end: f64) -> f64 {
         let paths: Vec<Path> = (0..self.bodies.len()).map(|body| self.path(body)).collect();
         let of_body = |(body, path): (usize, &Path)| {
-            let way_end = if keeps_away(&self.bodies[body]) {
+            let is_pushed_back = keeps_away(&self.bodies[body]) && !self.bodies[body].turns();
+            let way_end = if is_pushed_back {
                 self.meeting(&paths, body).map(|met| met.time)
             } else {
                 self.time_to_wall(path)
@@ -233,7 +234,9 @@ impl Model {
         };
         let film_cells = share * planes * 6.2 * layers * layers * (radius / gap).sqrt();
         let last = range.map_or_else(|| self.drained(speed, radius), |range| 0.5 * range);
-        Encounter { time, film_cells, closing: (speed * time / last).max(1.0).ln() }
+        // From further away it comes at a speed that hardly changes
+        let first = (speed * time).min(radius);
+        Encounter { time, film_cells, closing: (first / last).max(1.0).ln() }
     }
 
     /// The gap that lubrication leaves at the end of a run between bodies that are pushed together by the

@@ -1,8 +1,8 @@
 //! What a run would cost: steps, linear systems, new meshes, and the CPU time and memory for them.
 
 use crate::case::{
-    Adaptive, Convection, FlowModel, Geometry, JointKind, Model, Motion, Scheme, TimeSettings,
-    Unsteady,
+    Adaptive, Body, Convection, FlowModel, Geometry, JointKind, Model, Motion, Scheme,
+    TimeSettings, Unsteady,
 };
 use crate::coupling::memory_estimate;
 use crate::simulation::DOFS_OF_CELL;
@@ -26,6 +26,10 @@ const NEWTON_SYSTEMS: f64 = 2.7;
 const STEADY_SYSTEMS: f64 = 6.0;
 /// Part of a pass that one takes once nothing moves any more, on a mesh that could: old factors serve.
 const OF_STILL_PASS: f64 = 0.55;
+/// Part of a pass that a stage of `rk3` takes: half of them are solved with old factors.
+const OF_EXPLICIT_PASS: f64 = 0.8;
+/// The same where the mesh turns with a body, which nearly always asks for new factors.
+const OF_TURNING_PASS: f64 = 1.35;
 /// Steps of an adaptive run until their size is that of its error, without and with inertia, where it
 /// begins with an acceleration and steps get longer by a fifth each.
 const FIRST_STEPS: [f64; 2] = [12.0, 30.0];
@@ -48,8 +52,6 @@ const REMESHED_MEMORY: [f64; 2] = [1.7, 2.3];
 
 // In space, fitted to runs with 7 10^4 to 7 10^5 unknowns, which are solved for by iterations.
 
-/// CPU time of mesh, analysis and files with 10^5 unknowns (s); it goes with their number.
-const START_IN_SPACE: f64 = 0.85;
 /// CPU time of a linear system of a steady flow with 10^5 unknowns (s): assembly, preconditioner,
 /// iterations, loads. It goes with the unknowns.
 const SYSTEM_IN_SPACE: f64 = 2.4;
@@ -87,6 +89,8 @@ pub struct FirstMesh {
     pub on_mesh: usize,
     /// Length of its shortest edge (m).
     pub shortest_edge: f64,
+    /// CPU time it took (s).
+    pub seconds: f64,
 }
 
 impl Cost {
@@ -101,17 +105,7 @@ impl Cost {
         let systems = n_systems(model, mesh.shortest_edge);
         let pass = PASS * (unknowns / 1e4).powf(GROWTH);
         let flow = model.case.fluid.model;
-        let part = match (&model.case.time, model.mesh_moves()) {
-            (TimeSettings::Steady(_), _) => 1.0,
-            (TimeSettings::Unsteady(_), false) => {
-                ON_FIXED_MESH[usize::from(flow == FlowModel::NavierStokes)]
-            }
-            (TimeSettings::Unsteady(time), true) => {
-                let still =
-                    model.time_to_stop().map_or(0.0, |stop| (1.0 - stop / time.end).max(0.0));
-                1.0 - still * (1.0 - OF_STILL_PASS)
-            }
-        };
+        let part = part_of_pass(model);
         let new_meshes = n_new_meshes(model);
         let inertia = usize::from(flow != FlowModel::Stokes);
         let start = NEW_MESH[0] * mesh.free as f64 / 1e4;
@@ -138,11 +132,34 @@ impl Cost {
             systems,
             new_meshes: 0.0,
             in_films: 0.0,
-            seconds: START_IN_SPACE * unknowns + in_systems,
+            seconds: mesh.seconds + in_systems,
             step_seconds: steps.map(|steps| in_systems * (1.0 - START_SYSTEMS / systems) / steps),
             memory: growth * memory_estimate(3, mesh.on_mesh as f64),
         }
     }
+}
+
+/// What a pass takes over one on a moving mesh.
+fn part_of_pass(model: &Model) -> f64 {
+    let TimeSettings::Unsteady(time) = &model.case.time else { return 1.0 };
+    if !model.mesh_moves() {
+        return ON_FIXED_MESH[usize::from(model.case.fluid.model == FlowModel::NavierStokes)];
+    }
+    let still = model.time_to_stop().map_or(0.0, |stop| (1.0 - stop / time.end).max(0.0));
+    let turns = |body: &Body| {
+        body.motion == Motion::Free && body.turns() && !body.is_round() && !body.deforms()
+    };
+    let part = if time.scheme == Scheme::Rk3 && model.case.contact.is_none() {
+        OF_EXPLICIT_PASS
+    } else if model.joints.is_empty()
+        && model.case.contact.is_none()
+        && model.bodies.iter().any(turns)
+    {
+        OF_TURNING_PASS
+    } else {
+        1.0
+    };
+    part * (1.0 - still * (1.0 - OF_STILL_PASS))
 }
 
 /// Unknowns that films bring with them.
@@ -177,18 +194,36 @@ pub fn n_steps(model: &Model, time: &Unsteady, shortest_edge: f64) -> f64 {
     let crossing = model.expected_speed().map(|speed| adaptive.cfl * shortest_edge / speed);
     let moving = crossing.unwrap_or(largest).min(largest);
     let rest = model.time_to_rest().unwrap_or(time.end).min(time.end);
-    rest / moving + (time.end - rest) / largest + steps_by_error(model, adaptive)
+    let longest = rest / moving + (time.end - rest) / largest;
+    let StepsByError { first, closing, settling } = StepsByError::of(model, time, adaptive);
+    // A gap without contact closes until the end
+    let closes =
+        if model.case.contact.is_some() { longest + closing } else { longest.max(closing) };
+    first + closes + settling
 }
 
 /// Steps of an adaptive run that are as long as their error allows.
-fn steps_by_error(model: &Model, adaptive: &Adaptive) -> f64 {
-    let has_inertia = model.case.fluid.model != FlowModel::Stokes;
-    let met = model.encounters();
-    let closing = met.iter().map(|met| met.closing).fold(0.0, f64::max);
-    let part = (CLOSING * adaptive.tolerance.cbrt()).min(adaptive.gap);
-    let settles = has_inertia && model.case.contact.is_some() && !met.is_empty();
-    let settling = if settles { SETTLING_STEPS * model.bouncing().max(1.0) } else { 0.0 };
-    FIRST_STEPS[usize::from(has_inertia)] + closing / part + settling
+struct StepsByError {
+    /// Until they have that length.
+    first: f64,
+    /// While a gap closes.
+    closing: f64,
+    /// While a body in contact comes to rest.
+    settling: f64,
+}
+
+impl StepsByError {
+    fn of(model: &Model, time: &Unsteady, adaptive: &Adaptive) -> Self {
+        let has_inertia = model.case.fluid.model != FlowModel::Stokes;
+        let met = model.encounters();
+        let met = met.iter().filter(|met| met.time < time.end);
+        let closing = met.clone().map(|met| met.closing).fold(0.0, f64::max);
+        let part = (CLOSING * adaptive.tolerance.cbrt()).min(adaptive.gap);
+        let settles = has_inertia && model.case.contact.is_some() && met.count() > 0;
+        let settling = if settles { SETTLING_STEPS * model.bouncing().max(1.0) } else { 0.0 };
+        let first = FIRST_STEPS[usize::from(has_inertia)];
+        Self { first, closing: closing / part, settling }
+    }
 }
 
 /// Steps of an unsteady run.
@@ -224,11 +259,11 @@ fn trial_steps(model: &Model, time: &Unsteady) -> f64 {
 
 /// Passes of an adaptive run with contact besides one of each step.
 fn more_passes(model: &Model, time: &Unsteady) -> f64 {
-    let has_inertia = model.case.fluid.model != FlowModel::Stokes;
-    let Some(adaptive) = time.adaptive.as_ref().filter(|_| has_inertia) else { return 0.0 };
+    let has_contact = model.case.fluid.model != FlowModel::Stokes && model.case.contact.is_some();
+    let Some(adaptive) = time.adaptive.as_ref().filter(|_| has_contact) else { return 0.0 };
     let is_turned = model.bodies.iter().any(|body| body.turns() && !body.is_round());
-    let more = MORE_PASSES[usize::from(is_turned)];
-    if model.case.contact.is_some() { more * steps_by_error(model, adaptive) } else { 0.0 }
+    let StepsByError { first, closing, settling } = StepsByError::of(model, time, adaptive);
+    MORE_PASSES[usize::from(is_turned)] * (first + closing + settling)
 }
 
 /// Passes of a step: until bodies are where the mesh was made for.
