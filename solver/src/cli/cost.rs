@@ -15,8 +15,9 @@ use crate::simulation::DOFS_OF_CELL;
 const PASS: f64 = 0.0215;
 /// Power of the unknowns it goes with.
 const GROWTH: f64 = 1.15;
-/// Part of it on a mesh that stays, and without convection, where the matrix stays as well.
-const ON_FIXED_MESH: [f64; 2] = [0.5, 0.75];
+/// Part of it on a mesh that stays, where it goes with the unknowns: without convection, where the matrix
+/// stays as well, and with it.
+const ON_FIXED_MESH: [f64; 2] = [0.5, 0.8];
 /// Linear systems of the start of an unsteady run besides its steps: the flow there, and pieces of the
 /// first step.
 const START_SYSTEMS: f64 = 5.0;
@@ -26,18 +27,21 @@ const NEWTON_SYSTEMS: f64 = 2.7;
 const STEADY_SYSTEMS: f64 = 6.0;
 /// Part of a pass that one takes once nothing moves any more, on a mesh that could: old factors serve.
 const OF_STILL_PASS: f64 = 0.55;
-/// Part of a pass that a stage of `rk3` takes: half of them are solved with old factors.
+/// Part of a pass that a stage of `rk3` takes where arms move bodies straight on: half of them are solved
+/// with old factors.
 const OF_EXPLICIT_PASS: f64 = 0.8;
 /// The same where the mesh turns with a body, which nearly always asks for new factors.
 const OF_TURNING_PASS: f64 = 1.35;
 /// Steps of an adaptive run until their size is that of its error, without and with inertia, where it
-/// begins with an acceleration and steps get longer by a fifth each.
-const FIRST_STEPS: [f64; 2] = [12.0, 30.0];
+/// begins with an acceleration and steps get longer by a fifth each (24 to 40).
+const FIRST_STEPS: [f64; 2] = [12.0, 40.0];
 /// Part of a gap that closes in a step, over the third root of the tolerance: errors of gaps count ten times,
 /// and go with the third power of that part.
 const CLOSING: f64 = 0.5;
 /// Steps in which a body in contact loses its speed down to a thousandth, where steps no longer follow it.
 const SETTLING_STEPS: f64 = 60.0;
+/// Most of what bouncing multiplies them by: what bounces more leaves contact, and flies in longer steps.
+const MOST_BOUNCING: f64 = 2.0;
 /// Passes of these steps with inertia besides the first: of a round body, and of one that contact turns as
 /// well.
 const MORE_PASSES: [f64; 2] = [0.4, 1.8];
@@ -103,7 +107,9 @@ impl Cost {
         let Films { most, mean } = Films::of(model);
         let unknowns = mesh.free as f64 + mean;
         let systems = n_systems(model, mesh.shortest_edge);
-        let pass = PASS * (unknowns / 1e4).powf(GROWTH);
+        let is_fixed = steps_of(model, mesh.shortest_edge).is_some() && !model.mesh_moves();
+        let growth = if is_fixed { 1.0 } else { GROWTH };
+        let pass = PASS * (unknowns / 1e4).powf(growth);
         let flow = model.case.fluid.model;
         let part = part_of_pass(model);
         let new_meshes = n_new_meshes(model);
@@ -149,12 +155,12 @@ fn part_of_pass(model: &Model) -> f64 {
     let turns = |body: &Body| {
         body.motion == Motion::Free && body.turns() && !body.is_round() && !body.deforms()
     };
-    let part = if time.scheme == Scheme::Rk3 && model.case.contact.is_none() {
+    let case = &model.case;
+    let has_arms = model.joints.iter().all(|joint| matches!(joint.kind, JointKind::Arm { .. }));
+    let deforms = model.bodies.iter().any(Body::deforms);
+    let part = if time.scheme == Scheme::Rk3 && has_arms && !deforms {
         OF_EXPLICIT_PASS
-    } else if model.joints.is_empty()
-        && model.case.contact.is_none()
-        && model.bodies.iter().any(turns)
-    {
+    } else if model.joints.is_empty() && case.contact.is_none() && model.bodies.iter().any(turns) {
         OF_TURNING_PASS
     } else {
         1.0
@@ -220,7 +226,8 @@ impl StepsByError {
         let closing = met.clone().map(|met| met.closing).fold(0.0, f64::max);
         let part = (CLOSING * adaptive.tolerance.cbrt()).min(adaptive.gap);
         let settles = has_inertia && model.case.contact.is_some() && met.count() > 0;
-        let settling = if settles { SETTLING_STEPS * model.bouncing().max(1.0) } else { 0.0 };
+        let settling =
+            if settles { SETTLING_STEPS * model.bouncing().clamp(1.0, MOST_BOUNCING) } else { 0.0 };
         let first = FIRST_STEPS[usize::from(has_inertia)];
         Self { first, closing: closing / part, settling }
     }
