@@ -106,24 +106,21 @@ def solve(folder: Path, name: str) -> dict[str, float]:
     n_u = len(velocities)
     mass = pressure_mass(data, data["nodes"][pressures].astype(int))
 
-    def petsc_matrix(values: sparse.csr_matrix, block: int) -> PETSc.Mat:
+    def petsc_matrix(values: sparse.spmatrix, block: int) -> PETSc.Mat:
+        rows = values.tocsr()
         new = PETSc.Mat().createAIJ(
-            values.shape, csr=(values.indptr, values.indices, values.data), comm=PETSc.COMM_SELF
+            rows.shape, csr=(rows.indptr, rows.indices, rows.data), comm=PETSc.COMM_SELF
         )
         new.setBlockSize(block)
         return new
 
-    def fields() -> list[list[PETSc.Mat]]:
-        f, g = matrix[:n_u, :n_u], matrix[:n_u, n_u:]
-        d, zero = matrix[n_u:, :n_u], sparse.csr_matrix(mass.shape)
-        return [
-            [petsc_matrix(f.tocsr(), 3), petsc_matrix(g.tocsr(), 1)],
-            [petsc_matrix(d.tocsr(), 1), petsc_matrix(zero, 1)],
-        ]
-
-    blocks = fields()
+    zero = sparse.csr_matrix(mass.shape)
+    blocks = [
+        [petsc_matrix(matrix[:n_u, :n_u], 3), petsc_matrix(matrix[:n_u, n_u:], 1)],
+        [petsc_matrix(matrix[n_u:, :n_u], 1), petsc_matrix(zero, 1)],
+    ]
     # Twice the viscosity, which is one; MINRES wants it positive, the triangular one negative
-    schur = petsc_matrix((mass * (0.5 if krylov == "minres" else -0.5)).tocsr(), 1)
+    schur = petsc_matrix(mass * (0.5 if krylov == "minres" else -0.5), 1)
     if has_rigid:
         nodes = data["nodes"][velocities].astype(int)[::3]
         coordinates = PETSc.Vec().createWithArray(

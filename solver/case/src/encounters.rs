@@ -1,11 +1,17 @@
 //! What bodies meet that keep the velocity they can be expected to have, and the films of fluid then.
 
 use super::speed::{load_vector, norm, side_speed, terminal_speed};
-use super::{Body, ContactSpec, GaitSpec, Geometry, Model, Motion};
+use super::{
+    Body, BoundaryCondition, ContactSpec, GaitSpec, Geometry, Model, Motion, TimeSettings,
+};
 
 /// Gap without contact, over the reach of the body: what a film is left with in most runs, because it
 /// thins the slower the thinner it is (1).
 const FILM: f64 = 0.02;
+
+/// Time in which a swimmer comes to a stop that is pushed back by the flow it makes, over the time it would
+/// take to what it heads for (1): `squirmer-pair/pusher` has a tenth of its speed left then.
+const STOPPING: f64 = 3.0;
 
 /// A body at a wall, or one of two bodies that meet.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -14,6 +20,20 @@ pub struct Encounter {
     pub time: f64,
     /// Cells that the film takes on a mesh with as many layers as are wanted (1).
     pub film_cells: f64,
+    /// Logarithm of the gap at the start, or of the radius if that is less, over the gap at the end (1).
+    pub closing: f64,
+}
+
+/// Two surfaces that meet.
+struct Meeting {
+    /// When (s).
+    time: f64,
+    /// With which speed (m/s).
+    speed: f64,
+    /// Radius of a body at a wall with the same gap to the second order (m).
+    radius: f64,
+    /// Part of the film that counts for the body.
+    share: f64,
 }
 
 /// Where a body is going.
@@ -29,22 +49,34 @@ impl Model {
     #[must_use]
     pub fn encounters(&self) -> Vec<Encounter> {
         let paths: Vec<Path> = (0..self.bodies.len()).map(|body| self.path(body)).collect();
-        let of_body = |(body, path): (usize, &Path)| {
-            if keeps_away(&self.bodies[body]) {
-                return None;
-            }
-            let wall = self.time_to_wall(path).map(|time| self.encounter(time, path.reach));
-            let others = paths.iter().enumerate().filter(|(other, _)| *other != body);
-            let with_bodies = others.filter_map(|(_, other)| {
-                let time = time_to_meeting(path, other)?;
-                let radius = path.reach * other.reach / (path.reach + other.reach);
-                let Encounter { time, film_cells } = self.encounter(time, radius);
-                // The other body has the same film
-                Some(Encounter { time, film_cells: 0.5 * film_cells })
-            });
-            with_bodies.chain(wall).min_by(|one, other| one.time.total_cmp(&other.time))
+        let of_body = |body: usize| {
+            let met = self.meeting(&paths, body)?;
+            (!keeps_away(&self.bodies[body])).then(|| self.encounter(&met))
         };
-        paths.iter().enumerate().filter_map(of_body).collect()
+        (0..paths.len()).filter_map(of_body).collect()
+    }
+
+    /// What a body meets first, going straight on.
+    fn meeting(&self, paths: &[Path], body: usize) -> Option<Meeting> {
+        let path = &paths[body];
+        let wall = self.time_to_wall(path).map(|time| Meeting {
+            time,
+            speed: norm(&path.velocity),
+            radius: path.reach,
+            share: 1.0,
+        });
+        let others = paths.iter().enumerate().filter(|(other, _)| *other != body);
+        let with_bodies = others.filter_map(|(_, other)| {
+            let [x, y] = [0, 1].map(|axis| path.velocity[axis] - other.velocity[axis]);
+            Some(Meeting {
+                time: time_to_meeting(path, other)?,
+                speed: norm(&[x, y]),
+                radius: path.reach * other.reach / (path.reach + other.reach),
+                // The other body has the same film
+                share: 0.5,
+            })
+        });
+        with_bodies.chain(wall).min_by(|one, other| one.time.total_cmp(&other.time))
     }
 
     /// When all has come to rest (s), as far as nothing but weights and forces drives it, and all that
@@ -66,16 +98,60 @@ impl Model {
         all_meet.then(|| met.iter().map(|met| met.time).fold(0.0, f64::max))
     }
 
-    /// How far each free body gets until some time (s), or until it meets something, over its reach;
-    /// their sum (1).
+    /// How far each free body gets until some time (s), or until it meets a wall or is pushed back, over
+    /// its reach; their sum (1).
     #[must_use]
     pub fn expected_paths(&self, end: f64) -> f64 {
-        let of_body = |body: usize| {
-            let path = self.path(body);
-            let time = self.time_to_wall(&path).map_or(end, |time| time.min(end));
-            norm(&path.velocity) * time / path.reach
+        let paths: Vec<Path> = (0..self.bodies.len()).map(|body| self.path(body)).collect();
+        let of_body = |(body, path): (usize, &Path)| {
+            let is_pushed_back = keeps_away(&self.bodies[body]) && !self.bodies[body].turns();
+            let way_end = if is_pushed_back {
+                self.meeting(&paths, body).map(|met| met.time)
+            } else {
+                self.time_to_wall(path)
+            };
+            norm(&path.velocity) * way_end.map_or(end, |time| time.min(end)) / path.reach
         };
-        (0..self.bodies.len()).map(of_body).sum()
+        paths.iter().enumerate().map(of_body).sum()
+    }
+
+    /// When nothing moves any more (s) that a mesh would have to follow: swimmers have been pushed back from
+    /// what they head for, and what else is there is round and neither driven nor carried along.
+    #[must_use]
+    pub fn time_to_stop(&self) -> Option<f64> {
+        let paths: Vec<Path> = (0..self.bodies.len()).map(|body| self.path(body)).collect();
+        let is_carried = |body: &Body| {
+            let height = body.center.get(1).copied().unwrap_or(0.0);
+            let sides = || self.case.boundary.values();
+            let is_shear = sides().any(|side| matches!(side, BoundaryCondition::Shear { .. }));
+            sides().any(|side| match side {
+                BoundaryCondition::Shear { rate, origin, .. } => rate * (height - origin) != 0.0,
+                // Walls of the shear
+                BoundaryCondition::Velocity { .. } if is_shear => false,
+                other => side_speed(&self.case, other) > 0.0,
+            })
+        };
+        let stops = |(body, path): (usize, &Path)| {
+            let this = &self.bodies[body];
+            match &this.motion {
+                Motion::Held => return Some(0.0),
+                Motion::Imposed(_) => return None,
+                Motion::Free => {}
+            }
+            if this.deforms() || this.spring.is_some() || is_carried(this) {
+                return None;
+            }
+            if norm(&path.velocity) == 0.0 {
+                let shows_turns = this.turns() && !this.is_round();
+                return (!shows_turns && this.gait.is_none()).then_some(0.0);
+            }
+            let met = self.meeting(&paths, body).filter(|_| keeps_away(this))?;
+            (!this.turns()).then_some(STOPPING * met.time)
+        };
+        let is_still =
+            self.joints.is_empty() && self.case.flow.is_none() && !self.bodies.is_empty();
+        let times: Option<Vec<f64>> = paths.iter().enumerate().map(stops).collect();
+        times.filter(|_| is_still).map(|times| times.into_iter().fold(0.0, f64::max))
     }
 
     /// Swimming and sinking of a body that is attached to nothing.
@@ -140,21 +216,40 @@ impl Model {
     /// the layers, times 0.6 since cells there are not equilateral: fitted to the growth of the
     /// shipped cases `squirmer-wall`, `disc-sinking-to-wall`, `sphere-sinking-to-wall` and
     /// `disc-on-wall`.
-    fn encounter(&self, time: f64, radius: f64) -> Encounter {
-        let gap = match self.case.contact {
+    fn encounter(&self, met: &Meeting) -> Encounter {
+        let Meeting { time, speed, radius, share } = *met;
+        let range = match self.case.contact {
             Some(ContactSpec::Barrier { range, .. } | ContactSpec::Quadratic { range, .. }) => {
-                0.5 * range
+                Some(range)
             }
-            None => FILM * radius,
+            None => None,
         };
+        let gap = range.map_or(FILM * radius, |range| 0.5 * range);
         let layers = self.case.mesh.gap_layers / self.case.mesh.scale;
         let planes = match self.case.geometry {
             Geometry::Planar => 1.0,
             // A half plane
             Geometry::Axisymmetric => 0.5,
-            Geometry::Spatial => return Encounter { time, film_cells: 0.0 },
+            Geometry::Spatial => 0.0,
         };
-        Encounter { time, film_cells: planes * 6.2 * layers * layers * (radius / gap).sqrt() }
+        let film_cells = share * planes * 6.2 * layers * layers * (radius / gap).sqrt();
+        let last = range.map_or_else(|| self.drained(speed, radius), |range| 0.5 * range);
+        // From further away it comes at a speed that hardly changes
+        let first = (speed * time).min(radius);
+        Encounter { time, film_cells, closing: (first / last).max(1.0).ln() }
+    }
+
+    /// The gap that lubrication leaves at the end of a run between bodies that are pushed together by the
+    /// force that gives them a speed far from everything (m): the leading terms of Jeffrey and Onishi 1981
+    /// for a disc, and of Brenner 1961 for a sphere, integrated in time.
+    fn drained(&self, speed: f64, radius: f64) -> f64 {
+        let TimeSettings::Unsteady(time) = &self.case.time else { return FILM * radius };
+        let way = speed * time.end / radius;
+        let part = match self.case.geometry {
+            Geometry::Planar => 4.5 / (way * way),
+            Geometry::Axisymmetric | Geometry::Spatial => (-way).exp(),
+        };
+        radius * part.clamp(1e-6, 1.0)
     }
 }
 

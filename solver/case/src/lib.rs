@@ -3,6 +3,7 @@
 mod angle;
 mod axial_vector;
 mod body;
+mod bounce;
 mod case;
 mod case_text;
 mod check;

@@ -14,7 +14,7 @@ use crate::case::{
     Cadence, CaseFile, Diagnostic, FlowModel, Model, Precision, TimeSettings, known_quantities,
     number_table, printable, significant,
 };
-use crate::simulation::{BodyRecoil, Dimension, Solve, recoils};
+use crate::simulation::{BodyRecoil, Dimension, Solve, cpu_seconds, recoils};
 
 /// Output above which a warning is given (bytes).
 const LARGE_OUTPUT: f64 = 2e9;
@@ -73,7 +73,9 @@ fn tell_of_mesh<const D: usize>(model: &Model) -> Result<(), Failure>
 where
     Dimension<D>: Solve<D>,
 {
+    let before = cpu_seconds();
     let mesh = engine::build_mesh::<D>(model)?;
+    let seconds = cpu_seconds() - before;
     say(&format!("\n{}", on_stdout(Ink::Bold, "mesh")));
     let quality = Dimension::<D>::quality(&mesh);
     for line in quality.to_string().lines() {
@@ -85,7 +87,7 @@ where
     say(&format!(
         "\n{}\n{}",
         on_stdout(Ink::Bold, "cost (a rough guess)"),
-        costs(model, &mesh, &quality)?
+        costs(model, &mesh, &quality, seconds)?
     ));
     Ok(())
 }
@@ -148,11 +150,12 @@ fn cell_numbers<const D: usize>(model: &Model, quality: &Quality<D>) -> Vec<Stri
     lines
 }
 
-/// Unknowns, memory, time and files of a run.
+/// Unknowns, memory, time and files of a run, whose mesh took some CPU time (s).
 fn costs<const D: usize>(
     model: &Model,
     mesh: &Mesh<D>,
     quality: &Quality<D>,
+    seconds: f64,
 ) -> Result<String, Failure>
 where
     Dimension<D>: Solve<D>,
@@ -160,7 +163,7 @@ where
     let on_mesh = D * mesh.n_nodes() + mesh.n_vertices;
     let free = Dimension::<D>::count_unknowns(model, mesh)?;
     let shortest_edge = quality.shortest_edge;
-    let cost = Cost::of(model, &FirstMesh { free, on_mesh, shortest_edge });
+    let cost = Cost::of(model, &FirstMesh { free, on_mesh, shortest_edge, seconds });
     let output = output_size(model, mesh);
     let mut text = String::new();
     let unknowns = format!("{free} free ones; {on_mesh} velocities and pressures on the mesh");

@@ -1,7 +1,8 @@
 //! What a run would cost: steps, linear systems, new meshes, and the CPU time and memory for them.
 
 use crate::case::{
-    Convection, FlowModel, Geometry, JointKind, Model, Motion, Scheme, TimeSettings, Unsteady,
+    Adaptive, Body, Convection, FlowModel, Geometry, JointKind, Model, Motion, Scheme,
+    TimeSettings, Unsteady,
 };
 use crate::coupling::memory_estimate;
 use crate::simulation::DOFS_OF_CELL;
@@ -14,8 +15,9 @@ use crate::simulation::DOFS_OF_CELL;
 const PASS: f64 = 0.0215;
 /// Power of the unknowns it goes with.
 const GROWTH: f64 = 1.15;
-/// Part of it on a mesh that stays, and without convection, where the matrix stays as well.
-const ON_FIXED_MESH: [f64; 2] = [0.5, 0.75];
+/// Part of it on a mesh that stays, where it goes with the unknowns: without convection, where the matrix
+/// stays as well, and with it.
+const ON_FIXED_MESH: [f64; 2] = [0.5, 0.8];
 /// Linear systems of the start of an unsteady run besides its steps: the flow there, and pieces of the
 /// first step.
 const START_SYSTEMS: f64 = 5.0;
@@ -23,8 +25,26 @@ const START_SYSTEMS: f64 = 5.0;
 const NEWTON_SYSTEMS: f64 = 2.7;
 /// Linear systems of a steady flow with convection.
 const STEADY_SYSTEMS: f64 = 6.0;
-/// Steps of an adaptive run besides those of its largest step.
-const ADAPTIVE_STEPS: f64 = 120.0;
+/// Part of a pass that one takes once nothing moves any more, on a mesh that could: old factors serve.
+const OF_STILL_PASS: f64 = 0.55;
+/// Part of a pass that a stage of `rk3` takes where arms move bodies straight on: half of them are solved
+/// with old factors.
+const OF_EXPLICIT_PASS: f64 = 0.8;
+/// The same where the mesh turns with a body, which nearly always asks for new factors.
+const OF_TURNING_PASS: f64 = 1.35;
+/// Steps of an adaptive run until their size is that of its error, without and with inertia, where it
+/// begins with an acceleration and steps get longer by a fifth each (24 to 40).
+const FIRST_STEPS: [f64; 2] = [12.0, 40.0];
+/// Part of a gap that closes in a step, over the third root of the tolerance: errors of gaps count ten times,
+/// and go with the third power of that part.
+const CLOSING: f64 = 0.5;
+/// Steps in which a body in contact loses its speed down to a thousandth, where steps no longer follow it.
+const SETTLING_STEPS: f64 = 60.0;
+/// Most of what bouncing multiplies them by: what bounces more leaves contact, and flies in longer steps.
+const MOST_BOUNCING: f64 = 2.0;
+/// Passes of these steps with inertia besides the first: of a round body, and of one that contact turns as
+/// well.
+const MORE_PASSES: [f64; 2] = [0.4, 1.8];
 /// CPU time of a new mesh with 10^4 unknowns (s), and with inertia, which asks for projections.
 const NEW_MESH: [f64; 2] = [0.05, 0.12];
 /// New meshes for each reach that bodies move.
@@ -36,8 +56,6 @@ const REMESHED_MEMORY: [f64; 2] = [1.7, 2.3];
 
 // In space, fitted to runs with 7 10^4 to 7 10^5 unknowns, which are solved for by iterations.
 
-/// CPU time of mesh, analysis and files with 10^5 unknowns (s); it goes with their number.
-const START_IN_SPACE: f64 = 0.85;
 /// CPU time of a linear system of a steady flow with 10^5 unknowns (s): assembly, preconditioner,
 /// iterations, loads. It goes with the unknowns.
 const SYSTEM_IN_SPACE: f64 = 2.4;
@@ -75,6 +93,8 @@ pub struct FirstMesh {
     pub on_mesh: usize,
     /// Length of its shortest edge (m).
     pub shortest_edge: f64,
+    /// CPU time it took (s).
+    pub seconds: f64,
 }
 
 impl Cost {
@@ -87,14 +107,11 @@ impl Cost {
         let Films { most, mean } = Films::of(model);
         let unknowns = mesh.free as f64 + mean;
         let systems = n_systems(model, mesh.shortest_edge);
-        let pass = PASS * (unknowns / 1e4).powf(GROWTH);
+        let is_fixed = steps_of(model, mesh.shortest_edge).is_some() && !model.mesh_moves();
+        let growth = if is_fixed { 1.0 } else { GROWTH };
+        let pass = PASS * (unknowns / 1e4).powf(growth);
         let flow = model.case.fluid.model;
-        let part = match (&model.case.time, model.mesh_moves()) {
-            (TimeSettings::Unsteady(_), false) => {
-                ON_FIXED_MESH[usize::from(flow == FlowModel::NavierStokes)]
-            }
-            _ => 1.0,
-        };
+        let part = part_of_pass(model);
         let new_meshes = n_new_meshes(model);
         let inertia = usize::from(flow != FlowModel::Stokes);
         let start = NEW_MESH[0] * mesh.free as f64 / 1e4;
@@ -121,11 +138,34 @@ impl Cost {
             systems,
             new_meshes: 0.0,
             in_films: 0.0,
-            seconds: START_IN_SPACE * unknowns + in_systems,
+            seconds: mesh.seconds + in_systems,
             step_seconds: steps.map(|steps| in_systems * (1.0 - START_SYSTEMS / systems) / steps),
             memory: growth * memory_estimate(3, mesh.on_mesh as f64),
         }
     }
+}
+
+/// What a pass takes over one on a moving mesh.
+fn part_of_pass(model: &Model) -> f64 {
+    let TimeSettings::Unsteady(time) = &model.case.time else { return 1.0 };
+    if !model.mesh_moves() {
+        return ON_FIXED_MESH[usize::from(model.case.fluid.model == FlowModel::NavierStokes)];
+    }
+    let still = model.time_to_stop().map_or(0.0, |stop| (1.0 - stop / time.end).max(0.0));
+    let turns = |body: &Body| {
+        body.motion == Motion::Free && body.turns() && !body.is_round() && !body.deforms()
+    };
+    let case = &model.case;
+    let has_arms = model.joints.iter().all(|joint| matches!(joint.kind, JointKind::Arm { .. }));
+    let deforms = model.bodies.iter().any(Body::deforms);
+    let part = if time.scheme == Scheme::Rk3 && has_arms && !deforms {
+        OF_EXPLICIT_PASS
+    } else if model.joints.is_empty() && case.contact.is_none() && model.bodies.iter().any(turns) {
+        OF_TURNING_PASS
+    } else {
+        1.0
+    };
+    part * (1.0 - still * (1.0 - OF_STILL_PASS))
 }
 
 /// Unknowns that films bring with them.
@@ -160,7 +200,37 @@ pub fn n_steps(model: &Model, time: &Unsteady, shortest_edge: f64) -> f64 {
     let crossing = model.expected_speed().map(|speed| adaptive.cfl * shortest_edge / speed);
     let moving = crossing.unwrap_or(largest).min(largest);
     let rest = model.time_to_rest().unwrap_or(time.end).min(time.end);
-    rest / moving + (time.end - rest) / largest + ADAPTIVE_STEPS
+    let longest = rest / moving + (time.end - rest) / largest;
+    let StepsByError { first, closing, settling } = StepsByError::of(model, time, adaptive);
+    // A gap without contact closes until the end
+    let closes =
+        if model.case.contact.is_some() { longest + closing } else { longest.max(closing) };
+    first + closes + settling
+}
+
+/// Steps of an adaptive run that are as long as their error allows.
+struct StepsByError {
+    /// Until they have that length.
+    first: f64,
+    /// While a gap closes.
+    closing: f64,
+    /// While a body in contact comes to rest.
+    settling: f64,
+}
+
+impl StepsByError {
+    fn of(model: &Model, time: &Unsteady, adaptive: &Adaptive) -> Self {
+        let has_inertia = model.case.fluid.model != FlowModel::Stokes;
+        let met = model.encounters();
+        let met = met.iter().filter(|met| met.time < time.end);
+        let closing = met.clone().map(|met| met.closing).fold(0.0, f64::max);
+        let part = (CLOSING * adaptive.tolerance.cbrt()).min(adaptive.gap);
+        let settles = has_inertia && model.case.contact.is_some() && met.count() > 0;
+        let settling =
+            if settles { SETTLING_STEPS * model.bouncing().clamp(1.0, MOST_BOUNCING) } else { 0.0 };
+        let first = FIRST_STEPS[usize::from(has_inertia)];
+        Self { first, closing: closing / part, settling }
+    }
 }
 
 /// Steps of an unsteady run.
@@ -182,7 +252,7 @@ fn n_systems(model: &Model, shortest_edge: f64) -> f64 {
     let is_newton =
         time.convection == Convection::Newton && case.fluid.model == FlowModel::NavierStokes;
     let iterations = if is_newton { NEWTON_SYSTEMS } else { 1.0 };
-    let steps = n_steps(model, time, shortest_edge);
+    let steps = n_steps(model, time, shortest_edge) + more_passes(model, time);
     START_SYSTEMS + (steps + trial_steps(model, time)) * passes(model, time) * iterations
 }
 
@@ -192,6 +262,15 @@ fn trial_steps(model: &Model, time: &Unsteady) -> f64 {
     let longest = periods.fold(0.0, f64::max);
     let is_made = model.case.fluid.model == FlowModel::Stokes && time.adaptive.is_none();
     if is_made && longest <= time.end { 0.5 * longest / time.step } else { 0.0 }
+}
+
+/// Passes of an adaptive run with contact besides one of each step.
+fn more_passes(model: &Model, time: &Unsteady) -> f64 {
+    let has_contact = model.case.fluid.model != FlowModel::Stokes && model.case.contact.is_some();
+    let Some(adaptive) = time.adaptive.as_ref().filter(|_| has_contact) else { return 0.0 };
+    let is_turned = model.bodies.iter().any(|body| body.turns() && !body.is_round());
+    let StepsByError { first, closing, settling } = StepsByError::of(model, time, adaptive);
+    MORE_PASSES[usize::from(is_turned)] * (first + closing + settling)
 }
 
 /// Passes of a step: until bodies are where the mesh was made for.
