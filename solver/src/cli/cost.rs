@@ -62,7 +62,7 @@ const SYSTEM_IN_SPACE: f64 = 2.4;
 /// Part of it that a system of a time step takes.
 const OF_STEP_IN_SPACE: f64 = 0.55;
 /// Memory with convection over that without: matrices are upwinded, and more iterations kept.
-const CONVECTIVE_MEMORY: f64 = 1.4;
+const CONVECTIVE_MEMORY: f64 = 1.3;
 
 /// An estimate of what a run costs.
 ///
