@@ -47,6 +47,15 @@ pub(super) fn invert(n: usize, matrix: &mut [f64]) -> bool {
     matrix.iter().all(|value| value.is_finite())
 }
 
+/// Multiplies each row and each column by its factor.
+fn multiply(factors: &[f64], matrix: &mut [f64]) {
+    for (row, factor) in matrix.chunks_exact_mut(factors.len().max(1)).zip(factors) {
+        for (value, other) in row.iter_mut().zip(factors) {
+            *value *= factor * other;
+        }
+    }
+}
+
 /// The inverse of a dense matrix in single precision, row by row.
 #[derive(Debug)]
 pub(super) struct DenseInverse {
@@ -56,8 +65,17 @@ pub(super) struct DenseInverse {
 
 impl DenseInverse {
     /// The inverse of an n x n matrix, row by row; none of a singular one.
+    ///
+    /// Rows and columns are scaled by their diagonal first: cells may differ in size by many orders.
     pub fn new(n: usize, mut matrix: Vec<f64>) -> Option<Self> {
+        let scale = |index: usize| {
+            let diagonal = matrix[index * n + index].abs();
+            if diagonal > 0.0 { 1.0 / diagonal.sqrt() } else { 1.0 }
+        };
+        let scales: Vec<f64> = (0..n).map(scale).collect();
+        multiply(&scales, &mut matrix);
         let is_regular = invert(n, &mut matrix);
+        multiply(&scales, &mut matrix);
         is_regular.then(|| Self { n, values: matrix.into_iter().map(single).collect() })
     }
 

@@ -212,8 +212,8 @@ impl<const B: usize> Coarsest<B> {
     }
 }
 
-/// A matrix as a dense one, row by row. Where constants are in its nullspace they get the mean of its
-/// diagonal as their eigenvalue: right-hand sides without a mean are then solved as they were.
+/// A matrix as a dense one, row by row. Where constants are in its nullspace they get its diagonal as their
+/// image: right-hand sides without a mean are then solved as they were.
 fn dense<const B: usize>(matrix: &BlockMatrix<B>, is_singular: bool) -> Vec<f64> {
     let n = matrix.n_rows() * B;
     let mut values = vec![0.0; n * n];
@@ -227,9 +227,13 @@ fn dense<const B: usize>(matrix: &BlockMatrix<B>, is_singular: bool) -> Vec<f64>
         }
     }
     if is_singular {
-        let trace: f64 = (0..n).map(|index| values[index * (n + 1)]).sum();
-        let shift = trace / (n * n) as f64;
-        values.iter_mut().for_each(|value| *value += shift);
+        let diagonal: Vec<f64> = (0..n).map(|index| values[index * (n + 1)]).collect();
+        let trace: f64 = diagonal.iter().sum();
+        for (row, one) in values.chunks_exact_mut(n).zip(&diagonal) {
+            for (value, other) in row.iter_mut().zip(&diagonal) {
+                *value += one * other / trace;
+            }
+        }
     }
     values
 }
