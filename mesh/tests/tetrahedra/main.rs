@@ -192,6 +192,23 @@ fn narrow_gaps_have_their_layers() {
     }
 }
 
+/// Edges that reach through a thin body, from the fluid above it to that below, leave no fluid inside.
+#[test]
+fn thin_spheroids_are_cut_out_whole() {
+    let domain = cube(4.0);
+    let tilt = UnitQuaternion::from_euler_angles(0.3, 0.5, 0.7);
+    for (thickness, edge) in [(0.2, 0.25), (0.3, 0.4)] {
+        let shape = Shape::Ellipsoid { semi_axes: [thickness, 1.0, 1.0] };
+        let bodies = [Body::new("disc", shape, at(0.1, -0.2, 0.3) * tilt)];
+        let sizing = Sizing { gap_layers: 2.0, ..Sizing::graded(edge, 0.5, 2.0) };
+        let mesh = generate(&domain, &bodies, &sizing).expect("a mesh");
+        assert_mesh(&mesh, &domain, &bodies, SMALLEST_ANGLE);
+        let body = 512.0 - mesh.measure();
+        let exact = 4.0 / 3.0 * PI * thickness;
+        assert!((body / exact - 1.0).abs() < 1e-2, "{body} {exact}");
+    }
+}
+
 /// A body with a waist, turned about an oblique axis, between the walls of a tube.
 #[test]
 fn a_surface_of_revolution_is_meshed() {
