@@ -21,7 +21,8 @@ pub struct SizeBox<const D: usize = 2> {
 /// h(x) = min(size, surface sizes + growth * distance, box sizes + growth * distance)
 ///
 /// A surface size is the smallest of its own, of what gives `gap_layers` layers across the gap to
-/// the surface that faces it, and of `turn` times its radius of curvature.
+/// the surface that faces it, and of `turn` times its radius of curvature; on ellipsoids in space also
+/// of about the thickness.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sizing<const D: usize = 2> {
     /// Largest edge length anywhere (m).

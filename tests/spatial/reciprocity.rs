@@ -4,11 +4,21 @@ use alewife_core::simulation::{RunSummary, simulate};
 use nalgebra::Vector3;
 use tests::cases::{case, last};
 
-/// An oblique ellipsoid above the wall of a box, on a coarse mesh that is solved iteratively.
-fn ellipsoid(motion: &str) -> RunSummary {
+const ELLIPSOID: &str = "shape.ellipsoid.semi_axes = [1.2, 0.9, 0.7]";
+
+const HELIX: &str = "shape.helix = { radius = 0.5, pitch = 1.5, turns = 1.1, tube_radius = 0.25 }";
+
+/// A head and a tail that is part of the same body.
+const HEAD_AND_HELIX: &str = "shape.union = [
+    { shape = { ellipsoid = { semi_axes = [0.9, 0.6, 0.6] } } },
+    { shape = { helix = { radius = 0.3, pitch = 1.5, turns = 0.7, tube_radius = 0.2 } }, center = [0.6, 0.0, 0.0] },
+]";
+
+/// An oblique body above the wall of a box, on a coarse mesh that is solved iteratively.
+fn run(shape: &str, motion: &str) -> RunSummary {
     let text = format!(
         r#"
-        title = "an ellipsoid near a wall"
+        title = "a body near a wall"
         geometry = "spatial"
         fluid = {{ model = "stokes", viscosity = 0.7 }}
         domain.box = {{ min = [-4.0, -4.0, 0.0], max = [4.0, 4.0, 5.0] }}
@@ -17,7 +27,7 @@ fn ellipsoid(motion: &str) -> RunSummary {
         time.steady = {{}}
         [[body]]
         name = "body"
-        shape.ellipsoid.semi_axes = [1.2, 0.9, 0.7]
+        {shape}
         center = [0.2, -0.1, 1.6]
         orientation.turned = {{ axis = [1.0, 2.0, -1.0], angle = 0.8 }}
         {motion}
@@ -53,21 +63,35 @@ impl Screw {
     }
 
     /// Load of the fluid on the body that moves this way.
-    fn resistance(&self) -> Self {
+    fn resistance(&self, shape: &str) -> Self {
         let [velocity, angular_velocity] =
             [self.linear, self.angular].map(|vector| vector.as_slice().to_vec());
         let motion = format!(
             "motion.imposed = {{ velocity = {velocity:?}, angular_velocity = {angular_velocity:?} }}"
         );
-        Self::of(&ellipsoid(&motion), ["force", "torque"])
+        Self::of(&run(shape, &motion), ["force", "torque"])
     }
 }
 
 #[test]
-fn a_free_body_moves_with_the_velocities_whose_resistances_pull_it() {
+fn a_free_ellipsoid_moves_with_the_velocities_whose_resistances_pull_it() {
+    assert_reciprocity(ELLIPSOID);
+}
+
+#[test]
+fn so_does_a_free_helix() {
+    assert_reciprocity(HELIX);
+}
+
+#[test]
+fn and_a_head_with_a_helical_tail() {
+    assert_reciprocity(HEAD_AND_HELIX);
+}
+
+fn assert_reciprocity(shape: &str) {
     let first = Screw::new([0.48, 0.6, 0.64], [0.3, -0.5, 0.2]);
     let second = Screw::new([-0.7, 0.1, 0.4], [0.2, 0.6, -0.9]);
-    let [of_first, of_second] = [first, second].map(|motion| motion.resistance());
+    let [of_first, of_second] = [first, second].map(|motion| motion.resistance(shape));
     let [one, other] = [of_first.work(&second), of_second.work(&first)];
     let size = (of_first.work(&first) * of_second.work(&second)).sqrt();
     println!("work of the resistance to one motion in the other: {one}, {other}, of {size}");
@@ -75,7 +99,7 @@ fn a_free_body_moves_with_the_velocities_whose_resistances_pull_it() {
 
     let [force, torque] =
         [of_first.linear, of_first.angular].map(|vector| (-vector).as_slice().to_vec());
-    let pulled = ellipsoid(&format!("motion = \"free\"\nforce = {force:?}\ntorque = {torque:?}"));
+    let pulled = run(shape, &format!("motion = \"free\"\nforce = {force:?}\ntorque = {torque:?}"));
     let moved = Screw::of(&pulled, ["velocity", "angular_velocity"]);
     let off = (moved.linear - first.linear).amax().max((moved.angular - first.angular).amax());
     println!("the free body differs by {off:e}");

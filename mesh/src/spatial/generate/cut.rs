@@ -1,9 +1,10 @@
 //! The cut of the mesh by one surface: vertices near it are moved onto it, edges through it split,
 //! and cells beyond it dropped.
 
+use super::bisection::DIP;
 use super::boundary_edges::tag_of;
 use super::improver::Improver;
-use super::measure::FACES;
+use super::measure::{FACES, middle};
 use super::split::Split;
 use super::surface_set::SurfaceSet;
 use super::tetrahedra::Face;
@@ -171,7 +172,8 @@ impl Cut<'_, '_> {
                 continue;
             }
             let point = self.improver.project(surfaces, self.improver.mesh.point(vertex));
-            if self.surface.gap(point).abs() > 1e3 * self.tolerance {
+            let is_on = self.surface.gap(point).abs() <= 1e3 * self.tolerance;
+            if !is_on || (gap < 0.0 && self.would_bridge(point, &neighbours)) {
                 continue;
             }
             let before = self.improver.least_quality_at(vertex, self.improver.mesh.point(vertex));
@@ -183,6 +185,15 @@ impl Cut<'_, '_> {
                 self.gaps[vertex as usize] = 0.0;
             }
         }
+    }
+
+    /// Whether a vertex beyond the surface, once it is at a point on it (m), would have an edge through
+    /// a thin body to one of its neighbours, the fluid of the other side.
+    fn would_bridge(&self, point: Point<3>, neighbours: &[u32]) -> bool {
+        neighbours.iter().filter(|other| self.gap(**other) > 0.0).any(|&other| {
+            let there = self.improver.mesh.point(other);
+            self.surface.gap(middle(point, there)) < -DIP * (point - there).norm()
+        })
     }
 
     /// Splits all edges that go through the surface where they do.

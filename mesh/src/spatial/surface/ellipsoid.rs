@@ -91,6 +91,16 @@ impl Ellipsoid {
         point
     }
 
+    /// Radius (m) of the largest ball inside that touches it at one of its points.
+    ///
+    /// The centre of the ball is where the normal meets the plane across the shortest axis.
+    #[must_use]
+    pub fn radius_inside(&self, on: Point<3>) -> f64 {
+        let a = self.semi_axes;
+        let least = a.min();
+        least * least * on.component_div(&a.component_mul(&a)).norm()
+    }
+
     /// Smallest radius of curvature (m) at one of its points.
     #[must_use]
     pub fn radius_of_curvature(&self, on: Point<3>) -> f64 {

@@ -84,6 +84,10 @@ pub struct Bend {
     pub size: f64,
 }
 
+/// Edges are at most as many radii long of the largest ball inside that touches the surface there: with
+/// longer ones the lattice has edges that go through a thin body.
+const EDGES_OF_RADIUS_INSIDE: f64 = 1.5;
+
 /// Places on a surface with varying curvature that are looked at.
 const SAMPLES: usize = 600;
 
@@ -296,10 +300,20 @@ impl SmoothSurface {
         }
     }
 
+    /// Radius (m) of the largest ball inside that touches the surface at one of its points, where that
+    /// can be less than the radius of curvature.
+    fn radius_inside(&self, on: Point<3>) -> f64 {
+        match &self.form {
+            Form::Ellipsoid(ellipsoid) => ellipsoid.radius_inside(self.to_local(on)),
+            _ => f64::INFINITY,
+        }
+    }
+
     /// Edge length wanted on the surface (m) at one of its points.
     #[must_use]
     pub fn size_at(&self, on: Point<3>) -> f64 {
-        self.size.min(self.turn * self.radius_of_curvature(on))
+        let size = self.size.min(self.turn * self.radius_of_curvature(on));
+        size.min(EDGES_OF_RADIUS_INSIDE * self.radius_inside(on))
     }
 
     /// Edge length wanted on it where that is the same everywhere (m).

@@ -88,6 +88,20 @@ fn the_radius_of_curvature_is_that_of_the_sharpest_section() {
     }
 }
 
+/// The ball of that radius inside fits, and touches nowhere else; one that is larger does not fit.
+#[test]
+fn the_radius_inside_an_ellipsoid_is_that_of_the_largest_ball() {
+    let ellipsoid = Ellipsoid::new([2.0, 0.3, 1.1]);
+    for x in points() {
+        let foot = ellipsoid.foot(x);
+        let radius = ellipsoid.radius_inside(foot.point);
+        let depth = |center: Point<3>| -ellipsoid.foot(center).gap;
+        assert!((depth(foot.point - foot.normal * radius) - radius).abs() < 1e-6 * radius);
+        let larger = 1.1 * radius;
+        assert!(depth(foot.point - foot.normal * larger) < (1.0 - 1e-4) * larger);
+    }
+}
+
 fn tangents(normal: &Point<3>) -> [Point<3>; 2] {
     let u = normal.cross(&Point::<3>::new(0.3, 0.5, -0.8)).normalize();
     [u, normal.cross(&u)]
