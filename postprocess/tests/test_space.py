@@ -114,6 +114,26 @@ def test_the_surface_of_bodies_has_no_sides_of_the_domain(run: Run) -> None:
     assert surface.point_data["values"] == pytest.approx(x + 2 * y - z, abs=1e-5)
 
 
+def in_domain(run: Run, domain: dict[str, object]) -> Run:
+    """The same run, whose case names another domain."""
+    other = Run(run.path)
+    other.__dict__["case"] = {**run.case, "domain": domain}
+    return other
+
+
+def test_the_outer_part_of_an_imported_mesh_is_no_body(run: Run) -> None:
+    imported = in_domain(run, {"mesh": {"file": "block.msh"}})
+    surface = space.bodies_surface(imported, run.field(), "pressure")
+    assert surface.area == pytest.approx(6.0, rel=1e-6)
+
+
+def test_a_domain_may_have_a_single_side(run: Run) -> None:
+    # A sphere that the box is well inside of
+    sphere = {"sphere": {"center": [1.5, 1.5, 1.5], "radius": 4.0}}
+    surface = space.bodies_surface(in_domain(run, sphere), run.field(), "pressure")
+    assert surface.area == pytest.approx(54.0 + 6.0, rel=1e-6)
+
+
 def test_pieces_fill_their_tetrahedron() -> None:
     corners = np.vstack([np.zeros(3), np.eye(3)])
     nodes = np.vstack([corners, [0.5 * (corners[i] + corners[j]) for i, j in EDGES]])

@@ -171,10 +171,18 @@ def bodies_surface(run: Run, field: Field, quantity: str):  # noqa: ANN201  (loa
     grid = _grid(field, quantity)
     sides = distances_to_sides(run.case, field.nodes)
     extent = np.ptp(field.nodes, axis=0).max()
-    grid.point_data["side"] = (np.abs(sides) < ON_SIDE * extent).astype(float)
+    if sides.shape[1] > 0:
+        grid.point_data["side"] = (np.abs(sides) < ON_SIDE * extent).astype(float)
     surface = grid.extract_surface(nonlinear_subdivision=SUBDIVISION, algorithm="dataset_surface")
+    if sides.shape[1] == 0:
+        surface = surface.connectivity("all")
     cells = surface.faces.reshape(-1, 4)[:, 1:]
-    is_on_side = (surface.point_data["side"][cells] > 0.5).all(axis=1).any(axis=-1)
+    if sides.shape[1] == 0:
+        is_on_side = _is_on_largest_part(surface)[cells[:, 0]]
+    else:
+        # One number a node where the domain has a single side
+        side = np.asarray(surface.point_data["side"]).reshape(surface.n_points, -1)
+        is_on_side = (side[cells] > 0.5).all(axis=1).any(axis=-1)
     kept = surface.extract_cells(np.flatnonzero(~is_on_side)).extract_surface(
         algorithm="dataset_surface"
     )
@@ -183,8 +191,19 @@ def bodies_surface(run: Run, field: Field, quantity: str):  # noqa: ANN201  (loa
     return kept
 
 
+def _is_on_largest_part(surface) -> Array:  # noqa: ANN001  (VTK)
+    """Whether each point of a surface is on its part of the largest extent, the outer one."""
+    part = np.asarray(surface.point_data["RegionId"])
+    points = np.asarray(surface.points)
+    extents = [np.ptp(points[part == index], axis=0).max() for index in range(part.max() + 1)]
+    return part == np.argmax(extents)
+
+
 def distances_to_sides(case: dict[str, Any], nodes: Array) -> Array:
-    """Distance of each node from each side of the domain, `(n_nodes, n_sides)`."""
+    """Distance of each node from each side of the domain, `(n_nodes, n_sides)`.
+
+    The sides of an imported mesh are not known: it has none here.
+    """
     ((kind, domain),) = case["domain"].items()
     match kind:
         case "box":
@@ -196,6 +215,8 @@ def distances_to_sides(case: dict[str, Any], nodes: Array) -> Array:
         case "sphere":
             off = nodes - domain.get("center", [0.0, 0.0, 0.0])
             return np.linalg.norm(off, axis=1, keepdims=True) - domain["radius"]
+        case "mesh":
+            return np.empty((len(nodes), 0))
         case _:
             raise ValueError(f"a {kind} is no domain in space")
 
@@ -237,7 +258,7 @@ def _surroundings(run: Run, field: Field, across: list[int]) -> View:
     """The part of the domain around the bodies, in the coordinates of a slice."""
     low, high = field.nodes.min(axis=0), field.nodes.max(axis=0)
     extent = np.ptp(field.nodes, axis=0).max()
-    sides = np.abs(distances_to_sides(run.case, field.nodes)).min(axis=1) < ON_SIDE * extent
+    sides = (np.abs(distances_to_sides(run.case, field.nodes)) < ON_SIDE * extent).any(axis=1)
     boundary = np.unique(_boundary_nodes(field.cells))
     on_bodies = field.nodes[boundary[~sides[boundary]]]
     if len(on_bodies):
