@@ -22,6 +22,7 @@ mod shapes;
 mod solution;
 mod surface_load;
 mod system;
+mod wall_distance;
 
 pub use boundaries::{Boundaries, BoundaryNode};
 pub use constrain::{BodiesAt, BoundaryValues, count_unknowns, impose_boundary_values};

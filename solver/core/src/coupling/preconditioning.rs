@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use alewife_mesh::{CellId, Mesh, NodeId, Simplex};
 
+use super::wall_distance::wall_distances;
 use crate::algebra::{
     AffineConstraints, CellFolds, CellMaps, ConstraintBuilder, Interpolation, Part, SaddlePoint,
     SparseMatrix, Term, Weights,
@@ -86,8 +87,34 @@ impl<const D: usize> Discretised<'_, D> {
         let interpolation = self.interpolation();
         let integrals = self.integrals(1.0 / (2.0 * viscosity));
         let lumped_mass = self.restricted(&integrals.lumped_mass);
+        let wall_drag = self.restricted(&self.wall_drag(&integrals.lumped_mass, viscosity));
         let pressure_mass = integrals.pressure_mass;
-        Weights { interpolation, pressure_mass, lumped_mass, inertia, has_convection }
+        Weights { interpolation, pressure_mass, lumped_mass, wall_drag, inertia, has_convection }
+    }
+
+    /// For each node its lumped mass times 3 mu / d^2 (N s/m), with d the distance to the nearest wall (m).
+    ///
+    /// A gradient of pressure p drives a mean velocity of -g^2 / (12 mu) grad p through a gap of width g:
+    /// d^2 / (3 mu) has that mean.
+    fn wall_drag(&self, lumped_mass: &[f64], viscosity: f64) -> Vec<f64> {
+        let Self { mesh, layout, constraints, .. } = self;
+        let mut is_of_node = vec![false; constraints.n_unknowns()];
+        let velocities = (0..layout.n_nodes * D).filter_map(|raw| constraints.unknown(raw));
+        velocities.for_each(|unknown| is_of_node[unknown] = true);
+        let is_held = |node: NodeId| {
+            let mut terms = (0..D).flat_map(|axis| constraints.row(layout.velocity(node, axis)));
+            terms.all(|term| !is_of_node[term.unknown as usize])
+        };
+        // Not a single node that is held because nothing else is
+        let mut is_wall = vec![false; layout.n_nodes];
+        for facet in &mesh.facets {
+            if mesh.facet_nodes(facet).all(is_held) {
+                mesh.facet_nodes(facet).for_each(|node| is_wall[node.index()] = true);
+            }
+        }
+        let distances = wall_distances(mesh, |node| is_wall[node.index()]);
+        let drag = |(mass, distance): (&f64, &f64)| mass * 3.0 * viscosity / distance.powi(2);
+        lumped_mass.iter().zip(&distances).map(drag).collect()
     }
 
     /// Velocities on edges by those of the vertices at their ends, the others by themselves.

@@ -5,7 +5,7 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use crate::sparse::index::to_u32;
-use crate::sparse::lists::{Lists, Parts};
+use crate::sparse::lists::{Lists, Parts, starts_by_item};
 
 /// A dense block, column by column.
 pub(crate) type Block<const B: usize> = [[f32; B]; B];
@@ -206,13 +206,7 @@ impl<const B: usize> BlockMatrix<B> {
 
     /// The transposed matrix; the columns of its rows ascend.
     pub fn transposed(&self) -> Self {
-        let mut starts = vec![0; self.n_columns + 1];
-        for &column in &self.columns {
-            starts[column as usize + 1] += 1;
-        }
-        for column in 0..self.n_columns {
-            starts[column + 1] += starts[column];
-        }
+        let starts = starts_by_item(&self.columns, self.n_columns);
         let mut next = starts.clone();
         let mut columns = vec![0; self.columns.len()];
         let mut blocks = vec![[[0.0; B]; B]; self.blocks.len()];

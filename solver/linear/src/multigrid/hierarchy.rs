@@ -160,11 +160,6 @@ impl<const B: usize> Multigrid<B> {
         Self { matrix, hierarchy }
     }
 
-    /// The finest matrix.
-    pub fn matrix(&self) -> &BlockMatrix<B> {
-        &self.matrix
-    }
-
     /// Memory of the matrices (bytes).
     pub fn n_bytes(&self) -> usize {
         self.matrix.n_bytes() + self.hierarchy.n_bytes()

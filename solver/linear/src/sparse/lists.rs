@@ -52,13 +52,7 @@ impl Lists {
 
     /// For each of n items the lists that have it, once for each time.
     pub fn inverted(&self, n: usize) -> Self {
-        let mut starts = vec![0; n + 1];
-        for &item in &self.items {
-            starts[item as usize + 1] += 1;
-        }
-        for item in 0..n {
-            starts[item + 1] += starts[item];
-        }
+        let starts = starts_by_item(&self.items, n);
         let mut next = starts.clone();
         let mut items = vec![0; self.items.len()];
         for (index, list) in self.iter().enumerate() {
@@ -74,6 +68,18 @@ impl Lists {
     pub fn into_parts(self) -> Parts {
         Parts { starts: self.starts, items: self.items }
     }
+}
+
+/// Where the entries of each of n items start when entries are ordered by item, and the end of the last.
+pub(crate) fn starts_by_item(items: &[u32], n: usize) -> Vec<usize> {
+    let mut starts = vec![0; n + 1];
+    for &item in items {
+        starts[item as usize + 1] += 1;
+    }
+    for item in 0..n {
+        starts[item + 1] += starts[item];
+    }
+    starts
 }
 
 /// What lists are made of.

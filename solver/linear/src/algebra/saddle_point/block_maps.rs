@@ -4,8 +4,8 @@ use rayon::prelude::*;
 
 use super::super::cell_unknowns::{CellUnknowns, NO_UNKNOWN};
 use super::gradient::Gradient;
-use super::numbering::{Numbering, Place};
-use super::vector::B;
+use super::numbering::Numbering;
+use super::vector::{B, Place};
 use crate::multigrid::BlockMatrix;
 use crate::sparse::index::{to_u16, to_u32};
 use crate::sparse::lists::Lists;

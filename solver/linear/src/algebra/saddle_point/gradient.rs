@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use super::vector::B;
 use crate::multigrid::{BlockMatrix, RowBuilder};
 use crate::sparse::index::to_u32;
-use crate::sparse::lists::{Lists, Parts};
+use crate::sparse::lists::{Lists, Parts, starts_by_item};
 
 /// Rows that one task works on.
 const ROWS: usize = 256;
@@ -171,13 +171,7 @@ impl Gradient {
 
     /// For each pressure its rows among the first ones, in place of the pressures of each row.
     fn rows_of_pressures(&self, n_rows: usize) -> Self {
-        let mut starts = vec![0; self.n_pressures + 1];
-        for &pressure in &self.pressures[..self.starts[n_rows]] {
-            starts[pressure as usize + 1] += 1;
-        }
-        for pressure in 0..self.n_pressures {
-            starts[pressure + 1] += starts[pressure];
-        }
+        let starts = starts_by_item(&self.pressures[..self.starts[n_rows]], self.n_pressures);
         let mut next = starts.clone();
         let n_entries = starts[self.n_pressures];
         let (mut rows, mut values) = (vec![0; n_entries], vec![[0.0; B]; n_entries]);

@@ -10,6 +10,7 @@ use super::matrix::SaddleMatrix;
 use super::preconditioner::Preconditioner;
 use super::scaled::{Iterate, Scaled};
 use crate::sparse::SparseMatrix;
+use crate::sparse::single::single;
 
 /// When iterations end, and what happens then.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -108,6 +109,7 @@ impl IterativeSolver {
         assert_eq!(weights.interpolation.n(), n, "a sum for each unknown");
         assert_eq!(weights.pressure_mass.n(), n_pressures, "a row for each pressure");
         assert_eq!(weights.lumped_mass.len(), n, "a mass for each unknown");
+        assert_eq!(weights.wall_drag.len(), n, "a drag for each unknown");
     }
 
     /// Iterations of the last solution.
@@ -248,7 +250,7 @@ impl IterativeSolver {
         let residual = if size > 0.0 { largest(&iterate.residual) / size } else { 0.0 };
         rhs.copy_from_slice(&iterate.x);
         if uses_earlier {
-            self.earlier.keep(matrix.numbering().split(&iterate.x, |_| 1.0));
+            self.earlier.keep(matrix.numbering().split(&iterate.x, |_, value| single(value)));
         }
         tracing::debug!(iterations, residual, "solved by iterations");
         Ok(Accuracy { residual, refinements: iterations })

@@ -11,8 +11,8 @@ use super::super::cell_unknowns::CellUnknowns;
 use super::block_maps::{BlockMaps, BlockPattern, CellBlocks, RowsOfCells};
 use super::data::SaddlePoint;
 use super::gradient::Gradient;
-use super::numbering::{Numbering, Place};
-use super::vector::B;
+use super::numbering::Numbering;
+use super::vector::{B, Blocks, Place};
 use crate::multigrid::{Block, BlockMatrix};
 use crate::sparse::index::to_u32;
 use crate::sparse::single::single;
@@ -37,12 +37,6 @@ pub struct SaddleMatrix {
     gradient: Gradient,
     gradient_rest: Vec<[f32; B]>,
     revision: Revision,
-}
-
-/// Velocities in blocks, and pressures.
-struct Vectors {
-    velocity: Vec<[f64; B]>,
-    pressure: Vec<f64>,
 }
 
 impl SaddleMatrix {
@@ -172,7 +166,7 @@ impl SaddleMatrix {
         add(leading, &mut self.velocity_rest[index][b][a], value);
     }
 
-    /// Gives components that are no unknowns a diagonal entry, once all has been added.
+    /// Gives components that are no unknowns a diagonal entry, once all cells have been added.
     pub fn complete(&mut self) {
         for (row, unknowns) in self.numbering.blocks.iter().enumerate() {
             if unknowns.iter().all(Option::is_some) {
@@ -186,8 +180,8 @@ impl SaddleMatrix {
 
     /// Overwrites y with A x.
     pub(super) fn multiply(&self, x: &[f64], y: &mut [f64]) {
-        let Vectors { velocity, pressure } = self.split(x);
-        let mut result = Vectors {
+        let Blocks { velocity, pressure } = self.numbering.split(x, |_, value| value);
+        let mut result = Blocks {
             velocity: vec![[0.0; B]; velocity.len()],
             pressure: self.divergence(&velocity),
         };
@@ -196,31 +190,9 @@ impl SaddleMatrix {
                 *sum = self.row_product(chunk * ROWS + offset, &velocity, &pressure);
             }
         });
-        for (place, y) in self.numbering.places.iter().zip(y) {
-            *y = match *place {
-                Place::Velocity { row, component } => {
-                    result.velocity[row as usize][usize::from(component)]
-                }
-                Place::Pressure(index) => result.pressure[index as usize],
-            };
+        for (&place, y) in self.numbering.places.iter().zip(y) {
+            *y = result.at(place);
         }
-    }
-
-    fn split(&self, values: &[f64]) -> Vectors {
-        let Numbering { places, blocks, pressures, .. } = &self.numbering;
-        let mut vectors = Vectors {
-            velocity: vec![[0.0; B]; blocks.len()],
-            pressure: vec![0.0; pressures.len()],
-        };
-        for (place, &value) in places.iter().zip(values) {
-            match *place {
-                Place::Velocity { row, component } => {
-                    vectors.velocity[row as usize][usize::from(component)] = value;
-                }
-                Place::Pressure(index) => vectors.pressure[index as usize] = value,
-            }
-        }
-        vectors
     }
 
     /// A row of F u + G p.
@@ -233,7 +205,7 @@ impl SaddleMatrix {
             let u = &u[column as usize];
             for b in 0..B {
                 for a in 0..B {
-                    sum[a] += (f64::from(leading[b][a]) + f64::from(rest[b][a])) * u[b];
+                    sum[a] += whole(leading[b][a], rest[b][a]) * u[b];
                 }
             }
         }
@@ -242,7 +214,7 @@ impl SaddleMatrix {
         let values = values.zip(&self.gradient_rest[entries.clone()]);
         for (&pressure, (leading, rest)) in self.gradient.pressures()[entries].iter().zip(values) {
             for a in 0..B {
-                sum[a] += (f64::from(leading[a]) + f64::from(rest[a])) * p[pressure as usize];
+                sum[a] += whole(leading[a], rest[a]) * p[pressure as usize];
             }
         }
         sum
@@ -256,8 +228,7 @@ impl SaddleMatrix {
                 for entry in self.gradient.entries(row) {
                     let (leading, rest) =
                         (self.gradient.values()[entry], self.gradient_rest[entry]);
-                    let value = |a: usize| f64::from(leading[a]) + f64::from(rest[a]);
-                    let sum: f64 = (0..B).map(|a| value(a) * u[a]).sum();
+                    let sum: f64 = (0..B).map(|a| whole(leading[a], rest[a]) * u[a]).sum();
                     sums[self.gradient.pressures()[entry] as usize] += sum;
                 }
             }
@@ -277,7 +248,7 @@ impl SaddleMatrix {
     /// The same with compressed columns, G^T included, for a direct solver.
     #[must_use]
     pub fn to_sparse(&self) -> SparseMatrix {
-        let Numbering { places, blocks, pressures, .. } = &self.numbering;
+        let Numbering { blocks, pressures, .. } = &self.numbering;
         // Column of each unknown as rows with their values; both triangles have the same pattern
         let mut columns: Vec<Vec<(u32, f64)>> = vec![Vec::new(); self.n()];
         for (row, unknowns) in blocks.iter().enumerate() {
@@ -289,8 +260,7 @@ impl SaddleMatrix {
                 for (b, other) in blocks[column as usize].iter().enumerate() {
                     let Some(other) = other else { continue };
                     for (a, one) in own() {
-                        let value = f64::from(leading[b][a]) + f64::from(rest[b][a]);
-                        columns[*other as usize].push((one, value));
+                        columns[*other as usize].push((one, whole(leading[b][a], rest[b][a])));
                     }
                 }
             }
@@ -298,13 +268,12 @@ impl SaddleMatrix {
                 let pressure = pressures[self.gradient.pressures()[index] as usize];
                 let (leading, rest) = (self.gradient.values()[index], self.gradient_rest[index]);
                 for (a, one) in own() {
-                    let value = f64::from(leading[a]) + f64::from(rest[a]);
+                    let value = whole(leading[a], rest[a]);
                     columns[pressure as usize].push((one, value));
                     columns[one as usize].push((pressure, value));
                 }
             }
         }
-        debug_assert_eq!(columns.len(), places.len());
         columns.iter_mut().for_each(|column| column.sort_unstable_by_key(|(row, _)| *row));
         let rows = |column: &Vec<(u32, f64)>| -> Vec<usize> {
             column.iter().map(|(row, _)| *row as usize).collect()
@@ -315,10 +284,16 @@ impl SaddleMatrix {
     }
 }
 
+/// A number that is the sum of two.
+#[inline(always)]
+fn whole(leading: f32, rest: f32) -> f64 {
+    f64::from(leading) + f64::from(rest)
+}
+
 /// Adds to a number that is the sum of two.
 #[inline(always)]
 fn add(leading: &mut f32, rest: &mut f32, value: f64) {
-    let sum = f64::from(*leading) + f64::from(*rest) + value;
+    let sum = whole(*leading, *rest) + value;
     *leading = single(sum);
     *rest = single(sum - f64::from(*leading));
 }

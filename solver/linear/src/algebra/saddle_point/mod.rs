@@ -7,7 +7,6 @@
 
 mod block_maps;
 mod commutator;
-mod damping;
 mod data;
 mod gradient;
 mod guess;

@@ -1,18 +1,8 @@
 //! `Numbering`: unknowns as blocks of three velocities, two blocks for a body, and as pressures.
 
 use super::data::{Part, SaddlePoint};
-use super::vector::{B, Blocks};
+use super::vector::{B, Blocks, Place};
 use crate::sparse::index::to_u32;
-use crate::sparse::single::single;
-
-/// Where an unknown stands.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Place {
-    /// In a block of velocities.
-    Velocity { row: u32, component: u8 },
-    /// Among the pressures.
-    Pressure(u32),
-}
 
 /// Blocks of the unknowns of a system.
 #[derive(Debug, Clone)]
@@ -85,31 +75,23 @@ impl Numbering {
         Self { places, blocks, pressures, n_nodes, n_bodies }
     }
 
-    /// The vector of unknowns with these values, each times `factor` (place).
-    pub fn split(&self, values: &[f64], factor: impl Fn(Place) -> f64) -> Blocks {
+    /// The vector of unknowns with what `of` gives for their places and values.
+    pub fn split<T: Copy + Default>(
+        &self,
+        values: &[f64],
+        of: impl Fn(Place, f64) -> T,
+    ) -> Blocks<T> {
         let mut blocks = Blocks::zeros(self.blocks.len(), self.pressures.len());
-        for (&place, value) in self.places.iter().zip(values) {
-            let value = single(value * factor(place));
-            match place {
-                Place::Velocity { row, component } => {
-                    blocks.velocity[row as usize][usize::from(component)] = value;
-                }
-                Place::Pressure(index) => blocks.pressure[index as usize] = value,
-            }
+        for (&place, &value) in self.places.iter().zip(values) {
+            *blocks.at_mut(place) = of(place, value);
         }
         blocks
     }
 
     /// Adds a vector times a factor to values of the unknowns.
     pub fn add(&self, factor: f64, blocks: &Blocks, values: &mut [f64]) {
-        for (place, value) in self.places.iter().zip(values) {
-            let part = match *place {
-                Place::Velocity { row, component } => {
-                    blocks.velocity[row as usize][usize::from(component)]
-                }
-                Place::Pressure(index) => blocks.pressure[index as usize],
-            };
-            *value += factor * f64::from(part);
+        for (&place, value) in self.places.iter().zip(values) {
+            *value += factor * f64::from(blocks.at(place));
         }
     }
 }

@@ -1,6 +1,5 @@
 //! `Preconditioner`: the upper block-triangular matrix [F G; 0 -S] with approximate inverses of F and S.
 
-use super::damping::damping_at_nodes;
 use super::data::{SaddlePoint, Weights};
 use super::gradient::Gradient;
 use super::matrix::SaddleMatrix;
@@ -10,6 +9,7 @@ use super::schur::SchurComplement;
 use super::transfer::transfer;
 use super::vector::{B, Blocks};
 use crate::multigrid::{BlockMatrix, Chebyshev, Hierarchy, HierarchySettings, Spectrum, upwinded};
+use crate::sparse::single::single;
 
 /// Degree of the smoother of the first level of a multigrid cycle.
 const SMOOTHING: usize = 2;
@@ -59,12 +59,6 @@ impl Preconditioner {
         let is_commutator = part > CONVECTIVE && weights.inertia == 0.0;
         let smooth = upwinded.as_ref().unwrap_or(block);
         let transfer = (!is_dominated).then(|| transfer(&weights.interpolation, numbering));
-        // Of the Laplacian of the pressures, where there is one
-        let damping = match &transfer {
-            None => Some(numbering.split(&weights.lumped_mass, |_| weights.inertia).velocity),
-            Some(_) if is_commutator => None,
-            Some(transfer) => Some(damping_at_nodes(smooth, transfer, numbering, weights)),
-        };
         let velocity = if let Some(transfer) = transfer {
             let settings = HierarchySettings {
                 n_pairs,
@@ -78,12 +72,10 @@ impl Preconditioner {
             VelocitySolver::Polynomial(Box::new(chebyshev))
         };
         let has_held_pressure = system.has_held_pressure;
-        let schur = match damping {
-            Some(damping) => {
-                let damping = &damping[..numbering.n_nodes];
-                SchurComplement::new(weights, gradient, damping, has_held_pressure)
-            }
-            None => SchurComplement::convective(block, gradient, numbering, has_held_pressure),
+        let schur = if is_commutator {
+            SchurComplement::convective(block, gradient, numbering, has_held_pressure)
+        } else {
+            SchurComplement::new(weights, gradient, &damping(weights, numbering), has_held_pressure)
         };
         Self {
             upwinded,
@@ -142,6 +134,18 @@ impl Preconditioner {
         }
         scales.divide(z);
     }
+}
+
+/// What damps the velocities at nodes beside their differences: walls and inertia. Pressures that vary over
+/// more than the distance to walls have the Schur complement G^T D^-1 G with it, and not a mass over the
+/// viscosity.
+fn damping(weights: &Weights, numbering: &Numbering) -> Vec<[f32; B]> {
+    let Weights { lumped_mass, wall_drag, inertia, .. } = weights;
+    let sums = lumped_mass.iter().zip(wall_drag).map(|(mass, drag)| inertia * mass + drag);
+    let sums: Vec<f64> = sums.collect();
+    let mut damping = numbering.split(&sums, |_, sum| single(sum)).velocity;
+    damping.truncate(numbering.n_nodes);
+    damping
 }
 
 /// Median over the velocities at nodes of what is no derivative in the diagonal of F.

@@ -5,6 +5,7 @@ use super::guess::EarlierSolutions;
 use super::matrix::SaddleMatrix;
 use super::preconditioner::Preconditioner;
 use super::vector::Blocks;
+use crate::sparse::single::single;
 
 /// An approximation x of the solution of A x = b, and b - A x.
 pub(super) struct Iterate {
@@ -40,7 +41,9 @@ impl Scaled<'_> {
     /// A residual of this size, as one of norm one in single precision.
     pub fn single(&self, residual: &[f64], size: f64) -> Blocks {
         let scales = self.preconditioner.scales();
-        self.matrix.numbering().split(residual, |place| scales.of(place) / size)
+        self.matrix
+            .numbering()
+            .split(residual, |place, value| single(value * (scales.of(place) / size)))
     }
 
     /// The combination of earlier solutions with the least residual, for a right-hand side of this size.

@@ -1,87 +1,57 @@
-//! `Scales`: factors of the equations that make those of momentum, mass, forces and torques weigh the same.
-
-use std::ops::Range;
+//! `Scales`: factors of rows and columns that make all equations weigh the same.
 
 use super::matrix::SaddleMatrix;
-use super::numbering::{Numbering, Place};
-use super::vector::Blocks;
-use crate::sparse::single::single;
+use super::numbering::Numbering;
+use super::vector::{B, Blocks, Place};
 
-/// Factors of rows and columns; those of velocities at nodes and of translations are one.
+/// Factors of rows and columns, one for each unknown.
+///
+/// Those of velocities are 1 / sqrt(f) with f their diagonal in F, those of pressures 1 / sqrt(s) with s
+/// their diagonal in G^T diag(F)^-1 G. Squares of scaled residuals are powers then, whatever the units and
+/// however much cells differ in size: the Euclidean norm is close to the one in which the error of the
+/// solution is the energy that it dissipates (@elman2014, section 4.2).
 #[derive(Debug)]
 pub(super) struct Scales {
-    n_nodes: usize,
-    /// The ratio of the velocities' diagonal to the gradient.
-    pressure: f64,
-    /// The inverse of the radius of resistance, of each body.
-    rotations: Vec<f64>,
+    factors: Blocks,
 }
 
 impl Scales {
     /// For a matrix.
     pub fn new(matrix: &SaddleMatrix) -> Self {
-        let Numbering { blocks, n_nodes, pressures, .. } = matrix.numbering();
-        let diagonal = |row: usize| matrix.velocity().diagonal(row);
-        let mean = |rows: Range<usize>| {
-            let (mut sum, mut count) = (0.0, 0);
-            for row in rows {
-                let free = blocks[row].iter().zip(diagonal(row));
-                for (_, value) in free.filter(|(unknown, _)| unknown.is_some()) {
-                    sum += f64::from(value.abs());
-                    count += 1;
-                }
-            }
-            sum / f64::from(count.max(1))
-        };
-        let velocity = mean(0..*n_nodes);
+        let Numbering { blocks, pressures, .. } = matrix.numbering();
         let gradient = matrix.gradient();
-        let mut largest = vec![0.0f32; pressures.len()];
-        for (&pressure, values) in gradient.pressures().iter().zip(gradient.values()) {
-            let most = &mut largest[pressure as usize];
-            *most = values.iter().fold(*most, |most, value| most.max(value.abs()));
+        let mut factors = Blocks::zeros(blocks.len(), pressures.len());
+        let Blocks { velocity, pressure } = &mut factors;
+        for (row, factors) in velocity.iter_mut().enumerate() {
+            *factors = matrix.velocity().diagonal(row).map(inverse_root);
+            for entry in gradient.entries(row) {
+                let of_entry = &mut pressure[gradient.pressures()[entry] as usize];
+                let values = gradient.values()[entry];
+                *of_entry += (0..B).map(|a| (values[a] * factors[a]).powi(2)).sum::<f32>();
+            }
         }
-        let gradient = largest.iter().map(|value| f64::from(*value)).sum::<f64>()
-            / largest.len().max(1) as f64;
-        let positive = |value: f64| if value.is_normal() && value > 0.0 { value } else { 1.0 };
-        let rotation = |body: usize| {
-            let row = n_nodes + 2 * body;
-            positive((mean(row..row + 1) / mean(row + 1..row + 2)).sqrt())
-        };
-        Self {
-            n_nodes: *n_nodes,
-            pressure: positive(velocity / gradient),
-            rotations: (0..matrix.numbering().n_bodies).map(rotation).collect(),
-        }
+        pressure.iter_mut().for_each(|sum| *sum = inverse_root(*sum));
+        Self { factors }
     }
 
     /// The factor of an unknown.
     pub fn of(&self, place: Place) -> f64 {
-        match place {
-            Place::Pressure(_) => self.pressure,
-            Place::Velocity { row, .. } => match (row as usize).checked_sub(self.n_nodes) {
-                Some(row) if row % 2 == 1 => self.rotations[row / 2],
-                _ => 1.0,
-            },
-        }
+        f64::from(self.factors.at(place))
     }
 
     /// Multiplies all values by their factors.
     pub fn multiply(&self, vector: &mut Blocks) {
-        self.apply(vector, single);
+        vector.combine(&self.factors, |value, factor| value * factor);
     }
 
     /// Divides all values by their factors.
     pub fn divide(&self, vector: &mut Blocks) {
-        self.apply(vector, |scale| single(1.0 / scale));
+        vector.combine(&self.factors, |value, factor| value / factor);
     }
+}
 
-    fn apply(&self, vector: &mut Blocks, factor: impl Fn(f64) -> f32) {
-        let by = factor(self.pressure);
-        vector.pressure.iter_mut().for_each(|value| *value *= by);
-        let bodies = vector.velocity[self.n_nodes..].chunks_exact_mut(2);
-        for (body, scale) in bodies.zip(&self.rotations) {
-            let by = factor(*scale);
-            body[1].iter_mut().for_each(|value| *value *= by);
-        }
-    }
+/// The inverse of the square root; one where there is none.
+fn inverse_root(value: f32) -> f32 {
+    let root = value.abs().sqrt();
+    if root.is_normal() { 1.0 / root } else { 1.0 }
 }

@@ -104,7 +104,8 @@ impl SchurComplement {
 struct Masses {
     mass: BlockMatrix<1>,
     mass_inverse: Chebyshev<1>,
-    laplacian: Multigrid<1>,
+    /// None where nothing but differences damps velocities.
+    laplacian: Option<Multigrid<1>>,
     part: Vec<[f32; 1]>,
 }
 
@@ -119,18 +120,20 @@ impl Masses {
         let mass_inverse = Chebyshev::new(&mass, 0, MASS_SPECTRUM, MASS_DEGREE);
         let held = has_held_pressure.then(|| gradient.with_held_pressure());
         let gradient = held.as_ref().unwrap_or(gradient);
-        let laplacian = laplacian(gradient, damping, has_held_pressure);
+        let is_damped = damping.as_flattened().iter().any(|damping| *damping > 0.0);
+        let laplacian = is_damped.then(|| laplacian(gradient, damping, has_held_pressure));
         let part = vec![[0.0]; mass.n_rows()];
         Self { mass, mass_inverse, laplacian, part }
     }
 
     fn n_bytes(&self) -> usize {
-        self.mass.n_bytes() + self.laplacian.n_bytes()
+        self.mass.n_bytes() + self.laplacian.as_ref().map_or(0, Multigrid::n_bytes)
     }
 
     fn solve(&mut self, rhs: &[[f32; 1]], solution: &mut [[f32; 1]]) {
         self.mass_inverse.solve(&self.mass, rhs, solution);
-        self.laplacian.cycle(rhs, &mut self.part);
+        let Some(laplacian) = &mut self.laplacian else { return };
+        laplacian.cycle(rhs, &mut self.part);
         for (value, part) in solution.iter_mut().zip(&self.part) {
             value[0] += part[0];
         }

@@ -1,15 +1,14 @@
 //! Parts of the preconditioner against what they stand for, on systems of a few unknowns.
 
 use super::commutator::Commutator;
-use super::damping::damping_at_nodes;
 use super::matrix::SaddleMatrix;
 use super::numbering::Numbering;
 use super::transfer::transfer;
-use super::{Interpolation, Part, SaddlePoint, Weights};
+use super::{Interpolation, Part, SaddlePoint};
 use crate::algebra::{CellFolds, CellMaps, ConstraintBuilder, Term};
+use crate::sparse::SparseMatrix;
 use crate::sparse::index::to_u32;
 use crate::sparse::single::single;
-use crate::sparse::{Pattern, SparseMatrix};
 
 /// Two nodes in the plane, of which the second has no second component, two pressures and a body that
 /// turns about one axis.
@@ -151,64 +150,6 @@ fn the_commutator_inverts_the_schur_complement_of_a_diagonal_block() {
     commutator.solve(block, &[[single(schur(0))], [single(schur(1))]], &mut solution);
     for (found, expected) in solution.iter().zip(p) {
         assert!((f64::from(found[0]) - expected).abs() < 1e-5 * expected.abs(), "{solution:?}");
-    }
-}
-
-/// Linear elements across a film of width g between walls: 4/3 of a Laplacian for each of three components, and
-/// a lumped mass.
-fn film(width: f64, n: usize, viscosity: f64, inertia: f64) -> SaddleMatrix {
-    let axes: [u8; 3] = [0, 1, 2];
-    let h = width / (n + 1) as f64;
-    let of_node = |node| axes.map(|component| Part::Velocity { node: to_u32(node), component });
-    let parts = (0..n).flat_map(of_node).collect();
-    let system = SaddlePoint { parts, has_held_pressure: false };
-    // Nodes on the walls come first and last
-    let mut builder = ConstraintBuilder::new(3 * (n + 2));
-    (0..3).chain(3 * (n + 1)..3 * (n + 2)).for_each(|raw| builder.fix(raw, 0.0));
-    let constraints = builder.build();
-    let raw = (0..=n).flat_map(|cell| (0..6).map(move |local| to_u32(3 * cell + local)));
-    let folds = CellFolds::new(6, raw.collect(), &constraints);
-    let mut matrix = SaddleMatrix::new(&system, &folds.unknowns(&constraints));
-    let stiffness = 4.0 / 3.0 * viscosity / h;
-    let entry = |row: usize, column: usize| match row.abs_diff(column) {
-        0 => stiffness + 0.5 * inertia * h,
-        3 => -stiffness,
-        _ => 0.0,
-    };
-    let values: Vec<f64> = (0..36).map(|index| entry(index % 6, index / 6)).collect();
-    (0..=n).for_each(|cell| matrix.add_cell(cell, &values));
-    matrix.complete();
-    matrix
-}
-
-#[test]
-fn the_damping_between_walls_is_that_of_a_film() {
-    let (n, width, viscosity) = (63, 0.2, 3.0);
-    let h = width / (n + 1) as f64;
-    for inertia in [0.0, 1e6] {
-        let matrix = film(width, n, viscosity, inertia);
-        let mut interpolation = Interpolation::with_capacity(3 * n);
-        for unknown in 0..3 * n {
-            let is_coarse = unknown / 3 % 2 == 1;
-            let near = [unknown.checked_sub(3), Some(unknown + 3).filter(|row| *row < 3 * n)];
-            let of = if is_coarse { [Some(unknown), None] } else { near };
-            let weight = if is_coarse { 1.0 } else { 0.5 };
-            let terms = of.into_iter().flatten();
-            interpolation.push(terms.map(|row| Term { unknown: to_u32(row), weight }));
-        }
-        let pressure_mass =
-            SparseMatrix::new(Pattern::from_columns(std::iter::empty::<[usize; 0]>()), Vec::new());
-        let lumped_mass = vec![h; 3 * n];
-        let transfer = transfer(&interpolation, matrix.numbering());
-        let weights =
-            Weights { interpolation, pressure_mass, lumped_mass, inertia, has_convection: false };
-        let damping = damping_at_nodes(matrix.velocity(), &transfer, matrix.numbering(), &weights);
-        let mobility: f64 = damping.iter().map(|d| h * h / f64::from(d[1])).sum();
-        // Mean of y (g - y) / 2 mu, which is g^2 / 12 mu; with inertia alone its inverse
-        let expected =
-            if inertia == 0.0 { width * width / (12.0 * viscosity) } else { 1.0 / inertia };
-        let relative = mobility / width / expected - 1.0;
-        assert!(relative.abs() < 0.03, "{inertia}: {relative}");
     }
 }
 

@@ -1,8 +1,8 @@
 //! The transfer of velocities from the coarser level, in blocks.
 
 use super::data::Interpolation;
-use super::numbering::{Numbering, Place};
-use super::vector::B;
+use super::numbering::Numbering;
+use super::vector::{B, Place};
 use crate::multigrid::{Block, BlockMatrix, RowBuilder};
 use crate::sparse::single::single;
 

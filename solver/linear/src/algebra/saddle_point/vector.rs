@@ -1,4 +1,4 @@
-//! `Blocks`: vectors of velocities in blocks and of pressures, in single precision.
+//! `Blocks`: vectors of velocities in blocks and of pressures.
 
 use rayon::prelude::*;
 
@@ -12,21 +12,53 @@ const CHUNK: usize = 12_288;
 /// Sums side by side within them.
 const LANES: usize = 16;
 
-/// A vector of the unknowns by what they are.
+/// Where an unknown stands.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Place {
+    /// In a block of velocities.
+    Velocity { row: u32, component: u8 },
+    /// Among the pressures.
+    Pressure(u32),
+}
+
+/// A vector of the unknowns by what they are, in single precision if nothing else is said.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Blocks {
+pub(super) struct Blocks<T = f32> {
     /// Velocities of nodes, then of bodies; zero where a component is no unknown.
-    pub velocity: Vec<[f32; B]>,
+    pub velocity: Vec<[T; B]>,
     /// Pressures.
-    pub pressure: Vec<f32>,
+    pub pressure: Vec<T>,
+}
+
+impl<T: Copy + Default> Blocks<T> {
+    /// Zeros, so many blocks and pressures.
+    pub fn zeros(n_blocks: usize, n_pressures: usize) -> Self {
+        let zero = T::default();
+        Self { velocity: vec![[zero; B]; n_blocks], pressure: vec![zero; n_pressures] }
+    }
+
+    /// The value of an unknown.
+    pub fn at(&self, place: Place) -> T {
+        match place {
+            Place::Velocity { row, component } => {
+                self.velocity[row as usize][usize::from(component)]
+            }
+            Place::Pressure(index) => self.pressure[index as usize],
+        }
+    }
+
+    /// The value of an unknown, to be changed.
+    pub fn at_mut(&mut self, place: Place) -> &mut T {
+        match place {
+            Place::Velocity { row, component } => {
+                &mut self.velocity[row as usize][usize::from(component)]
+            }
+            Place::Pressure(index) => &mut self.pressure[index as usize],
+        }
+    }
 }
 
 impl Blocks {
-    /// Zeros, so many blocks and pressures.
-    pub fn zeros(n_blocks: usize, n_pressures: usize) -> Self {
-        Self { velocity: vec![[0.0; B]; n_blocks], pressure: vec![0.0; n_pressures] }
-    }
-
     /// Zeros, as many as in this vector.
     pub fn zeros_alike(&self) -> Self {
         Self::zeros(self.velocity.len(), self.pressure.len())
@@ -45,8 +77,15 @@ impl Blocks {
 
     /// Adds `factor` times another vector.
     pub fn add(&mut self, factor: f64, other: &Self) {
-        add(single(factor), other.velocity.as_flattened(), self.velocity.as_flattened_mut());
-        add(single(factor), &other.pressure, &mut self.pressure);
+        let factor = single(factor);
+        self.combine(other, |value, other| value + factor * other);
+    }
+
+    /// Overwrites each value by what `of` gives for it and that of another vector.
+    pub fn combine(&mut self, other: &Self, of: impl Fn(f32, f32) -> f32 + Sync) {
+        let velocity = self.velocity.as_flattened_mut();
+        combine(velocity, other.velocity.as_flattened(), &of);
+        combine(&mut self.pressure, &other.pressure, &of);
     }
 
     /// Multiplies by a factor.
@@ -77,11 +116,11 @@ fn dot(a: &[f32], b: &[f32]) -> f64 {
     sums.into_iter().sum()
 }
 
-/// target += factor * from.
-fn add(factor: f32, from: &[f32], target: &mut [f32]) {
-    target.par_chunks_mut(CHUNK).zip(from.par_chunks(CHUNK)).for_each(|(target, from)| {
-        for (target, value) in target.iter_mut().zip(from) {
-            *target += factor * value;
+/// Overwrites values by what `of` gives for them and those of others.
+fn combine(values: &mut [f32], others: &[f32], of: &(impl Fn(f32, f32) -> f32 + Sync)) {
+    values.par_chunks_mut(CHUNK).zip(others.par_chunks(CHUNK)).for_each(|(values, others)| {
+        for (value, other) in values.iter_mut().zip(others) {
+            *value = of(*value, *other);
         }
     });
 }
