@@ -57,9 +57,8 @@ pub struct Weights {
     pub pressure_mass: SparseMatrix,
     /// For each unknown its lumped mass (m^3). Not read of pressures and rigid velocities.
     pub lumped_mass: Vec<f64>,
-    /// For each unknown its lumped mass over the mobility of the fluid between the nearest walls (N s/m): the
-    /// gradient of the pressure, integrated, over the mean velocity that it drives there. Not read of
-    /// pressures and rigid velocities.
+    /// For each unknown its lumped mass over the mobility of the fluid at the distance to the nearest wall
+    /// (N s/m). Not read of pressures and rigid velocities.
     pub wall_drag: Vec<f64>,
     /// What the mass is multiplied by in F: density over time step (kg/m^3/s), zero without inertia.
     pub inertia: f64,

@@ -9,7 +9,7 @@ use super::vector::{B, Blocks, Place};
 /// Those of velocities are 1 / sqrt(f) with f their diagonal in F, those of pressures 1 / sqrt(s) with s
 /// their diagonal in G^T diag(F)^-1 G. Squares of scaled residuals are powers then, whatever the units and
 /// however much cells differ in size: the Euclidean norm is close to the one in which the error of the
-/// solution is the energy that it dissipates (@elman2014, section 4.2).
+/// solution is the energy that it dissipates (@elman2014, chapter 4).
 #[derive(Debug)]
 pub(super) struct Scales {
     factors: Blocks,
