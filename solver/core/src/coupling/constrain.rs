@@ -3,7 +3,7 @@
 //! A node on a body: u = U + omega x (x - G) + slip, with U and omega raw unknowns themselves.
 //! Where boundaries meet, bodies come first, then walls, then inflows, then symmetry planes.
 
-use alewife_mesh::{BoundaryId, BoundaryKind, Facet, Mesh, NodeId, Point};
+use alewife_mesh::{BoundaryId, BoundaryKind, Mesh, NodeId, Point};
 
 use super::boundaries::{Boundaries, BoundaryNode};
 use super::kinematics::{RigidRow, turned_component};
@@ -141,17 +141,12 @@ impl<const D: usize> Constrainer<'_, D> {
         }
         if self.problem.is_enclosed() {
             // Any vertex will do that is not itself a periodic copy, but on a side of the domain the
-            // level is that far away: next to a body it may be large. Of those the one with the largest
-            // cell: the equation left out is minus the sum of the others, whose rounding it takes.
-            let pressure = |facet: &Facet| layout.pressure(mesh.facet_vertices(facet)[0]);
-            let on_side = facets_on_sides(mesh)
-                .filter(|facet| !builder.is_constrained(pressure(facet)))
-                .max_by(|one, other| edge(mesh, one).total_cmp(&edge(mesh, other)));
-            let anywhere = || {
-                let mut raw = mesh.vertex_ids().map(|vertex| layout.pressure(vertex));
-                raw.find(|&raw| !builder.is_constrained(raw))
-            };
-            let pinned = on_side.map(pressure).or_else(anywhere);
+            // level is that far away: next to a body it may be large, and the cells far away, where
+            // it is then felt, are large too.
+            let pinned = vertices_on_sides(mesh)
+                .chain(mesh.vertex_ids())
+                .map(|vertex| layout.pressure(vertex))
+                .find(|&raw| !builder.is_constrained(raw));
             if let Some(raw) = pinned {
                 builder.fix(raw, 0.0);
             }
@@ -171,15 +166,11 @@ impl<const D: usize> Constrainer<'_, D> {
     }
 }
 
-fn facets_on_sides<const D: usize>(mesh: &Mesh<D>) -> impl Iterator<Item = &Facet> {
+/// The first vertex of each facet on a side of the domain.
+fn vertices_on_sides<const D: usize>(mesh: &Mesh<D>) -> impl Iterator<Item = NodeId> {
     let is_side = |boundary: BoundaryId| mesh.boundaries[boundary].kind == BoundaryKind::Side;
-    mesh.facets.iter().filter(move |facet| is_side(facet.boundary))
-}
-
-/// Length of the first edge of a facet (m).
-fn edge<const D: usize>(mesh: &Mesh<D>, facet: &Facet) -> f64 {
-    let [a, b] = [0, 1].map(|local| mesh.nodes[mesh.facet_vertices(facet)[local]]);
-    (b - a).norm()
+    let facets = mesh.facets.iter().filter(move |facet| is_side(facet.boundary));
+    facets.map(|facet| mesh.facet_vertices(facet)[0])
 }
 
 /// The node that holds fluid and bodies where nothing else does: a vertex on a side that is no
@@ -189,8 +180,7 @@ pub(super) fn pinned_node<const D: usize>(mesh: &Mesh<D>) -> Option<NodeId> {
     for pair in &mesh.periodic {
         is_copy[pair.copy] = true;
     }
-    let mut vertices = facets_on_sides(mesh).map(|facet| mesh.facet_vertices(facet)[0]);
-    vertices.find(|&vertex| !is_copy[vertex])
+    vertices_on_sides(mesh).find(|&vertex| !is_copy[vertex])
 }
 
 /// Boundary values at the nodes of a velocity that is given everywhere else: those of bodies with these
