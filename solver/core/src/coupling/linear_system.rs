@@ -202,24 +202,16 @@ impl LinearSystem {
         reduction: Option<f64>,
         timing: &mut Timing,
     ) -> Result<(), LinearError> {
-        let (unknowns, accuracy) = (&self.unknowns, &mut self.accuracy);
-        match &mut self.method {
+        let accuracy = match &mut self.method {
             Method::Direct { matrix, solver, .. } => {
-                let solver = analysed(solver, matrix, unknowns, timing);
-                let is_solved = timing.measure(Stage::Solve, || {
-                    solver.solve_with_earlier_set_up(matrix, rhs, free)
-                })?;
-                if !is_solved {
-                    let solve = |solver: &mut DirectSolver| solver.solve(matrix, rhs);
-                    *accuracy = set_up_and(solve, solver, matrix, timing)?;
-                }
+                let solver = analysed(solver, matrix, &self.unknowns, timing);
+                corrected(solver, matrix, free, rhs, reduction, timing)?
             }
-            Method::Iterative { matrix, solver, settings, .. } => {
-                let reduction = reduction.unwrap_or(settings.tolerance);
-                let solve = |solver: &mut IterativeSolver| solver.solve_to(matrix, rhs, reduction);
-                *accuracy = set_up_and(solve, prepared(solver), matrix, timing)?;
+            Method::Iterative { matrix, solver, .. } => {
+                corrected(prepared(solver), matrix, free, rhs, reduction, timing)?
             }
-        }
+        };
+        self.accuracy = accuracy.unwrap_or(self.accuracy);
         Ok(())
     }
 
@@ -270,6 +262,27 @@ fn set_up_and<S: LinearSolver, T>(
 ) -> Result<T, LinearError> {
     timing.measure(Stage::Factorisation, || solver.set_up(matrix))?;
     timing.measure(Stage::Solve, || solve(solver))
+}
+
+/// Solves for a correction of the free unknowns, in place: by an earlier set-up if that is enough, else how
+/// accurately by one for this matrix.
+fn corrected<S: LinearSolver>(
+    solver: &mut S,
+    matrix: &S::Matrix,
+    free: &[f64],
+    rhs: &mut [f64],
+    reduction: Option<f64>,
+    timing: &mut Timing,
+) -> Result<Option<Accuracy>, LinearError> {
+    let by_earlier = || solver.solve_with_earlier_set_up(matrix, rhs, free);
+    if timing.measure(Stage::Solve, by_earlier)? {
+        return Ok(None);
+    }
+    let solve = |solver: &mut S| match reduction {
+        Some(reduction) => solver.solve_to(matrix, rhs, reduction),
+        None => solver.solve(matrix, rhs),
+    };
+    set_up_and(solve, solver, matrix, timing).map(Some)
 }
 
 /// The direct solver, made for the pattern of a matrix if there is none.

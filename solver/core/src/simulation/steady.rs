@@ -189,7 +189,8 @@ impl<const D: usize> Continuation<'_, D> {
     ) -> Result<Attempt<D>, SteadyFailure<D>> {
         let is_stokes = part == 0.0;
         // Where iterations give it, the Stokes flow that convection is added to is not better than needed
-        let is_start = is_stokes && self.task.has_convection && work.system.is_iterative();
+        let is_iterative = work.system.is_iterative();
+        let is_start = is_stokes && self.task.has_convection && is_iterative;
         let tolerance = self.task.settings.tolerance;
         let criterion = Criterion {
             tolerance: if is_start { tolerance.max(START) } else { tolerance },
@@ -198,7 +199,8 @@ impl<const D: usize> Continuation<'_, D> {
             max_iterations: self.task.settings.max_iterations,
             scale: self.scale,
             accepts_start: true,
-            is_linear: false,
+            // Iterations end by a norm of their own, in which equations of all sizes of cells weigh the same
+            is_linear: is_stokes && is_iterative,
             divergence: Some(DIVERGENCE),
             reduction: if is_stokes { Reduction::ToTolerance } else { Reduction::Inexact },
         };

@@ -80,6 +80,20 @@ pub trait LinearSolver: Debug + Send {
     /// When the residual stays large, or a value is not finite.
     fn solve(&mut self, matrix: &Self::Matrix, rhs: &mut [f64]) -> Result<Accuracy, LinearError>;
 
+    /// The same, where the accuracy is a choice until what is left of the residual is this part of the
+    /// right-hand side.
+    ///
+    /// # Errors
+    /// When the residual stays large, or a value is not finite.
+    fn solve_to(
+        &mut self,
+        matrix: &Self::Matrix,
+        rhs: &mut [f64],
+        _reduction: f64,
+    ) -> Result<Accuracy, LinearError> {
+        self.solve(matrix, rhs)
+    }
+
     /// Overwrites a right-hand side with the solution for a matrix that has changed since the last
     /// set-up, by that set-up.
     ///

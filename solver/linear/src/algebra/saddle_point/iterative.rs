@@ -186,20 +186,6 @@ impl IterativeSolver {
         Ok(Iterated { iterate, iterations, stalled_at: None })
     }
 
-    /// Overwrites a right-hand side with the solution for the matrix of the last set-up, to a Euclidean norm
-    /// of the residual over that of the right-hand side, in place of the one in the settings.
-    ///
-    /// # Errors
-    /// When iterations stall, or a value is not finite.
-    pub fn solve_to(
-        &mut self,
-        matrix: &SaddleMatrix,
-        rhs: &mut [f64],
-        reduction: f64,
-    ) -> Result<Accuracy, LinearError> {
-        self.solved(matrix, rhs, reduction, true)
-    }
-
     /// A direct solver for the system, if its factors are small enough, once iterations have left a part
     /// of the right-hand side.
     fn take_over(&self, matrix: &SaddleMatrix, residual: f64) -> Result<Direct, LinearError> {
@@ -292,6 +278,16 @@ impl LinearSolver for IterativeSolver {
 
     fn solve(&mut self, matrix: &SaddleMatrix, rhs: &mut [f64]) -> Result<Accuracy, LinearError> {
         self.solve_to(matrix, rhs, self.settings.tolerance)
+    }
+
+    /// By the Euclidean norms of the scaled residual and right-hand side.
+    fn solve_to(
+        &mut self,
+        matrix: &SaddleMatrix,
+        rhs: &mut [f64],
+        reduction: f64,
+    ) -> Result<Accuracy, LinearError> {
+        self.solved(matrix, rhs, reduction, true)
     }
 
     fn solve_with_earlier_set_up(
