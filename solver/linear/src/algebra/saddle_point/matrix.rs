@@ -127,29 +127,26 @@ impl SaddleMatrix {
         // Nothing where there is no unknown: `NO_ROW` is beyond all columns
         let column =
             |column: u16| matrix.chunks_exact(size.max(1)).nth(usize::from(column)).unwrap_or(&[]);
-        let value = |column: &[f64], row: u16| column.get(usize::from(row)).copied().unwrap_or(0.0);
         // Cells whose velocities are all given have neither rows nor entries
         let n_rows = rows.len().max(1);
         let (leading, rest) = (self.velocity.blocks_mut(), &mut self.velocity_rest);
         for (columns, blocks) in rows.iter().zip(blocks.chunks_exact(n_rows)) {
             let columns = columns.map(column);
-            for (rows, &index) in rows.iter().zip(blocks) {
+            for (&rows, &index) in rows.iter().zip(blocks) {
                 let (leading, rest) = (&mut leading[index as usize], &mut rest[index as usize]);
-                for b in 0..B {
-                    for a in 0..B {
-                        add(&mut leading[b][a], &mut rest[b][a], value(columns[b], rows[a]));
-                    }
-                }
+                let values = columns.map(|column| values(column, rows));
+                let leading = leading.as_flattened_mut().iter_mut();
+                let sums = leading.zip(rest.as_flattened_mut()).zip(values.as_flattened());
+                sums.for_each(|((leading, rest), value)| add(leading, rest, *value));
             }
         }
         let (leading, rest) = (self.gradient.values_mut(), &mut self.gradient_rest);
         for (&pressure, entries) in pressures.iter().zip(entries.chunks_exact(n_rows)) {
             let column = column(pressure);
-            for (rows, &index) in rows.iter().zip(entries) {
+            for (&rows, &index) in rows.iter().zip(entries) {
                 let (leading, rest) = (&mut leading[index as usize], &mut rest[index as usize]);
-                for a in 0..B {
-                    add(&mut leading[a], &mut rest[a], value(column, rows[a]));
-                }
+                let sums = leading.iter_mut().zip(rest).zip(values(column, rows));
+                sums.for_each(|((leading, rest), value)| add(leading, rest, value));
             }
         }
     }
@@ -282,6 +279,20 @@ impl SaddleMatrix {
         let values = columns.iter().flatten().map(|(_, value)| *value).collect();
         SparseMatrix::new(pattern, values)
     }
+}
+
+/// The values of a column in some rows, zero in those that it does not have.
+#[inline(always)]
+fn values(column: &[f64], rows: [u16; B]) -> [f64; B] {
+    let [first, second, third] = rows.map(usize::from);
+    // Most cells have all velocities of a node, one after the other
+    if (second, third) == (first + 1, first + 2) {
+        return column
+            .get(first..first + B)
+            .and_then(|values| values.try_into().ok())
+            .unwrap_or_default();
+    }
+    [first, second, third].map(|row| column.get(row).copied().unwrap_or(0.0))
 }
 
 /// A number that is the sum of two.
