@@ -14,6 +14,7 @@ mod locate;
 mod mesh;
 mod msh;
 mod number;
+mod order;
 mod planar;
 mod quadrature;
 mod quality;

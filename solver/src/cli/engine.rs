@@ -5,6 +5,7 @@ use std::path::Path;
 use alewife_mesh::Mesh;
 
 use super::signal::SignalWatch;
+use super::threads;
 use crate::case::Model;
 use crate::observer::{self, History, RunDirectory};
 use crate::simulation::{self, Dimension, RunError, RunSummary, SavedState, Solve};
@@ -41,10 +42,10 @@ pub struct Resumed<const D: usize> {
 
 /// Runs a case of any dimension without files.
 pub fn simulate(model: &Model, watch: SignalWatch) -> Result<RunSummary, RunError> {
-    match model.case.geometry.dimensions() {
+    threads::within(|| match model.case.geometry.dimensions() {
         2 => simulation::simulate::<2>(model, &mut [Box::new(watch)]),
         _ => simulation::simulate::<3>(model, &mut [Box::new(watch)]),
-    }
+    })
 }
 
 /// Runs a case of any dimension from its beginning.
@@ -64,10 +65,12 @@ pub fn simulate_into<const D: usize>(
 where
     Dimension<D>: Solve<D>,
 {
-    let history = resumed.and_then(|resumed| resumed.history.as_ref());
-    let mut observers = observer::observers(model, run.directory, history, run.quiet)?;
-    observers.push(Box::new(run.watch));
-    simulation::simulate_from(model, resumed.map(|resumed| &resumed.state), &mut observers)
+    threads::within(|| {
+        let history = resumed.and_then(|resumed| resumed.history.as_ref());
+        let mut observers = observer::observers(model, run.directory, history, run.quiet)?;
+        observers.push(Box::new(run.watch));
+        simulation::simulate_from(model, resumed.map(|resumed| &resumed.state), &mut observers)
+    })
 }
 
 /// Starts the log: to standard error, and to `log.jsonl` of a run.

@@ -10,6 +10,9 @@ const VARIABLES: [&str; 3] = ["RAYON_NUM_THREADS", "SLURM_CPUS_PER_TASK", "SLURM
 /// More threads than any machine a run fits on has cores.
 const MOST: usize = 1024;
 
+/// Stack of a thread (bytes): what a main thread has.
+const STACK: usize = 8 << 20;
+
 /// Makes the threads of the program; their number is handed back.
 pub fn start(wanted: Option<usize>) -> Result<usize, Failure> {
     let threads = wanted
@@ -21,9 +24,16 @@ pub fn start(wanted: Option<usize>) -> Result<usize, Failure> {
     }
     rayon::ThreadPoolBuilder::new()
         .num_threads(threads)
+        .stack_size(STACK)
         .build_global()
         .map_err(|error| Failure::new(Exit::Bug, format!("no threads: {error}")))?;
     Ok(threads)
+}
+
+/// Does work on one of the threads: what it does in parallel then begins there, where each piece would have to be
+/// handed over from the main thread, which takes longer than many of them.
+pub fn within<R: Send>(work: impl FnOnce() -> R + Send) -> R {
+    rayon::scope(|_| work())
 }
 
 fn from_environment() -> Option<usize> {
