@@ -94,10 +94,11 @@ impl RowsOfCells {
     pub fn pattern(&self, numbering: &Numbering) -> BlockPattern {
         let n_rows = numbering.blocks.len();
         let cells = self.rows.inverted(n_rows);
-        BlockPattern {
-            columns: neighbours(&cells, &self.rows, n_rows),
-            pressures: neighbours(&cells, &self.pressures, numbering.pressures.len()),
-        }
+        let (columns, pressures) = rayon::join(
+            || neighbours(&cells, &self.rows, n_rows),
+            || neighbours(&cells, &self.pressures, numbering.pressures.len()),
+        );
+        BlockPattern { columns, pressures }
     }
 }
 

@@ -59,30 +59,36 @@ impl Preconditioner {
         let is_commutator = part > CONVECTIVE && weights.inertia == 0.0;
         let smooth = upwinded.as_ref().unwrap_or(block);
         let transfer = (!is_dominated).then(|| transfer(&weights.interpolation, numbering));
-        let velocity = if let Some(transfer) = transfer {
-            let settings = HierarchySettings {
-                n_pairs,
-                degree: SMOOTHING,
-                is_singular: false,
-                is_convective: weights.has_convection,
-            };
-            VelocitySolver::Cycle(Box::new(Hierarchy::new(smooth, Some(transfer), settings)))
-        } else {
-            let chebyshev = Chebyshev::new(block, n_pairs, SPECTRUM, DEGREE);
-            VelocitySolver::Polynomial(Box::new(chebyshev))
+        let velocity = || {
+            if let Some(transfer) = transfer {
+                let settings = HierarchySettings {
+                    n_pairs,
+                    degree: SMOOTHING,
+                    is_singular: false,
+                    is_convective: weights.has_convection,
+                };
+                VelocitySolver::Cycle(Box::new(Hierarchy::new(smooth, Some(transfer), settings)))
+            } else {
+                let chebyshev = Chebyshev::new(block, n_pairs, SPECTRUM, DEGREE);
+                VelocitySolver::Polynomial(Box::new(chebyshev))
+            }
         };
-        let has_held_pressure = system.has_held_pressure;
-        let schur = if is_commutator {
-            SchurComplement::convective(block, gradient, numbering, has_held_pressure)
-        } else {
-            SchurComplement::new(weights, gradient, &damping(weights, numbering), has_held_pressure)
+        let held = system.has_held_pressure;
+        let schur = || {
+            if is_commutator {
+                SchurComplement::convective(block, gradient, numbering, held)
+            } else {
+                SchurComplement::new(weights, gradient, &damping(weights, numbering), held)
+            }
         };
+        let rest = || (schur(), gradient.transposed(), Scales::new(matrix));
+        let (velocity, (schur, divergence, scales)) = rayon::join(velocity, rest);
         Self {
             upwinded,
             velocity,
-            divergence: gradient.transposed(),
+            divergence,
             schur,
-            scales: Scales::new(matrix),
+            scales,
             scaled: Blocks::zeros(numbering.blocks.len(), numbering.pressures.len()),
         }
     }
