@@ -107,7 +107,8 @@ impl Cost {
         let Films { most, mean } = Films::of(model);
         let unknowns = mesh.free as f64 + mean;
         let systems = n_systems(model, mesh.shortest_edge);
-        let is_fixed = steps_of(model, mesh.shortest_edge).is_some() && !model.mesh_moves();
+        let steps = steps_of(model, mesh.shortest_edge);
+        let is_fixed = steps.is_some() && !model.mesh_moves();
         let growth = if is_fixed { 1.0 } else { GROWTH };
         let pass = PASS * (unknowns / 1e4).powf(growth);
         let flow = model.case.fluid.model;
@@ -120,7 +121,6 @@ impl Cost {
         let memory = memory_estimate(2, mesh.on_mesh as f64 + most);
         let memory = if new_meshes >= 1.0 { REMESHED_MEMORY[inertia] * memory } else { memory };
         let in_steps = (seconds - start) * (1.0 - START_SYSTEMS / systems);
-        let steps = steps_of(model, mesh.shortest_edge);
         let step_seconds = steps.map(|steps| in_steps / steps);
         Self { systems, new_meshes, in_films: most, seconds, step_seconds, memory }
     }
