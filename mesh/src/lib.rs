@@ -14,7 +14,6 @@ mod locate;
 mod mesh;
 mod msh;
 mod number;
-mod order;
 mod planar;
 mod quadrature;
 mod quality;

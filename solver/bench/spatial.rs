@@ -74,6 +74,11 @@ fn main() {
         .num_threads(options.threads)
         .build_global()
         .expect("no pool is there yet");
+    // On a thread of the pool, as runs are
+    rayon::scope(|_| measure_all(&options));
+}
+
+fn measure_all(options: &Options) {
     println!(
         "unknowns  iterations  residual  analysis s  assembly s  set-up s  solve s  wall s  \
          preconditioner MB  peak MB"

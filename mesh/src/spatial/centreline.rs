@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 
+use super::spline::SpaceSpline;
 use crate::Point;
 
 /// A curve in the frame of a body, by a parameter from 0 to 1.
@@ -16,6 +17,8 @@ pub enum Centreline {
         /// Number of turns; right-handed if positive, left-handed if negative.
         turns: f64,
     },
+    /// A smooth curve through points.
+    Spline(SpaceSpline),
 }
 
 /// A point of a curve with derivatives by the parameter.
@@ -35,6 +38,7 @@ impl Centreline {
 
     pub(super) fn evaluate(&self, parameter: f64) -> CurvePoint {
         match *self {
+            Self::Spline(ref spline) => spline.evaluate(parameter),
             Self::Helix { radius, pitch, turns } => {
                 let angle = TAU * turns;
                 let (sin, cos) = (angle * parameter).sin_cos();
@@ -49,8 +53,10 @@ impl Centreline {
     }
 
     /// Pieces into which it is cut so that each is nearly straight.
-    pub(super) fn pieces(&self) -> f64 {
+    #[must_use]
+    pub fn pieces(&self) -> f64 {
         match self {
+            Self::Spline(spline) => spline.pieces(),
             Self::Helix { turns, .. } => 32.0 * turns.abs(),
         }
     }
@@ -59,6 +65,7 @@ impl Centreline {
     #[must_use]
     pub fn widest_tube(&self) -> f64 {
         match *self {
+            Self::Spline(ref spline) => spline.widest_tube(),
             Self::Helix { radius, pitch, turns } => {
                 let advance = pitch / TAU;
                 let of_curvature = (radius * radius + advance * advance) / radius;

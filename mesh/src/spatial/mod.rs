@@ -14,6 +14,7 @@ mod imported;
 mod placement;
 mod shape;
 mod size_field;
+mod spline;
 mod surface;
 
 pub use body_surface::{BodySurface, MaterialPoint};
@@ -25,3 +26,4 @@ pub use imported::Imported;
 pub use placement::{check_placement, cutting_planes};
 pub use shape::{Body, Part, Shape};
 pub use size_field::SizeField;
+pub use spline::SpaceSpline;

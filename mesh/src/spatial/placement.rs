@@ -232,9 +232,12 @@ fn lengths(shape: &Shape) -> Vec<Length> {
         // Checked where its surface is made
         Shape::Revolved { .. } => Vec::new(),
         Shape::Tube { centreline, radius } => {
-            let Centreline::Helix { radius: wide, pitch, turns } = centreline;
-            let helix = [("helix.radius", *wide), ("helix.pitch", *pitch)];
-            [vec![("radius", *radius), ("|helix.turns|", turns.abs())], helix.to_vec()].concat()
+            let mut all = vec![("radius", *radius)];
+            if let Centreline::Helix { radius, pitch, turns } = centreline {
+                all.push(("|helix.turns|", turns.abs()));
+                all.extend([("helix.radius", *radius), ("helix.pitch", *pitch)]);
+            }
+            all
         }
     };
     all.into_iter().map(|(what, value)| Length { what, value }).collect()

@@ -72,6 +72,8 @@ pub enum ShapeSpec {
     },
     /// Tube along a helix about the body's x axis (spatial).
     Helix(HelixShape),
+    /// Tube along a smooth curve through points (spatial).
+    Curve(CurveShape),
     /// Smooth profile turned about the body's x axis (spatial).
     Revolved {
         /// Points (x, distance from the axis) of the profile (m), the first and the last on the axis.
@@ -117,6 +119,17 @@ pub struct HelixShape {
     pub pitch: f64,
     /// Number of turns: right-handed if positive, left-handed if negative.
     pub turns: f64,
+    /// Radius of the tube (m).
+    pub tube_radius: f64,
+}
+
+/// `curve`: a tube with round ends along the natural cubic spline through points.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct CurveShape {
+    /// Points of the midline in the body frame (m), two or more.
+    pub points: Vec<[f64; 3]>,
     /// Radius of the tube (m).
     pub tube_radius: f64,
 }

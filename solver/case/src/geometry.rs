@@ -27,6 +27,7 @@ impl ShapeSpec {
             Self::Capsule { .. } => "capsule",
             Self::Cylinder { .. } => "cylinder",
             Self::Helix(_) => "helix",
+            Self::Curve(_) => "curve",
             Self::Revolved { .. } => "revolved",
             Self::Union(_) => "union",
         }
@@ -49,6 +50,7 @@ impl ShapeSpec {
             | Self::Capsule { .. }
             | Self::Cylinder { .. }
             | Self::Helix(_)
+            | Self::Curve(_)
             | Self::Revolved { .. }
             | Self::Union(_) => &[Geometry::Spatial],
         }
@@ -116,6 +118,7 @@ impl ShapeSpec {
             | Self::Capsule { .. }
             | Self::Cylinder { .. }
             | Self::Helix(_)
+            | Self::Curve(_)
             | Self::Revolved { .. }
             | Self::Union(_) => Shape::Spline { points: Vec::new() },
         }
@@ -149,7 +152,7 @@ impl ShapeSpec {
             }
             Self::Capsule { length, radius } => length + (PI - 2.0) * radius,
             Self::Cylinder { length, .. } => *length,
-            Self::Helix(_) | Self::Revolved { .. } | Self::Union(_) => {
+            Self::Helix(_) | Self::Curve(_) | Self::Revolved { .. } | Self::Union(_) => {
                 self.measures().map_or(0.0, |measures| measures.length)
             }
         }
@@ -159,6 +162,7 @@ impl ShapeSpec {
     fn measures(&self) -> Option<Measures> {
         match self {
             Self::Helix(helix) => Some(helix.measures()),
+            Self::Curve(curve) => curve.measures(),
             Self::Revolved { profile } => Some(solid_shape::revolved(profile)),
             Self::Union(parts) => Some(solid_shape::union(parts)),
             _ => None,
@@ -218,7 +222,7 @@ impl ShapeSpec {
             Self::Ellipsoid { semi_axes } => semi_axes.iter().copied().fold(0.0, f64::max),
             Self::Capsule { length, .. } => 0.5 * length,
             Self::Cylinder { length, radius, .. } => radius.hypot(0.5 * length),
-            Self::Helix(_) | Self::Revolved { .. } | Self::Union(_) => {
+            Self::Helix(_) | Self::Curve(_) | Self::Revolved { .. } | Self::Union(_) => {
                 self.measures().map_or(0.0, |measures| measures.reach)
             }
             Self::Disc { radius } | Self::Sphere { radius } => *radius,
@@ -237,7 +241,7 @@ impl ShapeSpec {
                 semi_axes.iter().copied().fold(f64::INFINITY, f64::min)
             }
             Self::Capsule { radius, .. } | Self::Cylinder { radius, .. } => *radius,
-            Self::Helix(_) | Self::Revolved { .. } | Self::Union(_) => {
+            Self::Helix(_) | Self::Curve(_) | Self::Revolved { .. } | Self::Union(_) => {
                 self.measures().map_or(0.0, |measures| measures.half_width)
             }
             Self::Disc { radius } | Self::Sphere { radius } => *radius,

@@ -52,8 +52,8 @@ mod variants;
 
 pub use axial_vector::AxialVector;
 pub use body::{
-    Body, CylinderAxis, GaitSpec, HelixShape, ImposedMotion, Lock, Motion, Orientation, PartSpec,
-    ShapeSpec, SpringSpec, SquirmerGait,
+    Body, CurveShape, CylinderAxis, GaitSpec, HelixShape, ImposedMotion, Lock, Motion, Orientation,
+    PartSpec, ShapeSpec, SpringSpec, SquirmerGait,
 };
 pub use case::Case;
 pub use check::check;

@@ -75,6 +75,7 @@ impl Link {
             | ShapeSpec::Capsule { .. }
             | ShapeSpec::Cylinder { .. }
             | ShapeSpec::Helix(_)
+            | ShapeSpec::Curve(_)
             | ShapeSpec::Revolved { .. }
             | ShapeSpec::Union(_) => {
                 let half = shape.reach();

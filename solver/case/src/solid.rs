@@ -109,6 +109,10 @@ impl ShapeSpec {
                     Centreline::Helix { radius: *radius, pitch: *pitch, turns: *turns };
                 one(Shape::Tube { centreline, radius: *tube_radius })
             }
+            Self::Curve(curve) => {
+                let centreline = Centreline::Spline(curve.spline()?);
+                one(Shape::Tube { centreline, radius: curve.tube_radius })
+            }
             Self::Revolved { profile } => one(Shape::Revolved { profile: profile.clone() }),
             Self::Union(parts) => {
                 let mut all = Vec::new();

@@ -2,7 +2,9 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::body::{HelixShape, PartSpec, ShapeSpec};
+use alewife_mesh::spatial::SpaceSpline;
+
+use super::body::{CurveShape, HelixShape, PartSpec, ShapeSpec};
 
 /// Lengths of a solid, its surface and its volume, estimates where parts overlap.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -26,14 +28,30 @@ impl HelixShape {
     }
 
     pub(crate) fn measures(&self) -> Measures {
-        let (midline, radius) = (self.midline(), self.tube_radius);
-        Measures {
-            length: midline + PI * radius,
-            area: TAU * radius * (midline + 2.0 * radius),
-            volume: PI * radius * radius * (midline + 4.0 / 3.0 * radius),
-            reach: self.radius.hypot(self.turns * self.pitch) + radius,
-            half_width: radius,
-        }
+        tube(self.midline(), self.radius.hypot(self.turns * self.pitch), self.tube_radius)
+    }
+}
+
+impl CurveShape {
+    /// The curve; `None` where points make none.
+    pub(crate) fn spline(&self) -> Option<SpaceSpline> {
+        SpaceSpline::new(self.points.iter().copied().map(Into::into).collect())
+    }
+
+    pub(crate) fn measures(&self) -> Option<Measures> {
+        let spline = self.spline()?;
+        Some(tube(spline.length(), spline.reach(), self.tube_radius))
+    }
+}
+
+/// Measures of a tube along a midline of a length and reach (m), with round ends.
+fn tube(midline: f64, reach: f64, radius: f64) -> Measures {
+    Measures {
+        length: midline + PI * radius,
+        area: TAU * radius * (midline + 2.0 * radius),
+        volume: PI * radius * radius * (midline + 4.0 / 3.0 * radius),
+        reach: reach + radius,
+        half_width: radius,
     }
 }
 

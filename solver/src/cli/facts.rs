@@ -200,6 +200,11 @@ fn shape_in_words(shape: &ShapeSpec) -> String {
                 "helix of radius {radius}, pitch {pitch} and {turns} turns, a tube of radius {tube}"
             )
         }
+        ShapeSpec::Curve(curve) => format!(
+            "tube of radius {} along a curve through {} points",
+            significant(curve.tube_radius),
+            curve.points.len()
+        ),
         ShapeSpec::Revolved { profile } => format!("turned profile of {} points", profile.len()),
         ShapeSpec::Union(parts) => {
             let names: Vec<&str> = parts.iter().map(|part| part.shape.name()).collect();

@@ -185,6 +185,7 @@ pub fn scene(bodies: &[Body], reports: &[BodyReport], geometry: Geometry, time: 
             }
             ShapeSpec::Capsule { .. }
             | ShapeSpec::Helix(_)
+            | ShapeSpec::Curve(_)
             | ShapeSpec::Revolved { .. }
             | ShapeSpec::Union(_) => {
                 // The frame is at the centre of mass, the origin of the shape is not

@@ -89,8 +89,11 @@ impl Solids {
 
 /// Points of a curve through which its tube is drawn (m).
 fn points(centreline: &Centreline) -> Vec<Vector3<f64>> {
-    let Centreline::Helix { turns, .. } = centreline;
-    let n = alewife_mesh::whole((PIECES_OF_TURN * turns.abs()).ceil().clamp(1.0, 1e4));
+    let pieces = match centreline {
+        Centreline::Helix { turns, .. } => PIECES_OF_TURN * turns.abs(),
+        Centreline::Spline(_) => centreline.pieces(),
+    };
+    let n = alewife_mesh::whole(pieces.ceil().clamp(1.0, 1e4));
     (0..=n).map(|i| centreline.at(i as f64 / n as f64)).collect()
 }
 

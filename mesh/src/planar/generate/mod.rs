@@ -8,6 +8,7 @@ mod edges;
 mod front;
 mod improve;
 mod mirror;
+mod order;
 mod point_tree;
 mod quadratic;
 mod relax;
@@ -17,7 +18,6 @@ mod triangulation;
 use edges::BoundaryEdges;
 use mirror::Mirror;
 
-use crate::order::renumber;
 use crate::planar::boundary::BoundaryLoops;
 use crate::planar::placement::{place, place_wrapped};
 use crate::{Cut, Domain, Mesh, MeshError, PlacedShape, Quality, SizeField, Sizing};
@@ -76,10 +76,10 @@ pub fn generate(
         let mesh = mirror.whole(half);
         let quality = Quality::of(&mesh);
         if quality.min_angle > SMALLEST_ANGLE && quality.min_curved_jacobian > FOLDED {
-            return Ok(renumber(&mesh));
+            return Ok(order::renumber(&mesh));
         }
     }
-    fill(&border, &sizes, sizing.curved).map(|mesh| renumber(&mesh))
+    fill(&border, &sizes, sizing.curved).map(|mesh| order::renumber(&mesh))
 }
 
 /// Mesh of the fluid in a periodic box around bodies that leave no straight strip free, cut open
@@ -101,7 +101,7 @@ pub fn generate_along(
     let outlines = place_wrapped(domain, bodies)?;
     let border = BoundaryLoops::along(cut, domain, bodies, outlines);
     let sizes = SizeField::from_border(domain, bodies, sizing, &border)?;
-    fill(&border, &sizes, sizing.curved).map(|mesh| renumber(&mesh))
+    fill(&border, &sizes, sizing.curved).map(|mesh| order::renumber(&mesh))
 }
 
 /// Mesh of what lies on the left of a border.

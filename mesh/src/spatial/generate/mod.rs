@@ -37,7 +37,6 @@ use verdict::Verdict;
 use super::domain::Domain;
 use super::shape::Body;
 use super::size_field::SizeField;
-use crate::order::renumber;
 use crate::{Mesh, MeshError, Sizing};
 
 /// Edge of the cubes of the lattice over the largest size wanted.
@@ -80,7 +79,7 @@ pub fn generate(
         return Err(MeshError::Invariant { what: "no mesh was made", index: 0 });
     };
     verdict.check()?;
-    Ok(renumber(&improver.quadratic(sizing.curved)))
+    Ok(improver.quadratic(sizing.curved))
 }
 
 /// The mesh from a lattice moved by a part of its cubes, or in a periodic box from one with cubes so much

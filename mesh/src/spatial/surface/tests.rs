@@ -1,6 +1,7 @@
 //! Feet, gaps and curvature of all forms against what they must be.
 
 use super::*;
+use crate::spatial::SpaceSpline;
 use crate::spatial::centreline::Centreline;
 use nalgebra::{Translation3, UnitQuaternion};
 
@@ -12,12 +13,18 @@ fn forms() -> Vec<Form> {
         Form::Capsule { radius: 0.3, half_length: 0.5 },
         Form::Ellipsoid(Ellipsoid::new([0.9, 0.5, 0.3])),
         Form::Tube(Arc::new(Tube::new(helix(), 0.1))),
+        Form::Tube(Arc::new(Tube::new(bent(), 0.1))),
         Form::Revolved(Arc::new(Revolved::new("bean", &bean()).unwrap())),
     ]
 }
 
 fn helix() -> Centreline {
     Centreline::Helix { radius: 0.4, pitch: 0.9, turns: -1.3 }
+}
+
+fn bent() -> Centreline {
+    let points = [[-1.0, 0.2, 0.0], [-0.3, -0.2, 0.1], [0.4, 0.3, 0.2], [1.0, 0.0, -0.3]];
+    Centreline::Spline(SpaceSpline::new(points.map(Point::<3>::from).to_vec()).unwrap())
 }
 
 fn bean() -> Vec<[f64; 2]> {

@@ -101,7 +101,7 @@ pub(super) fn check_shape(findings: &mut Findings<'_>, key: &str, shape: &ShapeS
         Geometry::Planar => "disc, ellipse, spline, fish, flagellate",
         Geometry::Axisymmetric => "sphere, spheroid",
         Geometry::Spatial => {
-            "sphere, spheroid, ellipsoid, capsule, cylinder, helix, revolved, union"
+            "sphere, spheroid, ellipsoid, capsule, cylinder, helix, curve, revolved, union"
         }
     };
     let name = shape.name();
@@ -135,6 +135,7 @@ pub(super) fn check_shape(findings: &mut Findings<'_>, key: &str, shape: &ShapeS
         }
         ShapeSpec::Fish(_) | ShapeSpec::Flagellate(_) => gait::check_shape(findings, key, shape),
         ShapeSpec::Helix(helix) => solid::check_helix(findings, &format!("{key}.helix"), helix),
+        ShapeSpec::Curve(curve) => solid::check_curve(findings, &format!("{key}.curve"), curve),
         ShapeSpec::Revolved { profile } => {
             solid::check_profile(findings, &format!("{key}.revolved.profile"), profile);
         }

@@ -4,7 +4,7 @@ use alewife_mesh::spatial::Centreline;
 
 use super::Findings;
 use super::space::check_orientation;
-use crate::{HelixShape, PartSpec, ShapeSpec};
+use crate::{CurveShape, HelixShape, PartSpec, ShapeSpec};
 
 pub fn check_helix(findings: &mut Findings<'_>, key: &str, helix: &HelixShape) {
     let HelixShape { radius, pitch, turns, tube_radius } = *helix;
@@ -24,6 +24,38 @@ pub fn check_helix(findings: &mut Findings<'_>, key: &str, helix: &HelixShape) {
             &format!("{key}.tube_radius"),
             format!("a tube of the radius {tube_radius} along this helix meets itself"),
             &format!("write less than {widest:.3e}, or a larger radius or pitch"),
+        );
+    }
+}
+
+pub fn check_curve(findings: &mut Findings<'_>, key: &str, curve: &CurveShape) {
+    findings.positive(&format!("{key}.tube_radius"), curve.tube_radius);
+    let points = format!("{key}.points");
+    if curve.points.len() < 2 {
+        let n = curve.points.len();
+        let help = "give two points [x, y, z] or more";
+        findings.error(&points, format!("{n} points make no curve"), help);
+        return;
+    }
+    if let Some(index) = curve.points.windows(2).position(|pair| pair[0] == pair[1]) {
+        findings.error(
+            &format!("{points}.{}", index + 1),
+            format!("the points {index} and {} are the same", index + 1),
+            "leave one of them out",
+        );
+        return;
+    }
+    let Some(spline) = curve.spline() else {
+        let what = "neighbouring points are too close, or too far away, for a curve";
+        findings.error(&points, what.to_owned(), "give points along a curve, in metres");
+        return;
+    };
+    let widest = Centreline::Spline(spline).widest_tube();
+    if curve.tube_radius >= widest {
+        findings.error(
+            &format!("{key}.tube_radius"),
+            format!("a tube of the radius {} along this curve meets itself", curve.tube_radius),
+            &format!("write less than {widest:.3e}, or points of a curve that bends less"),
         );
     }
 }
@@ -109,6 +141,17 @@ boundary = {{ left = 'no-slip', right = 'no-slip', bottom = 'no-slip', top = 'no
         assert!(wrong(&helix(0.3, -0.8, 1.0, 0.08)).contains(&of_helix("pitch")[0]));
         // Too long for the box
         assert_eq!(wrong(&helix(0.3, 0.8, 6.0, 0.08)), ["body.0.center"]);
+
+        let curve = |points: &str, radius: f64| {
+            format!("curve = {{ points = {points}, tube_radius = {radius} }}")
+        };
+        let of_curve = |key: &str| vec![format!("body.0.shape.curve.{key}")];
+        let bent = "[[-1, 0, 0], [0, 0.5, 0.2], [1, 0, 0]]";
+        assert!(wrong(&curve(bent, 0.1)).is_empty());
+        assert_eq!(wrong(&curve(bent, 0.9)), of_curve("tube_radius"));
+        assert_eq!(wrong(&curve("[[-1, 0, 0]]", 0.1)), of_curve("points"));
+        assert_eq!(wrong(&curve("[[1, 0, 0], [1, 0, 0]]", 0.1)), of_curve("points.1"));
+        assert_eq!(wrong(&curve("[[-5, 0, 0], [5, 0, 0]]", 0.1)), ["body.0.center"]);
 
         let profile = |points: &str| format!("revolved = {{ profile = {points} }}");
         assert!(wrong(&profile("[[-1, 0], [0, 0.5], [1, 0]]")).is_empty());

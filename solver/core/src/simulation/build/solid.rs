@@ -50,7 +50,10 @@ impl Solid {
         let place = body.pose_in_space();
         let has_closed_form = !matches!(
             body.shape,
-            ShapeSpec::Helix(_) | ShapeSpec::Revolved { .. } | ShapeSpec::Union(_)
+            ShapeSpec::Helix(_)
+                | ShapeSpec::Curve(_)
+                | ShapeSpec::Revolved { .. }
+                | ShapeSpec::Union(_)
         );
         if !has_closed_form {
             let Enclosed { mass, centroid, tensor } = enclosed();
