@@ -1,6 +1,5 @@
 //! `SpaceSpline`: a natural cubic spline through points in space.
 
-use super::centreline::CurvePoint;
 use crate::Point;
 
 /// Pieces of a full turn in which the curve is nearly straight.
@@ -9,6 +8,14 @@ const PIECES_OF_TURN: f64 = 32.0;
 const LEAST_PIECES: f64 = 4.0;
 /// Most pieces.
 const MOST_PIECES: f64 = 4096.0;
+
+/// A point of a curve with derivatives by the parameter.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct CurvePoint {
+    pub at: Point<3>,
+    pub rate: Point<3>,
+    pub second: Point<3>,
+}
 
 /// A natural cubic spline, by a parameter that grows from 0 to 1 with the lengths of the chords.
 #[derive(Debug, Clone, PartialEq)]
@@ -134,33 +141,7 @@ impl SpaceSpline {
 
 #[cfg(test)]
 mod tests {
-    use super::super::centreline::Centreline;
     use super::*;
-
-    fn through(centreline: &Centreline, n: usize) -> SpaceSpline {
-        let points = (0..=n).map(|i| centreline.at(i as f64 / n as f64)).collect();
-        SpaceSpline::new(points).unwrap()
-    }
-
-    #[test]
-    fn through_points_of_a_helix_it_is_the_helix() {
-        let helix = Centreline::Helix { radius: 0.4, pitch: 0.9, turns: 1.3 };
-        let mut errors = Vec::new();
-        for n in [24, 48] {
-            let spline = through(&helix, n);
-            // Away from the ends, where the helix has a curvature and the spline none
-            let at = |i: usize| 0.3 + 0.4 * i as f64 / 100.0;
-            let error = |i: usize| (spline.evaluate(at(i)).at - helix.at(at(i))).norm();
-            errors.push((0..=100).map(error).fold(0.0, f64::max));
-        }
-        assert!(errors[0] < 1e-3 && errors[0] / errors[1] > 12.0, "{errors:?}");
-        let spline = through(&helix, 100);
-        let length = 1.3 * 0.9f64.hypot(std::f64::consts::TAU * 0.4);
-        assert!((spline.length() / length - 1.0).abs() < 5e-3, "{}", spline.length());
-        // Next to the ends the spline bends more, as it does not at them
-        let ratio = spline.widest_tube() / helix.widest_tube();
-        assert!((0.7..1.01).contains(&ratio), "{ratio}");
-    }
 
     #[test]
     fn its_derivatives_are_those_of_its_points() {
