@@ -7,6 +7,7 @@
 use std::io::{self, Write};
 
 use flate2::{Compression, write::ZlibEncoder};
+use rayon::prelude::*;
 
 use crate::{Mesh, Simplex};
 
@@ -130,20 +131,12 @@ impl Appended {
     fn declare(&mut self, xml: &mut String, attributes: &str, bytes: &[u8]) -> io::Result<()> {
         let offset = self.data.len();
         *xml += &format!("<DataArray {attributes} format=\"appended\" offset=\"{offset}\"/>\n");
-        let mut sizes = Vec::new();
-        let mut packed = Vec::new();
-        for block in bytes.chunks(BLOCK) {
-            let before = packed.len();
-            let mut encoder = ZlibEncoder::new(&mut packed, Compression::fast());
-            encoder.write_all(block)?;
-            encoder.finish()?;
-            sizes.push((packed.len() - before) as u64);
+        let packed: Vec<Vec<u8>> = bytes.par_chunks(BLOCK).map(pack).collect::<Result<_, _>>()?;
+        let counts = [packed.len(), BLOCK, bytes.len() % BLOCK];
+        for count in counts.into_iter().chain(packed.iter().map(Vec::len)) {
+            self.data.extend_from_slice(&(count as u64).to_le_bytes());
         }
-        let counts = [sizes.len(), BLOCK, bytes.len() % BLOCK].map(|n| n as u64);
-        for count in counts.into_iter().chain(sizes) {
-            self.data.extend_from_slice(&count.to_le_bytes());
-        }
-        self.data.append(&mut packed);
+        packed.iter().for_each(|block| self.data.extend_from_slice(block));
         Ok(())
     }
 
@@ -176,6 +169,13 @@ impl Appended {
         );
         self.declare(xml, &attributes, &bytes)
     }
+}
+
+/// A block of an array, compressed.
+fn pack(block: &[u8]) -> io::Result<Vec<u8>> {
+    let mut encoder = ZlibEncoder::new(Vec::new(), Compression::fast());
+    encoder.write_all(block)?;
+    encoder.finish()
 }
 
 /// A name as an XML attribute.

@@ -6,7 +6,8 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use alewife_mesh::Mesh;
+use alewife_mesh::{CellId, Mesh};
+use rayon::prelude::*;
 
 use super::kernel::{CellInput, CellKernel, LocalLayout};
 use super::open_side::OpenSides;
@@ -15,6 +16,9 @@ use super::taylor_hood::quadratic_kernel;
 use super::terms::{Convection, Fields, FlowTerms};
 use crate::algebra::{AffineConstraints, CellFolds, CellMaps, CellUnknowns};
 use crate::space::{DofLayout, Metric, Tables};
+
+/// Cells whose unknowns a thread lists at a time.
+const CELLS_PER_TASK: usize = 1024;
 
 /// What assembling needs of a mesh: derived from it, replaced with it.
 #[derive(Debug, Clone)]
@@ -116,25 +120,26 @@ fn raw_unknowns<const D: usize>(
     local: LocalLayout<D>,
     frame: Option<usize>,
 ) -> Vec<u32> {
-    let mut raw = Vec::with_capacity(local.n_local() * mesh.n_cells());
-    let mut push = |unknown: usize| {
-        raw.push(u32::try_from(unknown).expect("unknowns are fewer than four thousand million"));
-    };
-    for cell in mesh.cell_ids() {
-        for axis in 0..D {
-            for &node in mesh.cell(cell) {
-                push(layout.velocity(node, axis));
+    let n_local = local.n_local();
+    let mut raw = vec![0; n_local * mesh.n_cells()];
+    raw.par_chunks_mut(CELLS_PER_TASK * n_local).enumerate().for_each(|(task, raw)| {
+        let first = task * CELLS_PER_TASK;
+        for (index, raw) in raw.chunks_exact_mut(n_local).enumerate() {
+            let cell = CellId::new(first + index);
+            let nodes = mesh.cell(cell);
+            let velocities = (0..D).flat_map(|axis| nodes.iter().map(move |&n| (n, axis)));
+            let velocities = velocities.map(|(node, axis)| layout.velocity(node, axis));
+            let vertices = DofLayout::pressure_nodes(mesh, cell).iter();
+            let pressures = vertices.map(|&node| layout.pressure(node));
+            let frame = frame
+                .into_iter()
+                .flat_map(|body| (0..local.n_frame).map(move |axis| layout.rigid(body, axis)));
+            for (raw, unknown) in raw.iter_mut().zip(velocities.chain(pressures).chain(frame)) {
+                *raw =
+                    u32::try_from(unknown).expect("unknowns are fewer than four thousand million");
             }
         }
-        for &node in DofLayout::pressure_nodes(mesh, cell) {
-            push(layout.pressure(node));
-        }
-        if let Some(body) = frame {
-            for axis in 0..local.n_frame {
-                push(layout.rigid(body, axis));
-            }
-        }
-    }
+    });
     raw
 }
 

@@ -4,8 +4,11 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-/// Cells a thread takes at a time: their matrices stay in its cache.
-const CELLS_PER_TASK: usize = 64;
+/// Cells a thread takes at a time: enough for what handing them over costs, few enough that the threads end
+/// together.
+const CELLS_PER_TASK: usize = 16;
+/// Numbers of a block for each thread: they stay in its cache.
+const NUMBERS_PER_THREAD: usize = 1 << 17;
 
 /// Lets `compute` fill `size` numbers for each cell, in parallel, and hands those of one cell
 /// after the other to `add`, in the order of the cells, so that sums have the same bits on any number
@@ -18,7 +21,8 @@ pub(crate) fn for_each_cell(
     compute: impl Fn(Range<usize>, &mut [f64]) + Sync,
     mut add: impl FnMut(usize, &[f64]) + Send,
 ) {
-    let block_size = CELLS_PER_TASK * rayon::current_num_threads();
+    let tasks_per_thread = (NUMBERS_PER_THREAD / (CELLS_PER_TASK * size)).max(1);
+    let block_size = CELLS_PER_TASK * tasks_per_thread * rayon::current_num_threads();
     let block = |index: usize| {
         let start = (index * block_size).min(n_cells);
         start..(start + block_size).min(n_cells)

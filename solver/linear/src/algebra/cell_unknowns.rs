@@ -1,13 +1,15 @@
 //! `CellFolds` and `CellUnknowns`: the unknowns of the matrix of each cell of a constrained system.
 
+use rayon::prelude::*;
+
 use super::constraints::{AffineConstraints, Term};
 use crate::sparse::index::{to_u16, to_u32};
 use crate::sparse::lists::Lists;
 
 /// Marks a row or column of a given value.
 pub(super) const NO_UNKNOWN: u32 = u32::MAX;
-/// Marks a cell that is not folded.
-const NOT_FOLDED: u32 = u32::MAX;
+/// Cells a thread takes at a time.
+const CELLS_PER_TASK: usize = 1024;
 
 /// The unknown of each row and column of the matrix of each cell, folded where it has to be.
 #[derive(Debug)]
@@ -56,10 +58,8 @@ impl CellUnknowns {
 pub struct CellFolds {
     n_local_raw: usize,
     raw: Vec<u32>,
-    /// The folded cells, in order.
-    folded: Vec<FoldedCell>,
-    /// Index in `folded` of each cell, if it is one of them.
-    folded_index: Vec<u32>,
+    /// How each cell is folded, if it is.
+    folded: Vec<Option<Box<FoldedCell>>>,
     largest: usize,
 }
 
@@ -106,31 +106,45 @@ impl CellFolds {
     /// Which unknowns a constraint refers to must not change later; its weights may.
     #[must_use]
     pub fn new(n_local_raw: usize, raw: Vec<u32>, constraints: &AffineConstraints) -> Self {
-        let (mut folded, mut unknowns) = (Vec::new(), Vec::new());
-        let mut folded_index = Vec::with_capacity(raw.len() / n_local_raw);
-        let mut largest = n_local_raw;
-        for raw in raw.chunks_exact(n_local_raw) {
-            let cell = folded_cell(raw, constraints, &mut unknowns);
-            folded_index.push(cell.as_ref().map_or(NOT_FOLDED, |_| to_u32(folded.len())));
-            folded.extend(cell);
-            largest = largest.max(unknowns.len());
-        }
-        Self { n_local_raw, raw, folded, folded_index, largest: largest * largest }
+        let folded: Vec<Option<Box<FoldedCell>>> = raw
+            .par_chunks_exact(n_local_raw)
+            .with_min_len(CELLS_PER_TASK)
+            .map_init(Vec::new, |unknowns, raw| {
+                folded_cell(raw, constraints, unknowns).map(Box::new)
+            })
+            .collect();
+        let sizes = folded.iter().flatten().map(|cell| cell.n_local);
+        let largest = sizes.fold(n_local_raw, usize::max);
+        Self { n_local_raw, raw, folded, largest: largest * largest }
     }
 
     /// The unknowns of the matrix of each cell.
     #[must_use]
     pub fn unknowns(&self, constraints: &AffineConstraints) -> CellUnknowns {
+        let parts = self.raw.par_chunks(CELLS_PER_TASK * self.n_local_raw).map(|raw| {
+            let mut part = CellUnknowns {
+                n: constraints.n_unknowns(),
+                offsets: vec![0],
+                unknowns: Vec::with_capacity(raw.len()),
+            };
+            let mut unknowns = Vec::new();
+            for raw in raw.chunks_exact(self.n_local_raw) {
+                folded_cell(raw, constraints, &mut unknowns);
+                part.unknowns.extend(&unknowns);
+                part.offsets.push(part.unknowns.len());
+            }
+            part
+        });
+        let parts: Vec<CellUnknowns> = parts.collect();
         let mut all = CellUnknowns {
             n: constraints.n_unknowns(),
             offsets: vec![0],
-            unknowns: Vec::with_capacity(self.raw.len()),
+            unknowns: Vec::with_capacity(parts.iter().map(CellUnknowns::n_rows).sum()),
         };
-        let mut unknowns = Vec::new();
-        for raw in self.raw.chunks_exact(self.n_local_raw) {
-            folded_cell(raw, constraints, &mut unknowns);
-            all.unknowns.extend(&unknowns);
-            all.offsets.push(all.unknowns.len());
+        for part in &parts {
+            let before = all.unknowns.len();
+            all.offsets.extend(part.offsets[1..].iter().map(|offset| offset + before));
+            all.unknowns.extend(&part.unknowns);
         }
         all
     }
@@ -138,7 +152,7 @@ impl CellFolds {
     /// Number of cells.
     #[must_use]
     pub fn n_cells(&self) -> usize {
-        self.folded_index.len()
+        self.folded.len()
     }
 
     /// Raw unknowns of a cell.
@@ -156,7 +170,7 @@ impl CellFolds {
     /// Whether the matrix of a cell has to be folded before it is scattered.
     #[must_use]
     pub fn is_folded(&self, cell: usize) -> bool {
-        self.folded_index[cell] != NOT_FOLDED
+        self.folded[cell].is_some()
     }
 
     /// P^T A P of a folded cell: `matrix` is its raw matrix, column by column; the beginning of
@@ -171,7 +185,8 @@ impl CellFolds {
         matrix: &[f64],
         folded: &mut [f64],
     ) {
-        let FoldedCell { n_local, local } = &self.folded[self.folded_index[cell] as usize];
+        let folded_cell = self.folded[cell].as_deref();
+        let FoldedCell { n_local, local } = folded_cell.expect("the cell is a folded one");
         let folded = &mut folded[..n_local * n_local];
         folded.fill(0.0);
         let raw = self.raw_unknowns(cell);

@@ -20,6 +20,8 @@ use crate::sparse::{Pattern, Revision, SparseMatrix};
 
 /// Rows that one task works on.
 const ROWS: usize = 256;
+/// Numbers that one task sets to zero.
+const CLEARED: usize = 1 << 16;
 /// Parts of the rows whose products with pressures are summed up on their own, whatever the number of threads.
 const PARTS: usize = 4;
 
@@ -55,8 +57,8 @@ impl SaddleMatrix {
         let maps = BlockMaps::new(cells, &numbering, &of_cells, &velocity, &gradient);
         Self {
             maps,
-            velocity_rest: velocity.blocks().to_vec(),
-            gradient_rest: gradient.values().to_vec(),
+            velocity_rest: vec![[[0.0; B]; B]; velocity.n_blocks()],
+            gradient_rest: vec![[0.0; B]; gradient.values().len()],
             velocity,
             gradient,
             numbering,
@@ -114,10 +116,13 @@ impl SaddleMatrix {
     /// Sets all values to zero.
     pub fn clear(&mut self) {
         self.revision.advance();
-        self.velocity.blocks_mut().fill([[0.0; B]; B]);
-        self.velocity_rest.fill([[0.0; B]; B]);
-        self.gradient.values_mut().fill([0.0; B]);
-        self.gradient_rest.fill([0.0; B]);
+        // In parallel, as the first time all memory is new
+        let velocity = [self.velocity.blocks_mut(), &mut self.velocity_rest];
+        let gradient = [self.gradient.values_mut(), &mut self.gradient_rest];
+        let numbers = velocity.map(|blocks| blocks.as_flattened_mut().as_flattened_mut());
+        for numbers in numbers.into_iter().chain(gradient.map(|values| values.as_flattened_mut())) {
+            numbers.par_chunks_mut(CLEARED).for_each(|numbers| numbers.fill(0.0));
+        }
     }
 
     /// Adds the matrix of a cell, column by column and folded where it has to be. Rows of pressures are
