@@ -23,6 +23,7 @@ mod sizing;
 pub mod spatial;
 mod straight;
 mod surface;
+mod surroundings;
 #[cfg(test)]
 mod test_meshes;
 mod vtu;
@@ -48,4 +49,5 @@ pub use side_shape::{Circle, SideShape};
 pub use simplex::{NodeArray, Simplex};
 pub use sizing::{SizeBox, Sizing};
 pub use surface::{Facing, FacingSurfaces, NearSurface, Surface, SurfacePoint};
+pub use surroundings::{Sides, Surroundings};
 pub use vtu::{Array, Precision, write_vtu, write_vtu_as};

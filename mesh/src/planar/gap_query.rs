@@ -1,18 +1,24 @@
-//! `GapQuery`: how far it is from a surface to the surfaces around it.
+//! `GapQuery`: the surroundings of bodies in the plane.
 
-use std::sync::OnceLock;
+use super::{Domain, Outline, PlacedShape};
+use crate::surroundings::{Sides, Surroundings};
+use crate::{MeshError, Point};
 
-use crate::surface::{Facing, FacingSurfaces, SurfaceTree};
-use crate::{BoundaryKind, Domain, MeshError, Outline, PlacedShape, Point};
+/// Sides of a domain and outlines of bodies. Periodic sides and the axis are no surfaces.
+pub type GapQuery = Surroundings<2, Domain, Outline>;
 
-/// The exact surfaces of a domain and its bodies in one configuration.
-#[derive(Debug, Clone)]
-pub struct GapQuery {
-    domain: Domain,
-    outlines: Vec<Outline>,
-    images: Vec<Point<2>>,
-    /// Where the bodies are, found out when first asked for.
-    tree: OnceLock<SurfaceTree<2>>,
+impl Sides<2> for Domain {
+    fn n_sides(&self) -> usize {
+        self.sides().len()
+    }
+
+    fn is_faced(&self, side: usize) -> bool {
+        !self.is_periodic(side)
+    }
+
+    fn gap_to_side(&self, side: usize, point: Point<2>) -> f64 {
+        self.side_gap(side, point)
+    }
 }
 
 impl GapQuery {
@@ -22,59 +28,21 @@ impl GapQuery {
     /// Those of [`Outline::new`].
     pub fn new(domain: &Domain, bodies: &[PlacedShape]) -> Result<Self, MeshError> {
         let outlines = bodies.iter().map(Outline::new).collect::<Result<_, _>>()?;
-        let (domain, images) = (domain.clone(), domain.images_of(bodies));
-        Ok(Self { domain, outlines, images, tree: OnceLock::new() })
+        Ok(Self::of(domain.clone(), outlines, domain.images_of(bodies)))
     }
 
     /// Puts a body, by its index, in another place (m, rad).
     pub fn place_body(&mut self, body: usize, center: Point<2>, angle: f64) {
-        if let Some(outline) = self.outlines.get_mut(body) {
-            *outline = outline.placed_at(center, angle);
+        if let Some(moved) = self.body(body).map(|outline| outline.placed_at(center, angle)) {
+            self.set_body(body, moved);
         }
-        self.tree.take();
-    }
-
-    /// Gives a body, by its index, another outline.
-    pub fn set_body(&mut self, body: usize, outline: Outline) {
-        if let Some(known) = self.outlines.get_mut(body) {
-            *known = outline;
-        }
-        self.tree.take();
-    }
-}
-
-impl FacingSurfaces<2> for GapQuery {
-    /// Bodies face the sides of the domain, each other and all their periodic images; sides face
-    /// bodies. Periodic sides and the axis are no surfaces.
-    fn facing(
-        &self,
-        boundary: usize,
-        kind: BoundaryKind,
-        point: Point<2>,
-        reach: f64,
-    ) -> Option<Facing> {
-        let n_sides = self.domain.sides().len();
-        let but = match kind {
-            BoundaryKind::Body(body) => Some(body),
-            BoundaryKind::Side if !self.domain.is_periodic(boundary) => None,
-            BoundaryKind::Side | BoundaryKind::Axis => return None,
-        };
-        let tree = self.tree.get_or_init(|| SurfaceTree::new(&self.outlines));
-        let body = tree
-            .nearest(&self.outlines, &self.images, point, but, reach)
-            .map(|near| Facing { boundary: n_sides + near.surface, gap: near.gap });
-        let sides = (0..n_sides)
-            .filter(|&side| but.is_some() && !self.domain.is_periodic(side))
-            .map(|side| Facing { boundary: side, gap: self.domain.side_gap(side, point) })
-            .filter(|facing| facing.gap < reach);
-        body.into_iter().chain(sides).min_by(|a, b| a.gap.total_cmp(&b.gap))
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Shape;
+    use crate::{BoundaryKind, Facing, FacingSurfaces, Shape};
 
     fn disc(name: &str, x: f64) -> PlacedShape {
         let shape = Shape::Disc { radius: 1.0 };

@@ -46,6 +46,20 @@ impl BodySurface {
         Ok(Self { reach: reach.fold(0.0, f64::max), parts, pose: body.pose })
     }
 
+    /// The surface with the body in another place (m).
+    #[must_use]
+    pub fn placed_at(&self, pose: &Isometry3<f64>) -> Self {
+        let by = pose * self.pose.inverse();
+        let parts = self.parts.iter().map(|part| part.moved(&by)).collect();
+        Self { parts, pose: *pose, reach: self.reach }
+    }
+
+    /// The smooth surfaces whose union it is.
+    #[must_use]
+    pub(super) fn parts(&self) -> &[SmoothSurface] {
+        &self.parts
+    }
+
     /// Smallest radius of curvature of the surface at its point nearest to another one (m).
     #[must_use]
     pub fn radius_of_curvature(&self, near: Point<3>) -> f64 {

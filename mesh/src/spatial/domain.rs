@@ -126,6 +126,19 @@ impl Domain {
         })
     }
 
+    /// The vectors by which the domain repeats around itself (m), zero first.
+    #[must_use]
+    pub fn images(&self) -> Vec<Point<3>> {
+        let periods = self.periods();
+        let mut images = vec![Point::<3>::zeros()];
+        for axis in (0..3).filter(|&axis| periods[axis] > 0.0) {
+            let shift = Point::<3>::ith(axis, periods[axis]);
+            let beside = images.iter().flat_map(|image| [image + shift, image - shift]);
+            images.extend(beside.collect::<Vec<_>>());
+        }
+        images
+    }
+
     /// Whether a side is a plane of symmetry.
     #[must_use]
     pub fn is_symmetric(&self, side: usize) -> bool {

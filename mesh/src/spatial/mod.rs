@@ -6,8 +6,10 @@
 
 mod body_surface;
 mod centreline;
+mod closest;
 mod count;
 mod domain;
+mod gap_query;
 mod generate;
 mod geometry;
 mod imported;
@@ -19,8 +21,10 @@ mod surface;
 
 pub use body_surface::{BodySurface, MaterialPoint};
 pub use centreline::Centreline;
+pub use closest::{ClosestPoints, WallSurface};
 pub use count::estimate_cells;
 pub use domain::Domain;
+pub use gap_query::GapQuery;
 pub use generate::generate;
 pub use imported::Imported;
 pub use placement::{check_placement, cutting_planes};

@@ -25,6 +25,12 @@ impl Ellipsoid {
         self.semi_axes.max()
     }
 
+    /// The shortest semi-axis (m).
+    #[must_use]
+    pub fn inner_radius(&self) -> f64 {
+        self.semi_axes.min()
+    }
+
     /// The nearest point to a point (m) of its frame, the normal outward.
     ///
     /// It is x_i = a_i² y_i / (a_i² + t) for the one t above minus the smallest a_i² that puts it on

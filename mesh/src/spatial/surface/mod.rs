@@ -1,5 +1,6 @@
 //! `SmoothSurface`: a side of the domain or a part of a body, with exact distance and curvature.
 
+mod curvature;
 mod ellipsoid;
 mod facets;
 mod revolved;
@@ -107,6 +108,16 @@ impl SmoothSurface {
             is_periodic: false,
             bends: Vec::new(),
         }
+    }
+
+    /// The surface carried along by a motion of space.
+    #[must_use]
+    pub fn moved(&self, by: &Isometry3<f64>) -> Self {
+        let rotation = by.rotation.to_rotation_matrix().into_inner() * self.rotation;
+        let origin = by.transform_point(&self.origin.into()).coords;
+        let bends = self.bends.iter();
+        let bends = bends.map(|bend| Bend { at: by.transform_point(&bend.at.into()).coords, ..*bend });
+        Self { origin, rotation, bends: bends.collect(), ..self.clone() }
     }
 
     /// A plane through a point with a unit normal into the fluid.
@@ -286,27 +297,6 @@ impl SmoothSurface {
         let normal = if distance > 0.0 { off / distance } else { self.rotation.column(1).into() };
         let gap = distance - radius;
         Foot { point: point - normal * gap, normal, gap }
-    }
-
-    /// Smallest radius of curvature of the surface at one of its points (m).
-    #[must_use]
-    pub fn radius_of_curvature(&self, on: Point<3>) -> f64 {
-        match &self.form {
-            Form::Plane | Form::Facets(_) => f64::INFINITY,
-            Form::Sphere(radius) | Form::Cylinder(radius) | Form::Capsule { radius, .. } => *radius,
-            Form::Tube(tube) => tube.radius(),
-            Form::Ellipsoid(ellipsoid) => ellipsoid.radius_of_curvature(self.to_local(on)),
-            Form::Revolved(revolved) => revolved.radius_of_curvature(self.to_local(on)),
-        }
-    }
-
-    /// Radius (m) of the largest ball inside that touches the surface at one of its points, where that
-    /// can be less than the radius of curvature.
-    fn radius_inside(&self, on: Point<3>) -> f64 {
-        match &self.form {
-            Form::Ellipsoid(ellipsoid) => ellipsoid.radius_inside(self.to_local(on)),
-            _ => f64::INFINITY,
-        }
     }
 
     /// Edge length wanted on the surface (m) at one of its points.

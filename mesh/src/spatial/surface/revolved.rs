@@ -1,7 +1,7 @@
 //! `Revolved`: the surface a planar profile makes when it is turned about the x axis.
 
 use super::Foot;
-use crate::{MeshError, Outline, PlacedShape, Point, Shape};
+use crate::{MeshError, Outline, PlacedShape, Point, Shape, thickness};
 
 /// Distance from the axis over the size of the profile, below which a point counts as on the axis.
 const ON_AXIS: f64 = 1e-9;
@@ -54,6 +54,12 @@ impl Revolved {
     #[must_use]
     pub fn reach(&self) -> f64 {
         self.outline.reach()
+    }
+
+    /// Radius (m) of a ball within it: half the width of its profile where that is thinnest.
+    #[must_use]
+    pub fn inner_radius(&self) -> f64 {
+        0.5 * thickness(&self.outline)
     }
 
     /// The nearest point to a point (m) of its frame, the normal outward.

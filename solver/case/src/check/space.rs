@@ -44,14 +44,6 @@ fn check_supported(findings: &mut Findings<'_>) {
             );
         }
     }
-    let is_single = case.joint.is_empty() && case.swimmer.is_empty();
-    if model.mesh_moves() && is_single {
-        findings.error(
-            "time",
-            "bodies cannot move through the mesh in three dimensions so far".to_owned(),
-            "write time = { steady = {} } for the velocities of bodies where they are, or hold them",
-        );
-    }
 }
 
 /// A cylinder goes through a box from side to side, and does not leave its sides.

@@ -1,4 +1,4 @@
-//! `BroadPhase`: which bodies may come near each other, by the circles around them.
+//! `BroadPhase`: which bodies may come near each other, by the balls around them.
 
 use alewife_mesh::{Bounds, BoxTree, Point};
 
@@ -6,32 +6,32 @@ use alewife_mesh::{Bounds, BoxTree, Point};
 /// neighbour.
 const ROUNDING: f64 = 1e-9;
 
-/// A circle that holds a body.
+/// A ball that holds a body, in the plane a circle.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Circle {
+pub(super) struct Ball<const D: usize> {
     /// Centre (m).
-    pub center: Point<2>,
+    pub center: Point<D>,
     /// Radius (m).
     pub radius: f64,
 }
 
-/// The circles around all bodies, their images across periodic sides included.
+/// The balls around all bodies, their images across periodic sides included.
 #[derive(Debug)]
-pub(super) struct BroadPhase {
-    /// Circles with their centres within the first period.
-    circles: Vec<Circle>,
-    /// Vectors from a circle to its images in the neighbouring periods, and zero (m).
-    shifts: Vec<Point<2>>,
-    tree: BoxTree<2>,
+pub(super) struct BroadPhase<const D: usize> {
+    /// Balls with their centres within the first period.
+    balls: Vec<Ball<D>>,
+    /// Vectors from a ball to its images in the neighbouring periods, and zero (m).
+    shifts: Vec<Point<D>>,
+    tree: BoxTree<D>,
     /// Distance that is taken for rounding (m).
     rounding: f64,
 }
 
-impl BroadPhase {
-    /// Circles that repeat after periods along x and y, if there are any (m).
-    pub fn new(mut circles: Vec<Circle>, periods: [Option<f64>; 2]) -> Self {
+impl<const D: usize> BroadPhase<D> {
+    /// Balls that repeat after periods along the coordinates, if there are any (m).
+    pub fn new(mut balls: Vec<Ball<D>>, periods: [Option<f64>; D]) -> Self {
         let mut longest = periods.into_iter().flatten().fold(0.0, f64::max);
-        for Circle { center, radius } in &mut circles {
+        for Ball { center, radius } in &mut balls {
             longest = longest.max(center.amax() + *radius);
             for (coordinate, period) in center.iter_mut().zip(periods) {
                 if let Some(length) = period {
@@ -41,29 +41,28 @@ impl BroadPhase {
         }
         let steps =
             periods.map(|period| period.map_or(vec![0.0], |length| vec![-length, 0.0, length]));
-        let column = |y: &f64| steps[0].iter().map(|x| Point::<2>::new(*x, *y)).collect::<Vec<_>>();
-        let shifts = steps[1].iter().flat_map(column).collect();
-        let bounds = |circle: &Circle| {
-            let corner = Point::<2>::repeat(circle.radius);
-            Bounds { min: circle.center - corner, max: circle.center + corner }
+        let shifts = combinations(&steps);
+        let bounds = |ball: &Ball<D>| {
+            let corner = Point::<D>::repeat(ball.radius);
+            Bounds { min: ball.center - corner, max: ball.center + corner }
         };
-        let boxes: Vec<Bounds<2>> = circles.iter().map(bounds).collect();
-        Self { tree: BoxTree::new(&boxes), circles, shifts, rounding: ROUNDING * longest }
+        let boxes: Vec<Bounds<D>> = balls.iter().map(bounds).collect();
+        Self { tree: BoxTree::new(&boxes), balls, shifts, rounding: ROUNDING * longest }
     }
 
     /// Bodies that may have a point, or an image of one, nearer than `distance` (m) to a point of a
     /// body: of those from that body on, which is always one of them, in ascending order.
     pub fn neighbours(&self, body: usize, distance: f64) -> Vec<usize> {
         if distance.is_infinite() {
-            return (body..self.circles.len()).collect();
+            return (body..self.balls.len()).collect();
         }
-        let Circle { center, radius } = self.circles[body];
+        let Ball { center, radius } = self.balls[body];
         let reach = radius + distance + self.rounding;
         let mut found = vec![body];
         for shift in &self.shifts {
             let image = center + shift;
             self.tree.visit_near(image, reach, |other, _| {
-                let Circle { center, radius } = self.circles[other];
+                let Ball { center, radius } = self.balls[other];
                 if other > body && (image - center).norm() <= reach + radius {
                     found.push(other);
                 }
@@ -76,6 +75,24 @@ impl BroadPhase {
     }
 }
 
+/// The vectors with one of these coordinates along each axis, the first axis running fastest.
+pub(super) fn combinations<const D: usize>(coordinates: &[Vec<f64>; D]) -> Vec<Point<D>> {
+    let mut all = vec![Point::<D>::zeros()];
+    for (axis, along) in coordinates.iter().enumerate() {
+        let step = |x: &f64| {
+            let x = *x;
+            let moved = all.iter().map(move |known| {
+                let mut vector = *known;
+                vector[axis] = x;
+                vector
+            });
+            moved.collect::<Vec<_>>()
+        };
+        all = along.iter().flat_map(step).collect();
+    }
+    all
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -86,17 +103,17 @@ mod tests {
     }
 
     #[test]
-    fn neighbours_are_those_found_among_all_pairs_of_circles() {
-        let circles: Vec<Circle> = (0..300)
+    fn neighbours_are_those_found_among_all_pairs_of_balls() {
+        let balls: Vec<Ball<2>> = (0..300)
             .map(|nth| {
                 let (x, y) = (scattered(nth), scattered(7 * nth + 3));
                 let radius = if nth % 50 == 0 { 2.0 } else { 0.2 * scattered(3 * nth) };
-                Circle { center: Point::<2>::new(30.0 * x - 10.0, 12.0 * y - 4.0), radius }
+                Ball { center: Point::<2>::new(30.0 * x - 10.0, 12.0 * y - 4.0), radius }
             })
             .collect();
         for periods in [[None, None], [Some(10.0), None], [Some(10.0), Some(4.0)]] {
-            let phase = BroadPhase::new(circles.clone(), periods);
-            let gap = |one: &Circle, other: &Circle| {
+            let phase = BroadPhase::new(balls.clone(), periods);
+            let gap = |one: &Ball<2>, other: &Ball<2>| {
                 let mut between = one.center - other.center;
                 for (along, period) in between.iter_mut().zip(periods) {
                     *along -= period.map_or(0.0, |length| length * (*along / length).round());
@@ -104,11 +121,11 @@ mod tests {
                 between.norm() - one.radius - other.radius
             };
             let mut n_found = 0;
-            for (body, circle) in circles.iter().enumerate() {
-                let is_near = |other: &usize| *other == body || gap(circle, &circles[*other]) < 0.3;
-                let near: Vec<usize> = (body..circles.len()).filter(is_near).collect();
+            for (body, ball) in balls.iter().enumerate() {
+                let is_near = |other: &usize| *other == body || gap(ball, &balls[*other]) < 0.3;
+                let near: Vec<usize> = (body..balls.len()).filter(is_near).collect();
                 assert_eq!(phase.neighbours(body, 0.3), near, "{body}, {periods:?}");
-                assert_eq!(phase.neighbours(body, f64::INFINITY).len(), circles.len() - body);
+                assert_eq!(phase.neighbours(body, f64::INFINITY).len(), balls.len() - body);
                 n_found += near.len();
             }
             assert!(n_found > 600, "{n_found}");

@@ -1,55 +1,54 @@
 //! `Encounter`: a body and one other surface that it may meet, and how near they are.
 
-use alewife_mesh::{
-    Closest, Outline, Point, Wall, closest, closest_features, closest_to_wall, wall_features,
-};
+use alewife_mesh::Point;
 
 use super::Partner;
+use super::surface::{ContactSurface, FacingPoints};
 
 /// A body and what it may meet.
-pub(super) struct Encounter<'a> {
+pub(super) struct Encounter<'a, const D: usize, S: ContactSurface<D>> {
     /// The body.
     pub body: usize,
-    /// Its outline where it is.
-    pub outline: &'a Outline,
+    /// Its surface where it is.
+    pub surface: &'a S,
     /// What it may meet.
     pub partner: Partner,
     /// From the partner to the image of it that is met (m).
-    pub away: Point<2>,
+    pub away: Point<D>,
     /// The surface of the partner, where it is met.
-    pub surface: Surface<'a>,
+    pub facing: Facing<'a, D, S>,
 }
 
 /// The surface of a partner.
-pub(super) enum Surface<'a> {
+pub(super) enum Facing<'a, const D: usize, S: ContactSurface<D>> {
     /// That of a body.
-    Outline(Outline),
+    Body(S),
     /// A side of the domain.
-    Wall(&'a Wall),
+    Wall(&'a S::Wall),
 }
 
-impl Encounter<'_> {
+impl<const D: usize, S: ContactSurface<D>> Encounter<'_, D, S> {
     /// All close pairs of points with gaps below `range` (m).
-    pub fn features(&self, range: f64) -> Vec<Closest> {
-        match &self.surface {
-            Surface::Outline(image) => closest_features(self.outline, image, range),
-            Surface::Wall(wall) => wall_features(self.outline, wall, range),
+    pub fn points(&self, range: f64) -> Vec<FacingPoints> {
+        match &self.facing {
+            Facing::Body(image) => self.surface.facing(image, range),
+            Facing::Wall(wall) => self.surface.facing_wall(wall, range),
         }
     }
 
     /// The smallest gap (m).
     pub fn gap(&self) -> f64 {
-        match &self.surface {
-            Surface::Outline(image) => closest(self.outline, image).gap,
-            Surface::Wall(wall) => closest_to_wall(self.outline, wall).gap,
+        match &self.facing {
+            Facing::Body(image) => self.surface.gap(image),
+            Facing::Wall(wall) => self.surface.gap_to_wall(wall),
         }
     }
 
-    /// A lower bound of the smallest gap (m), at no cost.
+    /// A lower bound of the smallest gap (m), at little cost.
     pub fn gap_bound(&self) -> f64 {
-        match &self.surface {
-            Surface::Outline(image) => self.outline.least_gap(image.center()) - image.reach(),
-            Surface::Wall(wall) => wall.gap(self.outline.center()) - self.outline.reach(),
+        match &self.facing {
+            Facing::Body(image) => self.surface.least_gap(image),
+            Facing::Wall(wall) => self.surface.least_gap_to_wall(wall),
         }
     }
 }

@@ -14,9 +14,9 @@ pub enum ContactError {
         /// Its value.
         value: f64,
     },
-    /// The outline of a body cannot be made.
+    /// The surface of a body cannot be made.
     #[error("contact: {0}")]
-    Outline(#[from] alewife_mesh::MeshError),
+    Surface(#[from] alewife_mesh::MeshError),
     /// A side of the domain is not a wall.
     #[error("contact: side {side} of the domain is its axis or periodic, not a wall")]
     NoWall {

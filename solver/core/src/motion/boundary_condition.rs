@@ -3,7 +3,7 @@
 use alewife_mesh::{BoundaryId, BoundaryKind, Mesh, NodeId, PeriodicPair, Point};
 use thiserror::Error;
 
-use crate::algebra::{AffineConstraints, CholeskyError, ConstraintBuilder};
+use crate::algebra::{AffineConstraints, ConstraintBuilder, EllipticError};
 use crate::space::Metric;
 
 /// Nodes of a flat boundary differ by no more than this, relative to the size of the mesh.
@@ -52,9 +52,9 @@ pub enum MotionError {
         /// Conditions given.
         found: usize,
     },
-    /// The matrix of the motion has no inverse, or memory ran out.
+    /// The equation of the motion is not solved.
     #[error("the motion of the mesh: {0}")]
-    Singular(#[from] CholeskyError),
+    Equation(#[from] EllipticError),
 }
 
 /// The conditions of a mesh whose bodies move: that of bodies is prescribed, the axis slides,

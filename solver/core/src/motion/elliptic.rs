@@ -1,7 +1,7 @@
 //! `MeshMotion`: displacements of all nodes from those of the boundary, by an elliptic equation.
 //!
 //! Displacements are measured from a reference configuration, the mesh at its last remesh, on
-//! which the matrix lives: it is factorised once, and a move costs a back-substitution. The mesh
+//! which the matrix lives: its solver is set up once. The mesh
 //! depends on where its boundary is and not on its path, so a body that returns brings it back.
 
 use alewife_mesh::{BoundaryId, Mesh, NodeId, Point, Simplex};
@@ -10,15 +10,18 @@ use super::boundary_condition::{
     ConstrainedVertices, MeshBoundaryCondition, MotionError, PrescribedDisplacement,
 };
 use super::stiffness::{MotionKind, Stiffness};
-use crate::algebra::{AffineConstraints, Cholesky};
+use crate::algebra::{AffineConstraints, EllipticSolver, NodalComponent};
 
-/// A factorised matrix for some of the components.
+/// Unknowns in space up to which factors cost less than iterations.
+const FACTORISED_IN_SPACE: usize = 3000;
+
+/// What solves for some of the components.
 #[derive(Debug)]
 struct System {
     /// Components it solves for: together (elastic), or one after the other by one matrix.
     axes: Vec<usize>,
     constraints: AffineConstraints,
-    cholesky: Cholesky,
+    solver: EllipticSolver,
 }
 
 /// Moves the nodes of a mesh with its boundary.
@@ -52,7 +55,7 @@ struct EdgeNode {
 }
 
 impl<const D: usize> MeshMotion<D> {
-    /// Takes a mesh as the reference configuration and factorises the matrix of its motion.
+    /// Takes a mesh as the reference configuration and sets the solver of its motion up.
     ///
     /// `conditions` has one entry for each boundary; [`super::mesh_boundary_conditions`] gives the
     /// usual ones.
@@ -75,8 +78,14 @@ impl<const D: usize> MeshMotion<D> {
         let mut systems = Vec::new();
         for axes in groups {
             let constraints = vertices.constraints(&axes[..stiffness.n_components.min(axes.len())]);
-            let cholesky = Cholesky::factorise(&stiffness.reduce::<D>(&constraints))?;
-            systems.push(System { axes, constraints, cholesky });
+            let matrix = stiffness.reduce::<D>(&constraints);
+            let solver = if D == 3 && matrix.n() > FACTORISED_IN_SPACE {
+                let unknowns = nodal_components(&constraints, stiffness.n_components);
+                EllipticSolver::iterative(matrix, &unknowns)
+            } else {
+                EllipticSolver::factorised(&matrix)?
+            };
+            systems.push(System { axes, constraints, solver });
         }
         let prescribed = curved_facet_nodes(mesh, conditions);
         let interpolated = edge_nodes(mesh, &prescribed);
@@ -135,10 +144,10 @@ impl<const D: usize> MeshMotion<D> {
         &self.reference
     }
 
-    /// Entries of the factors, for estimates of memory.
+    /// Entries of factors or matrices, for estimates of memory.
     #[must_use]
     pub fn n_entries(&self) -> usize {
-        self.systems.iter().map(|system| system.cholesky.n_entries()).sum()
+        self.systems.iter().map(|system| system.solver.n_entries()).sum()
     }
 
     fn solve(
@@ -158,7 +167,7 @@ impl<const D: usize> MeshMotion<D> {
         for axes in &sides {
             load.extend(self.stiffness.load(&system.constraints, &raw(axes)));
         }
-        system.cholesky.solve(&mut load)?;
+        system.solver.solve(&mut load)?;
         for (nth, axes) in sides.iter().enumerate() {
             let free = &load[nth * n_unknowns..(nth + 1) * n_unknowns];
             let inside = system.constraints.expand(free);
@@ -194,6 +203,22 @@ fn curved_facet_nodes<const D: usize>(
     nodes.sort_unstable();
     nodes.dedup_by_key(|at| at.node);
     nodes
+}
+
+/// Vertex and component of each unknown, with so many components a vertex.
+fn nodal_components(constraints: &AffineConstraints, n: usize) -> Vec<NodalComponent> {
+    let first = NodalComponent { node: 0, component: 0 };
+    let mut places = vec![first; constraints.n_unknowns()];
+    for raw in 0..constraints.n_raw() {
+        if let Some(unknown) = constraints.unknown(raw) {
+            let [node, component] = [raw / n, raw % n];
+            places[unknown] = NodalComponent {
+                node: u32::try_from(node).expect("indices of vertices take at most 32 bits"),
+                component: u8::try_from(component).expect("a vertex has at most three components"),
+            };
+        }
+    }
+    places
 }
 
 /// Inner nodes of all edges but those whose displacement is prescribed.

@@ -7,10 +7,12 @@ use alewife_mesh::{BoundaryId, BoundaryKind, CellQuality, Mesh, NodeId, Point};
 use super::scene::{Meshed, RemeshError, Scene};
 use super::state::State;
 use crate::body::{Pose, in_space, on_mesh};
+use crate::case::{Body, MeshEquation, Model};
 use crate::contact::Gaps;
-use crate::coupling::BodyShapes;
+use crate::coupling::{BodyShapes, Problem};
 use crate::motion::{
-    MeshBoundaryCondition, MeshMotion, MotionError, MotionKind, RigidMove, mesh_boundary_conditions,
+    MeshBoundaryCondition, MeshMotion, MotionError, MotionKind, RigidMove, Stiffening,
+    mesh_boundary_conditions,
 };
 
 /// Part of an edge by which a body may be elsewhere than where the flow was solved.
@@ -41,6 +43,19 @@ pub struct MotionSettings {
     pub kind: MotionKind,
     /// Whether the mesh turns with each body.
     pub turns: Vec<bool>,
+}
+
+impl MotionSettings {
+    /// Those of a case and its problem.
+    #[must_use]
+    pub fn new<const D: usize>(model: &Model, problem: &Problem<D>) -> Self {
+        let kind = match model.case.mesh.moving.equation {
+            MeshEquation::Elastic => MotionKind::default(),
+            MeshEquation::Harmonic => MotionKind::Harmonic(Stiffening::MasudHughes),
+        };
+        let turns = |body: &Body| !problem.metric.is_revolved() && !body.is_round();
+        Self { kind, turns: model.bodies.iter().map(turns).collect() }
+    }
 }
 
 /// The gaps between bodies and walls at one time.

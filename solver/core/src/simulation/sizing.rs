@@ -1,8 +1,9 @@
-//! The cell sizes a case asks for.
+//! The cell sizes a case asks for, and when it asks for other cells.
 
 use alewife_mesh::{Point, SizeBox, Sizing};
 
 use crate::case::Case;
+use crate::motion::Limits;
 
 /// Angle by which an outline turns along one edge at most (rad), however large its size.
 const LARGEST_TURN: f64 = 0.5;
@@ -30,4 +31,10 @@ pub fn sizing<const D: usize>(case: &Case) -> Sizing<D> {
         boxes: boxes.collect(),
         curved: mesh.curved,
     }
+}
+
+/// When a case has its mesh replaced.
+pub(super) fn limits(case: &Case) -> Limits {
+    let moving = &case.mesh.moving;
+    Limits { quality: moving.quality, layers: moving.layers }
 }

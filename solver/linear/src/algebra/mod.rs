@@ -6,6 +6,7 @@ mod cell_unknowns;
 mod cholesky;
 mod constraints;
 mod direct;
+mod elliptic;
 mod fingerprint;
 mod krylov;
 mod reuse;
@@ -16,9 +17,10 @@ pub use crate::multifrontal::Singular;
 pub use crate::sparse::{Pattern, SparseMatrix, Unknowns};
 pub use cell_maps::CellMaps;
 pub use cell_unknowns::{CellFolds, CellUnknowns};
-pub use cholesky::{Cholesky, CholeskyError};
+pub use cholesky::CholeskyError;
 pub use constraints::{AffineConstraints, ConstraintBuilder, Term};
 pub use direct::DirectSolver;
+pub use elliptic::{EllipticError, EllipticSolver, NodalComponent};
 pub use saddle_point::{
     Interpolation, IterativeSettings, IterativeSolver, Part, SaddleMatrix, SaddlePoint, Weights,
 };

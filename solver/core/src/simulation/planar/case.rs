@@ -5,13 +5,13 @@ use alewife_mesh::{Domain, Mesh, PlacedShape, Sizing, estimate_cells};
 use super::periodic_cell::{PeriodicCell, initial_cell};
 use super::shape_motion::shape_motion;
 use crate::body::Pose;
-use crate::case::{Body, BoundaryCondition, Case, MeshEquation, MeshFile, Model};
+use crate::case::{Body, BoundaryCondition, Case, MeshFile, Model};
 use crate::coupling::{Problem, ShapeError};
 use crate::gait::WavingSheet;
-use crate::motion::{Limits, MotionKind, Stiffening};
+use crate::motion::Limits;
 use crate::simulation::RunError;
 use crate::simulation::moving_mesh::MotionSettings;
-use crate::simulation::sizing::sizing;
+use crate::simulation::sizing::{limits, sizing};
 use crate::simulation::start::check_cells;
 
 /// What stays the same over all meshes of a run.
@@ -23,8 +23,8 @@ pub(in crate::simulation) struct PlanarCase {
     pub sizing: Sizing,
     /// When a mesh is replaced.
     pub limits: Limits,
-    /// Whether the mesh turns with each body.
-    pub turns: Vec<bool>,
+    /// How the mesh moves.
+    pub motion: MotionSettings,
     /// Whether each body deforms.
     pub deforms: Vec<bool>,
     /// Bodies that share a pivot.
@@ -41,35 +41,23 @@ impl PlanarCase {
     /// That of a case and its problem.
     pub fn new(model: &Model, problem: &Problem<2>) -> Result<Self, RunError> {
         let case = &model.case;
-        let moving = &case.mesh.moving;
         let pivots = problem.bodies.iter().enumerate().filter_map(|(child, body)| {
             let joint = body.joint.as_ref().filter(|joint| joint.arm.is_none())?;
             Some([joint.parent, child])
         });
-        let turns =
-            model.bodies.iter().map(|body| !problem.metric.is_revolved() && !body.is_round());
         let sheets =
             case.boundary.keys().filter_map(|side| Some((side.clone(), waving_sheet(case, side)?)));
         Ok(Self {
             home: case.mesh_domain(),
             sizing: sizing(case),
-            limits: Limits { quality: moving.quality, layers: moving.layers },
-            turns: turns.collect(),
+            limits: limits(case),
+            motion: MotionSettings::new(model, problem),
             deforms: problem.bodies.iter().map(|body| body.shape.is_some()).collect(),
             pivots: pivots.collect(),
             start_shapes: placed_bodies(model)?,
             start_poses: problem.bodies.iter().map(|body| body.pose).collect(),
             sheets: sheets.collect(),
         })
-    }
-
-    /// How the mesh of the case moves.
-    pub fn motion_settings(&self, case: &Case) -> MotionSettings {
-        let kind = match case.mesh.moving.equation {
-            MeshEquation::Elastic => MotionKind::default(),
-            MeshEquation::Harmonic => MotionKind::Harmonic(Stiffening::MasudHughes),
-        };
-        MotionSettings { kind, turns: self.turns.clone() }
     }
 
     /// The sheet that a side is, if it is one.

@@ -22,7 +22,7 @@ pub(super) fn moving_mesh_of(
     let Reference { saved, mesh } = reference;
     let shapes = BodyShapes::at(&problem.bodies, saved.time)?;
     let planar = Arc::new(PlanarCase::new(model, problem)?);
-    let settings = planar.motion_settings(&model.case);
+    let settings = planar.motion.clone();
     let (start, poses) = (&saved.domain_start, saved.poses.clone());
     let scene = PlanarScene::restored(planar, mesh, start, poses.clone(), &shapes)
         .map_err(ResumeError::from)?;

@@ -89,7 +89,7 @@ impl PlanarScene {
             .map(|(body, ((shape, reference), pose))| match shapes.deformed(body) {
                 Some(deformed) => placed(shape, deformed.shape(), pose),
                 None => {
-                    let orientation = if self.case.turns[body] {
+                    let orientation = if self.case.motion.turns[body] {
                         pose.orientation
                     } else {
                         reference.orientation
@@ -136,7 +136,7 @@ impl Scene<2> for PlanarScene {
         let mut gaps: Option<PlanarGaps> = None;
         for body in 0..self.shapes.len() {
             if let Some(outline) = shapes.outline(body) {
-                gaps.get_or_insert_with(|| self.gaps.clone()).deform(body, outline.clone());
+                gaps.get_or_insert_with(|| self.gaps.clone()).deform_outline(body, outline.clone());
             }
         }
         gaps.map(|gaps| -> Box<dyn Gaps> { Box::new(gaps) })

@@ -47,7 +47,7 @@ fn initial(meshed: MeshedCell) -> InitialMesh<2> {
         let (domain, shapes) = (cell.domain, cell.shapes);
         let moving = || -> Result<_, RemeshError> {
             let scene = PlanarScene::new(Arc::clone(&planar), mesh, domain, shapes, poses.clone())?;
-            let settings = planar.motion_settings(&model.case);
+            let settings = planar.motion.clone();
             Ok(MovingMesh::new(mesh, Box::new(scene), settings, poses, 0.0)?)
         };
         moving().map_err(RunError::from_remesh)

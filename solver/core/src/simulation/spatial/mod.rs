@@ -1,16 +1,24 @@
 //! What is spatial by nature in a run: solids, their domain, meshes of tetrahedra.
 
-use alewife_mesh::spatial::{Body as Solid, estimate_cells, generate};
+mod case;
+mod scene;
+
+use std::sync::Arc;
+
+use alewife_mesh::spatial::{estimate_cells, generate};
 use alewife_mesh::{Mesh, Point};
 use nalgebra::Vector3;
 
+use self::case::{SpatialCase, no_domain, solids};
+use self::scene::SpatialScene;
 use super::RunError;
-use super::build::no_solid;
-use super::case_mesh::{CaseMesh, Dimension, InitialMesh};
+use super::case_mesh::{CaseMesh, Dimension, InitialMesh, MakeMovingMesh};
 use super::moving_mesh::MovingMesh;
-use super::resume::Reference;
+use super::resume::{Reference, ResumeError};
+use super::scene::RemeshError;
 use super::sizing::sizing;
 use super::start::check_cells;
+use crate::body::Pose;
 use crate::case::{Case, Model};
 use crate::coupling::Problem;
 
@@ -21,11 +29,11 @@ impl CaseMesh<3> for Dimension<3> {
         let domain = case.domain_in_space().ok_or_else(no_domain)?;
         check_cells::<3>(|limit| estimate_cells(&domain, &solids, &sizing, limit))?;
         let mesh = generate(&domain, &solids, &sizing)?;
-        Ok(resting(model, mesh))
+        Ok(initial(model, mesh))
     }
 
     fn adopt(model: &Model, mesh: Mesh<3>) -> Result<InitialMesh<3>, RunError> {
-        Ok(resting(model, mesh))
+        Ok(initial(model, mesh))
     }
 
     /// Itself alone: periodic sides in space are flat, and the mesh fills the box.
@@ -34,31 +42,38 @@ impl CaseMesh<3> for Dimension<3> {
     }
 
     fn moving_mesh_of(
-        _model: &Model,
-        _problem: &Problem<3>,
-        _reference: &Reference<'_, 3>,
+        model: &Model,
+        problem: &Problem<3>,
+        reference: &Reference<'_, 3>,
     ) -> Result<MovingMesh<3>, RunError> {
-        Err(no_moving_mesh())
+        let Reference { saved, mesh } = reference;
+        let moving = moving(model, problem, mesh, saved.poses.clone(), saved.time)?;
+        Ok(moving.map_err(ResumeError::from)?)
     }
 }
 
-fn no_moving_mesh() -> RunError {
-    let reason = "bodies cannot move through the mesh in three dimensions so far";
-    RunError::Unsupported(reason.to_owned())
-}
-
-/// A mesh that does not move.
-fn resting(model: &Model, mesh: Mesh<3>) -> InitialMesh<3> {
+/// A mesh with what moves it.
+fn initial(model: &Model, mesh: Mesh<3>) -> InitialMesh<3> {
     let shifts = vec![Vector3::zeros(); model.bodies.len()];
-    InitialMesh { mesh, shifts, make_moving: Box::new(|_, _, _, _| Err(no_moving_mesh())) }
+    let make: MakeMovingMesh<3> = Box::new(|model, problem, mesh, poses| {
+        moving(model, problem, mesh, poses, 0.0)?.map_err(RunError::from_remesh)
+    });
+    InitialMesh { mesh, shifts, make_moving: make }
 }
 
-/// The bodies of a case as they are meshed.
-fn solids(model: &Model) -> Result<Vec<Solid>, RunError> {
-    let scale = model.case.mesh.scale;
-    model.bodies.iter().map(|body| body.solid(scale).ok_or_else(|| no_solid(body))).collect()
-}
-
-fn no_domain() -> RunError {
-    RunError::Unsupported("this domain is not one in three dimensions".to_owned())
+/// What moves a mesh that was generated at a time (s) with the bodies at poses.
+fn moving(
+    model: &Model,
+    problem: &Problem<3>,
+    mesh: &Mesh<3>,
+    poses: Vec<Pose>,
+    time: f64,
+) -> Result<Result<MovingMesh<3>, RemeshError>, RunError> {
+    let case = Arc::new(SpatialCase::new(model, problem)?);
+    let moving = || {
+        let settings = case.motion.clone();
+        let scene = SpatialScene::new(Arc::clone(&case), mesh, &poses)?;
+        Ok(MovingMesh::new(mesh, Box::new(scene), settings, poses, time)?)
+    };
+    Ok(moving())
 }

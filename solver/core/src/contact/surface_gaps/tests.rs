@@ -1,8 +1,9 @@
 //! Pairs of bodies and smallest gaps against a search of all pairs.
 
-use alewife_mesh::Shape;
+use alewife_mesh::{Domain, PlacedShape, Shape};
 
 use super::*;
+use crate::contact::PlanarGaps;
 
 /// Numbers in [0, 1) without a pattern, by the golden ratio.
 fn scattered(nth: usize) -> f64 {
@@ -46,17 +47,17 @@ fn pairs_and_the_smallest_gap_are_those_found_among_all_bodies() {
         let domain = box_of(size, periodic_x, periodic_y);
         let joined = [[3, 5], [8, 7]].into_iter();
         let gaps = PlanarGaps::new(&domain, &walls, &bodies).unwrap().with_joined(joined);
-        let outlines = gaps.outlines(&poses);
+        let surfaces = gaps.surfaces(&poses);
         let all: Vec<Vec<usize>> = (0..80).map(|body| (body..80).collect()).collect();
         for range in [0.05, 0.5] {
             let mut pairs = Vec::new();
-            gaps.for_each_encounter(&poses, &outlines, &all, |met| {
+            gaps.for_each_encounter(&poses, &surfaces, &all, |met| {
                 gaps.append(&mut pairs, &poses, met, range);
             });
             assert!(pairs.len() > 20, "{}", pairs.len());
             assert_eq!(gaps.pairs(&poses, range), pairs);
         }
-        let least = gaps.minimum_gap_within(&poses, &outlines, f64::INFINITY);
+        let least = gaps.minimum_gap_within(&poses, &surfaces, f64::INFINITY);
         assert_eq!(gaps.minimum_gap(&poses), least);
     }
 }
