@@ -64,7 +64,7 @@ fn the_projection_is_divergence_free_keeps_boundary_values_and_is_one() {
             "periodic" | "axis" => mesh.nodes.iter().map(periodic_any).collect(),
             _ => mesh.nodes.iter().map(any).collect(),
         };
-        let mut projection = DivergenceFreeProjection::new(&problem, &mesh).unwrap();
+        let mut projection = DivergenceFreeProjection::new(&problem, &mesh);
         let before = largest(&projection.defect(&mesh, &field));
         let once = projection.project(&mesh, &field).unwrap();
         let after = largest(&projection.defect(&mesh, &once));
@@ -100,8 +100,7 @@ fn the_projection_goes_no_farther_than_the_error_of_the_transfer() {
         let field: Vec<Point<2>> = old.nodes.iter().map(curl).collect();
         let transferred = Transfer::new(&old, &new, &[]).unwrap().quadratic(&field);
         let error = distance(&new, &transferred, curl);
-        let mut projection =
-            DivergenceFreeProjection::new(&walled(&new, Metric::Cartesian), &new).unwrap();
+        let mut projection = DivergenceFreeProjection::new(&walled(&new, Metric::Cartesian), &new);
         let projected = projection.project(&new, &transferred).unwrap();
         let correction: Vec<Point<2>> =
             projected.iter().zip(&transferred).map(|(one, two)| one - two).collect();
@@ -120,7 +119,7 @@ fn the_projection_goes_no_farther_than_the_error_of_the_transfer() {
 fn a_velocity_that_is_not_finite_is_refused() {
     let (_, mesh, problem) = problems().swap_remove(0);
     let mut field = vec![Point::<2>::zeros(); mesh.n_nodes()];
-    let mut projection = DivergenceFreeProjection::new(&problem, &mesh).unwrap();
+    let mut projection = DivergenceFreeProjection::new(&problem, &mesh);
     assert_eq!(projection.project(&mesh, &field).unwrap(), field);
     field[mesh.n_nodes() / 2].x = f64::NAN;
     assert!(projection.project(&mesh, &field).is_err());
@@ -142,8 +141,7 @@ fn what_is_between_the_nodes_keeps_the_energy_of_waves() {
     let transfer = Transfer::new(&old, &new, &[]).unwrap().with_points(&tables, &[]).unwrap();
     let transferred = transfer.quadratic(&field);
     let missed = transfer.missed(&tables, &field, &transferred);
-    let mut projection =
-        DivergenceFreeProjection::new(&walled(&new, Metric::Cartesian), &new).unwrap();
+    let mut projection = DivergenceFreeProjection::new(&walled(&new, Metric::Cartesian), &new);
     let without = projection.project(&new, &transferred).unwrap();
     let with = projection.project_with(&new, &transferred, &missed).unwrap();
     assert!(largest(&projection.defect(&new, &with)) < 1e-12 * 9.0);

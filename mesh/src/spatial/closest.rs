@@ -161,12 +161,7 @@ fn starts(one: &SmoothSurface, two: &SmoothSurface) -> Vec<Point<3>> {
 }
 
 /// The place near a start where the sum of the distances to two surfaces is least; `None` where none is found.
-fn search(
-    one: &SmoothSurface,
-    two: &SmoothSurface,
-    start: Point<3>,
-    size: f64,
-) -> Option<Between> {
+fn search(one: &SmoothSurface, two: &SmoothSurface, start: Point<3>, size: f64) -> Option<Between> {
     let gradient = |at: Point<3>| one.foot(at).normal + two.foot(at).normal;
     let gap = |at: Point<3>| one.gap(at) + two.gap(at);
     let middle = |at: Point<3>| {

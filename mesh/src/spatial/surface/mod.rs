@@ -116,7 +116,8 @@ impl SmoothSurface {
         let rotation = by.rotation.to_rotation_matrix().into_inner() * self.rotation;
         let origin = by.transform_point(&self.origin.into()).coords;
         let bends = self.bends.iter();
-        let bends = bends.map(|bend| Bend { at: by.transform_point(&bend.at.into()).coords, ..*bend });
+        let bends =
+            bends.map(|bend| Bend { at: by.transform_point(&bend.at.into()).coords, ..*bend });
         Self { origin, rotation, bends: bends.collect(), ..self.clone() }
     }
 

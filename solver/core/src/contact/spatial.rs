@@ -180,7 +180,8 @@ mod tests {
         let periodic = gaps(true);
         // The second body and its image ten away
         let own = periodic.pairs(&poses, 9.5);
-        let own: Vec<_> = own.iter().filter(|p| (p.body, p.partner) == (1, Partner::Body(1))).collect();
+        let own: Vec<_> =
+            own.iter().filter(|p| (p.body, p.partner) == (1, Partner::Body(1))).collect();
         assert_eq!(own.len(), 3);
         assert!(own.iter().all(|pair| (pair.gap - 9.0).abs() < 1e-12));
         let [one, two] = [&walled, &periodic].map(|gaps| gaps.minimum_gap(&poses).unwrap());

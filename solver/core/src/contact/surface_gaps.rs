@@ -147,12 +147,7 @@ impl<const D: usize, S: ContactSurface<D>> SurfaceGaps<D, S> {
     }
 
     /// The smallest gap, those between bodies farther apart than `range` (m) left out.
-    fn minimum_gap_within(
-        &self,
-        poses: &[Pose],
-        surfaces: &[S],
-        range: f64,
-    ) -> Option<MinimumGap> {
+    fn minimum_gap_within(&self, poses: &[Pose], surfaces: &[S], range: f64) -> Option<MinimumGap> {
         let neighbours = self.neighbours(surfaces, range);
         let mut least: Option<MinimumGap> = None;
         self.for_each_encounter(poses, surfaces, &neighbours, |met| {
@@ -264,8 +259,7 @@ impl<const D: usize, S: ContactSurface<D>> Gaps for SurfaceGaps<D, S> {
                 for away in self.images(poses, one, other) {
                     let facing = Facing::Body(self.bodies[other].placed(&poses[other], &away));
                     let partner = Partner::Body(other);
-                    let met =
-                        Encounter { body: one, surface: &surface, partner, away, facing };
+                    let met = Encounter { body: one, surface: &surface, partner, away, facing };
                     if least.is_none_or(|least| met.gap_bound() < least) {
                         let gap = met.gap();
                         least = Some(least.map_or(gap, |least| least.min(gap)));

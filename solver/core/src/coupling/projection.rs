@@ -3,22 +3,19 @@
 //! What is interpolated from mesh to mesh is no longer divergence-free; without this projection
 //! the pressure of the next step would have to correct that at once, as a spike in the forces.
 
-use std::sync::Arc;
-
 use alewife_mesh::{BoundaryKind, Mesh, NodeId, Point};
 
 use super::boundaries::{Boundaries, BoundaryNode};
 use super::constrain::Constrainer;
-use super::preconditioning::saddle_point;
+use super::linear_system::{LinearSystem, SolverChoice};
+use super::preconditioning::{Coefficients, Discretised, saddle_point};
 use super::pressure_mean::PressureMean;
 use super::problem::{Problem, Side};
 
-use crate::algebra::{
-    AffineConstraints, CellMaps, ConstraintBuilder, DirectSolver, LinearError, LinearSolver,
-    SparseMatrix,
-};
+use crate::algebra::{AffineConstraints, ConstraintBuilder, LinearError};
 use crate::flow::{Assembly, Convection, Fields, FlowTerms, assemble, residual};
-use crate::space::DofLayout;
+use crate::space::{DofLayout, straight_cell};
+use crate::timing::Timing;
 
 /// Minimises ||v - u|| in L2 over the v with div v = 0 (tested with all pressures) that agree with
 /// u where the problem gives velocities: on bodies, walls and inflows, and in the normal component
@@ -26,17 +23,18 @@ use crate::space::DofLayout;
 ///
 /// With v = u + d: [M B^T; B 0] [d; q] = [m; -B u] on the free unknowns, m zero unless the velocity
 /// to be projected is another one within the cells. On open sides q = 0.
-#[derive(Debug)]
 pub struct DivergenceFreeProjection<const D: usize> {
     layout: DofLayout<D>,
     constraints: AffineConstraints,
     assembly: Assembly<D>,
-    maps: CellMaps,
-    matrix: SparseMatrix,
-    solver: DirectSolver,
+    linear: LinearSystem,
     /// Distributes a net flux where the flow is enclosed.
     enclosed: Option<PressureMean>,
 }
+
+/// Viscosity (Pa s) over density, rate and the square of an edge length that preconditions a fluid without any:
+/// its part in the pressures is lost beside that of the mass.
+const NEARLY_INVISCID: f64 = 1e-6;
 
 /// Neither stress nor convection, and as much mass as asked for.
 fn terms<'a, const D: usize>(density: f64) -> FlowTerms<'a, D> {
@@ -52,40 +50,39 @@ fn terms<'a, const D: usize>(density: f64) -> FlowTerms<'a, D> {
 }
 
 impl<const D: usize> DivergenceFreeProjection<D> {
-    /// Assembles and factorises the projection of a problem on a mesh.
-    ///
-    /// # Errors
-    /// When the factorisation fails.
-    pub fn new(problem: &Problem<D>, mesh: &Mesh<D>) -> Result<Self, LinearError> {
+    /// Assembles the projection of a problem on a mesh.
+    #[must_use]
+    pub fn new(problem: &Problem<D>, mesh: &Mesh<D>) -> Self {
         let layout = DofLayout::new(mesh, 0, 0);
         let constraints = hold_given_velocities(problem, mesh, &layout);
         let assembly = Assembly::new(mesh, layout, &constraints, problem.metric, &[], None);
-        let unknowns = saddle_point(&layout, &constraints, problem.modes()).unknowns();
-        let maps = assembly.maps(&constraints);
-        let solver = DirectSolver::new(maps.pattern(), &unknowns);
-        let matrix = SparseMatrix::zeros(Arc::clone(maps.pattern()));
-        let mut projection =
-            Self { layout, constraints, assembly, maps, matrix, solver, enclosed: None };
-        projection.move_to(problem, mesh)?;
-        Ok(projection)
+        let saddle_point = saddle_point(&layout, &constraints, problem.modes());
+        let linear =
+            LinearSystem::new(&assembly, &constraints, saddle_point, SolverChoice::Automatic);
+        let mut projection = Self { layout, constraints, assembly, linear, enclosed: None };
+        projection.move_to(problem, mesh);
+        projection
     }
 
     /// Moves to another configuration of the same mesh.
-    ///
-    /// # Errors
-    /// When the factorisation fails.
-    pub fn move_to(&mut self, problem: &Problem<D>, mesh: &Mesh<D>) -> Result<(), LinearError> {
+    pub fn move_to(&mut self, problem: &Problem<D>, mesh: &Mesh<D>) {
         let velocity = vec![Point::<D>::zeros(); self.layout.n_nodes];
         let pressure = vec![0.0; self.layout.n_vertices];
         let fields = Fields { velocity: &velocity, pressure: &pressure };
-        let (constraints, maps, values) = (&self.constraints, &self.maps, self.matrix.values_mut());
-        values.fill(0.0);
-        let scatter = |cell, matrix: &[f64]| maps.scatter(cell, matrix, values);
-        assemble(&self.assembly, mesh, constraints, &terms(1.0), &fields, scatter);
-        self.solver.set_up(&self.matrix)?;
+        let (assembly, constraints) = (&self.assembly, &self.constraints);
+        self.linear.assemble(|scatter| {
+            assemble(assembly, mesh, constraints, &terms(1.0), &fields, scatter);
+        });
+        let edge = (volume(mesh) / mesh.n_cells() as f64).powf(1.0 / D as f64);
+        let viscosity = NEARLY_INVISCID * edge * edge;
+        let coefficients = Coefficients { viscosity, inertia: 1.0, has_convection: false };
+        let tables = self.assembly.tables();
+        let discretised = Discretised { mesh, layout: &self.layout, constraints, tables };
+        self.linear.forget_weights();
+        let weights = || discretised.weights(coefficients);
+        self.linear.prepare(coefficients, weights, &mut Timing::default());
         self.enclosed =
             problem.is_enclosed().then(|| PressureMean::new(mesh, self.assembly.tables()));
-        Ok(())
     }
 
     /// -int psi div u dx for each vertex (m3/s; m2/s planar), the net flux of an enclosed flow
@@ -145,13 +142,18 @@ impl<const D: usize> DivergenceFreeProjection<D> {
         if free.iter().all(|value| *value == 0.0) {
             return Ok(velocity.to_vec());
         }
-        self.solver.solve(&self.matrix, &mut free)?;
+        self.linear.solve(&mut free, &mut Timing::default())?;
         let correction = self.constraints.expand(&free);
         let corrected = self.layout.nodes().zip(velocity).map(|(node, velocity)| {
             velocity + Point::<D>::from_fn(|axis, _| correction[self.layout.velocity(node, axis)])
         });
         Ok(corrected.collect())
     }
+}
+
+/// Volume of a mesh with straight cells (m3; m2 planar).
+fn volume<const D: usize>(mesh: &Mesh<D>) -> f64 {
+    mesh.cell_ids().map(|cell| straight_cell(mesh, cell).measure).sum()
 }
 
 /// No correction where velocities are given; equal ones at periodic pairs; one pressure pinned

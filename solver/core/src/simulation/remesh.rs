@@ -55,7 +55,7 @@ pub(super) fn remesh<const D: usize>(
     let old = state.mesh_in_frame();
     let old_before = Mesh { nodes: state.nodes_before.clone(), ..old.clone() };
     let bodies = |poses, shapes| BodiesAt { poses, shapes };
-    let mut takeover = Takeover::new(problem, &new, &successor)?;
+    let mut takeover = Takeover::new(problem, &new, &successor);
     let now = Level {
         name: "present level",
         solution: &state.now,
@@ -98,15 +98,10 @@ struct Takeover<'a, const D: usize> {
 }
 
 impl<'a, const D: usize> Takeover<'a, D> {
-    fn new(
-        problem: &'a Problem<D>,
-        new: &Mesh<D>,
-        moving: &'a MovingMesh<D>,
-    ) -> Result<Self, RemeshError> {
-        let projection =
-            problem.has_inertia.then(|| DivergenceFreeProjection::new(problem, new)).transpose()?;
+    fn new(problem: &'a Problem<D>, new: &Mesh<D>, moving: &'a MovingMesh<D>) -> Self {
+        let projection = problem.has_inertia.then(|| DivergenceFreeProjection::new(problem, new));
         let (boundaries, tables) = (Boundaries::new(new), Tables::new(problem.metric));
-        Ok(Self { problem, moving, boundaries, tables, projection })
+        Self { problem, moving, boundaries, tables, projection }
     }
 
     /// A level on the new mesh.
@@ -136,7 +131,7 @@ impl<'a, const D: usize> Takeover<'a, D> {
             transfer = transfer.with_points(&self.tables, &images).ok_or_else(not_found)?;
             let residual =
                 transfer.missed(&self.tables, &level.solution.velocity, &solution.velocity);
-            projection.move_to(self.problem, level.new)?;
+            projection.move_to(self.problem, level.new);
             solution.velocity =
                 projection.project_with(level.new, &solution.velocity, &residual)?;
         }

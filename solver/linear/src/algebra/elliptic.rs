@@ -123,10 +123,8 @@ impl<const B: usize> Iterations<B> {
         rows.sort_unstable();
         rows.dedup();
         let row = |node: u32| rows.binary_search(&node).expect("each node has its row");
-        let places: Vec<[usize; 2]> = places
-            .iter()
-            .map(|place| [row(place.node), usize::from(place.component)])
-            .collect();
+        let places: Vec<[usize; 2]> =
+            places.iter().map(|place| [row(place.node), usize::from(place.component)]).collect();
         let n_rows = rows.len();
         let settings = HierarchySettings {
             n_pairs: 0,
