@@ -273,13 +273,13 @@ mod tests {
             Shape::Capsule { radius: 0.3, length: 1.2 },
             Shape::Ellipsoid { semi_axes: [0.2, 0.8, 0.8] },
         ];
-        for seed in 0..12 {
+        for seed in 0..12_u8 {
             let part = |k: f64| (0.618_034 * k * f64::from(seed + 1)).fract();
             let angles = [6.0 * part(1.0), 3.0 * part(2.0), 6.0 * part(3.0)];
-            let one = placed(shapes[seed as usize % 3].clone(), [0.0; 3], angles);
+            let one = placed(shapes[usize::from(seed) % 3].clone(), [0.0; 3], angles);
             let angles = [6.0 * part(4.0), 3.0 * part(5.0), 6.0 * part(7.0)];
             let at = [1.8, 0.6 * part(11.0), 0.6 * part(13.0)];
-            let two = placed(shapes[(seed / 3) as usize % 3].clone(), at, angles);
+            let two = placed(shapes[usize::from(seed / 3) % 3].clone(), at, angles);
             let found = one.closest_points(&two, f64::INFINITY);
             assert_eq!(found.len(), 1, "{seed}");
             let sampled = by_sampling(&one, &two);

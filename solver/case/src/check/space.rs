@@ -44,6 +44,13 @@ fn check_supported(findings: &mut Findings<'_>) {
             );
         }
     }
+    if model.mesh_moves() && matches!(case.domain, DomainSpec::Mesh(_)) {
+        findings.error(
+            "time",
+            "bodies cannot move through a mesh that is given so far".to_owned(),
+            "write time = { steady = {} } for the velocities of bodies where they are, or hold them",
+        );
+    }
 }
 
 /// A cylinder goes through a box from side to side, and does not leave its sides.
@@ -65,6 +72,14 @@ fn check_cylinder(findings: &mut Findings<'_>, key: &str, body: &Body) {
             &format!("{key}.motion"),
             format!("\"{name}\" ends at two sides of the box and cannot be free"),
             "write motion = \"held\", or { imposed = ... }; a capsule may be free",
+        );
+    }
+    let moves = matches!(body.motion, Motion::Imposed(_)) && findings.model().mesh_moves();
+    if moves {
+        findings.error(
+            &format!("{key}.motion"),
+            format!("\"{name}\" ends at two sides of the box and cannot move in time so far"),
+            "write motion = \"held\", or time = { steady = {} }",
         );
     }
     if body.orientation.is_some() {
@@ -220,6 +235,7 @@ body = [{{ name = 'b', shape = {{ {shape} = {{ radius = 1.0 }} }}, center = [{ce
         assert!(space(&[]).is_empty());
         assert!(space(&["body.0.orientation={ along = [0.0, 1.0, 1.0] }"]).is_empty());
         assert!(space(&["body.0.torque=[0.0, 1.0, 1.0]"]).is_empty());
+        assert!(space(&["time={ unsteady = { step = 0.1, end = 1.0 } }"]).is_empty());
         for (setting, key) in [
             ("body.0.angle=0.5", "body.0.angle"),
             ("body.0.orientation={ along = [0.0, 0.0, 0.0] }", "body.0.orientation.along"),
@@ -238,7 +254,6 @@ body = [{{ name = 'b', shape = {{ {shape} = {{ radius = 1.0 }} }}, center = [{ce
             ("body.0.center=[0.0, 0.0]", "body.0.center"),
             ("domain.box.max=[4.0, 4.0]", "domain.box.max"),
             ("body.0.shape={ disc = { radius = 1.0 } }", "body.0.shape"),
-            ("time={ unsteady = { step = 0.1, end = 1.0 } }", "time"),
         ] {
             let found = space(&[setting]);
             assert!(found.contains(&key.to_owned()), "{setting}: {found:?}");
@@ -267,6 +282,10 @@ body = [{{ name = 'b', shape = {{ {shape} = {{ radius = 1.0 }} }}, center = [{ce
         assert!(space("0.5, 0.2, 0.0", &[held]).is_empty());
         assert_eq!(space("0.5, 0.2, 0.1", &[held]), ["body.0.center"]);
         assert_eq!(space("0.5, 0.2, 0.0", &[]), ["body.0.motion"]);
+        let moved = "body.0.motion={ imposed = { velocity = [1.0, 0.0, 0.0] } }";
+        assert!(space("0.5, 0.2, 0.0", &[moved]).is_empty());
+        let in_time = "time={ unsteady = { step = 0.1, end = 1.0 } }";
+        assert_eq!(space("0.5, 0.2, 0.0", &[moved, in_time]), ["body.0.motion"]);
         let turned = "body.0.orientation={ along = [0.0, 1.0, 1.0] }";
         assert_eq!(space("0.5, 0.2, 0.0", &[held, turned]), ["body.0.orientation"]);
         let pair = "boundary={ back = { periodic = 'front' }, bottom = 'no-slip', top = 'no-slip', \

@@ -51,7 +51,7 @@ pub struct NodalComponent {
 #[derive(Debug)]
 pub enum EllipticSolver {
     /// By its factors.
-    Factors(Cholesky),
+    Factors(Box<Cholesky>),
     /// By iterations, one component a node.
     Scalars(Box<Iterations<1>>),
     /// By iterations, up to three components a node.
@@ -64,7 +64,7 @@ impl EllipticSolver {
     /// # Errors
     /// When the matrix is not positive definite, or memory runs out.
     pub fn factorised(matrix: &SparseMatrix) -> Result<Self, EllipticError> {
-        Ok(Self::Factors(Cholesky::factorise(matrix)?))
+        Ok(Self::Factors(Box::new(Cholesky::factorise(matrix)?)))
     }
 
     /// By iterations, for a symmetric matrix and what its unknowns are, those of a node in order.
@@ -154,8 +154,7 @@ impl<const B: usize> Iterations<B> {
         let stopping = Stopping { tolerance: TOLERANCE * size, max_iterations: MAX_ITERATIONS };
         let found = fgmres(multiply, precondition, rhs, stopping);
         let residual = found.residual / size;
-        // Also where it is not a number
-        if !(residual <= TOLERANCE) {
+        if residual.is_nan() || residual > TOLERANCE {
             return Err(EllipticError::NotConverged { residual });
         }
         rhs.copy_from_slice(&found.x);
