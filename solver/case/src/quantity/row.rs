@@ -30,6 +30,10 @@ pub enum When {
     SpatialScales,
     /// There is `[contact]`.
     Contact,
+    /// The same in planar and axisymmetric cases.
+    PlaneContact,
+    /// The same in three dimensions.
+    SpatialContact,
     /// The joint is a pivot.
     Pivot,
     /// The joint is an arm.
@@ -71,6 +75,8 @@ impl When {
             Self::Scales => "`scales`",
             Self::SpatialScales => "`scales`, spatial",
             Self::Contact => "[`contact`](#contact)",
+            Self::PlaneContact => "[`contact`](#contact), planar, axisymmetric",
+            Self::SpatialContact => "[`contact`](#contact), spatial",
             Self::Pivot => "pivots (`bent`, `hinge`)",
             Self::Arm => "`arm`",
             Self::SeveralBodies => "several bodies",
@@ -96,6 +102,8 @@ impl When {
             Self::Scales => known.has_coefficients,
             Self::SpatialScales => known.has_coefficients && known.is_spatial,
             Self::Contact => known.has_contact,
+            Self::PlaneContact => known.has_contact && !known.is_spatial,
+            Self::SpatialContact => known.has_contact && known.is_spatial,
             Self::Pivot => !known.is_arm,
             Self::Arm => known.is_arm,
             Self::SeveralBodies => known.has_several_bodies,

@@ -35,6 +35,13 @@ quantities! {
         Y: "y", "m", Always, "Centre of mass, in the laboratory";
         Z: "z", "m", Spatial, "Centre of mass, in the laboratory";
         Angle: "angle", "rad", Always, "Angle, continuous over many turns; in space that of the body's x axis in the x-y plane";
+        OrientationW: "orientation.w", "1", Spatial, "Unit quaternion of the rotation from the body frame to the laboratory";
+        OrientationX: "orientation.x", "1", Spatial, "Unit quaternion of the rotation from the body frame to the laboratory";
+        OrientationY: "orientation.y", "1", Spatial, "Unit quaternion of the rotation from the body frame to the laboratory";
+        OrientationZ: "orientation.z", "1", Spatial, "Unit quaternion of the rotation from the body frame to the laboratory";
+        DirectionX: "direction.x", "1", Spatial, "Direction of the body's x axis, in the laboratory";
+        DirectionY: "direction.y", "1", Spatial, "Direction of the body's x axis, in the laboratory";
+        DirectionZ: "direction.z", "1", Spatial, "Direction of the body's x axis, in the laboratory";
         VelocityX: "velocity.x", "m/s", Always, "Velocity of the centre of mass";
         VelocityY: "velocity.y", "m/s", Always, "Velocity of the centre of mass";
         VelocityZ: "velocity.z", "m/s", Spatial, "Velocity of the centre of mass";
@@ -42,6 +49,9 @@ quantities! {
         AngularVelocityX: "angular_velocity.x", "rad/s", Spatial, "In the laboratory";
         AngularVelocityY: "angular_velocity.y", "rad/s", Spatial, "In the laboratory";
         AngularVelocityZ: "angular_velocity.z", "rad/s", Spatial, "In the laboratory";
+        BodyAngularVelocityX: "body_angular_velocity.x", "rad/s", Spatial, "In the body frame";
+        BodyAngularVelocityY: "body_angular_velocity.y", "rad/s", Spatial, "In the body frame";
+        BodyAngularVelocityZ: "body_angular_velocity.z", "rad/s", Spatial, "In the body frame";
         AccelerationX: "acceleration.x", "m/s2", Always,
             "Of the centre of mass; 0 in a steady solution";
         AccelerationY: "acceleration.y", "m/s2", Always,
@@ -82,8 +92,16 @@ quantities! {
             "Sum of the contact forces on the body; not in `force`";
         ContactForceY: "contact_force.y", "N (N/m)", Contact,
             "Sum of the contact forces on the body; not in `force`";
-        ContactTorque: "contact_torque", "N m (N)", Contact,
+        ContactForceZ: "contact_force.z", "N (N/m)", SpatialContact,
+            "Sum of the contact forces on the body; not in `force`";
+        ContactTorque: "contact_torque", "N m (N)", PlaneContact,
             "Their torque about the centre of mass";
+        ContactTorqueX: "contact_torque.x", "N m", SpatialContact,
+            "Their torque about the centre of mass, in the laboratory";
+        ContactTorqueY: "contact_torque.y", "N m", SpatialContact,
+            "Their torque about the centre of mass, in the laboratory";
+        ContactTorqueZ: "contact_torque.z", "N m", SpatialContact,
+            "Their torque about the centre of mass, in the laboratory";
     }
 }
 

@@ -87,6 +87,12 @@ impl Pose {
         }
     }
 
+    /// A vector of the world in the body frame.
+    #[must_use]
+    pub fn to_body(&self, vector: &Vector3<f64>) -> Vector3<f64> {
+        self.rotation().inverse() * vector
+    }
+
     /// A symmetric tensor of the body frame in the world: R T R^T.
     #[must_use]
     pub fn tensor_to_world(&self, tensor: &Matrix3<f64>) -> Matrix3<f64> {
@@ -185,6 +191,7 @@ mod tests {
             let planar = Pose::planar(1.0, 2.0, angle);
             let spatial = Pose::spatial(planar.center, planar.rotation());
             assert!((planar.to_world(&vector) - spatial.to_world(&vector)).norm() < 1e-15);
+            assert!((planar.to_body(&planar.to_world(&vector)) - vector).norm() < 1e-15);
             assert!((planar.to_world(&vector) - turned(&planar, &vector)).norm() < 1e-15);
             assert!((spatial.angle() - angle).sin().abs() < 1e-15);
         }

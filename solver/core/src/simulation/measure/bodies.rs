@@ -1,5 +1,7 @@
 //! The quantities of bodies and of the joints they hang by.
 
+use nalgebra::Vector3;
+
 use crate::body::{Twist, Wrench, on_mesh};
 use crate::case::{BodyQuantity, Case, Geometry, JointQuantity};
 use crate::coupling::{
@@ -52,12 +54,22 @@ impl BodyMotion<'_> {
             BodyQuantity::Y => pose.center.y,
             BodyQuantity::Z => pose.center.z,
             BodyQuantity::Angle => self.angle,
+            BodyQuantity::OrientationW => pose.rotation().w,
+            BodyQuantity::OrientationX => pose.rotation().i,
+            BodyQuantity::OrientationY => pose.rotation().j,
+            BodyQuantity::OrientationZ => pose.rotation().k,
+            BodyQuantity::DirectionX => pose.to_world(&Vector3::x()).x,
+            BodyQuantity::DirectionY => pose.to_world(&Vector3::x()).y,
+            BodyQuantity::DirectionZ => pose.to_world(&Vector3::x()).z,
             BodyQuantity::VelocityX => twist.linear.x,
             BodyQuantity::VelocityY => twist.linear.y,
             BodyQuantity::VelocityZ => twist.linear.z,
             BodyQuantity::AngularVelocityX => twist.angular.x,
             BodyQuantity::AngularVelocityY => twist.angular.y,
             BodyQuantity::AngularVelocity | BodyQuantity::AngularVelocityZ => twist.angular.z,
+            BodyQuantity::BodyAngularVelocityX => pose.to_body(&twist.angular).x,
+            BodyQuantity::BodyAngularVelocityY => pose.to_body(&twist.angular).y,
+            BodyQuantity::BodyAngularVelocityZ => pose.to_body(&twist.angular).z,
             BodyQuantity::AccelerationX => self.acceleration.linear.x,
             BodyQuantity::AccelerationY => self.acceleration.linear.y,
             BodyQuantity::AccelerationZ => self.acceleration.linear.z,
@@ -80,7 +92,10 @@ impl BodyMotion<'_> {
             BodyQuantity::MomentCoefficient => load.torque.z * self.coefficients.moment,
             BodyQuantity::ContactForceX => contact.force.x,
             BodyQuantity::ContactForceY => contact.force.y,
-            BodyQuantity::ContactTorque => contact.torque.z,
+            BodyQuantity::ContactForceZ => contact.force.z,
+            BodyQuantity::ContactTorqueX => contact.torque.x,
+            BodyQuantity::ContactTorqueY => contact.torque.y,
+            BodyQuantity::ContactTorque | BodyQuantity::ContactTorqueZ => contact.torque.z,
         }
     }
 }
