@@ -4,6 +4,7 @@ mod falling;
 mod gaps;
 mod imported;
 mod iterative;
+mod joints;
 mod reciprocity;
 mod scene;
 

@@ -1,7 +1,7 @@
 //! `[[joint]]`: how a body is attached to another, and the pose it has then.
 
 use alewife_mesh::Point;
-use nalgebra::Rotation2;
+use nalgebra::{Isometry3, Point3, Rotation2, Vector3};
 use serde::{Deserialize, Serialize};
 
 use super::stroke::Stroke;
@@ -17,10 +17,10 @@ pub struct Joint {
     pub child: String,
     /// Where the joint is on the parent, in its frame (m); its origin if absent.
     #[serde(default)]
-    pub on_parent: [f64; 2],
+    pub on_parent: Vec<f64>,
     /// Where the joint is on the child, in its frame (m); its origin if absent.
     #[serde(default)]
-    pub on_child: [f64; 2],
+    pub on_child: Vec<f64>,
     /// What it lets the child do.
     pub kind: JointKind,
 }
@@ -39,16 +39,27 @@ pub enum JointKind {
         #[serde(default, deserialize_with = "super::angle::deserialize")]
         #[cfg_attr(test, schemars(with = "super::angle::Angle"))]
         direction: f64,
+        /// In three dimensions, the direction in the parent's frame, of any length.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        along: Option<[f64; 3]>,
     },
     /// A pivot bent by a given angle.
     Bent {
-        /// Angle of the child less that of the parent (rad).
+        /// Angle of the child less that of the parent (rad); in three dimensions about the axis, from
+        /// where the child is turned to at the angle of time zero.
         #[serde(deserialize_with = "super::angle::deserialize")]
         angle: Stroke,
+        /// In three dimensions, the axis in the parent's frame, of any length.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        axis: Option<[f64; 3]>,
     },
     /// A free pivot: torque on the child -stiffness (angle - rest) - damping rate + torque, with the
     /// angle of the child less that of the parent; the opposite on the parent.
     Hinge(Hinge),
+    /// In three dimensions, a free pivot about all axes: torque on the child -stiffness times the rotation
+    /// vector from where it was turned to at time zero, seen from the parent, - damping times the
+    /// relative angular velocity; the opposite on the parent.
+    Ball(Ball),
 }
 
 impl JointKind {
@@ -57,8 +68,8 @@ impl JointKind {
     pub fn stroke(&self) -> Option<&Stroke> {
         match self {
             Self::Arm { length, .. } => Some(length),
-            Self::Bent { angle } => Some(angle),
-            Self::Hinge(_) => None,
+            Self::Bent { angle, .. } => Some(angle),
+            Self::Hinge(_) | Self::Ball(_) => None,
         }
     }
 
@@ -66,7 +77,7 @@ impl JointKind {
     pub(crate) fn period(&self) -> Option<f64> {
         match self {
             Self::Hinge(hinge) => hinge.torque.as_ref(),
-            Self::Arm { .. } | Self::Bent { .. } => self.stroke(),
+            Self::Arm { .. } | Self::Bent { .. } | Self::Ball(_) => self.stroke(),
         }
         .and_then(Stroke::period)
     }
@@ -92,11 +103,12 @@ pub(crate) fn child_pose(
     time: f64,
 ) -> PlanarPose {
     let (arm, bend) = match kind {
-        JointKind::Arm { length, direction } => {
+        JointKind::Arm { length, direction, .. } => {
             (Rotation2::new(*direction) * Point::<2>::new(length.at(time)[0], 0.0), 0.0)
         }
-        JointKind::Bent { angle } => (Point::<2>::zeros(), angle.at(time)[0]),
+        JointKind::Bent { angle, .. } => (Point::<2>::zeros(), angle.at(time)[0]),
         JointKind::Hinge(hinge) => (Point::<2>::zeros(), hinge.rest),
+        JointKind::Ball(_) => (Point::<2>::zeros(), 0.0),
     };
     let angle = parent.angle + bend;
     let joint = Rotation2::new(parent.angle) * (Point::<2>::from(on_parent) + arm);
@@ -107,6 +119,51 @@ pub(crate) fn child_pose(
     let center =
         Point::<2>::new(parent.center.x + joint.x - back.x, parent.center.y + across - back.y);
     PlanarPose { center, angle }
+}
+
+impl Joint {
+    /// Ends of the joint on parent and child in the plane, in their frames (m).
+    pub(crate) fn ends_in_plane(&self) -> [[f64; 2]; 2] {
+        [&self.on_parent, &self.on_child].map(|end| [0, 1].map(|axis| coordinate(end, axis)))
+    }
+
+    /// Ends of the joint on parent and child, in their frames (m).
+    #[must_use]
+    pub fn ends(&self) -> [Vector3<f64>; 2] {
+        [&self.on_parent, &self.on_child]
+            .map(|end| Vector3::from_fn(|axis, _| coordinate(end, axis)))
+    }
+
+    /// Where the origin of the child has to be at time zero in three dimensions, turned as it is (m).
+    pub(crate) fn child_center(&self, parent: &Isometry3<f64>, child: &Isometry3<f64>) -> Point<3> {
+        let [on_parent, on_child] = self.ends();
+        let arm = match &self.kind {
+            JointKind::Arm { length, along: Some(along), .. } => {
+                Vector3::from(*along).normalize() * length.at(0.0)[0]
+            }
+            _ => Vector3::zeros(),
+        };
+        let joint = parent.transform_point(&Point3::from(on_parent + arm));
+        joint.coords - child.rotation * on_child
+    }
+}
+
+/// A coordinate of an end of a joint, zero where none is written.
+fn coordinate(end: &[f64], axis: usize) -> f64 {
+    end.get(axis).copied().unwrap_or(0.0)
+}
+
+/// `ball`.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct Ball {
+    /// Torque per angle (N m/rad).
+    #[serde(default)]
+    pub stiffness: f64,
+    /// Torque per angular velocity (N m s/rad).
+    #[serde(default)]
+    pub damping: f64,
 }
 
 /// `hinge`.
@@ -124,6 +181,10 @@ pub struct Hinge {
     #[serde(default, deserialize_with = "super::angle::deserialize")]
     #[cfg_attr(test, schemars(with = "super::angle::Angle"))]
     pub rest: f64,
+    /// In three dimensions, the axis in the parent's frame, of any length; the angle counts from where the
+    /// child is turned to at time zero, where it is at rest.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub axis: Option<[f64; 3]>,
     /// Torque of a motor on the child (N m; N planar).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub torque: Option<Stroke>,

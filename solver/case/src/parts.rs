@@ -36,14 +36,15 @@ pub struct Attachment {
 impl Attachment {
     /// An arm from origin to origin.
     fn arm(parent: usize, length: &Stroke, direction: f64) -> Self {
-        let kind = JointKind::Arm { length: length.clone(), direction };
+        let kind = JointKind::Arm { length: length.clone(), direction, along: None };
         Self { parent, on_parent: [0.0; 2], on_child: [0.0; 2], kind }
     }
 
     /// The same between bodies with names.
     pub fn joint(&self, parent: String, child: String) -> Joint {
         let Self { on_parent, on_child, kind, .. } = self;
-        Joint { parent, child, on_parent: *on_parent, on_child: *on_child, kind: kind.clone() }
+        let [on_parent, on_child] = [on_parent, on_child].map(|end| end.to_vec());
+        Joint { parent, child, on_parent, on_child, kind: kind.clone() }
     }
 }
 

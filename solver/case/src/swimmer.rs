@@ -135,7 +135,7 @@ pub enum Pivot {
 impl From<Pivot> for JointKind {
     fn from(pivot: Pivot) -> Self {
         match pivot {
-            Pivot::Bent { angle } => Self::Bent { angle },
+            Pivot::Bent { angle } => Self::Bent { angle, axis: None },
             Pivot::Hinge(hinge) => Self::Hinge(hinge),
         }
     }

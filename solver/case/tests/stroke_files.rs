@@ -57,7 +57,7 @@ fn the_values_of_a_file_become_part_of_the_case() {
     fs::remove_file(&log).unwrap();
     let back = Case::parse("case.toml", &text, &[]).unwrap().model;
     assert_eq!(back.case, case);
-    let JointKind::Bent { angle } = &back.joints[0].kind else { panic!("{:?}", back.joints) };
+    let JointKind::Bent { angle, .. } = &back.joints[0].kind else { panic!("{:?}", back.joints) };
     for (time, value) in [(0.0, 0.0), (0.4, 0.3), (0.7, 0.1), (1.0, -0.2)] {
         assert!((angle.at(time)[0] - value).abs() < 1e-14);
     }

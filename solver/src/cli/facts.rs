@@ -234,10 +234,21 @@ fn joint_line(joint: &Joint) -> String {
     };
     let stroke = |stroke: &Stroke| range(stroke, significant);
     let what = match &joint.kind {
-        JointKind::Arm { length, direction } => {
+        JointKind::Arm { length, along: Some(along), .. } => {
+            format!("arm of length {}, along {along:?}", stroke(length))
+        }
+        JointKind::Arm { length, direction, along: None } => {
             format!("arm of length {}, direction {}", stroke(length), angle_in_words(*direction))
         }
-        JointKind::Bent { angle } => format!("bent by {}", range(angle, angle_in_words)),
+        JointKind::Bent { angle, axis } => {
+            let about = axis.map(|axis| format!(" about {axis:?}"));
+            format!("bent by {}{}", range(angle, angle_in_words), about.unwrap_or_default())
+        }
+        JointKind::Ball(ball) => format!(
+            "ball joint, stiffness {}, damping {}",
+            significant(ball.stiffness),
+            significant(ball.damping)
+        ),
         JointKind::Hinge(hinge) => {
             let motor = hinge.torque.as_ref().map(|torque| format!(", torque {}", stroke(torque)));
             format!(

@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::Findings;
+use super::joints_in_space::{forms, place_of_child};
 use crate::joint::{PlanarPose, child_pose};
 use crate::{Geometry, Hinge, Joint, JointKind, Model, Motion, Stroke, TimeSettings};
 
@@ -18,6 +19,7 @@ pub fn check(findings: &mut Findings<'_>) {
         let key = format!("joint.{index}");
         if model.swimmer_of_joint(index).is_none() {
             stroke_of_joint(findings, &key, &joint.kind);
+            forms(findings, &key, joint);
         }
         let Some(ends) = ends(findings, &key, joint) else { continue };
         if parents[ends.child].is_some() || ends.parent == ends.child {
@@ -40,7 +42,11 @@ pub fn check(findings: &mut Findings<'_>) {
         if model.swimmer_of_joint(index).is_none() {
             let (key, joint) = (format!("joint.{index}"), &model.joints[index]);
             motion_of_child(findings, &key, joint, ends);
-            pose_of_child(findings, &key, joint, ends);
+            if findings.case().geometry == Geometry::Spatial {
+                place_of_child(findings, &key, joint, [ends.parent, ends.child]);
+            } else {
+                pose_of_child(findings, &key, joint, ends);
+            }
         }
     }
     if findings.case().geometry == Geometry::Axisymmetric {
@@ -112,7 +118,8 @@ fn pose_of_child(findings: &mut Findings<'_>, key: &str, joint: &Joint, ends: En
         }
         kind => kind.clone(),
     };
-    let wanted = child_pose(parent, joint.on_parent, joint.on_child, &kind, 0.0);
+    let [on_parent, on_child] = joint.ends_in_plane();
+    let wanted = child_pose(parent, on_parent, on_child, &kind, 0.0);
     let size = (wanted.center - parent.center).norm();
     let off = (wanted.center - found.center).norm();
     if off > ROUNDING * size {
@@ -173,9 +180,9 @@ fn along_the_axis(findings: &mut Findings<'_>) {
     for (index, joint) in findings.model().joints.iter().enumerate() {
         let is_along = match &joint.kind {
             JointKind::Arm { direction, .. } => direction.sin().abs() < 1e-9,
-            JointKind::Bent { .. } | JointKind::Hinge(_) => false,
+            JointKind::Bent { .. } | JointKind::Hinge(_) | JointKind::Ball(_) => false,
         };
-        if !is_along || joint.on_parent[1] != 0.0 || joint.on_child[1] != 0.0 {
+        if !is_along || joint.ends_in_plane().iter().any(|end| end[1] != 0.0) {
             findings.error(
                 &format!("joint.{index}.kind"),
                 format!("the joint of \"{}\" leaves the axis", joint.child),
@@ -192,8 +199,12 @@ fn stroke_of_joint(findings: &mut Findings<'_>, key: &str, kind: &JointKind) {
             stroke(findings, &format!("{key}.kind.arm.length"), length);
             arm(findings, &format!("{key}.kind.arm.length"), length);
         }
-        JointKind::Bent { angle } => stroke(findings, &format!("{key}.kind.bent.angle"), angle),
+        JointKind::Bent { angle, .. } => stroke(findings, &format!("{key}.kind.bent.angle"), angle),
         JointKind::Hinge(one) => hinge(findings, &format!("{key}.kind.hinge"), one),
+        JointKind::Ball(ball) => {
+            findings.not_negative(&format!("{key}.kind.ball.stiffness"), ball.stiffness);
+            findings.not_negative(&format!("{key}.kind.ball.damping"), ball.damping);
+        }
     }
 }
 

@@ -15,6 +15,7 @@ mod gait;
 mod general;
 mod given_mesh;
 mod joints;
+mod joints_in_space;
 mod mean_flow;
 mod mesh;
 mod near;

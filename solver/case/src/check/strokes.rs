@@ -19,6 +19,10 @@ const APART: f64 = 1e-5;
 pub fn check(findings: &mut Findings<'_>) {
     let model = findings.model();
     let TimeSettings::Unsteady(unsteady) = &model.case.time else { return };
+    // Bodies in space have no outlines; the run stops where they meet
+    if model.case.geometry == Geometry::Spatial {
+        return;
+    }
     let children = model.children();
     let mut seen = vec![false; model.case.swimmer.len()];
     for root in (0..model.bodies.len()).filter(|body| model.joint_above(*body).is_none()) {
@@ -157,8 +161,8 @@ impl<'a> Tree<'a> {
         let mut poses = vec![PlanarPose::default(); self.bodies.len()];
         poses[0].angle = self.bodies[0].angle;
         for Link { parent, child, joint } in &self.joints {
-            let Joint { on_parent, on_child, kind, .. } = joint;
-            poses[*child] = child_pose(poses[*parent], *on_parent, *on_child, kind, time);
+            let [on_parent, on_child] = joint.ends_in_plane();
+            poses[*child] = child_pose(poses[*parent], on_parent, on_child, &joint.kind, time);
         }
         let placed = |(body, pose): (&PlacedShape, &PlanarPose)| PlacedShape {
             center: pose.center,

@@ -236,10 +236,12 @@ fn explicit_scheme(findings: &mut Findings<'_>) {
         return;
     }
     let model = findings.model();
-    let is_stiff = model
-        .joints
-        .iter()
-        .any(|joint| matches!(&joint.kind, JointKind::Hinge(hinge) if hinge.stiffness > 0.0));
+    let stiffness = |kind: &JointKind| match kind {
+        JointKind::Hinge(hinge) => hinge.stiffness,
+        JointKind::Ball(ball) => ball.stiffness,
+        JointKind::Arm { .. } | JointKind::Bent { .. } => 0.0,
+    };
+    let is_stiff = model.joints.iter().any(|joint| stiffness(&joint.kind) > 0.0);
     let hinders = [
         (
             case.fluid.model != FlowModel::Stokes,

@@ -41,6 +41,15 @@ impl Mode {
         [Self::X, Self::Y, Self::Z][axis]
     }
 
+    /// The rotation about an axis (0, 1, 2).
+    ///
+    /// # Panics
+    /// For an axis above 2.
+    #[must_use]
+    pub const fn about(axis: usize) -> Self {
+        [Self::AboutX, Self::AboutY, Self::AboutZ][axis]
+    }
+
     /// Its component of a [`RigidVector`].
     #[must_use]
     pub const fn index(self) -> usize {

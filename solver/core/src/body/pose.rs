@@ -117,6 +117,16 @@ impl Pose {
         Self { orientation, ..*self }
     }
 
+    /// The pose turned about its centre by a rotation of the body frame; a planar one stays as it is.
+    #[must_use]
+    pub fn composed(&self, rotation: &UnitQuaternion<f64>) -> Self {
+        let orientation = match self.orientation {
+            Orientation::Planar(angle) => Orientation::Planar(angle),
+            Orientation::Spatial(before) => Orientation::Spatial(before * rotation),
+        };
+        Self { orientation, ..*self }
+    }
+
     /// The pose with its centre moved by a vector (m).
     #[must_use]
     pub fn shifted(&self, shift: &Vector3<f64>) -> Self {

@@ -72,7 +72,11 @@ impl<const D: usize> Constrainer<'_, D> {
                 if let Some(value) = drive.given(time) {
                     builder.fix(raw, value);
                 } else if let (Drive::Linked, Some(rows)) = (drive, &rows) {
-                    let RigidRow { entries, value } = &rows[body][mode];
+                    let row = &rows[body][mode];
+                    if row.is(body, mode) {
+                        continue;
+                    }
+                    let RigidRow { entries, value } = row;
                     let entries = entries.iter().filter_map(|(unknown, weight)| {
                         let position = modes.position(unknown.mode)?;
                         let unknown = self.layout.rigid(unknown.body, position);

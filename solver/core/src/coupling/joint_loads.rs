@@ -5,7 +5,7 @@
 
 use nalgebra::Vector3;
 
-use super::problem::{Joint, Problem, Turn};
+use super::problem::{Joint, Pivot, Problem, Turn};
 use super::shapes::BodyShapes;
 use crate::body::{Pose, RigidVector, Twist, Wrench};
 
@@ -35,14 +35,8 @@ pub struct JointReport {
     pub rate: f64,
     /// Torque on the child (N m), or force on it along the arm (N); the opposite acts on the parent.
     pub load: f64,
-}
-
-impl JointReport {
     /// Rate of work on the bodies (W).
-    #[must_use]
-    pub fn power(&self) -> f64 {
-        self.load * self.rate
-    }
+    pub power: f64,
 }
 
 /// All joints, in the order of the bodies that hang by them.
@@ -77,18 +71,35 @@ fn report(joint: &Joint, child: usize, load: &Wrench, now: &BodyStates<'_>) -> J
     if let Some(arm) = &joint.arm {
         let [length, rate] = (arm.length)(time);
         let along = now.poses[parent].to_world(&arm.along);
-        return JointReport { child, coordinate: length, rate, load: load.force.dot(&along) };
+        let load = load.force.dot(&along);
+        return JointReport { child, coordinate: length, rate, load, power: load * rate };
     }
     let to_joint = now.poses[child].to_world(&joint.on_child);
     let torque = load.torque - to_joint.cross(&load.force);
     let relative = now.twists[child].angular - now.twists[parent].angular;
-    let (axis, rate) = match &joint.turn {
-        Turn::Given { axis, angle } => (now.poses[parent].to_world(axis), angle(time)[1]),
-        Turn::Free(pivot) => (pivot.axis.into_inner(), relative.dot(&pivot.axis)),
+    let turned = now.poses[child].displacement_from(&now.poses[parent].composed(&joint.rest));
+    let turned = Vector3::from(turned.fixed_rows::<3>(3));
+    let about = |axis: Vector3<f64>, coordinate: f64, rate: f64| {
+        let load = torque.dot(&axis);
+        JointReport { child, coordinate, rate, load, power: load * rate }
     };
-    let turned = now.poses[child].displacement_from(&now.poses[parent]);
-    let coordinate = Vector3::from(turned.fixed_rows::<3>(3)).dot(&axis);
-    JointReport { child, coordinate, rate, load: torque.dot(&axis) }
+    match &joint.turn {
+        // In space angles beyond half a turn are known to the joint alone
+        Turn::Given { axis, angle } => {
+            let [coordinate, rate] = angle(time);
+            about(now.poses[parent].to_world(axis), coordinate, rate)
+        }
+        Turn::Free(Pivot { axis: Some(axis), .. }) => {
+            let axis = now.poses[parent].to_world(axis);
+            about(axis, turned.dot(&axis), relative.dot(&axis))
+        }
+        // The angle of the rotation, about what it has turned about
+        Turn::Free(Pivot { axis: None, .. }) => {
+            let axis = turned.try_normalize(0.0).unwrap_or_else(Vector3::x);
+            let report = about(axis, turned.norm(), relative.dot(&axis));
+            JointReport { power: torque.dot(&relative), ..report }
+        }
+    }
 }
 
 /// What a body needs to move as it does besides fluid, contact and all that acts on it from outside.

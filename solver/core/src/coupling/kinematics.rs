@@ -8,7 +8,7 @@
 
 use nalgebra::Vector3;
 
-use super::problem::{Joint, Problem, Turn};
+use super::problem::{Joint, Pivot, Problem, Turn};
 use crate::body::{Mode, Modes, Pose};
 
 /// A rigid velocity of a body.
@@ -28,6 +28,11 @@ pub(super) struct RigidRow {
 impl RigidRow {
     fn independent(body: usize, mode: Mode) -> Self {
         Self { entries: vec![(RigidUnknown { body, mode }, 1.0)], value: 0.0 }
+    }
+
+    /// Whether it is independent itself.
+    pub fn is(&self, body: usize, mode: Mode) -> bool {
+        self.value == 0.0 && self.entries == [(RigidUnknown { body, mode }, 1.0)]
     }
 
     /// This plus `weight` times another.
@@ -86,8 +91,17 @@ impl<const D: usize> Problem<D> {
         for body in self.parents_first() {
             let Some(joint) = &self.bodies[body].joint else { continue };
             let parent = poses[joint.parent];
-            if let Turn::Given { axis, angle } = &joint.turn {
-                poses[body].orientation = parent.turned(axis, angle(time)[0]).orientation;
+            let known = match &joint.turn {
+                Turn::Given { axis, angle } => Some((axis, angle(time)[0])),
+                // In the plane there is but one axis
+                Turn::Free(Pivot { axis: Some(axis), .. }) if D == 3 => {
+                    Some((axis, joint.angle_about(axis, [&parent, &poses[body]])))
+                }
+                Turn::Free(_) => None,
+            };
+            if let Some((axis, angle)) = known {
+                let turned = parent.turned(axis, angle);
+                poses[body].orientation = turned.composed(&joint.rest).orientation;
             }
             let levers = Levers::new(joint, &parent, &poses[body], time);
             poses[body].center = parent.center + levers.parent - levers.child;
@@ -103,12 +117,19 @@ impl<const D: usize> Problem<D> {
         for body in self.parents_first() {
             let Some(joint) = &self.bodies[body].joint else { continue };
             let parent = &poses[joint.parent];
-            if let Turn::Given { axis, angle } = &joint.turn {
-                let axis = parent.to_world(axis);
-                for mode in modes.rotations() {
-                    rows[body][mode] = rows[joint.parent][mode].clone();
-                    rows[body][mode].value += angle(time)[1] * axis[mode.axis()];
+            match &joint.turn {
+                Turn::Given { axis, angle } => {
+                    let axis = parent.to_world(axis);
+                    for mode in modes.rotations() {
+                        rows[body][mode] = rows[joint.parent][mode].clone();
+                        rows[body][mode].value += angle(time)[1] * axis[mode.axis()];
+                    }
                 }
+                Turn::Free(Pivot { axis: Some(axis), .. }) if D == 3 => {
+                    let axis = parent.to_world(axis);
+                    turn_about(&axis, &mut rows, [joint.parent, body]);
+                }
+                Turn::Free(_) => {}
             }
             let levers = Levers::new(joint, parent, &poses[body], time);
             let translations: [RigidRow; D] = std::array::from_fn(|axis| {
@@ -119,6 +140,18 @@ impl<const D: usize> Problem<D> {
             }
         }
         rows
+    }
+}
+
+/// The angular velocity of a child that turns freely about an axis fixed to its parent (in the world):
+/// omega_child = omega_parent + q axis, q from the component of omega_child where the axis is longest.
+fn turn_about(axis: &Vector3<f64>, rows: &mut [RigidRows], [parent, child]: [usize; 2]) {
+    let longest = axis.iamax();
+    let free = Mode::about(longest);
+    let rate = RigidRow::independent(child, free).plus(&rows[parent][free], -1.0);
+    for mode in Modes::SPATIAL.rotations().filter(|mode| *mode != free) {
+        let weight = axis[mode.axis()] / axis[longest];
+        rows[child][mode] = rows[parent][mode].clone().plus(&rate, weight);
     }
 }
 

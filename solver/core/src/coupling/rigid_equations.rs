@@ -120,14 +120,17 @@ impl RigidBodyEquations {
         for (child, rigid) in problem.bodies.iter().enumerate() {
             let Some(joint) = &rigid.joint else { continue };
             let Turn::Free(pivot) = &joint.turn else { continue };
-            let turned = unmoved[child].displacement_from(&unmoved[joint.parent]);
-            let bend = turned.fixed_rows::<3>(3) - pivot.axis.scale(pivot.rest);
+            let at_rest = unmoved[joint.parent].composed(&joint.rest);
+            let turned = unmoved[child].displacement_from(&at_rest);
             let motor = pivot.motor.as_ref().map_or(0.0, |motor| motor(time));
+            let axis = pivot.axis.map(|axis| unmoved[joint.parent].to_world(&axis));
+            let about_axis = |value: f64| axis.map_or_else(Vector3::zeros, |axis| axis * value);
+            let bend = turned.fixed_rows::<3>(3) - about_axis(pivot.rest);
             self.pivots.push(PivotLoad {
                 child,
                 parent: joint.parent,
                 resistance: pivot.damping + pivot.stiffness * coefficient,
-                torque: pivot.axis.scale(motor) - bend * pivot.stiffness,
+                torque: about_axis(motor) - bend * pivot.stiffness,
             });
         }
         for ((equation, rigid), unmoved) in self.bodies.iter_mut().zip(&problem.bodies).zip(unmoved)

@@ -1,8 +1,11 @@
 //! `Joint`: how a body hangs on another one: a bent or free pivot, or an arm of given length.
 
-use nalgebra::{UnitVector3, Vector3};
+use std::f64::consts::PI;
+
+use nalgebra::{UnitQuaternion, UnitVector3, Vector3};
 
 use super::in_time::{MovingValue, TimeValue};
+use crate::body::Pose;
 
 /// How a body, the child, hangs on another one, its parent.
 pub struct Joint {
@@ -14,8 +17,11 @@ pub struct Joint {
     pub arm: Option<Arm>,
     /// The joint in the frame of the child, from its centre of mass (m).
     pub on_child: Vector3<f64>,
-    /// The rotation of the child relative to the parent.
+    /// The rotation of the child relative to the parent, from `rest`.
     pub turn: Turn,
+    /// The rotation from the frame of the child to that of the parent at an angle of zero, or where the
+    /// spring of a ball joint is at rest; none in the plane.
+    pub rest: UnitQuaternion<f64>,
 }
 
 /// A bar of given length that turns with the parent.
@@ -42,8 +48,9 @@ pub enum Turn {
 /// Torque on the child: -stiffness (rotation - rest) - damping rate + motor; the opposite on the
 /// parent.
 pub struct Pivot {
-    /// The axis of the angles at rest and of the motor, in the world.
-    pub axis: UnitVector3<f64>,
+    /// The axis of the angle at rest and of the motor, in the frame of the parent; `None` of a ball joint,
+    /// which turns about all.
+    pub axis: Option<UnitVector3<f64>>,
     /// Torque per angle (N m).
     pub stiffness: f64,
     /// Torque per angular velocity (N m s).
@@ -61,5 +68,17 @@ impl Joint {
         let Some(arm) = &self.arm else { return [self.on_parent, Vector3::zeros()] };
         let [length, rate] = (arm.length)(time);
         [self.on_parent + arm.along.scale(length), arm.along.scale(rate)]
+    }
+
+    /// The rotation of the child from `rest` about an axis of the parent (rad), within (-pi, pi].
+    pub(in crate::coupling) fn angle_about(
+        &self,
+        axis: &UnitVector3<f64>,
+        [parent, child]: [&Pose; 2],
+    ) -> f64 {
+        let turned = parent.rotation().inverse() * child.rotation() * self.rest.inverse();
+        // The part about the axis of the rotation, that across it being an error of the step
+        let half = turned.vector().dot(axis).atan2(turned.w);
+        (2.0 * half + PI).rem_euclid(2.0 * PI) - PI
     }
 }

@@ -149,6 +149,16 @@ impl<const D: usize> Problem<D> {
         self.bodies.iter().any(|body| body.joint.is_some())
     }
 
+    /// Pairs of bodies that share a pivot.
+    #[must_use]
+    pub fn pairs_on_pivots(&self) -> Vec<[usize; 2]> {
+        let pair = |(child, body): (usize, &RigidBody)| {
+            let joint = body.joint.as_ref().filter(|joint| joint.arm.is_none())?;
+            Some([joint.parent, child])
+        };
+        self.bodies.iter().enumerate().filter_map(pair).collect()
+    }
+
     /// How convection is linearised by Newton's method: with the frame's velocity among the unknowns
     /// where a frame travels.
     #[must_use]

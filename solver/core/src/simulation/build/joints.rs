@@ -1,9 +1,9 @@
 //! Joints of a case as links of rigid bodies.
 
-use nalgebra::{UnitVector3, Vector3};
+use nalgebra::{UnitQuaternion, UnitVector3, Vector3};
 
 use crate::body::Mode;
-use crate::case::{Geometry, Hinge, Joint as JointSpec, JointKind, Model};
+use crate::case::{Ball, Geometry, Hinge, Joint as JointSpec, JointKind, Model};
 use crate::coupling::{Arm, Drive, Joint, Pivot, RigidBody, TimeValue, Turn};
 use crate::simulation::RunError;
 
@@ -19,43 +19,81 @@ pub(super) fn add_joint(
         })
     };
     let (parent, child) = (find(&joint.parent)?, find(&joint.child)?);
-    let from_center = |body: usize, point: [f64; 2]| {
-        let moments = model.bodies[body].shape.outline().moments();
-        let centroid = moments.map(|moments| moments.centroid).unwrap_or_default();
-        Vector3::new(point[0] - centroid.x, point[1] - centroid.y, 0.0)
-    };
-    let bend = model.bodies[child].angle - model.bodies[parent].angle;
-    let axis = Vector3::z_axis();
+    let is_spatial = model.case.geometry == Geometry::Spatial;
+    let centroid = |body: usize| centroid(model, bodies, body);
+    let [on_parent, on_child] = joint.ends();
+    let (on_parent, on_child) = (on_parent - centroid(parent), on_child - centroid(child));
+    // In space the orientations of the bodies say how the child is turned
+    let bend =
+        if is_spatial { 0.0 } else { model.bodies[child].angle - model.bodies[parent].angle };
+    let relative = || bodies[parent].pose.rotation().inverse() * bodies[child].pose.rotation();
+    let mut rest = if is_spatial { relative() } else { UnitQuaternion::identity() };
+    let z = Vector3::z_axis();
     let mut arm = None;
     let turn = match joint.kind.clone() {
-        JointKind::Arm { length, direction } => {
-            // Along an axis to the last bit
-            let snap = |part: f64| if part.abs() < 1e-15 { 0.0 } else { part };
-            let along = Vector3::new(snap(direction.cos()), snap(direction.sin()), 0.0);
-            let along = UnitVector3::new_unchecked(along);
+        JointKind::Arm { length, direction, along } => {
+            let along = along.map_or_else(|| in_plane(direction), direction_of);
             arm = Some(Arm { along, length: Box::new(move |time| length.at(time)) });
-            Turn::Given { axis, angle: Box::new(move |_| [bend, 0.0]) }
+            Turn::Given { axis: z, angle: Box::new(move |_| [bend, 0.0]) }
         }
-        JointKind::Bent { angle } => {
+        JointKind::Bent { angle, axis } => {
+            let axis = axis.map_or(z, direction_of);
+            if is_spatial {
+                rest = UnitQuaternion::from_axis_angle(&axis, -angle.at(0.0)[0]) * rest;
+            }
             Turn::Given { axis, angle: Box::new(move |time| angle.at(time)) }
+        }
+        JointKind::Ball(Ball { stiffness, damping }) => {
+            Turn::Free(Pivot { axis: None, stiffness, damping, rest: 0.0, motor: None })
         }
         JointKind::Hinge(hinge) => {
             let motor = hinge
                 .torque
                 .map(|torque| -> TimeValue { Box::new(move |time| torque.at(time)[0]) });
-            let Hinge { stiffness, damping, rest, .. } = hinge;
-            Turn::Free(Pivot { axis, stiffness, damping, rest, motor })
+            let Hinge { stiffness, damping, rest: angle, .. } = hinge;
+            let axis = hinge.axis.map_or(z, direction_of);
+            if is_spatial {
+                rest = UnitQuaternion::from_axis_angle(&axis, -angle) * rest;
+            }
+            Turn::Free(Pivot { axis: Some(axis), stiffness, damping, rest: angle, motor })
         }
     };
-    let on_parent = from_center(parent, joint.on_parent);
-    let on_child = from_center(child, joint.on_child);
     let body = &mut bodies[child];
-    let is_free = matches!(turn, Turn::Free(_));
-    body.drives[Mode::X] = Drive::Linked;
-    if model.case.geometry == Geometry::Planar {
-        body.drives[Mode::Y] = Drive::Linked;
-        body.drives[Mode::AboutZ] = if is_free { Drive::Free } else { Drive::Linked };
+    // What of a rotation about one axis in space is independent changes with its direction
+    let is_free = match &turn {
+        Turn::Free(pivot) => pivot.axis.is_none() || !is_spatial,
+        Turn::Given { .. } => false,
+    };
+    let turned = || if is_free { Drive::Free } else { Drive::Linked };
+    let linked: &[Mode] = match model.case.geometry {
+        Geometry::Axisymmetric => &[Mode::X],
+        Geometry::Planar => &[Mode::X, Mode::Y, Mode::AboutZ],
+        Geometry::Spatial => &Mode::ALL,
+    };
+    for &mode in linked {
+        body.drives[mode] = if mode.is_rotation() { turned() } else { Drive::Linked };
     }
-    body.joint = Some(Joint { parent, on_parent, arm, on_child, turn });
+    body.joint = Some(Joint { parent, on_parent, arm, on_child, turn, rest });
     Ok(())
+}
+
+/// Centre of mass of a body in its frame (m).
+fn centroid(model: &Model, bodies: &[RigidBody], body: usize) -> Vector3<f64> {
+    if model.case.geometry == Geometry::Spatial {
+        let frame = model.bodies[body].pose_in_space();
+        return frame.inverse_transform_point(&bodies[body].pose.center.into()).coords;
+    }
+    let moments = model.bodies[body].shape.outline().moments();
+    let centroid = moments.map(|moments| moments.centroid).unwrap_or_default();
+    Vector3::new(centroid.x, centroid.y, 0.0)
+}
+
+/// The direction at an angle in the plane (rad), along an axis to the last bit.
+fn in_plane(direction: f64) -> UnitVector3<f64> {
+    let snap = |part: f64| if part.abs() < 1e-15 { 0.0 } else { part };
+    UnitVector3::new_unchecked(Vector3::new(snap(direction.cos()), snap(direction.sin()), 0.0))
+}
+
+fn direction_of(vector: [f64; 3]) -> UnitVector3<f64> {
+    UnitVector3::new_normalize(vector.into())
 }

@@ -12,7 +12,7 @@ use self::joints::add_joint;
 use self::sides::side;
 pub(super) use self::solid::no_solid;
 use super::RunError;
-use crate::body::Pose;
+use crate::body::{Orientation, Pose};
 use crate::case::{
     Case, ContactSpec, FlowModel, Geometry, MeanFlowSpec, Model, Stroke, SwimmerModel, TimeSettings,
 };
@@ -86,7 +86,13 @@ pub fn build_problem<const D: usize>(
     problem.apply_joints(&mut poses, 0.0);
     for (body, pose) in problem.bodies.iter_mut().zip(poses) {
         if body.joint.is_some() {
-            body.pose = Pose::planar(pose.center.x, pose.center.y, pose.heading());
+            body.pose = match pose.orientation {
+                // Within half a turn of x
+                Orientation::Planar(_) => {
+                    Pose::planar(pose.center.x, pose.center.y, pose.heading())
+                }
+                Orientation::Spatial(_) => pose,
+            };
         }
     }
     Ok(problem)

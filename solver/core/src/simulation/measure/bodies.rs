@@ -105,7 +105,7 @@ pub(super) fn joint_value(joint: &JointReport, quantity: JointQuantity) -> f64 {
         JointQuantity::Angle | JointQuantity::Length => joint.coordinate,
         JointQuantity::Rate => joint.rate,
         JointQuantity::Torque | JointQuantity::Force => joint.load,
-        JointQuantity::Power => joint.power(),
+        JointQuantity::Power => joint.power,
     }
 }
 

@@ -41,10 +41,6 @@ impl PlanarCase {
     /// That of a case and its problem.
     pub fn new(model: &Model, problem: &Problem<2>) -> Result<Self, RunError> {
         let case = &model.case;
-        let pivots = problem.bodies.iter().enumerate().filter_map(|(child, body)| {
-            let joint = body.joint.as_ref().filter(|joint| joint.arm.is_none())?;
-            Some([joint.parent, child])
-        });
         let sheets =
             case.boundary.keys().filter_map(|side| Some((side.clone(), waving_sheet(case, side)?)));
         Ok(Self {
@@ -53,7 +49,7 @@ impl PlanarCase {
             limits: limits(case),
             motion: MotionSettings::new(model, problem),
             deforms: problem.bodies.iter().map(|body| body.shape.is_some()).collect(),
-            pivots: pivots.collect(),
+            pivots: problem.pairs_on_pivots(),
             start_shapes: placed_bodies(model)?,
             start_poses: problem.bodies.iter().map(|body| body.pose).collect(),
             sheets: sheets.collect(),

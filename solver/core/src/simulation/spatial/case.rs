@@ -24,6 +24,8 @@ pub(super) struct SpatialCase {
     pub limits: Limits,
     /// How the mesh moves.
     pub motion: MotionSettings,
+    /// Bodies that share a pivot.
+    pub pivots: Vec<[usize; 2]>,
     /// The bodies at time zero.
     solids: Vec<Solid>,
     /// Their centres of mass, in the frames of the bodies (m).
@@ -43,6 +45,7 @@ impl SpatialCase {
             limits: limits(&model.case),
             motion: MotionSettings::new(model, problem),
             centroids: solids.iter().zip(&problem.bodies).map(centroid).collect(),
+            pivots: problem.pairs_on_pivots(),
             solids,
         })
     }

@@ -32,7 +32,8 @@ impl SpatialScene {
         let solids = case.solids_at(poses);
         let surroundings = GapQuery::new(&case.domain, &solids)?;
         let fresh = Fresh::new(mesh, &surroundings, case.limits);
-        let gaps = SpatialGaps::new(&case.domain, &solids, &case.centroids)?;
+        let gaps = SpatialGaps::new(&case.domain, &solids, &case.centroids)?
+            .with_joined(case.pivots.iter().copied());
         Ok(Self { case, fresh, surroundings, gaps })
     }
 }
