@@ -2,6 +2,7 @@
 
 mod angle;
 mod axial_vector;
+mod balls;
 mod body;
 mod bounce;
 mod case;
@@ -11,7 +12,6 @@ mod contact;
 mod copies;
 mod deserialize;
 mod diagnostic;
-mod discs;
 mod domain;
 mod encounters;
 mod extent;
@@ -29,6 +29,7 @@ mod names;
 mod nearest;
 mod numbers;
 mod output;
+mod part_pose;
 mod parts;
 mod problem_keys;
 mod quantity;

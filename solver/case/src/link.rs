@@ -71,8 +71,10 @@ impl Link {
             | ShapeSpec::Spheroid { semi_axes: [half, half_width] } => {
                 Ok(LinkExtent { back: -half, front: *half, half_width: *half_width })
             }
-            ShapeSpec::Ellipsoid { .. }
-            | ShapeSpec::Capsule { .. }
+            ShapeSpec::Ellipsoid { semi_axes: [half, across, up] } => {
+                Ok(LinkExtent { back: -half, front: *half, half_width: across.max(*up) })
+            }
+            ShapeSpec::Capsule { .. }
             | ShapeSpec::Cylinder { .. }
             | ShapeSpec::Helix(_)
             | ShapeSpec::Curve(_)

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use super::copies::{Individual, individuals};
+use super::copies::{Individual, individuals, product};
 use super::diagnostic::CaseError;
 use super::parts::{Part, parts, poses};
 use super::{
@@ -160,8 +160,9 @@ impl Model {
     ) -> Result<(), CaseError> {
         let (name, written, count) = match &swimmer.copies {
             None => return Ok(()),
-            Some(Copies::Lattice { counts: [columns, rows], .. }) => {
-                ("lattice.counts", format!("{columns} x {rows}"), columns.checked_mul(*rows))
+            Some(Copies::Lattice { counts, .. }) => {
+                let written: Vec<String> = counts.iter().map(usize::to_string).collect();
+                ("lattice.counts", written.join(" x "), product(counts))
             }
             Some(Copies::Random { count, .. }) => ("random.count", count.to_string(), Some(*count)),
         };
@@ -202,9 +203,9 @@ impl Model {
             self.bodies.push(Body {
                 name: own,
                 shape: part.shape.clone(),
-                center: vec![pose.center.x, pose.center.y],
-                angle: pose.angle,
-                orientation: None,
+                center: pose.center(),
+                angle: pose.angle(),
+                orientation: pose.orientation(),
                 density: part.density.or(swimmer.density),
                 motion,
                 locked: Vec::new(),

@@ -4,8 +4,8 @@ use std::fmt::Write as _;
 
 use alewife_mesh::{Point, whole};
 
+use super::balls::{Ball, BallGrid};
 use super::diagnostic::printable;
-use super::discs::{Disc, DiscGrid};
 use super::{
     Body, Case, ContactSpec, FlowModel, GaitSpec, Geometry, Model, ShapeSpec, SquirmerGait,
     SwimmerModel, TimeSettings,
@@ -153,7 +153,7 @@ fn numbers_of_swimmer(table: &mut Table, model: &Model, swimmer: &SwimmerModel) 
 }
 
 /// Largest distance of two points of bodies at the start (m): of one body its length, of several by
-/// their surrounding circles.
+/// their surrounding spheres.
 fn extent(model: &Model, bodies: &[usize]) -> f64 {
     if let [body] = bodies {
         return match &model.bodies[*body].shape {
@@ -163,23 +163,24 @@ fn extent(model: &Model, bodies: &[usize]) -> f64 {
             shape => 2.0 * shape.reach(),
         };
     }
-    let circle = |body: &usize| {
+    let ball = |body: &usize| {
         let body = &model.bodies[*body];
         let at = |axis: usize| body.center.get(axis).copied().unwrap_or(0.0);
-        Disc { center: Point::<2>::new(at(0), at(1)), radius: body.shape.reach() }
+        Ball { center: Point::<3>::from_fn(|axis, _| at(axis)), radius: body.shape.reach() }
     };
-    let circles: Vec<Disc> = bodies.iter().map(circle).collect();
+    let balls: Vec<Ball<3>> = bodies.iter().map(ball).collect();
     let mut most = 0.0f64;
-    for one in &circles {
-        for other in &circles {
-            most = most.max(distance(one, other) + one.radius + other.radius);
+    for one in &balls {
+        for other in &balls {
+            let distance = (other.center - one.center).norm();
+            most = most.max(distance + one.radius + other.radius);
         }
     }
     most
 }
 
 /// Distance of the centres of two discs (m).
-fn distance(one: &Disc, other: &Disc) -> f64 {
+fn distance(one: &Ball<2>, other: &Ball<2>) -> f64 {
     (other.center.x - one.center.x).hypot(other.center.y - one.center.y)
 }
 
@@ -195,12 +196,12 @@ fn gaps(model: &Model) -> Vec<DerivedNumber> {
     let mut circles = Vec::with_capacity(model.bodies.len());
     for (index, body) in model.bodies.iter().enumerate() {
         if let &[x, y] = body.center.as_slice() {
-            let circle = Disc { center: Point::<2>::new(x, y), radius: body.shape.reach() };
+            let circle = Ball { center: Point::<2>::new(x, y), radius: body.shape.reach() };
             circles.push((index, circle));
         }
     }
     let [min, max] = model.case.extent().in_plane();
-    let mut grid = DiscGrid::new(min, max, circles.len());
+    let mut grid = BallGrid::<2>::new(min.into(), max.into(), circles.len());
     for (nth, (_, circle)) in circles.iter().enumerate() {
         grid.insert(nth, circle);
     }
@@ -211,7 +212,7 @@ fn gaps(model: &Model) -> Vec<DerivedNumber> {
     for ratio in ratios {
         found.clear();
         for (nth, (index, circle)) in circles.iter().enumerate() {
-            let larger = Disc { radius: (1.0 + ratio) * circle.radius, ..*circle };
+            let larger = Ball { radius: (1.0 + ratio) * circle.radius, ..*circle };
             let mut near: Vec<usize> = grid.near(&larger).filter(|other| *other > nth).collect();
             near.sort_unstable();
             near.dedup();

@@ -8,8 +8,9 @@ use alewife_mesh::MeshError;
 use super::Geometry;
 use super::body::{GaitSpec, ShapeSpec};
 use super::diagnostic::CaseError;
-use super::joint::{Joint, JointKind, PlanarPose, child_pose};
+use super::joint::{Joint, JointKind};
 use super::link::{Link, LinkExtent};
+use super::part_pose::PartPose;
 use super::skin::{Layout, NoOutline};
 use super::stroke::Stroke;
 use super::swimmer::{Pivot, SwimmerKind};
@@ -35,8 +36,8 @@ pub struct Attachment {
 
 impl Attachment {
     /// An arm from origin to origin.
-    fn arm(parent: usize, length: &Stroke, direction: f64) -> Self {
-        let kind = JointKind::Arm { length: length.clone(), direction, along: None };
+    fn arm(parent: usize, length: &Stroke, direction: f64, along: Option<[f64; 3]>) -> Self {
+        let kind = JointKind::Arm { length: length.clone(), direction, along };
         Self { parent, on_parent: [0.0; 2], on_child: [0.0; 2], kind }
     }
 
@@ -80,16 +81,23 @@ pub fn parts(key: &str, kind: &SwimmerKind, geometry: Geometry) -> Result<Vec<Pa
             }
             Ok(linked_spheres(radii, arms, gaits, geometry))
         }
-        SwimmerKind::Star { radius, radii, arms, directions } => {
+        SwimmerKind::Star { radius, radii, arms, directions, along } => {
             fits("arms", arms.len(), radii.len())?;
             if !directions.is_empty() {
                 fits("directions", directions.len(), radii.len())?;
             }
-            Ok(star(*radius, radii, arms, directions))
+            if !along.is_empty() {
+                fits("directions along", along.len(), radii.len())?;
+            }
+            let arm = |nth: usize| Direction {
+                angle: directions.get(nth).copied(),
+                along: along.get(nth).copied(),
+            };
+            Ok(star(*radius, radii, arms, &arm, geometry))
         }
         SwimmerKind::Chain { links, gap, joints, skin } => {
             fits("joints", joints.len(), links.len().saturating_sub(1))?;
-            let Some(skin) = skin else { return chain(key, links, *gap, joints) };
+            let Some(skin) = skin else { return chain(key, links, *gap, joints, geometry) };
             let layout = Layout::new(links, *gap)
                 .map_err(|NoOutline { link, error }| no_outline(key, link, &error))?;
             Ok(vec![Part {
@@ -103,6 +111,14 @@ pub fn parts(key: &str, kind: &SwimmerKind, geometry: Geometry) -> Result<Vec<Pa
     }
 }
 
+/// A disc in the plane, else a sphere.
+fn round_shape(radius: f64, geometry: Geometry) -> ShapeSpec {
+    match geometry {
+        Geometry::Planar => ShapeSpec::Disc { radius },
+        Geometry::Axisymmetric | Geometry::Spatial => ShapeSpec::Sphere { radius },
+    }
+}
+
 /// Spheres or discs in a line along x, on arms from neighbour to neighbour.
 fn linked_spheres(
     radii: &[f64],
@@ -110,16 +126,12 @@ fn linked_spheres(
     gaits: &[GaitSpec],
     geometry: Geometry,
 ) -> Vec<Part> {
-    let shape = |radius: f64| match geometry {
-        Geometry::Planar => ShapeSpec::Disc { radius },
-        Geometry::Axisymmetric | Geometry::Spatial => ShapeSpec::Sphere { radius },
-    };
     let attachment = |nth: usize| {
         let Neighbour { parent, between, is_after } = neighbour(nth, radii.len())?;
-        Some(Attachment::arm(parent, &arms[between], if is_after { 0.0 } else { PI }))
+        Some(Attachment::arm(parent, &arms[between], if is_after { 0.0 } else { PI }, None))
     };
     let part = |(nth, radius): (usize, &f64)| Part {
-        shape: shape(*radius),
+        shape: round_shape(*radius, geometry),
         gait: gaits.get(nth).cloned(),
         density: None,
         attachment: attachment(nth),
@@ -127,10 +139,22 @@ fn linked_spheres(
     radii.iter().enumerate().map(part).collect()
 }
 
-/// Discs on arms from a disc in the middle.
-fn star(radius: f64, radii: &[f64], arms: &[Stroke], directions: &[f64]) -> Vec<Part> {
+/// Where an arm of a star points to: by an angle in the plane (rad) or along a vector, if that is given.
+struct Direction {
+    angle: Option<f64>,
+    along: Option<[f64; 3]>,
+}
+
+/// Discs or spheres on arms from one in the middle.
+fn star(
+    radius: f64,
+    radii: &[f64],
+    arms: &[Stroke],
+    direction: &dyn Fn(usize) -> Direction,
+    geometry: Geometry,
+) -> Vec<Part> {
     let disc = |radius: f64, attachment: Option<Attachment>| Part {
-        shape: ShapeSpec::Disc { radius },
+        shape: round_shape(radius, geometry),
         gait: None,
         density: None,
         attachment,
@@ -138,8 +162,10 @@ fn star(radius: f64, radii: &[f64], arms: &[Stroke], directions: &[f64]) -> Vec<
     let mut parts = vec![disc(radius, None)];
     for (nth, (radius, arm)) in radii.iter().zip(arms).enumerate() {
         let even = TAU * nth as f64 / radii.len() as f64;
-        let direction = directions.get(nth).copied().unwrap_or(even);
-        parts.push(disc(*radius, Some(Attachment::arm(0, arm, direction))));
+        let Direction { angle, along } = direction(nth);
+        // A vector takes the place of the angle
+        let angle = angle.unwrap_or(if along.is_some() { 0.0 } else { even });
+        parts.push(disc(*radius, Some(Attachment::arm(0, arm, angle, along))));
     }
     parts
 }
@@ -149,7 +175,13 @@ fn star(radius: f64, radii: &[f64], arms: &[Stroke], directions: &[f64]) -> Vec<
 ///
 /// # Errors
 /// When a link has no outline.
-fn chain(key: &str, links: &[Link], gap: f64, joints: &[Pivot]) -> Result<Vec<Part>, CaseError> {
+fn chain(
+    key: &str,
+    links: &[Link],
+    gap: f64,
+    joints: &[Pivot],
+    geometry: Geometry,
+) -> Result<Vec<Part>, CaseError> {
     let ends =
         |(nth, link): (usize, &Link)| link.extent().map_err(|error| no_outline(key, nth, &error));
     let ends =
@@ -164,7 +196,12 @@ fn chain(key: &str, links: &[Link], gap: f64, joints: &[Pivot]) -> Result<Vec<Pa
         Some(Attachment { parent, on_parent, on_child, kind })
     };
     let part = |(nth, link): (usize, &Link)| Part {
-        shape: link.shape(),
+        shape: match (link.shape(), geometry) {
+            (ShapeSpec::Ellipse { semi_axes }, Geometry::Spatial) => {
+                ShapeSpec::Spheroid { semi_axes }
+            }
+            (shape, _) => shape,
+        },
         gait: None,
         density: link.density(),
         attachment: attachment(nth),
@@ -207,8 +244,8 @@ fn neighbour(nth: usize, n: usize) -> Option<Neighbour> {
 
 /// Poses of parts at time zero, in their order, where the one all others are attached to has the
 /// pose `root`.
-pub fn poses(parts: &[Part], root: PlanarPose) -> Vec<PlanarPose> {
-    let mut poses: Vec<Option<PlanarPose>> = vec![None; parts.len()];
+pub fn poses(parts: &[Part], root: PartPose) -> Vec<PartPose> {
+    let mut poses: Vec<Option<PartPose>> = vec![None; parts.len()];
     for start in 0..parts.len() {
         // From the part up to the first one whose pose is known, and down again
         let mut path = Vec::new();
@@ -220,7 +257,7 @@ pub fn poses(parts: &[Part], root: PlanarPose) -> Vec<PlanarPose> {
         for nth in path.into_iter().rev() {
             let pose = parts[nth].attachment.as_ref().and_then(|attachment| {
                 let Attachment { parent, on_parent, on_child, kind } = attachment;
-                Some(child_pose(poses[*parent]?, *on_parent, *on_child, kind, 0.0))
+                Some(poses[*parent]?.child([*on_parent, *on_child], kind))
             });
             poses[nth] = Some(pose.unwrap_or(root));
         }
@@ -251,7 +288,16 @@ mod tests {
     use alewife_mesh::Point;
 
     use super::*;
+    use crate::joint::PlanarPose;
     use crate::link::ShapedLink;
+
+    fn planar(poses: &[PartPose]) -> Vec<PlanarPose> {
+        let in_plane = |pose: &PartPose| match pose {
+            PartPose::Planar(pose) => *pose,
+            PartPose::Spatial(_) => panic!("{pose:?}"),
+        };
+        poses.iter().map(in_plane).collect()
+    }
 
     #[test]
     fn a_chain_hangs_together_at_its_pivots() {
@@ -264,7 +310,7 @@ mod tests {
         };
         let parts = parts("swimmer.0", &kind, Geometry::Planar).unwrap();
         let root = PlanarPose { center: Point::<2>::new(1.0, 2.0), angle: 0.1 };
-        let poses = poses(&parts, root);
+        let poses = planar(&poses(&parts, PartPose::Planar(root)));
         assert_eq!(poses[1], root);
         let end = |nth: usize, x: f64| {
             let PlanarPose { center, angle } = poses[nth];
@@ -289,7 +335,7 @@ mod tests {
             skin: None,
         };
         let parts = parts("swimmer.0", &kind, Geometry::Planar).unwrap();
-        let poses = poses(&parts, PlanarPose::default());
+        let poses = planar(&poses(&parts, PartPose::Planar(PlanarPose::default())));
         // The first link ends 0.2 before the middle one, its back nearer to its origin than its front
         let back = poses[0].center.x - 0.6;
         assert!((0.2..0.25).contains(&back), "{back}");

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::body::{GaitSpec, Motion, ShapeSpec};
+use super::body::{GaitSpec, Motion, Orientation, ShapeSpec};
 use super::joint::{Hinge, JointKind};
 use super::link::Link;
 use super::stroke::Stroke;
@@ -17,9 +17,12 @@ pub struct SwimmerSpec {
     pub name: String,
     /// What it is made of.
     pub kind: SwimmerKind,
-    /// Position (m) of the body all others hang on.
-    #[serde(default)]
-    pub center: [f64; 2],
+    /// Position (m) of the body all others hang on; the origin if absent.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub center: Vec<f64>,
+    /// Rotation of that body in space; none if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub orientation: Option<Orientation>,
     /// Rotation of that body, counter-clockwise (rad).
     #[serde(default, deserialize_with = "super::angle::deserialize")]
     #[cfg_attr(test, schemars(with = "super::angle::Angle"))]
@@ -69,7 +72,7 @@ pub enum SwimmerKind {
         #[serde(default, skip_serializing_if = "Vec::is_empty")]
         gaits: Vec<GaitSpec>,
     },
-    /// Discs on arms from a disc in the middle (planar).
+    /// Discs on arms from a disc in the middle (planar), or spheres (spatial).
     Star {
         /// Radius in the middle (m).
         radius: f64,
@@ -85,12 +88,16 @@ pub enum SwimmerKind {
         )]
         #[cfg_attr(test, schemars(with = "Vec<super::angle::Angle>"))]
         directions: Vec<f64>,
+        /// In three dimensions, directions of the arms in the frame of the middle one, of any length.
+        #[serde(default, skip_serializing_if = "Vec::is_empty")]
+        along: Vec<[f64; 3]>,
     },
-    /// Slender links one after the other, with pivots between them (planar); the first one is in
-    /// front, towards +x, and all hang on the middle one.
+    /// Slender links one after the other, with pivots between them (planar, spatial); the first one is
+    /// in front, towards +x, and all hang on the middle one. In three dimensions they bend about the
+    /// z axis of the middle one unless `axis` of a hinge says otherwise.
     Chain {
-        /// Links from the front: semi-axes of an ellipse (m), along the chain and across, or
-        /// `{ shape, density }`.
+        /// Links from the front: semi-axes of an ellipse, in three dimensions of a spheroid (m), along
+        /// the chain and across, or `{ shape, density }`.
         links: Vec<Link>,
         /// Distance of the ends of neighbours along the chain, the pivot in its middle, on the x axes
         /// of both (m).
@@ -148,13 +155,13 @@ impl From<Pivot> for JointKind {
 pub enum Copies {
     /// In rows and columns, the first at `center`.
     Lattice {
-        /// Numbers along x and y.
-        counts: [usize; 2],
-        /// Distances along x and y (m).
-        spacing: [f64; 2],
+        /// Numbers along each axis.
+        counts: Vec<usize>,
+        /// Distances along each axis (m).
+        spacing: Vec<f64>,
     },
     /// At random, at least a gap apart from each other, from the bodies before and from walls, by the
-    /// circles that hold them.
+    /// circles or spheres that hold them.
     Random {
         /// How many.
         count: usize,
@@ -162,11 +169,10 @@ pub enum Copies {
         seed: u64,
         /// Smallest gap (m).
         gap: f64,
-        /// Lower left and upper right corner of where the centres go (m); the whole domain if
-        /// absent.
+        /// Lowest and highest corner of where the centres go (m); the whole domain if absent.
         #[serde(default, skip_serializing_if = "Option::is_none")]
-        within: Option<[[f64; 2]; 2]>,
-        /// Whether each is turned at random; else all as `angle`.
+        within: Option<[Vec<f64>; 2]>,
+        /// Whether each is turned at random; else all as `angle` or `orientation`.
         #[serde(default)]
         turned: bool,
     },

@@ -113,7 +113,7 @@ geometry = 'spatial'
 fluid = {{ model = 'stokes', viscosity = 1.0 }}
 domain.sphere.radius = 9.0
 boundary = {{ wall = 'no-slip' }}
-mesh = {{ size = 1.0, surface = 0.2 }}
+mesh = {{ size = 1.0, surface = 0.08 }}
 time.unsteady = {{ step = 0.1, end = 1.0 }}
 body = [
     {{ name = 'a', shape.sphere.radius = 0.5, center = [0.0, 0.0, 0.0], motion = 'free' }},

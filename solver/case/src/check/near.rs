@@ -5,7 +5,7 @@ use alewife_mesh::{Domain, Outline, Wall, closest, closest_to_wall};
 use super::Findings;
 use super::strokes::{Tree, cycle_of};
 use super::swing::swing;
-use crate::discs::{Disc, DiscGrid};
+use crate::balls::{Ball, BallGrid};
 use crate::{Body, BoundaryCondition, Lock, Model, Motion, TimeSettings};
 
 /// Gap over the thickness of the thinner body below which a step or two may close it.
@@ -120,13 +120,13 @@ impl<'a> Surroundings<'a> {
     fn candidates(&self) -> Vec<Near> {
         let mut found = Vec::new();
         let [min, max] = self.model.case.extent().in_plane();
-        let mut grid = DiscGrid::new(min, max, self.outlines.len());
+        let mut grid = BallGrid::<2>::new(min.into(), max.into(), self.outlines.len());
         for (body, outline) in self.outlines.iter().enumerate() {
             let Some(outline) = outline else { continue };
             let spec = &self.model.bodies[body];
             let own = spec.shape.half_width();
             let room = outline.reach() * (1.0 + NEAR) + self.swings[body];
-            let circle = Disc { center: outline.center(), radius: room };
+            let circle = Ball { center: outline.center(), radius: room };
             let mut near: Vec<usize> = grid.near(&circle).collect();
             near.sort_unstable();
             near.dedup();

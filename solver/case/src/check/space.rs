@@ -29,7 +29,6 @@ fn check_supported(findings: &mut Findings<'_>) {
     let has_periods = case.periodic_axes().contains(&true);
     let is_box = matches!(case.domain, DomainSpec::Box { .. });
     let missing = [
-        ("swimmer", !case.swimmer.is_empty(), "swimmers of several bodies"),
         ("boundary", has_periods && !is_box, "periodic sides of other domains than a box"),
         ("frame", case.frame.is_some() && model.mesh_moves(), "a frame that other bodies move in"),
     ];

@@ -3,7 +3,7 @@
 use alewife_mesh::{Domain, MeshError, Outline, PlacedShape, Point, check_placement, closest};
 
 use super::Findings;
-use crate::discs::{Disc, DiscGrid};
+use crate::balls::{Ball, BallGrid};
 use crate::joint::{PlanarPose, child_pose};
 use crate::{Geometry, Joint, Model, Stroke, TimeSettings};
 
@@ -19,10 +19,6 @@ const APART: f64 = 1e-5;
 pub fn check(findings: &mut Findings<'_>) {
     let model = findings.model();
     let TimeSettings::Unsteady(unsteady) = &model.case.time else { return };
-    // Bodies in space have no outlines; the run stops where they meet
-    if model.case.geometry == Geometry::Spatial {
-        return;
-    }
     let children = model.children();
     let mut seen = vec![false; model.case.swimmer.len()];
     for root in (0..model.bodies.len()).filter(|body| model.joint_above(*body).is_none()) {
@@ -184,11 +180,11 @@ impl<'a> Tree<'a> {
             .iter()
             .flatten()
             .fold(0.0f64, |far, outline| far.max(outline.center().norm() + outline.reach()));
-        let mut grid = DiscGrid::new([-far; 2], [far; 2], bodies.len());
+        let mut grid = BallGrid::new([-far; 2].into(), [far; 2].into(), bodies.len());
         for (index, outline) in outlines.iter().enumerate() {
             let Some(outline) = outline else { continue };
             let radius = (1.0 + APART) * outline.reach();
-            let circle = Disc { center: outline.center(), radius };
+            let circle = Ball { center: outline.center(), radius };
             let mut near: Vec<usize> = grid.near(&circle).collect();
             near.sort_unstable();
             near.dedup();

@@ -6,6 +6,9 @@ use super::Findings;
 use super::bodies::check_word;
 use super::joints::{arm, hinge, stroke};
 use super::skin;
+use super::space::check_orientation;
+use crate::copies::product;
+use crate::speed::norm;
 use crate::{
     Copies, FlowModel, Geometry, JointKind, Motion, Pivot, Scheme, Stroke, SwimmerKind,
     SwimmerSpec, TimeSettings,
@@ -22,6 +25,7 @@ pub fn check(findings: &mut Findings<'_>) {
         if let Some(resistance) = swimmer.resistance {
             findings.positive(&format!("{key}.resistance"), resistance);
         }
+        place(findings, &key, swimmer);
         parts(findings, &key, swimmer);
         copies(findings, &key, swimmer);
     }
@@ -30,11 +34,37 @@ pub fn check(findings: &mut Findings<'_>) {
     explicit_scheme(findings);
 }
 
+/// Where a swimmer is and how it is turned, in as many dimensions as the case has.
+fn place(findings: &mut Findings<'_>, key: &str, swimmer: &SwimmerSpec) {
+    if !swimmer.center.is_empty() {
+        findings.vector(&format!("{key}.center"), &swimmer.center);
+    }
+    if findings.case().geometry == Geometry::Spatial {
+        if swimmer.angle != 0.0 {
+            findings.error(
+                &format!("{key}.angle"),
+                "`angle` is one in the plane".to_owned(),
+                "write orientation = { turned = { axis = [x, y, z], angle = ... } }",
+            );
+        }
+        if let Some(orientation) = &swimmer.orientation {
+            check_orientation(findings, key, orientation);
+        }
+    } else if swimmer.orientation.is_some() {
+        findings.error(
+            &format!("{key}.orientation"),
+            format!("`orientation` turns \"{}\" out of the plane", swimmer.name),
+            "write angle = ... (rad), or take geometry = \"spatial\"",
+        );
+    }
+}
+
 /// The bodies and joints a swimmer is made of.
 fn parts(findings: &mut Findings<'_>, key: &str, swimmer: &SwimmerSpec) {
     match &swimmer.kind {
-        SwimmerKind::Star { arms, radius, radii, .. } => {
-            planar_only(findings, key, "star");
+        SwimmerKind::Star { arms, radius, radii, along, .. } => {
+            not_on_an_axis(findings, key, "star");
+            arms_in_space(findings, key, along);
             if radii.is_empty() {
                 findings.error(
                     &format!("{key}.kind.star.radii"),
@@ -48,8 +78,14 @@ fn parts(findings: &mut Findings<'_>, key: &str, swimmer: &SwimmerSpec) {
             }
         }
         SwimmerKind::Chain { links, gap, joints, skin } => {
-            planar_only(findings, key, "chain");
-            if let Some(skin) = *skin {
+            not_on_an_axis(findings, key, "chain");
+            if skin.is_some() && findings.case().geometry == Geometry::Spatial {
+                findings.error(
+                    &format!("{key}.kind.chain.skin"),
+                    "a skin over links is for the plane only".to_owned(),
+                    "leave it out for separate links, or take geometry = \"planar\"",
+                );
+            } else if let Some(skin) = *skin {
                 let (key, gap) = (&format!("{key}.kind.chain"), *gap);
                 skin::check(findings, &skin::Chain { key, links, gap, joints, skin });
             }
@@ -81,8 +117,24 @@ fn parts(findings: &mut Findings<'_>, key: &str, swimmer: &SwimmerSpec) {
     }
 }
 
-fn planar_only(findings: &mut Findings<'_>, key: &str, name: &str) {
-    if findings.case().geometry != Geometry::Planar {
+/// Directions of arms, which are in space and point somewhere.
+fn arms_in_space(findings: &mut Findings<'_>, key: &str, along: &[[f64; 3]]) {
+    let key = format!("{key}.kind.star.along");
+    if !along.is_empty() && findings.case().geometry != Geometry::Spatial {
+        findings.error(
+            &key,
+            "`along` is for three dimensions".to_owned(),
+            "write directions = [...] (rad), or take geometry = \"spatial\"",
+        );
+    }
+    for (nth, _) in along.iter().enumerate().filter(|(_, along)| norm(*along) == 0.0) {
+        let message = "the arm points nowhere".to_owned();
+        findings.error(&format!("{key}.{nth}"), message, "write a direction such as [1, 0, 0]");
+    }
+}
+
+fn not_on_an_axis(findings: &mut Findings<'_>, key: &str, name: &str) {
+    if findings.case().geometry == Geometry::Axisymmetric {
         findings.error(
             &format!("{key}.kind"),
             format!("a {name} cannot stand in an axisymmetric case"),
@@ -111,7 +163,8 @@ fn group(findings: &mut Findings<'_>, key: &str, swimmer: &SwimmerSpec, names: &
         );
     }
     let idle = [
-        ("center", swimmer.center != [0.0; 2]),
+        ("center", swimmer.center.iter().any(|along| *along != 0.0)),
+        ("orientation", swimmer.orientation.is_some()),
         ("angle", swimmer.angle != 0.0),
         ("density", swimmer.density.is_some()),
         ("motion", swimmer.motion != Motion::Free),
@@ -129,12 +182,24 @@ fn group(findings: &mut Findings<'_>, key: &str, swimmer: &SwimmerSpec, names: &
 
 fn copies(findings: &mut Findings<'_>, key: &str, swimmer: &SwimmerSpec) {
     match &swimmer.copies {
-        Some(Copies::Random { count, gap, .. }) => {
+        Some(Copies::Random { count, gap, within, .. }) => {
+            for corner in within.iter().flatten() {
+                findings.vector(&format!("{key}.copies.random.within"), corner);
+            }
             findings.not_negative(&format!("{key}.copies.random.gap"), *gap);
             none(findings, &format!("{key}.copies.random.count"), *count);
         }
-        Some(Copies::Lattice { counts, .. }) => {
-            let count = counts[0].saturating_mul(counts[1]);
+        Some(Copies::Lattice { counts, spacing }) => {
+            findings.vector(&format!("{key}.copies.lattice.spacing"), spacing);
+            let dimensions = findings.case().geometry.dimensions();
+            if counts.len() != dimensions {
+                findings.error(
+                    &format!("{key}.copies.lattice.counts"),
+                    format!("{} numbers of copies for {dimensions} dimensions", counts.len()),
+                    "write one for each axis",
+                );
+            }
+            let count = product(counts).unwrap_or(usize::MAX);
             none(findings, &format!("{key}.copies.lattice.counts"), count);
         }
         None => {}

@@ -4,7 +4,7 @@ use alewife_mesh::{Domain, MeshError, Outline, PlacedShape, Point, check_wrapped
 
 use super::arrangement::{Arrangement, Misplaced, ROUNDING};
 use crate::Model;
-use crate::discs::{Disc, DiscGrid};
+use crate::balls::{Ball, BallGrid};
 
 /// The bodies of a model in their places in a domain.
 pub fn placed_bodies(model: &Model, domain: &Domain) -> Vec<PlacedShape> {
@@ -31,7 +31,7 @@ pub struct Layout<'a> {
     bodies: &'a [PlacedShape],
     /// `None` of a shape that has none.
     outlines: Vec<Option<Outline>>,
-    grid: DiscGrid,
+    grid: BallGrid<2>,
 }
 
 impl<'a> Layout<'a> {
@@ -39,7 +39,7 @@ impl<'a> Layout<'a> {
     pub fn new(domain: &'a Domain, bodies: &'a [PlacedShape], extent: [[f64; 2]; 2]) -> Self {
         let outlines: Vec<Option<Outline>> =
             bodies.iter().map(|body| Outline::new(body).ok()).collect();
-        let mut grid = DiscGrid::new(extent[0], extent[1], bodies.len());
+        let mut grid = BallGrid::new(extent[0].into(), extent[1].into(), bodies.len());
         for (body, outline) in outlines.iter().enumerate() {
             if let Some(outline) = outline {
                 grid.insert(body, &circle(outline));
@@ -55,10 +55,10 @@ impl<'a> Layout<'a> {
     }
 
     /// Bodies with circles around them that may meet a disc or an image of it, in ascending order.
-    fn meeting(&self, disc: &Disc) -> Vec<usize> {
+    fn meeting(&self, disc: &Ball<2>) -> Vec<usize> {
         let mut found = Vec::new();
         for shift in &self.images {
-            let image = Disc { center: disc.center + shift, radius: disc.radius };
+            let image = Ball { center: disc.center + shift, radius: disc.radius };
             let does_meet = |body: &usize| {
                 let other = self.outlines[*body].as_ref().map(circle);
                 other.is_some_and(|other| {
@@ -80,7 +80,7 @@ impl<'a> Layout<'a> {
                 gaps.fold(f64::INFINITY, f64::min) < -ROUNDING * outline.reach()
             })
         };
-        let near = self.meeting(&Disc { center: point, radius: 0.0 });
+        let near = self.meeting(&Ball { center: point, radius: 0.0 });
         near.into_iter().filter(is_inside).collect()
     }
 }
@@ -133,8 +133,8 @@ fn in_plane(point: &[f64]) -> Point<2> {
 }
 
 /// The circle around an outline, with room for the smallest gap there may be.
-fn circle(outline: &Outline) -> Disc {
-    Disc { center: outline.center(), radius: (1.0 + ROUNDING) * outline.reach() }
+fn circle(outline: &Outline) -> Ball<2> {
+    Ball { center: outline.center(), radius: (1.0 + ROUNDING) * outline.reach() }
 }
 
 #[cfg(test)]
