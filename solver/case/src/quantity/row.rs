@@ -40,11 +40,17 @@ pub enum When {
     Arm,
     /// The swimmer has more than one body.
     SeveralBodies,
+    /// The same in planar and axisymmetric cases.
+    PlaneSeveralBodies,
+    /// The same in three dimensions.
+    SpatialSeveralBodies,
     /// The swimmer has two bodies that are not on one pivot, and the mesh moves.
     MovingMembers,
     /// The swimmer has a period, and the run is unsteady.
     Cycles,
-    /// The same, and its resistance is known.
+    /// The same in three dimensions.
+    SpatialCycles,
+    /// The swimmer has a period, the run is unsteady, and its resistance is known.
     TowedCycles,
     /// Its resistance is known, but it has no cycles.
     TowedWithoutCycles,
@@ -80,8 +86,11 @@ impl When {
             Self::Pivot => "pivots (`bent`, `hinge`)",
             Self::Arm => "`arm`",
             Self::SeveralBodies => "several bodies",
+            Self::PlaneSeveralBodies => "several bodies, planar, axisymmetric",
+            Self::SpatialSeveralBodies => "several bodies, spatial",
             Self::MovingMembers => "two bodies that share no pivot, a moving mesh",
             Self::Cycles => "a period",
+            Self::SpatialCycles => "a period, spatial",
             Self::TowedCycles => "a period and `resistance`",
             Self::TowedWithoutCycles => "`resistance`, no period",
             Self::IdleSides => "bodies or a waving sheet, and other sides that do no work",
@@ -107,8 +116,11 @@ impl When {
             Self::Pivot => !known.is_arm,
             Self::Arm => known.is_arm,
             Self::SeveralBodies => known.has_several_bodies,
+            Self::PlaneSeveralBodies => known.has_several_bodies && !known.is_spatial,
+            Self::SpatialSeveralBodies => known.has_several_bodies && known.is_spatial,
             Self::MovingMembers => known.has_separate_bodies && known.mesh_moves,
             Self::Cycles => known.has_cycles,
+            Self::SpatialCycles => known.has_cycles && known.is_spatial,
             Self::TowedCycles => known.has_cycles && known.has_resistance,
             Self::TowedWithoutCycles => !known.has_cycles && known.has_resistance,
             Self::IdleSides => known.balances_energy,

@@ -126,16 +126,33 @@ quantities! {
     SwimmerQuantity {
         X: "x", "m", SeveralBodies, "Centre of mass (of volume where there is no mass)";
         Y: "y", "m", SeveralBodies, "Centre of mass (of volume where there is no mass)";
+        Z: "z", "m", SpatialSeveralBodies, "Centre of mass (of volume where there is no mass)";
         Angle: "angle", "rad", SeveralBodies, "Angle of the root body";
         VelocityX: "velocity.x", "m/s", SeveralBodies,
             "The rigid motion with the linear momentum of all bodies";
         VelocityY: "velocity.y", "m/s", SeveralBodies,
             "The rigid motion with the linear momentum of all bodies";
-        AngularVelocity: "angular_velocity", "rad/s", SeveralBodies,
+        VelocityZ: "velocity.z", "m/s", SpatialSeveralBodies,
+            "The rigid motion with the linear momentum of all bodies";
+        AngularVelocity: "angular_velocity", "rad/s", PlaneSeveralBodies,
             "The rigid motion with the angular momentum of all bodies";
+        AngularVelocityX: "angular_velocity.x", "rad/s", SpatialSeveralBodies,
+            "The rigid motion with the angular momentum of all bodies, in the laboratory";
+        AngularVelocityY: "angular_velocity.y", "rad/s", SpatialSeveralBodies,
+            "The rigid motion with the angular momentum of all bodies, in the laboratory";
+        AngularVelocityZ: "angular_velocity.z", "rad/s", SpatialSeveralBodies,
+            "The rigid motion with the angular momentum of all bodies, in the laboratory";
         ForceX: "force.x", "N (N/m)", SeveralBodies, "Load of the fluid on all bodies";
         ForceY: "force.y", "N (N/m)", SeveralBodies, "Load of the fluid on all bodies";
-        Torque: "torque", "N m (N)", SeveralBodies, "Its torque about the common centre of mass";
+        ForceZ: "force.z", "N", SpatialSeveralBodies, "Load of the fluid on all bodies";
+        Torque: "torque", "N m (N)", PlaneSeveralBodies,
+            "Its torque about the common centre of mass";
+        TorqueX: "torque.x", "N m", SpatialSeveralBodies,
+            "Its torque about the common centre of mass";
+        TorqueY: "torque.y", "N m", SpatialSeveralBodies,
+            "Its torque about the common centre of mass";
+        TorqueZ: "torque.z", "N m", SpatialSeveralBodies,
+            "Its torque about the common centre of mass";
         Power: "power", "W (W/m)", SeveralBodies, "Work of all surfaces on the fluid";
         ShapePower: "shape_power", "W (W/m)", Always,
             "Work of the motion of the shape (and slip) on the fluid: `power` without that of the \
@@ -159,7 +176,12 @@ quantities! {
         CycleY: "cycle.y", "m", Cycles,
             "Displacement of the centre of mass over the last cycle; NaN before the first one \
              ends";
-        CycleAngle: "cycle.angle", "rad", Cycles, "Rotation over the last cycle";
+        CycleZ: "cycle.z", "m", SpatialCycles,
+            "Displacement of the centre of mass over the last cycle; NaN before the first one \
+             ends";
+        CycleAngle: "cycle.angle", "rad", Cycles,
+            "Rotation of the root body over the last cycle; in space the angle of the rotation from \
+             its beginning to its end";
         CycleSpeed: "cycle.speed", "m/s", Cycles, "Length of that displacement over the period";
         CyclePower: "cycle.power", "W (W/m)", Cycles, "Mean of `power` over the last cycle";
         CycleCostOfTransport: "cycle.cost_of_transport", "J/m (N/m)", Cycles,

@@ -8,7 +8,7 @@
 //! before and a0, a2 as in [`Bdf`]. The rate of a rotation vector differs from omega by theta x omega / 2;
 //! theta is the step times omega up to first order, so that this is of second order in the step.
 
-use nalgebra::{Matrix3, UnitQuaternion, UnitVector3, Vector3};
+use nalgebra::{Matrix3, UnitQuaternion, UnitVector3, Vector3, Vector4};
 use serde::{Deserialize, Serialize};
 
 use super::modes::RigidVector;
@@ -22,6 +22,42 @@ pub enum Orientation {
     Planar(f64),
     /// By a rotation of space.
     Spatial(UnitQuaternion<f64>),
+}
+
+impl Orientation {
+    /// A weighted mean of orientations that are near each other (weights of sum 1).
+    #[must_use]
+    pub fn mean<const N: usize>(of: [Self; N], weights: [f64; N]) -> Self {
+        let (mut angle, mut sum) = (0.0, Vector4::zeros());
+        let mut first = None;
+        for (orientation, weight) in of.into_iter().zip(weights) {
+            match orientation {
+                Self::Planar(own) => angle += weight * own,
+                Self::Spatial(own) => {
+                    // The one of both quaternions of a rotation that is near
+                    let coords = own.into_inner().coords;
+                    let first = first.get_or_insert(coords);
+                    let sign = if first.dot(&coords) < 0.0 { -1.0 } else { 1.0 };
+                    sum += coords * (sign * weight);
+                }
+            }
+        }
+        match first {
+            Some(_) => Self::Spatial(UnitQuaternion::new_normalize(sum.into())),
+            None => Self::Planar(angle),
+        }
+    }
+
+    /// The angle turned since another orientation (rad): in the plane over all turns, in space that
+    /// of the shortest rotation.
+    #[must_use]
+    pub fn angle_from(&self, start: &Self) -> f64 {
+        match (self, start) {
+            (Self::Planar(end), Self::Planar(begin)) => end - begin,
+            (Self::Spatial(end), Self::Spatial(begin)) => begin.angle_to(end),
+            _ => f64::NAN,
+        }
+    }
 }
 
 /// Where a body is and how it is turned.
@@ -205,6 +241,19 @@ mod tests {
             assert!((planar.to_world(&vector) - turned(&planar, &vector)).norm() < 1e-15);
             assert!((spatial.angle() - angle).sin().abs() < 1e-15);
         }
+    }
+
+    #[test]
+    fn orientations_between_are_near_those_of_a_steady_turn() {
+        let axis = Vector3::new(0.3, -0.5, 0.8).normalize();
+        let at = |time: f64| UnitQuaternion::from_scaled_axis(axis * time);
+        // The quaternion of the middle one has the other sign
+        let other = UnitQuaternion::new_unchecked(-at(0.1).into_inner());
+        let three = [at(0.0), other, at(0.2)].map(Orientation::Spatial);
+        let between = Orientation::mean(three, [0.375, 0.75, -0.125]);
+        assert!((between.angle_from(&three[0]) - 0.05).abs() < 1e-5, "{between:?}");
+        let planar = [1.0, 2.0, 9.0].map(Orientation::Planar);
+        assert_eq!(Orientation::mean(planar, [0.5, 0.5, 0.0]), Orientation::Planar(1.5));
     }
 
     #[test]

@@ -235,8 +235,8 @@ impl<const D: usize> Simulation<D> {
         for (group, history) in problem.groups.iter().zip(&mut state.propulsion) {
             let Some(period) = group.period else { continue };
             let center = mean_motion(problem, group, &state.poses, &state.now.twists).center;
-            let angle = state.poses[group.bodies[0]].angle();
-            let record = history.record(state.time, [center.x, center.y, angle]);
+            let orientation = state.poses[group.bodies[0]].orientation;
+            let record = history.record(state.time, center, orientation);
             history.cycles.push(record, period);
         }
     }

@@ -1,5 +1,7 @@
 //! `OtherSteps`: the error of the distance of a cycle, from the first one with steps of another size.
 
+use nalgebra::Vector3;
+
 use super::advance::Simulation;
 use super::propulsion_history::PropulsionHistory;
 use crate::case::{Scheme, Unsteady};
@@ -18,17 +20,16 @@ pub(super) struct OtherSteps {
     /// When the cycle ended (s).
     pub end: f64,
     /// Displacement of each group in its cycle (m); not a number without a cycle.
-    pub displacements: Vec<[f64; 2]>,
+    pub displacements: Vec<Vector3<f64>>,
 }
 
 /// The displacement of each group over its cycle up to the present (m); not a number before its end.
-pub(super) fn displacements<const D: usize>(simulation: &Simulation<D>) -> Vec<[f64; 2]> {
+pub(super) fn displacements<const D: usize>(simulation: &Simulation<D>) -> Vec<Vector3<f64>> {
     let groups = simulation.problem.groups.iter().zip(&simulation.state.propulsion);
     let of_group = |(group, history): (&Group, &PropulsionHistory)| {
-        let [x, y, _] = group.period.map_or([f64::NAN; 3], |period| {
+        group.period.map_or(Vector3::repeat(f64::NAN), |period| {
             history.cycles.means(period, group.resistance).displacement
-        });
-        [x, y]
+        })
     };
     groups.map(of_group).collect()
 }
@@ -64,11 +65,10 @@ impl OtherSteps {
             Scheme::Bdf1 => 1,
         };
         let Simulation { problem, state, .. } = simulation;
-        for (index, [x, y]) in displacements(simulation).into_iter().enumerate() {
+        for (index, displacement) in displacements(simulation).into_iter().enumerate() {
             let swimmer = &problem.groups[index].name;
-            let [other_x, other_y] = self.displacements[index];
-            let difference = (other_x - x).hypot(other_y - y);
-            let size = x.hypot(y).max(NOWHERE * state.propulsion[index].cycles.extent());
+            let difference = (self.displacements[index] - displacement).norm();
+            let size = displacement.norm().max(NOWHERE * state.propulsion[index].cycles.extent());
             // Errors go with that power of the step
             let share = (self.ratio.powi(order) - 1.0).abs();
             let percent = 100.0 * difference / (size * share);

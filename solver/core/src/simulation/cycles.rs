@@ -1,14 +1,19 @@
 //! What swimmers did over the last cycle: displacement, work, efficiency, and how much that still changes.
 
+use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
+use crate::body::Orientation;
+
 /// A swimmer at one time.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Record {
     /// Time (s).
     pub time: f64,
-    /// Centre of mass and angle (m, m, rad).
-    pub position: [f64; 3],
+    /// Centre of mass (m).
+    pub center: Vector3<f64>,
+    /// How its first body is turned.
+    pub orientation: Orientation,
     /// Time integrals of the numbers of a [`PropulsionPower`] (J; N s for thrust and drag).
     pub work: [f64; 6],
     /// Time integral of the power where it is positive (J).
@@ -25,8 +30,10 @@ pub struct Cycles {
 /// Averages over a cycle; not a number before its end.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CycleMeans {
-    /// Displacement of the centre of mass (m) and angle turned (rad).
-    pub displacement: [f64; 3],
+    /// Displacement of the centre of mass (m).
+    pub displacement: Vector3<f64>,
+    /// Angle turned (rad).
+    pub angle: f64,
     /// Its length over the period (m/s).
     pub speed: f64,
     /// Mean rate of work on the fluid (W).
@@ -59,10 +66,7 @@ impl Cycles {
     #[must_use]
     pub fn extent(&self) -> f64 {
         let Some(last) = self.records.last() else { return 0.0 };
-        let distance = |record: &Record| {
-            let [x, y, _] = record.position;
-            (x - last.position[0]).hypot(y - last.position[1])
-        };
+        let distance = |record: &Record| (record.center - last.center).norm();
         self.records.iter().map(distance).fold(0.0, f64::max)
     }
 
@@ -90,7 +94,8 @@ impl Cycles {
         };
         Some(Record {
             time,
-            position: std::array::from_fn(|i| mix(&|record| record.position[i])),
+            center: Vector3::from_fn(|axis, _| mix(&|record| record.center[axis])),
+            orientation: Orientation::mean([0, 1, 2].map(|nth| three[nth].orientation), weights),
             work: std::array::from_fn(|i| mix(&|record| record.work[i])),
             positive_work: mix(&|record| record.positive_work),
         })
@@ -100,7 +105,8 @@ impl Cycles {
     #[must_use]
     pub fn means(&self, period: f64, resistance: Option<f64>) -> CycleMeans {
         let nothing = CycleMeans {
-            displacement: [f64::NAN; 3],
+            displacement: Vector3::repeat(f64::NAN),
+            angle: f64::NAN,
             speed: f64::NAN,
             power: f64::NAN,
             cost_of_transport: f64::NAN,
@@ -110,18 +116,17 @@ impl Cycles {
         };
         let Some(now) = self.records.last() else { return nothing };
         let Some(before) = self.at(now.time - period, period) else { return nothing };
-        let way = |to: &Record, from: &Record| [0, 1, 2].map(|i| to.position[i] - from.position[i]);
-        let displacement = way(now, &before);
-        let length = displacement[0].hypot(displacement[1]);
+        let displacement = now.center - before.center;
+        let length = displacement.norm();
         let mean = |nth: usize| (now.work[nth] - before.work[nth]) / period;
         let [power, shape_power, .., thrust_power] = std::array::from_fn::<f64, 6, _>(mean);
         let speed = length / period;
         let drift = self.at(now.time - 2.0 * period, period).map_or(f64::NAN, |earlier| {
-            let last = way(&before, &earlier);
-            (displacement[0] - last[0]).hypot(displacement[1] - last[1]) / length
+            (displacement - (before.center - earlier.center)).norm() / length
         });
         CycleMeans {
             displacement,
+            angle: now.orientation.angle_from(&before.orientation),
             speed,
             power,
             cost_of_transport: (now.positive_work - before.positive_work) / length,
@@ -144,14 +149,17 @@ mod tests {
             let period = 2.0;
             for n in 0..40 {
                 let time = f64::from(n) * step;
-                let position = [0.3 * time, 0.4 * time, 0.1 * time * time];
+                let center = Vector3::new(0.3 * time, 0.4 * time, 0.0);
+                let orientation = Orientation::Planar(0.1 * time * time);
                 let work = [2.0 * time, time, 0.0, 0.0, 0.0, 3.0 * time];
-                cycles.push(Record { time, position, work, positive_work: 2.5 * time }, period);
+                let positive_work = 2.5 * time;
+                let record = Record { time, center, orientation, work, positive_work };
+                cycles.push(record, period);
             }
             let now = 39.0 * step;
             let means = cycles.means(period, Some(4.0));
             assert!((means.speed - 0.5).abs() < 1e-12);
-            assert!((means.displacement[2] - 0.1 * period * (2.0 * now - period)).abs() < 1e-11);
+            assert!((means.angle - 0.1 * period * (2.0 * now - period)).abs() < 1e-11);
             assert!((means.power - 2.0).abs() < 1e-12);
             assert!((means.efficiency - 0.75).abs() < 1e-12);
             assert!((means.cost_of_transport - 5.0).abs() < 1e-11);
@@ -160,7 +168,10 @@ mod tests {
             assert!(cycles.records.len() as f64 <= 2.0 * period / step + 4.0);
         }
         let mut short = Cycles::default();
-        short.push(Record::default(), 1.0);
+        let center = Vector3::zeros();
+        let orientation = Orientation::Planar(0.0);
+        let record = Record { time: 0.0, center, orientation, work: [0.0; 6], positive_work: 0.0 };
+        short.push(record, 1.0);
         assert!(short.means(1.0, None).speed.is_nan());
     }
 }

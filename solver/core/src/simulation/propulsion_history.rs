@@ -1,8 +1,10 @@
 //! `PropulsionHistory`: what a group of bodies does and has done: powers, their integrals, its cycles.
 
+use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use super::cycles::{Cycles, Record};
+use crate::body::Orientation;
 use crate::coupling::PropulsionPower;
 
 /// What a group of bodies does and has done.
@@ -58,9 +60,10 @@ impl PropulsionHistory {
         self.power = step.end.numbers();
     }
 
-    /// The record of a time (s) with the position of the centre of mass and an angle (m, m, rad).
+    /// The record of a time (s) with the centre of mass (m) and how the first body is turned.
     #[must_use]
-    pub fn record(&self, time: f64, position: [f64; 3]) -> Record {
-        Record { time, position, work: self.work, positive_work: self.positive_work }
+    pub fn record(&self, time: f64, center: Vector3<f64>, orientation: Orientation) -> Record {
+        let Self { work, positive_work, .. } = *self;
+        Record { time, center, orientation, work, positive_work }
     }
 }

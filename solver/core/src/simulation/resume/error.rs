@@ -6,7 +6,7 @@ use crate::coupling::ShapeError;
 use crate::simulation::scene::RemeshError;
 
 /// Version of the file; others are refused.
-pub(super) const VERSION: u32 = 5;
+pub(super) const VERSION: u32 = 6;
 
 /// Why a run cannot resume from a state.
 #[derive(Debug, Error)]
