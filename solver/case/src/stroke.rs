@@ -15,6 +15,14 @@ pub const KNOTS_OF_A_FILE: &str = "cubic";
 pub enum Stroke {
     /// The same at all times.
     Constant(f64),
+    /// start + rate t, such as the angle of a motor that turns steadily.
+    Steady {
+        /// Value at time 0.
+        #[serde(default)]
+        start: f64,
+        /// Value per time (1/s).
+        rate: f64,
+    },
     /// mean + amplitude sin(2 pi (t / period + phase)).
     Sine {
         /// Mean value.
@@ -57,6 +65,7 @@ impl Stroke {
     pub fn at(&self, time: f64) -> [f64; 2] {
         match self {
             Self::Constant(value) => [*value, 0.0],
+            Self::Steady { start, rate } => [start + rate * time, *rate],
             Self::Sine { mean, amplitude, period, phase, ramp } => {
                 let rate = TAU / period;
                 let (sin, cos) = (TAU * (time / period + phase)).sin_cos();
@@ -118,9 +127,11 @@ impl Stroke {
                 let times = knots.iter().map(|knot| knot[0]);
                 times.filter(|time| *time > from && *time < to).collect()
             }
-            Self::Constant(_) | Self::Sine { .. } | Self::Legs { .. } | Self::Cubic(_) => {
-                Vec::new()
-            }
+            Self::Constant(_)
+            | Self::Steady { .. }
+            | Self::Sine { .. }
+            | Self::Legs { .. }
+            | Self::Cubic(_) => Vec::new(),
         }
     }
 
@@ -129,7 +140,7 @@ impl Stroke {
     pub fn period(&self) -> Option<f64> {
         match self {
             Self::Sine { period, .. } | Self::Legs { period, .. } => Some(*period),
-            Self::Constant(_) | Self::Table(_) | Self::Cubic(_) => None,
+            Self::Constant(_) | Self::Steady { .. } | Self::Table(_) | Self::Cubic(_) => None,
         }
     }
 
@@ -138,6 +149,9 @@ impl Stroke {
     pub fn range(&self) -> [f64; 2] {
         match self {
             Self::Constant(value) => [*value; 2],
+            Self::Steady { start, rate } if *rate == 0.0 => [*start; 2],
+            Self::Steady { start, rate } if *rate < 0.0 => [f64::NEG_INFINITY, *start],
+            Self::Steady { start, .. } => [*start, f64::INFINITY],
             Self::Sine { mean, amplitude, .. } => [mean - amplitude.abs(), mean + amplitude.abs()],
             Self::Legs { knots, .. } | Self::Table(knots) => {
                 extent(knots.iter().map(|knot| knot[1]))
@@ -221,7 +235,9 @@ mod tests {
         let sine = Stroke::Sine { mean: 1.0, amplitude: 2.0, period: 3.0, phase: 0.4, ramp: 2.0 };
         let table = Stroke::Table(vec![[0.5, 1.0], [2.0, 4.0], [3.0, 3.5]]);
         let cubic = Stroke::Cubic(vec![[0.0, 1.0, 0.5], [1.0, 2.0, -3.0], [10.0, 0.0, 1.0]]);
-        for stroke in [legs(false), legs(true), sine, table, cubic, Stroke::Constant(3.0)] {
+        let steady = Stroke::Steady { start: 0.3, rate: -2.0 };
+        assert_eq!(steady.range(), [f64::NEG_INFINITY, 0.3]);
+        for stroke in [legs(false), legs(true), sine, table, cubic, steady, Stroke::Constant(3.0)] {
             for time in [0.2, 0.7, 1.3, 2.7, 3.3, 5.1, 9.9] {
                 let [_, rate] = stroke.at(time);
                 let slope = (stroke.at(time + 1e-6)[0] - stroke.at(time - 1e-6)[0]) / 2e-6;

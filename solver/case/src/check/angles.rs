@@ -64,7 +64,7 @@ fn is_value_of(key: &str, table: &str) -> bool {
     let Some((_, rest)) = key.split_once(table) else { return false };
     let steps: Vec<&str> = rest.split('.').collect();
     match steps.as_slice() {
-        ["constant"] | ["sine", "mean" | "amplitude"] => true,
+        ["constant"] | ["steady", "start"] | ["sine", "mean" | "amplitude"] => true,
         ["legs", "knots", _, column] | ["table" | "cubic", _, column] => *column == "1",
         _ => false,
     }

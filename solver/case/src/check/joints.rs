@@ -232,7 +232,7 @@ pub(super) fn arm(findings: &mut Findings<'_>, key: &str, length: &Stroke) {
 /// Numbers of a stroke.
 pub(super) fn stroke(findings: &mut Findings<'_>, key: &str, stroke: &Stroke) {
     match stroke {
-        Stroke::Constant(_) => {}
+        Stroke::Constant(_) | Stroke::Steady { .. } => {}
         Stroke::Sine { period, ramp, .. } => {
             findings.positive(&format!("{key}.sine.period"), *period);
             findings.not_negative(&format!("{key}.sine.ramp"), *ramp);

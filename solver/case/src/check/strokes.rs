@@ -1,5 +1,7 @@
 //! Bodies that would collide in their strokes, found before anything is solved.
 
+use std::f64::consts::TAU;
+
 use alewife_mesh::{Domain, MeshError, Outline, PlacedShape, Point, check_placement, closest};
 
 use super::Findings;
@@ -57,6 +59,9 @@ pub fn check(findings: &mut Findings<'_>) {
 fn cycle(stroke: &Stroke) -> f64 {
     match stroke {
         Stroke::Constant(_) => 0.0,
+        // A whole turn of a motor
+        Stroke::Steady { rate, .. } if *rate != 0.0 => TAU / rate.abs(),
+        Stroke::Steady { .. } => 0.0,
         Stroke::Sine { period, ramp, .. } => period + ramp,
         Stroke::Legs { period, .. } => *period,
         Stroke::Table(knots) => knots.last().map_or(0.0, |knot| knot[0]),

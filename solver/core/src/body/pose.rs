@@ -251,7 +251,8 @@ mod tests {
         let other = UnitQuaternion::new_unchecked(-at(0.1).into_inner());
         let three = [at(0.0), other, at(0.2)].map(Orientation::Spatial);
         let between = Orientation::mean(three, [0.375, 0.75, -0.125]);
-        assert!((between.angle_from(&three[0]) - 0.05).abs() < 1e-5, "{between:?}");
+        // A parabola is off by the third derivative of sin(angle / 2)
+        assert!((between.angle_from(&three[0]) - 0.05).abs() < 2e-5, "{between:?}");
         let planar = [1.0, 2.0, 9.0].map(Orientation::Planar);
         assert_eq!(Orientation::mean(planar, [0.5, 0.5, 0.0]), Orientation::Planar(1.5));
     }
