@@ -34,7 +34,7 @@ quantities! {
         X: "x", "m", Always, "Centre of mass, in the laboratory";
         Y: "y", "m", Always, "Centre of mass, in the laboratory";
         Z: "z", "m", Spatial, "Centre of mass, in the laboratory";
-        Angle: "angle", "rad", Always, "Angle, continuous over many turns; in space that of the body's x axis in the x-y plane";
+        Angle: "angle", "rad", Always, "Angle, continuous over many turns; in space that of the body's x axis in the x-y plane, within half a turn";
         OrientationW: "orientation.w", "1", Spatial, "Unit quaternion of the rotation from the body frame to the laboratory";
         OrientationX: "orientation.x", "1", Spatial, "Unit quaternion of the rotation from the body frame to the laboratory";
         OrientationY: "orientation.y", "1", Spatial, "Unit quaternion of the rotation from the body frame to the laboratory";
