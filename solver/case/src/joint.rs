@@ -181,8 +181,8 @@ pub struct Hinge {
     #[serde(default, deserialize_with = "super::angle::deserialize")]
     #[cfg_attr(test, schemars(with = "super::angle::Angle"))]
     pub rest: f64,
-    /// In three dimensions, the axis in the parent's frame, of any length; the angle counts from where the
-    /// child is turned to at time zero, where it is at rest.
+    /// In three dimensions, the axis in the parent's frame, of any length; the angle is that about it of
+    /// the rotation from the frame of the parent to that of the child.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub axis: Option<[f64; 3]>,
     /// Torque of a motor on the child (N m; N planar).

@@ -11,5 +11,5 @@ mod twist;
 pub use embedding::{in_space, on_mesh};
 pub use inertia::{Inertia, carried_velocity};
 pub use modes::{Mode, Modes, RigidVector};
-pub use pose::{Orientation, Pose};
+pub use pose::{Orientation, Pose, rate_of_displacement};
 pub use twist::{Twist, Wrench};

@@ -215,6 +215,16 @@ impl Pose {
     }
 }
 
+/// The rate of a displacement (m, rad) of a body with a velocity: with the rotation vector theta and the
+/// angular velocity omega, omega - theta x omega / 2 + theta x (theta x omega) / 12, to fourth order in theta.
+#[must_use]
+pub fn rate_of_displacement(displacement: &RigidVector, velocity: &Twist) -> RigidVector {
+    let turn = Vector3::from(displacement.fixed_rows::<3>(3));
+    let across = turn.cross(&velocity.angular);
+    let angular = velocity.angular - across / 2.0 + turn.cross(&across) / 12.0;
+    Twist { linear: velocity.linear, angular }.to_vector()
+}
+
 /// Whether turns about z leave a tensor as it is.
 fn is_diagonal_about_z(tensor: &Matrix3<f64>) -> bool {
     let off = |i: usize, j: usize| i != j && tensor[(i, j)] != 0.0;
@@ -241,6 +251,24 @@ mod tests {
             assert!((planar.to_world(&vector) - turned(&planar, &vector)).norm() < 1e-15);
             assert!((spatial.angle() - angle).sin().abs() < 1e-15);
         }
+    }
+
+    #[test]
+    fn rates_of_rotation_vectors_are_those_of_angular_velocities() {
+        let path =
+            |time: f64| Vector3::new(0.1 * time, -0.05 + 0.2 * time, 0.08 - 0.3 * time * time);
+        let at = |time: f64| UnitQuaternion::from_scaled_axis(path(time));
+        let small = 1e-5;
+        let angular = (at(small) * at(-small).inverse()).scaled_axis() / (2.0 * small);
+        let velocity = Twist { linear: Vector3::x(), angular };
+        let way = RigidVector::from_fn(|i, _| if i < 3 { 0.0 } else { path(0.0)[i - 3] });
+        let rate = rate_of_displacement(&way, &velocity);
+        let exact = (path(small) - path(-small)) / (2.0 * small);
+        let off = (Vector3::from(rate.fixed_rows::<3>(3)) - exact).norm();
+        // Its rotation vector is 0.1 long: the next term of the series is its fourth power over 720
+        assert!(off < 1e-7, "{off:e}");
+        assert!((angular - exact).norm() > 1e-3);
+        assert_eq!(rate.fixed_rows::<3>(0), Vector3::x());
     }
 
     #[test]

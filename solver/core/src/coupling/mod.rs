@@ -34,7 +34,8 @@ pub use mean_flow::MeanFlowReport;
 pub use mobility::BodyLoad;
 pub use problem::{
     Arm, Drive, Group, Joint, MeanFlow, MeanFlowAlong, MeanFlowAt, MovingValue, Pivot, Problem,
-    RateDiscontinuities, RigidBody, Side, Spring, TimeValue, Turn, VelocityProfile, second_moments,
+    RateDiscontinuities, RigidBody, Side, Spring, TimeValue, Turn, VelocityProfile, angle_about,
+    second_moments,
 };
 pub use projection::DivergenceFreeProjection;
 pub use propulsion::{

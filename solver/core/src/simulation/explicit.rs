@@ -2,7 +2,8 @@
 //!
 //! dq/dt = V(q, t), one Stokes flow a stage, by the third-order method of @bogacki1989 with an error
 //! estimate of second order. Its last stage is the flow at the new time, and the first one of the
-//! next step.
+//! next step. Rotations are added as rotation vectors from the beginning of the step, whose rates are
+//! not angular velocities (@munthekaas1998).
 
 use alewife_mesh::Point;
 
@@ -14,7 +15,7 @@ use super::propulsion_history::{PowerShare, PropulsionStep};
 use super::state::{NewLevel, State};
 use super::stepper::{StepReport, StepResult, TimeStepper};
 use super::workspace::Workspace;
-use crate::body::{Pose, RigidVector, Twist};
+use crate::body::{Pose, RigidVector, Twist, rate_of_displacement};
 use crate::contact::ContactLoads;
 use crate::coupling::{PropulsionPower, Solution, SurfaceLoads};
 
@@ -66,7 +67,7 @@ struct InstantaneousFlow<const D: usize> {
 
 /// What the stages of a step have given so far.
 struct Stages<const D: usize> {
-    /// Velocities of the bodies, by stage.
+    /// Rates of the displacements of the bodies since the beginning of the step, by stage.
     rates: Vec<Vec<RigidVector>>,
     /// Powers of the groups, by stage.
     powers: Vec<Vec<PropulsionPower>>,
@@ -76,8 +77,13 @@ struct Stages<const D: usize> {
 }
 
 impl<const D: usize> Stages<D> {
-    fn push(&mut self, flow: &InstantaneousFlow<D>) {
-        self.rates.push(rates_of(&flow.solution));
+    /// Adds the flow of bodies at poses in a step from others.
+    fn push(&mut self, flow: &InstantaneousFlow<D>, from: &[Pose], poses: &[Pose]) {
+        let ways = from.iter().zip(poses).zip(&flow.solution.twists);
+        let rate = |((from, pose), twist): ((&Pose, &Pose), &Twist)| {
+            rate_of_displacement(&pose.displacement_from(from), twist)
+        };
+        self.rates.push(ways.map(rate).collect());
         self.powers.push(flow.powers.clone());
         self.last = flow.solution.clone();
         self.iterations += flow.iterations;
@@ -107,11 +113,11 @@ impl<const D: usize> TimeStepper<'_, D> {
             let poses = self.stage_poses(state, &stages.rates, &stage, size);
             let flow =
                 self.flow_at(work, state, &poses, stage.instant(state, size), &stages.last)?;
-            stages.push(&flow);
+            stages.push(&flow, &state.poses, &poses);
         }
         let poses = self.stage_poses(state, &stages.rates, &third, size);
         let flow = self.flow_at(work, state, &poses, third.instant(state, size), &stages.last)?;
-        stages.push(&flow);
+        stages.push(&flow, &state.poses, &poses);
         let report = StepReport {
             loads: flow.loads.clone(),
             iterations: stages.iterations,
@@ -139,7 +145,7 @@ impl<const D: usize> TimeStepper<'_, D> {
             let rates_at = state.time + INSIDE * size;
             let at = Instant { step: size, time: state.time, rates_at };
             let flow = self.flow_at(work, state, &state.poses, at, &state.now)?;
-            stages.push(&flow);
+            stages.push(&flow, &state.poses, &state.poses);
         } else {
             stages.rates.push(rates_of(&state.now));
             stages.powers.push(state.propulsion.iter().map(|history| history.power()).collect());

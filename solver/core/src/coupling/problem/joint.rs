@@ -76,9 +76,13 @@ impl Joint {
         axis: &UnitVector3<f64>,
         [parent, child]: [&Pose; 2],
     ) -> f64 {
-        let turned = parent.rotation().inverse() * child.rotation() * self.rest.inverse();
-        // The part about the axis of the rotation, that across it being an error of the step
-        let half = turned.vector().dot(axis).atan2(turned.w);
-        (2.0 * half + PI).rem_euclid(2.0 * PI) - PI
+        angle_about(axis, &(parent.rotation().inverse() * child.rotation() * self.rest.inverse()))
     }
+}
+
+/// The angle of a rotation about an axis (rad), within (-pi, pi]: of a rotation about it and one across.
+#[must_use]
+pub fn angle_about(axis: &UnitVector3<f64>, rotation: &UnitQuaternion<f64>) -> f64 {
+    let half = rotation.vector().dot(axis).atan2(rotation.w);
+    (2.0 * half + PI).rem_euclid(2.0 * PI) - PI
 }

@@ -4,7 +4,7 @@ use nalgebra::{UnitQuaternion, UnitVector3, Vector3};
 
 use crate::body::Mode;
 use crate::case::{Ball, Geometry, Hinge, Joint as JointSpec, JointKind, Model};
-use crate::coupling::{Arm, Drive, Joint, Pivot, RigidBody, TimeValue, Turn};
+use crate::coupling::{Arm, Drive, Joint, Pivot, RigidBody, TimeValue, Turn, angle_about};
 use crate::simulation::RunError;
 
 /// Hangs a child on its parent.
@@ -53,7 +53,7 @@ pub(super) fn add_joint(
             let Hinge { stiffness, damping, rest: angle, .. } = hinge;
             let axis = hinge.axis.map_or(z, direction_of);
             if is_spatial {
-                rest = UnitQuaternion::from_axis_angle(&axis, -angle) * rest;
+                rest = UnitQuaternion::from_axis_angle(&axis, -angle_about(&axis, &rest)) * rest;
             }
             Turn::Free(Pivot { axis: Some(axis), stiffness, damping, rest: angle, motor })
         }
