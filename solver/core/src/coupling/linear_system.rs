@@ -5,7 +5,8 @@ use std::sync::Arc;
 use super::preconditioning::Coefficients;
 use crate::algebra::{
     Accuracy, AffineConstraints, CellMaps, DirectSolver, IterativeSettings, IterativeSolver,
-    LinearError, LinearSolver, SaddleMatrix, SaddlePoint, SparseMatrix, Term, Unknowns, Weights,
+    LinearError, LinearSolver, SaddleMatrix, SaddlePoint, SolverMemory, SparseMatrix, Term,
+    Unknowns, Weights,
 };
 use crate::flow::Assembly;
 use crate::timing::{Stage, Timing};
@@ -62,6 +63,8 @@ pub(super) struct LinearSystem {
     accuracy: Accuracy,
     saddle_point: SaddlePoint,
     unknowns: Unknowns,
+    /// What the solver is to go on from once it is made.
+    recalled: Option<SolverMemory>,
 }
 
 impl LinearSystem {
@@ -85,7 +88,35 @@ impl LinearSystem {
             }
         };
         let unknowns = saddle_point.unknowns();
-        Self { method, accuracy: Accuracy::default(), saddle_point, unknowns }
+        Self { method, accuracy: Accuracy::default(), saddle_point, unknowns, recalled: None }
+    }
+
+    /// What the solver keeps from system to system.
+    pub(super) fn memory(&self) -> SolverMemory {
+        let memory = match &self.method {
+            Method::Direct { solver, .. } => solver.as_ref().map(|solver| solver.memory()),
+            Method::Iterative { matrix, solver, .. } => {
+                solver.as_ref().map(|solver| solver.memory(matrix))
+            }
+        };
+        memory.or_else(|| self.recalled.clone()).unwrap_or_default()
+    }
+
+    /// Goes on as the system of the same unknowns whose solver kept this.
+    ///
+    /// # Errors
+    /// When it was another system.
+    pub(super) fn recall(&mut self, memory: SolverMemory) -> Result<(), LinearError> {
+        match &mut self.method {
+            Method::Direct { matrix, solver, .. } => {
+                let mut new = DirectSolver::new(matrix.pattern(), &self.unknowns);
+                new.recall(&matrix.shared_pattern(), &memory)?;
+                *solver = Some(Box::new(new));
+            }
+            // Made with the weights of the first system
+            Method::Iterative { .. } => self.recalled = Some(memory),
+        }
+        Ok(())
     }
 
     /// Takes note that the mesh has moved.
@@ -117,6 +148,22 @@ impl LinearSystem {
             }
         });
         *weighted_by = Some(coefficients);
+    }
+
+    /// Has a solver that has its weights recall what it is to go on from.
+    ///
+    /// # Errors
+    /// When another system kept it.
+    pub(super) fn recall_with_weights(&mut self) -> Result<(), LinearError> {
+        match (&mut self.method, self.recalled.take()) {
+            (Method::Iterative { matrix, solver: Some(solver), .. }, Some(memory)) => {
+                solver.recall(matrix, &memory)
+            }
+            (_, recalled) => {
+                self.recalled = recalled;
+                Ok(())
+            }
+        }
     }
 
     /// Memory of the preconditioner (bytes), zero with factors.

@@ -21,7 +21,9 @@ use super::rigid_equations::{RigidBodyEquations, rotations};
 use super::shapes::BodyShapes;
 use super::solution::Solution;
 use super::surface_load::SurfaceStress;
-use crate::algebra::{Accuracy, AffineConstraints, SparseMatrix, Term, Unknowns};
+use crate::algebra::{
+    Accuracy, AffineConstraints, LinearError, SolverMemory, SparseMatrix, Term, Unknowns,
+};
 use crate::body::{Modes, Pose};
 use crate::flow::{Assembly, Convection, FlowTerms, assemble, residual};
 use crate::space::{DofLayout, FacetRule, Tables};
@@ -150,6 +152,20 @@ impl<const D: usize> FluidSystem<D> {
     #[must_use]
     pub fn matrix(&self) -> SparseMatrix {
         self.linear.matrix()
+    }
+
+    /// What the linear solver keeps from system to system.
+    #[must_use]
+    pub fn solver_memory(&self) -> SolverMemory {
+        self.linear.memory()
+    }
+
+    /// Goes on as the system, on the same mesh, whose solver kept this.
+    ///
+    /// # Errors
+    /// When it was another system.
+    pub fn recall(&mut self, memory: SolverMemory) -> Result<(), LinearError> {
+        self.linear.recall(memory)
     }
 
     /// Basis tables, for measurements.
@@ -304,6 +320,7 @@ impl<const D: usize> FluidSystem<D> {
             tables: self.assembly.tables(),
         };
         self.linear.prepare(coefficients, || discretised.weights(coefficients), timing);
+        self.linear.recall_with_weights()?;
         let mut free = at.constraints.pick(&self.pinned(solution).to_raw(self.modes));
         let mut step: Vec<f64> = reduced.iter().map(|value| -value).collect();
         let solved = self.linear.solve_correction(&free, &mut step, reduction, timing);

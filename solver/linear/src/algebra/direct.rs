@@ -5,8 +5,11 @@
 //! cheaper than factorising it. Costs are counts of operations and rates of convergence, never times
 //! on a clock: the same input has to give the same bits.
 
+use std::sync::Arc;
+
 use super::fingerprint::Fingerprints;
 use super::krylov::{KrylovSolution, Stopping, fgmres, norm};
+use super::memory::{ForeignMemory, SolverMemory};
 use super::reuse::ReusePolicy;
 use super::solver::{Accuracy, LinearError, LinearSolver};
 use crate::multifrontal::{Analysis, Factors, Ordering};
@@ -22,14 +25,21 @@ const MAX_RESIDUAL: f64 = 1e-6;
 /// leaves of the error in time and space.
 const KRYLOV_TOLERANCE: f64 = 1e-12;
 
+/// The values that were factorised.
+#[derive(Debug, Clone)]
+struct Factorised {
+    hash: u64,
+    values: Vec<f64>,
+}
+
 /// A factorisation with everything needed to solve with it.
 #[derive(Debug)]
 pub struct DirectSolver {
     analysis: Analysis,
     factors: Factors,
     policy: ReusePolicy,
-    /// Hash of the values that were factorised, if there are factors.
-    factorised: Option<u64>,
+    /// What was factorised, if there are factors.
+    factorised: Option<Factorised>,
     fingerprints: Fingerprints,
 }
 
@@ -51,6 +61,33 @@ impl DirectSolver {
     #[must_use]
     pub fn n_factor_entries(&self) -> usize {
         self.factors.n_entries(&self.analysis)
+    }
+
+    /// What it keeps from system to system.
+    #[must_use]
+    pub fn memory(&self) -> SolverMemory {
+        SolverMemory {
+            factorised: self.factorised.as_ref().map(|factorised| factorised.values.clone()),
+            pauses: self.policy.pauses(),
+            ..SolverMemory::default()
+        }
+    }
+
+    /// Goes on as the solver, of the same pattern and unknowns, whose memory it is.
+    ///
+    /// # Errors
+    /// When it is the memory of another system, or its matrix cannot be factorised.
+    pub fn recall(
+        &mut self,
+        pattern: &Arc<Pattern>,
+        memory: &SolverMemory,
+    ) -> Result<(), LinearError> {
+        self.policy.set_pauses(memory.pauses);
+        let Some(values) = &memory.factorised else { return Ok(()) };
+        if values.len() != pattern.n_entries() {
+            return Err(ForeignMemory { n_unknowns: pattern.n() }.into());
+        }
+        self.set_up(&SparseMatrix::new(Arc::clone(pattern), values.clone()))
     }
 
     /// FGMRES with the factors at hand, for equations scaled by `scales`, until the residual of the
@@ -82,6 +119,11 @@ impl DirectSolver {
 }
 
 impl DirectSolver {
+    /// Hash of the values that are factorised.
+    fn hash(&self) -> Option<u64> {
+        self.factorised.as_ref().map(|factorised| factorised.hash)
+    }
+
     fn hash_of(&mut self, matrix: &SparseMatrix) -> u64 {
         let values = matrix.values().iter().map(|value| value.to_bits());
         self.fingerprints.hash_of(matrix.revision(), values)
@@ -92,11 +134,11 @@ impl LinearSolver for DirectSolver {
     type Matrix = SparseMatrix;
 
     fn set_up(&mut self, matrix: &SparseMatrix) -> Result<(), LinearError> {
-        let hash = Some(self.hash_of(matrix));
-        if self.factorised == hash {
+        let hash = self.hash_of(matrix);
+        if self.hash() == Some(hash) {
             return Ok(());
         }
-        self.factorised = None;
+        let earlier = self.factorised.take();
         if !all_finite(matrix.values()) {
             return Err(LinearError::NotFinite);
         }
@@ -107,7 +149,10 @@ impl LinearSolver for DirectSolver {
             entries = self.factors.n_entries(&self.analysis),
             "factorised"
         );
-        self.factorised = hash;
+        let mut values = earlier.map(|earlier| earlier.values).unwrap_or_default();
+        values.clear();
+        values.extend_from_slice(matrix.values());
+        self.factorised = Some(Factorised { hash, values });
         Ok(())
     }
 
@@ -152,7 +197,7 @@ impl LinearSolver for DirectSolver {
         if !all_finite(rhs) || !all_finite(typical) {
             return Err(LinearError::NotFinite);
         }
-        let Some(factorised) = self.factorised else { return Ok(false) };
+        let Some(factorised) = self.hash() else { return Ok(false) };
         if factorised == self.hash_of(matrix) {
             return Ok(false);
         }
@@ -251,19 +296,53 @@ mod tests {
         // So small a matrix is never worth it by itself.
         solver.policy = ReusePolicy::from_costs(1e9, 1.0);
         solver.set_up(&matrix).unwrap();
-        let factorised = solver.factorised;
+        let factorised = solver.hash();
         set_convection(&mut matrix, &unknowns, 1e-3);
         let mut x = rhs(n);
         let typical = vec![1.0; n];
         assert!(solver.solve_with_earlier_set_up(&matrix, &mut x, &typical).unwrap());
-        assert_eq!(solver.factorised, factorised, "the factors are the earlier ones");
+        assert_eq!(solver.hash(), factorised, "the factors are the earlier ones");
         let mut exact = rhs(n);
         solver.set_up(&matrix).unwrap();
-        assert_ne!(solver.factorised, factorised);
+        assert_ne!(solver.hash(), factorised);
         solver.solve(&matrix, &mut exact).unwrap();
         for (value, exact) in x.iter().zip(exact) {
             assert!((value - exact).abs() < 1e-11);
         }
+    }
+
+    #[test]
+    fn a_solver_that_recalls_gives_the_same_bits_by_the_same_factors() {
+        let n = 300;
+        let (mut matrix, unknowns) = chain(n);
+        let pattern = matrix.shared_pattern();
+        let new = || {
+            let mut solver = DirectSolver::new(&pattern, &unknowns);
+            solver.policy = ReusePolicy::from_costs(1e9, 1.0);
+            solver
+        };
+        let mut solver = new();
+        solver.set_up(&matrix).unwrap();
+        solver.policy.failed();
+        let memory = solver.memory();
+        let mut other = new();
+        other.recall(&pattern, &memory).unwrap();
+        assert_eq!(other.memory(), memory);
+        set_convection(&mut matrix, &unknowns, 1e-3);
+        let solved = [&mut solver, &mut other].map(|solver| {
+            let mut x = rhs(n);
+            // The pause after a failure ends after two systems
+            let tries = [(); 3].map(|()| {
+                solver.solve_with_earlier_set_up(&matrix, &mut x, &vec![1.0; n]).unwrap()
+            });
+            assert_eq!(tries, [false, false, true]);
+            x
+        });
+        assert_eq!(solved[0], solved[1]);
+        let (smaller, _) = chain(n - 3);
+        let foreign = DirectSolver::new(smaller.pattern(), &chain(n - 3).1)
+            .recall(&smaller.shared_pattern(), &memory);
+        assert_eq!(foreign, Err(ForeignMemory { n_unknowns: n - 3 }.into()));
     }
 
     #[test]

@@ -9,6 +9,7 @@ mod direct;
 mod elliptic;
 mod fingerprint;
 mod krylov;
+mod memory;
 mod reuse;
 mod saddle_point;
 mod solver;
@@ -21,6 +22,7 @@ pub use cholesky::CholeskyError;
 pub use constraints::{AffineConstraints, ConstraintBuilder, Term};
 pub use direct::DirectSolver;
 pub use elliptic::{EllipticError, EllipticSolver, NodalComponent};
+pub use memory::{ForeignMemory, SolverMemory};
 pub use saddle_point::{
     Interpolation, IterativeSettings, IterativeSolver, Part, SaddleMatrix, SaddlePoint, Weights,
 };

@@ -51,6 +51,17 @@ impl ReusePolicy {
         self.affordable_iterations() > 1
     }
 
+    /// What remains of the present pause, and the pause after the next failure.
+    pub fn pauses(&self) -> [usize; 2] {
+        [self.remaining_pause, self.next_pause]
+    }
+
+    /// Goes on from such pauses.
+    pub fn set_pauses(&mut self, [remaining, next]: [usize; 2]) {
+        (self.remaining_pause, self.next_pause) =
+            (remaining, next.clamp(FIRST_PAUSE, LONGEST_PAUSE));
+    }
+
     /// Takes note of a trial that converged.
     pub fn succeeded(&mut self) {
         self.next_pause = FIRST_PAUSE;

@@ -8,6 +8,7 @@ use std::fmt::Debug;
 
 use thiserror::Error;
 
+use super::memory::ForeignMemory;
 use crate::multifrontal::Singular;
 
 /// Why a linear system was not solved.
@@ -41,6 +42,9 @@ pub enum LinearError {
     /// A value of the matrix, the right-hand side or the solution is infinite or not a number.
     #[error("the matrix, the right-hand side or the solution is not finite")]
     NotFinite,
+    /// A solver cannot go on from what another one kept.
+    #[error(transparent)]
+    Foreign(#[from] ForeignMemory),
 }
 
 impl From<Singular> for LinearError {

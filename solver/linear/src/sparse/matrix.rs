@@ -73,6 +73,12 @@ impl SparseMatrix {
         &self.pattern
     }
 
+    /// The same, shared.
+    #[must_use]
+    pub fn shared_pattern(&self) -> Arc<Pattern> {
+        Arc::clone(&self.pattern)
+    }
+
     /// Number of unknowns.
     #[must_use]
     pub fn n(&self) -> usize {

@@ -2,11 +2,12 @@
 
 use thiserror::Error;
 
+use crate::algebra::LinearError;
 use crate::coupling::ShapeError;
 use crate::simulation::scene::RemeshError;
 
 /// Version of the file; others are refused.
-pub(super) const VERSION: u32 = 6;
+pub(super) const VERSION: u32 = 7;
 
 /// Why a run cannot resume from a state.
 #[derive(Debug, Error)]
@@ -42,6 +43,9 @@ pub enum ResumeError {
     /// What moves the mesh could not be set up.
     #[error(transparent)]
     Remesh(#[from] RemeshError),
+    /// The linear solver cannot go on from what it kept.
+    #[error(transparent)]
+    Solver(#[from] LinearError),
     /// A gait gives its body no shape.
     #[error(transparent)]
     Shape(#[from] ShapeError),

@@ -23,6 +23,7 @@ use super::moving_mesh::MovingMesh;
 use super::propulsion_history::PropulsionHistory;
 use super::state::State;
 use super::{RunError, Series};
+use crate::algebra::SolverMemory;
 use crate::body::{Pose, Twist, on_mesh};
 use crate::case::Case;
 use crate::coupling::{FluidSystem, Problem};
@@ -59,6 +60,7 @@ pub struct SavedState<const D: usize> {
     energy: EnergyBalance,
     momentum: MomentumBalance,
     reference: Option<SavedReference<D>>,
+    solver: SolverMemory,
     series: SavedSeries,
 }
 
@@ -132,6 +134,7 @@ impl<const D: usize> SavedState<D> {
             energy: state.energy,
             momentum: state.momentum.clone(),
             reference: simulation.moving_mesh.as_ref().map(SavedReference::of),
+            solver: simulation.work.system.solver_memory(),
             series: SavedSeries::of(series),
         })
     }
@@ -168,6 +171,7 @@ impl<const D: usize> SavedState<D> {
         let poses = state.in_mesh(&state.poses);
         let unknown_frame = simulation.scheme.unknown_frame;
         simulation.work.system = FluidSystem::new(problem, &state.mesh, &poses, unknown_frame);
+        simulation.work.system.recall(self.solver.clone()).map_err(ResumeError::from)?;
         simulation.work.mesh = state.mesh.clone();
         (simulation.state, simulation.is_fresh) = (state, false);
         Ok(())

@@ -62,6 +62,11 @@ impl EarlierSolutions {
         guess
     }
 
+    /// All of them, the oldest first.
+    pub fn iter(&self) -> impl Iterator<Item = &Blocks> {
+        self.solutions.iter()
+    }
+
     /// Takes note of a solution.
     pub fn keep(&mut self, solution: Blocks) {
         if self.solutions.len() == KEPT {

@@ -2,6 +2,7 @@
 
 use super::super::direct::DirectSolver;
 use super::super::fingerprint::Fingerprints;
+use super::super::memory::{ForeignMemory, SolverMemory};
 use super::super::solver::{Accuracy, LinearError, LinearSolver};
 use super::data::{SaddlePoint, Weights};
 use super::guess::EarlierSolutions;
@@ -128,6 +129,43 @@ impl IterativeSolver {
     #[must_use]
     pub fn n_bytes(&self) -> usize {
         self.set_up.as_ref().map_or(0, |set_up| set_up.preconditioner.n_bytes())
+    }
+
+    /// What it keeps from system to system; `matrix` is one of them.
+    #[must_use]
+    pub fn memory(&self, matrix: &SaddleMatrix) -> SolverMemory {
+        let direct = self.direct.as_ref().map(|direct| direct.solver.memory());
+        SolverMemory {
+            solutions: self.earlier.iter().map(|x| matrix.numbering().values(x)).collect(),
+            is_direct: direct.is_some(),
+            ..direct.unwrap_or_default()
+        }
+    }
+
+    /// Goes on as the solver of the same system whose memory it is; `matrix` is one of the system.
+    ///
+    /// # Errors
+    /// When it is the memory of another system, or its matrix cannot be factorised.
+    pub fn recall(
+        &mut self,
+        matrix: &SaddleMatrix,
+        memory: &SolverMemory,
+    ) -> Result<(), LinearError> {
+        let n_unknowns = matrix.n();
+        for solution in &memory.solutions {
+            if solution.len() != n_unknowns {
+                return Err(ForeignMemory { n_unknowns }.into());
+            }
+            let values: Vec<f64> = solution.iter().map(|&value| f64::from(value)).collect();
+            self.earlier.keep(matrix.numbering().split(&values, |_, value| single(value)));
+        }
+        if memory.is_direct {
+            let matrix = matrix.to_sparse();
+            let mut solver = DirectSolver::new(matrix.pattern(), &self.system.unknowns());
+            solver.recall(&matrix.shared_pattern(), memory)?;
+            self.direct = Some(Box::new(Direct { solver, matrix }));
+        }
+        Ok(())
     }
 
     /// Solves by GCR until the residual is `reduction` times the right-hand side.

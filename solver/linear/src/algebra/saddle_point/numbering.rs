@@ -88,6 +88,11 @@ impl Numbering {
         blocks
     }
 
+    /// The values of all unknowns in a vector.
+    pub fn values(&self, blocks: &Blocks) -> Vec<f32> {
+        self.places.iter().map(|&place| blocks.at(place)).collect()
+    }
+
     /// Adds a vector times a factor to values of the unknowns.
     pub fn add(&self, factor: f64, blocks: &Blocks, values: &mut [f64]) {
         for (&place, value) in self.places.iter().zip(values) {
