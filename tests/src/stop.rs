@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex};
 use alewife_core::case::Model;
 use alewife_core::simulation::{
     Dimension, LastState, Observer, RunError, RunSummary, SavedState, Snapshot, Solve, StopRequest,
-    simulate, simulate_from,
+    simulate_from,
 };
 
 /// What a stopped run leaves.

@@ -154,7 +154,7 @@ fn a_swimmer_that_goes_on_from_a_state_ends_where_it_would_have_ended() {
     let names = ["fish.x", "fish.y", "fish.angle", "fish.velocity.x", "fish.force.y"];
     let ends = |outcome: &RunSummary| names.map(|name| last(outcome, name));
     for after in [5, 24] {
-        let saved = stopped(&case, after);
+        let saved = stopped::<2>(&case, after);
         let rest = resumed(&case, &saved).expect("it goes on");
         for (one, other) in ends(&whole).iter().zip(ends(&rest)) {
             assert!((one - other).abs() < 1e-8, "{:?} {:?}", ends(&whole), ends(&rest));
@@ -165,7 +165,7 @@ fn a_swimmer_that_goes_on_from_a_state_ends_where_it_would_have_ended() {
 #[test]
 fn a_state_of_another_gait_is_refused() {
     let with = |beat: &str| case(&fish(beat, "step = 0.02, end = 0.6", COARSE));
-    let saved = stopped(&with(BEAT), 24);
+    let saved = stopped::<2>(&with(BEAT), 24);
     let other = with(&BEAT.replace("period = 1.0", "period = 11.0"));
     let error = resumed(&other, &saved).expect_err("another gait");
     let told = error.to_string();

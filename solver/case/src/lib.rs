@@ -50,6 +50,7 @@ mod time;
 mod tree;
 mod type_error;
 mod variants;
+mod wall_time;
 
 pub use axial_vector::AxialVector;
 pub use body::{
@@ -76,7 +77,7 @@ pub use mesh_file::MeshFile;
 pub use model::{Model, SwimmerModel};
 pub use nearest::nearest;
 pub use numbers::{DerivedNumber, derived_numbers, geometry_name, number_table, significant};
-pub use output::{Cadence, Output, Precision, Probe};
+pub use output::{Cadence, Checkpoints, Output, Precision, Probe};
 pub use quantity::{
     BodyQuantity, Column, FlowQuantity, JointQuantity, ProbeQuantity, Quantity, Source,
     SwimmerQuantity, When, columns, known_quantities,
@@ -91,3 +92,4 @@ pub use source::Location;
 pub use stroke::{Stroke, smooth_ramp};
 pub use swimmer::{Copies, Pivot, Skin, SwimmerKind, SwimmerSpec};
 pub use time::{Adaptive, Convection, Initial, Scheme, Steady, TimeSettings, Unsteady};
+pub use wall_time::WallTime;

@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::wall_time::WallTime;
+
 /// How often something is written.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
@@ -43,11 +45,49 @@ pub struct Output {
     /// Numbers in the field files.
     #[serde(default)]
     pub precision: Precision,
+    /// States to resume from, written while a run is under way.
+    #[serde(default)]
+    pub checkpoint: Checkpoints,
+}
+
+/// `output.checkpoint`: how often a run writes its state, whichever comes first, and once at its end.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct Checkpoints {
+    /// Time on the clock on the wall between two of them.
+    #[serde(default = "ten_minutes")]
+    pub wall: WallTime,
+    /// Time of the run between two of them (s).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub time: Option<f64>,
+    /// How many are kept, the latest; 0 for none at all.
+    #[serde(default = "two")]
+    pub keep: usize,
+}
+
+impl Default for Checkpoints {
+    fn default() -> Self {
+        Self { wall: ten_minutes(), time: None, keep: two() }
+    }
+}
+
+fn ten_minutes() -> WallTime {
+    WallTime::from_seconds(600.0)
+}
+
+fn two() -> usize {
+    2
 }
 
 impl Default for Output {
     fn default() -> Self {
-        Self { fields: at_end(), series: every_step(), precision: Precision::default() }
+        Self {
+            fields: at_end(),
+            series: every_step(),
+            precision: Precision::default(),
+            checkpoint: Checkpoints::default(),
+        }
     }
 }
 

@@ -1,11 +1,13 @@
 //! The one place where the command line meets mesh and solver.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use alewife_mesh::Mesh;
 
 use super::signal::SignalWatch;
+use super::stop_file::StopFile;
 use super::threads;
+use super::wall_limit::WallLimit;
 use crate::case::Model;
 use crate::observer::{self, History, RunDirectory};
 use crate::simulation::{self, Dimension, RunError, RunSummary, SavedState, Solve};
@@ -27,6 +29,8 @@ pub struct RunInto<'a> {
     pub quiet: bool,
     /// What may ask for its end.
     pub watch: SignalWatch,
+    /// Its time on the clock, if that is limited.
+    pub limit: Option<WallLimit>,
 }
 
 /// What a run resumes from.
@@ -38,6 +42,8 @@ pub struct Resumed<const D: usize> {
     pub history: Option<History>,
     /// Whether the run goes on in its own directory.
     pub is_in_place: bool,
+    /// Where the state lies.
+    pub from: PathBuf,
 }
 
 /// Runs a case of any dimension without files.
@@ -69,6 +75,10 @@ where
         let history = resumed.and_then(|resumed| resumed.history.as_ref());
         let mut observers = observer::observers(model, run.directory, history, run.quiet)?;
         observers.push(Box::new(run.watch));
+        if let Some(limit) = run.limit {
+            observers.push(Box::new(limit));
+        }
+        observers.push(Box::new(StopFile::new(run.directory.path())));
         simulation::simulate_from(model, resumed.map(|resumed| &resumed.state), &mut observers)
     })
 }

@@ -30,8 +30,10 @@ pub enum Exit {
     Bug = 70,
     /// A file could not be read or written.
     InputOutput = 74,
-    /// A signal stopped the run.
+    /// The run was stopped, and continues when it is run again.
     Stopped = 75,
+    /// It was restarted again and again without a step.
+    NoProgress = 76,
 }
 
 impl From<Exit> for ExitCode {

@@ -1,6 +1,7 @@
 //! The command line: commands, their output, and the exit codes.
 
 mod check;
+mod continuation;
 mod cost;
 mod engine;
 mod exit;
@@ -11,9 +12,12 @@ mod panic;
 mod read;
 mod run;
 mod signal;
+mod status;
+mod stop_file;
 mod style;
 mod threads;
 mod validate;
+mod wall_limit;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -39,7 +43,8 @@ Examples:
 A CASE is the path of a .toml file, the name of a shipped case, or either with /VARIANT behind it.
 
 Exit codes: 0 done; 2 usage; 10 solver diverged; 11 mesh; 20 outside tolerance;
-65 bad case; 66 no such case; 70 bug in alewife; 74 input or output; 75 stopped by a signal.";
+65 bad case; 66 no such case; 70 bug in alewife; 74 input or output; 75 stopped,
+run it again to continue; 76 restarted without progress.";
 
 /// Swimmers in viscous fluid: Taylor-Hood finite elements on body-fitted meshes.
 #[derive(Debug, Parser)]
@@ -92,6 +97,8 @@ enum Command {
     },
     /// Run a case and compare it with its references
     Run(run::Options),
+    /// Tell how far a run is
+    Status(status::Options),
     /// Run shipped cases and compare them with their references
     Validate(validate::Options),
     /// Print the JSON Schema of case files
@@ -140,6 +147,7 @@ fn dispatch(command: Command) -> Result<Exit, Failure> {
             mesh::mesh(&case, &settings.set, mesh::Target { out, as_text: text })
         }
         Command::Run(options) => run::run(&options),
+        Command::Status(options) => status::status(&options),
         Command::Validate(options) => validate::validate(&options),
         Command::Schema => {
             say(crate::case::schema().trim_end());

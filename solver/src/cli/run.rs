@@ -5,15 +5,18 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
+use super::continuation::{Beginning, beginning, is_requeued};
 use super::engine::{Resumed, RunInto};
 use super::exit::{Exit, Failure};
 use super::read::{Settings, read_case};
 use super::signal::SignalWatch;
-use super::style::{Ink, on_stdout, say};
+use super::style::{Ink, complain, on_stdout, say};
+use super::wall_limit::WallLimit;
 use super::{engine, threads};
 use crate::case::{Case, CaseFile, Model, TimeSettings, significant};
 use crate::observer::{
-    Earlier, History, RunDirectory, STATE_FILE, read_state, run_of_state, write_atomic,
+    Earlier, FAILURE_STATE, History, RunDirectory, checkpoints, read_state, run_of_state,
+    write_atomic,
 };
 use crate::simulation::{Dimension, RunError, RunSummary, SavedState, Solve};
 use crate::validation::{Comparison, Verdict, compare, comparison_table, comparisons_to_json};
@@ -29,8 +32,12 @@ Examples:
   alewife run sphere-in-tube/free-0.5 --threads 4 --out free
   alewife run my.toml --set fluid.viscosity=0.5 --set 'body.0.center=[1.0, 2.0]'
 
+A run that was stopped or killed continues when it is run again: from its latest checkpoint, with the
+same bits as without the interruption.
+
 The run directory holds the case as it was run (case.toml), series.csv, run.mcap, fields/ and
-fields.pvd, status.json, log.jsonl, provenance.json and comparison.json.")]
+fields.pvd, checkpoints/, status.json, log.jsonl, provenance.json and comparison.json. A file STOP
+made in it stops the run after its step, a file CHECKPOINT has it write its state.")]
 pub struct Options {
     /// Which case
     case: String,
@@ -42,10 +49,18 @@ pub struct Options {
     /// Threads; by default those the batch system or the machine grants
     #[arg(long, short, value_name = "N")]
     threads: Option<usize>,
-    /// Resume from the state of a run that stopped or failed: its directory, its state.json or
-    /// failure/state.json
+    /// Go on from the state of another run, or of this one with other settings: the directory of a run,
+    /// or one of its checkpoints/*.state or failure/last.state
     #[arg(long, value_name = "STATE")]
     resume: Option<PathBuf>,
+    /// Continue a finished run, too, where the case ends later now; it is done where it does not. Given by
+    /// itself to a job that its batch system has started again
+    #[arg(long = "continue")]
+    continues: bool,
+    /// Stop in time for a checkpoint within this time on the clock, such as "2 h"; by default the end
+    /// of the batch job
+    #[arg(long, value_name = "TIME")]
+    max_walltime: Option<String>,
     /// Do not compare with references
     #[arg(long)]
     no_references: bool,
@@ -75,8 +90,21 @@ where
 {
     let name = file.full_name();
     let out = options.out.clone().unwrap_or_else(|| Path::new("runs").join(name.replace('/', "-")));
-    let resumed: Option<Resumed<D>> =
-        options.resume.as_deref().map(|path| read_resumed(path, file.case(), &out)).transpose()?;
+    let resumed: Option<Resumed<D>> = match &options.resume {
+        Some(path) => Some(read_resumed(path, file.case(), &out)?),
+        None if options.overwrite => None,
+        None => {
+            let is_asked = options.continues || is_requeued();
+            match beginning(&out, file, is_asked)? {
+                Beginning::AtStart => None,
+                Beginning::From(resumed) => Some(*resumed),
+                Beginning::IsDone => {
+                    say(&format!("{} has come to its end before", out.display()));
+                    return Ok(Exit::Done);
+                }
+            }
+        }
+    };
     let earlier = match &resumed {
         Some(resumed) if resumed.is_in_place => Earlier::Continue,
         _ if options.overwrite => Earlier::Replace,
@@ -94,11 +122,19 @@ where
     let verbosity = i8::try_from(options.verbose).unwrap_or(i8::MAX) - i8::from(options.quiet);
     engine::start_log(Some(&out), verbosity)?;
 
-    if let (Some(resumed), Some(from)) = (&resumed, &options.resume) {
+    if let Some(resumed) = &resumed {
         let (step, time) = (resumed.state.step, resumed.state.time);
-        tracing::info!(step, time, from = %state_in(from).display(), "resumed");
+        tracing::info!(step, time, from = %resumed.from.display(), "resumed");
+        if !options.quiet {
+            complain(&format!(
+                "continues at step {step}, t {time}, from {}",
+                resumed.from.display()
+            ));
+        }
     }
-    let run = RunInto { directory: &directory, quiet: options.quiet, watch: SignalWatch::start()? };
+    let limit = WallLimit::new(options.max_walltime.as_deref())?;
+    let watch = SignalWatch::start()?;
+    let run = RunInto { directory: &directory, quiet: options.quiet, watch, limit };
     let outcome =
         engine::simulate_into(&file.model, resumed.as_ref(), run).map_err(|error| match error {
             RunError::Stopped { .. } => stopped(&error, &out),
@@ -150,10 +186,8 @@ fn stopped(error: &RunError, out: &Path) -> Failure {
             other => command.push(quoted(other)),
         }
     }
-    let state = out.join(STATE_FILE);
-    command.extend(["--resume".to_owned(), quoted(&state.to_string_lossy())]);
-    let remedy = if state.is_file() {
-        format!("it resumes with\n  {}", command.join(" "))
+    let remedy = if checkpoints(out).is_ok_and(|found| !found.is_empty()) {
+        format!("it continues with\n  {}", command.join(" "))
     } else {
         "it left no state to resume from".to_owned()
     };
@@ -169,9 +203,14 @@ fn program(typed: &str) -> String {
     }
 }
 
-/// The state a path names: that of a run, where it is the directory of one.
+/// The state a path names: the latest checkpoint, where it is the directory of a run, or its last state.
 fn state_in(path: &Path) -> PathBuf {
-    if path.is_dir() { path.join(STATE_FILE) } else { path.to_owned() }
+    if !path.is_dir() {
+        return path.to_owned();
+    }
+    let last = path.join(FAILURE_STATE);
+    let latest = checkpoints(path).ok().and_then(|found| found.into_iter().next());
+    latest.or_else(|| last.is_file().then_some(last)).unwrap_or_else(|| path.to_owned())
 }
 
 /// A word as a shell reads it.
@@ -199,13 +238,13 @@ fn read_resumed<const D: usize>(
         // The field files stay where they are
         history.frames.clear();
     }
-    Ok(Resumed { state, history, is_in_place })
+    Ok(Resumed { state, history, is_in_place, from: path.clone() })
 }
 
 /// Reads the state a run left before the end of a case.
 fn read_unfinished<const D: usize>(path: &Path, case: &Case) -> Result<SavedState<D>, Failure> {
     let refuse = |exit, reason: String| {
-        let leaves = "a run that stopped leaves state.json, one that failed failure/state.json";
+        let leaves = "runs in time leave checkpoints/*.state, one that failed failure/last.state";
         Failure::new(exit, format!("--resume: {reason}; {leaves}"))
     };
     let TimeSettings::Unsteady(settings) = &case.time else {

@@ -174,7 +174,7 @@ impl Work<'_> {
                     Status::read(&place).is_ok_and(|status| status.state == RunState::Finished);
                 let earlier = if is_finished { Earlier::Keep } else { Earlier::Replace };
                 let directory = RunDirectory::create(&place, file.case(), self.n_threads, earlier)?;
-                let run = RunInto { directory: &directory, quiet: true, watch };
+                let run = RunInto { directory: &directory, quiet: true, watch, limit: None };
                 engine::simulate_afresh(&file.model, run)
             }
             (None, Some(from)) => Ok(kept(&from.join(of_run), file.case())?),

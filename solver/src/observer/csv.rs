@@ -6,13 +6,14 @@ use std::fmt::Write as _;
 use std::fs::File;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use super::atomic::{AtPath, write_atomic};
 use super::history::History;
 use super::schedule::Schedule;
 use crate::case::Case;
-use crate::simulation::{LastState, Observer, RunError, Snapshot};
+use crate::simulation::{LastState, Observer, RunError, SavedState, Snapshot};
 
 /// Longest time a row waits in memory.
 const INTERVAL: Duration = Duration::from_secs(1);
@@ -105,6 +106,12 @@ impl<const D: usize> Observer<D> for SeriesFile {
             self.flush()?;
         }
         if snapshot.is_last { self.file.sync_all().at(&self.path) } else { Ok(()) }
+    }
+
+    /// The rows up to a state are on the disk before it is.
+    fn on_state(&mut self, _state: &Arc<SavedState<D>>) -> io::Result<()> {
+        self.flush()?;
+        self.file.sync_data().at(&self.path)
     }
 
     fn on_failure(

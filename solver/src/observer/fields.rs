@@ -11,14 +11,12 @@ use alewife_mesh::{Array, Mesh, Point, write_vtu_as};
 
 use super::atomic::{AtPath, write_atomic};
 use super::history::{Frame, History};
-use super::run_directory::{
-    FAILURE_FLOW, FAILURE_FOLDER, STATE_FILE, remove_failure, remove_state,
-};
+use super::run_directory::{FAILURE_FLOW, FAILURE_FOLDER, FAILURE_STATE};
 use super::schedule::Schedule;
 use super::state_file::write_state;
 use crate::body::in_space;
 use crate::case::{Case, Precision};
-use crate::simulation::{Dimension, LastState, Observer, RunError, Snapshot, Solve, Timing};
+use crate::simulation::{Dimension, LastState, Observer, RunError, Snapshot, Solve};
 
 /// The files written so far.
 #[derive(Debug)]
@@ -117,20 +115,10 @@ where
         write_atomic(&self.directory.join("fields.pvd"), self.collection().as_bytes())
     }
 
-    fn on_end(&mut self, _timing: &Timing) -> io::Result<()> {
-        // What a run was resumed from is of no use after its end
-        remove_state(&self.directory)?;
-        remove_failure(&self.directory)
-    }
-
     fn on_failure(&mut self, error: &RunError, last: Option<&LastState<'_, D>>) -> io::Result<()> {
         let Some(last) = last else { return Ok(()) };
         let bytes = self.frame(last.time, last.mesh, last.velocity, last.pressure)?;
         if matches!(error, RunError::Stopped { .. }) {
-            if let Some(state) = last.saved {
-                write_state(&self.directory.join(STATE_FILE), state)?;
-                remove_failure(&self.directory)?;
-            }
             let name = "fields/stopped.vtu".to_owned();
             self.create_folder("fields")?;
             write_atomic(&self.directory.join(&name), &bytes)?;
@@ -139,8 +127,7 @@ where
         }
         let folder = self.create_folder(FAILURE_FOLDER)?;
         if let Some(state) = last.saved {
-            write_state(&folder.join(STATE_FILE), state)?;
-            remove_state(&self.directory)?;
+            write_state(&folder.join(FAILURE_STATE), state)?;
         }
         write_atomic(&folder.join(FAILURE_FLOW), &bytes)
     }

@@ -5,6 +5,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use super::atomic::AtPath;
+use super::status::Restarts;
 use crate::simulation::Series;
 
 /// One field file.
@@ -29,6 +30,8 @@ pub struct History {
     pub frames: Vec<Frame>,
     /// The directory it wrote to.
     pub directory: PathBuf,
+    /// Restarts at the step of the state so far, this one included.
+    pub restarts: Restarts,
 }
 
 impl History {
@@ -52,7 +55,8 @@ impl History {
             let is_step = !frame.file.ends_with("stopped.vtu");
             frame.time <= time && is_step && directory.join(&frame.file).is_file()
         });
-        Ok(Self { step, time, series, frames: frames.collect(), directory: directory.to_owned() })
+        let (frames, directory) = (frames.collect(), directory.to_owned());
+        Ok(Self { step, time, series, frames, directory, restarts: Restarts::default() })
     }
 }
 

@@ -9,6 +9,7 @@ use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::{self, BufWriter};
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use mcap::read::Options;
 use mcap::records::{MessageHeader, Metadata};
@@ -21,7 +22,7 @@ use super::history::History;
 use super::run_directory::RunDirectory;
 use super::schedule::Schedule;
 use crate::case::{Body, Geometry, Model};
-use crate::simulation::{LastState, Observer, RunError, Snapshot};
+use crate::simulation::{LastState, Observer, RunError, SavedState, Snapshot};
 
 /// Size of a chunk, the unit of compression (bytes).
 const CHUNK: u64 = 256 * 1024;
@@ -34,6 +35,8 @@ const FLUSH_STEPS: usize = 16;
 pub struct MessageFile {
     /// Nothing once the file is finished.
     writer: Option<Writer<BufWriter<File>>>,
+    /// The same file.
+    file: File,
     path: PathBuf,
     schedule: Schedule,
     channels: BTreeMap<String, u16>,
@@ -84,6 +87,7 @@ impl MessageFile {
             .map_err(to_io)?;
         let mut made = Self {
             writer: Some(writer),
+            file: unfinished.reopen()?,
             schedule: Schedule::new(cadence, history.map(|history| history.time)),
             path: directory.path().join("run.mcap"),
             channels: BTreeMap::new(),
@@ -175,6 +179,13 @@ impl MessageFile {
 impl<const D: usize> Observer<D> for MessageFile {
     fn on_step(&mut self, snapshot: &Snapshot<'_, D>) -> io::Result<()> {
         self.step(snapshot).at(&self.path)
+    }
+
+    /// The messages up to a state are on the disk before it is.
+    fn on_state(&mut self, _state: &Arc<SavedState<D>>) -> io::Result<()> {
+        let Some(writer) = &mut self.writer else { return Ok(()) };
+        writer.flush().map_err(to_io).at(&self.path)?;
+        self.file.sync_data().at(&self.path)
     }
 
     fn on_failure(&mut self, error: &RunError, _last: Option<&LastState<'_, D>>) -> io::Result<()> {

@@ -11,10 +11,12 @@
 //! | `series.csv` | One row a step | flushed every second |
 //! | `run.mcap` | Bodies and quantities as messages | flushed every few steps |
 //! | `fields/*.vtu`, `fields.pvd` | Velocity, pressure, vorticity | whole files only |
+//! | `checkpoints/*.state` | States to resume from | every ten minutes and at the end |
 //! | `comparison.json` | Computed against references, by the command line | at the end |
 //! | `lock` | Held while the run is under way | – |
 
 mod atomic;
+mod checkpoints;
 mod csv;
 mod fields;
 mod foxglove;
@@ -25,6 +27,7 @@ mod mcap;
 mod process;
 mod progress;
 mod provenance;
+mod removal;
 mod run_directory;
 mod schedule;
 mod solids;
@@ -38,6 +41,7 @@ use crate::case::Model;
 use crate::simulation::{Dimension, Observer, Solve};
 
 pub use atomic::write_atomic;
+pub use checkpoints::{CheckpointFiles, checkpoints, latest_checkpoint};
 pub use csv::SeriesFile;
 pub use fields::FieldFiles;
 pub use history::History;
@@ -46,9 +50,11 @@ pub use log::start_log;
 pub use mcap::MessageFile;
 pub use progress::Progress;
 pub use provenance::Provenance;
-pub use run_directory::{Earlier, RunDirectory, RunDirectoryError, STATE_FILE, run_of_state};
+pub use run_directory::{
+    Earlier, FAILURE_FOLDER, FAILURE_STATE, RunDirectory, RunDirectoryError, STOP, run_of_state,
+};
 pub use state_file::read_state;
-pub use status::{RunState, Status, StatusFile};
+pub use status::{Restarts, RunState, Status, StatusFile};
 
 /// All observers of a run in `directory`, which goes on after a `history` if there is one; with
 /// `quiet`, without progress on the terminal.
@@ -68,10 +74,13 @@ where
     Dimension<D>: Solve<D>,
 {
     let case = &model.case;
+    let from = history.map_or(0.0, |history| history.time);
     let mut everyone: Vec<Box<dyn Observer<D>>> = vec![
         Box::new(SeriesFile::create(directory.path(), case, history)?),
         Box::new(MessageFile::create(directory, model, history)?),
         Box::new(FieldFiles::new(directory.path(), case, history)),
+        // After those whose rows and messages belong to a state
+        Box::new(CheckpointFiles::new(directory.path(), case.output.checkpoint, &case.time, from)),
     ];
     if !quiet {
         everyone.push(Box::new(Progress::new(case)));

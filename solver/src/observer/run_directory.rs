@@ -7,7 +7,9 @@ use std::path::{Path, PathBuf};
 use thiserror::Error;
 
 use super::atomic::{AtPath, UNFINISHED, write_atomic};
+use super::checkpoints::{self, REQUEST, checkpoints};
 use super::provenance::{self, Provenance};
+use super::removal::{names_in, remove_if_empty, remove_if_there};
 use super::status::{RunState, Status};
 use crate::case::{Case, MeshFile};
 
@@ -18,7 +20,7 @@ const MARKER_FILE: &str = ".alewife-run";
 const MARKER: &str = "This directory holds a run of alewife; another run may replace its files.\n";
 
 /// Files of a run. Only these, and those of its folders, are ever removed.
-const FILES: [&str; 10] = [
+const FILES: [&str; 11] = [
     "case.toml",
     MESH_FILE,
     "provenance.json",
@@ -28,17 +30,24 @@ const FILES: [&str; 10] = [
     "run.mcap",
     "fields.pvd",
     "comparison.json",
-    STATE_FILE,
+    REQUEST,
+    STOP,
 ];
+
+/// Folders of a run that hold files of its.
+const FOLDERS: [&str; 3] = ["fields", FAILURE_FOLDER, checkpoints::FOLDER];
+
+/// A file of this name in the directory of a run stops it after its step; it is removed then.
+pub const STOP: &str = "STOP";
 
 /// The mesh of the domain, where one is given.
 const MESH_FILE: &str = "domain.msh";
 
-/// The state from which a run that was stopped resumes.
-pub const STATE_FILE: &str = "state.json";
-
 /// The folder of a run that failed: its last state, and the flow then.
-pub(super) const FAILURE_FOLDER: &str = "failure";
+pub const FAILURE_FOLDER: &str = "failure";
+
+/// The last state of a run that failed, in [`FAILURE_FOLDER`].
+pub const FAILURE_STATE: &str = "last.state";
 
 /// The flow of a run that failed, in [`FAILURE_FOLDER`].
 pub(super) const FAILURE_FLOW: &str = "flow.vtu";
@@ -71,8 +80,8 @@ pub enum RunDirectoryError {
     },
     /// It holds a run that can be resumed.
     #[error(
-        "{path} holds a run that can be resumed; give --resume {state}, another directory with \
-         --out, or --overwrite it"
+        "{path} holds a run that failed and can be resumed with other settings; give --resume {state}, \
+         another directory with --out, or --overwrite it"
     )]
     Resumable {
         /// The directory.
@@ -185,7 +194,8 @@ fn check_replaceable(path: &Path) -> Result<(), RunDirectoryError> {
     if status.as_ref().is_some_and(|status| status.state == RunState::Finished) {
         return Err(RunDirectoryError::Finished { path: path.to_owned() });
     }
-    let states = [path.join(STATE_FILE), path.join(FAILURE_FOLDER).join(STATE_FILE)];
+    let failure = path.join(FAILURE_FOLDER).join(FAILURE_STATE);
+    let states = checkpoints(path)?.into_iter().next().into_iter().chain([failure]);
     // A run that made no step loses nothing
     let has_steps = status.is_none_or(|status| status.step > 0);
     match states.into_iter().find(|state| has_steps && state.is_file()) {
@@ -199,7 +209,8 @@ fn check_replaceable(path: &Path) -> Result<(), RunDirectoryError> {
 /// `None` if it is elsewhere.
 pub fn run_of_state(state: &Path) -> Option<&Path> {
     let folder = state.parent()?;
-    let folder = if folder.ends_with(FAILURE_FOLDER) { folder.parent()? } else { folder };
+    let is_within = folder.ends_with(FAILURE_FOLDER) || folder.ends_with(checkpoints::FOLDER);
+    let folder = if is_within { folder.parent()? } else { folder };
     let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
     is_a_run(folder).then_some(folder)
 }
@@ -224,7 +235,7 @@ fn clear(path: &Path) -> io::Result<()> {
         remove_if_there(&path.join(name))?;
     }
     remove_unfinished(path)?;
-    for folder in [path.join("fields"), path.join(FAILURE_FOLDER)] {
+    for folder in FOLDERS.map(|folder| path.join(folder)) {
         for name in names_in(&folder)? {
             if is_of_a_run(&folder, &name) {
                 remove_if_there(&folder.join(name))?;
@@ -235,15 +246,10 @@ fn clear(path: &Path) -> io::Result<()> {
     Ok(())
 }
 
-/// Removes the state of a run that was stopped, once its end or a newer state is safe on the disk.
-pub(super) fn remove_state(path: &Path) -> io::Result<()> {
-    remove_if_there(&path.join(STATE_FILE))
-}
-
 /// Removes the state and the flow of a run that failed, once its end or a newer state is safe on the disk.
 pub(super) fn remove_failure(path: &Path) -> io::Result<()> {
     let folder = path.join(FAILURE_FOLDER);
-    for name in [STATE_FILE, FAILURE_FLOW] {
+    for name in [FAILURE_STATE, FAILURE_FLOW] {
         remove_if_there(&folder.join(name))?;
     }
     remove_if_empty(&folder)
@@ -251,7 +257,7 @@ pub(super) fn remove_failure(path: &Path) -> io::Result<()> {
 
 /// Removes the temporary files of a process that was killed.
 fn remove_unfinished(path: &Path) -> io::Result<()> {
-    for folder in [path.to_owned(), path.join("fields"), path.join(FAILURE_FOLDER)] {
+    for folder in FOLDERS.map(|folder| path.join(folder)).into_iter().chain([path.to_owned()]) {
         for name in names_in(&folder)? {
             if name.starts_with(UNFINISHED) {
                 remove_if_there(&folder.join(name))?;
@@ -264,36 +270,13 @@ fn remove_unfinished(path: &Path) -> io::Result<()> {
 /// Whether a file in a folder of a run is one that runs write there.
 fn is_of_a_run(folder: &Path, name: &str) -> bool {
     if folder.ends_with(FAILURE_FOLDER) {
-        return name == STATE_FILE || name == FAILURE_FLOW;
+        return name == FAILURE_STATE || name == FAILURE_FLOW;
     }
     let is_number = |stem: &str| stem.len() >= 6 && stem.bytes().all(|byte| byte.is_ascii_digit());
+    if folder.ends_with(checkpoints::FOLDER) {
+        return name.strip_suffix(checkpoints::ENDING).is_some_and(is_number);
+    }
     name.strip_suffix(".vtu").is_some_and(|stem| stem == "stopped" || is_number(stem))
-}
-
-/// Names of the files of a folder, none if it is a link or is not there.
-fn names_in(folder: &Path) -> io::Result<Vec<String>> {
-    if !fs::symlink_metadata(folder).is_ok_and(|found| found.is_dir()) {
-        return Ok(Vec::new());
-    }
-    let name = |entry: io::Result<fs::DirEntry>| entry.map(|e| e.file_name().into_string().ok());
-    fs::read_dir(folder)?.filter_map(|entry| name(entry).transpose()).collect()
-}
-
-fn remove_if_there(file: &Path) -> io::Result<()> {
-    match fs::remove_file(file) {
-        Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error).at(file),
-        _ => Ok(()),
-    }
-}
-
-fn remove_if_empty(folder: &Path) -> io::Result<()> {
-    use io::ErrorKind::{DirectoryNotEmpty, NotADirectory, NotFound};
-    match fs::remove_dir(folder) {
-        Err(error) if !matches!(error.kind(), DirectoryNotEmpty | NotADirectory | NotFound) => {
-            Err(error).at(folder)
-        }
-        _ => Ok(()),
-    }
 }
 
 #[cfg(test)]
@@ -345,18 +328,18 @@ mod tests {
         let ours = [
             "series.csv",
             "run.mcap",
-            STATE_FILE,
+            "checkpoints/000010.state",
             "fields/000010.vtu",
             "fields/1234567.vtu",
             "fields/stopped.vtu",
             "fields/.unfinished-Ab12",
-            "failure/state.json",
+            "failure/last.state",
             "failure/flow.vtu",
             ".unfinished-Cd34",
         ];
         let theirs = [
             "thesis.tex",
-            "checkpoint.a",
+            "checkpoints/a.state",
             "fields/thesis.tex",
             "fields/10.vtu",
             "fields/deep/000010.vtu",
@@ -388,8 +371,8 @@ mod tests {
         let place = tempfile::tempdir().unwrap();
         drop(create(place.path(), Earlier::Keep).unwrap());
         let run = Some(place.path());
-        assert_eq!(run_of_state(&place.path().join("state.json")), run);
-        assert_eq!(run_of_state(&place.path().join("failure/state.json")), run);
-        assert_eq!(run_of_state(&place.path().join("other/state.json")), None);
+        assert_eq!(run_of_state(&place.path().join("checkpoints/000010.state")), run);
+        assert_eq!(run_of_state(&place.path().join("failure/last.state")), run);
+        assert_eq!(run_of_state(&place.path().join("other/last.state")), None);
     }
 }

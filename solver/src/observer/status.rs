@@ -30,6 +30,24 @@ pub enum RunState {
     Stopped,
 }
 
+/// Restarts in a row from one and the same step.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Restarts {
+    /// The step.
+    pub step: usize,
+    /// How many.
+    pub count: usize,
+}
+
+impl Restarts {
+    /// With one more, from a step.
+    #[must_use]
+    pub fn next(self, step: usize) -> Self {
+        let count = if step == self.step { self.count + 1 } else { 1 };
+        Self { step, count }
+    }
+}
+
 /// The content of `status.json`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Status {
@@ -54,6 +72,9 @@ pub struct Status {
     pub wall_seconds: BTreeMap<String, f64>,
     /// Most memory the process ever held (bytes).
     pub peak_memory: Option<u64>,
+    /// How often in a row it was restarted at one and the same step.
+    #[serde(default)]
+    pub restarts: Restarts,
     /// The process.
     pub pid: u32,
     /// When this was written (UTC).
@@ -107,6 +128,7 @@ impl StatusFile {
             cpu_seconds: BTreeMap::new(),
             wall_seconds: BTreeMap::new(),
             peak_memory: None,
+            restarts: history.map_or_else(Restarts::default, |history| history.restarts),
             pid: std::process::id(),
             updated_at: String::new(),
         };
@@ -139,7 +161,6 @@ impl<const D: usize> Observer<D> for StatusFile {
         self.status.dofs = snapshot.n_dofs;
         by_stage(&mut self.status, snapshot.timing);
         if snapshot.is_last {
-            self.status.state = RunState::Finished;
             self.status.steps = self.status.steps.map(|_| snapshot.step);
         }
         let is_due = snapshot.is_last || snapshot.step == 0 || self.written.elapsed() >= INTERVAL;
@@ -148,6 +169,8 @@ impl<const D: usize> Observer<D> for StatusFile {
 
     fn on_end(&mut self, timing: &Timing) -> io::Result<()> {
         by_stage(&mut self.status, timing);
+        // The last state is on the disk now, too
+        self.status.state = RunState::Finished;
         self.write()
     }
 

@@ -1,11 +1,14 @@
 //! The files of a run on a mesh of two triangles, written and read back.
 
+mod two_triangles;
+
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use alewife_mesh::{Boundary, BoundaryId, BoundaryKind, CellId, Facet, Mesh, NodeId, Point};
+use alewife_mesh::{Mesh, Point};
 use nalgebra::Vector3;
 
+use self::two_triangles::two_triangles;
 use super::*;
 use crate::body::{Pose, Twist, Wrench};
 use crate::case::{Case, Model};
@@ -35,30 +38,6 @@ end = 4.0
 [output]
 fields = { steps = 10 }
 "#;
-
-/// The unit square, split from its lower left to its upper right corner.
-fn two_triangles() -> Mesh<2> {
-    let nodes = [
-        [0.0, 0.0],
-        [1.0, 0.0],
-        [1.0, 1.0],
-        [0.0, 1.0],
-        [0.5, 0.0],
-        [1.0, 0.5],
-        [0.5, 0.5],
-        [0.5, 1.0],
-        [0.0, 0.5],
-    ];
-    Mesh {
-        nodes: nodes.map(Point::<2>::from).to_vec(),
-        n_vertices: 4,
-        cells: [0, 1, 2, 4, 5, 6, 0, 2, 3, 6, 7, 8].map(NodeId::new).to_vec(),
-        curved: vec![false, false],
-        facets: vec![Facet { cell: CellId::new(0), side: 0, boundary: BoundaryId::new(0) }],
-        boundaries: vec![Boundary { name: "bottom".to_owned(), kind: BoundaryKind::Side }],
-        periodic: Vec::new(),
-    }
-}
 
 /// A run that is only looked at, never computed.
 struct Run {
@@ -131,8 +110,13 @@ impl Run {
     /// A complete run in `path`.
     fn complete(&self, path: &Path) {
         let directory = RunDirectory::create(path, &self.model.case, 1, Earlier::Keep).unwrap();
-        let mut everyone = observers(&self.model, &directory, None, true).unwrap();
-        (0..=STEPS).for_each(|step| self.step(&mut everyone, step));
+        self.to_its_end(&mut observers(&self.model, &directory, None, true).unwrap());
+    }
+
+    /// Shows all steps and the end to `everyone`.
+    fn to_its_end(&self, everyone: &mut [Box<dyn Observer<2>>]) {
+        (0..=STEPS).for_each(|step| self.step(everyone, step));
+        everyone.iter_mut().for_each(|observer| observer.on_end(&self.timing).unwrap());
     }
 }
 
@@ -239,7 +223,7 @@ fn the_status_tells_state_and_cost() {
     let before = Status::read(place.path()).unwrap();
     assert_eq!((before.state, before.step, before.steps), (RunState::Running, 0, Some(40)));
 
-    (0..=STEPS).for_each(|step| run.step(&mut everyone, step));
+    run.to_its_end(&mut everyone);
     let after = Status::read(place.path()).unwrap();
     assert_eq!((after.state, after.step, after.dofs), (RunState::Finished, STEPS, 22));
     assert_eq!((after.time, after.end), (4.0, Some(4.0)));

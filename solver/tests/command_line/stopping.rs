@@ -36,12 +36,18 @@ fn stopped_fall_by(signal: &str, directory: &Path) -> String {
     String::from_utf8(output.stderr).unwrap()
 }
 
+/// Names of the checkpoints of a run.
+fn checkpoints(run: &Path) -> Vec<String> {
+    let Ok(folder) = std::fs::read_dir(run.join("checkpoints")) else { return Vec::new() };
+    folder.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect()
+}
+
 #[test]
 fn a_signal_ends_a_run_after_its_step_with_all_files_complete() {
     let directory = tempfile::tempdir().unwrap();
     let told = stopped_fall(directory.path());
     let command = "cargo run --release -- run sphere-free-fall --out fall --quiet --threads 1 --set \
-                   time.unsteady.end=1e6 --set mesh.scale=2 --resume fall/state.json";
+                   time.unsteady.end=1e6 --set mesh.scale=2";
     assert!(told.contains(command), "{told}");
     let out = directory.path().join("fall");
     let status = std::fs::read_to_string(out.join("status.json")).unwrap();
@@ -57,8 +63,8 @@ fn all_signals_that_end_programs_leave_a_state() {
     for signal in ["TERM", "HUP", "XCPU", "USR1"] {
         let directory = tempfile::tempdir().unwrap();
         let told = stopped_fall_by(signal, directory.path());
-        assert!(told.contains("--resume fall/state.json"), "{signal}: {told}");
-        assert!(directory.path().join("fall/state.json").is_file(), "{signal}");
+        assert!(told.contains("it continues with"), "{signal}: {told}");
+        assert_eq!(checkpoints(&directory.path().join("fall")).len(), 1, "{signal}");
     }
 }
 
@@ -106,10 +112,11 @@ fn a_run_that_resumes_in_its_directory_goes_on_with_its_series() {
         let all: Vec<String> = all.drain(..).map(str::to_owned).chain(more).collect();
         alewife(directory.path(), &all.iter().map(String::as_str).collect::<Vec<_>>())
     };
-    // The state is not lost by a run that was meant to resume
-    let refused = with(arguments("fall"), &["--set", &end]);
-    assert_eq!(refused.status.code(), Some(2));
-    assert!(String::from_utf8_lossy(&refused.stderr).contains("--resume fall/state.json"));
+    // The state is not lost by a run of another case
+    let refused = with(arguments("fall"), &["--set", &end, "--set", "fluid.viscosity=2.5"]);
+    assert_eq!(refused.status.code(), Some(65));
+    let told = String::from_utf8_lossy(&refused.stderr);
+    assert!(told.contains("fluid.viscosity: ") && told.contains(" there, 2.5 here"), "{told}");
     assert_eq!(read("fall/series.csv"), before);
 
     // The directory of a run stands for its state
@@ -132,7 +139,7 @@ fn a_run_that_resumes_in_its_directory_goes_on_with_its_series() {
         assert_eq!(time(one), time(other));
         assert!((speed(one) - speed(other)).abs() <= 1e-9 * speed(other).abs(), "{one}\n{other}");
     }
-    assert!(!directory.path().join("fall/state.json").exists());
+    assert_eq!(checkpoints(&directory.path().join("fall")).len(), 2, "one is of the end");
     assert!(!read("fall/fields.pvd").contains("stopped"));
 }
 
@@ -205,7 +212,7 @@ fn a_refused_resume_changes_nothing() {
     for out in ["fall", "other"] {
         let mut arguments = vec!["run", "sphere-free-fall", "--out", out, "--threads", "1"];
         arguments.extend(["--set", "mesh.scale=2", "--set", "fluid.viscosity=2.5"]);
-        arguments.extend(["--resume", "fall/state.json"]);
+        arguments.extend(["--resume", "fall"]);
         let refused = alewife(directory.path(), &arguments);
         assert_eq!(refused.status.code(), Some(65));
         let told = String::from_utf8_lossy(&refused.stderr);

@@ -149,6 +149,9 @@ fn check_output(findings: &mut Findings<'_>) {
             _ => {}
         }
     }
+    if let Some(interval) = case.output.checkpoint.time {
+        findings.positive("output.checkpoint.time", interval);
+    }
 }
 
 /// When a mesh that moves is replaced.

@@ -52,7 +52,7 @@ pub use mesh_path::{MeshPath, NodePath};
 pub use moving_mesh::{MotionSettings, MovingMesh};
 pub use planar::{BodyRecoil, recoils, shape_motion};
 pub use prepare::simulation_on;
-pub use resume::{Reference, ResumeError, SavedState};
+pub use resume::{Reference, ResumeError, SavedState, VERSION as STATE_VERSION};
 pub use run::RunSummary;
 pub use scene::{Meshed, PosesByShift, RemeshError, Scene};
 pub use series::Series;

@@ -1,5 +1,7 @@
 //! The run: build, solve or step in time, measure, notify the observers.
 
+use std::sync::Arc;
+
 use super::advance::{CellCrossing, Simulation};
 use super::case_mesh::{CaseMesh, Dimension};
 use super::cycle_error::OtherSteps;
@@ -8,7 +10,7 @@ use super::prepare::{Prepared, prepare};
 use super::resume::SavedState;
 use super::snapshot::{LastState, Observer, Snapshot};
 use super::steady::{SteadyFlow, SteadyTask, solve_steady};
-use super::{RunError, Series, Stage, Timing};
+use super::{RunError, Series, Stage, StopRequest, Timing};
 use crate::case::{Case, Initial, Model, Steady, TimeSettings, Unsteady};
 use crate::coupling::{BodiesAt, BodyShapes, RigidBodyEquations, SurfaceLoads};
 
@@ -53,7 +55,9 @@ where
             tracing::warn!("other quantities than before: statistics begin where the run resumes");
         }
     }
-    simulation.stop = observers.iter().find_map(|observer| observer.stop_request());
+    let requests: Vec<StopRequest> =
+        observers.iter().filter_map(|observer| observer.stop_request()).collect();
+    simulation.stop = Some(Arc::new(move || requests.iter().any(|request| request())));
     let case = &model.case;
     let mut run = Run {
         case,
@@ -283,7 +287,24 @@ impl<const D: usize> Run<'_, D> {
         work.timing.measure(Stage::Output, || {
             observers.iter_mut().try_for_each(|observer| observer.on_step(&snapshot))
         })?;
+        // Each is asked
+        let wanted =
+            observers.iter_mut().filter_map(|one| one.wants_state(&snapshot).then_some(()));
+        let is_wanted = wanted.count() > 0;
         series.rows.push(measured.values);
-        self.check_soundness(&measured.flow)
+        self.check_soundness(&measured.flow)?;
+        if is_wanted { self.show_state() } else { Ok(()) }
+    }
+
+    /// Gives the observers the whole state.
+    fn show_state(&mut self) -> Result<(), RunError> {
+        let Self { case, observers, series, simulation, .. } = self;
+        let mut timing = simulation.work.timing;
+        let shown = timing.measure(Stage::Output, || -> Result<(), RunError> {
+            let state = Arc::new(SavedState::of(case, simulation, series)?);
+            Ok(observers.iter_mut().try_for_each(|observer| observer.on_state(&state))?)
+        });
+        simulation.work.timing = timing;
+        shown
     }
 }

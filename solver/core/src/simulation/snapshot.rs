@@ -1,5 +1,7 @@
 //! `Snapshot`: what an observer sees of a run; `Observer`: who looks on.
 
+use std::sync::Arc;
+
 use alewife_mesh::{Mesh, Point};
 
 use super::{RunError, SavedState, StopRequest, Timing};
@@ -84,6 +86,19 @@ pub trait Observer<const D: usize> {
     /// # Errors
     /// When a file cannot be written; the run stops with it.
     fn on_step(&mut self, snapshot: &Snapshot<'_, D>) -> std::io::Result<()>;
+
+    /// Whether it is to be given the state after the step it was just notified of.
+    fn wants_state(&mut self, _snapshot: &Snapshot<'_, D>) -> bool {
+        false
+    }
+
+    /// Called of all observers, in order, with a state that one of them wanted.
+    ///
+    /// # Errors
+    /// When a file cannot be written.
+    fn on_state(&mut self, _state: &Arc<SavedState<D>>) -> std::io::Result<()> {
+        Ok(())
+    }
 
     /// What to ask whether the run is to end, once at its beginning.
     fn stop_request(&self) -> Option<StopRequest> {

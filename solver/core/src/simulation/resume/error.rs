@@ -6,8 +6,8 @@ use crate::algebra::LinearError;
 use crate::coupling::ShapeError;
 use crate::simulation::scene::RemeshError;
 
-/// Version of the file; others are refused.
-pub(super) const VERSION: u32 = 7;
+/// Version of what is saved; others are refused.
+pub const VERSION: u32 = 7;
 
 /// Why a run cannot resume from a state.
 #[derive(Debug, Error)]

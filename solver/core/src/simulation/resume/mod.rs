@@ -11,8 +11,7 @@ use alewife_mesh::{Boundary, Mesh, Point};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-pub use self::error::ResumeError;
-use self::error::VERSION;
+pub use self::error::{ResumeError, VERSION};
 use self::level::{SavedContact, SavedLevel};
 use self::mesh::SavedMesh;
 use self::series::SavedSeries;

@@ -1,0 +1,152 @@
+//! `status`: how far a run is, from the files in its directory.
+
+use std::path::{Path, PathBuf};
+use std::time::{Duration, SystemTime};
+
+use clap::Args;
+use serde_json::json;
+
+use super::exit::{Exit, Failure};
+use super::style::say;
+use crate::observer::{RunState, Status, checkpoints};
+
+/// A running process writes its status every second; one that has not for this long was killed.
+const SILENCE: Duration = Duration::from_secs(120);
+
+/// What `status` is asked for.
+#[derive(Debug, Args)]
+pub struct Options {
+    /// Directories of runs
+    #[arg(required = true, value_name = "DIR")]
+    directories: Vec<PathBuf>,
+    /// As JSON
+    #[arg(long)]
+    json: bool,
+}
+
+/// What is known of a run.
+struct Progress {
+    status: Status,
+    /// Part of the way to the end.
+    part: Option<f64>,
+    /// Wall-clock seconds that are left, if it goes on as before.
+    left: Option<f64>,
+    /// Whether no process writes to it any more, though it has not ended.
+    is_killed: bool,
+    /// The latest checkpoint.
+    checkpoint: Option<PathBuf>,
+}
+
+/// Tells how far runs are.
+pub fn status(options: &Options) -> Result<Exit, Failure> {
+    let mut all = Vec::new();
+    for directory in &options.directories {
+        let progress = progress(directory)?;
+        if options.json {
+            all.push(progress.to_json(directory)?);
+        } else {
+            progress.print(directory);
+        }
+    }
+    if options.json {
+        say(&format!("{:#}", serde_json::Value::from(all)));
+    }
+    Ok(Exit::Done)
+}
+
+fn progress(directory: &Path) -> Result<Progress, Failure> {
+    let path = directory.join("status.json");
+    let status = Status::read(directory).map_err(|error| {
+        let reason = format!("{}: {error}; give the directory of a run", path.display());
+        Failure::new(Exit::NoInput, reason)
+    })?;
+    let part = status.end.filter(|end| *end > 0.0).map(|end| (status.time / end).clamp(0.0, 1.0));
+    let total = status.wall_seconds.get("total").copied();
+    let is_running = status.state == RunState::Running;
+    let rate = |steps: usize, total: f64| {
+        let made = status.step.saturating_sub(status.restarts.step);
+        (made > 0).then(|| steps.saturating_sub(status.step) as f64 * total / made as f64)
+    };
+    let left = match (status.steps, total, part) {
+        (Some(steps), Some(total), _) => rate(steps, total),
+        (None, Some(total), Some(part)) if part > 0.0 => Some(total * (1.0 - part) / part),
+        _ => None,
+    };
+    let modified = std::fs::metadata(&path).and_then(|found| found.modified());
+    let age = modified.ok().and_then(|then| SystemTime::now().duration_since(then).ok());
+    Ok(Progress {
+        part,
+        left: left.filter(|_| is_running),
+        is_killed: is_running && age.is_some_and(|age| age > SILENCE),
+        checkpoint: checkpoints(directory)?.into_iter().next(),
+        status,
+    })
+}
+
+impl Progress {
+    fn state(&self) -> &'static str {
+        match self.status.state {
+            RunState::Running if self.is_killed => "killed",
+            RunState::Running => "running",
+            RunState::Finished => "finished",
+            RunState::Failed => "failed",
+            RunState::Stopped => "stopped",
+        }
+    }
+
+    fn to_json(&self, directory: &Path) -> Result<serde_json::Value, Failure> {
+        let status = serde_json::to_value(&self.status).map_err(std::io::Error::from)?;
+        Ok(json!({
+            "directory": directory,
+            "state": self.state(),
+            "part": self.part,
+            "seconds_left": self.left,
+            "checkpoint": self.checkpoint,
+            "status": status,
+        }))
+    }
+
+    fn print(&self, directory: &Path) {
+        let Status { step, steps, time, end, reason, .. } = &self.status;
+        let of = |end: Option<String>| end.map_or(String::new(), |end| format!(" of {end}"));
+        let part = self.part.map_or(String::new(), |part| format!(", {:.0} %", 100.0 * part));
+        say(&format!(
+            "{}: {}, step {step}{}, t {time}{}{part}",
+            directory.display(),
+            self.state(),
+            of(steps.map(|steps| steps.to_string())),
+            of(end.map(|end| end.to_string())),
+        ));
+        if let Some(left) = self.left.filter(|_| !self.is_killed) {
+            say(&format!("  about {} left", clock(left)));
+        }
+        if let Some(reason) = reason {
+            say(&format!("  {reason}"));
+        }
+        match &self.checkpoint {
+            Some(path) => say(&format!("  latest checkpoint: {}", path.display())),
+            None => say("  no checkpoint"),
+        }
+    }
+}
+
+/// A time in hours, minutes and seconds.
+fn clock(seconds: f64) -> String {
+    let (minutes, rest) = ((seconds / 60.0).floor(), seconds % 60.0);
+    let hours = (minutes / 60.0).floor();
+    match (hours > 0.0, minutes > 0.0) {
+        (true, _) => format!("{hours:.0} h {:.0} min", minutes % 60.0),
+        (_, true) => format!("{minutes:.0} min {rest:.0} s"),
+        _ => format!("{rest:.0} s"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::clock;
+
+    #[test]
+    fn times_are_told_in_two_units() {
+        assert_eq!([5.2, 65.0, 7380.0].map(clock), ["5 s", "1 min 5 s", "2 h 3 min"]);
+    }
+}
