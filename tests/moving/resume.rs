@@ -60,7 +60,7 @@ where
 #[test]
 fn bodies_on_a_mesh_that_is_replaced_end_with_the_same_bits() {
     for adaptive in ["", ", adaptive = { tolerance = 5e-3, largest = 0.04 }"] {
-        let whole = ends_with_the_same_bits::<2>(&two_bodies(adaptive), &[[3, 5], [60, 71]]);
+        let whole = ends_with_the_same_bits::<2>(&two_bodies(adaptive), &[[3, 5], [50, 58]]);
         assert!(last(&whole, "flow.remeshes") >= 1.0);
         let gaps = column(&whole, "flow.minimum_gap");
         assert!(gaps.iter().any(|&gap| gap < 0.45), "there is contact");
@@ -127,16 +127,15 @@ fn no_step_is_lost_where_a_run_is_stopped() {
         if let TimeSettings::Unsteady(unsteady) = &mut case.case.time {
             unsteady.end = 0.2;
         }
-        let whole = run(&case).series.times;
+        let whole = run(&case);
         for (after, spared) in [(0, 0), (0, 1), (0, 4), (0, 9), (1, 1), (4, 1), (4, 2)] {
             let stopped = stopped_within_a_step(&case, after, spared);
             let rest = resumed(&case, stopped.state.as_ref().expect("it left a state"))
                 .expect("it goes on");
             assert!(rest.series.times.starts_with(&stopped.times));
-            assert_eq!(rest.series.times.len(), whole.len(), "{scheme}");
-            if !scheme.contains("adaptive") {
-                assert_eq!(rest.series.times, whole);
-            }
+            let [rest, whole] = [&rest, &whole].map(bits);
+            let row = rest.iter().zip(&whole).position(|(one, other)| one != other);
+            assert!(rest == whole, "{scheme}, {after}, {spared}: from row {row:?} on");
         }
     }
 }

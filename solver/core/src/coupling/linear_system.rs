@@ -91,7 +91,16 @@ impl LinearSystem {
         Self { method, accuracy: Accuracy::default(), saddle_point, unknowns, recalled: None }
     }
 
-    /// What the solver keeps from system to system.
+    /// Marks what the solver keeps at present as its memory.
+    pub(super) fn mark(&mut self) {
+        match &mut self.method {
+            Method::Direct { solver: Some(solver), .. } => solver.mark(),
+            Method::Iterative { solver: Some(solver), .. } => solver.mark(),
+            Method::Direct { .. } | Method::Iterative { .. } => {}
+        }
+    }
+
+    /// What the solver kept from system to system when that was marked.
     pub(super) fn memory(&self) -> SolverMemory {
         let memory = match &self.method {
             Method::Direct { solver, .. } => solver.as_ref().map(|solver| solver.memory()),

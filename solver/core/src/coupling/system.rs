@@ -154,7 +154,12 @@ impl<const D: usize> FluidSystem<D> {
         self.linear.matrix()
     }
 
-    /// What the linear solver keeps from system to system.
+    /// Marks what the linear solver keeps at present as what belongs to the state of a run.
+    pub fn mark_solver(&mut self) {
+        self.linear.mark();
+    }
+
+    /// What the linear solver kept from system to system when that was marked.
     #[must_use]
     pub fn solver_memory(&self) -> SolverMemory {
         self.linear.memory()

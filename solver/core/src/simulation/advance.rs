@@ -137,6 +137,7 @@ impl<const D: usize> Simulation<D> {
             return Err(StepError::LocalErrorTooLarge { error, tolerance });
         }
         state.accept(problem, level);
+        work.system.mark_solver();
         self.is_fresh = false;
         Ok(report)
     }

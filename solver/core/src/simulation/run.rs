@@ -257,6 +257,7 @@ impl<const D: usize> Run<'_, D> {
         summary: StepSummary,
     ) -> Result<(), RunError> {
         self.simulation.record_propulsion(&loads.bodies);
+        self.simulation.work.system.mark_solver();
         if self.is_trial {
             return Ok(());
         }

@@ -2,6 +2,7 @@
 
 use alewife_mesh::{Mesh, Point};
 use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
 
 use super::energy::EnergyBalance;
 use super::momentum::MomentumBalance;
@@ -12,6 +13,15 @@ use crate::coupling::{
     BodyLoads, LoadedBodies, Problem, PropulsionPower, Solution, SurfaceStress, propulsion_power,
 };
 use crate::space::DofLayout;
+
+/// A piece of a step.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Piece {
+    /// Its size (s).
+    pub size: f64,
+    /// Whether rates jump at its beginning, so that what was before does not count.
+    pub is_restart: bool,
+}
 
 /// Everything that evolves.
 #[derive(Debug, Clone)]
@@ -24,8 +34,8 @@ pub struct State<const D: usize> {
     pub last_step: f64,
     /// The step proposed by the step-size control (s), none before the first or with fixed steps.
     pub proposed_step: Option<f64>,
-    /// Sizes (s) of the pieces of the first step that are still to be made, the next one last.
-    pub start_pieces: Vec<f64>,
+    /// Pieces of the present step that are still to be made, the next one last.
+    pub pieces: Vec<Piece>,
     /// Meshes generated since the first.
     pub remeshes: usize,
     /// The mesh at present, in the laboratory.
@@ -99,7 +109,7 @@ impl<const D: usize> State<D> {
             time: 0.0,
             last_step: 0.0,
             proposed_step: None,
-            start_pieces: Vec::new(),
+            pieces: Vec::new(),
             remeshes: 0,
             origin: Vector3::zeros(),
             nodes: mesh.nodes.clone(),

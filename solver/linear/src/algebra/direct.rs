@@ -40,6 +40,10 @@ pub struct DirectSolver {
     policy: ReusePolicy,
     /// What was factorised, if there are factors.
     factorised: Option<Factorised>,
+    /// What it was at the mark, if it is another one now.
+    marked: Option<Option<Factorised>>,
+    /// The pauses of the policy at the mark.
+    marked_pauses: [usize; 2],
     fingerprints: Fingerprints,
 }
 
@@ -53,8 +57,16 @@ impl DirectSolver {
         let analysis = Analysis::new(pattern, unknowns, Ordering::Best);
         let factors = Factors::new(&analysis);
         let policy = ReusePolicy::new(&analysis, pattern.n_entries());
-        let fingerprints = Fingerprints::default();
-        Self { analysis, factors, policy, factorised: None, fingerprints }
+        let marked_pauses = policy.pauses();
+        Self {
+            analysis,
+            factors,
+            policy,
+            factorised: None,
+            marked: None,
+            marked_pauses,
+            fingerprints: Fingerprints::default(),
+        }
     }
 
     /// Entries of the factors of any matrix of the pattern, but for delayed pivots.
@@ -63,12 +75,19 @@ impl DirectSolver {
         self.factors.n_entries(&self.analysis)
     }
 
-    /// What it keeps from system to system.
+    /// Marks what it keeps at present as its memory, which may be asked for later.
+    pub fn mark(&mut self) {
+        self.marked = None;
+        self.marked_pauses = self.policy.pauses();
+    }
+
+    /// What it kept from system to system when that was marked.
     #[must_use]
     pub fn memory(&self) -> SolverMemory {
+        let factorised = self.marked.as_ref().unwrap_or(&self.factorised);
         SolverMemory {
-            factorised: self.factorised.as_ref().map(|factorised| factorised.values.clone()),
-            pauses: self.policy.pauses(),
+            factorised: factorised.as_ref().map(|factorised| factorised.values.clone()),
+            pauses: self.marked_pauses,
             ..SolverMemory::default()
         }
     }
@@ -83,11 +102,14 @@ impl DirectSolver {
         memory: &SolverMemory,
     ) -> Result<(), LinearError> {
         self.policy.set_pauses(memory.pauses);
-        let Some(values) = &memory.factorised else { return Ok(()) };
-        if values.len() != pattern.n_entries() {
-            return Err(ForeignMemory { n_unknowns: pattern.n() }.into());
+        if let Some(values) = &memory.factorised {
+            if values.len() != pattern.n_entries() {
+                return Err(ForeignMemory { n_unknowns: pattern.n() }.into());
+            }
+            self.set_up(&SparseMatrix::new(Arc::clone(pattern), values.clone()))?;
         }
-        self.set_up(&SparseMatrix::new(Arc::clone(pattern), values.clone()))
+        self.mark();
+        Ok(())
     }
 
     /// FGMRES with the factors at hand, for equations scaled by `scales`, until the residual of the
@@ -139,6 +161,7 @@ impl LinearSolver for DirectSolver {
             return Ok(());
         }
         let earlier = self.factorised.take();
+        self.marked.get_or_insert(earlier);
         if !all_finite(matrix.values()) {
             return Err(LinearError::NotFinite);
         }
@@ -149,10 +172,7 @@ impl LinearSolver for DirectSolver {
             entries = self.factors.n_entries(&self.analysis),
             "factorised"
         );
-        let mut values = earlier.map(|earlier| earlier.values).unwrap_or_default();
-        values.clear();
-        values.extend_from_slice(matrix.values());
-        self.factorised = Some(Factorised { hash, values });
+        self.factorised = Some(Factorised { hash, values: matrix.values().to_vec() });
         Ok(())
     }
 
@@ -324,6 +344,8 @@ mod tests {
         let mut solver = new();
         solver.set_up(&matrix).unwrap();
         solver.policy.failed();
+        assert_eq!(solver.memory(), SolverMemory { pauses: [0, 2], ..SolverMemory::default() });
+        solver.mark();
         let memory = solver.memory();
         let mut other = new();
         other.recall(&pattern, &memory).unwrap();
@@ -339,6 +361,10 @@ mod tests {
             x
         });
         assert_eq!(solved[0], solved[1]);
+        solver.set_up(&matrix).unwrap();
+        assert_eq!(solver.memory(), memory, "it is that at the mark");
+        solver.mark();
+        assert_ne!(solver.memory(), memory);
         let (smaller, _) = chain(n - 3);
         let foreign = DirectSolver::new(smaller.pattern(), &chain(n - 3).1)
             .recall(&smaller.shared_pattern(), &memory);

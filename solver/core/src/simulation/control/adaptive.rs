@@ -5,6 +5,7 @@ use super::{NEAR, SMALLEST_PART, step_size_underflow};
 use crate::case::{Adaptive, Scheme, Unsteady};
 use crate::simulation::advance::Attempt;
 use crate::simulation::run::{Run, StepSummary};
+use crate::simulation::state::Piece;
 use crate::simulation::stepper::StepReport;
 use crate::simulation::{RunError, StepError};
 
@@ -22,6 +23,8 @@ struct Bounds {
 struct Made {
     report: StepReport,
     size: f64,
+    /// Whether a longer one was rejected before.
+    is_shortened: bool,
 }
 
 /// Factor of the next step after a step with this error over the tolerance; the error goes with the
@@ -52,8 +55,8 @@ impl<const D: usize> Run<'_, D> {
             let proposed = self.simulation.state.proposed_step.unwrap_or(settings.step);
             self.restart_at_discontinuity(settings, index, proposed);
             let is_start =
-                !self.simulation.state.start_pieces.is_empty() && settings.scheme == Scheme::Bdf2;
-            let piece = self.simulation.state.start_pieces.last().copied();
+                !self.simulation.state.pieces.is_empty() && settings.scheme == Scheme::Bdf2;
+            let piece = self.simulation.state.pieces.last().map(|piece| piece.size);
             let wanted = piece.unwrap_or(proposed);
             let size = self.cut_to_fit(settings, proposed, wanted.min(bounds.largest));
             // Pieces of the first step are smaller than any that is asked for
@@ -68,15 +71,18 @@ impl<const D: usize> Run<'_, D> {
             let longest = adaptive.cfl / crossing.rate;
             let proposed = self.propose(adaptive, made.size, factor, gap).min(longest);
             let state = &mut self.simulation.state;
-            // Only now: within a step the run may be stopped
-            state.start_pieces.pop();
+            // Only now: within a step the run may be stopped, and then tries again what was rejected
+            state.pieces.pop();
+            if made.is_shortened {
+                state.pieces.clear();
+            }
             state.proposed_step = Some(proposed.clamp(bounds.smallest, bounds.largest));
             let is_last = settings.end - state.time <= AT_END * settings.end;
             if is_last {
                 state.time = settings.end;
             }
             state.step = index;
-            let Made { report, size } = made;
+            let Made { report, size, .. } = made;
             let (iterations, crossing) = (report.iterations, Some(crossing));
             let summary = StepSummary { iterations, time_step: size, is_last, crossing };
             self.report(&report.loads, summary)?;
@@ -89,9 +95,9 @@ impl<const D: usize> Run<'_, D> {
 
     /// Makes the next steps the pieces of one of this size (s).
     fn begin_in_pieces(&mut self, settings: &Unsteady, size: f64) {
-        let mut pieces = start_pieces(settings.scheme, true, size);
-        pieces.reverse();
-        self.simulation.state.start_pieces = pieces;
+        let pieces = start_pieces(settings.scheme, true, size).into_iter().rev();
+        let pieces = pieces.map(|size| Piece { size, is_restart: false });
+        self.simulation.state.pieces = pieces.collect();
     }
 
     /// Where rates jump, what was before does not count for what comes.
@@ -127,9 +133,10 @@ impl<const D: usize> Run<'_, D> {
         mut size: f64,
         floor: f64,
     ) -> Result<Made, RunError> {
+        let mut is_shortened = false;
         loop {
             match self.simulation.try_step(size, adaptive.tolerance)? {
-                Attempt::Made(report) => return Ok(Made { report, size }),
+                Attempt::Made(report) => return Ok(Made { report, size, is_shortened }),
                 Attempt::Rejected(error) if size <= floor => {
                     return Err(step_size_underflow(&self.simulation, size, &error));
                 }
@@ -139,7 +146,7 @@ impl<const D: usize> Run<'_, D> {
                 Attempt::Rejected(_) => size *= 0.5,
             }
             size = size.max(floor);
-            self.simulation.state.start_pieces.clear();
+            is_shortened = true;
             self.check_signals(false)?;
         }
     }

@@ -1,12 +1,13 @@
 //! Fixed steps, halved where they must be.
 
-use super::start::{Piece, pieces};
-use super::{SMALLEST_PART, step_size_underflow};
+use super::start::pieces;
+use super::{NEAR, SMALLEST_PART, step_size_underflow};
 use crate::case::{Scheme, Unsteady};
 use crate::coupling::SurfaceLoads;
 use crate::simulation::RunError;
 use crate::simulation::advance::Attempt;
 use crate::simulation::run::{Run, StepSummary};
+use crate::simulation::state::Piece;
 use crate::simulation::stepper::StepReport;
 
 /// Growth of a step over the one before beyond which BDF2 would not be stable.
@@ -40,16 +41,7 @@ impl<const D: usize> Run<'_, D> {
         for (number, index) in numbers.zip(first..n_steps) {
             let started = self.simulation.state.time;
             let target = ((index + 1) as f64 * settings.step).min(settings.end);
-            let mut tally = StepTally::default();
-            for (done, piece) in pieces(settings, &self.simulation, target).into_iter().enumerate()
-            {
-                if done > 0 {
-                    // What is not yet a step does not count as one
-                    self.simulation.state.step = number;
-                    self.check_signals(false)?;
-                }
-                self.fixed_piece(settings, number, piece, &mut tally)?;
-            }
+            let tally = self.fixed_step(settings, number, target)?;
             // Counted, not summed, so that rounding does not pile up
             let is_last = index + 1 == n_steps;
             let state = &mut self.simulation.state;
@@ -66,46 +58,67 @@ impl<const D: usize> Run<'_, D> {
         Ok(self.simulation.state.step)
     }
 
-    /// Makes one piece of a step, in halves where it must be.
-    fn fixed_piece(
+    /// Makes a step to a time (s) in its pieces, or what is left of it, in halves where it must be.
+    fn fixed_step(
         &mut self,
         settings: &Unsteady,
         number: usize,
-        piece: Piece,
-        tally: &mut StepTally,
-    ) -> Result<(), RunError> {
+        target: f64,
+    ) -> Result<StepTally, RunError> {
         let smallest = settings.step * SMALLEST_PART;
-        if piece.is_restart {
-            // What was before does not count for what comes
-            self.simulation.state.last_step = 0.0;
-        }
-        // The next one last
-        let mut to_do = vec![piece.size];
-        while let Some(size) = to_do.pop() {
-            let before = self.simulation.state.last_step;
+        let mut tally = StepTally::default();
+        let mut to_do = self.pieces_to(settings, target);
+        while let Some(piece) = to_do.pop() {
+            if piece.is_restart {
+                // What was before does not count for what comes
+                self.simulation.state.last_step = 0.0;
+            }
+            let (size, before) = (piece.size, self.simulation.state.last_step);
             let grows = before > 0.0 && size > LARGEST_GROWTH * before;
             if grows && settings.scheme == Scheme::Bdf2 {
-                to_do.extend([0.5 * size; 2]);
+                to_do.extend(halves(piece));
                 continue;
             }
             self.simulation.state.step = number;
             match self.simulation.try_step(size, f64::INFINITY)? {
-                Attempt::Made(step) => tally.add(step),
+                Attempt::Made(step) => {
+                    tally.add(step);
+                    // A run that resumes makes these, and tries again what was rejected before
+                    self.simulation.state.pieces.clone_from(&to_do);
+                }
                 Attempt::Rejected(error) if size <= smallest => {
                     return Err(step_size_underflow(&self.simulation, size, &error));
                 }
                 Attempt::Rejected(_) => {
                     self.rejections += 1;
-                    to_do.extend([0.5 * size; 2]);
+                    to_do.extend(halves(piece));
                 }
             }
             // A step in many pieces may take long. After the last one the step is reported first: a
             // resumed run begins behind it.
             if !to_do.is_empty() {
+                // What is not yet a step does not count as one
                 self.simulation.state.step = number;
                 self.check_signals(false)?;
             }
         }
-        Ok(())
+        Ok(tally)
     }
+
+    /// The pieces of a step to a time (s), the next one last: what a run that resumes has left of them.
+    fn pieces_to(&self, settings: &Unsteady, target: f64) -> Vec<Piece> {
+        let state = &self.simulation.state;
+        let end = state.time + state.pieces.iter().map(|piece| piece.size).sum::<f64>();
+        if !state.pieces.is_empty() && (end - target).abs() < NEAR * settings.step {
+            state.pieces.clone()
+        } else {
+            pieces(settings, &self.simulation, target)
+        }
+    }
+}
+
+/// The halves of a piece, the first one last.
+fn halves(piece: Piece) -> [Piece; 2] {
+    let size = 0.5 * piece.size;
+    [Piece { size, is_restart: false }, Piece { size, ..piece }]
 }

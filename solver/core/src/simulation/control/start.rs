@@ -3,21 +3,13 @@
 use super::NEAR;
 use crate::case::{Scheme, Unsteady};
 use crate::simulation::advance::Simulation;
+use crate::simulation::state::Piece;
 
 /// The first step is made in pieces of 1/128, 1/128, 1/64, ... 1/2 of it: the only first-order
 /// piece is so short that it does not lower the order of the whole.
 const START_PIECES: u32 = 7;
 
-/// A piece of a step.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Piece {
-    /// Its size (s).
-    pub size: f64,
-    /// Whether rates jump at its beginning, so that what was before does not count.
-    pub is_restart: bool,
-}
-
-/// The pieces of a step to a time (s), cut where rates of gaits jump.
+/// The pieces of a step to a time (s), cut where rates of gaits jump, the next one last.
 pub(super) fn pieces<const D: usize>(
     settings: &Unsteady,
     simulation: &Simulation<D>,
@@ -41,6 +33,7 @@ pub(super) fn pieces<const D: usize>(
         );
         (at, is_start) = (end, true);
     }
+    pieces.reverse();
     pieces
 }
 

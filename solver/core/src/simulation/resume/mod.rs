@@ -20,7 +20,7 @@ use super::energy::EnergyBalance;
 use super::momentum::MomentumBalance;
 use super::moving_mesh::MovingMesh;
 use super::propulsion_history::PropulsionHistory;
-use super::state::State;
+use super::state::{Piece, State};
 use super::{RunError, Series};
 use crate::algebra::SolverMemory;
 use crate::body::{Pose, Twist, on_mesh};
@@ -39,7 +39,7 @@ pub struct SavedState<const D: usize> {
     pub time: f64,
     last_step: f64,
     proposed_step: Option<f64>,
-    start_pieces: Vec<f64>,
+    pieces: Vec<Piece>,
     remeshes: usize,
     mesh: SavedMesh,
     origin: Vector3<f64>,
@@ -113,7 +113,7 @@ impl<const D: usize> SavedState<D> {
             time: state.time,
             last_step: state.last_step,
             proposed_step: state.proposed_step,
-            start_pieces: state.start_pieces.clone(),
+            pieces: state.pieces.clone(),
             remeshes: state.remeshes,
             mesh: SavedMesh::of(&state.mesh),
             origin: state.origin,
@@ -236,7 +236,7 @@ impl<const D: usize> SavedState<D> {
             time: self.time,
             last_step: self.last_step,
             proposed_step: self.proposed_step,
-            start_pieces: self.start_pieces.clone(),
+            pieces: self.pieces.clone(),
             remeshes: self.remeshes,
             mesh: self.mesh.with_nodes(in_laboratory, boundaries),
             origin: self.origin,

@@ -1,6 +1,7 @@
 //! `EarlierSolutions`: first approximations of A x = b from solutions of earlier systems (@fischer1998).
 
 use std::collections::VecDeque;
+use std::sync::Arc;
 
 use super::vector::Blocks;
 
@@ -11,9 +12,9 @@ const KEPT: usize = 6;
 const DEPENDENT: f64 = 1e-4;
 
 /// The solutions found last, the oldest first.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct EarlierSolutions {
-    solutions: VecDeque<Blocks>,
+    solutions: VecDeque<Arc<Blocks>>,
 }
 
 impl EarlierSolutions {
@@ -33,7 +34,7 @@ impl EarlierSolutions {
         let mut sources: Vec<Blocks> = Vec::new();
         // The latest first: it is the closest
         for solution in self.solutions.iter().rev() {
-            let mut source = solution.clone();
+            let mut source = Blocks::clone(solution);
             let size = source.norm();
             if size == 0.0 || !size.is_finite() {
                 continue;
@@ -64,7 +65,7 @@ impl EarlierSolutions {
 
     /// All of them, the oldest first.
     pub fn iter(&self) -> impl Iterator<Item = &Blocks> {
-        self.solutions.iter()
+        self.solutions.iter().map(Arc::as_ref)
     }
 
     /// Takes note of a solution.
@@ -72,7 +73,7 @@ impl EarlierSolutions {
         if self.solutions.len() == KEPT {
             self.solutions.pop_front();
         }
-        self.solutions.push_back(solution);
+        self.solutions.push_back(Arc::new(solution));
     }
 }
 
@@ -135,7 +136,7 @@ mod tests {
         assert!(residual.norm() < b.norm());
         for solution in &earlier.solutions {
             let mut image = b.zeros_alike();
-            multiply(&mut solution.clone(), &mut image);
+            multiply(&mut Blocks::clone(solution), &mut image);
             assert!(image.dot(&residual).abs() < 1e-3 * image.norm() * b.norm());
         }
     }

@@ -55,9 +55,17 @@ pub struct IterativeSolver {
     /// Of the matrix and weights it was made for.
     set_up: Option<SetUp>,
     earlier: EarlierSolutions,
+    marked: Marked,
     iterations: usize,
     /// In place of everything else, once iterations have stalled.
     direct: Option<Box<Direct>>,
+}
+
+/// What it kept from system to system when that was marked.
+#[derive(Debug, Default)]
+struct Marked {
+    earlier: EarlierSolutions,
+    is_direct: bool,
 }
 
 /// A direct solver with the matrix in its form.
@@ -87,6 +95,7 @@ impl IterativeSolver {
             fingerprints: Fingerprints::default(),
             set_up: None,
             earlier: EarlierSolutions::default(),
+            marked: Marked::default(),
             iterations: 0,
             direct: None,
         };
@@ -131,13 +140,23 @@ impl IterativeSolver {
         self.set_up.as_ref().map_or(0, |set_up| set_up.preconditioner.n_bytes())
     }
 
-    /// What it keeps from system to system; `matrix` is one of them.
+    /// Marks what it keeps at present as its memory, which may be asked for later.
+    pub fn mark(&mut self) {
+        self.marked = Marked { earlier: self.earlier.clone(), is_direct: self.is_direct() };
+        if let Some(direct) = &mut self.direct {
+            direct.solver.mark();
+        }
+    }
+
+    /// What it kept from system to system when that was marked; `matrix` is one of them.
     #[must_use]
     pub fn memory(&self, matrix: &SaddleMatrix) -> SolverMemory {
-        let direct = self.direct.as_ref().map(|direct| direct.solver.memory());
+        let Marked { earlier, is_direct } = &self.marked;
+        let direct = self.direct.as_ref().filter(|_| *is_direct);
+        let direct = direct.map(|direct| direct.solver.memory());
         SolverMemory {
-            solutions: self.earlier.iter().map(|x| matrix.numbering().values(x)).collect(),
-            is_direct: direct.is_some(),
+            solutions: earlier.iter().map(|x| matrix.numbering().values(x)).collect(),
+            is_direct: *is_direct,
             ..direct.unwrap_or_default()
         }
     }
@@ -165,6 +184,7 @@ impl IterativeSolver {
             solver.recall(&matrix.shared_pattern(), memory)?;
             self.direct = Some(Box::new(Direct { solver, matrix }));
         }
+        self.mark();
         Ok(())
     }
 
