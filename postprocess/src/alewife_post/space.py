@@ -226,17 +226,31 @@ def _grid(field: Field, quantity: str):  # noqa: ANN202  (loads VTK)
 
     grid = pyvista.UnstructuredGrid({QUADRATIC_TETRAHEDRON: field.cells}, field.nodes)
     grid.point_data["velocity"] = field.velocity
+    grid.point_data["values"] = nodal_values(field, quantity)
+    return grid
+
+
+def nodal_values(field: Field, quantity: str) -> Array:
+    """Values of a quantity at the nodes, `(n_nodes,)`; of the vorticity its magnitude."""
     match quantity:
         case "speed":
-            values = speed(field.velocity)
+            return speed(field.velocity)
         case "vorticity":
-            values = np.linalg.norm(field.vorticity, axis=1)
+            return speed(field.vorticity)
         case "pressure":
-            values = field.pressure
+            return field.pressure
         case _:
             raise ValueError(f"{quantity} is not drawn in space: speed, pressure or vorticity")
-    grid.point_data["values"] = values
-    return grid
+
+
+def outer_surface(field: Field):  # noqa: ANN201  (loads VTK)
+    """The outer part of the surface of the fluid: the sides of its domain."""
+    grid = _grid(field, "speed")
+    surface = grid.extract_surface(nonlinear_subdivision=2, algorithm="dataset_surface")
+    surface = surface.connectivity("all")
+    cells = surface.faces.reshape(-1, 4)[:, 1:]
+    kept = np.flatnonzero(_is_on_largest_part(surface)[cells[:, 0]])
+    return surface.extract_cells(kept).extract_surface(algorithm="dataset_surface")
 
 
 def _plane(run: Run, plane: str | None, middle: Array) -> tuple[int, float]:

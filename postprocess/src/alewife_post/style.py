@@ -19,6 +19,13 @@ STREAMLINE = "#ffffff"
 STREAMLINE_ON_LIGHT = "#30363d"
 SERIES = ("#1f5f99", "#3f8f5f", "#8a5a9e", "#b08900", "#4f8a8b")
 REFERENCE = "#c8553d"
+ROD = "#7b8794"
+TRAIL = "#f28e2b"
+ARROW = "#e4572e"
+ARROW_IN_BODY = "#ffffff"
+
+SOLID = {"ambient": 0.35, "diffuse": 0.7, "specular": 0.15}
+"""How surfaces in space take light."""
 
 DPI = 200
 LARGEST = (7.2, 5.2)
@@ -72,6 +79,22 @@ def label(quantity: str, units: str) -> str:
     return f"{look.label} ({look.unit})" if units.upper() == "SI" else look.label
 
 
+def rgb(colour: str) -> Array:
+    """A colour as three numbers up to 255."""
+    return np.round(255 * np.array(matplotlib.colors.to_rgb(colour))).astype(np.uint8)
+
+
+def round_length(length: float) -> float:
+    """The largest of 1, 2, 5, 10, ... that is not longer."""
+    ten = 10.0 ** np.floor(np.log10(length))
+    return float(ten * max(step for step in (1.0, 2.0, 5.0) if step * ten <= length * (1 + 1e-9)))
+
+
+def length_text(length: float, units: str) -> str:
+    """A length with its unit, if it is known."""
+    return f"{length:g} m" if units.upper() == "SI" else f"{length:g}"
+
+
 def length_label(name: str, units: str) -> str:
     """Label of a coordinate axis."""
     return f"{name} (m)" if units.upper() == "SI" else name
@@ -82,14 +105,30 @@ def time_text(time: float, units: str) -> str:
     return f"t = {time:.4g} s" if units.upper() == "SI" else f"t = {time:.4g}"
 
 
-def colours(quantity: str, values: Array) -> tuple[str, Limits]:
-    """Colour map and limits for values `(n,)`; a few extreme values may lie outside the limits."""
+TAIL = {"speed": 0.1, "pressure": 0.3, "vorticity": 0.5}
+"""Per cent of the area whose values may lie beyond a limit, on each side."""
+
+
+def percentile(values: Array, share: Array, wanted: float) -> float:
+    """The value `wanted` per cent of the area lies below; each value holds a share of it."""
+    order = np.argsort(values)
+    # A value stands in the middle of its share.
+    below = np.cumsum(share[order]) - 0.5 * share[order]
+    return float(np.interp(wanted / 100.0 * share.sum(), below, values[order]))
+
+
+def colours(quantity: str, values: Array, share: Array | None = None) -> tuple[str, Limits]:
+    """Colour map and limits for values `(n,)` that hold shares `(n,)` of the area.
+
+    A few extreme values may lie outside the limits: cells crowd at bodies and in gaps, where values
+    are extreme, and hold little of the area.
+    """
     look = LOOKS[quantity]
+    share = np.ones(len(values)) if share is None else share
+    tail = TAIL[quantity]
+    low, high = (percentile(values, share, wanted) for wanted in (tail, 100.0 - tail))
     if quantity == "speed":
-        return look.one_sided, (0.0, float(values.max()) or 1.0)
-    # Cells, and so nodes, crowd at bodies, where the vorticity is far larger than in a wake.
-    share = 3.0 if quantity == "vorticity" else 0.2
-    low, high = (float(limit) for limit in np.percentile(values, [share, 100.0 - share]))
+        return look.one_sided, (0.0, high or 1.0)
     largest = max(abs(low), abs(high)) or 1.0
     if quantity == "vorticity" or min(-low, high) > 0.2 * largest:
         return look.two_sided, (-largest, largest)

@@ -1,0 +1,404 @@
+"""Films of runs: which frames, one view and one scale of colours for all, and what each shows."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from matplotlib.ticker import FixedFormatter, FixedLocator, MaxNLocator
+
+from alewife_post import bodies, drawing, movie, style
+from alewife_post.elements import mirrored, shares
+from alewife_post.figure import colour_bar
+from alewife_post.periodic import joined
+from alewife_post.read import Field, Run, read_field
+from alewife_post.snapshot import (
+    Lines,
+    Look,
+    Painter,
+    View,
+    chosen_painter,
+    default_view,
+    nodal_values,
+    paint,
+    paint_bodies,
+    prepared,
+    whole_view,
+)
+
+Array = np.ndarray
+
+QUANTITIES = ("speed", "pressure", "vorticity", "mesh", "bodies")
+FEW_FIELDS = 5
+"""Runs with fewer field files are shown by their bodies alone, if they move."""
+DPI = 100
+MOST_FRAMES = 300
+SAMPLES = 20_000
+"""Values kept of each frame for the limits of colours."""
+
+
+@dataclass(frozen=True)
+class Request:
+    """What a film is to show."""
+
+    quantity: str | None = None
+    """One of `QUANTITIES`; what suits the run if absent."""
+    follow: str | None = None
+    """Body or swimmer the view moves with."""
+    view: View | None = None
+    """Relative to the followed body, if there is one."""
+    window: tuple[float, float] | None = None
+    """First and last time."""
+    frames: int = MOST_FRAMES
+    """At most so many."""
+    fps: float | None = None
+    size: tuple[int, int] = (960, 720)
+    lines: Lines = "none"
+    trails: bool = True
+    mirror: bool = True
+    painter: Painter = "auto"
+    plane: str | None = None
+    """In space: plane of a slice, as `z=0.5`."""
+    surface: bool = False
+    """In space: pressure, or another quantity, on the bodies, and no slice."""
+    camera: tuple[float, float] = (-50.0, 20.0)
+
+
+@dataclass(frozen=True)
+class Moment:
+    """One frame: a time, and the field file it shows, if any."""
+
+    time: float
+    path: Path | None
+
+
+def film(run: Run, out: Path, request: Request, tell: Callable[[str], None] = print) -> int:
+    """Write a film of a run, finished or under way; returns the number of frames."""
+    movie.check(out)
+    width, height = request.size
+    if width % 2 or height % 2 or min(width, height) < 120:
+        raise ValueError(f"{width} x {height}: sides of a film are even, and at least 120 pixels")
+    if request.fps is not None and not 0.1 <= request.fps <= 100:
+        raise ValueError(f"{request.fps:g} frames a second: between 0.1 and 100 can be played")
+    if request.frames < 1:
+        raise ValueError("a film has one frame at least")
+    quantity = chosen_quantity(run, request, tell)
+    request = replace(request, quantity=quantity, follow=_followed(run, request))
+    moments = chosen_moments(run, request)
+    fps = request.fps or min(25.0, max(4.0, len(moments) / 5.0))
+    style.use()
+    if run.is_spatial:
+        from alewife_post import stage
+
+        images = stage.images(run, moments, request)
+    else:
+        images = _planar_images(run, moments, request)
+    n = movie.write(out, images, fps)
+    tell(
+        f"{out}: {n} frames of {quantity}, t = {moments[0].time:.4g} to {moments[-1].time:.4g}, "
+        f"{fps:g} a second"
+    )
+    return n
+
+
+# ---- What is shown, and when ---------------------------------------------------------------------
+
+
+def chosen_quantity(run: Run, request: Request, tell: Callable[[str], None]) -> str:
+    """The quantity asked for, if the run has it, or the one that suits the run."""
+    n = len(run.fields)
+    has_motion = any(len(history.time) > 1 for history in run.bodies.values())
+    if request.quantity is None:
+        if request.surface and n:
+            return "pressure"
+        if n < FEW_FIELDS and has_motion and n < len(next(iter(run.bodies.values())).time):
+            tell(
+                f"{n} field {'file' if n == 1 else 'files'} only: bodies are shown without the flow; "
+                "output.fields of the case, such as { time = 0.1 }, asks for more"
+            )
+            return "bodies"
+        if n == 0:
+            raise FileNotFoundError(
+                f"{run.path} has neither field files nor bodies that move: nothing to film"
+            )
+        return "speed"
+    if request.quantity not in QUANTITIES:
+        raise ValueError(f"no quantity {request.quantity}; there are {', '.join(QUANTITIES)}")
+    if request.quantity == "bodies":
+        if not has_motion:
+            known = "speed, pressure, vorticity" if n else "none"
+            raise ValueError(f"no body moves in {run.path}; quantities of its fields: {known}")
+    elif n == 0:
+        instead = "; bodies can be shown: --quantity bodies" if has_motion else ""
+        raise FileNotFoundError(
+            f"{run.path} has no field files, which {request.quantity} needs: "
+            f"see output.fields of its case{instead}"
+        )
+    return request.quantity
+
+
+def _followed(run: Run, request: Request) -> str | None:
+    """Who is followed: the one asked for, or the one the run's own frame goes with."""
+    follow = request.follow
+    if follow == "none":
+        return None
+    groups = bodies.groups(run)
+    if follow is None:
+        frame = run.case.get("frame")
+        name = frame if isinstance(frame, str) else None
+        return name if name in groups or name in run.bodies else None
+    if follow not in groups and follow not in run.bodies:
+        known = ", ".join(dict.fromkeys([*groups, *run.bodies])) or "none"
+        raise KeyError(f"no body or swimmer {follow} to follow; there are {known}")
+    return follow
+
+
+def chosen_moments(run: Run, request: Request) -> list[Moment]:
+    """Times evenly over the run, or the window, at each the nearest field or message.
+
+    Nothing is interpolated: there are at most as many frames as fields or messages, and each frame
+    has the time of its own.
+    """
+    if request.quantity == "bodies":
+        history = max(run.bodies.values(), key=lambda one: len(one.time))
+        known = [Moment(float(time), None) for time in history.time]
+    else:
+        known = [Moment(frame.time, frame.path) for frame in run.fields]
+    first, last = known[0].time, known[-1].time
+    if request.window is not None:
+        start, end = request.window
+        known = [one for one in known if start - 1e-9 <= one.time <= end + 1e-9]
+        if not known:
+            raise ValueError(
+                f"nothing between t = {start:g} and {end:g}: there is t = {first:g} to {last:g}"
+            )
+    times = np.array([one.time for one in known])
+    n = min(request.frames, len(known))
+    wanted = np.linspace(times[0], times[-1], n)
+    return [known[int(np.argmin(np.abs(times - time)))] for time in wanted]
+
+
+def offsets(run: Run, follow: str | None, moments: list[Moment]) -> Array:
+    """Where the view moves to at each frame, `(n, 3)`: the middle of what is followed."""
+    if follow is None:
+        return np.zeros((len(moments), 3))
+    members = bodies.groups(run).get(follow, [follow])
+    places = [bodies.poses(run, moment.time) for moment in moments]
+    return np.array([np.mean([at[name][0] for name in members], axis=0) for at in places])
+
+
+def field_at(moment: Moment) -> Field | None:
+    """The flow a frame shows."""
+    return None if moment.path is None else read_field(moment.path)
+
+
+def limits_of(quantity: str, samples: list[tuple[Array, Array]]) -> tuple[str, style.Limits]:
+    """Colour map and limits over all frames, by the area each value holds."""
+    values = np.concatenate([one for one, _ in samples])
+    share = np.concatenate([one / one.sum() for _, one in samples])
+    return style.colours(quantity, values, share)
+
+
+def thinned(values: Array, share: Array) -> tuple[Array, Array]:
+    """Some of many values, evenly."""
+    step = max(1, len(values) // SAMPLES)
+    return values[::step], share[::step]
+
+
+def group_colours(run: Run) -> dict[str, str]:
+    """A colour for each body: that of its swimmer."""
+    found = {}
+    for nth, members in enumerate(bodies.groups(run).values()):
+        found |= dict.fromkeys(members, style.SERIES[nth % len(style.SERIES)])
+    return found
+
+
+# ---- Around the picture --------------------------------------------------------------------------
+
+
+class Page:
+    """A figure of fixed size whose axes are drawn anew for each frame."""
+
+    def __init__(self, request: Request, title: str, aspect: float | None, bar: tuple | None) -> None:
+        """`aspect` is width over height of the picture; `bar` is colour map, limits and label."""
+        width, height = (pixels / DPI for pixels in request.size)
+        self.figure = Figure(figsize=(width, height), dpi=DPI)
+        self.canvas = FigureCanvasAgg(self.figure)
+        left, right = (0.62, 0.15) if aspect else (0.05, 0.05)
+        bottom, top = (0.5 if aspect else 0.05), 0.38
+        is_wide = bool(aspect) and aspect > 1.5 * width / height
+        room = (0.0, 0.55) if is_wide else (0.85, 0.0)
+        if bar is None:
+            room = (0.0, 0.0)
+        box = np.array([left, bottom + room[1], width - left - right - room[0], 0.0])
+        box[3] = height - top - box[1]
+        self.box = box
+        if aspect:
+            # As large as the room allows, in the middle of it.
+            fit = np.array([min(box[2], box[3] * aspect), min(box[3], box[2] / aspect)])
+            box = np.array([*(box[:2] + 0.5 * (box[2:] - fit)), *fit])
+        scale = np.array([width, height, width, height])
+        self.axes: Axes = self.figure.add_axes(box / scale)
+        self.pixels = tuple(int(side) for side in np.round(box[2:] * DPI))
+        if bar is not None:
+            self._add_bar(box, scale, is_wide, bar)
+        self._add_title(title, width)
+        self.stamp = self.axes.text(
+            0.012, 0.985, "", transform=self.axes.transAxes, ha="left", va="top", zorder=20
+        )
+        self.stamp.set_bbox({"facecolor": "white", "alpha": 0.8, "lw": 0, "boxstyle": "round"})
+
+    def _add_bar(self, box: Array, scale: Array, is_wide: bool, bar: tuple) -> None:
+        if is_wide:
+            place = [box[0] + 0.2 * box[2], box[1] - 0.62, 0.6 * box[2], 0.1]
+        else:
+            place = [box[0] + box[2] + 0.12, box[1] + 0.1 * box[3], 0.13, 0.8 * box[3]]
+        colour_map, limits, values, label = bar
+        axes = self.figure.add_axes(np.array(place) / scale)
+        colour_bar(self.axes, values, colour_map, limits, cax=axes).set_label(label)
+
+    def _add_title(self, title: str, width: float) -> None:
+        text = self.figure.text(0.5, 0.985, title, ha="center", va="top", fontsize=10.0)
+        renderer = self.canvas.get_renderer()
+        wide = text.get_window_extent(renderer).width / DPI
+        text.set_fontsize(max(6.0, 10.0 * min(1.0, 0.96 * width / wide)))
+
+    def clear(self) -> None:
+        """Remove what the last frame has drawn."""
+        for found in (
+            self.axes.images,
+            self.axes.collections,
+            self.axes.patches,
+            self.axes.lines,
+        ):
+            for artist in list(found):
+                artist.remove()
+
+    def clear_images(self) -> None:
+        """Remove the images alone."""
+        for artist in list(self.axes.images):
+            artist.remove()
+
+    def image(self, stamp: str) -> Array:
+        """The pixels `(height, width, 3)`."""
+        self.stamp.set_text(stamp)
+        self.canvas.draw()
+        return np.asarray(self.canvas.buffer_rgba())[..., :3].copy()
+
+
+# ---- In the plane --------------------------------------------------------------------------------
+
+
+def _planar_images(run: Run, moments: list[Moment], request: Request) -> Iterator[Array]:
+    painter = chosen_painter(request.painter)
+    units = run.case.get("units", "")
+    moved = offsets(run, request.follow, moments)[:, :2]
+    if run.is_axisymmetric:
+        moved[:, 1] = 0.0
+    view = np.array(request.view or _planar_view(run, moments, request, moved))
+
+    def seen(nth: int) -> View:
+        return tuple(view + np.repeat(moved[nth], 2))
+
+    bar, look = None, None
+    if request.quantity != "bodies":
+        colour_map, limits = ("viridis", (0.0, 1.0))
+        if request.quantity != "mesh":
+            samples = []
+            for nth, moment in enumerate(moments):
+                flow = joined(prepared(run, field_at(moment), seen(nth), mirror=request.mirror))
+                values = nodal_values(flow, request.quantity)
+                samples.append(thinned(*shares(flow, values, seen(nth))))
+            colour_map, limits = limits_of(request.quantity, samples)
+            every = np.concatenate([values for values, _ in samples])
+            bar = (colour_map, limits, every, style.label(request.quantity, units))
+        is_mirrored = run.is_axisymmetric and request.mirror
+        look = Look(
+            request.quantity, colour_map, limits, request.lines, painter, 0, False, is_mirrored
+        )
+    page = Page(request, run.case["title"], (view[1] - view[0]) / (view[3] - view[2]), bar)
+    if look is not None:
+        look = replace(look, width=page.pixels[0])
+    _label(page, run, request)
+    for nth, moment in enumerate(moments):
+        page.clear()
+        _paint_moment(page.axes, run, moment, seen(nth), (request, look))
+        _place(page.axes, view, moved[nth])
+        yield page.image(style.time_text(moment.time, units))
+
+
+def _paint_moment(
+    axes: Axes, run: Run, moment: Moment, view: View, how: tuple[Request, Look | None]
+) -> None:
+    request, look = how
+    field = field_at(moment)
+    if field is not None and run.is_axisymmetric and request.mirror:
+        whole = mirrored(field)
+    else:
+        whole = field
+    colours = group_colours(run) if look is None else {}
+    paint_bodies(
+        axes,
+        run,
+        view,
+        moment.time,
+        field=whole,
+        colour=lambda name: colours.get(name, style.BODY),
+        trails=request.trails,
+    )
+    if field is None:
+        drawing.draw_domain(axes, run.case)
+    else:
+        paint(axes, prepared(run, field, view, mirror=request.mirror), view, look)
+
+
+def _planar_view(run: Run, moments: list[Moment], request: Request, moved: Array) -> View:
+    """One view for all frames, relative to what is followed."""
+    times = np.array([moment.time for moment in moments])
+    field = field_at(moments[0])
+    if field is None:
+        whole = drawing.domain_view(run.case)
+        if whole is None:
+            around = bodies.surroundings(run, times)
+            low, high = around[0][:2], around[1][:2]
+            reach = 0.5 * (high - low).max()
+            whole = (low[0] - reach, high[0] + reach, low[1] - reach, high[1] + reach)
+    else:
+        whole = whole_view(run, field, mirror=request.mirror)
+    if request.follow is None:
+        return default_view(run, whole, times)
+    # What is seen around the followed one at the first frame, and no more than the domain holds.
+    first = default_view(run, whole, times[:1])
+    return tuple(np.array(first) - np.repeat(moved[0], 2))
+
+
+def _label(page: Page, run: Run, request: Request) -> None:
+    units = run.case.get("units", "")
+    after = f" - {request.follow}" if request.follow else ""
+    across = "r" if run.is_axisymmetric else "y"
+    page.axes.set_xlabel(style.length_label("x", units) + after)
+    page.axes.set_ylabel(
+        style.length_label(across, units) + ("" if across == "r" else after)
+    )
+    page.axes.set_facecolor("white")
+
+
+def _place(axes: Axes, view: Array, moved: Array) -> None:
+    """Limits and marks of the axes, which stand still however the view moves."""
+    axes.set_xlim(*(view[:2] + moved[0]))
+    axes.set_ylim(*(view[2:] + moved[1]))
+    pixels = axes.get_window_extent()
+    for axis, ends, shift, length in (
+        (axes.xaxis, view[:2], moved[0], pixels.width),
+        (axes.yaxis, view[2:], moved[1], pixels.height),
+    ):
+        locator = MaxNLocator(int(np.clip(length / 70, 2, 9)), steps=[1, 2, 2.5, 5, 10])
+        ticks = locator.tick_values(*ends)
+        ticks = ticks[(ticks >= ends[0]) & (ticks <= ends[1])]
+        axis.set_major_locator(FixedLocator(ticks + shift))
+        axis.set_major_formatter(FixedFormatter([f"{tick:.6g}" for tick in ticks]))
