@@ -38,6 +38,9 @@ FEW_FIELDS = 5
 """Runs with fewer field files are shown by their bodies alone, if they move."""
 DPI = 100
 MOST_FRAMES = 300
+FOLLOWED = 4.0
+"""Half the height of a view over the reach of the body it follows."""
+SIZE = (960, 720)
 SAMPLES = 20_000
 """Values kept of each frame for the limits of colours."""
 
@@ -50,6 +53,8 @@ class Request:
     """One of `QUANTITIES`; what suits the run if absent."""
     follow: str | None = None
     """Body or swimmer the view moves with."""
+    is_asked: bool = False
+    """Whether it was asked to follow, rather than the run's own frame moving."""
     view: View | None = None
     """Relative to the followed body, if there is one."""
     window: tuple[float, float] | None = None
@@ -57,7 +62,8 @@ class Request:
     frames: int = MOST_FRAMES
     """At most so many."""
     fps: float | None = None
-    size: tuple[int, int] = (960, 720)
+    size: tuple[int, int] | None = None
+    """Pixels from left to right and from top to bottom; what suits the view if absent."""
     lines: Lines = "none"
     trails: bool = True
     mirror: bool = True
@@ -66,7 +72,8 @@ class Request:
     """In space: plane of a slice, as `z=0.5`."""
     surface: bool = False
     """In space: pressure, or another quantity, on the bodies, and no slice."""
-    camera: tuple[float, float] = (-50.0, 20.0)
+    camera: tuple[float, float] | None = None
+    """In space: degrees about z and above the horizon."""
 
 
 @dataclass(frozen=True)
@@ -80,7 +87,7 @@ class Moment:
 def film(run: Run, out: Path, request: Request, tell: Callable[[str], None] = print) -> int:
     """Write a film of a run, finished or under way; returns the number of frames."""
     movie.check(out)
-    width, height = request.size
+    width, height = request.size or SIZE
     if width % 2 or height % 2 or min(width, height) < 120:
         raise ValueError(f"{width} x {height}: sides of a film are even, and at least 120 pixels")
     if request.fps is not None and not 0.1 <= request.fps <= 100:
@@ -88,7 +95,10 @@ def film(run: Run, out: Path, request: Request, tell: Callable[[str], None] = pr
     if request.frames < 1:
         raise ValueError("a film has one frame at least")
     quantity = chosen_quantity(run, request, tell)
-    request = replace(request, quantity=quantity, follow=_followed(run, request))
+    is_asked = request.follow is not None
+    request = replace(
+        request, quantity=quantity, follow=_followed(run, request), is_asked=is_asked
+    )
     moments = chosen_moments(run, request)
     fps = request.fps or min(25.0, max(4.0, len(moments) / 5.0))
     style.use()
@@ -220,24 +230,38 @@ def group_colours(run: Run) -> dict[str, str]:
 
 # ---- Around the picture --------------------------------------------------------------------------
 
+MARGINS = (0.65, 0.15, 0.5, 0.38)
+"""Left, right, below and above a picture in the plane (inches)."""
+WIDE = 2.0
+"""Width over height from which on the bar of colours lies below."""
+
+
+def fitting(aspect: float | None, has_bar: bool) -> tuple[int, int]:
+    """Even pixels of a frame around a picture of some width over height."""
+    if not aspect:
+        return SIZE
+    left, right, bottom, top = MARGINS
+    beside, below = ((0.0, 0.6) if aspect > WIDE else (0.85, 0.0)) if has_bar else (0.0, 0.0)
+    room = np.array([left + right + beside, bottom + top + below])
+    across = min(SIZE[0] / DPI - room[0], (SIZE[1] / DPI - room[1]) * aspect)
+    inches = np.array([across, across / aspect]) + room
+    width, height = (2 * round(0.5 * DPI * side) for side in np.maximum(inches, 2.4))
+    return width, height
+
 
 class Page:
     """A figure of fixed size whose axes are drawn anew for each frame."""
 
     def __init__(self, request: Request, title: str, aspect: float | None, bar: tuple | None) -> None:
         """`aspect` is width over height of the picture; `bar` is colour map, limits and label."""
-        width, height = (pixels / DPI for pixels in request.size)
+        width, height = (pixels / DPI for pixels in request.size or fitting(aspect, bar is not None))
         self.figure = Figure(figsize=(width, height), dpi=DPI)
         self.canvas = FigureCanvasAgg(self.figure)
-        left, right = (0.62, 0.15) if aspect else (0.05, 0.05)
-        bottom, top = (0.5 if aspect else 0.05), 0.38
-        is_wide = bool(aspect) and aspect > 1.5 * width / height
-        room = (0.0, 0.55) if is_wide else (0.85, 0.0)
-        if bar is None:
-            room = (0.0, 0.0)
+        left, right, bottom, top = MARGINS if aspect else (0.05, 0.05, 0.05, MARGINS[3])
+        is_wide = bool(aspect) and aspect > WIDE
+        room = np.zeros(2) if bar is None else np.array([0.0, 0.6] if is_wide else [0.85, 0.0])
         box = np.array([left, bottom + room[1], width - left - right - room[0], 0.0])
         box[3] = height - top - box[1]
-        self.box = box
         if aspect:
             # As large as the room allows, in the middle of it.
             fit = np.array([min(box[2], box[3] * aspect), min(box[3], box[2] / aspect)])
@@ -372,9 +396,22 @@ def _planar_view(run: Run, moments: list[Moment], request: Request, moved: Array
         whole = whole_view(run, field, mirror=request.mirror)
     if request.follow is None:
         return default_view(run, whole, times)
-    # What is seen around the followed one at the first frame, and no more than the domain holds.
+    if request.is_asked:
+        return _followed_view(run, moments, request, np.array(whole))
+    # The view goes with the frame of the run: all bodies as they are around it at first.
     first = default_view(run, whole, times[:1])
     return tuple(np.array(first) - np.repeat(moved[0], 2))
+
+
+def _followed_view(run: Run, moments: list[Moment], request: Request, whole: Array) -> View:
+    """The surroundings of a body, no larger than the domain."""
+    members = bodies.groups(run).get(request.follow, [request.follow])
+    placed = bodies.poses(run, moments[0].time)
+    corners = np.array([bodies.corners(run, name, placed[name]) for name in members])[..., :2]
+    middle = np.mean([placed[name][0][:2] for name in members], axis=0)
+    around = max(np.abs(corners - middle).max(), 1e-300)
+    reach = np.minimum(FOLLOWED * around * np.array([1.33, 1.0]), 0.5 * (whole[1::2] - whole[::2]))
+    return (-reach[0], reach[0], -reach[1], reach[1])
 
 
 def _label(page: Page, run: Run, request: Request) -> None:

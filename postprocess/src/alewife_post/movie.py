@@ -75,6 +75,10 @@ def _write_gif(out: Path, images: Iterator[Array], fps: float) -> int:
     first = Image.fromarray(next(images))
     # Colours of the first frame for all: those of each frame would flicker.
     palette = first.quantize(255, method=Image.Quantize.MEDIANCUT)
+    # White stays white: colours of a palette are means of many.
+    table = np.array(palette.getpalette(), dtype=int).reshape(-1, 3)
+    table[np.argmax(table.sum(axis=1))] = 255
+    palette.putpalette(table.ravel().tolist())
     n = 1
 
     def others() -> Iterator[Image.Image]:
@@ -85,7 +89,7 @@ def _write_gif(out: Path, images: Iterator[Array], fps: float) -> int:
 
     # Viewers know hundredths of a second, and slow down what is faster than fifty frames a second.
     hundredths = max(2, round(100.0 / fps))
-    palette.save(
+    first.quantize(palette=palette, dither=Image.Dither.NONE).save(
         out,
         format="GIF",
         save_all=True,

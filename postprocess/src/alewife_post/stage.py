@@ -12,7 +12,7 @@ from alewife_post import bodies, planes, scene, space, style
 from alewife_post.film import Moment, Page, Request, field_at, group_colours, limits_of, offsets
 from alewife_post.film import thinned as thinned_samples
 from alewife_post.periodic import images as shifts_into
-from alewife_post.periodic import trail
+from alewife_post.periodic import periods, trail
 from alewife_post.read import Field, Run, Shape
 
 if TYPE_CHECKING:
@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 
 Array = np.ndarray
 
+CAMERA = (-50.0, 20.0)
+"""Degrees about z and above the horizon."""
 IN_SPACE = ("speed", "pressure", "vorticity", "bodies")
 SLICE_OPACITY = 0.8
 MARGIN = 0.7
@@ -66,8 +68,12 @@ def _images(run: Run, moments: list[Moment], request: Request) -> Iterator[Array
     import pyvista
 
     moved = offsets(run, request.follow, moments)
-    box, whole = _seen(run, moments, request, moved)
-    parts = _flow(run, moments, request, (box, moved))
+    seen = _seen(run, moments, request, moved)
+    cut, cuts = None, None
+    if request.quantity != "bodies" and not request.surface:
+        cut = _cut(run, moments, request, seen, moved)
+        cuts = [cut.at(offset) for offset in moved]
+    parts = _flow(run, moments, request, cuts)
     units = run.case.get("units", "")
     bar, look = None, {}
     if parts is not None:
@@ -78,12 +84,16 @@ def _images(run: Run, moments: list[Moment], request: Request) -> Iterator[Array
         bar = (colour_map, limits, every, style.label(request.quantity, units))
         look = {"scalars": "values", "cmap": colour_map, "clim": limits, "show_scalar_bar": False}
     page = Page(request, run.case["title"], None, bar)
-    camera = _camera(request.camera, box, page.pixels[0] / page.pixels[1])
+    corners = _corners(seen.box)
+    if cut is not None and not seen.is_whole:
+        corners = np.concatenate([cut.corners(), seen.points])
+    direction = _direction(run, request, cut and cut.plane)
+    camera = _camera(direction, corners, page.pixels[0] / page.pixels[1])
     _legend(page, camera, units)
     plotter = pyvista.Plotter(off_screen=True, window_size=page.pixels)
     plotter.set_background("white")
     plotter.enable_anti_aliasing("ssaa")
-    walls = _walls(run, whole)
+    walls = _walls(run, moments, is_whole=seen.is_whole)
     cast = Cast(run)
     try:
         for nth, moment in enumerate(moments):
@@ -135,9 +145,9 @@ class Cast:
         moved = self._inside(placed)
         if not request.surface or request.quantity == "bodies":
             self._add_bodies(plotter, moved, moment.time, is_plain=is_plain)
-        sizes = [bodies.radius(self.run, name) for name in placed]
+        thickness = self._thickness(list(placed), moment.time)
         for points in bodies.rods(self.run, placed, moment.time):
-            rod = _line(points).tube(radius=0.12 * min(sizes), n_sides=12)
+            rod = _line(points).tube(radius=thickness, n_sides=12)
             plotter.add_mesh(rod, color=style.ROD, render=False, **style.SOLID)
         for arrow in bodies.headings(self.run, placed):
             length = float(np.linalg.norm(arrow.vector))
@@ -149,6 +159,13 @@ class Cast:
             )
         if request.trails:
             self._add_trails(plotter, placed, moment.time)
+
+    def _thickness(self, names: list[str], time: float) -> float:
+        """Radius of what joins bodies: thin beside them, and no thicker than thin ones."""
+        sizes = [bodies.radius(self.run, name) for name in names]
+        seen = [bodies.shape(self.run, name, time) for name in names]
+        thin = [solid.size.min() / 4 for one in seen if one for solid in one.solids]
+        return min([0.12 * min(sizes), *thin])
 
     def _inside(self, placed: dict[str, bodies.Pose]) -> list[tuple[str, Array, Array]]:
         """Name, centre and rotation of each body, with its images where it crosses a side."""
@@ -207,52 +224,91 @@ class Cast:
 # ---- The flow ------------------------------------------------------------------------------------
 
 
+@dataclass(frozen=True)
+class Cut:
+    """A slice that a film shows, less where the view has moved to."""
+
+    plane: planes.Plane
+    low: Array
+    """Least coordinates in the plane, `(2,)`."""
+    high: Array
+    moves: bool
+    """Whether it goes with the view."""
+
+    def at(self, offset: Array) -> Cut:
+        """The same where the view has moved to."""
+        if self.moves:
+            return replace(self, plane=replace(self.plane, origin=self.plane.origin + offset))
+        shift = self.plane.across @ offset
+        return replace(self, low=self.low + shift, high=self.high + shift)
+
+    def corners(self) -> Array:
+        """`(4, 3)`."""
+        pairs = [(x, y) for x in (self.low[0], self.high[0]) for y in (self.low[1], self.high[1])]
+        return self.plane.points(np.array(pairs))
+
+
+def _cut(run: Run, moments: list[Moment], request: Request, seen: Seen, moved: Array) -> Cut:
+    """Through the bodies if no plane is asked for, and there as far as the bodies' surroundings."""
+    times = np.array([moment.time for moment in moments])
+    moves = request.plane is None and request.follow is not None
+    if request.plane is not None:
+        plane = planes.parsed(request.plane)
+    else:
+        plane = planes.through_bodies(run, times[:1] if moves else times, seen.box.mean(axis=0))
+    if moves:
+        plane = replace(plane, origin=plane.origin - moved[0])
+    box = plane.coordinates(_corners(seen.box))
+    low, high = box.min(axis=0), box.max(axis=0)
+    if not seen.is_whole:
+        near = plane.coordinates(seen.points)
+        low = np.maximum(low, near.min(axis=0) - seen.margin)
+        high = np.minimum(high, near.max(axis=0) + seen.margin)
+    return Cut(plane, low, high, moves)
+
+
 def _flow(
-    run: Run, moments: list[Moment], request: Request, seen: tuple[Array, Array]
+    run: Run, moments: list[Moment], request: Request, cuts: list[Cut] | None
 ) -> list[pyvista.PolyData] | None:
     """A slice or the surfaces of bodies with nodal `values`, one a moment."""
     if request.quantity == "bodies":
         return None
-    box, moved = seen
-    if request.surface:
+    if cuts is None:
         return [
             space.bodies_surface(run, field_at(moment), request.quantity) for moment in moments
         ]
-    times = np.array([moment.time for moment in moments])
-    if request.plane is not None:
-        plane, moves = planes.parsed(request.plane), np.zeros_like(moved)
-    elif request.follow is not None:
-        # The plane goes with who is followed.
-        plane, moves = planes.through_bodies(run, times[:1], box.mean(axis=0)), moved - moved[0]
-    else:
-        plane, moves = planes.through_bodies(run, times, box.mean(axis=0)), np.zeros_like(moved)
-    found = []
-    for nth, moment in enumerate(moments):
-        own = replace(plane, origin=plane.origin + moves[nth])
-        found.append(slice_of(field_at(moment), own, request.quantity, box + moved[nth]))
+    found = [
+        slice_of(field_at(moment), cut, request.quantity)
+        for moment, cut in zip(moments, cuts, strict=True)
+    ]
     if not any(part.n_cells for part in found):
-        raise ValueError(f"the slice {plane.text} meets no fluid that is seen")
+        raise ValueError(f"the slice {cuts[0].plane.text} meets no fluid that is seen")
     return found
 
 
-def slice_of(field: Field, plane: planes.Plane, quantity: str, box: Array) -> pyvista.PolyData:
-    """The part of a plane within a box `(2, 3)`, with nodal `values`."""
+def slice_of(field: Field, cut: Cut, quantity: str) -> pyvista.PolyData:
+    """The part of a plane that is cut out, with nodal `values`."""
     import pyvista
 
+    plane = cut.plane
     height = (field.nodes - plane.origin) @ plane.normal
-    corners = height[field.cells]
-    near = (corners.min(axis=1) <= 0) & (corners.max(axis=1) >= 0)
-    places = field.nodes[field.cells]
-    near &= (places.max(axis=1) >= box[0]).all(axis=1) & (places.min(axis=1) <= box[1]).all(axis=1)
+    own = plane.coordinates(field.nodes)[field.cells]
+    heights = height[field.cells]
+    near = (heights.min(axis=1) <= 0) & (heights.max(axis=1) >= 0)
+    near &= (own.max(axis=1) >= cut.low).all(axis=1) & (own.min(axis=1) <= cut.high).all(axis=1)
+    if not near.any():
+        return pyvista.PolyData()
     pieces = field.cells[near][:, space.PIECES].reshape(-1, 4)
     grid = pyvista.UnstructuredGrid({space.TETRAHEDRON: pieces}, field.nodes)
     grid.point_data["values"] = space.nodal_values(field, quantity)
-    cut = grid.slice(normal=plane.normal, origin=plane.origin)
-    if cut.n_cells:
-        cut = cut.clip_box(box.T.ravel(), invert=False).extract_surface(
-            algorithm="dataset_surface"
-        )
-    return cut
+    found = grid.slice(normal=plane.normal, origin=plane.origin)
+    for along, (low, high) in zip(
+        plane.across, zip(cut.low, cut.high, strict=True), strict=True
+    ):
+        for end, outwards in ((low, -along), (high, along)):
+            if found.n_cells:
+                found = found.clip(normal=outwards, origin=plane.origin + end * along)
+    return found
 
 
 def _samples(part: pyvista.PolyData) -> tuple[Array, Array]:
@@ -268,16 +324,25 @@ def _samples(part: pyvista.PolyData) -> tuple[Array, Array]:
 # ---- What is seen, and from where ----------------------------------------------------------------
 
 
-def _seen(
-    run: Run, moments: list[Moment], request: Request, moved: Array
-) -> tuple[Array, Field | None]:
-    """Corners `(2, 3)` of the box that is seen, less where the view has moved to; the first field."""
-    field = field_at(moments[0])
-    if field is None and run.fields:
-        field = run.field(moments[0].time)
+@dataclass(frozen=True)
+class Seen:
+    """What a film has in view, less where the view has moved to."""
+
+    box: Array
+    """Corners `(2, 3)`."""
+    points: Array
+    """Corners of all bodies at all times, `(n, 3)`."""
+    is_whole: bool
+    """Whether that is all of the domain."""
+    margin: float
+    """Length shown around the bodies."""
+
+
+def _seen(run: Run, moments: list[Moment], request: Request, moved: Array) -> Seen:
     low, high = _domain_box(run.case)
-    if field is not None and not np.isfinite(low).all():
-        low, high = field.nodes.min(axis=0), field.nodes.max(axis=0)
+    if not np.isfinite(low).all() and run.fields:
+        nodes = run.field(moments[0].time).nodes
+        low, high = nodes.min(axis=0), nodes.max(axis=0)
     domain = np.array([low, high])
     members = bodies.groups(run).get(request.follow, [request.follow])
     corners = []
@@ -286,33 +351,69 @@ def _seen(
         for name, pose in bodies.poses(run, moments[nth].time).items():
             if request.follow is None or name in members:
                 corners.append(np.array(bodies.corners(run, name, pose)) - moved[nth])
-    if not corners:
-        return domain, field
+    if not corners or periods(run.case).any():
+        return Seen(domain, np.zeros((0, 3)), True, 0.0)
     found = np.array(corners)
     box = np.array([found[:, 0].min(axis=0), found[:, 1].max(axis=0)])
     extent = (box[1] - box[0]).max()
-    if request.follow is None and (domain[1] - domain[0]).max() < WHOLE * extent:
-        return domain, field
+    is_large = (domain[1] - domain[0]).max() >= WHOLE * extent
+    if request.follow is None and not is_large:
+        return Seen(domain, found.reshape(-1, 3), True, 0.0)
     share = 0.1 if request.surface or request.quantity == "bodies" else MARGIN
     if request.follow is not None:
         share = max(share, 1.0)
-    box = box + share * extent * np.array([[-1.0], [1.0]])
+    margin = share * extent
+    box = box + margin * np.array([[-1.0], [1.0]])
     if request.follow is None:
         box = np.array([np.maximum(box[0], domain[0]), np.minimum(box[1], domain[1])])
-    return box, field
+    return Seen(box, found.reshape(-1, 3), False, float(margin))
 
 
-def _camera(angles: tuple[float, float], box: Array, aspect: float) -> Camera:
-    """The camera that has a box `(2, 3)` in full view."""
-    towards, up = scene.direction(angles)
+def _direction(run: Run, request: Request, plane: planes.Plane | None) -> tuple[Array, Array]:
+    """Where the camera looks from, and what it sees upright.
+
+    Without a wish it has the gravity downwards and looks on to the slice, askew.
+    """
+    if request.camera is not None:
+        return scene.direction(request.camera)
+    up = np.array([0.0, 0.0, 1.0])
+    gravity = np.array(run.case.get("fluid", {}).get("gravity", [0.0, 0.0, 0.0]), dtype=float)
+    if np.linalg.norm(gravity) > 0:
+        up = -gravity / np.linalg.norm(gravity)
+    towards, _ = scene.direction(CAMERA)
+    # Turned as z is turned to the direction upwards, by way of the nearest axes.
+    if up[2] < 0.9:
+        side = np.eye(3)[int(np.argmin(np.abs(up)))]
+        first = np.cross(side, up)
+        first = first / np.linalg.norm(first)
+        towards = np.array([first, np.cross(up, first), up]).T @ towards
+    if plane is not None:
+        normal = plane.normal * (np.sign(plane.normal @ towards) or 1.0)
+        towards = 0.9 * normal + 0.6 * towards
+        towards = towards / np.linalg.norm(towards)
+    if abs(towards @ up) > 0.99:
+        up = np.eye(3)[int(np.argmin(np.abs(towards)))]
+    return towards, up
+
+
+def _camera(direction: tuple[Array, Array], corners: Array, aspect: float) -> Camera:
+    """The camera that has all corners `(n, 3)` in full view."""
+    towards, up = direction
     right = np.cross(up, towards)
     right = right / np.linalg.norm(right)
     up = np.cross(towards, right)
-    middle = box.mean(axis=0)
-    corners = np.array([[box[i, 0], box[j, 1], box[k, 2]] for i, j, k in np.ndindex(2, 2, 2)])
-    reach = np.abs((corners - middle) @ np.array([right, up]).T).max(axis=0)
+    across = np.array([right, up])
+    places = corners @ across.T
+    low, high = places.min(axis=0), places.max(axis=0)
+    depth = corners.mean(axis=0) @ towards
+    middle = 0.5 * (low + high) @ across + depth * towards
+    reach = 0.5 * (high - low)
     scale = 1.04 * max(reach[1], reach[0] / aspect)
     return Camera(towards, right, up, middle, float(scale))
+
+
+def _corners(box: Array) -> Array:
+    return np.array([[box[i, 0], box[j, 1], box[k, 2]] for i, j, k in np.ndindex(2, 2, 2)])
 
 
 def _legend(page: Page, camera: Camera, units: str) -> None:
@@ -358,7 +459,9 @@ def _domain_box(case: dict[str, Any]) -> tuple[Array, Array]:
     return np.full(3, -np.inf), np.full(3, np.inf)
 
 
-def _walls(run: Run, field: Field | None) -> list[tuple[pyvista.PolyData, dict[str, Any]]]:
+def _walls(
+    run: Run, moments: list[Moment], *, is_whole: bool
+) -> list[tuple[pyvista.PolyData, dict[str, Any]]]:
     """The sides of the domain: edges of a box, rims and wall of a tube or of a mesh."""
     import pyvista
 
@@ -387,9 +490,13 @@ def _walls(run: Run, field: Field | None) -> list[tuple[pyvista.PolyData, dict[s
                 non_manifold_edges=False,
             )
             return [(rims, lines), (tube, glass)]
-        case "mesh" if field is not None:
-            return [(space.outer_surface(field), glass)]
-    # A ball around everything is left out: it is seen from inside.
+        case "mesh" if run.fields:
+            return [(space.outer_surface(run.field(moments[0].time)), glass)]
+        case "sphere" if is_whole:
+            center, radius = domain.get("center", (0.0, 0.0, 0.0)), domain["radius"]
+            ball = pyvista.Icosphere(radius=radius, center=center, nsub=4)
+            return [(ball, glass)]
+    # A ball that is far away is left out: it is seen from inside.
     return []
 
 
@@ -408,6 +515,12 @@ def _surface(seen: Shape) -> tuple[Array, Array]:
             at, faces = np.asarray(own.points) * solid.size, own.regular_faces
         else:
             at, faces = _cone(solid.size, solid.scales)
+            if len(seen.solids) > 3 and solid.scales == (1.0, 1.0):
+                # A ball fills the wedge between two pieces of a bent tube.
+                ball = pyvista.Icosphere(radius=solid.size[0] / 2, nsub=2)
+                below = np.asarray(ball.points) - [0.0, 0.0, solid.size[2] / 2]
+                faces = np.concatenate([faces, ball.regular_faces + len(at)])
+                at = np.concatenate([at, below])
         points.append(solid.position + at @ turn.T)
         triangles.append(faces + n)
         n += len(at)
