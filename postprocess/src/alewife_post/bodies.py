@@ -134,6 +134,16 @@ def radius(run: Run, name: str) -> float:
     return float(corners[:2].max() if is_planar else corners.max())
 
 
+def _thickness(run: Run, name: str) -> float:
+    """Half the least extent of a body."""
+    seen = shape(run, name, 0.0)
+    if seen is None:
+        return 0.0
+    low, high = extents(seen)
+    # In the plane solids are flat.
+    return float(0.5 * (high - low)[: 3 if run.is_spatial else 2].min())
+
+
 def groups(run: Run) -> dict[str, list[str]]:
     """Bodies of each swimmer, and each body that belongs to none."""
     names = list(run.bodies) or [body["name"] for body in run.case.get("body", [])]
@@ -175,7 +185,7 @@ def rods(run: Run, placed: dict[str, Pose], time: float) -> list[Array]:
     own = groups(run)
     names = list(run.bodies)
     for swimmer in run.case.get("swimmer", []):
-        kind, _ = next(iter(swimmer["kind"].items()))
+        kind, values = next(iter(swimmer["kind"].items()))
         for name in _copies(swimmer, names):
             members = own.get(name, [])
             match kind:
@@ -184,15 +194,23 @@ def rods(run: Run, placed: dict[str, Pose], time: float) -> list[Array]:
                 case "star":
                     pairs = [(members[0], other) for other in members[1:]]
                 case "chain":
-                    found += _links(run, members, placed, time)
+                    found += _links(run, members, placed, values["gap"], time)
                     continue
                 case _:
                     continue
-            found += [np.array([placed[a][0], placed[b][0]]) for a, b in pairs]
+            found += [_arm(run, (a, b), placed) for a, b in pairs]
     for joint in run.case.get("joint", []):
         if joint["parent"] in placed and joint["child"] in placed:
             found.append(_joint(joint, placed))
     return found
+
+
+def _arm(run: Run, pair: tuple[str, str], placed: dict[str, Pose]) -> Array:
+    """From surface to surface of two balls."""
+    start, end = (placed[name][0] for name in pair)
+    along = (end - start) / np.linalg.norm(end - start)
+    first, last = (radius(run, name) for name in pair)
+    return np.array([start + first * along, end - last * along])
 
 
 def _joint(joint: dict[str, Any], placed: dict[str, Pose]) -> Array:
@@ -206,21 +224,20 @@ def _joint(joint: dict[str, Any], placed: dict[str, Pose]) -> Array:
     return np.array(ends)
 
 
-def _links(run: Run, members: list[str], placed: dict[str, Pose], time: float) -> list[Array]:
+def _links(
+    run: Run, members: list[str], placed: dict[str, Pose], gap: float, time: float
+) -> list[Array]:
     """From the back end of each link by the pivot to the front end of the next one."""
-    ends = {}
-    for name in members:
-        seen = shape(run, name, time)
-        if seen is None:
-            return []
-        low, high = extents(seen)
-        center, turn = placed[name]
-        front, back = np.array([high[0], 0.0, 0.0]), np.array([low[0], 0.0, 0.0])
-        ends[name] = (center + turn @ front, center + turn @ back)
-    return [
-        np.array([placed[a][0], ends[a][1], ends[b][0], placed[b][0]])
-        for a, b in zip(members, members[1:], strict=False)
-    ]
+    found = []
+    for before, after in zip(members, members[1:], strict=False):
+        shapes = [shape(run, name, time) for name in (before, after)]
+        if None in shapes:
+            continue
+        (center, turn), (other, other_turn) = placed[before], placed[after]
+        back = center + extents(shapes[0])[0][0] * turn[:, 0]
+        front = other + extents(shapes[1])[1][0] * other_turn[:, 0]
+        found.append(np.array([back, back - 0.5 * gap * turn[:, 0], front]))
+    return found
 
 
 @dataclass(frozen=True)
@@ -253,9 +270,9 @@ def headings(run: Run, placed: dict[str, Pose]) -> list[Heading]:
             continue
         own = [run.bodies[name].center for name in members]
         way = np.mean([centers[-1] - centers[0] for centers in own], axis=0)
-        size = max(radius(run, name) for name in members)
+        size = max(_thickness(run, name) for name in members)
         # Less than that is the way of a swimmer that comes back, up to errors.
-        if np.linalg.norm(way) > 0.01 * size:
+        if size > 0 and np.linalg.norm(way) > 0.01 * size:
             along = way / np.linalg.norm(way)
             middle = np.mean([placed[name][0] for name in members], axis=0)
             reach = max(

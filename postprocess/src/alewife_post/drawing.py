@@ -211,9 +211,9 @@ def _on_grid(flow: list[Field], view: View, n: int) -> tuple[Array, Array, Array
     return x, y, found
 
 
-def draw_rod(axes: Axes, points: Array) -> None:
-    """An arm or a pivot between bodies, below them."""
-    axes.plot(*points[:, :2].T, color=style.ROD, lw=1.4, zorder=4.5, solid_capstyle="round")
+def draw_rod(axes: Axes, points: Array, zorder: float = 4.5) -> None:
+    """An arm or a pivot between bodies."""
+    axes.plot(*points[:, :2].T, color=style.ROD, lw=1.8, zorder=zorder, solid_capstyle="round")
 
 
 def draw_heading(axes: Axes, heading: Heading) -> None:

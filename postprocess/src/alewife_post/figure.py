@@ -129,19 +129,22 @@ def colour_bar(
     limits: style.Limits,
     *,
     cax: Axes | None = None,
+    is_beside: bool = False,
+    alpha: float = 1.0,
 ) -> matplotlib.colorbar.Colorbar:
     """A bar in axes of its own, else beside a tall picture, or below a wide one, never over it."""
-    below = bool(values.min() < limits[0] - 1e-12 * abs(limits[0]))
-    above = bool(values.max() > limits[1] + 1e-12 * abs(limits[1]))
+    least = 1e-6 * (limits[1] - limits[0])
+    below = bool(values.min() < limits[0] - least)
+    above = bool(values.max() > limits[1] + least)
     extend = {(0, 0): "neither", (1, 0): "min", (0, 1): "max", (1, 1): "both"}[below, above]
     mappable = ScalarMappable(Normalize(*limits), colour_map)
     if cax is not None:
         box = cax.get_position()
         width, height = axes.figure.get_size_inches() * (box.width, box.height)
         orientation = "horizontal" if width > height else "vertical"
-        return axes.figure.colorbar(mappable, cax=cax, extend=extend, orientation=orientation)
+        return axes.figure.colorbar(mappable, cax=cax, extend=extend, orientation=orientation, alpha=alpha)
     (x0, x1), (y0, y1) = axes.get_xlim(), axes.get_ylim()
-    is_wide = x1 - x0 > 1.4 * (y1 - y0)
+    is_wide = x1 - x0 > 1.4 * abs(y1 - y0) and not is_beside
     return axes.figure.colorbar(
         mappable,
         ax=axes,

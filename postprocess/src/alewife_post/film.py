@@ -253,7 +253,7 @@ class Page:
     """A figure of fixed size whose axes are drawn anew for each frame."""
 
     def __init__(self, request: Request, title: str, aspect: float | None, bar: tuple | None) -> None:
-        """`aspect` is width over height of the picture; `bar` is colour map, limits and label."""
+        """`aspect` is width over height of the picture; `bar` is what `_add_bar` draws."""
         width, height = (pixels / DPI for pixels in request.size or fitting(aspect, bar is not None))
         self.figure = Figure(figsize=(width, height), dpi=DPI)
         self.canvas = FigureCanvasAgg(self.figure)
@@ -282,9 +282,10 @@ class Page:
             place = [box[0] + 0.2 * box[2], box[1] - 0.62, 0.6 * box[2], 0.1]
         else:
             place = [box[0] + box[2] + 0.12, box[1] + 0.1 * box[3], 0.13, 0.8 * box[3]]
-        colour_map, limits, values, label = bar
+        colour_map, limits, values, label, alpha = bar
         axes = self.figure.add_axes(np.array(place) / scale)
-        colour_bar(self.axes, values, colour_map, limits, cax=axes).set_label(label)
+        drawn = colour_bar(self.axes, values, colour_map, limits, cax=axes, alpha=alpha)
+        drawn.set_label(label)
 
     def _add_title(self, title: str, width: float) -> None:
         text = self.figure.text(0.5, 0.985, title, ha="center", va="top", fontsize=10.0)
@@ -340,7 +341,7 @@ def _planar_images(run: Run, moments: list[Moment], request: Request) -> Iterato
                 samples.append(thinned(*shares(flow, values, seen(nth))))
             colour_map, limits = limits_of(request.quantity, samples)
             every = np.concatenate([values for values, _ in samples])
-            bar = (colour_map, limits, every, style.label(request.quantity, units))
+            bar = (colour_map, limits, every, style.label(request.quantity, units), 1.0)
         is_mirrored = run.is_axisymmetric and request.mirror
         look = Look(
             request.quantity, colour_map, limits, request.lines, painter, 0, False, is_mirrored

@@ -78,6 +78,7 @@ def _write_gif(out: Path, images: Iterator[Array], fps: float) -> int:
     # White stays white: colours of a palette are means of many.
     table = np.array(palette.getpalette(), dtype=int).reshape(-1, 3)
     table[np.argmax(table.sum(axis=1))] = 255
+    palette = Image.new("P", (1, 1))
     palette.putpalette(table.ravel().tolist())
     n = 1
 

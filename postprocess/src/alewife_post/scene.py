@@ -102,15 +102,19 @@ def render(
 
 
 def render_surface(
-    surface,  # noqa: ANN001  (naming the type would load VTK)
+    shown: tuple,
     size: tuple[int, int],
     camera: tuple[float, float],
     colour_map: str,
     limits: style.Limits,
 ) -> Array:
-    """An image of a surface coloured by its `values`, cut to what it shows."""
+    """An image of a surface coloured by its `values`, cut to what it shows.
+
+    `shown` is the surface and a list of others, each with a colour of its own.
+    """
     import pyvista
 
+    surface, others = shown
     plotter = pyvista.Plotter(off_screen=True, window_size=size)
     plotter.add_mesh(
         surface.compute_normals(feature_angle=40.0, split_vertices=True),
@@ -122,6 +126,8 @@ def render_surface(
         ambient=0.6,
         diffuse=0.45,
     )
+    for other, colour in others:
+        plotter.add_mesh(other, color=colour, **style.SOLID)
     towards, up = direction(camera)
     plotter.view_vector(towards, viewup=up)
     plotter.camera.parallel_projection = True

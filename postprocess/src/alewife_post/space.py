@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-import re
 from typing import Any
 
 import numpy as np
-from matplotlib.cm import ScalarMappable
-from matplotlib.colors import Normalize
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from alewife_post import scene, style
+from alewife_post import bodies, drawing, scene, style
+from alewife_post.figure import colour_bar
+from alewife_post.planes import Plane, parsed, through_bodies
 from alewife_post.quantities import speed
 from alewife_post.read import QUADRATIC_TETRAHEDRON, Field, Run
 
@@ -18,7 +18,6 @@ Array = np.ndarray
 View = tuple[float, float, float, float]
 Camera = tuple[float, float]
 
-AXES = "xyz"
 POINTS = 400
 """Points on the longer side of a slice."""
 TETRAHEDRON = 10
@@ -34,8 +33,8 @@ ON_SIDE = 1e-5
 """Distance from a side over the size of the domain below which a node is on it."""
 SUBDIVISION = 3
 IMAGE_SIZE = (1600, 1200)
-NEAR = 3.0
-"""Reach of bodies over which their surroundings are shown."""
+NEAR = 1.0
+"""Space shown around bodies over the diameter of the largest one."""
 
 
 def slice_picture(
@@ -49,32 +48,35 @@ def slice_picture(
 ) -> Figure:
     """A quantity on a plane such as `z=0.5`, with the streamlines of the velocity in the plane.
 
-    Without `plane` it is across z, through the middle of the first body. `view` is in the two
-    coordinates of the plane; without it, the surroundings of the bodies.
+    Without `plane` it goes through the bodies: across an axis if that is possible, z before the
+    others. `view` is in the two coordinates of the plane; without it, the surroundings of the bodies.
     """
     style.use()
     field = run.field(time)
     low, high = field.nodes.min(axis=0), field.nodes.max(axis=0)
-    axis, height = _plane(run, plane, 0.5 * (low + high))
-    if not low[axis] < height < high[axis]:
+    cut = _plane(run, plane, field)
+    axis = int(np.argmax(np.abs(cut.normal)))
+    if plane is not None and not low[axis] < cut.origin[axis] < high[axis]:
         reach = f"{low[axis]:.6g} to {high[axis]:.6g}"
-        raise ValueError(f"{AXES[axis]} = {height:.6g} is outside the domain: {reach}")
-    across = [other for other in range(3) if other != axis]
-    view = view or _surroundings(run, field, across)
+        raise ValueError(f"{cut.text} is outside the domain: {reach}")
+    view = view or _surroundings(run, field, cut)
     x, y = _grid_lines(view)
-    at = np.zeros((len(y), len(x), 3))
-    at[..., across[0]], at[..., across[1]], at[..., axis] = x[None, :], y[:, None], height
+    at = cut.points(np.stack(np.meshgrid(x, y), axis=-1))
     found = sample(field, at.reshape(-1, 3), quantity)
     shape = (len(y), len(x))
     values = found["values"].reshape(shape)
-    velocity = found["velocity"].reshape(*shape, 3)[..., across]
+    if values.count() == 0:
+        raise ValueError(f"there is no fluid in the view on {cut.text}")
+    mask = np.ma.getmaskarray(values)[..., None]
+    velocity = np.ma.masked_array(
+        found["velocity"].data.reshape(*shape, 3) @ cut.across.T, np.broadcast_to(mask, (*shape, 2))
+    )
 
     width = min(style.LARGEST[0], style.LARGEST[1] * (view[1] - view[0]) / (view[3] - view[2]))
     size = (width + 1.2, width * (view[3] - view[2]) / (view[1] - view[0]) + 0.9)
     figure = Figure(figsize=size, layout="compressed")
     axes = figure.add_subplot()
     axes.set_aspect("equal")
-    axes.set_facecolor(style.BODY)
     colour_map, limits = style.colours(quantity, values.compressed())
     axes.imshow(
         values, extent=view, origin="lower", cmap=colour_map, vmin=limits[0], vmax=limits[1]
@@ -84,17 +86,53 @@ def slice_picture(
         axes.streamplot(
             x, y, velocity[..., 0], velocity[..., 1], color=colour, linewidth=0.6, arrowsize=0.6
         )
-    for section in sections(run, field, axis, height):
-        axes.fill(*section[:, across].T, color=style.BODY, zorder=3)
+    elif lines == "arrows":
+        _draw_arrows(axes, x, y, velocity, quantity)
+    for section in sections(run, field, cut):
+        axes.fill(*cut.coordinates(section).T, color=style.BODY, zorder=3)
+    _draw_motion(axes, run, cut, field.time)
     units = run.case.get("units", "")
     axes.set_xlim(view[0], view[1])
     axes.set_ylim(view[2], view[3])
-    axes.set_xlabel(style.length_label(AXES[across[0]], units))
-    axes.set_ylabel(style.length_label(AXES[across[1]], units))
-    axes.set_title(f"{run.case['title']}, {AXES[axis]} = {height:.4g}")
-    bar = figure.colorbar(ScalarMappable(Normalize(*limits), colour_map), ax=axes, shrink=0.85)
+    axes.set_xlabel(style.length_label(cut.names[0], units))
+    axes.set_ylabel(style.length_label(cut.names[1], units))
+    axes.set_title(f"{_title(run, field)}, {cut.text}", wrap=True)
+    bar = colour_bar(axes, values.compressed(), colour_map, limits)
     bar.set_label(style.label(quantity, units))
     return figure
+
+
+def _title(run: Run, field: Field) -> str:
+    units = run.case.get("units", "")
+    is_unsteady = "unsteady" in run.case["time"]
+    return run.case["title"] + (f", {style.time_text(field.time, units)}" if is_unsteady else "")
+
+
+def _draw_arrows(axes: Axes, x: Array, y: Array, velocity: Array, quantity: str) -> None:
+    step = max(1, max(len(x), len(y)) // 28)
+    colour = style.STREAMLINE if quantity == "speed" else style.STREAMLINE_ON_LIGHT
+    thinned = velocity[::step, ::step]
+    axes.quiver(
+        x[::step], y[::step], thinned[..., 0], thinned[..., 1], color=colour, width=0.0018, pivot="mid"
+    )
+
+
+def _draw_motion(axes: Axes, run: Run, plane: Plane, time: float) -> None:
+    """Rods and headings that lie in a plane, or near it over the size of bodies."""
+    placed = bodies.poses(run, time)
+    size = max([0.0, *(bodies.radius(run, name) for name in placed)])
+
+    def is_near(points: Array) -> bool:
+        return bool(np.abs((points - plane.origin) @ plane.normal).max() < 0.5 * size)
+
+    for points in bodies.rods(run, placed, time):
+        if is_near(points):
+            drawing.draw_rod(axes, plane.coordinates(points), zorder=2.5)
+    for arrow in bodies.headings(run, placed):
+        if is_near(np.array([arrow.start, arrow.start + arrow.vector])):
+            start = plane.coordinates(arrow.start[None])[0]
+            vector = plane.across @ arrow.vector
+            drawing.draw_heading(axes, bodies.Heading(start, vector, arrow.is_inside))
 
 
 def surface_picture(
@@ -113,17 +151,52 @@ def surface_picture(
     style.use()
     field = run.field(time)
     surface = bodies_surface(run, field, quantity)
-    values = np.asarray(surface.point_data["values"])
-    colour_map, limits = style.colours(quantity, values)
-    image = scene.render_surface(surface, IMAGE_SIZE, camera, colour_map, limits)
+    sized = surface.compute_cell_sizes(length=False, volume=False)
+    values = np.asarray(sized.point_data_to_cell_data().cell_data["values"])
+    colour_map, limits = style.colours(quantity, values, np.asarray(sized.cell_data["Area"]))
+    image = scene.render_surface(
+        (surface, motion(run, field.time)), IMAGE_SIZE, camera, colour_map, limits
+    )
     figure = Figure(figsize=(7.2, 5.0), layout="compressed")
     axes = figure.add_subplot()
     axes.imshow(image)
     axes.set_axis_off()
-    axes.set_title(run.case["title"])
-    bar = figure.colorbar(ScalarMappable(Normalize(*limits), colour_map), ax=axes, shrink=0.85)
+    axes.set_title(_title(run, field), wrap=True)
+    bar = colour_bar(axes, values, colour_map, limits, is_beside=True)
     bar.set_label(style.label(quantity, run.case.get("units", "")))
     return figure
+
+
+def motion(run: Run, time: float) -> list[tuple[Any, str]]:
+    """What joins bodies and where they swim to, as surfaces with a colour."""
+    import pyvista
+
+    placed = bodies.poses(run, time)
+    sizes = [bodies.radius(run, name) for name in placed]
+    seen = [bodies.shape(run, name, time) for name in placed]
+    # Thin beside the bodies, and no thicker than thin ones.
+    thin = [solid.size.min() / 4 for one in seen if one for solid in one.solids]
+    found = [
+        (
+            pyvista.lines_from_points(points).tube(
+                radius=min([0.12 * min(sizes), *thin]), n_sides=12
+            ),
+            style.ROD,
+        )
+        for points in bodies.rods(run, placed, time)
+    ]
+    for arrow in bodies.headings(run, placed):
+        length = float(np.linalg.norm(arrow.vector))
+        mesh = pyvista.Arrow(
+            start=arrow.start,
+            direction=arrow.vector / length,
+            scale=length,
+            tip_length=0.4,
+            tip_radius=0.18,
+            shaft_radius=0.07,
+        )
+        found.append((mesh, style.ARROW))
+    return found
 
 
 def sample(field: Field, points: Array, quantity: str) -> dict[str, Array]:
@@ -132,12 +205,16 @@ def sample(field: Field, points: Array, quantity: str) -> dict[str, Array]:
 
     # VTK looks for points in curved cells by iterations that end early: eight straight pieces of
     # each cell, with its nodes, are as good in a picture
-    grid = _grid(field, quantity)
-    pieces = field.cells[:, PIECES].reshape(-1, 4)
+    places = field.nodes[field.cells]
+    low, high = points.min(axis=0), points.max(axis=0)
+    near = (places.max(axis=1) >= low).all(axis=1) & (places.min(axis=1) <= high).all(axis=1)
+    pieces = field.cells[near][:, PIECES].reshape(-1, 4)
     straight = pyvista.UnstructuredGrid({TETRAHEDRON: pieces}, field.nodes)
-    for name in ("values", "velocity"):
-        straight.point_data[name] = grid.point_data[name]
-    found = pyvista.PolyData(points).sample(straight)
+    straight.point_data["values"] = nodal_values(field, quantity)
+    straight.point_data["velocity"] = field.velocity
+    # Left to itself, VTK takes points for inside that are a part of the whole domain away
+    extent = np.linalg.norm(high - low) or np.ptp(field.nodes, axis=0).max()
+    found = pyvista.PolyData(points).sample(straight, tolerance=1e-6 * extent)
     is_outside = np.asarray(found.point_data["vtkValidPointMask"]) == 0
     velocity = np.asarray(found.point_data["velocity"])
     return {
@@ -146,14 +223,13 @@ def sample(field: Field, points: Array, quantity: str) -> dict[str, Array]:
     }
 
 
-def sections(run: Run, field: Field, axis: int, height: float) -> list[Array]:
+def sections(run: Run, field: Field, plane: Plane) -> list[Array]:
     """Curves `(n, 3)` in which a plane cuts the bodies."""
     try:
         surface = bodies_surface(run, field, "pressure")
     except ValueError:
         return []
-    origin = [height if own == axis else 0.0 for own in range(3)]
-    cut = surface.slice(normal=AXES[axis], origin=origin)
+    cut = surface.slice(normal=plane.normal, origin=plane.origin)
     if cut.n_cells == 0:
         return []
     strips = cut.strip(join=True)
@@ -253,34 +329,28 @@ def outer_surface(field: Field):  # noqa: ANN201  (loads VTK)
     return surface.extract_cells(kept).extract_surface(algorithm="dataset_surface")
 
 
-def _plane(run: Run, plane: str | None, middle: Array) -> tuple[int, float]:
-    """Axis and position of a plane written as `z=0.5`."""
-    if plane is None:
-        center = next(iter(_centers(run)), middle)
-        return 2, float(center[2])
-    found = re.fullmatch(r"\s*([xyz])\s*=\s*([-+0-9.eE]+)\s*", plane)
-    if not found:
-        raise ValueError(f"{plane} is not a plane: write one such as z=0.5")
-    return AXES.index(found[1]), float(found[2])
+def _plane(run: Run, plane: str | None, field: Field) -> Plane:
+    if plane is not None:
+        return parsed(plane)
+    middle = 0.5 * (field.nodes.min(axis=0) + field.nodes.max(axis=0))
+    return through_bodies(run, np.array([field.time]), middle)
 
 
-def _centers(run: Run) -> list[Array]:
-    return [history.center[-1] for history in run.bodies.values()]
-
-
-def _surroundings(run: Run, field: Field, across: list[int]) -> View:
+def _surroundings(run: Run, field: Field, plane: Plane) -> View:
     """The part of the domain around the bodies, in the coordinates of a slice."""
-    low, high = field.nodes.min(axis=0), field.nodes.max(axis=0)
+    places = plane.coordinates(field.nodes)
+    low, high = places.min(axis=0), places.max(axis=0)
     extent = np.ptp(field.nodes, axis=0).max()
     sides = (np.abs(distances_to_sides(run.case, field.nodes)) < ON_SIDE * extent).any(axis=1)
     boundary = np.unique(_boundary_nodes(field.cells))
-    on_bodies = field.nodes[boundary[~sides[boundary]]]
+    on_bodies = places[boundary[~sides[boundary]]]
     if len(on_bodies):
-        middle = 0.5 * (on_bodies.min(axis=0) + on_bodies.max(axis=0))
-        reach = NEAR * 0.5 * np.ptp(on_bodies, axis=0).max()
-        low, high = np.maximum(low, middle - reach), np.minimum(high, middle + reach)
-    a, b = across
-    return (low[a], high[a], low[b], high[b])
+        own_low, own_high = on_bodies.min(axis=0), on_bodies.max(axis=0)
+        largest = max([0.0, *(2 * bodies.radius(run, name) for name in run.bodies)])
+        reach = NEAR * min(largest, np.ptp(on_bodies, axis=0).max())
+        reach = max(reach, 0.5 * np.ptp(on_bodies, axis=0).max())
+        low, high = np.maximum(low, own_low - reach), np.minimum(high, own_high + reach)
+    return (low[0], high[0], low[1], high[1])
 
 
 def _boundary_nodes(cells: Array) -> Array:

@@ -81,7 +81,8 @@ def _images(run: Run, moments: list[Moment], request: Request) -> Iterator[Array
             request.quantity, [thinned_samples(*_samples(part)) for part in parts]
         )
         every = np.concatenate([np.asarray(part.point_data["values"]) for part in parts])
-        bar = (colour_map, limits, every, style.label(request.quantity, units))
+        alpha = 1.0 if request.surface else SLICE_OPACITY
+        bar = (colour_map, limits, every, style.label(request.quantity, units), alpha)
         look = {"scalars": "values", "cmap": colour_map, "clim": limits, "show_scalar_bar": False}
     page = Page(request, run.case["title"], None, bar)
     corners = _corners(seen.box)
@@ -145,27 +146,10 @@ class Cast:
         moved = self._inside(placed)
         if not request.surface or request.quantity == "bodies":
             self._add_bodies(plotter, moved, moment.time, is_plain=is_plain)
-        thickness = self._thickness(list(placed), moment.time)
-        for points in bodies.rods(self.run, placed, moment.time):
-            rod = _line(points).tube(radius=thickness, n_sides=12)
-            plotter.add_mesh(rod, color=style.ROD, render=False, **style.SOLID)
-        for arrow in bodies.headings(self.run, placed):
-            length = float(np.linalg.norm(arrow.vector))
-            plotter.add_mesh(
-                _arrow(arrow.start, arrow.vector / length, length),
-                color=style.ARROW,
-                render=False,
-                **style.SOLID,
-            )
+        for mesh, colour in space.motion(self.run, moment.time):
+            plotter.add_mesh(mesh, color=colour, render=False, **style.SOLID)
         if request.trails:
             self._add_trails(plotter, placed, moment.time)
-
-    def _thickness(self, names: list[str], time: float) -> float:
-        """Radius of what joins bodies: thin beside them, and no thicker than thin ones."""
-        sizes = [bodies.radius(self.run, name) for name in names]
-        seen = [bodies.shape(self.run, name, time) for name in names]
-        thin = [solid.size.min() / 4 for one in seen if one for solid in one.solids]
-        return min([0.12 * min(sizes), *thin])
 
     def _inside(self, placed: dict[str, bodies.Pose]) -> list[tuple[str, Array, Array]]:
         """Name, centre and rotation of each body, with its images where it crosses a side."""
@@ -556,15 +540,3 @@ def _line(points: Array) -> pyvista.PolyData:
 
     return pyvista.lines_from_points(points)
 
-
-def _arrow(start: Array, along: Array, length: float) -> pyvista.PolyData:
-    import pyvista
-
-    return pyvista.Arrow(
-        start=start,
-        direction=along,
-        scale=length,
-        tip_length=0.4,
-        tip_radius=0.18,
-        shaft_radius=0.07,
-    )
