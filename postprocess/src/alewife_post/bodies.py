@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -190,7 +191,7 @@ def rods(run: Run, placed: dict[str, Pose], time: float) -> list[Array]:
             members = own.get(name, [])
             match kind:
                 case "linked-spheres":
-                    pairs = list(zip(members, members[1:], strict=False))
+                    pairs = list(pairwise(members))
                 case "star":
                     pairs = [(members[0], other) for other in members[1:]]
                 case "chain":
@@ -229,7 +230,7 @@ def _links(
 ) -> list[Array]:
     """From the back end of each link by the pivot to the front end of the next one."""
     found = []
-    for before, after in zip(members, members[1:], strict=False):
+    for before, after in pairwise(members):
         shapes = [shape(run, name, time) for name in (before, after)]
         if None in shapes:
             continue
@@ -322,4 +323,6 @@ def deforming(run: Run) -> set[str]:
 
 def swims(run: Run) -> bool:
     """Whether anything in a run swims."""
-    return bool(run.case.get("swimmer") or any(body.get("gait") for body in run.case.get("body", [])))
+    return bool(
+        run.case.get("swimmer") or any(body.get("gait") for body in run.case.get("body", []))
+    )

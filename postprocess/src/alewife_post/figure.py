@@ -79,9 +79,7 @@ def picture(
         values, share = shares(shown, nodal_values(shown, quantity), view)
         colour_map, limits = style.colours(quantity, values, share)
     is_mirrored = run.is_axisymmetric and mirror
-    look = Look(
-        quantity, colour_map, limits, lines, painter, IMAGE_WIDTH, is_mirrored=is_mirrored
-    )
+    look = Look(quantity, colour_map, limits, lines, painter, IMAGE_WIDTH, is_mirrored=is_mirrored)
     paint_bodies(axes, run, view, field.time, field=whole)
     paint(axes, flow, view, look)
 
@@ -142,7 +140,9 @@ def colour_bar(
         box = cax.get_position()
         width, height = axes.figure.get_size_inches() * (box.width, box.height)
         orientation = "horizontal" if width > height else "vertical"
-        return axes.figure.colorbar(mappable, cax=cax, extend=extend, orientation=orientation, alpha=alpha)
+        return axes.figure.colorbar(
+            mappable, cax=cax, extend=extend, orientation=orientation, alpha=alpha
+        )
     (x0, x1), (y0, y1) = axes.get_xlim(), axes.get_ylim()
     is_wide = x1 - x0 > 1.4 * abs(y1 - y0) and not is_beside
     return axes.figure.colorbar(

@@ -8,13 +8,11 @@ from pathlib import Path
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.figure import Figure
 from matplotlib.ticker import FixedFormatter, FixedLocator, MaxNLocator
 
 from alewife_post import bodies, drawing, movie, style
 from alewife_post.elements import mirrored, shares
-from alewife_post.figure import colour_bar
+from alewife_post.page import SIZE, Page
 from alewife_post.periodic import joined
 from alewife_post.read import Field, Run, read_field
 from alewife_post.snapshot import (
@@ -36,11 +34,9 @@ Array = np.ndarray
 QUANTITIES = ("speed", "pressure", "vorticity", "mesh", "bodies")
 FEW_FIELDS = 5
 """Runs with fewer field files are shown by their bodies alone, if they move."""
-DPI = 100
 MOST_FRAMES = 300
 FOLLOWED = 4.0
 """Half the height of a view over the reach of the body it follows."""
-SIZE = (960, 720)
 SAMPLES = 20_000
 """Values kept of each frame for the limits of colours."""
 
@@ -96,9 +92,7 @@ def film(run: Run, out: Path, request: Request, tell: Callable[[str], None] = pr
         raise ValueError("a film has one frame at least")
     quantity = chosen_quantity(run, request, tell)
     is_asked = request.follow is not None
-    request = replace(
-        request, quantity=quantity, follow=_followed(run, request), is_asked=is_asked
-    )
+    request = replace(request, quantity=quantity, follow=_followed(run, request), is_asked=is_asked)
     moments = chosen_moments(run, request)
     fps = request.fps or min(25.0, max(4.0, len(moments) / 5.0))
     style.use()
@@ -128,8 +122,8 @@ def chosen_quantity(run: Run, request: Request, tell: Callable[[str], None]) -> 
             return "pressure"
         if n < FEW_FIELDS and has_motion and n < len(next(iter(run.bodies.values())).time):
             tell(
-                f"{n} field {'file' if n == 1 else 'files'} only: bodies are shown without the flow; "
-                "output.fields of the case, such as { time = 0.1 }, asks for more"
+                f"{n} field {'file' if n == 1 else 'files'} only: bodies are shown without the "
+                "flow; output.fields of the case, such as { time = 0.1 }, asks for more"
             )
             return "bodies"
         if n == 0:
@@ -202,6 +196,13 @@ def offsets(run: Run, follow: str | None, moments: list[Moment]) -> Array:
     return np.array([np.mean([at[name][0] for name in members], axis=0) for at in places])
 
 
+def time_stamp(run: Run, time: float) -> str:
+    """The time of a frame, in the units of the case."""
+    if "unsteady" not in run.case["time"]:
+        return "steady"
+    return style.time_text(time, run.case.get("units", ""))
+
+
 def field_at(moment: Moment) -> Field | None:
     """The flow a frame shows."""
     return None if moment.path is None else read_field(moment.path)
@@ -226,94 +227,6 @@ def group_colours(run: Run) -> dict[str, str]:
     for nth, members in enumerate(bodies.groups(run).values()):
         found |= dict.fromkeys(members, style.SERIES[nth % len(style.SERIES)])
     return found
-
-
-# ---- Around the picture --------------------------------------------------------------------------
-
-MARGINS = (0.65, 0.15, 0.5, 0.38)
-"""Left, right, below and above a picture in the plane (inches)."""
-WIDE = 2.0
-"""Width over height from which on the bar of colours lies below."""
-
-
-def fitting(aspect: float | None, has_bar: bool) -> tuple[int, int]:
-    """Even pixels of a frame around a picture of some width over height."""
-    if not aspect:
-        return SIZE
-    left, right, bottom, top = MARGINS
-    beside, below = ((0.0, 0.6) if aspect > WIDE else (0.85, 0.0)) if has_bar else (0.0, 0.0)
-    room = np.array([left + right + beside, bottom + top + below])
-    across = min(SIZE[0] / DPI - room[0], (SIZE[1] / DPI - room[1]) * aspect)
-    inches = np.array([across, across / aspect]) + room
-    width, height = (2 * round(0.5 * DPI * side) for side in np.maximum(inches, 2.4))
-    return width, height
-
-
-class Page:
-    """A figure of fixed size whose axes are drawn anew for each frame."""
-
-    def __init__(self, request: Request, title: str, aspect: float | None, bar: tuple | None) -> None:
-        """`aspect` is width over height of the picture; `bar` is what `_add_bar` draws."""
-        width, height = (pixels / DPI for pixels in request.size or fitting(aspect, bar is not None))
-        self.figure = Figure(figsize=(width, height), dpi=DPI)
-        self.canvas = FigureCanvasAgg(self.figure)
-        left, right, bottom, top = MARGINS if aspect else (0.05, 0.05, 0.05, MARGINS[3])
-        is_wide = bool(aspect) and aspect > WIDE
-        room = np.zeros(2) if bar is None else np.array([0.0, 0.6] if is_wide else [0.85, 0.0])
-        box = np.array([left, bottom + room[1], width - left - right - room[0], 0.0])
-        box[3] = height - top - box[1]
-        if aspect:
-            # As large as the room allows, in the middle of it.
-            fit = np.array([min(box[2], box[3] * aspect), min(box[3], box[2] / aspect)])
-            box = np.array([*(box[:2] + 0.5 * (box[2:] - fit)), *fit])
-        scale = np.array([width, height, width, height])
-        self.axes: Axes = self.figure.add_axes(box / scale)
-        self.pixels = tuple(int(side) for side in np.round(box[2:] * DPI))
-        if bar is not None:
-            self._add_bar(box, scale, is_wide, bar)
-        self._add_title(title, width)
-        self.stamp = self.axes.text(
-            0.012, 0.985, "", transform=self.axes.transAxes, ha="left", va="top", zorder=20
-        )
-        self.stamp.set_bbox({"facecolor": "white", "alpha": 0.8, "lw": 0, "boxstyle": "round"})
-
-    def _add_bar(self, box: Array, scale: Array, is_wide: bool, bar: tuple) -> None:
-        if is_wide:
-            place = [box[0] + 0.2 * box[2], box[1] - 0.62, 0.6 * box[2], 0.1]
-        else:
-            place = [box[0] + box[2] + 0.12, box[1] + 0.1 * box[3], 0.13, 0.8 * box[3]]
-        colour_map, limits, values, label, alpha = bar
-        axes = self.figure.add_axes(np.array(place) / scale)
-        drawn = colour_bar(self.axes, values, colour_map, limits, cax=axes, alpha=alpha)
-        drawn.set_label(label)
-
-    def _add_title(self, title: str, width: float) -> None:
-        text = self.figure.text(0.5, 0.985, title, ha="center", va="top", fontsize=10.0)
-        renderer = self.canvas.get_renderer()
-        wide = text.get_window_extent(renderer).width / DPI
-        text.set_fontsize(max(6.0, 10.0 * min(1.0, 0.96 * width / wide)))
-
-    def clear(self) -> None:
-        """Remove what the last frame has drawn."""
-        for found in (
-            self.axes.images,
-            self.axes.collections,
-            self.axes.patches,
-            self.axes.lines,
-        ):
-            for artist in list(found):
-                artist.remove()
-
-    def clear_images(self) -> None:
-        """Remove the images alone."""
-        for artist in list(self.axes.images):
-            artist.remove()
-
-    def image(self, stamp: str) -> Array:
-        """The pixels `(height, width, 3)`."""
-        self.stamp.set_text(stamp)
-        self.canvas.draw()
-        return np.asarray(self.canvas.buffer_rgba())[..., :3].copy()
 
 
 # ---- In the plane --------------------------------------------------------------------------------
@@ -346,7 +259,7 @@ def _planar_images(run: Run, moments: list[Moment], request: Request) -> Iterato
         look = Look(
             request.quantity, colour_map, limits, request.lines, painter, 0, False, is_mirrored
         )
-    page = Page(request, run.case["title"], (view[1] - view[0]) / (view[3] - view[2]), bar)
+    page = Page(request.size, run.case["title"], (view[1] - view[0]) / (view[3] - view[2]), bar)
     if look is not None:
         look = replace(look, width=page.pixels[0])
     _label(page, run, request)
@@ -354,7 +267,7 @@ def _planar_images(run: Run, moments: list[Moment], request: Request) -> Iterato
         page.clear()
         _paint_moment(page.axes, run, moment, seen(nth), (request, look))
         _place(page.axes, view, moved[nth])
-        yield page.image(style.time_text(moment.time, units))
+        yield page.image(time_stamp(run, moment.time))
 
 
 def _paint_moment(
@@ -420,9 +333,7 @@ def _label(page: Page, run: Run, request: Request) -> None:
     after = f" - {request.follow}" if request.follow else ""
     across = "r" if run.is_axisymmetric else "y"
     page.axes.set_xlabel(style.length_label("x", units) + after)
-    page.axes.set_ylabel(
-        style.length_label(across, units) + ("" if across == "r" else after)
-    )
+    page.axes.set_ylabel(style.length_label(across, units) + ("" if across == "r" else after))
     page.axes.set_facecolor("white")
 
 

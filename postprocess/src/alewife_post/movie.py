@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 
@@ -37,7 +36,7 @@ def write(out: Path, images: Iterable[Array], fps: float) -> int:
             n = _write_mp4(unfinished, iter(images), fps)
         else:
             n = _write_gif(unfinished, iter(images), fps)
-        os.replace(unfinished, out)
+        unfinished.replace(out)
     finally:
         unfinished.unlink(missing_ok=True)
     return n

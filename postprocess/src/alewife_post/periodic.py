@@ -74,7 +74,9 @@ def trail(case: dict[str, Any], centers: Array) -> list[Array]:
     if len(centers) == 0:
         return []
     inside = wrapped(case, centers)
-    jumps = np.abs(np.diff(inside, axis=0)) > 0.5 * np.where(periods(case) > 0, periods(case), np.inf)
+    jumps = np.abs(np.diff(inside, axis=0)) > 0.5 * np.where(
+        periods(case) > 0, periods(case), np.inf
+    )
     return np.split(inside, np.flatnonzero(jumps.any(axis=1)) + 1)
 
 
@@ -102,3 +104,19 @@ def joined(fields: list[Field]) -> Field:
         pressure=np.concatenate([field.pressure for field in fields]),
         vorticity=np.concatenate([field.vorticity for field in fields]),
     )
+
+
+def domain_box(case: dict[str, Any]) -> tuple[Array, Array]:
+    """Lowest and highest corner `(3,)` of a domain in space; without bounds if it is a mesh."""
+    ((kind, domain),) = case["domain"].items()
+    match kind:
+        case "box":
+            return np.array(domain["min"], dtype=float), np.array(domain["max"], dtype=float)
+        case "cylinder":
+            r = domain["radius"]
+            start, end = domain["x"]
+            return np.array([start, -r, -r]), np.array([end, r, r])
+        case "sphere":
+            center = np.array(domain.get("center", [0.0, 0.0, 0.0]))
+            return center - domain["radius"], center + domain["radius"]
+    return np.full(3, -np.inf), np.full(3, np.inf)

@@ -63,7 +63,7 @@ def parsed(text: str) -> Plane:
 
 
 def through_bodies(run: Run, times: Array, middle: Array) -> Plane:
-    """Across z, y or x where that goes through all bodies at some times, else the plane nearest to them.
+    """Across z, y or x where that goes through all bodies at some times, else the nearest plane.
 
     A run without bodies is cut across z through its `middle` `(3,)`.
     """
@@ -96,7 +96,5 @@ def _nearest(points: Array) -> Plane:
         second = second - (second @ first) * first
     second = second / np.linalg.norm(second)
     second = second * np.sign(second[np.argmax(np.abs(second))])
-    names = tuple(
-        f"along ({', '.join(f'{part:.2f}' for part in own)})" for own in (first, second)
-    )
+    names = tuple(f"along ({', '.join(f'{part:.2f}' for part in own)})" for own in (first, second))
     return Plane(origin, np.array([first, second]), names, "plane through the bodies")

@@ -75,13 +75,17 @@ def render(
         look |= {"scalars": "values", "cmap": colour_map, "clim": limits}
     # Without subdivision each quadratic triangle would be four flat ones.
     surface = grid.extract_surface(
-        nonlinear_subdivision=SUBDIVISION if is_smooth else 2, algorithm="dataset_surface", pass_pointid=False
+        nonlinear_subdivision=SUBDIVISION if is_smooth else 2,
+        algorithm="dataset_surface",
+        pass_pointid=False,
     )
     plotter.add_mesh(surface, **look)
     if show_edges:
         # Cells must be parted first: edges between two cells are no boundary of the whole.
         cells = grid.separate_cells().extract_surface(
-            nonlinear_subdivision=SUBDIVISION if is_smooth else 2, algorithm="dataset_surface", pass_pointid=False
+            nonlinear_subdivision=SUBDIVISION if is_smooth else 2,
+            algorithm="dataset_surface",
+            pass_pointid=False,
         )
         lines = cells.extract_feature_edges(
             boundary_edges=True, feature_edges=False, manifold_edges=False, non_manifold_edges=False
@@ -142,7 +146,7 @@ def render_surface(
 
 
 def direction(camera: tuple[float, float]) -> tuple[Array, Array]:
-    """Where a camera looks from, degrees about z and above the horizon, and what it sees upright."""
+    """Where a camera at degrees about z and above the horizon looks from, and what is upright."""
     azimuth, elevation = np.radians(camera)
     flat = np.array([np.cos(azimuth), np.sin(azimuth), 0.0])
     towards = np.cos(elevation) * flat + np.array([0.0, 0.0, np.sin(elevation)])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -9,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from alewife_post import bodies, drawing, scene, style
-from alewife_post.figure import colour_bar
+from alewife_post.figure import body_velocity, colour_bar
 from alewife_post.planes import Plane, parsed, through_bodies
 from alewife_post.quantities import speed
 from alewife_post.read import QUADRATIC_TETRAHEDRON, Field, Run
@@ -44,15 +45,20 @@ def slice_picture(
     time: float | None = None,
     plane: str | None = None,
     view: View | None = None,
+    frame: str | None = None,
     lines: str = "streamlines",
 ) -> Figure:
     """A quantity on a plane such as `z=0.5`, with the streamlines of the velocity in the plane.
 
     Without `plane` it goes through the bodies: across an axis if that is possible, z before the
-    others. `view` is in the two coordinates of the plane; without it, the surroundings of the bodies.
+    others. `view` is in the two coordinates of the plane; without it, what is around the bodies.
+    `frame` names a body whose velocity is subtracted.
     """
     style.use()
     field = run.field(time)
+    if frame is not None:
+        moved = field.velocity - body_velocity(run, frame, field.time)
+        field = replace(field, velocity=moved)
     low, high = field.nodes.min(axis=0), field.nodes.max(axis=0)
     cut = _plane(run, plane, field)
     axis = int(np.argmax(np.abs(cut.normal)))
@@ -98,7 +104,7 @@ def slice_picture(
     axes.set_ylabel(style.length_label(cut.names[1], units))
     axes.set_title(f"{_title(run, field)}, {cut.text}", wrap=True)
     bar = colour_bar(axes, values.compressed(), colour_map, limits)
-    bar.set_label(style.label(quantity, units))
+    bar.set_label(style.label(quantity, units) + (f" relative to {frame}" if frame else ""))
     return figure
 
 
@@ -113,7 +119,13 @@ def _draw_arrows(axes: Axes, x: Array, y: Array, velocity: Array, quantity: str)
     colour = style.STREAMLINE if quantity == "speed" else style.STREAMLINE_ON_LIGHT
     thinned = velocity[::step, ::step]
     axes.quiver(
-        x[::step], y[::step], thinned[..., 0], thinned[..., 1], color=colour, width=0.0018, pivot="mid"
+        x[::step],
+        y[::step],
+        thinned[..., 0],
+        thinned[..., 1],
+        color=colour,
+        width=0.0018,
+        pivot="mid",
     )
 
 
