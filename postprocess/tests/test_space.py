@@ -6,12 +6,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from conftest import CAN_RENDER
+from conftest import CAN_RENDER, EDGES, block
 from matplotlib.figure import Figure
 
 from alewife_post import Run, open_run, space
 from alewife_post.cli import picture
-from alewife_post.read import QUADRATIC_TETRAHEDRON
+from alewife_post.planes import straight
+from alewife_post.read import QUADRATIC_TETRAHEDRON, Field
 
 CASE = """
 title = "A block in a box"
@@ -25,34 +26,6 @@ name = "block"
 center = [1.5, 1.5, 1.5]
 [time.steady]
 """
-
-EDGES = ((0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3))
-
-
-def block() -> tuple[np.ndarray, np.ndarray]:
-    """Quadratic tetrahedra in a box of 27 cubes without the one in the middle."""
-    nodes: list[tuple[float, ...]] = []
-    number: dict[tuple[float, ...], int] = {}
-
-    def node(at: np.ndarray) -> int:
-        key = tuple(at.tolist())
-        if key not in number:
-            number[key] = len(nodes)
-            nodes.append(key)
-        return number[key]
-
-    cells = []
-    for corner in np.ndindex(3, 3, 3):
-        if corner == (1, 1, 1):
-            continue
-        for order in [(0, 1, 2), (1, 2, 0), (2, 0, 1), (0, 2, 1), (2, 1, 0), (1, 0, 2)]:
-            steps = np.eye(3)[list(order)]
-            vertices = np.array(corner) + np.vstack([np.zeros(3), np.cumsum(steps, axis=0)])
-            if np.linalg.det(vertices[1:] - vertices[0]) < 0:
-                vertices[[2, 3]] = vertices[[3, 2]]
-            middles = [0.5 * (vertices[i] + vertices[j]) for i, j in EDGES]
-            cells.append([node(point) for point in [*vertices, *middles]])
-    return np.array(nodes), np.array(cells)
 
 
 @pytest.fixture(scope="module")
@@ -106,6 +79,22 @@ def test_samples_are_those_of_the_quadratic_flow_and_masked_in_bodies(run: Run) 
     assert found["values"].mask.tolist() == [False, False, True]
 
 
+def test_points_just_inside_a_body_are_no_fluid_however_large_the_domain(run: Run) -> None:
+    # Of a flow in one corner of a domain that is a million times as large
+    field = run.field()
+    far = np.vstack([field.nodes, field.nodes[:10] + 1e6])
+    grown = Field(
+        time=0.0,
+        nodes=far,
+        cells=np.vstack([field.cells, len(field.nodes) + np.arange(10)[None]]),
+        velocity=np.vstack([field.velocity, field.velocity[:10]]),
+        pressure=np.append(field.pressure, field.pressure[:10]),
+        vorticity=np.vstack([field.vorticity, field.vorticity[:10]]),
+    )
+    points = np.array([[1.001, 1.5, 1.5], [0.999, 1.5, 1.5]])
+    assert space.sample(grown, points, "speed")["values"].mask.tolist() == [True, False]
+
+
 def test_the_surface_of_bodies_has_no_sides_of_the_domain(run: Run) -> None:
     surface = space.bodies_surface(run, run.field(), "pressure")
     assert surface.area == pytest.approx(6.0, rel=1e-6)
@@ -144,10 +133,10 @@ def test_pieces_fill_their_tetrahedron() -> None:
 
 
 def test_a_plane_cuts_the_block_in_a_square(run: Run) -> None:
-    (square,) = space.sections(run, run.field(), 2, 1.4)
+    (square,) = space.sections(run, run.field(), straight(2, 1.4))
     assert square[:, 2] == pytest.approx(1.4)
     assert np.ptp(square[:, :2], axis=0) == pytest.approx([1.0, 1.0], abs=1e-6)
-    assert space.sections(run, run.field(), 2, 0.5) == []
+    assert space.sections(run, run.field(), straight(2, 0.5)) == []
 
 
 @pytest.mark.parametrize("domain", ["cylinder", "sphere"])

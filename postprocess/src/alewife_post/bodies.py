@@ -32,7 +32,7 @@ def rotation_matrix(quaternion: Array) -> Array:
 
 
 def poses(run: Run, time: float) -> dict[str, Pose]:
-    """Pose of each body at the message nearest to a time; of the case where nothing was measured."""
+    """Pose of each body at the message nearest to a time; that of the case if there is none."""
     found = {
         name: (history.center[nearest(history, time)], rotation_matrix(_turn(history, time)))
         for name, history in run.bodies.items()

@@ -197,7 +197,7 @@ def _on_grid(flow: list[Field], view: View, n: int) -> tuple[Array, Array, Array
     x = np.linspace(x0, x1, max(4, round((x1 - x0) / step)))
     y = np.linspace(y0, y1, max(4, round((y1 - y0) / step)))
     grid = np.meshgrid(x, y)
-    found = np.ma.masked_all((len(y), len(x), 2))
+    found = np.ma.masked_array(np.zeros((len(y), len(x), 2)), mask=True)
     for field in flow:
         mesh = Triangulation(*field.nodes.T, quarters(field.cells))
         finder = mesh.get_trifinder()
