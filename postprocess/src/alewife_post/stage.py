@@ -63,8 +63,6 @@ def _images(run: Run, moments: list[Moment], request: Request) -> Iterator[Array
     view.legend(page, camera, units)
     plotter = pyvista.Plotter(off_screen=True, window_size=page.pixels)
     plotter.set_background("white")
-    # Else the first frame would be looked at from where all of it is seen.
-    plotter.camera_set = True
     plotter.enable_anti_aliasing("ssaa")
     walls = _walls(run, moments, is_whole=seen.is_whole)
     cast = Cast(run)
