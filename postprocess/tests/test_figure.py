@@ -199,3 +199,28 @@ def test_bodies_of_swimmers_are_what_the_mesh_leaves_out() -> None:
     field = Field(0.0, np.array(nodes), np.array(cells), still, pressure=none, vorticity=none)
     loops = boundary_loops(field)
     assert sorted(float(np.ptp(loop, axis=0).max()) for loop in loops) == [2.0, 4.0]
+
+
+@pytest.mark.parametrize(
+    ("text", "units"),
+    [
+        ("SI", ("m", "s")),
+        ("dimensionless", (None, None)),
+        ("cm g s", ("cm", "s")),
+        ("mm mg s", ("mm", "s")),
+        ("micrometres, seconds, water: viscosity 1e-3 Pa s", ("µm", "s")),
+        ("si units", ("m", "s")),
+        ("physics of silicon", (None, None)),
+    ],
+)
+def test_units_are_those_the_case_names(text: str, units: tuple[str | None, str | None]) -> None:
+    assert style.units_of(text) == units
+
+
+def test_labels_have_units_where_they_are_known() -> None:
+    assert style.label("speed", "micrometres, seconds") == "speed (µm/s)"
+    assert style.label("pressure", "cm g s") == "pressure"
+    assert style.label("vorticity", "seconds") == "vorticity (1/s)"
+    assert style.length_label("x", "dimensionless") == "x"
+    assert style.time_text(0.25, "mm mg s") == "t = 0.25 s"
+    assert style.length_text(0.5, "SI") == "0.5 m"

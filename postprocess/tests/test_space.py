@@ -197,3 +197,73 @@ def test_fields_of_other_cells_are_refused(tmp_path: Path) -> None:
     pyvista.UnstructuredGrid({10: np.array([[0, 1, 2, 3]])}, np.eye(4)[:, :3]).save(path)
     with pytest.raises(ValueError, match="22 or 24"):
         read_field(path)
+
+
+def cut_open_elsewhere(run: Run) -> tuple[Run, Field]:
+    """The run in a box that is periodic along x, its first layer of cells put behind the last."""
+    field = run.field()
+    is_first = (field.nodes[field.cells][:, :, 0] <= 1.0).all(axis=1)
+    n = len(field.nodes)
+    moved = Field(
+        time=0.0,
+        nodes=np.vstack([field.nodes, field.nodes + np.array([3.0, 0.0, 0.0])]),
+        cells=np.where(is_first[:, None], field.cells + n, field.cells),
+        velocity=np.vstack([field.velocity] * 2),
+        pressure=np.tile(field.pressure, 2),
+        vorticity=np.vstack([field.vorticity] * 2),
+    )
+    used, cells = np.unique(moved.cells, return_inverse=True)
+    moved = Field(
+        0.0,
+        moved.nodes[used],
+        cells.reshape(moved.cells.shape),
+        velocity=moved.velocity[used],
+        pressure=moved.pressure[used],
+        vorticity=moved.vorticity[used],
+    )
+    other = Run(run.path)
+    periodic = {"left": {"periodic": "right"}}
+    other.__dict__["case"] = {**run.case, "boundary": periodic}
+    return other, moved
+
+
+def test_where_a_periodic_mesh_is_cut_open_is_no_body(run: Run) -> None:
+    other, moved = cut_open_elsewhere(run)
+    assert moved.nodes[:, 0].min() == 1.0
+    surface = space.bodies_surface(other, moved, "pressure")
+    # The cut goes along one face of the block, and all but one of its nodes are on both sides of it
+    assert surface.area == pytest.approx(6.0, rel=1e-6)
+
+
+def test_a_periodic_domain_goes_on_beyond_its_mesh(run: Run) -> None:
+    from alewife_post import stage
+
+    other, moved = cut_open_elsewhere(run)
+    points = np.array([[0.3, 0.4, 0.2], [2.7, 1.1, 0.9], [1.5, 1.5, 1.5]])
+    here = space.sample(run.field(), points, "pressure")
+    there = space.sample(moved, points, "pressure", other.case)
+    assert there["values"].mask.tolist() == [False, False, True]
+    assert there["values"].data[:2] == pytest.approx(here["values"].data[:2], abs=1e-6)
+    cut = stage.Cut(straight(2, 1.4), np.zeros(2), np.full(2, 3.0), moves=False)
+    found = stage.whole_slice(other.case, moved, cut, "pressure")
+    assert found.area == pytest.approx(8.0, rel=1e-5)
+    x, y, z = np.asarray(found.points, dtype=float).T
+    assert (x.min(), x.max()) == pytest.approx((0.0, 3.0))
+    # This pressure is no periodic one, and has two values where the mesh is cut open
+    inner = (x > 0.01) & (x < 2.99)
+    assert found.point_data["values"][inner] == pytest.approx((x + 2 * y - z)[inner], abs=1e-5)
+
+
+def test_faces_of_the_boundary_close_it_and_look_outwards(run: Run) -> None:
+    field = run.field()
+    faces = space.boundary_faces(field)
+    a, b, c = (field.nodes[faces[:, k]] for k in range(3))
+    # The box of 27 less the block of 1, by the theorem of Gauss; its surface has no resultant
+    areas = 0.5 * np.cross(b - a, c - a)
+    assert np.einsum("ij,ij->", areas, (a + b + c) / 3) / 3 == pytest.approx(26.0)
+    assert areas.sum(axis=0) == pytest.approx(np.zeros(3), abs=1e-12)
+    assert np.linalg.norm(areas, axis=1).sum() == pytest.approx(54.0 + 6.0)
+    # Nodes in the middles of edges are between the vertices in their order
+    for k, (i, j) in enumerate([(0, 1), (1, 2), (2, 0)]):
+        middle = 0.5 * (field.nodes[faces[:, i]] + field.nodes[faces[:, j]])
+        assert field.nodes[faces[:, 3 + k]] == pytest.approx(middle)

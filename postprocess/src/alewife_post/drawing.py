@@ -14,6 +14,7 @@ from matplotlib.tri import LinearTriInterpolator, Triangulation
 from alewife_post import style
 from alewife_post.bodies import Heading, Pose, rotation_matrix
 from alewife_post.elements import edge_curves, edges, quarters, refine, subdivide
+from alewife_post.periodic import is_joined
 from alewife_post.read import Field, Shape
 
 Array = np.ndarray
@@ -66,21 +67,11 @@ def draw_boundary(axes: Axes, field: Field, periods: Array, shifts: Array) -> No
     every, is_boundary = edges(field.cells)
     found = every[is_boundary]
     if periods.any():
-        found = found[~_is_joined(field.nodes[found[:, 2]], periods)]
+        found = found[~is_joined(field.nodes[found[:, 2]], periods)]
     curves = edge_curves(field.nodes, found)
     for shift in shifts:
         lines = LineCollection(curves + shift, colors=style.BOUNDARY, linewidths=0.7, zorder=4)
         axes.add_collection(lines)
-
-
-def _is_joined(middles: Array, periods: Array) -> Array:
-    """Whether each middle of an edge `(n, 2)` has another one whole periods away."""
-    extent = np.where(periods > 0, periods, np.ptp(middles, axis=0).max() + 1.0)
-    part = np.where(periods > 0, (middles / extent) % 1.0, middles / extent)
-    # Parts of a period just below one are those just above zero.
-    keys = np.round(part * 1e6).astype(int) % np.where(periods > 0, 10**6, 2**62)
-    _, index, counts = np.unique(keys, axis=0, return_inverse=True, return_counts=True)
-    return counts[index.ravel()] > 1
 
 
 def draw_shape(axes: Axes, seen: Shape, pose: Pose, colour: str, zorder: float = 0.0) -> None:

@@ -179,7 +179,8 @@ def series_figure(
         axes.margins(x=0.01)
         axes.spines[["top", "right"]].set_visible(False)
     figure.suptitle(run.case["title"], fontsize=style.PARAMETERS["axes.titlesize"])
-    panels[-1].set_xlabel("t (s)" if run.case.get("units", "").upper() == "SI" else "t")
+    _, unit = style.units_of(run.case.get("units", ""))
+    panels[-1].set_xlabel(f"t ({unit})" if unit else "t")
     return figure
 
 

@@ -16,6 +16,8 @@ SIDES = ("left", "bottom", "back")
 
 def periods(case: dict[str, Any]) -> Array:
     """Length of each period, `(3,)`; zero along directions that are not periodic."""
+    if "domain" not in case:
+        return np.zeros(3)
     ((kind, domain),) = case["domain"].items()
     lengths = np.zeros(3)
     match kind:
@@ -67,6 +69,17 @@ def images(case: dict[str, Any], low: Array, high: Array, region: tuple[Array, A
         last = np.floor((region[1][axis] - low[axis]) / lengths[axis] + 1e-9)
         steps.append([k * lengths[axis] for k in np.arange(first, last + 1)])
     return np.array([[x, y, z] for z in steps[2] for y in steps[1] for x in steps[0]])
+
+
+def is_joined(points: Array, periods: Array) -> Array:
+    """Whether each of some points `(n, d)` has another one whole periods `(d,)` away."""
+    is_periodic = periods > 0
+    extent = np.where(is_periodic, periods, np.ptp(points, axis=0).max() + 1.0)
+    part = np.where(is_periodic, (points / extent) % 1.0, points / extent)
+    # Parts of a period just below one are those just above zero.
+    keys = np.round(part * 1e6).astype(int) % np.where(is_periodic, 10**6, 2**62)
+    _, index, counts = np.unique(keys, axis=0, return_inverse=True, return_counts=True)
+    return counts[index.ravel()] > 1
 
 
 def trail(case: dict[str, Any], centers: Array) -> list[Array]:

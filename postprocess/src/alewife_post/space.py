@@ -11,9 +11,10 @@ from matplotlib.figure import Figure
 
 from alewife_post import bodies, drawing, scene, style
 from alewife_post.figure import body_velocity, colour_bar
+from alewife_post.periodic import domain_box, images, is_joined, periods
 from alewife_post.planes import Plane, parsed, through_bodies
 from alewife_post.quantities import speed
-from alewife_post.read import QUADRATIC_TETRAHEDRON, Field, Run
+from alewife_post.read import QUADRATIC_TRIANGLE, Field, Run
 
 Array = np.ndarray
 View = tuple[float, float, float, float]
@@ -30,6 +31,10 @@ PIECES = np.array(
     ]
 )  # fmt: skip
 """Nodes of the pieces of a quadratic tetrahedron: its corners, and what is left about edge 6-8."""
+FACES = np.array([[0, 1, 2, 4, 5, 6], [0, 1, 3, 4, 8, 7], [0, 2, 3, 6, 9, 7], [1, 2, 3, 5, 9, 8]])
+"""Nodes of each face of a tetrahedron: vertices, then those between them."""
+OPPOSITE = np.array([3, 2, 1, 0])
+"""The vertex that a face has not."""
 ON_SIDE = 1e-5
 """Distance from a side over the size of the domain below which a node is on it."""
 SUBDIVISION = 3
@@ -59,23 +64,23 @@ def slice_picture(
     if frame is not None:
         moved = field.velocity - body_velocity(run, frame, field.time)
         field = replace(field, velocity=moved)
-    low, high = field.nodes.min(axis=0), field.nodes.max(axis=0)
     cut = _plane(run, plane, field)
     axis = int(np.argmax(np.abs(cut.normal)))
+    low, high = _box(run.case, field)
     if plane is not None and not low[axis] < cut.origin[axis] < high[axis]:
         reach = f"{low[axis]:.6g} to {high[axis]:.6g}"
         raise ValueError(f"{cut.text} is outside the domain: {reach}")
     view = view or _surroundings(run, field, cut)
     x, y = _grid_lines(view)
     at = cut.points(np.stack(np.meshgrid(x, y), axis=-1))
-    found = sample(field, at.reshape(-1, 3), quantity)
+    found = sample(field, at.reshape(-1, 3), quantity, run.case)
     shape = (len(y), len(x))
     values = found["values"].reshape(shape)
     if values.count() == 0:
         raise ValueError(f"there is no fluid in the view on {cut.text}")
     mask = np.ma.getmaskarray(values)[..., None]
     velocity = np.ma.masked_array(
-        found["velocity"].data.reshape(*shape, 3) @ cut.across.T, np.broadcast_to(mask, (*shape, 2))
+        found["velocity"].data.reshape(*shape, 3) @ cut.across.T, np.repeat(mask, 2, axis=-1)
     )
 
     width = min(style.LARGEST[0], style.LARGEST[1] * (view[1] - view[0]) / (view[3] - view[2]))
@@ -211,28 +216,38 @@ def motion(run: Run, time: float) -> list[tuple[Any, str]]:
     return found
 
 
-def sample(field: Field, points: Array, quantity: str) -> dict[str, Array]:
-    """Values and velocity at points `(n, 3)`, masked outside the fluid."""
+def sample(
+    field: Field, points: Array, quantity: str, case: dict[str, Any] | None = None
+) -> dict[str, Array]:
+    """Values and velocity at points `(n, 3)`, masked outside the fluid.
+
+    With its case, a periodic domain goes on beyond its mesh.
+    """
     import pyvista
 
     # VTK looks for points in curved cells by iterations that end early: eight straight pieces of
     # each cell, with its nodes, are as good in a picture
     places = field.nodes[field.cells]
     low, high = points.min(axis=0), points.max(axis=0)
-    near = (places.max(axis=1) >= low).all(axis=1) & (places.min(axis=1) <= high).all(axis=1)
-    pieces = field.cells[near][:, PIECES].reshape(-1, 4)
-    straight = pyvista.UnstructuredGrid({TETRAHEDRON: pieces}, field.nodes)
-    straight.point_data["values"] = nodal_values(field, quantity)
-    straight.point_data["velocity"] = field.velocity
-    # Left to itself, VTK takes points for inside that are a part of the whole domain away
     extent = np.linalg.norm(high - low) or np.ptp(field.nodes, axis=0).max()
-    found = pyvista.PolyData(points).sample(straight, tolerance=1e-6 * extent)
-    is_outside = np.asarray(found.point_data["vtkValidPointMask"]) == 0
-    velocity = np.asarray(found.point_data["velocity"])
-    return {
-        "values": np.ma.masked_array(found.point_data["values"], is_outside),
-        "velocity": np.ma.masked_array(velocity, np.repeat(is_outside[:, None], 3, axis=1)),
-    }
+    values = np.ma.masked_all(len(points))
+    velocity = np.ma.masked_all((len(points), 3))
+    mesh = (field.nodes.min(axis=0), field.nodes.max(axis=0))
+    for shift in images({} if case is None else case, *mesh, (low, high)):
+        near = (places.max(axis=1) >= low - shift).all(axis=1)
+        near &= (places.min(axis=1) <= high - shift).all(axis=1)
+        if not near.any():
+            continue
+        pieces = field.cells[near][:, PIECES].reshape(-1, 4)
+        straight = pyvista.UnstructuredGrid({TETRAHEDRON: pieces}, field.nodes)
+        straight.point_data["values"] = nodal_values(field, quantity)
+        straight.point_data["velocity"] = field.velocity
+        # Left to itself, VTK takes points for inside that are a part of the whole domain away
+        found = pyvista.PolyData(points - shift).sample(straight, tolerance=1e-6 * extent)
+        is_inside = np.asarray(found.point_data["vtkValidPointMask"]) == 1
+        values[is_inside] = np.asarray(found.point_data["values"])[is_inside]
+        velocity[is_inside] = np.asarray(found.point_data["velocity"])[is_inside]
+    return {"values": values, "velocity": velocity}
 
 
 def sections(run: Run, field: Field, plane: Plane) -> list[Array]:
@@ -241,7 +256,18 @@ def sections(run: Run, field: Field, plane: Plane) -> list[Array]:
         surface = bodies_surface(run, field, "pressure")
     except ValueError:
         return []
-    cut = surface.slice(normal=plane.normal, origin=plane.origin)
+    points = np.asarray(surface.points)
+    mesh = (points.min(axis=0), points.max(axis=0))
+    region = _box(run.case, field)
+    return [
+        curve + shift
+        for shift in images(run.case, *mesh, region)
+        for curve in _curves(surface.slice(normal=plane.normal, origin=plane.origin - shift))
+    ]
+
+
+def _curves(cut) -> list[Array]:  # noqa: ANN001  (VTK)
+    """The lines of a cut, each `(n, 3)` from end to end."""
     if cut.n_cells == 0:
         return []
     strips = cut.strip(join=True)
@@ -254,29 +280,44 @@ def sections(run: Run, field: Field, plane: Plane) -> list[Array]:
     return found
 
 
+def _box(case: dict[str, Any], field: Field) -> tuple[Array, Array]:
+    """Corners of what a periodic domain shows of itself, and of any other domain's mesh."""
+    if periods(case).any():
+        return domain_box(case)
+    return field.nodes.min(axis=0), field.nodes.max(axis=0)
+
+
 def bodies_surface(run: Run, field: Field, quantity: str):  # noqa: ANN201  (loads VTK)
     """The surface of the fluid without the sides of the domain, with nodal `values`."""
-    grid = _grid(field, quantity)
+    faces = boundary_faces(field)
     sides = distances_to_sides(run.case, field.nodes)
-    extent = np.ptp(field.nodes, axis=0).max()
     if sides.shape[1] > 0:
-        grid.point_data["side"] = (np.abs(sides) < ON_SIDE * extent).astype(float)
-    surface = grid.extract_surface(nonlinear_subdivision=SUBDIVISION, algorithm="dataset_surface")
-    if sides.shape[1] == 0:
-        surface = surface.connectivity("all")
-    cells = surface.faces.reshape(-1, 4)[:, 1:]
-    if sides.shape[1] == 0:
-        is_on_side = _is_on_largest_part(surface)[cells[:, 0]]
+        is_side = np.abs(sides) < ON_SIDE * np.ptp(field.nodes, axis=0).max()
+        lengths = periods(run.case)
+        if lengths.any():
+            # Where the mesh is cut open
+            is_side = np.column_stack([is_side, is_joined(field.nodes, lengths)])
+        kept = _surface(field, quantity, faces[~is_side[faces].all(axis=1).any(axis=1)])
     else:
-        # One number a node where the domain has a single side
-        side = np.asarray(surface.point_data["side"]).reshape(surface.n_points, -1)
-        is_on_side = (side[cells] > 0.5).all(axis=1).any(axis=-1)
-    kept = surface.extract_cells(np.flatnonzero(~is_on_side)).extract_surface(
-        algorithm="dataset_surface"
-    )
+        whole = _surface(field, quantity, faces).connectivity("all")
+        cells = whole.faces.reshape(-1, 4)[:, 1:]
+        is_outer = _is_on_largest_part(whole)[cells[:, 0]]
+        kept = whole.extract_cells(np.flatnonzero(~is_outer))
+        kept = kept.extract_surface(algorithm="dataset_surface")
     if kept.n_cells == 0:
         raise ValueError("there is no body in this run: draw a slice")
     return kept
+
+
+def _surface(field: Field, quantity: str, faces: Array):  # noqa: ANN202  (loads VTK)
+    """Curved faces `(n, 6)` as flat triangles, with nodal `values`."""
+    import pyvista
+
+    if len(faces) == 0:
+        return pyvista.PolyData()
+    grid = pyvista.UnstructuredGrid({QUADRATIC_TRIANGLE: faces}, field.nodes)
+    grid.point_data["values"] = nodal_values(field, quantity)
+    return grid.extract_surface(nonlinear_subdivision=SUBDIVISION, algorithm="dataset_surface")
 
 
 def _is_on_largest_part(surface) -> Array:  # noqa: ANN001  (VTK)
@@ -309,15 +350,6 @@ def distances_to_sides(case: dict[str, Any], nodes: Array) -> Array:
             raise ValueError(f"a {kind} is no domain in space")
 
 
-def _grid(field: Field, quantity: str):  # noqa: ANN202  (loads VTK)
-    import pyvista
-
-    grid = pyvista.UnstructuredGrid({QUADRATIC_TETRAHEDRON: field.cells}, field.nodes)
-    grid.point_data["velocity"] = field.velocity
-    grid.point_data["values"] = nodal_values(field, quantity)
-    return grid
-
-
 def nodal_values(field: Field, quantity: str) -> Array:
     """Values of a quantity at the nodes, `(n_nodes,)`; of the vorticity its magnitude."""
     match quantity:
@@ -333,9 +365,7 @@ def nodal_values(field: Field, quantity: str) -> Array:
 
 def outer_surface(field: Field):  # noqa: ANN201  (loads VTK)
     """The outer part of the surface of the fluid: the sides of its domain."""
-    grid = _grid(field, "speed")
-    surface = grid.extract_surface(nonlinear_subdivision=2, algorithm="dataset_surface")
-    surface = surface.connectivity("all")
+    surface = _surface(field, "speed", boundary_faces(field)).connectivity("all")
     cells = surface.faces.reshape(-1, 4)[:, 1:]
     kept = np.flatnonzero(_is_on_largest_part(surface)[cells[:, 0]])
     return surface.extract_cells(kept).extract_surface(algorithm="dataset_surface")
@@ -351,10 +381,16 @@ def _plane(run: Run, plane: str | None, field: Field) -> Plane:
 def _surroundings(run: Run, field: Field, plane: Plane) -> View:
     """The part of the domain around the bodies, in the coordinates of a slice."""
     places = plane.coordinates(field.nodes)
+    if periods(run.case).any():
+        ends = np.array(domain_box(run.case))
+        box = [[ends[i, 0], ends[j, 1], ends[k, 2]] for i, j, k in np.ndindex(2, 2, 2)]
+        places = plane.coordinates(np.array(box))
+        (x0, y0), (x1, y1) = places.min(axis=0), places.max(axis=0)
+        return (x0, x1, y0, y1)
     low, high = places.min(axis=0), places.max(axis=0)
     extent = np.ptp(field.nodes, axis=0).max()
     sides = (np.abs(distances_to_sides(run.case, field.nodes)) < ON_SIDE * extent).any(axis=1)
-    boundary = np.unique(_boundary_nodes(field.cells))
+    boundary = np.unique(boundary_faces(field)[:, :3])
     on_bodies = places[boundary[~sides[boundary]]]
     if len(on_bodies):
         own_low, own_high = on_bodies.min(axis=0), on_bodies.max(axis=0)
@@ -365,11 +401,19 @@ def _surroundings(run: Run, field: Field, plane: Plane) -> View:
     return (low[0], high[0], low[1], high[1])
 
 
-def _boundary_nodes(cells: Array) -> Array:
-    """Vertices of the faces that only one cell has, `(n_faces, 3)`."""
-    faces = np.sort(cells[:, [[0, 1, 2], [0, 1, 3], [0, 2, 3], [1, 2, 3]]].reshape(-1, 3), axis=1)
-    unique, counts = np.unique(faces, axis=0, return_counts=True)
-    return unique[counts == 1]
+def boundary_faces(field: Field) -> Array:
+    """Nodes `(n, 6)` of the faces that only one cell has, counter-clockwise seen from outside."""
+    cells, n = field.cells, len(field.nodes)
+    ends = np.sort(cells[:, FACES[:, :3]].reshape(-1, 3), axis=1).astype(np.int64)
+    keys = (ends[:, 0] * n + ends[:, 1]) * n + ends[:, 2]
+    _, first, counts = np.unique(keys, return_index=True, return_counts=True)
+    found = first[counts == 1]
+    faces = cells[:, FACES].reshape(-1, 6)[found]
+    inner = field.nodes[cells[:, OPPOSITE].ravel()[found]]
+    a, b, c = (field.nodes[faces[:, k]] for k in range(3))
+    is_inwards = np.einsum("ij,ij->i", np.cross(b - a, c - a), inner - a) > 0
+    faces[is_inwards] = faces[is_inwards][:, [0, 2, 1, 5, 4, 3]]
+    return faces
 
 
 def _grid_lines(view: View) -> tuple[Array, Array]:

@@ -13,7 +13,8 @@ from alewife_post import planes, scene, space, style
 from alewife_post.cast import Cast
 from alewife_post.film import Moment, Request, field_at, limits_of, offsets, thinned, time_stamp
 from alewife_post.page import Page
-from alewife_post.periodic import domain_box
+from alewife_post.periodic import domain_box, periods
+from alewife_post.periodic import images as images_of
 from alewife_post.read import Field, Run
 
 if TYPE_CHECKING:
@@ -102,9 +103,9 @@ class Cut:
     moves: bool
     """Whether it goes with the view."""
 
-    def at(self, offset: Array) -> Cut:
-        """The same where the view has moved to."""
-        if self.moves:
+    def at(self, offset: Array, *, with_view: bool = False) -> Cut:
+        """The same where the view has moved to; all of it `with_view`, even if it stands still."""
+        if self.moves or with_view:
             return replace(self, plane=replace(self.plane, origin=self.plane.origin + offset))
         shift = self.plane.across @ offset
         return replace(self, low=self.low + shift, high=self.high + shift)
@@ -143,12 +144,27 @@ def _flow(
     if cuts is None:
         return [space.bodies_surface(run, field_at(moment), request.quantity) for moment in moments]
     found = [
-        slice_of(field_at(moment), cut, request.quantity)
+        whole_slice(run.case, field_at(moment), cut, request.quantity)
         for moment, cut in zip(moments, cuts, strict=True)
     ]
     if not any(part.n_cells for part in found):
         raise ValueError(f"the slice {cuts[0].plane.text} meets no fluid that is seen")
     return found
+
+
+def whole_slice(case: dict[str, Any], field: Field, cut: Cut, quantity: str) -> pyvista.PolyData:
+    """A slice that goes on beyond the mesh of a periodic domain."""
+    if not periods(case).any():
+        return slice_of(field, cut, quantity)
+    import pyvista
+
+    mesh = (field.nodes.min(axis=0), field.nodes.max(axis=0))
+    found = []
+    for shift in images_of(case, *mesh, domain_box(case)):
+        part = slice_of(field, cut.at(-shift, with_view=True), quantity)
+        if part.n_cells:
+            found.append(part.translate(shift))
+    return pyvista.merge(found) if found else pyvista.PolyData()
 
 
 def slice_of(field: Field, cut: Cut, quantity: str) -> pyvista.PolyData:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 
 import matplotlib
@@ -54,7 +55,6 @@ class Look:
     """How one quantity is shown."""
 
     label: str
-    unit: str
     one_sided: str
     """Colour map where values have one sign."""
     two_sided: str
@@ -62,9 +62,9 @@ class Look:
 
 
 LOOKS = {
-    "speed": Look("speed", "m/s", "viridis", "viridis"),
-    "pressure": Look("pressure", "Pa", "cividis", "PuOr_r"),
-    "vorticity": Look("vorticity", "1/s", "RdBu_r", "RdBu_r"),
+    "speed": Look("speed", "viridis", "viridis"),
+    "pressure": Look("pressure", "cividis", "PuOr_r"),
+    "vorticity": Look("vorticity", "RdBu_r", "RdBu_r"),
 }
 
 
@@ -73,10 +73,50 @@ def use() -> None:
     matplotlib.rcParams.update(PARAMETERS)
 
 
+WORDS = {
+    "SI": ("m", "s"),
+    "cm g s": ("cm", "s"),
+    "mm mg s": ("mm", "s"),
+    "micrometres": ("µm", None),
+    "millimetres": ("mm", None),
+    "centimetres": ("cm", None),
+    "metres": ("m", None),
+    "seconds": (None, "s"),
+    "minutes": (None, "min"),
+}
+"""Units of length and time by what a case may say of its units."""
+
+
+def units_of(text: str) -> tuple[str | None, str | None]:
+    """Units of length and time that a case names, each only if it does."""
+    length, time = None, None
+    for words, (own_length, own_time) in WORDS.items():
+        if re.search(rf"(?<!\w){re.escape(words)}(?!\w)", text, re.IGNORECASE):
+            length, time = length or own_length, time or own_time
+    return length, time
+
+
 def label(quantity: str, units: str) -> str:
-    """Label of a colour bar; units are named only where they are those of SI."""
-    look = LOOKS[quantity]
-    return f"{look.label} ({look.unit})" if units.upper() == "SI" else look.label
+    """Label of a colour bar, with the unit if it is known."""
+    length, time = units_of(units)
+    unit = {
+        "speed": f"{length}/{time}" if length and time else None,
+        "vorticity": f"1/{time}" if time else None,
+        "pressure": "Pa" if units.upper() == "SI" else None,
+    }[quantity]
+    return f"{LOOKS[quantity].label} ({unit})" if unit else LOOKS[quantity].label
+
+
+def length_label(name: str, units: str) -> str:
+    """Label of a coordinate axis."""
+    unit, _ = units_of(units)
+    return f"{name} ({unit})" if unit else name
+
+
+def time_text(time: float, units: str) -> str:
+    """A time, for a title."""
+    _, unit = units_of(units)
+    return f"t = {time:.4g} {unit}" if unit else f"t = {time:.4g}"
 
 
 def rgb(colour: str) -> Array:
@@ -92,17 +132,8 @@ def round_length(length: float) -> float:
 
 def length_text(length: float, units: str) -> str:
     """A length with its unit, if it is known."""
-    return f"{length:g} m" if units.upper() == "SI" else f"{length:g}"
-
-
-def length_label(name: str, units: str) -> str:
-    """Label of a coordinate axis."""
-    return f"{name} (m)" if units.upper() == "SI" else name
-
-
-def time_text(time: float, units: str) -> str:
-    """A time, for a title."""
-    return f"t = {time:.4g} s" if units.upper() == "SI" else f"t = {time:.4g}"
+    unit, _ = units_of(units)
+    return f"{length:g} {unit}" if unit else f"{length:g}"
 
 
 TAIL = {"speed": 0.1, "pressure": 0.3, "vorticity": 0.5}
