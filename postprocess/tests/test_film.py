@@ -87,6 +87,14 @@ def test_a_gif_goes_round_and_leaves_white_white(tmp_path: Path) -> None:
     assert shown.info["loop"] == 0
     shown.seek(5)
     assert np.asarray(shown.convert("RGB"))[2, 2].tolist() == [255, 255, 255]
+    # Beside many other light colours, too
+    shades = np.linspace(200, 255, 96).astype(np.uint8)
+    light = [np.repeat(np.tile(shades, (64, 1))[..., None], 3, axis=2) for _ in range(2)]
+    light = [np.where(np.arange(64)[:, None, None] < 20, np.uint8(255), one) for one in light]
+    movie.write(out, iter(light), 10.0)
+    shown = np.asarray(Image.open(out).convert("RGB"))
+    assert (shown[:20] == 255).all()
+    assert np.abs(shown[20:].astype(int) - light[0][20:]).max() <= 12
 
 
 def test_a_film_that_fails_leaves_nothing_behind(tmp_path: Path) -> None:
@@ -281,3 +289,23 @@ def test_a_picture_is_no_film(
     arguments = ["picture", str(planar_run.path), "--out", str(tmp_path / "film.mp4")]
     assert cli.main([*arguments, "--painter", "matplotlib", "--lines", "none"]) == 1
     assert "alewife-post film" in capsys.readouterr().err
+
+
+def test_a_followed_body_in_a_periodic_box_goes_on_through_its_sides(
+    planar_run: Run, tmp_path: Path
+) -> None:
+    path = tmp_path / "periodic"
+    shutil.copytree(planar_run.path, path)
+    text = (path / "case.toml").read_text()
+    box = "[domain.box]\nmin = [-1.0, -2.0]\nmax = [1.5, 2.0]\n"
+    sides = '[boundary]\nleft = { periodic = "right" }\nbottom = { periodic = "top" }\n'
+    (path / "case.toml").write_text(text.replace("[domain.disc]\nradius = 2.0\n", box + sides))
+    out = tmp_path / "film.mp4"
+    # It goes from 0 to 2, out at 1.5; at rest it is in the middle, with its images beside it
+    for follow in (["--follow", "disc"], []):
+        arguments = ["film", str(path), "--quantity", "bodies", "--out", str(out), "--no-trails"]
+        assert cli.main([*arguments, "--size", "240x180", "--frames", "5", *follow]) == 0
+        _, shown = frames_of(out)
+        areas = [colour_at(image, style.SERIES[0], 60).sum() for image in shown]
+        # The view is one period wide: whatever leaves it on one side comes in on the other
+        assert max(areas) < 1.05 * min(areas)

@@ -14,7 +14,7 @@ from matplotlib.tri import LinearTriInterpolator, Triangulation
 from alewife_post import style
 from alewife_post.bodies import Heading, Pose, rotation_matrix
 from alewife_post.elements import edge_curves, edges, quarters, refine, subdivide
-from alewife_post.periodic import is_joined
+from alewife_post.periodic import is_joined, periods
 from alewife_post.read import Field, Shape
 
 Array = np.ndarray
@@ -253,12 +253,20 @@ def domain_view(case: dict[str, Any]) -> View | None:
     return float(x0), float(x1), float(y0), float(y1)
 
 
-def draw_domain(axes: Axes, case: dict[str, Any]) -> None:
-    """The sides of a domain where there is no mesh to show them."""
-    view = domain_view(case)
-    if view is None:
+def draw_domain(axes: Axes, case: dict[str, Any], view: View) -> None:
+    """The sides of a domain where there is no mesh to show them; a periodic one has none."""
+    whole = domain_view(case)
+    if whole is None:
         return
-    x0, x1, y0, y1 = view
+    lengths = periods(case)
+    # A period beyond what is seen on each side
+    sides = [
+        (view[2 * k] - lengths[k], view[2 * k + 1] + lengths[k])
+        if lengths[k] > 0
+        else whole[2 * k : 2 * k + 2]
+        for k in range(2)
+    ]
+    (x0, x1), (y0, y1) = sides
     look = {"facecolor": style.FLUID, "edgecolor": style.BOUNDARY, "lw": 1.2, "zorder": -1}
     if next(iter(case["domain"])) in ("disc", "half-disc"):
         center = (0.5 * (x0 + x1), 0.5 * (y0 + y1))

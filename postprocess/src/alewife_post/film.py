@@ -290,7 +290,7 @@ def _paint_moment(
         trails=request.trails,
     )
     if field is None:
-        drawing.draw_domain(axes, run.case)
+        drawing.draw_domain(axes, run.case, view)
     else:
         paint(axes, prepared(run, field, view, mirror=request.mirror), view, look)
 

@@ -74,9 +74,9 @@ def _write_gif(out: Path, images: Iterator[Array], fps: float) -> int:
     first = Image.fromarray(next(images))
     # Colours of the first frame for all: those of each frame would flicker.
     palette = first.quantize(255, method=Image.Quantize.MEDIANCUT)
-    # White stays white: colours of a palette are means of many.
+    # White stays white: what is nearest in a palette is found roughly.
     table = np.array(palette.getpalette(), dtype=int).reshape(-1, 3)
-    table[np.argmax(table.sum(axis=1))] = 255
+    table[(table >= 244).all(axis=1)] = 255
     palette = Image.new("P", (1, 1))
     palette.putpalette(table.ravel().tolist())
     n = 1

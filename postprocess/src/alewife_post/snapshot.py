@@ -125,7 +125,14 @@ def paint_bodies(
         for name, history in run.bodies.items():
             if np.ptp(history.center, axis=0).max() > 0.05 * bodies.radius(run, name):
                 past = history.center[history.time <= time * (1 + 1e-12)]
-                drawing.draw_trail(axes, trail(run.case, past))
+                drawing.draw_trail(
+                    axes,
+                    [
+                        piece + shift
+                        for piece in trail(run.case, past)
+                        for shift in images(run.case, piece.min(axis=0), piece.max(axis=0), region)
+                    ],
+                )
     for arrow in bodies.headings(run, placed):
         for shift in images(run.case, arrow.start, arrow.start, region):
             drawing.draw_heading(axes, replace(arrow, start=arrow.start + shift))
