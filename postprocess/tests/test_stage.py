@@ -229,6 +229,14 @@ def test_a_ball_is_where_its_message_has_it(run: Run) -> None:
     assert faces.max() == len(points) - 1
 
 
+def test_a_body_that_deforms_is_a_dot_where_no_mesh_shows_it(run: Run) -> None:
+    (body,) = run.case["body"]
+    gait = {"gait": {"pulsating": {}}}
+    run.__dict__["case"] = run.case | {"body": [body | gait]}
+    points, _ = Cast(run).form("ball", 0.0)
+    assert np.linalg.norm(points, axis=1) == pytest.approx(0.05)
+
+
 def test_shapes_come_from_the_messages(run: Run) -> None:
     ((solid,),) = [shape.solids for shape in run.shapes["ball"]]
     assert solid.kind == "ellipsoid"

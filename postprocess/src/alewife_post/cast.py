@@ -9,7 +9,7 @@ import numpy as np
 from alewife_post import bodies, space, style
 from alewife_post.film import Moment, Request, group_colours
 from alewife_post.periodic import domain_box, images, trail
-from alewife_post.read import Run, Shape, read_field
+from alewife_post.read import Run, Shape, Solid, read_field
 
 if TYPE_CHECKING:
     import pyvista
@@ -25,10 +25,16 @@ class Cast:
         self.run = run
         self.colours = group_colours(run)
         self.forms: dict[str, tuple[float, Array, Array]] = {}
+        self.deforming = bodies.deforming(run)
 
     def form(self, name: str, time: float) -> tuple[Array, Array]:
         """Points `(n, 3)` and triangles `(m, 3)` of a body in its own frame."""
         seen = bodies.shape(self.run, name, time)
+        if name in self.deforming and seen is not None:
+            # A dot where it is, rather than a shape it has no longer
+            size = np.full(3, 0.2 * bodies.radius(self.run, name))
+            dot = Solid("ellipsoid", np.zeros(3), np.array([0.0, 0.0, 0.0, 1.0]), size, (1.0, 1.0))
+            seen = Shape(seen.time, [dot], [])
         if seen is None or not seen.solids:
             return np.zeros((0, 3)), np.zeros((0, 3), dtype=int)
         known = self.forms.get(name)
@@ -60,7 +66,7 @@ class Cast:
         """Whether a body has a shape that only the mesh knows."""
         shapes = {name: bodies.shape(self.run, name, time) for name in names}
         unknown = {name for name, seen in shapes.items() if seen is None or not seen.solids}
-        return bool(unknown | bodies.deforming(self.run))
+        return bool(unknown | self.deforming)
 
     def _inside(self, placed: dict[str, bodies.Pose]) -> list[tuple[str, Array, Array]]:
         """Name, centre and rotation of each body, with its images where it crosses a side."""
