@@ -309,3 +309,26 @@ def test_a_followed_body_in_a_periodic_box_goes_on_through_its_sides(
         areas = [colour_at(image, style.SERIES[0], 60).sum() for image in shown]
         # The view is one period wide: whatever leaves it on one side comes in on the other
         assert max(areas) < 1.05 * min(areas)
+
+
+def test_bodies_are_where_the_mesh_has_them_if_no_message_tells(
+    growing: Run, tmp_path: Path
+) -> None:
+    # Fields of t = 0, 0.4, ..., 2 and messages up to 0.8 alone: frames end there
+    history = growing.bodies["disc"]
+    kept = history.time < 0.85
+    for name, values in list(vars(history).items()):
+        object.__setattr__(history, name, values[kept])
+    moments = film.chosen_moments(growing, film.Request(quantity="pressure"))
+    assert [moment.time for moment in moments] == pytest.approx([0.0, 0.4, 0.8])
+    # The hole of the mesh is about the origin, wherever a message of another time has the disc
+    out = tmp_path / "film.mp4"
+    history.time[:] = np.linspace(0.13, 0.93, kept.sum())
+    request = film.Request(quantity="pressure", painter="matplotlib", trails=False)
+    film.film(growing, out, request, lambda text: None)
+    _, shown = frames_of(out)
+    for image in shown:
+        is_body = colour_at(image, style.BODY, 12)
+        columns = np.flatnonzero(is_body.sum(axis=0) > 100)
+        first = np.flatnonzero(colour_at(shown[0], style.BODY, 12).sum(axis=0) > 100)
+        assert abs(columns.mean() - first.mean()) < 1.0

@@ -9,7 +9,7 @@ import pytest
 from conftest import CAN_RENDER, EDGES, block
 from matplotlib.figure import Figure
 
-from alewife_post import Run, open_run, space
+from alewife_post import Run, open_run, space, surfaces
 from alewife_post.cli import picture
 from alewife_post.planes import straight
 from alewife_post.read import QUADRATIC_TETRAHEDRON, Field
@@ -96,7 +96,7 @@ def test_points_just_inside_a_body_are_no_fluid_however_large_the_domain(run: Ru
 
 
 def test_the_surface_of_bodies_has_no_sides_of_the_domain(run: Run) -> None:
-    surface = space.bodies_surface(run, run.field(), "pressure")
+    surface = surfaces.bodies_surface(run, run.field(), "pressure")
     assert surface.area == pytest.approx(6.0, rel=1e-6)
     x, y, z = np.asarray(surface.points, dtype=float).T
     assert min(x.min(), y.min(), z.min()) == pytest.approx(1.0)
@@ -112,14 +112,14 @@ def in_domain(run: Run, domain: dict[str, object]) -> Run:
 
 def test_the_outer_part_of_an_imported_mesh_is_no_body(run: Run) -> None:
     imported = in_domain(run, {"mesh": {"file": "block.msh"}})
-    surface = space.bodies_surface(imported, run.field(), "pressure")
+    surface = surfaces.bodies_surface(imported, run.field(), "pressure")
     assert surface.area == pytest.approx(6.0, rel=1e-6)
 
 
 def test_a_domain_may_have_a_single_side(run: Run) -> None:
     # A sphere that the box is well inside of
     sphere = {"sphere": {"center": [1.5, 1.5, 1.5], "radius": 4.0}}
-    surface = space.bodies_surface(in_domain(run, sphere), run.field(), "pressure")
+    surface = surfaces.bodies_surface(in_domain(run, sphere), run.field(), "pressure")
     assert surface.area == pytest.approx(54.0 + 6.0, rel=1e-6)
 
 
@@ -146,7 +146,7 @@ def test_nodes_on_round_sides_are_found(domain: str) -> None:
         "sphere": {"domain": {"sphere": {"radius": 2.0}}},
     }[domain]
     nodes = np.array([[0.0, 1.2, 1.6], [0.3, 0.4, 0.5]])
-    least = np.abs(space.distances_to_sides(case, nodes)).min(axis=1)
+    least = np.abs(surfaces.distances_to_sides(case, nodes)).min(axis=1)
     assert least[0] < 1e-12 < least[1]
 
 
@@ -230,7 +230,7 @@ def cut_open_elsewhere(run: Run) -> tuple[Run, Field]:
 def test_where_a_periodic_mesh_is_cut_open_is_no_body(run: Run) -> None:
     other, moved = cut_open_elsewhere(run)
     assert moved.nodes[:, 0].min() == 1.0
-    surface = space.bodies_surface(other, moved, "pressure")
+    surface = surfaces.bodies_surface(other, moved, "pressure")
     # The cut goes along one face of the block, and all but one of its nodes are on both sides of it
     assert surface.area == pytest.approx(6.0, rel=1e-6)
 
@@ -256,7 +256,7 @@ def test_a_periodic_domain_goes_on_beyond_its_mesh(run: Run) -> None:
 
 def test_faces_of_the_boundary_close_it_and_look_outwards(run: Run) -> None:
     field = run.field()
-    faces = space.boundary_faces(field)
+    faces = surfaces.boundary_faces(field)
     a, b, c = (field.nodes[faces[:, k]] for k in range(3))
     # The box of 27 less the block of 1, by the theorem of Gauss; its surface has no resultant
     areas = 0.5 * np.cross(b - a, c - a)

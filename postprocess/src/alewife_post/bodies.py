@@ -51,6 +51,14 @@ def nearest(history: BodyHistory, time: float) -> int:
     return int(np.argmin(np.abs(history.time - time)))
 
 
+def is_written(run: Run, time: float) -> bool:
+    """Whether there are messages of a time: else bodies are elsewhere than the nearest ones say."""
+    span = max([0.0, *(np.ptp(history.time) for history in run.bodies.values())])
+    return all(
+        np.abs(history.time - time).min() <= 1e-6 * span + 1e-12 for history in run.bodies.values()
+    )
+
+
 def _turn(history: BodyHistory, time: float) -> Array:
     return history.rotation[nearest(history, time)]
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from alewife_post import bodies, space, style
+from alewife_post import bodies, space, style, surfaces
 from alewife_post.film import Moment, Request, group_colours
 from alewife_post.periodic import domain_box, images, trail
 from alewife_post.read import Run, Shape, Solid, read_field
@@ -51,7 +51,7 @@ class Cast:
         moved = self._inside(placed)
         if not request.surface or request.quantity == "bodies":
             if moment.path is not None and self._needs_mesh(list(placed), moment.time):
-                surface = space.bodies_surface(self.run, read_field(moment.path), "speed")
+                surface = surfaces.bodies_surface(self.run, read_field(moment.path), "speed")
                 plotter.add_mesh(
                     surface, color=style.BODY, smooth_shading=True, render=False, **style.SOLID
                 )
@@ -66,7 +66,7 @@ class Cast:
         """Whether a body has a shape that only the mesh knows."""
         shapes = {name: bodies.shape(self.run, name, time) for name in names}
         unknown = {name for name, seen in shapes.items() if seen is None or not seen.solids}
-        return bool(unknown | self.deforming)
+        return bool(unknown | self.deforming) or not bodies.is_written(self.run, time)
 
     def _inside(self, placed: dict[str, bodies.Pose]) -> list[tuple[str, Array, Array]]:
         """Name, centre and rotation of each body, with its images where it crosses a side."""

@@ -173,6 +173,10 @@ def chosen_moments(run: Run, request: Request) -> list[Moment]:
         known = [Moment(float(time), None) for time in history.time]
     else:
         known = [Moment(frame.time, frame.path) for frame in run.fields]
+        # Of a run under way messages come later than fields: a film ends where both are there.
+        latest = max([0.0, *(history.time[-1] for history in run.bodies.values())])
+        if run.bodies and known[0].time <= latest:
+            known = [one for one in known if one.time <= latest * (1 + 1e-9) + 1e-12]
     first, last = known[0].time, known[-1].time
     if request.window is not None:
         start, end = request.window

@@ -39,7 +39,6 @@ class Look:
     """Pixels of the image of the flow from left to right."""
     is_smooth: bool = True
     """Whether it is rendered finer than that, and averaged."""
-    trails: bool = False
     is_mirrored: bool = False
 
 
@@ -104,6 +103,9 @@ def paint_bodies(
     changing = bodies.deforming(run) | {
         name for name in placed if bodies.shape(run, name, time) is None
     }
+    if field is not None and not bodies.is_written(run, time):
+        # The mesh knows better than messages of another time where they are.
+        changing = set(placed)
     region = (np.array([view[0], view[2], 0.0]), np.array([view[1], view[3], 0.0]))
     if field is not None:
         low, high = field.nodes.min(axis=0), field.nodes.max(axis=0)

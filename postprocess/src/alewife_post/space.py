@@ -9,12 +9,11 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from alewife_post import bodies, drawing, scene, style
+from alewife_post import bodies, drawing, scene, style, surfaces
 from alewife_post.figure import body_velocity, colour_bar
-from alewife_post.periodic import domain_box, images, is_joined, periods
+from alewife_post.periodic import domain_box, images, periods
 from alewife_post.planes import Plane, parsed, through_bodies
-from alewife_post.quantities import speed
-from alewife_post.read import QUADRATIC_TRIANGLE, Field, Run
+from alewife_post.read import Field, Run
 
 Array = np.ndarray
 View = tuple[float, float, float, float]
@@ -31,13 +30,6 @@ PIECES = np.array(
     ]
 )  # fmt: skip
 """Nodes of the pieces of a quadratic tetrahedron: its corners, and what is left about edge 6-8."""
-FACES = np.array([[0, 1, 2, 4, 5, 6], [0, 1, 3, 4, 8, 7], [0, 2, 3, 6, 9, 7], [1, 2, 3, 5, 9, 8]])
-"""Nodes of each face of a tetrahedron: vertices, then those between them."""
-OPPOSITE = np.array([3, 2, 1, 0])
-"""The vertex that a face has not."""
-ON_SIDE = 1e-5
-"""Distance from a side over the size of the domain below which a node is on it."""
-SUBDIVISION = 3
 IMAGE_SIZE = (1600, 1200)
 NEAR = 1.0
 """Space shown around bodies over the diameter of the largest one."""
@@ -167,7 +159,7 @@ def surface_picture(
         raise ValueError("VTK can have no window here: install libosmesa6")
     style.use()
     field = run.field(time)
-    surface = bodies_surface(run, field, quantity)
+    surface = surfaces.bodies_surface(run, field, quantity)
     sized = surface.compute_cell_sizes(length=False, volume=False)
     values = np.asarray(sized.point_data_to_cell_data().cell_data["values"])
     colour_map, limits = style.colours(quantity, values, np.asarray(sized.cell_data["Area"]))
@@ -240,7 +232,7 @@ def sample(
             continue
         pieces = field.cells[near][:, PIECES].reshape(-1, 4)
         straight = pyvista.UnstructuredGrid({TETRAHEDRON: pieces}, field.nodes)
-        straight.point_data["values"] = nodal_values(field, quantity)
+        straight.point_data["values"] = surfaces.nodal_values(field, quantity)
         straight.point_data["velocity"] = field.velocity
         # Left to itself, VTK takes points for inside that are a part of the whole domain away
         found = pyvista.PolyData(points - shift).sample(straight, tolerance=1e-6 * extent)
@@ -253,7 +245,7 @@ def sample(
 def sections(run: Run, field: Field, plane: Plane) -> list[Array]:
     """Curves `(n, 3)` in which a plane cuts the bodies."""
     try:
-        surface = bodies_surface(run, field, "pressure")
+        surface = surfaces.bodies_surface(run, field, "pressure")
     except ValueError:
         return []
     points = np.asarray(surface.points)
@@ -287,90 +279,6 @@ def _box(case: dict[str, Any], field: Field) -> tuple[Array, Array]:
     return field.nodes.min(axis=0), field.nodes.max(axis=0)
 
 
-def bodies_surface(run: Run, field: Field, quantity: str):  # noqa: ANN201  (loads VTK)
-    """The surface of the fluid without the sides of the domain, with nodal `values`."""
-    faces = boundary_faces(field)
-    sides = distances_to_sides(run.case, field.nodes)
-    if sides.shape[1] > 0:
-        is_side = np.abs(sides) < ON_SIDE * np.ptp(field.nodes, axis=0).max()
-        lengths = periods(run.case)
-        if lengths.any():
-            # Where the mesh is cut open
-            is_side = np.column_stack([is_side, is_joined(field.nodes, lengths)])
-        kept = _surface(field, quantity, faces[~is_side[faces].all(axis=1).any(axis=1)])
-    else:
-        whole = _surface(field, quantity, faces).connectivity("all")
-        cells = whole.faces.reshape(-1, 4)[:, 1:]
-        is_outer = _is_on_largest_part(whole)[cells[:, 0]]
-        kept = whole.extract_cells(np.flatnonzero(~is_outer))
-        kept = kept.extract_surface(algorithm="dataset_surface")
-    if kept.n_cells == 0:
-        raise ValueError("there is no body in this run: draw a slice")
-    return kept
-
-
-def _surface(field: Field, quantity: str, faces: Array):  # noqa: ANN202  (loads VTK)
-    """Curved faces `(n, 6)` as flat triangles, with nodal `values`."""
-    import pyvista
-
-    if len(faces) == 0:
-        return pyvista.PolyData()
-    grid = pyvista.UnstructuredGrid({QUADRATIC_TRIANGLE: faces}, field.nodes)
-    grid.point_data["values"] = nodal_values(field, quantity)
-    return grid.extract_surface(nonlinear_subdivision=SUBDIVISION, algorithm="dataset_surface")
-
-
-def _is_on_largest_part(surface) -> Array:  # noqa: ANN001  (VTK)
-    """Whether each point of a surface is on its part of the largest extent, the outer one."""
-    part = np.asarray(surface.point_data["RegionId"])
-    points = np.asarray(surface.points)
-    extents = [np.ptp(points[part == index], axis=0).max() for index in range(part.max() + 1)]
-    return part == np.argmax(extents)
-
-
-def distances_to_sides(case: dict[str, Any], nodes: Array) -> Array:
-    """Distance of each node from each side of the domain, `(n_nodes, n_sides)`.
-
-    The sides of an imported mesh are not known: it has none here.
-    """
-    ((kind, domain),) = case["domain"].items()
-    match kind:
-        case "box":
-            return np.hstack([nodes - domain["min"], nodes - domain["max"]])
-        case "cylinder":
-            off_axis = np.hypot(nodes[:, 1], nodes[:, 2]) - domain["radius"]
-            ends = nodes[:, :1] - np.asarray(domain["x"])
-            return np.column_stack([ends, off_axis])
-        case "sphere":
-            off = nodes - domain.get("center", [0.0, 0.0, 0.0])
-            return np.linalg.norm(off, axis=1, keepdims=True) - domain["radius"]
-        case "mesh":
-            return np.empty((len(nodes), 0))
-        case _:
-            raise ValueError(f"a {kind} is no domain in space")
-
-
-def nodal_values(field: Field, quantity: str) -> Array:
-    """Values of a quantity at the nodes, `(n_nodes,)`; of the vorticity its magnitude."""
-    match quantity:
-        case "speed":
-            return speed(field.velocity)
-        case "vorticity":
-            return speed(field.vorticity)
-        case "pressure":
-            return field.pressure
-        case _:
-            raise ValueError(f"{quantity} is not drawn in space: speed, pressure or vorticity")
-
-
-def outer_surface(field: Field):  # noqa: ANN201  (loads VTK)
-    """The outer part of the surface of the fluid: the sides of its domain."""
-    surface = _surface(field, "speed", boundary_faces(field)).connectivity("all")
-    cells = surface.faces.reshape(-1, 4)[:, 1:]
-    kept = np.flatnonzero(_is_on_largest_part(surface)[cells[:, 0]])
-    return surface.extract_cells(kept).extract_surface(algorithm="dataset_surface")
-
-
 def _plane(run: Run, plane: str | None, field: Field) -> Plane:
     if plane is not None:
         return parsed(plane)
@@ -389,8 +297,10 @@ def _surroundings(run: Run, field: Field, plane: Plane) -> View:
         return (x0, x1, y0, y1)
     low, high = places.min(axis=0), places.max(axis=0)
     extent = np.ptp(field.nodes, axis=0).max()
-    sides = (np.abs(distances_to_sides(run.case, field.nodes)) < ON_SIDE * extent).any(axis=1)
-    boundary = np.unique(boundary_faces(field)[:, :3])
+    sides = (
+        np.abs(surfaces.distances_to_sides(run.case, field.nodes)) < surfaces.ON_SIDE * extent
+    ).any(axis=1)
+    boundary = np.unique(surfaces.boundary_faces(field)[:, :3])
     on_bodies = places[boundary[~sides[boundary]]]
     if len(on_bodies):
         own_low, own_high = on_bodies.min(axis=0), on_bodies.max(axis=0)
@@ -399,21 +309,6 @@ def _surroundings(run: Run, field: Field, plane: Plane) -> View:
         reach = max(reach, 0.5 * np.ptp(on_bodies, axis=0).max())
         low, high = np.maximum(low, own_low - reach), np.minimum(high, own_high + reach)
     return (low[0], high[0], low[1], high[1])
-
-
-def boundary_faces(field: Field) -> Array:
-    """Nodes `(n, 6)` of the faces that only one cell has, counter-clockwise seen from outside."""
-    cells, n = field.cells, len(field.nodes)
-    ends = np.sort(cells[:, FACES[:, :3]].reshape(-1, 3), axis=1).astype(np.int64)
-    keys = (ends[:, 0] * n + ends[:, 1]) * n + ends[:, 2]
-    _, first, counts = np.unique(keys, return_index=True, return_counts=True)
-    found = first[counts == 1]
-    faces = cells[:, FACES].reshape(-1, 6)[found]
-    inner = field.nodes[cells[:, OPPOSITE].ravel()[found]]
-    a, b, c = (field.nodes[faces[:, k]] for k in range(3))
-    is_inwards = np.einsum("ij,ij->i", np.cross(b - a, c - a), inner - a) > 0
-    faces[is_inwards] = faces[is_inwards][:, [0, 2, 1, 5, 4, 3]]
-    return faces
 
 
 def _grid_lines(view: View) -> tuple[Array, Array]:

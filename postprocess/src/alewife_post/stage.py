@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from alewife_post import camera as view
-from alewife_post import planes, scene, space, style
+from alewife_post import planes, scene, space, style, surfaces
 from alewife_post.cast import Cast
 from alewife_post.film import Moment, Request, field_at, limits_of, offsets, thinned, time_stamp
 from alewife_post.page import Page
@@ -142,7 +142,9 @@ def _flow(
     if request.quantity == "bodies":
         return None
     if cuts is None:
-        return [space.bodies_surface(run, field_at(moment), request.quantity) for moment in moments]
+        return [
+            surfaces.bodies_surface(run, field_at(moment), request.quantity) for moment in moments
+        ]
     found = [
         whole_slice(run.case, field_at(moment), cut, request.quantity)
         for moment, cut in zip(moments, cuts, strict=True)
@@ -181,7 +183,7 @@ def slice_of(field: Field, cut: Cut, quantity: str) -> pyvista.PolyData:
         return pyvista.PolyData()
     pieces = field.cells[near][:, space.PIECES].reshape(-1, 4)
     grid = pyvista.UnstructuredGrid({space.TETRAHEDRON: pieces}, field.nodes)
-    grid.point_data["values"] = space.nodal_values(field, quantity)
+    grid.point_data["values"] = surfaces.nodal_values(field, quantity)
     found = grid.slice(normal=plane.normal, origin=plane.origin)
     for along, (low, high) in zip(plane.across, zip(cut.low, cut.high, strict=True), strict=True):
         for end, outwards in ((low, -along), (high, along)):
@@ -233,7 +235,7 @@ def _walls(
             )
             return [(rims, lines), (tube, glass)]
         case "mesh" if run.fields:
-            return [(space.outer_surface(run.field(moments[0].time)), glass)]
+            return [(surfaces.outer_surface(run.field(moments[0].time)), glass)]
         case "sphere" if is_whole:
             center, radius = domain.get("center", (0.0, 0.0, 0.0)), domain["radius"]
             ball = pyvista.Icosphere(radius=radius, center=center, nsub=4)
