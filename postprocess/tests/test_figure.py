@@ -116,12 +116,29 @@ def test_streamlines_of_both_sides_of_an_axis_are_mirror_images(axisymmetric_run
 
 def test_limits_of_colours_go_by_area_and_not_by_crowded_nodes() -> None:
     # A thousand values of a gap that holds a millionth of the area
-    values = np.concatenate([np.linspace(-1.0, 1.0, 1001), np.full(1000, 50.0)])
+    values = np.concatenate([np.linspace(0.0, 1.0, 1001), np.full(1000, 50.0)])
     share = np.concatenate([np.full(1001, 1.0), np.full(1000, 1e-6)])
-    _, (low, high) = style.colours("vorticity", values, share)
-    assert -low == high
+    _, (low, high) = style.colours("speed", values, share)
+    assert low == 0.0
     assert 0.98 < high <= 1.0
-    assert style.colours("vorticity", values)[1][1] == 50.0
+    assert style.colours("speed", values)[1][1] == 50.0
+    _, (low, high) = style.colours("pressure", values - 0.5, share)
+    assert low == -high
+    assert 0.48 < high <= 0.5
+
+
+def test_limits_of_vorticity_do_not_depend_on_the_fluid_at_rest() -> None:
+    values, share = np.linspace(-1.0, 1.0, 2001), np.full(2001, 1.0)
+    _, (low, high) = style.colours("vorticity", values, share)
+    # 65 % of the integral of |w| lie below the root of 0.65
+    assert (low, high) == pytest.approx((-(0.65**0.5), 0.65**0.5), abs=2e-3)
+    still = np.zeros(100_000)
+    wide = style.colours("vorticity", np.append(values, still), np.append(share, still + 9.0))
+    assert wide[1] == pytest.approx((low, high), abs=2e-3)
+    # A tip that is fifty times as strong on a thousandth of the area holds a tenth of it
+    tip = style.colours("vorticity", np.append(values, 50.0), np.append(share, 2.0))
+    assert tip[1][1] < 1.0
+    assert style.colours("vorticity", still, still + 1.0)[1] == (-1.0, 1.0)
 
 
 def test_a_percentile_is_that_of_a_uniform_distribution() -> None:

@@ -68,6 +68,9 @@ def slice_picture(
     found = sample(field, at.reshape(-1, 3), quantity, run.case)
     shape = (len(y), len(x))
     values = found["values"].reshape(shape)
+    if quantity != "pressure":
+        # A magnitude is not negative, up to rounding at the edges of cells
+        values = np.ma.maximum(values, 0.0)
     if values.count() == 0:
         raise ValueError(f"there is no fluid in the view on {cut.text}")
     mask = np.ma.getmaskarray(values)[..., None]

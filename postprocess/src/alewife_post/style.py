@@ -136,8 +136,12 @@ def length_text(length: float, units: str) -> str:
     return f"{length:g} {unit}" if unit else f"{length:g}"
 
 
-TAIL = {"speed": 0.1, "pressure": 0.3, "vorticity": 0.5}
+TAIL = {"speed": 0.1, "pressure": 0.3}
 """Per cent of the area whose values may lie beyond a limit, on each side."""
+
+
+BEYOND = 35.0
+"""Per cent of all vorticity, by its magnitude and area, that may lie beyond the limits."""
 
 
 def percentile(values: Array, share: Array, wanted: float) -> float:
@@ -156,12 +160,18 @@ def colours(quantity: str, values: Array, share: Array | None = None) -> tuple[s
     """
     look = LOOKS[quantity]
     share = np.ones(len(values)) if share is None else share
+    if quantity == "vorticity":
+        # It is nowhere but at bodies and in wakes: parts of the area would depend on how much of
+        # the fluid at rest is in view.
+        size = np.abs(values)
+        largest = percentile(size, size * share, 100.0 - BEYOND) if size.any() else 1.0
+        return look.two_sided, (-largest, largest)
     tail = TAIL[quantity]
     low, high = (percentile(values, share, wanted) for wanted in (tail, 100.0 - tail))
     if quantity == "speed":
         return look.one_sided, (0.0, high or 1.0)
     largest = max(abs(low), abs(high)) or 1.0
-    if quantity == "vorticity" or min(-low, high) > 0.2 * largest:
+    if min(-low, high) > 0.2 * largest:
         return look.two_sided, (-largest, largest)
     return look.one_sided, (low, high if high > low else low + 1.0)
 
