@@ -267,3 +267,16 @@ def test_faces_of_the_boundary_close_it_and_look_outwards(run: Run) -> None:
     for k, (i, j) in enumerate([(0, 1), (1, 2), (2, 0)]):
         middle = 0.5 * (field.nodes[faces[:, i]] + field.nodes[faces[:, j]])
         assert field.nodes[faces[:, 3 + k]] == pytest.approx(middle)
+
+
+def test_a_missing_quantity_is_named_with_those_there_are(tmp_path: Path) -> None:
+    import pyvista
+
+    from alewife_post.read import read_field
+
+    nodes, cells = block()
+    grid = pyvista.UnstructuredGrid({QUADRATIC_TETRAHEDRON: cells}, nodes)
+    grid.point_data["pressure"] = nodes[:, 0]
+    grid.save(tmp_path / "part.vtu")
+    with pytest.raises(ValueError, match="no velocity and no vorticity at nodes; it has pressure"):
+        read_field(tmp_path / "part.vtu")

@@ -241,6 +241,12 @@ def read_field(path: str | Path) -> Field:
         raise ValueError(
             f"{path}: cells of VTK types {sorted(by_type)}; 22 or 24 alone can be drawn"
         )
+    missing = {"velocity", "pressure", "vorticity"} - set(grid.point_data.keys())
+    if missing:
+        found = ", ".join(sorted(grid.point_data.keys())) or "nothing"
+        raise ValueError(
+            f"{path} has no {' and no '.join(sorted(missing))} at nodes; it has {found}"
+        )
     ((kind, cells),) = by_type.items()
     n = dimensions[kind]
     time = grid.field_data.get("TimeValue", [0.0])[0]

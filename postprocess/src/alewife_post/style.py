@@ -64,7 +64,7 @@ class Look:
 LOOKS = {
     "speed": Look("speed", "viridis", "viridis"),
     "pressure": Look("pressure", "cividis", "PuOr_r"),
-    "vorticity": Look("vorticity", "RdBu_r", "RdBu_r"),
+    "vorticity": Look("vorticity", "magma", "RdBu_r"),
 }
 
 
@@ -165,6 +165,9 @@ def colours(quantity: str, values: Array, share: Array | None = None) -> tuple[s
         # the fluid at rest is in view.
         size = np.abs(values)
         largest = percentile(size, size * share, 100.0 - BEYOND) if size.any() else 1.0
+        if values.min() >= 0.0:
+            # Magnitudes, in space
+            return look.one_sided, (0.0, largest)
         return look.two_sided, (-largest, largest)
     tail = TAIL[quantity]
     low, high = (percentile(values, share, wanted) for wanted in (tail, 100.0 - tail))
