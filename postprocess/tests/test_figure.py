@@ -139,7 +139,7 @@ def test_limits_of_vorticity_do_not_depend_on_the_fluid_at_rest() -> None:
     tip = style.colours("vorticity", np.append(values, 50.0), np.append(share, 2.0))
     assert tip[1][1] < 1.0
     # Magnitudes, in space, use all of a map of one side
-    assert style.colours("vorticity", np.abs(values), share) == ("magma", (0.0, high))
+    assert style.colours("vorticity", np.abs(values), share) == ("Reds", (0.0, high))
 
 
 def test_a_percentile_is_that_of_a_uniform_distribution() -> None:

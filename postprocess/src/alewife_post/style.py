@@ -64,7 +64,7 @@ class Look:
 LOOKS = {
     "speed": Look("speed", "viridis", "viridis"),
     "pressure": Look("pressure", "cividis", "PuOr_r"),
-    "vorticity": Look("vorticity", "magma", "RdBu_r"),
+    "vorticity": Look("vorticity", "Reds", "RdBu_r"),
 }
 
 
