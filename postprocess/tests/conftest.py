@@ -77,8 +77,10 @@ def velocity(nodes: np.ndarray) -> np.ndarray:
     return np.stack([nodes[:, 1] ** 2, 0.0 * nodes[:, 0]], axis=1)
 
 
-def write_vtu(path: Path, nodes: np.ndarray, cells: np.ndarray, time: float) -> None:
-    """One field file, as text."""
+def write_vtu(
+    path: Path, nodes: np.ndarray, cells: np.ndarray, time: float, scale: float = 1.0
+) -> None:
+    """One field file, as text, its pressure multiplied."""
 
     def array(name: str, values: np.ndarray, kind: str = "Float64") -> str:
         components = 1 if values.ndim == 1 else values.shape[1]
@@ -97,7 +99,7 @@ def write_vtu(path: Path, nodes: np.ndarray, cells: np.ndarray, time: float) -> 
         f"</DataArray></FieldData>\n"
         f'<Piece NumberOfPoints="{len(nodes)}" NumberOfCells="{len(cells)}"><PointData>\n'
         + array("velocity", spatial(velocity(nodes)))
-        + array("pressure", nodes[:, 0])
+        + array("pressure", scale * nodes[:, 0])
         + array("vorticity", -2 * nodes[:, 1])
         + "</PointData><Points>\n"
         + array("Points", spatial(nodes))
@@ -107,6 +109,35 @@ def write_vtu(path: Path, nodes: np.ndarray, cells: np.ndarray, time: float) -> 
         + array("types", np.full(len(cells), 22), "UInt8")
         + "</Cells></Piece></UnstructuredGrid></VTKFile>\n"
     )
+
+
+EDGES = ((0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3))
+
+
+def block() -> tuple[np.ndarray, np.ndarray]:
+    """Quadratic tetrahedra in a box of 27 cubes without the one in the middle."""
+    nodes: list[tuple[float, ...]] = []
+    number: dict[tuple[float, ...], int] = {}
+
+    def node(at: np.ndarray) -> int:
+        key = tuple(at.tolist())
+        if key not in number:
+            number[key] = len(nodes)
+            nodes.append(key)
+        return number[key]
+
+    cells = []
+    for corner in np.ndindex(3, 3, 3):
+        if corner == (1, 1, 1):
+            continue
+        for order in [(0, 1, 2), (1, 2, 0), (2, 0, 1), (0, 2, 1), (2, 1, 0), (1, 0, 2)]:
+            steps = np.eye(3)[list(order)]
+            vertices = np.array(corner) + np.vstack([np.zeros(3), np.cumsum(steps, axis=0)])
+            if np.linalg.det(vertices[1:] - vertices[0]) < 0:
+                vertices[[2, 3]] = vertices[[3, 2]]
+            middles = [0.5 * (vertices[i] + vertices[j]) for i, j in EDGES]
+            cells.append([node(point) for point in [*vertices, *middles]])
+    return np.array(nodes), np.array(cells)
 
 
 def body_message(time: float) -> dict:

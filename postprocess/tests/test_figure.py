@@ -10,7 +10,8 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from alewife_post import Run, cli, figure, style
-from alewife_post.drawing import boundary_loops, smooth_outline
+from alewife_post.drawing import boundary_loops
+from alewife_post.elements import smooth_outline
 from alewife_post.read import Field
 
 VTK = pytest.param(
@@ -84,10 +85,78 @@ def test_the_bar_lies_beside_the_picture_and_scales_are_equal(planar_run: Run) -
 
 
 def test_a_frame_that_moves_with_a_body_loses_its_velocity(planar_run: Run) -> None:
-    _, twists = figure.body_states(planar_run, 4.0)
-    np.testing.assert_allclose(twists["disc"], [0.5, 0.0])
+    np.testing.assert_allclose(figure.body_velocity(planar_run, "disc", 4.0), [0.5, 0.0])
     drawn = figure.picture(planar_run, "speed", frame="disc", lines="none", painter="matplotlib")
     assert drawn.axes[1].get_ylabel() == "speed (m/s) relative to disc"
+
+
+def test_a_frame_of_an_unknown_body_is_answered_with_the_known_ones(planar_run: Run) -> None:
+    with pytest.raises(KeyError, match="no body swimmer; bodies of this run: disc"):
+        figure.picture(planar_run, frame="swimmer", painter="matplotlib")
+
+
+def test_the_distance_from_an_axis_is_named_r(axisymmetric_run: Run) -> None:
+    drawn = figure.picture(axisymmetric_run, lines="none", painter="matplotlib")
+    assert drawn.axes[0].get_ylabel() == "r (m)"
+
+
+def test_streamlines_of_both_sides_of_an_axis_are_mirror_images(axisymmetric_run: Run) -> None:
+    drawn = figure.picture(axisymmetric_run, lines="streamlines", painter="matplotlib")
+    drawn.canvas.draw()
+    axes = drawn.axes[0]
+    sides = []
+    for lines in axes.collections:
+        if lines.get_zorder() == 3:
+            to_data = lines.get_transform() - axes.transData
+            sides.append(np.concatenate([to_data.transform(p.vertices) for p in lines.get_paths()]))
+    upper, lower = sides
+    assert upper[:, 1].min() >= 0.0
+    np.testing.assert_allclose(lower, upper * [1.0, -1.0], atol=1e-9)
+
+
+def test_limits_of_colours_go_by_area_and_not_by_crowded_nodes() -> None:
+    # A thousand values of a gap that holds a millionth of the area
+    values = np.concatenate([np.linspace(0.0, 1.0, 1001), np.full(1000, 50.0)])
+    share = np.concatenate([np.full(1001, 1.0), np.full(1000, 1e-6)])
+    _, (low, high) = style.colours("speed", values, share)
+    assert low == 0.0
+    assert 0.98 < high <= 1.0
+    assert style.colours("speed", values)[1][1] == 50.0
+    _, (low, high) = style.colours("pressure", values - 0.5, share)
+    assert low == -high
+    assert 0.48 < high <= 0.5
+
+
+def test_limits_of_vorticity_do_not_depend_on_the_fluid_at_rest() -> None:
+    values, share = np.linspace(-1.0, 1.0, 2001), np.full(2001, 1.0)
+    _, (low, high) = style.colours("vorticity", values, share)
+    # 65 % of the integral of |w| lie below the root of 0.65
+    assert (low, high) == pytest.approx((-(0.65**0.5), 0.65**0.5), abs=2e-3)
+    still = np.zeros(100_000)
+    wide = style.colours("vorticity", np.append(values, still), np.append(share, still + 9.0))
+    assert wide[1] == pytest.approx((low, high), abs=2e-3)
+    # A tip that is fifty times as strong on a thousandth of the area holds a tenth of it
+    tip = style.colours("vorticity", np.append(values, 50.0), np.append(share, 2.0))
+    assert tip[1][1] < 1.0
+    # Magnitudes, in space, use all of a map of one side
+    assert style.colours("vorticity", np.abs(values), share) == ("Reds", (0.0, high))
+
+
+def test_a_percentile_is_that_of_a_uniform_distribution() -> None:
+    values = np.random.default_rng(3).permutation(np.linspace(0.0, 1.0, 2001))
+    assert style.percentile(values, np.ones(2001), 25.0) == pytest.approx(0.25, abs=1e-3)
+    # Shares that grow with the value: the density is 2 v, half of it lies below the root of 1/2
+    assert style.percentile(values, values, 50.0) == pytest.approx(0.5**0.5, abs=1e-3)
+
+
+def test_a_body_that_the_view_cuts_keeps_its_colour(planar_run: Run) -> None:
+    drawn = figure.picture(planar_run, view=(0.2, 1.9, -0.5, 0.5), time=0.0, painter="matplotlib")
+    image = painted(drawn)
+    axes = drawn.axes[0]
+    across, up = axes.transData.transform((0.5, 0.3))
+    body = np.array(matplotlib.colors.to_rgb(style.BODY))
+    seen = image[image.shape[0] - 1 - round(up), round(across), :3]
+    np.testing.assert_allclose(seen, body, atol=0.02)
 
 
 def test_a_series_shows_the_interval_of_a_reference(planar_run: Run, tmp_path: Path) -> None:
@@ -116,20 +185,6 @@ def test_a_smooth_outline_passes_its_points_and_stays_near_a_circle() -> None:
     outline = smooth_outline(points, 8)
     np.testing.assert_allclose(outline[::8], points)
     assert abs(np.linalg.norm(outline, axis=1) - 1).max() < 2e-3
-
-
-def test_bodies_that_went_round_are_drawn_where_the_mesh_has_them(planar_run: Run) -> None:
-    field = planar_run.field()
-    low = field.nodes.min(axis=0)
-    case = {
-        "domain": {"box": {"min": [0.0, 0.0], "max": [4.0, 2.0]}},
-        "boundary": {"left": {"periodic": "right"}, "bottom": "no-slip"},
-    }
-    for turns in (-3, 0, 7):
-        inside = np.add(low, (1.0, 0.5))
-        poses = figure.in_mesh(case, field, {"disc": (np.add(inside, (4.0 * turns, 0.0)), 0.3)})
-        assert np.allclose(poses["disc"][0], inside)
-        assert poses["disc"][1] == 0.3
 
 
 def test_a_computed_run_is_drawn(computed_run: Run, tmp_path: Path) -> None:
@@ -162,3 +217,28 @@ def test_bodies_of_swimmers_are_what_the_mesh_leaves_out() -> None:
     field = Field(0.0, np.array(nodes), np.array(cells), still, pressure=none, vorticity=none)
     loops = boundary_loops(field)
     assert sorted(float(np.ptp(loop, axis=0).max()) for loop in loops) == [2.0, 4.0]
+
+
+@pytest.mark.parametrize(
+    ("text", "units"),
+    [
+        ("SI", ("m", "s")),
+        ("dimensionless", (None, None)),
+        ("cm g s", ("cm", "s")),
+        ("mm mg s", ("mm", "s")),
+        ("micrometres, seconds, water: viscosity 1e-3 Pa s", ("µm", "s")),
+        ("si units", ("m", "s")),
+        ("physics of silicon", (None, None)),
+    ],
+)
+def test_units_are_those_the_case_names(text: str, units: tuple[str | None, str | None]) -> None:
+    assert style.units_of(text) == units
+
+
+def test_labels_have_units_where_they_are_known() -> None:
+    assert style.label("speed", "micrometres, seconds") == "speed (µm/s)"
+    assert style.label("pressure", "cm g s") == "pressure"
+    assert style.label("vorticity", "seconds") == "vorticity (1/s)"
+    assert style.length_label("x", "dimensionless") == "x"
+    assert style.time_text(0.25, "mm mg s") == "t = 0.25 s"
+    assert style.length_text(0.5, "SI") == "0.5 m"

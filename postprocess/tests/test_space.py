@@ -6,12 +6,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from conftest import CAN_RENDER
+from conftest import CAN_RENDER, EDGES, block
 from matplotlib.figure import Figure
 
-from alewife_post import Run, open_run, space
+from alewife_post import Run, open_run, space, surfaces
 from alewife_post.cli import picture
-from alewife_post.read import QUADRATIC_TETRAHEDRON
+from alewife_post.planes import straight
+from alewife_post.read import QUADRATIC_TETRAHEDRON, Field
 
 CASE = """
 title = "A block in a box"
@@ -25,34 +26,6 @@ name = "block"
 center = [1.5, 1.5, 1.5]
 [time.steady]
 """
-
-EDGES = ((0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3))
-
-
-def block() -> tuple[np.ndarray, np.ndarray]:
-    """Quadratic tetrahedra in a box of 27 cubes without the one in the middle."""
-    nodes: list[tuple[float, ...]] = []
-    number: dict[tuple[float, ...], int] = {}
-
-    def node(at: np.ndarray) -> int:
-        key = tuple(at.tolist())
-        if key not in number:
-            number[key] = len(nodes)
-            nodes.append(key)
-        return number[key]
-
-    cells = []
-    for corner in np.ndindex(3, 3, 3):
-        if corner == (1, 1, 1):
-            continue
-        for order in [(0, 1, 2), (1, 2, 0), (2, 0, 1), (0, 2, 1), (2, 1, 0), (1, 0, 2)]:
-            steps = np.eye(3)[list(order)]
-            vertices = np.array(corner) + np.vstack([np.zeros(3), np.cumsum(steps, axis=0)])
-            if np.linalg.det(vertices[1:] - vertices[0]) < 0:
-                vertices[[2, 3]] = vertices[[3, 2]]
-            middles = [0.5 * (vertices[i] + vertices[j]) for i, j in EDGES]
-            cells.append([node(point) for point in [*vertices, *middles]])
-    return np.array(nodes), np.array(cells)
 
 
 @pytest.fixture(scope="module")
@@ -106,8 +79,24 @@ def test_samples_are_those_of_the_quadratic_flow_and_masked_in_bodies(run: Run) 
     assert found["values"].mask.tolist() == [False, False, True]
 
 
+def test_points_just_inside_a_body_are_no_fluid_however_large_the_domain(run: Run) -> None:
+    # Of a flow in one corner of a domain that is a million times as large
+    field = run.field()
+    far = np.vstack([field.nodes, field.nodes[:10] + 1e6])
+    grown = Field(
+        time=0.0,
+        nodes=far,
+        cells=np.vstack([field.cells, len(field.nodes) + np.arange(10)[None]]),
+        velocity=np.vstack([field.velocity, field.velocity[:10]]),
+        pressure=np.append(field.pressure, field.pressure[:10]),
+        vorticity=np.vstack([field.vorticity, field.vorticity[:10]]),
+    )
+    points = np.array([[1.001, 1.5, 1.5], [0.999, 1.5, 1.5]])
+    assert space.sample(grown, points, "speed")["values"].mask.tolist() == [True, False]
+
+
 def test_the_surface_of_bodies_has_no_sides_of_the_domain(run: Run) -> None:
-    surface = space.bodies_surface(run, run.field(), "pressure")
+    surface = surfaces.bodies_surface(run, run.field(), "pressure")
     assert surface.area == pytest.approx(6.0, rel=1e-6)
     x, y, z = np.asarray(surface.points, dtype=float).T
     assert min(x.min(), y.min(), z.min()) == pytest.approx(1.0)
@@ -123,14 +112,14 @@ def in_domain(run: Run, domain: dict[str, object]) -> Run:
 
 def test_the_outer_part_of_an_imported_mesh_is_no_body(run: Run) -> None:
     imported = in_domain(run, {"mesh": {"file": "block.msh"}})
-    surface = space.bodies_surface(imported, run.field(), "pressure")
+    surface = surfaces.bodies_surface(imported, run.field(), "pressure")
     assert surface.area == pytest.approx(6.0, rel=1e-6)
 
 
 def test_a_domain_may_have_a_single_side(run: Run) -> None:
     # A sphere that the box is well inside of
     sphere = {"sphere": {"center": [1.5, 1.5, 1.5], "radius": 4.0}}
-    surface = space.bodies_surface(in_domain(run, sphere), run.field(), "pressure")
+    surface = surfaces.bodies_surface(in_domain(run, sphere), run.field(), "pressure")
     assert surface.area == pytest.approx(54.0 + 6.0, rel=1e-6)
 
 
@@ -144,10 +133,10 @@ def test_pieces_fill_their_tetrahedron() -> None:
 
 
 def test_a_plane_cuts_the_block_in_a_square(run: Run) -> None:
-    (square,) = space.sections(run, run.field(), 2, 1.4)
+    (square,) = space.sections(run, run.field(), straight(2, 1.4))
     assert square[:, 2] == pytest.approx(1.4)
     assert np.ptp(square[:, :2], axis=0) == pytest.approx([1.0, 1.0], abs=1e-6)
-    assert space.sections(run, run.field(), 2, 0.5) == []
+    assert space.sections(run, run.field(), straight(2, 0.5)) == []
 
 
 @pytest.mark.parametrize("domain", ["cylinder", "sphere"])
@@ -157,7 +146,7 @@ def test_nodes_on_round_sides_are_found(domain: str) -> None:
         "sphere": {"domain": {"sphere": {"radius": 2.0}}},
     }[domain]
     nodes = np.array([[0.0, 1.2, 1.6], [0.3, 0.4, 0.5]])
-    least = np.abs(space.distances_to_sides(case, nodes)).min(axis=1)
+    least = np.abs(surfaces.distances_to_sides(case, nodes)).min(axis=1)
     assert least[0] < 1e-12 < least[1]
 
 
@@ -208,3 +197,86 @@ def test_fields_of_other_cells_are_refused(tmp_path: Path) -> None:
     pyvista.UnstructuredGrid({10: np.array([[0, 1, 2, 3]])}, np.eye(4)[:, :3]).save(path)
     with pytest.raises(ValueError, match="22 or 24"):
         read_field(path)
+
+
+def cut_open_elsewhere(run: Run) -> tuple[Run, Field]:
+    """The run in a box that is periodic along x, its first layer of cells put behind the last."""
+    field = run.field()
+    is_first = (field.nodes[field.cells][:, :, 0] <= 1.0).all(axis=1)
+    n = len(field.nodes)
+    moved = Field(
+        time=0.0,
+        nodes=np.vstack([field.nodes, field.nodes + np.array([3.0, 0.0, 0.0])]),
+        cells=np.where(is_first[:, None], field.cells + n, field.cells),
+        velocity=np.vstack([field.velocity] * 2),
+        pressure=np.tile(field.pressure, 2),
+        vorticity=np.vstack([field.vorticity] * 2),
+    )
+    used, cells = np.unique(moved.cells, return_inverse=True)
+    moved = Field(
+        0.0,
+        moved.nodes[used],
+        cells.reshape(moved.cells.shape),
+        velocity=moved.velocity[used],
+        pressure=moved.pressure[used],
+        vorticity=moved.vorticity[used],
+    )
+    other = Run(run.path)
+    periodic = {"left": {"periodic": "right"}}
+    other.__dict__["case"] = {**run.case, "boundary": periodic}
+    return other, moved
+
+
+def test_where_a_periodic_mesh_is_cut_open_is_no_body(run: Run) -> None:
+    other, moved = cut_open_elsewhere(run)
+    assert moved.nodes[:, 0].min() == 1.0
+    surface = surfaces.bodies_surface(other, moved, "pressure")
+    # The cut goes along one face of the block, and all but one of its nodes are on both sides of it
+    assert surface.area == pytest.approx(6.0, rel=1e-6)
+
+
+def test_a_periodic_domain_goes_on_beyond_its_mesh(run: Run) -> None:
+    from alewife_post import stage
+
+    other, moved = cut_open_elsewhere(run)
+    points = np.array([[0.3, 0.4, 0.2], [2.7, 1.1, 0.9], [1.5, 1.5, 1.5]])
+    here = space.sample(run.field(), points, "pressure")
+    there = space.sample(moved, points, "pressure", other.case)
+    assert there["values"].mask.tolist() == [False, False, True]
+    assert there["values"].data[:2] == pytest.approx(here["values"].data[:2], abs=1e-6)
+    cut = stage.Cut(straight(2, 1.4), np.zeros(2), np.full(2, 3.0), moves=False)
+    found = stage.whole_slice(other.case, moved, cut, "pressure")
+    assert found.area == pytest.approx(8.0, rel=1e-5)
+    x, y, z = np.asarray(found.points, dtype=float).T
+    assert (x.min(), x.max()) == pytest.approx((0.0, 3.0))
+    # This pressure is no periodic one, and has two values where the mesh is cut open
+    inner = (x > 0.01) & (x < 2.99)
+    assert found.point_data["values"][inner] == pytest.approx((x + 2 * y - z)[inner], abs=1e-5)
+
+
+def test_faces_of_the_boundary_close_it_and_look_outwards(run: Run) -> None:
+    field = run.field()
+    faces = surfaces.boundary_faces(field)
+    a, b, c = (field.nodes[faces[:, k]] for k in range(3))
+    # The box of 27 less the block of 1, by the theorem of Gauss; its surface has no resultant
+    areas = 0.5 * np.cross(b - a, c - a)
+    assert np.einsum("ij,ij->", areas, (a + b + c) / 3) / 3 == pytest.approx(26.0)
+    assert areas.sum(axis=0) == pytest.approx(np.zeros(3), abs=1e-12)
+    assert np.linalg.norm(areas, axis=1).sum() == pytest.approx(54.0 + 6.0)
+    # Nodes in the middles of edges are between the vertices in their order
+    for k, (i, j) in enumerate([(0, 1), (1, 2), (2, 0)]):
+        middle = 0.5 * (field.nodes[faces[:, i]] + field.nodes[faces[:, j]])
+        assert field.nodes[faces[:, 3 + k]] == pytest.approx(middle)
+
+
+def test_a_missing_quantity_is_named_with_those_there_are(tmp_path: Path) -> None:
+    import pyvista
+
+    from alewife_post.read import read_field
+
+    nodes, cells = block()
+    grid = pyvista.UnstructuredGrid({QUADRATIC_TETRAHEDRON: cells}, nodes)
+    grid.point_data["pressure"] = nodes[:, 0]
+    grid.save(tmp_path / "part.vtu")
+    with pytest.raises(ValueError, match="no velocity and no vorticity at nodes; it has pressure"):
+        read_field(tmp_path / "part.vtu")

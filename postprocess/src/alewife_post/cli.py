@@ -1,50 +1,84 @@
-"""Commands: `alewife-picture` and `alewife-series`."""
+"""The command `alewife-post`, with `picture`, `film` and `series`, and its older names."""
 
 from __future__ import annotations
 
 import argparse
 import sys
-from collections.abc import Callable
 from pathlib import Path
 
 from matplotlib.figure import Figure
 
-from alewife_post import figure, space, style
+from alewife_post import figure, film, movie, space, style
 from alewife_post.read import Run, open_run
+
+FAILURES = (OSError, KeyError, ValueError)
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Pictures, films and series of runs of alewife."""
+    parser = argparse.ArgumentParser("alewife-post", description=main.__doc__)
+    commands = parser.add_subparsers(metavar="COMMAND", required=True)
+    for name, add, run in (
+        ("picture", _add_picture, _write_picture),
+        ("film", _add_film, _write_film),
+        ("series", _add_series, _write_series),
+    ):
+        summary = (run.__doc__ or "").removesuffix(".")
+        command = commands.add_parser(name, help=summary, description=run.__doc__)
+        command.add_argument("run", type=Path, help="run directory")
+        command.add_argument(
+            "--out", type=Path, required=True, help="file; its ending says the format"
+        )
+        add(command)
+        command.set_defaults(write=run)
+    options = parser.parse_args(arguments)
+    try:
+        options.write(open_run(options.run), options)
+    except FAILURES as error:
+        # A KeyError shows its message in quotes; errors of the system have theirs in no argument.
+        is_plain = isinstance(error, KeyError) and error.args
+        print(f"alewife-post: {error.args[0] if is_plain else error}", file=sys.stderr)
+        return 1
+    return 0
 
 
 def picture(arguments: list[str] | None = None) -> int:
-    """Write one picture of a run."""
-    parser = argparse.ArgumentParser("alewife-picture", description=picture.__doc__)
-    _common(parser)
-    parser.add_argument(
-        "--quantity", choices=figure.QUANTITIES, help="speed, on surfaces pressure, if absent"
-    )
+    """`alewife-post picture` by its older name."""
+    return main(["picture", *(sys.argv[1:] if arguments is None else arguments)])
+
+
+def series(arguments: list[str] | None = None) -> int:
+    """`alewife-post series` by its older name."""
+    return main(["series", *(sys.argv[1:] if arguments is None else arguments)])
+
+
+def film_command(arguments: list[str] | None = None) -> int:
+    """`alewife-post film` in one word."""
+    return main(["film", *(sys.argv[1:] if arguments is None else arguments)])
+
+
+# ---- Pictures ------------------------------------------------------------------------------------
+
+
+def _add_picture(parser: argparse.ArgumentParser) -> None:
+    _add_look(parser, figure.QUANTITIES)
     parser.add_argument("--time", type=float, help="time of the frame; the last one if absent")
-    parser.add_argument("--view", type=float, nargs=4, metavar=("X0", "X1", "Y0", "Y1"))
     parser.add_argument("--frame", metavar="BODY", help="subtract the velocity of this body")
-    parser.add_argument("--lines", choices=("streamlines", "arrows", "none"))
-    parser.add_argument("--half", action="store_true", help="one side of the axis only")
-    parser.add_argument("--slice", metavar="PLANE", help="plane of a run in space, such as z=0.5")
-    parser.add_argument("--surface", action="store_true", help="the bodies of a run in space")
     parser.add_argument(
-        "--camera",
-        type=float,
-        nargs=2,
-        default=(-50.0, 20.0),
-        metavar=("AZIMUTH", "ELEVATION"),
-        help="where bodies are looked at from, degrees about z and above the horizon",
+        "--lines", choices=("streamlines", "arrows", "none"), help="streamlines if absent, of speed"
     )
-    parser.add_argument("--painter", choices=("auto", "vtk", "matplotlib"), default="auto")
-    options = parser.parse_args(arguments)
-    return _write(options, lambda run: _picture(run, options))
+
+
+def _write_picture(run: Run, options: argparse.Namespace) -> None:
+    """One picture of a run."""
+    drawn = _picture(run, options)
+    _save(drawn, options.out)
 
 
 def _picture(run: Run, options: argparse.Namespace) -> Figure:
     view = options.view and tuple(options.view)
     if not run.is_spatial:
-        if options.surface or options.slice:
-            raise ValueError("--surface and --slice are for runs in space")
+        _refuse_in_the_plane(options)
         return figure.picture(
             run,
             options.quantity or "speed",
@@ -57,39 +91,147 @@ def _picture(run: Run, options: argparse.Namespace) -> Figure:
         )
     if options.surface:
         quantity = options.quantity or "pressure"
-        return space.surface_picture(run, quantity, time=options.time, camera=tuple(options.camera))
+        camera = tuple(options.camera or CAMERA)
+        return space.surface_picture(run, quantity, time=options.time, camera=camera)
     return space.slice_picture(
         run,
         options.quantity or "speed",
         time=options.time,
         plane=options.slice,
         view=view,
+        frame=options.frame,
         lines=options.lines or "streamlines",
     )
 
 
-def series(arguments: list[str] | None = None) -> int:
-    """Write a figure of quantities over time, with the references of the case."""
-    parser = argparse.ArgumentParser("alewife-series", description=series.__doc__)
-    _common(parser)
+CAMERA = (-50.0, 20.0)
+
+
+# ---- Films ---------------------------------------------------------------------------------------
+
+
+def _add_film(parser: argparse.ArgumentParser) -> None:
+    _add_look(parser, film.QUANTITIES)
+    parser.add_argument(
+        "--follow",
+        metavar="NAME",
+        help="body or swimmer the view moves with; `none` to leave the frame of the run",
+    )
+    parser.add_argument(
+        "--window", type=float, nargs=2, metavar=("START", "END"), help="first and last time"
+    )
+    parser.add_argument(
+        "--frames",
+        type=int,
+        default=film.MOST_FRAMES,
+        metavar="N",
+        help="at most so many, evenly over time (%(default)s)",
+    )
+    parser.add_argument("--fps", type=float, help="frames a second; up to 25 if absent")
+    parser.add_argument(
+        "--size", type=_size, metavar="WxH", help="pixels, such as 1280x720; by the view if absent"
+    )
+    parser.add_argument(
+        "--lines",
+        choices=("streamlines", "arrows", "none"),
+        default="none",
+        help="in the plane; streamlines begin elsewhere in each frame",
+    )
+    parser.add_argument("--no-trails", action="store_true", help="leave out the ways of centres")
+
+
+def _size(text: str) -> tuple[int, int]:
+    width, _, height = text.lower().partition("x")
+    if not (width.isdigit() and height.isdigit()):
+        raise argparse.ArgumentTypeError(f"{text} is no size: write one such as 1280x720")
+    return int(width), int(height)
+
+
+def _write_film(run: Run, options: argparse.Namespace) -> None:
+    """A film of a run, finished or under way: MP4 or GIF."""
+    if run.is_spatial:
+        for name, is_given in (
+            ("--view", options.view is not None),
+            ("--lines", options.lines != "none"),
+            ("--half", options.half),
+        ):
+            if is_given:
+                raise ValueError(f"{name} is for films of runs in the plane")
+    else:
+        _refuse_in_the_plane(options)
+    request = film.Request(
+        quantity=options.quantity,
+        follow=options.follow,
+        view=options.view and tuple(options.view),
+        window=options.window and tuple(options.window),
+        frames=options.frames,
+        fps=options.fps,
+        size=options.size,
+        lines=options.lines,
+        trails=not options.no_trails,
+        mirror=not options.half,
+        painter=options.painter,
+        plane=options.slice,
+        surface=options.surface,
+        camera=options.camera and tuple(options.camera),
+    )
+    film.film(run, options.out, request)
+
+
+# ---- Series --------------------------------------------------------------------------------------
+
+
+def _add_series(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--quantity", action="append", required=True, help="may be given again")
     parser.add_argument("--window", type=float, nargs=2, metavar=("START", "END"))
-    options = parser.parse_args(arguments)
+
+
+def _write_series(run: Run, options: argparse.Namespace) -> None:
+    """Quantities over time, with the references of the case."""
     window = options.window and tuple(options.window)
-    return _write(options, lambda run: figure.series_figure(run, options.quantity, window=window))
+    _save(figure.series_figure(run, options.quantity, window=window), options.out)
 
 
-def _common(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("run", type=Path, help="run directory")
-    parser.add_argument("--out", type=Path, required=True, help="file; its ending says the format")
+# ---- In common -----------------------------------------------------------------------------------
 
 
-def _write(options: argparse.Namespace, draw: Callable[[Run], Figure]) -> int:
-    try:
-        drawn = draw(open_run(options.run))
-    except (FileNotFoundError, KeyError, ValueError) as error:
-        message = error.args[0] if error.args else error
-        print(f"{Path(sys.argv[0]).name}: {message}", file=sys.stderr)
-        return 1
-    drawn.savefig(options.out, dpi=style.DPI, bbox_inches="tight", pad_inches=0.08)
-    return 0
+def _add_look(parser: argparse.ArgumentParser, quantities: tuple[str, ...]) -> None:
+    parser.add_argument(
+        "--quantity", choices=quantities, help="speed, on surfaces pressure, if absent"
+    )
+    parser.add_argument(
+        "--view",
+        type=float,
+        nargs=4,
+        metavar=("X0", "X1", "Y0", "Y1"),
+        help="of a slice in its own coordinates, about who is followed relative to that",
+    )
+    parser.add_argument("--half", action="store_true", help="one side of the axis only")
+    only_one = parser.add_mutually_exclusive_group()
+    only_one.add_argument(
+        "--slice",
+        metavar="PLANE",
+        help="plane of a run in space, such as z=0.5; through the bodies if absent",
+    )
+    only_one.add_argument("--surface", action="store_true", help="the bodies of a run in space")
+    parser.add_argument(
+        "--camera",
+        type=float,
+        nargs=2,
+        metavar=("AZIMUTH", "ELEVATION"),
+        help="where bodies are looked at from, degrees about z and above the horizon",
+    )
+    parser.add_argument("--painter", choices=("auto", "vtk", "matplotlib"), default="auto")
+
+
+def _refuse_in_the_plane(options: argparse.Namespace) -> None:
+    if options.surface or options.slice:
+        raise ValueError("--surface and --slice are for runs in space")
+    if options.camera:
+        raise ValueError("--camera is for runs in space")
+
+
+def _save(drawn: Figure, out: Path) -> None:
+    if out.suffix.lower() in movie.ENDINGS:
+        raise ValueError(f"{out} is a film by its name: that is `alewife-post film`")
+    drawn.savefig(out, dpi=style.DPI, bbox_inches="tight", pad_inches=0.08)

@@ -7,12 +7,15 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
-from matplotlib.patches import Ellipse, Polygon
+from matplotlib.patches import Ellipse, FancyArrow, Polygon, Rectangle
+from matplotlib.transforms import Affine2D
 from matplotlib.tri import LinearTriInterpolator, Triangulation
 
 from alewife_post import style
+from alewife_post.bodies import Heading, Pose, rotation_matrix
 from alewife_post.elements import edge_curves, edges, quarters, refine, subdivide
-from alewife_post.read import Field
+from alewife_post.periodic import is_joined, periods
+from alewife_post.read import Field, Shape
 
 Array = np.ndarray
 View = tuple[float, float, float, float]
@@ -59,54 +62,35 @@ def draw_edges(axes: Axes, field: Field) -> None:
     axes.add_collection(LineCollection(curves, colors=style.EDGE, linewidths=0.25, zorder=2))
 
 
-def draw_boundary(axes: Axes, field: Field) -> None:
-    """Outline of the fluid."""
+def draw_boundary(axes: Axes, field: Field, periods: Array, shifts: Array) -> None:
+    """Outline of the fluid at some shifts, without sides joined to others a period `(2,)` away."""
     every, is_boundary = edges(field.cells)
-    curves = edge_curves(field.nodes, every[is_boundary])
-    axes.add_collection(LineCollection(curves, colors=style.BOUNDARY, linewidths=0.7, zorder=4))
+    found = every[is_boundary]
+    if periods.any():
+        found = found[~is_joined(field.nodes[found[:, 2]], periods)]
+    curves = edge_curves(field.nodes, found)
+    for shift in shifts:
+        lines = LineCollection(curves + shift, colors=style.BOUNDARY, linewidths=0.7, zorder=4)
+        axes.add_collection(lines)
 
 
-def draw_bodies(
-    axes: Axes,
-    case: dict[str, Any],
-    poses: dict[str, tuple[Array, float]],
-    field: Field,
-) -> None:
-    """Bodies, below the fluid so that its edge is theirs; a pose is centre `(2,)` and angle."""
-    known = {body["name"]: body for body in case.get("body", [])}
-    if any(name not in known or not _keeps_shape(known[name]) for name in poses):
-        _draw_holes(axes, case, field)
-    for name, body in known.items():
-        if not _keeps_shape(body):
-            continue
-        center, angle = poses[name]
-        (kind, shape), *_ = body["shape"].items()
-        match kind:
-            case "disc" | "sphere":
-                semi_axes = [shape["radius"]] * 2
-            case "ellipse" | "spheroid":
-                semi_axes = shape["semi-axes" if "semi-axes" in shape else "semi_axes"]
-            case _:
-                turn = np.array([[np.cos(angle), np.sin(angle)], [-np.sin(angle), np.cos(angle)]])
-                # The pose is that of the centre of mass, the points have an origin of their own.
-                outline = smooth_outline(np.array(shape["points"]))
-                outline = center + (outline - centroid(outline)) @ turn
-                axes.add_patch(Polygon(outline, facecolor=style.BODY, edgecolor="none", zorder=0))
-                continue
-        width, height = 2 * np.array(semi_axes)
-        degrees = np.degrees(angle)
+def draw_shape(axes: Axes, seen: Shape, pose: Pose, colour: str, zorder: float = 0.0) -> None:
+    """A body that keeps its shape, placed in the plane."""
+    center, turn = pose
+    for solid in seen.solids:
+        own = turn @ rotation_matrix(solid.rotation)
+        degrees = np.degrees(np.arctan2(own[1, 0], own[0, 0]))
+        at = center + turn @ solid.position
+        width, height = solid.size[:2]
         axes.add_patch(
-            Ellipse(center, width, height, angle=degrees, facecolor=style.BODY, zorder=0)
+            Ellipse(at[:2], width, height, angle=degrees, facecolor=colour, zorder=zorder)
         )
+    for line in seen.lines:
+        outline = center[:2] + line @ turn[:2, :2].T
+        axes.add_patch(Polygon(outline, facecolor=colour, edgecolor="none", zorder=zorder))
 
 
-def _keeps_shape(body: dict[str, Any]) -> bool:
-    """Whether a body looks as its shape in the case at all times."""
-    is_simple = next(iter(body["shape"])) in ("disc", "sphere", "ellipse", "spheroid", "spline")
-    return is_simple and next(iter(body.get("gait", {})), "squirmer") == "squirmer"
-
-
-def _draw_holes(axes: Axes, case: dict[str, Any], field: Field) -> None:
+def draw_holes(axes: Axes, case: dict[str, Any], field: Field, shifts: Array) -> None:
     """What is inside the domain and no fluid: bodies that deform, or were made for a swimmer."""
     if case.get("geometry") == "axisymmetric":
         # Half of the outline of a body ends on the axis; the domain has no sides but straight ones
@@ -124,8 +108,11 @@ def _draw_holes(axes: Axes, case: dict[str, Any], field: Field) -> None:
     outlines = boundary_loops(field)
     outer = max(outlines, key=lambda outline: np.prod(np.ptp(outline, axis=0)))
     for outline in outlines:
-        if outline is not outer:
-            axes.add_patch(Polygon(outline, facecolor=style.BODY, edgecolor="none", zorder=0))
+        if outline is outer:
+            continue
+        for shift in shifts:
+            shown = outline + shift
+            axes.add_patch(Polygon(shown, facecolor=style.BODY, edgecolor="none", zorder=0))
 
 
 def boundary_loops(field: Field) -> list[Array]:
@@ -153,53 +140,45 @@ def boundary_loops(field: Field) -> list[Array]:
     return loops
 
 
-def centroid(outline: Array) -> Array:
-    """Centre of the area `(2,)` within a closed polygon `(n_points, 2)`."""
-    after = np.roll(outline, -1, axis=0)
-    crossed = outline[:, 0] * after[:, 1] - after[:, 0] * outline[:, 1]
-    return ((outline + after) * crossed[:, None]).sum(axis=0) / (3 * crossed.sum())
+def draw_streamlines(
+    axes: Axes, flow: list[Field], view: View, colour: str, *, is_mirrored: bool = False
+) -> None:
+    """Streamlines with arrow heads, evenly spaced over the view.
+
+    A flow that is mirrored about y = 0 has mirrored streamlines.
+    """
+    x0, x1, y0, y1 = view
+    sides = [1.0]
+    if is_mirrored and y0 < 0.0 < y1:
+        y0, y1, sides = 0.0, max(-y0, y1), [1.0, -1.0]
+    x, y, velocity = _on_grid(flow, (x0, x1, y0, y1), 240)
+    if not np.abs(velocity).max() > 0:
+        return
+    extent = np.array([x1 - x0, y1 - y0])
+    for side in sides:
+        axes.streamplot(
+            x,
+            y,
+            velocity[..., 0],
+            velocity[..., 1],
+            density=tuple(1.1 * extent / extent.min() ** 0.5 / extent.max() ** 0.5),
+            color=colour,
+            linewidth=0.6,
+            arrowsize=0.6,
+            zorder=3,
+            transform=Affine2D().scale(1.0, side) + axes.transData,
+        )
 
 
-def smooth_outline(points: Array, n: int = 16) -> Array:
-    """A smooth closed curve through points `(n_points, 2)`, as `(n_points * n, 2)`."""
-    before, after, beyond = (np.roll(points, shift, axis=0) for shift in (1, -1, -2))
-    s = (np.arange(n) / n)[:, None, None]
-    # Cubic of Catmull and Rom: its slope at a point is that of the chord between its neighbours.
-    curve = points + 0.5 * s * (
-        after
-        - before
-        + s * (2 * before - 5 * points + 4 * after - beyond)
-        + s**2 * (3 * (points - after) + beyond - before)
-    )
-    return curve.transpose(1, 0, 2).reshape(-1, 2)
-
-
-def draw_streamlines(axes: Axes, field: Field, view: View, colour: str) -> None:
-    """Streamlines with arrow heads, evenly spaced over the view."""
-    x, y, velocity = _on_grid(field, view, 240)
-    extent = np.array([view[1] - view[0], view[3] - view[2]])
-    axes.streamplot(
-        x,
-        y,
-        velocity[..., 0],
-        velocity[..., 1],
-        density=tuple(1.1 * extent / extent.min() ** 0.5 / extent.max() ** 0.5),
-        color=colour,
-        linewidth=0.6,
-        arrowsize=0.6,
-        zorder=3,
-    )
-
-
-def draw_arrows(axes: Axes, field: Field, view: View, colour: str) -> None:
+def draw_arrows(axes: Axes, flow: list[Field], view: View, colour: str) -> None:
     """Arrows on a regular grid, as long as the speed there."""
-    x, y, velocity = _on_grid(field, view, 28)
+    x, y, velocity = _on_grid(flow, view, 28)
     axes.quiver(
         x, y, velocity[..., 0], velocity[..., 1], color=colour, width=0.0018, zorder=3, pivot="mid"
     )
 
 
-def _on_grid(field: Field, view: View, n: int) -> tuple[Array, Array, Array]:
+def _on_grid(flow: list[Field], view: View, n: int) -> tuple[Array, Array, Array]:
     """Velocity on a regular grid of at most n points a side, masked outside the fluid.
 
     Returns x `(n_x,)`, y `(n_y,)` and velocity `(n_y, n_x, 2)`.
@@ -208,11 +187,89 @@ def _on_grid(field: Field, view: View, n: int) -> tuple[Array, Array, Array]:
     step = max(x1 - x0, y1 - y0) / n
     x = np.linspace(x0, x1, max(4, round((x1 - x0) / step)))
     y = np.linspace(y0, y1, max(4, round((y1 - y0) / step)))
-    mesh = Triangulation(*field.nodes.T, quarters(field.cells))
-    finder = mesh.get_trifinder()
     grid = np.meshgrid(x, y)
-    components = [
-        LinearTriInterpolator(mesh, component, trifinder=finder)(*grid)
-        for component in field.velocity.T
+    found = np.ma.masked_array(np.zeros((len(y), len(x), 2)), mask=True)
+    for field in flow:
+        mesh = Triangulation(*field.nodes.T, quarters(field.cells))
+        finder = mesh.get_trifinder()
+        components = [
+            LinearTriInterpolator(mesh, component, trifinder=finder)(*grid)
+            for component in field.velocity.T
+        ]
+        values = np.ma.stack(components, axis=-1)
+        is_here = ~np.ma.getmaskarray(values)
+        found[is_here] = values[is_here]
+    return x, y, found
+
+
+def draw_rod(axes: Axes, points: Array, zorder: float = 4.5) -> None:
+    """An arm or a pivot between bodies."""
+    axes.plot(*points[:, :2].T, color=style.ROD, lw=1.8, zorder=zorder, solid_capstyle="round")
+
+
+def draw_heading(axes: Axes, heading: Heading) -> None:
+    """An arrow along which something swims."""
+    length = float(np.linalg.norm(heading.vector[:2]))
+    if length == 0.0:
+        return
+    axes.add_patch(
+        FancyArrow(
+            *heading.start[:2],
+            *heading.vector[:2],
+            width=0.12 * length,
+            head_width=0.4 * length,
+            head_length=0.4 * length,
+            length_includes_head=True,
+            facecolor=style.ARROW_IN_BODY if heading.is_inside else style.ARROW,
+            edgecolor="none",
+            zorder=6,
+        )
+    )
+
+
+def draw_trail(axes: Axes, pieces: list[Array]) -> None:
+    """The way of a centre."""
+    for points in pieces:
+        axes.plot(*points[:, :2].T, color=style.TRAIL, lw=1.0, alpha=0.9, zorder=5.5)
+
+
+def domain_view(case: dict[str, Any]) -> View | None:
+    """All of a domain as its case has it; none if it is a mesh."""
+    ((kind, domain),) = case["domain"].items()
+    match kind:
+        case "box":
+            (x0, y0), (x1, y1) = domain["min"], domain["max"]
+        case "channel":
+            x0, y0, x1, y1 = 0.0, 0.0, domain["length"], domain["height"]
+        case "cylinder":
+            (x0, x1), y1 = domain["x"], domain["radius"]
+            y0 = -y1
+        case "disc" | "half-disc":
+            x, y = np.append(np.atleast_1d(domain.get("center", 0.0)), 0.0)[:2]
+            r = domain["radius"]
+            x0, x1, y0, y1 = x - r, x + r, y - r, y + r
+        case _:
+            return None
+    return float(x0), float(x1), float(y0), float(y1)
+
+
+def draw_domain(axes: Axes, case: dict[str, Any], view: View) -> None:
+    """The sides of a domain where there is no mesh to show them; a periodic one has none."""
+    whole = domain_view(case)
+    if whole is None:
+        return
+    lengths = periods(case)
+    # A period beyond what is seen on each side
+    sides = [
+        (view[2 * k] - lengths[k], view[2 * k + 1] + lengths[k])
+        if lengths[k] > 0
+        else whole[2 * k : 2 * k + 2]
+        for k in range(2)
     ]
-    return x, y, np.ma.stack(components, axis=-1)
+    (x0, x1), (y0, y1) = sides
+    look = {"facecolor": style.FLUID, "edgecolor": style.BOUNDARY, "lw": 1.2, "zorder": -1}
+    if next(iter(case["domain"])) in ("disc", "half-disc"):
+        center = (0.5 * (x0 + x1), 0.5 * (y0 + y1))
+        axes.add_patch(Ellipse(center, x1 - x0, y1 - y0, **look))
+    else:
+        axes.add_patch(Rectangle((x0, y0), x1 - x0, y1 - y0, **look))

@@ -104,3 +104,38 @@ def inside(field: Field, view: tuple[float, float, float, float]) -> Field:
     x0, x1, y0, y1 = view
     seen = (high >= [x0, y0]).all(axis=1) & (low <= [x1, y1]).all(axis=1)
     return replace(field, cells=field.cells[seen])
+
+
+def centroid(outline: Array) -> Array:
+    """Centre of the area `(2,)` within a closed polygon `(n_points, 2)`."""
+    after = np.roll(outline, -1, axis=0)
+    crossed = outline[:, 0] * after[:, 1] - after[:, 0] * outline[:, 1]
+    return ((outline + after) * crossed[:, None]).sum(axis=0) / (3 * crossed.sum())
+
+
+def smooth_outline(points: Array, n: int = 16) -> Array:
+    """A smooth closed curve through points `(n_points, 2)`, as `(n_points * n, 2)`."""
+    before, after, beyond = (np.roll(points, shift, axis=0) for shift in (1, -1, -2))
+    s = (np.arange(n) / n)[:, None, None]
+    # Cubic of Catmull and Rom: its slope at a point is that of the chord between its neighbours.
+    curve = points + 0.5 * s * (
+        after
+        - before
+        + s * (2 * before - 5 * points + 4 * after - beyond)
+        + s**2 * (3 * (points - after) + beyond - before)
+    )
+    return curve.transpose(1, 0, 2).reshape(-1, 2)
+
+
+def shares(field: Field, values: Array, view: tuple[float, float, float, float]) -> tuple:
+    """Values `(n_cells,)` at the middles of cells in a view, and the areas they hold."""
+    corners = field.nodes[field.cells[:, :3]]
+    a, b = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+    area = 0.5 * np.abs(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
+    middle = corners.mean(axis=1)
+    x0, x1, y0, y1 = view
+    seen = ((middle >= [x0, y0]) & (middle <= [x1, y1])).all(axis=1)
+    if not seen.any():
+        seen[:] = True
+    # The three middles of edges integrate a quadratic exactly.
+    return values[field.cells[:, 3:]][seen].ravel(), np.repeat(area[seen] / 3, 3)

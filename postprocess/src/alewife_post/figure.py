@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any, Literal
 
 import matplotlib
@@ -12,22 +13,29 @@ from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from alewife_post import drawing, scene, style
-from alewife_post.elements import inside, mirrored
-from alewife_post.quantities import speed
-from alewife_post.read import Field, Run
+from alewife_post import bodies, style
+from alewife_post.elements import mirrored, shares
+from alewife_post.periodic import joined
+from alewife_post.read import Run
+from alewife_post.snapshot import (
+    Lines,
+    Look,
+    Painter,
+    chosen_painter,
+    default_view,
+    nodal_values,
+    paint,
+    paint_bodies,
+    prepared,
+    whole_view,
+)
 
 Array = np.ndarray
 View = tuple[float, float, float, float]
 Quantity = Literal["speed", "pressure", "vorticity", "mesh"]
-Lines = Literal["streamlines", "arrows", "none"]
-Painter = Literal["auto", "vtk", "matplotlib"]
 
 QUANTITIES = ("speed", "pressure", "vorticity", "mesh")
 IMAGE_WIDTH = 2400
-
-SMALL_BODY = 0.1
-"""A body smaller than this part of the domain is looked at from near."""
 
 
 def picture(
@@ -47,21 +55,17 @@ def picture(
     `frame` names a body whose velocity is subtracted. Speed has streamlines unless `lines` says
     otherwise. An axisymmetric run is shown on both sides of its axis unless `mirror` is false.
     """
-    can_render = painter != "matplotlib" and scene.can_render()
-    if painter == "auto":
-        painter = "vtk" if can_render else "matplotlib"
-    elif painter == "vtk" and not can_render:
-        raise ValueError("VTK can have no window here: install libosmesa6, or draw by matplotlib")
+    painter = chosen_painter(painter)
     style.use()
     field = run.field(time)
-    poses, twists = body_states(run, field.time)
-    poses = in_mesh(run.case, field, poses)
-    velocity = field.velocity - (0.0 if frame is None else twists[frame])
-    field = Field(**{**vars(field), "velocity": velocity})
-    if run.is_axisymmetric and mirror:
-        field = mirrored(field)
-    view = view or default_view(run, field, poses)
-    field = inside(field, view)
+    velocity = field.velocity
+    if frame is not None:
+        velocity = velocity - body_velocity(run, frame, field.time)
+    field = replace(field, velocity=velocity)
+    view = view or default_view(run, whole_view(run, field, mirror=mirror), np.array([field.time]))
+    whole = mirrored(field) if run.is_axisymmetric and mirror else field
+    flow = prepared(run, field, view, mirror=mirror)
+    shown = joined(flow)
     lines = lines or ("streamlines" if quantity == "speed" else "none")
 
     units = run.case.get("units", "")
@@ -69,32 +73,20 @@ def picture(
     figure = Figure(figsize=(width, height), layout="compressed")
     axes = figure.add_subplot()
     axes.set_aspect("equal")
-    drawing.draw_bodies(axes, run.case, poses, field)
-    is_mesh = quantity == "mesh"
-    values = None if is_mesh else nodal_values(field, quantity)
+    values, share = None, None
     colour_map, limits = ("viridis", (0.0, 1.0))
-    if values is not None:
-        colour_map, limits = style.colours(quantity, values[np.unique(field.cells)])
-    if painter == "vtk":
-        image = scene.render(field, view, IMAGE_WIDTH, values, colour_map, limits, is_mesh)
-        axes.imshow(image, extent=view, zorder=1, interpolation="antialiased", aspect="equal")
-    else:
-        if values is None:
-            drawing.draw_fluid(axes, field)
-            drawing.draw_edges(axes, field)
-        else:
-            drawing.draw_values(axes, field, values, colour_map, limits)
-    drawing.draw_boundary(axes, field)
-    colour = style.STREAMLINE if quantity == "speed" else style.STREAMLINE_ON_LIGHT
-    if lines == "streamlines":
-        drawing.draw_streamlines(axes, field, view, colour)
-    elif lines == "arrows":
-        drawing.draw_arrows(axes, field, view, colour)
+    if quantity != "mesh":
+        values, share = shares(shown, nodal_values(shown, quantity), view)
+        colour_map, limits = style.colours(quantity, values, share)
+    is_mirrored = run.is_axisymmetric and mirror
+    look = Look(quantity, colour_map, limits, lines, painter, IMAGE_WIDTH, is_mirrored=is_mirrored)
+    paint_bodies(axes, run, view, field.time, field=whole)
+    paint(axes, flow, view, look)
 
     axes.set_xlim(view[0], view[1])
     axes.set_ylim(view[2], view[3])
     axes.set_xlabel(style.length_label("x", units))
-    axes.set_ylabel(style.length_label("y", units))
+    axes.set_ylabel(style.length_label("r" if run.is_axisymmetric else "y", units))
     # A flat picture has room for few marks on its short side.
     for axis, inches in ((axes.xaxis, width), (axes.yaxis, height - 0.9)):
         axis.set_major_locator(
@@ -104,88 +96,19 @@ def picture(
     moment = f", {style.time_text(field.time, units)}" if is_unsteady else ""
     axes.set_title(run.case["title"] + moment)
     if values is not None:
-        _colour_bar(axes, values[np.unique(field.cells)], colour_map, limits).set_label(
+        colour_bar(axes, values, colour_map, limits).set_label(
             style.label(quantity, units) + ("" if frame is None else f" relative to {frame}")
         )
     return figure
 
 
-def nodal_values(field: Field, quantity: str) -> Array:
-    """Values of a quantity at the nodes, `(n_nodes,)`."""
-    return speed(field.velocity) if quantity == "speed" else getattr(field, quantity)
-
-
-def body_states(run: Run, time: float) -> tuple[dict[str, tuple[Array, float]], dict[str, Array]]:
-    """Pose (centre `(2,)`, angle) and velocity `(2,)` of each body, from the message nearest."""
-    poses, velocities = {}, {}
-    for body in run.case.get("body", []):
-        if body["name"] not in run.bodies:
-            # Nothing was measured: the body is where the case put it.
-            name, center = body["name"], np.array([*body["center"], 0.0])[:2]
-            poses[name], velocities[name] = (center, body.get("angle", 0.0)), np.zeros(2)
-    for name, history in run.bodies.items():
-        nearest = int(np.argmin(np.abs(history.time - time)))
-        poses[name] = (history.center[nearest, :2], float(history.angle[nearest]))
-        velocities[name] = history.velocity[nearest, :2]
-    return poses, velocities
-
-
-def in_mesh(
-    case: dict[str, Any], field: Field, poses: dict[str, tuple[Array, float]]
-) -> dict[str, tuple[Array, float]]:
-    """Poses by whole periods away, where the mesh of a periodic domain has the bodies."""
-    ((kind, domain),) = case["domain"].items()
-    match kind:
-        case "box":
-            lengths = np.subtract(domain["max"], domain["min"])
-        case "channel":
-            lengths = np.array([domain["length"], domain["height"]])
-        case "cylinder":
-            lengths = np.array([domain["x"][1] - domain["x"][0], np.inf])
-        case _:
-            return poses
-    low = field.nodes.min(axis=0)
-
-    def is_periodic(side: str) -> bool:
-        condition = case.get("boundary", {}).get(side)
-        return isinstance(condition, dict) and "periodic" in condition
-
-    axes = [axis for axis, side in enumerate(("left", "bottom")) if is_periodic(side)]
-
-    def periods(center: Array) -> Array:
-        shift = np.zeros(2)
-        for axis in axes:
-            shift[axis] = -np.floor((center[axis] - low[axis]) / lengths[axis]) * lengths[axis]
-        # The sides of a mesh may be curved: of all images of a body, the nodes around it are
-        # nearest to the one in the mesh.
-        steps = [(0, 1, -1, 2) if axis in axes else (0,) for axis in range(2)]
-        near = [
-            shift + np.array([x * lengths[0] if x else 0.0, y * lengths[1] if y else 0.0])
-            for y in steps[1]
-            for x in steps[0]
-        ]
-        return min(near, key=lambda by: np.linalg.norm(field.nodes - center - by, axis=1).min())
-
-    return {name: (center + periods(center), angle) for name, (center, angle) in poses.items()}
-
-
-def default_view(run: Run, field: Field, poses: dict[str, tuple[Array, float]]) -> View:
-    """All of the domain, or the surroundings of the bodies if they are small in it."""
-    low, high = field.nodes.min(axis=0), field.nodes.max(axis=0)
-    radii = [_radius(body["shape"]) for body in run.case.get("body", [])]
-    across = (high - low) * [1.0, 2.0 if run.is_axisymmetric and low[1] >= 0.0 else 1.0]
-    if radii and 2 * max(radii) < SMALL_BODY * across.min():
-        centers = np.array([center for center, _ in poses.values()])
-        reach = 4.0 * max(radii) + 0.25 * np.ptp(centers, axis=0).max()
-        low = np.maximum(low, centers.min(axis=0) - reach)
-        high = np.minimum(high, centers.max(axis=0) + reach)
-    return float(low[0]), float(high[0]), float(low[1]), float(high[1])
-
-
-def _radius(shape: dict[str, Any]) -> float:
-    """Largest distance of a surface from the shape's origin."""
-    ((_, values),) = shape.items()
-    return max(float(np.abs(np.asarray(value)).max()) for value in values.values())
+def body_velocity(run: Run, name: str, time: float) -> Array:
+    """Velocity of a body, of as many components as the run has dimensions."""
+    if name not in run.bodies:
+        known = ", ".join(run.bodies) or "none"
+        raise KeyError(f"no body {name}; bodies of this run: {known}")
+    history = run.bodies[name]
+    return history.velocity[bodies.nearest(history, time), : 3 if run.is_spatial else 2]
 
 
 def _size(view: View) -> tuple[float, float]:
@@ -197,17 +120,33 @@ def _size(view: View) -> tuple[float, float]:
     return width + 0.6, width / aspect + 0.9
 
 
-def _colour_bar(
-    axes: Axes, values: Array, colour_map: str, limits: style.Limits
+def colour_bar(
+    axes: Axes,
+    values: Array,
+    colour_map: str,
+    limits: style.Limits,
+    *,
+    cax: Axes | None = None,
+    is_beside: bool = False,
+    alpha: float = 1.0,
 ) -> matplotlib.colorbar.Colorbar:
-    """A bar beside a tall picture, or below a wide one, never over it."""
-    below = bool(values.min() < limits[0] - 1e-12 * abs(limits[0]))
-    above = bool(values.max() > limits[1] + 1e-12 * abs(limits[1]))
+    """A bar in axes of its own, else beside a tall picture, or below a wide one, never over it."""
+    least = 1e-6 * (limits[1] - limits[0])
+    below = bool(values.min() < limits[0] - least)
+    above = bool(values.max() > limits[1] + least)
     extend = {(0, 0): "neither", (1, 0): "min", (0, 1): "max", (1, 1): "both"}[below, above]
+    mappable = ScalarMappable(Normalize(*limits), colour_map)
+    if cax is not None:
+        box = cax.get_position()
+        width, height = axes.figure.get_size_inches() * (box.width, box.height)
+        orientation = "horizontal" if width > height else "vertical"
+        return axes.figure.colorbar(
+            mappable, cax=cax, extend=extend, orientation=orientation, alpha=alpha
+        )
     (x0, x1), (y0, y1) = axes.get_xlim(), axes.get_ylim()
-    is_wide = x1 - x0 > 1.4 * (y1 - y0)
+    is_wide = x1 - x0 > 1.4 * abs(y1 - y0) and not is_beside
     return axes.figure.colorbar(
-        ScalarMappable(Normalize(*limits), colour_map),
+        mappable,
         ax=axes,
         location="bottom" if is_wide else "right",
         shrink=0.6 if is_wide else 0.85,
@@ -240,7 +179,8 @@ def series_figure(
         axes.margins(x=0.01)
         axes.spines[["top", "right"]].set_visible(False)
     figure.suptitle(run.case["title"], fontsize=style.PARAMETERS["axes.titlesize"])
-    panels[-1].set_xlabel("t (s)" if run.case.get("units", "").upper() == "SI" else "t")
+    _, unit = style.units_of(run.case.get("units", ""))
+    panels[-1].set_xlabel(f"t ({unit})" if unit else "t")
     return figure
 
 

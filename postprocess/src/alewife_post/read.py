@@ -77,6 +77,32 @@ class BodyHistory:
 
 
 @dataclass(frozen=True)
+class Solid:
+    """An ellipsoid, or a cylinder or cone along its own z, in the frame of a body."""
+
+    kind: str
+    """`ellipsoid` or `cylinder`."""
+    position: Array
+    """`(3,)`."""
+    rotation: Array
+    """Quaternion x, y, z, w, `(4,)`."""
+    size: Array
+    """Lengths along its own axes, `(3,)`."""
+    scales: tuple[float, float]
+    """Factors of the width of a cylinder at its bottom and its top."""
+
+
+@dataclass(frozen=True)
+class Shape:
+    """What a body looks like in its own frame from a time on."""
+
+    time: float
+    solids: list[Solid]
+    lines: list[Array]
+    """Closed outlines in the plane, each `(n_points, 2)`."""
+
+
+@dataclass(frozen=True)
 class Message:
     """One message of `run.mcap`."""
 
@@ -125,17 +151,33 @@ class Run:
 
         return pandas.DataFrame(self.series).set_index("time")
 
-    @cached_property
+    @property
     def bodies(self) -> dict[str, BodyHistory]:
         """All bodies of `run.mcap`, by name."""
+        return self._bodies_and_shapes[0]
+
+    @property
+    def shapes(self) -> dict[str, list[Shape]]:
+        """What each body looks like, in the order of time; once if it keeps its shape."""
+        return self._bodies_and_shapes[1]
+
+    @cached_property
+    def _bodies_and_shapes(self) -> tuple[dict[str, BodyHistory], dict[str, list[Shape]]]:
         reports: dict[str, list[dict[str, Any]]] = {}
+        shapes: dict[str, list[Shape]] = {}
         for message in self.messages():
             if message.topic.startswith("/body/"):
                 reports.setdefault(message.topic.removeprefix("/body/"), []).append(message.content)
-        return {name: _body_history(found) for name, found in reports.items()}
+            elif message.topic == "/scene":
+                for entity in message.content["entities"]:
+                    shapes.setdefault(entity["id"], []).append(_shape(entity, message.time))
+        return {name: _body_history(found) for name, found in reports.items()}, shapes
 
     def messages(self) -> Iterator[Message]:
         """All messages of `run.mcap` that were wholly written, in the order they were sent."""
+        if not (self.path / "run.mcap").exists():
+            # Killed before anything was written.
+            return
         with (self.path / "run.mcap").open("rb") as file:
             # The index at the end of the file is missing while the run goes on.
             found = NonSeekingReader(file).iter_messages(log_time_order=False)
@@ -154,7 +196,9 @@ class Run:
             return []
         sets = ElementTree.parse(listing).getroot().iter("DataSet")
         frames = [Frame(float(s.attrib["timestep"]), self.path / s.attrib["file"]) for s in sets]
-        return sorted(frames, key=lambda frame: frame.time)
+        # Files that were removed since are no frames.
+        found = [frame for frame in frames if frame.path.exists()]
+        return sorted(found, key=lambda frame: frame.time)
 
     def field(self, time: float | None = None) -> Field:
         """The flow at the frame nearest to `time`, or at the last one."""
@@ -197,6 +241,12 @@ def read_field(path: str | Path) -> Field:
         raise ValueError(
             f"{path}: cells of VTK types {sorted(by_type)}; 22 or 24 alone can be drawn"
         )
+    missing = {"velocity", "pressure", "vorticity"} - set(grid.point_data.keys())
+    if missing:
+        found = ", ".join(sorted(grid.point_data.keys())) or "nothing"
+        raise ValueError(
+            f"{path} has no {' and no '.join(sorted(missing))} at nodes; it has {found}"
+        )
     ((kind, cells),) = by_type.items()
     n = dimensions[kind]
     time = grid.field_data.get("TimeValue", [0.0])[0]
@@ -207,6 +257,31 @@ def read_field(path: str | Path) -> Field:
         velocity=np.array(grid.point_data["velocity"][:, :n], dtype=float),
         pressure=np.array(grid.point_data["pressure"], dtype=float),
         vorticity=np.array(grid.point_data["vorticity"], dtype=float),
+    )
+
+
+def _shape(entity: dict[str, Any], time: float) -> Shape:
+    def vector(value: dict[str, float], axes: str = "xyz") -> Array:
+        return np.array([value[axis] for axis in axes], dtype=float)
+
+    def solid(kind: str, item: dict[str, Any]) -> Solid:
+        pose = item["pose"]
+        return Solid(
+            kind,
+            vector(pose["position"]),
+            vector(pose["orientation"], "xyzw"),
+            vector(item["size"]),
+            (item.get("bottom_scale", 1.0), item.get("top_scale", 1.0)),
+        )
+
+    kinds = (("ellipsoid", "spheres"), ("cylinder", "cylinders"))
+    return Shape(
+        time,
+        [solid(kind, item) for kind, key in kinds for item in entity.get(key, [])],
+        [
+            np.array([vector(point, "xy") for point in line["points"]])
+            for line in entity.get("lines", [])
+        ],
     )
 
 

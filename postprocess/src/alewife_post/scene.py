@@ -51,7 +51,7 @@ def _can_load(library: str) -> bool:
 def render(
     field: Field,
     view: View,
-    width: int,
+    size: tuple[int, bool],
     values: Array | None,
     colour_map: str,
     limits: style.Limits,
@@ -59,11 +59,13 @@ def render(
 ) -> Array:
     """An image `(height, width, 4)` that fills the view `(x0, x1, y0, y1)`.
 
-    It is clear outside the fluid. Without nodal `values` `(n_nodes,)` the fluid has one colour.
+    Its size is a width, and whether it is rendered finer and averaged. It is clear outside the
+    fluid. Without nodal `values` `(n_nodes,)` the fluid has one colour.
     """
     import pyvista
 
     x0, x1, y0, y1 = view
+    width, is_smooth = size
     height = max(1, round(width * (y1 - y0) / (x1 - x0)))
     grid = _grid(field)
     plotter = pyvista.Plotter(off_screen=True, window_size=(width, height))
@@ -73,13 +75,17 @@ def render(
         look |= {"scalars": "values", "cmap": colour_map, "clim": limits}
     # Without subdivision each quadratic triangle would be four flat ones.
     surface = grid.extract_surface(
-        nonlinear_subdivision=SUBDIVISION, algorithm="dataset_surface", pass_pointid=False
+        nonlinear_subdivision=SUBDIVISION if is_smooth else 2,
+        algorithm="dataset_surface",
+        pass_pointid=False,
     )
     plotter.add_mesh(surface, **look)
     if show_edges:
         # Cells must be parted first: edges between two cells are no boundary of the whole.
         cells = grid.separate_cells().extract_surface(
-            nonlinear_subdivision=SUBDIVISION, algorithm="dataset_surface", pass_pointid=False
+            nonlinear_subdivision=SUBDIVISION if is_smooth else 2,
+            algorithm="dataset_surface",
+            pass_pointid=False,
         )
         lines = cells.extract_feature_edges(
             boundary_edges=True, feature_edges=False, manifold_edges=False, non_manifold_edges=False
@@ -92,22 +98,27 @@ def render(
     camera.position = (*camera.focal_point[:2], 1.0)
     camera.up = (0.0, 1.0, 0.0)
     camera.parallel_scale = 0.5 * (y1 - y0)
-    plotter.enable_anti_aliasing("ssaa")
+    if is_smooth:
+        plotter.enable_anti_aliasing("ssaa")
     image = plotter.screenshot(transparent_background=True, return_img=True)
     plotter.close()
     return np.asarray(image)
 
 
 def render_surface(
-    surface,  # noqa: ANN001  (naming the type would load VTK)
+    shown: tuple,
     size: tuple[int, int],
     camera: tuple[float, float],
     colour_map: str,
     limits: style.Limits,
 ) -> Array:
-    """An image of a surface coloured by its `values`, cut to what it shows."""
+    """An image of a surface coloured by its `values`, cut to what it shows.
+
+    `shown` is the surface and a list of others, each with a colour of its own.
+    """
     import pyvista
 
+    surface, others = shown
     plotter = pyvista.Plotter(off_screen=True, window_size=size)
     plotter.add_mesh(
         surface.compute_normals(feature_angle=40.0, split_vertices=True),
@@ -119,15 +130,9 @@ def render_surface(
         ambient=0.6,
         diffuse=0.45,
     )
-    azimuth, elevation = np.radians(camera)
-    towards = np.array(
-        [
-            np.cos(elevation) * np.cos(azimuth),
-            np.cos(elevation) * np.sin(azimuth),
-            np.sin(elevation),
-        ]
-    )
-    up = (0.0, 0.0, 1.0) if abs(towards[2]) < 0.99 else (0.0, 1.0, 0.0)
+    for other, colour in others:
+        plotter.add_mesh(other, color=colour, **style.SOLID)
+    towards, up = direction(camera)
     plotter.view_vector(towards, viewup=up)
     plotter.camera.parallel_projection = True
     plotter.reset_camera()
@@ -138,6 +143,15 @@ def render_surface(
     if len(rows) == 0:
         return image
     return image[rows.min() : rows.max() + 1, columns.min() : columns.max() + 1]
+
+
+def direction(camera: tuple[float, float]) -> tuple[Array, Array]:
+    """Where a camera at degrees about z and above the horizon looks from, and what is upright."""
+    azimuth, elevation = np.radians(camera)
+    flat = np.array([np.cos(azimuth), np.sin(azimuth), 0.0])
+    towards = np.cos(elevation) * flat + np.array([0.0, 0.0, np.sin(elevation)])
+    up = (0.0, 0.0, 1.0) if abs(towards[2]) < 0.99 else (0.0, 1.0, 0.0)
+    return towards, np.array(up)
 
 
 def _grid(field: Field):  # noqa: ANN202  (naming the type would load VTK)

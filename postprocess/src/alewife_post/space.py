@@ -2,23 +2,23 @@
 
 from __future__ import annotations
 
-import re
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from matplotlib.cm import ScalarMappable
-from matplotlib.colors import Normalize
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from alewife_post import scene, style
-from alewife_post.quantities import speed
-from alewife_post.read import QUADRATIC_TETRAHEDRON, Field, Run
+from alewife_post import bodies, drawing, scene, style, surfaces
+from alewife_post.figure import body_velocity, colour_bar
+from alewife_post.periodic import domain_box, images, periods
+from alewife_post.planes import Plane, parsed, through_bodies
+from alewife_post.read import Field, Run
 
 Array = np.ndarray
 View = tuple[float, float, float, float]
 Camera = tuple[float, float]
 
-AXES = "xyz"
 POINTS = 400
 """Points on the longer side of a slice."""
 TETRAHEDRON = 10
@@ -30,12 +30,9 @@ PIECES = np.array(
     ]
 )  # fmt: skip
 """Nodes of the pieces of a quadratic tetrahedron: its corners, and what is left about edge 6-8."""
-ON_SIDE = 1e-5
-"""Distance from a side over the size of the domain below which a node is on it."""
-SUBDIVISION = 3
 IMAGE_SIZE = (1600, 1200)
-NEAR = 3.0
-"""Reach of bodies over which their surroundings are shown."""
+NEAR = 1.0
+"""Space shown around bodies over the diameter of the largest one."""
 
 
 def slice_picture(
@@ -45,36 +42,47 @@ def slice_picture(
     time: float | None = None,
     plane: str | None = None,
     view: View | None = None,
+    frame: str | None = None,
     lines: str = "streamlines",
 ) -> Figure:
     """A quantity on a plane such as `z=0.5`, with the streamlines of the velocity in the plane.
 
-    Without `plane` it is across z, through the middle of the first body. `view` is in the two
-    coordinates of the plane; without it, the surroundings of the bodies.
+    Without `plane` it goes through the bodies: across an axis if that is possible, z before the
+    others. `view` is in the two coordinates of the plane; without it, what is around the bodies.
+    `frame` names a body whose velocity is subtracted.
     """
     style.use()
     field = run.field(time)
-    low, high = field.nodes.min(axis=0), field.nodes.max(axis=0)
-    axis, height = _plane(run, plane, 0.5 * (low + high))
-    if not low[axis] < height < high[axis]:
+    if frame is not None:
+        moved = field.velocity - body_velocity(run, frame, field.time)
+        field = replace(field, velocity=moved)
+    cut = _plane(run, plane, field)
+    axis = int(np.argmax(np.abs(cut.normal)))
+    low, high = _box(run.case, field)
+    if plane is not None and not low[axis] < cut.origin[axis] < high[axis]:
         reach = f"{low[axis]:.6g} to {high[axis]:.6g}"
-        raise ValueError(f"{AXES[axis]} = {height:.6g} is outside the domain: {reach}")
-    across = [other for other in range(3) if other != axis]
-    view = view or _surroundings(run, field, across)
+        raise ValueError(f"{cut.text} is outside the domain: {reach}")
+    view = view or _surroundings(run, field, cut)
     x, y = _grid_lines(view)
-    at = np.zeros((len(y), len(x), 3))
-    at[..., across[0]], at[..., across[1]], at[..., axis] = x[None, :], y[:, None], height
-    found = sample(field, at.reshape(-1, 3), quantity)
+    at = cut.points(np.stack(np.meshgrid(x, y), axis=-1))
+    found = sample(field, at.reshape(-1, 3), quantity, run.case)
     shape = (len(y), len(x))
     values = found["values"].reshape(shape)
-    velocity = found["velocity"].reshape(*shape, 3)[..., across]
+    if quantity != "pressure":
+        # A magnitude is not negative, up to rounding at the edges of cells
+        values = np.ma.maximum(values, 0.0)
+    if values.count() == 0:
+        raise ValueError(f"there is no fluid in the view on {cut.text}")
+    mask = np.ma.getmaskarray(values)[..., None]
+    velocity = np.ma.masked_array(
+        found["velocity"].data.reshape(*shape, 3) @ cut.across.T, np.repeat(mask, 2, axis=-1)
+    )
 
     width = min(style.LARGEST[0], style.LARGEST[1] * (view[1] - view[0]) / (view[3] - view[2]))
     size = (width + 1.2, width * (view[3] - view[2]) / (view[1] - view[0]) + 0.9)
     figure = Figure(figsize=size, layout="compressed")
     axes = figure.add_subplot()
     axes.set_aspect("equal")
-    axes.set_facecolor(style.BODY)
     colour_map, limits = style.colours(quantity, values.compressed())
     axes.imshow(
         values, extent=view, origin="lower", cmap=colour_map, vmin=limits[0], vmax=limits[1]
@@ -84,17 +92,59 @@ def slice_picture(
         axes.streamplot(
             x, y, velocity[..., 0], velocity[..., 1], color=colour, linewidth=0.6, arrowsize=0.6
         )
-    for section in sections(run, field, axis, height):
-        axes.fill(*section[:, across].T, color=style.BODY, zorder=3)
+    elif lines == "arrows":
+        _draw_arrows(axes, x, y, velocity, quantity)
+    for section in sections(run, field, cut):
+        axes.fill(*cut.coordinates(section).T, color=style.BODY, zorder=3)
+    _draw_motion(axes, run, cut, field.time)
     units = run.case.get("units", "")
     axes.set_xlim(view[0], view[1])
     axes.set_ylim(view[2], view[3])
-    axes.set_xlabel(style.length_label(AXES[across[0]], units))
-    axes.set_ylabel(style.length_label(AXES[across[1]], units))
-    axes.set_title(f"{run.case['title']}, {AXES[axis]} = {height:.4g}")
-    bar = figure.colorbar(ScalarMappable(Normalize(*limits), colour_map), ax=axes, shrink=0.85)
-    bar.set_label(style.label(quantity, units))
+    axes.set_xlabel(style.length_label(cut.names[0], units))
+    axes.set_ylabel(style.length_label(cut.names[1], units))
+    axes.set_title(f"{_title(run, field)}, {cut.text}", wrap=True)
+    bar = colour_bar(axes, values.compressed(), colour_map, limits)
+    bar.set_label(style.label(quantity, units) + (f" relative to {frame}" if frame else ""))
     return figure
+
+
+def _title(run: Run, field: Field) -> str:
+    units = run.case.get("units", "")
+    is_unsteady = "unsteady" in run.case["time"]
+    return run.case["title"] + (f", {style.time_text(field.time, units)}" if is_unsteady else "")
+
+
+def _draw_arrows(axes: Axes, x: Array, y: Array, velocity: Array, quantity: str) -> None:
+    step = max(1, max(len(x), len(y)) // 28)
+    colour = style.STREAMLINE if quantity == "speed" else style.STREAMLINE_ON_LIGHT
+    thinned = velocity[::step, ::step]
+    axes.quiver(
+        x[::step],
+        y[::step],
+        thinned[..., 0],
+        thinned[..., 1],
+        color=colour,
+        width=0.0018,
+        pivot="mid",
+    )
+
+
+def _draw_motion(axes: Axes, run: Run, plane: Plane, time: float) -> None:
+    """Rods and headings that lie in a plane, or near it over the size of bodies."""
+    placed = bodies.poses(run, time)
+    size = max([0.0, *(bodies.radius(run, name) for name in placed)])
+
+    def is_near(points: Array) -> bool:
+        return bool(np.abs((points - plane.origin) @ plane.normal).max() < 0.5 * size)
+
+    for points in bodies.rods(run, placed, time):
+        if is_near(points):
+            drawing.draw_rod(axes, plane.coordinates(points), zorder=2.5)
+    for arrow in bodies.headings(run, placed):
+        if is_near(np.array([arrow.start, arrow.start + arrow.vector])):
+            start = plane.coordinates(arrow.start[None])[0]
+            vector = plane.across @ arrow.vector
+            drawing.draw_heading(axes, bodies.Heading(start, vector, arrow.is_inside))
 
 
 def surface_picture(
@@ -112,48 +162,107 @@ def surface_picture(
         raise ValueError("VTK can have no window here: install libosmesa6")
     style.use()
     field = run.field(time)
-    surface = bodies_surface(run, field, quantity)
-    values = np.asarray(surface.point_data["values"])
-    colour_map, limits = style.colours(quantity, values)
-    image = scene.render_surface(surface, IMAGE_SIZE, camera, colour_map, limits)
+    surface = surfaces.bodies_surface(run, field, quantity)
+    sized = surface.compute_cell_sizes(length=False, volume=False)
+    values = np.asarray(sized.point_data_to_cell_data().cell_data["values"])
+    colour_map, limits = style.colours(quantity, values, np.asarray(sized.cell_data["Area"]))
+    image = scene.render_surface(
+        (surface, motion(run, field.time)), IMAGE_SIZE, camera, colour_map, limits
+    )
     figure = Figure(figsize=(7.2, 5.0), layout="compressed")
     axes = figure.add_subplot()
     axes.imshow(image)
     axes.set_axis_off()
-    axes.set_title(run.case["title"])
-    bar = figure.colorbar(ScalarMappable(Normalize(*limits), colour_map), ax=axes, shrink=0.85)
+    axes.set_title(_title(run, field), wrap=True)
+    bar = colour_bar(axes, values, colour_map, limits, is_beside=True)
     bar.set_label(style.label(quantity, run.case.get("units", "")))
     return figure
 
 
-def sample(field: Field, points: Array, quantity: str) -> dict[str, Array]:
-    """Values and velocity at points `(n, 3)`, masked outside the fluid."""
+def motion(run: Run, time: float) -> list[tuple[Any, str]]:
+    """What joins bodies and where they swim to, as surfaces with a colour."""
+    import pyvista
+
+    placed = bodies.poses(run, time)
+    sizes = [bodies.radius(run, name) for name in placed]
+    seen = [bodies.shape(run, name, time) for name in placed]
+    # Thin beside the bodies, and no thicker than thin ones.
+    thin = [solid.size.min() / 4 for one in seen if one for solid in one.solids]
+    found = [
+        (
+            pyvista.lines_from_points(points).tube(
+                radius=min([0.12 * min(sizes), *thin]), n_sides=12
+            ),
+            style.ROD,
+        )
+        for points in bodies.rods(run, placed, time)
+    ]
+    for arrow in bodies.headings(run, placed):
+        length = float(np.linalg.norm(arrow.vector))
+        mesh = pyvista.Arrow(
+            start=arrow.start,
+            direction=arrow.vector / length,
+            scale=length,
+            tip_length=0.4,
+            tip_radius=0.18,
+            shaft_radius=0.07,
+        )
+        found.append((mesh, style.ARROW))
+    return found
+
+
+def sample(
+    field: Field, points: Array, quantity: str, case: dict[str, Any] | None = None
+) -> dict[str, Array]:
+    """Values and velocity at points `(n, 3)`, masked outside the fluid.
+
+    With its case, a periodic domain goes on beyond its mesh.
+    """
     import pyvista
 
     # VTK looks for points in curved cells by iterations that end early: eight straight pieces of
     # each cell, with its nodes, are as good in a picture
-    grid = _grid(field, quantity)
-    pieces = field.cells[:, PIECES].reshape(-1, 4)
-    straight = pyvista.UnstructuredGrid({TETRAHEDRON: pieces}, field.nodes)
-    for name in ("values", "velocity"):
-        straight.point_data[name] = grid.point_data[name]
-    found = pyvista.PolyData(points).sample(straight)
-    is_outside = np.asarray(found.point_data["vtkValidPointMask"]) == 0
-    velocity = np.asarray(found.point_data["velocity"])
-    return {
-        "values": np.ma.masked_array(found.point_data["values"], is_outside),
-        "velocity": np.ma.masked_array(velocity, np.repeat(is_outside[:, None], 3, axis=1)),
-    }
+    places = field.nodes[field.cells]
+    low, high = points.min(axis=0), points.max(axis=0)
+    extent = np.linalg.norm(high - low) or np.ptp(field.nodes, axis=0).max()
+    values = np.ma.masked_all(len(points))
+    velocity = np.ma.masked_all((len(points), 3))
+    mesh = (field.nodes.min(axis=0), field.nodes.max(axis=0))
+    for shift in images({} if case is None else case, *mesh, (low, high)):
+        near = (places.max(axis=1) >= low - shift).all(axis=1)
+        near &= (places.min(axis=1) <= high - shift).all(axis=1)
+        if not near.any():
+            continue
+        pieces = field.cells[near][:, PIECES].reshape(-1, 4)
+        straight = pyvista.UnstructuredGrid({TETRAHEDRON: pieces}, field.nodes)
+        straight.point_data["values"] = surfaces.nodal_values(field, quantity)
+        straight.point_data["velocity"] = field.velocity
+        # Left to itself, VTK takes points for inside that are a part of the whole domain away
+        found = pyvista.PolyData(points - shift).sample(straight, tolerance=1e-6 * extent)
+        is_inside = np.asarray(found.point_data["vtkValidPointMask"]) == 1
+        values[is_inside] = np.asarray(found.point_data["values"])[is_inside]
+        velocity[is_inside] = np.asarray(found.point_data["velocity"])[is_inside]
+    return {"values": values, "velocity": velocity}
 
 
-def sections(run: Run, field: Field, axis: int, height: float) -> list[Array]:
+def sections(run: Run, field: Field, plane: Plane) -> list[Array]:
     """Curves `(n, 3)` in which a plane cuts the bodies."""
     try:
-        surface = bodies_surface(run, field, "pressure")
+        surface = surfaces.bodies_surface(run, field, "pressure")
     except ValueError:
         return []
-    origin = [height if own == axis else 0.0 for own in range(3)]
-    cut = surface.slice(normal=AXES[axis], origin=origin)
+    points = np.asarray(surface.points)
+    mesh = (points.min(axis=0), points.max(axis=0))
+    region = _box(run.case, field)
+    return [
+        curve + shift
+        for shift in images(run.case, *mesh, region)
+        for curve in _curves(surface.slice(normal=plane.normal, origin=plane.origin - shift))
+    ]
+
+
+def _curves(cut) -> list[Array]:  # noqa: ANN001  (VTK)
+    """The lines of a cut, each `(n, 3)` from end to end."""
     if cut.n_cells == 0:
         return []
     strips = cut.strip(join=True)
@@ -166,114 +275,43 @@ def sections(run: Run, field: Field, axis: int, height: float) -> list[Array]:
     return found
 
 
-def bodies_surface(run: Run, field: Field, quantity: str):  # noqa: ANN201  (loads VTK)
-    """The surface of the fluid without the sides of the domain, with nodal `values`."""
-    grid = _grid(field, quantity)
-    sides = distances_to_sides(run.case, field.nodes)
-    extent = np.ptp(field.nodes, axis=0).max()
-    if sides.shape[1] > 0:
-        grid.point_data["side"] = (np.abs(sides) < ON_SIDE * extent).astype(float)
-    surface = grid.extract_surface(nonlinear_subdivision=SUBDIVISION, algorithm="dataset_surface")
-    if sides.shape[1] == 0:
-        surface = surface.connectivity("all")
-    cells = surface.faces.reshape(-1, 4)[:, 1:]
-    if sides.shape[1] == 0:
-        is_on_side = _is_on_largest_part(surface)[cells[:, 0]]
-    else:
-        # One number a node where the domain has a single side
-        side = np.asarray(surface.point_data["side"]).reshape(surface.n_points, -1)
-        is_on_side = (side[cells] > 0.5).all(axis=1).any(axis=-1)
-    kept = surface.extract_cells(np.flatnonzero(~is_on_side)).extract_surface(
-        algorithm="dataset_surface"
-    )
-    if kept.n_cells == 0:
-        raise ValueError("there is no body in this run: draw a slice")
-    return kept
+def _box(case: dict[str, Any], field: Field) -> tuple[Array, Array]:
+    """Corners of what a periodic domain shows of itself, and of any other domain's mesh."""
+    if periods(case).any():
+        return domain_box(case)
+    return field.nodes.min(axis=0), field.nodes.max(axis=0)
 
 
-def _is_on_largest_part(surface) -> Array:  # noqa: ANN001  (VTK)
-    """Whether each point of a surface is on its part of the largest extent, the outer one."""
-    part = np.asarray(surface.point_data["RegionId"])
-    points = np.asarray(surface.points)
-    extents = [np.ptp(points[part == index], axis=0).max() for index in range(part.max() + 1)]
-    return part == np.argmax(extents)
+def _plane(run: Run, plane: str | None, field: Field) -> Plane:
+    if plane is not None:
+        return parsed(plane)
+    middle = 0.5 * (field.nodes.min(axis=0) + field.nodes.max(axis=0))
+    return through_bodies(run, np.array([field.time]), middle)
 
 
-def distances_to_sides(case: dict[str, Any], nodes: Array) -> Array:
-    """Distance of each node from each side of the domain, `(n_nodes, n_sides)`.
-
-    The sides of an imported mesh are not known: it has none here.
-    """
-    ((kind, domain),) = case["domain"].items()
-    match kind:
-        case "box":
-            return np.hstack([nodes - domain["min"], nodes - domain["max"]])
-        case "cylinder":
-            off_axis = np.hypot(nodes[:, 1], nodes[:, 2]) - domain["radius"]
-            ends = nodes[:, :1] - np.asarray(domain["x"])
-            return np.column_stack([ends, off_axis])
-        case "sphere":
-            off = nodes - domain.get("center", [0.0, 0.0, 0.0])
-            return np.linalg.norm(off, axis=1, keepdims=True) - domain["radius"]
-        case "mesh":
-            return np.empty((len(nodes), 0))
-        case _:
-            raise ValueError(f"a {kind} is no domain in space")
-
-
-def _grid(field: Field, quantity: str):  # noqa: ANN202  (loads VTK)
-    import pyvista
-
-    grid = pyvista.UnstructuredGrid({QUADRATIC_TETRAHEDRON: field.cells}, field.nodes)
-    grid.point_data["velocity"] = field.velocity
-    match quantity:
-        case "speed":
-            values = speed(field.velocity)
-        case "vorticity":
-            values = np.linalg.norm(field.vorticity, axis=1)
-        case "pressure":
-            values = field.pressure
-        case _:
-            raise ValueError(f"{quantity} is not drawn in space: speed, pressure or vorticity")
-    grid.point_data["values"] = values
-    return grid
-
-
-def _plane(run: Run, plane: str | None, middle: Array) -> tuple[int, float]:
-    """Axis and position of a plane written as `z=0.5`."""
-    if plane is None:
-        center = next(iter(_centers(run)), middle)
-        return 2, float(center[2])
-    found = re.fullmatch(r"\s*([xyz])\s*=\s*([-+0-9.eE]+)\s*", plane)
-    if not found:
-        raise ValueError(f"{plane} is not a plane: write one such as z=0.5")
-    return AXES.index(found[1]), float(found[2])
-
-
-def _centers(run: Run) -> list[Array]:
-    return [history.center[-1] for history in run.bodies.values()]
-
-
-def _surroundings(run: Run, field: Field, across: list[int]) -> View:
+def _surroundings(run: Run, field: Field, plane: Plane) -> View:
     """The part of the domain around the bodies, in the coordinates of a slice."""
-    low, high = field.nodes.min(axis=0), field.nodes.max(axis=0)
+    places = plane.coordinates(field.nodes)
+    if periods(run.case).any():
+        ends = np.array(domain_box(run.case))
+        box = [[ends[i, 0], ends[j, 1], ends[k, 2]] for i, j, k in np.ndindex(2, 2, 2)]
+        places = plane.coordinates(np.array(box))
+        (x0, y0), (x1, y1) = places.min(axis=0), places.max(axis=0)
+        return (x0, x1, y0, y1)
+    low, high = places.min(axis=0), places.max(axis=0)
     extent = np.ptp(field.nodes, axis=0).max()
-    sides = (np.abs(distances_to_sides(run.case, field.nodes)) < ON_SIDE * extent).any(axis=1)
-    boundary = np.unique(_boundary_nodes(field.cells))
-    on_bodies = field.nodes[boundary[~sides[boundary]]]
+    sides = (
+        np.abs(surfaces.distances_to_sides(run.case, field.nodes)) < surfaces.ON_SIDE * extent
+    ).any(axis=1)
+    boundary = np.unique(surfaces.boundary_faces(field)[:, :3])
+    on_bodies = places[boundary[~sides[boundary]]]
     if len(on_bodies):
-        middle = 0.5 * (on_bodies.min(axis=0) + on_bodies.max(axis=0))
-        reach = NEAR * 0.5 * np.ptp(on_bodies, axis=0).max()
-        low, high = np.maximum(low, middle - reach), np.minimum(high, middle + reach)
-    a, b = across
-    return (low[a], high[a], low[b], high[b])
-
-
-def _boundary_nodes(cells: Array) -> Array:
-    """Vertices of the faces that only one cell has, `(n_faces, 3)`."""
-    faces = np.sort(cells[:, [[0, 1, 2], [0, 1, 3], [0, 2, 3], [1, 2, 3]]].reshape(-1, 3), axis=1)
-    unique, counts = np.unique(faces, axis=0, return_counts=True)
-    return unique[counts == 1]
+        own_low, own_high = on_bodies.min(axis=0), on_bodies.max(axis=0)
+        largest = max([0.0, *(2 * bodies.radius(run, name) for name in run.bodies)])
+        reach = NEAR * min(largest, np.ptp(on_bodies, axis=0).max())
+        reach = max(reach, 0.5 * np.ptp(on_bodies, axis=0).max())
+        low, high = np.maximum(low, own_low - reach), np.minimum(high, own_high + reach)
+    return (low[0], high[0], low[1], high[1])
 
 
 def _grid_lines(view: View) -> tuple[Array, Array]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 
 import matplotlib
@@ -19,6 +20,13 @@ STREAMLINE = "#ffffff"
 STREAMLINE_ON_LIGHT = "#30363d"
 SERIES = ("#1f5f99", "#3f8f5f", "#8a5a9e", "#b08900", "#4f8a8b")
 REFERENCE = "#c8553d"
+ROD = "#7b8794"
+TRAIL = "#f28e2b"
+ARROW = "#e4572e"
+ARROW_IN_BODY = "#ffffff"
+
+SOLID = {"ambient": 0.35, "diffuse": 0.7, "specular": 0.15}
+"""How surfaces in space take light."""
 
 DPI = 200
 LARGEST = (7.2, 5.2)
@@ -47,7 +55,6 @@ class Look:
     """How one quantity is shown."""
 
     label: str
-    unit: str
     one_sided: str
     """Colour map where values have one sign."""
     two_sided: str
@@ -55,9 +62,9 @@ class Look:
 
 
 LOOKS = {
-    "speed": Look("speed", "m/s", "viridis", "viridis"),
-    "pressure": Look("pressure", "Pa", "cividis", "PuOr_r"),
-    "vorticity": Look("vorticity", "1/s", "RdBu_r", "RdBu_r"),
+    "speed": Look("speed", "viridis", "viridis"),
+    "pressure": Look("pressure", "cividis", "PuOr_r"),
+    "vorticity": Look("vorticity", "Reds", "RdBu_r"),
 }
 
 
@@ -66,32 +73,108 @@ def use() -> None:
     matplotlib.rcParams.update(PARAMETERS)
 
 
+WORDS = {
+    "SI": ("m", "s"),
+    "cm g s": ("cm", "s"),
+    "mm mg s": ("mm", "s"),
+    "micrometres": ("µm", None),
+    "millimetres": ("mm", None),
+    "centimetres": ("cm", None),
+    "metres": ("m", None),
+    "seconds": (None, "s"),
+    "minutes": (None, "min"),
+}
+"""Units of length and time by what a case may say of its units."""
+
+
+def units_of(text: str) -> tuple[str | None, str | None]:
+    """Units of length and time that a case names, each only if it does."""
+    length, time = None, None
+    for words, (own_length, own_time) in WORDS.items():
+        if re.search(rf"(?<!\w){re.escape(words)}(?!\w)", text, re.IGNORECASE):
+            length, time = length or own_length, time or own_time
+    return length, time
+
+
 def label(quantity: str, units: str) -> str:
-    """Label of a colour bar; units are named only where they are those of SI."""
-    look = LOOKS[quantity]
-    return f"{look.label} ({look.unit})" if units.upper() == "SI" else look.label
+    """Label of a colour bar, with the unit if it is known."""
+    length, time = units_of(units)
+    unit = {
+        "speed": f"{length}/{time}" if length and time else None,
+        "vorticity": f"1/{time}" if time else None,
+        "pressure": "Pa" if units.upper() == "SI" else None,
+    }[quantity]
+    return f"{LOOKS[quantity].label} ({unit})" if unit else LOOKS[quantity].label
 
 
 def length_label(name: str, units: str) -> str:
     """Label of a coordinate axis."""
-    return f"{name} (m)" if units.upper() == "SI" else name
+    unit, _ = units_of(units)
+    return f"{name} ({unit})" if unit else name
 
 
 def time_text(time: float, units: str) -> str:
     """A time, for a title."""
-    return f"t = {time:.4g} s" if units.upper() == "SI" else f"t = {time:.4g}"
+    _, unit = units_of(units)
+    return f"t = {time:.4g} {unit}" if unit else f"t = {time:.4g}"
 
 
-def colours(quantity: str, values: Array) -> tuple[str, Limits]:
-    """Colour map and limits for values `(n,)`; a few extreme values may lie outside the limits."""
+def rgb(colour: str) -> Array:
+    """A colour as three numbers up to 255."""
+    return np.round(255 * np.array(matplotlib.colors.to_rgb(colour))).astype(np.uint8)
+
+
+def round_length(length: float) -> float:
+    """The largest of 1, 2, 5, 10, ... that is not longer."""
+    ten = 10.0 ** np.floor(np.log10(length))
+    return float(ten * max(step for step in (1.0, 2.0, 5.0) if step * ten <= length * (1 + 1e-9)))
+
+
+def length_text(length: float, units: str) -> str:
+    """A length with its unit, if it is known."""
+    unit, _ = units_of(units)
+    return f"{length:g} {unit}" if unit else f"{length:g}"
+
+
+TAIL = {"speed": 0.1, "pressure": 0.3}
+"""Per cent of the area whose values may lie beyond a limit, on each side."""
+
+
+BEYOND = 35.0
+"""Per cent of all vorticity, by its magnitude and area, that may lie beyond the limits."""
+
+
+def percentile(values: Array, share: Array, wanted: float) -> float:
+    """The value `wanted` per cent of the area lies below; each value holds a share of it."""
+    order = np.argsort(values)
+    # A value stands in the middle of its share.
+    below = np.cumsum(share[order]) - 0.5 * share[order]
+    return float(np.interp(wanted / 100.0 * share.sum(), below, values[order]))
+
+
+def colours(quantity: str, values: Array, share: Array | None = None) -> tuple[str, Limits]:
+    """Colour map and limits for values `(n,)` that hold shares `(n,)` of the area.
+
+    A few extreme values may lie outside the limits: cells crowd at bodies and in gaps, where values
+    are extreme, and hold little of the area.
+    """
     look = LOOKS[quantity]
+    share = np.ones(len(values)) if share is None else share
+    if quantity == "vorticity":
+        # It is nowhere but at bodies and in wakes: parts of the area would depend on how much of
+        # the fluid at rest is in view.
+        size = np.abs(values)
+        largest = percentile(size, size * share, 100.0 - BEYOND) if size.any() else 1.0
+        if values.min() >= 0.0:
+            # Magnitudes, in space
+            return look.one_sided, (0.0, largest)
+        return look.two_sided, (-largest, largest)
+    tail = TAIL[quantity]
+    low, high = (percentile(values, share, wanted) for wanted in (tail, 100.0 - tail))
     if quantity == "speed":
-        return look.one_sided, (0.0, float(values.max()) or 1.0)
-    # Cells, and so nodes, crowd at bodies, where the vorticity is far larger than in a wake.
-    share = 3.0 if quantity == "vorticity" else 0.2
-    low, high = (float(limit) for limit in np.percentile(values, [share, 100.0 - share]))
+        return look.one_sided, (0.0, high or 1.0)
     largest = max(abs(low), abs(high)) or 1.0
-    if quantity == "vorticity" or min(-low, high) > 0.2 * largest:
+    if min(-low, high) > 0.2 * largest:
         return look.two_sided, (-largest, largest)
     return look.one_sided, (low, high if high > low else low + 1.0)
 

@@ -1,0 +1,336 @@
+"""Bodies of a run: where they are, what they look like, what joins them and where they swim to."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+
+from alewife_post.elements import centroid, smooth_outline
+from alewife_post.read import BodyHistory, Run, Shape, Solid
+
+Array = np.ndarray
+Pose = tuple[Array, Array]
+"""Centre `(3,)` and rotation matrix `(3, 3)` from the body's frame to the world."""
+
+DEFORMING = ("carangiform", "anguilliform", "flagellum", "joints", "pulsating")
+"""Gaits by which a body changes its shape."""
+
+
+def rotation_matrix(quaternion: Array) -> Array:
+    """The matrix `(3, 3)` of a quaternion x, y, z, w."""
+    x, y, z, w = quaternion / np.linalg.norm(quaternion)
+    return np.array(
+        [
+            [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+            [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+            [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
+        ]
+    )
+
+
+def poses(run: Run, time: float) -> dict[str, Pose]:
+    """Pose of each body at the message nearest to a time; that of the case if there is none."""
+    found = {
+        name: (history.center[nearest(history, time)], rotation_matrix(_turn(history, time)))
+        for name, history in run.bodies.items()
+    }
+    for body in run.case.get("body", []):
+        center = body.get("center")
+        if body["name"] not in found and center is not None:
+            angle = body.get("angle", 0.0)
+            turn = np.array([0.0, 0.0, np.sin(angle / 2), np.cos(angle / 2)])
+            found[body["name"]] = (np.array([*center, 0.0, 0.0])[:3], rotation_matrix(turn))
+    return found
+
+
+def nearest(history: BodyHistory, time: float) -> int:
+    """Number of the message nearest to a time."""
+    return int(np.argmin(np.abs(history.time - time)))
+
+
+def is_written(run: Run, time: float) -> bool:
+    """Whether there are messages of a time: else bodies are elsewhere than the nearest ones say."""
+    span = max([0.0, *(np.ptp(history.time) for history in run.bodies.values())])
+    return all(
+        np.abs(history.time - time).min() <= 1e-6 * span + 1e-12 for history in run.bodies.values()
+    )
+
+
+def _turn(history: BodyHistory, time: float) -> Array:
+    return history.rotation[nearest(history, time)]
+
+
+def shape(run: Run, name: str, time: float) -> Shape | None:
+    """What a body looks like at a time, if that was written or its case tells."""
+    found = run.shapes.get(name)
+    if found:
+        before = [one for one in found if one.time <= time + 1e-12]
+        return before[-1] if before else found[0]
+    for body in run.case.get("body", []):
+        if body["name"] == name and "shape" in body:
+            return _simple_shape(body["shape"])
+    return None
+
+
+def _simple_shape(given: dict[str, Any]) -> Shape | None:
+    ((kind, values),) = given.items()
+    match kind:
+        case "disc" | "sphere":
+            size = np.full(3, 2 * values["radius"])
+        case "ellipse" | "spheroid" | "ellipsoid":
+            semi_axes = values["semi_axes" if "semi_axes" in values else "semi-axes"]
+            size = 2 * np.array([*semi_axes, semi_axes[-1]])[:3]
+        case "spline":
+            # The pose is that of the centre of mass, the points have an origin of their own.
+            outline = smooth_outline(np.array(values["points"]))
+            return Shape(0.0, [], [outline - centroid(outline)])
+        case _:
+            return None
+    turn = np.array([0.0, 0.0, 0.0, 1.0])
+    return Shape(0.0, [Solid("ellipsoid", np.zeros(3), turn, size, (1.0, 1.0))], [])
+
+
+def extents(seen: Shape) -> tuple[Array, Array]:
+    """Lowest and highest corner `(3,)` of a shape in its own frame."""
+    low, high = [], []
+    for solid in seen.solids:
+        # Of the box around an ellipsoid or cylinder that is turned
+        half = np.abs(rotation_matrix(solid.rotation)) @ (solid.size / 2)
+        if solid.kind == "ellipsoid":
+            half = np.linalg.norm(rotation_matrix(solid.rotation) * (solid.size / 2), axis=1)
+        low.append(solid.position - half)
+        high.append(solid.position + half)
+    for line in seen.lines:
+        low.append(np.append(line.min(axis=0), 0.0))
+        high.append(np.append(line.max(axis=0), 0.0))
+    if not low:
+        return np.zeros(3), np.zeros(3)
+    return np.min(low, axis=0), np.max(high, axis=0)
+
+
+def corners(run: Run, name: str, pose: Pose) -> tuple[Array, Array]:
+    """Lowest and highest corner `(3,)` of a body that is placed somewhere, by its first shape."""
+    seen = shape(run, name, 0.0)
+    if seen is None:
+        return pose[0], pose[0]
+    low, high = extents(seen)
+    middle = pose[0] + pose[1] @ (0.5 * (low + high))
+    half = np.abs(pose[1]) @ (0.5 * (high - low))
+    return middle - half, middle + half
+
+
+def surroundings(run: Run, times: Array) -> tuple[Array, Array] | None:
+    """Lowest and highest corner `(3,)` of all bodies at some times; none if there is no body."""
+    low, high = np.full(3, np.inf), np.full(3, -np.inf)
+    for time in times:
+        for name, pose in poses(run, float(time)).items():
+            own_low, own_high = corners(run, name, pose)
+            low, high = np.minimum(low, own_low), np.maximum(high, own_high)
+    return (low, high) if np.isfinite(low).all() else None
+
+
+def radius(run: Run, name: str) -> float:
+    """Largest distance of a surface from the centre of a body, at the start."""
+    seen = shape(run, name, 0.0)
+    if seen is None:
+        return 0.0
+    corners = np.abs(np.array(extents(seen))).max(axis=0)
+    # A ball has no corners
+    is_planar = not run.is_spatial
+    return float(corners[:2].max() if is_planar else corners.max())
+
+
+def _thickness(run: Run, name: str) -> float:
+    """Half the least extent of a body."""
+    seen = shape(run, name, 0.0)
+    if seen is None:
+        return 0.0
+    low, high = extents(seen)
+    # In the plane solids are flat.
+    return float(0.5 * (high - low)[: 3 if run.is_spatial else 2].min())
+
+
+def groups(run: Run) -> dict[str, list[str]]:
+    """Bodies of each swimmer, and each body that belongs to none."""
+    names = list(run.bodies) or [body["name"] for body in run.case.get("body", [])]
+    found: dict[str, list[str]] = {}
+    for swimmer in run.case.get("swimmer", []):
+        for name in _copies(swimmer, names):
+            own = _members(swimmer, name, names)
+            if own:
+                found[name] = own
+    grouped = {name for own in found.values() for name in own}
+    return found | {name: [name] for name in names if name not in grouped}
+
+
+def _copies(swimmer: dict[str, Any], names: list[str]) -> list[str]:
+    name = swimmer["name"]
+    if "copies" not in swimmer:
+        return [name]
+    numbers = {
+        other.removeprefix(f"{name}-").split("-")[0]
+        for other in names
+        if other.startswith(f"{name}-")
+    }
+    return [f"{name}-{number}" for number in sorted(filter(str.isdigit, numbers), key=int)]
+
+
+def _members(swimmer: dict[str, Any], name: str, names: list[str]) -> list[str]:
+    kind, values = next(iter(swimmer["kind"].items()))
+    if kind == "bodies":
+        return [other for other in values if other in names]
+    if name in names:
+        return [name]
+    known = set(names)
+    return [own for nth in range(1, len(names) + 1) if (own := f"{name}-{nth}") in known]
+
+
+def rods(run: Run, placed: dict[str, Pose], time: float) -> list[Array]:
+    """Arms and pivots between bodies that are placed somewhere, polylines `(n, 3)`."""
+    found = []
+    own = groups(run)
+    names = list(run.bodies)
+    for swimmer in run.case.get("swimmer", []):
+        kind, values = next(iter(swimmer["kind"].items()))
+        for name in _copies(swimmer, names):
+            members = own.get(name, [])
+            match kind:
+                case "linked-spheres":
+                    pairs = list(pairwise(members))
+                case "star":
+                    pairs = [(members[0], other) for other in members[1:]]
+                case "chain":
+                    found += _links(run, members, placed, values["gap"], time)
+                    continue
+                case _:
+                    continue
+            found += [_arm(run, (a, b), placed) for a, b in pairs]
+    for joint in run.case.get("joint", []):
+        if joint["parent"] in placed and joint["child"] in placed:
+            found.append(_joint(joint, placed))
+    return found
+
+
+def _arm(run: Run, pair: tuple[str, str], placed: dict[str, Pose]) -> Array:
+    """From surface to surface of two balls."""
+    start, end = (placed[name][0] for name in pair)
+    along = (end - start) / np.linalg.norm(end - start)
+    first, last = (radius(run, name) for name in pair)
+    return np.array([start + first * along, end - last * along])
+
+
+def _joint(joint: dict[str, Any], placed: dict[str, Pose]) -> Array:
+    def point(body: str, key: str) -> Array:
+        center, turn = placed[body]
+        return center + turn @ np.array([*joint.get(key, []), 0.0, 0.0, 0.0])[:3]
+
+    ends = [placed[joint["parent"]][0], point(joint["parent"], "on_parent")]
+    if next(iter(joint["kind"])) == "arm":
+        ends.append(point(joint["child"], "on_child"))
+    return np.array(ends)
+
+
+def _links(
+    run: Run, members: list[str], placed: dict[str, Pose], gap: float, time: float
+) -> list[Array]:
+    """From the back end of each link by the pivot to the front end of the next one."""
+    found = []
+    for before, after in pairwise(members):
+        shapes = [shape(run, name, time) for name in (before, after)]
+        if None in shapes:
+            continue
+        (center, turn), (other, other_turn) = placed[before], placed[after]
+        back = center + extents(shapes[0])[0][0] * turn[:, 0]
+        front = other + extents(shapes[1])[1][0] * other_turn[:, 0]
+        found.append(np.array([back, back - 0.5 * gap * turn[:, 0], front]))
+    return found
+
+
+@dataclass(frozen=True)
+class Heading:
+    """An arrow along which something swims."""
+
+    start: Array
+    """`(3,)`."""
+    vector: Array
+    """`(3,)`."""
+    is_inside: bool
+    """Whether it lies in a body rather than before it."""
+
+
+def headings(run: Run, placed: dict[str, Pose]) -> list[Heading]:
+    """Arrows of squirmers, which have a heading, and of swimmers of several bodies.
+
+    Those of swimmers lie before them along their way over the whole run, if they went anywhere.
+    """
+    found = []
+    pointed = set()
+    for name, gait in _gaits(run):
+        # Where the heading turns in time, it is not written.
+        if name in placed and "squirmer" in gait and "turn" not in gait["squirmer"]:
+            pointed.add(name)
+            center, turn = placed[name]
+            found.append(_arrow_of_squirmer(run, name, center, turn @ _heading(gait["squirmer"])))
+    for members in groups(run).values():
+        if len(members) < 2 or any(name in pointed or name not in run.bodies for name in members):
+            continue
+        own = [run.bodies[name].center for name in members]
+        way = np.mean([centers[-1] - centers[0] for centers in own], axis=0)
+        size = max(_thickness(run, name) for name in members)
+        # Less than that is the way of a swimmer that comes back, up to errors.
+        if size > 0 and np.linalg.norm(way) > 0.01 * size:
+            along = way / np.linalg.norm(way)
+            middle = np.mean([placed[name][0] for name in members], axis=0)
+            reach = max(
+                float((placed[name][0] - middle) @ along) + radius(run, name) for name in members
+            )
+            found.append(Heading(middle + (reach + 0.4 * size) * along, 1.6 * size * along, False))
+    return found
+
+
+def _arrow_of_squirmer(run: Run, name: str, center: Array, along: Array) -> Heading:
+    size = radius(run, name)
+    if run.is_spatial:
+        return Heading(center + size * along, 0.9 * size * along, False)
+    return Heading(center - 0.55 * size * along, 1.1 * size * along, True)
+
+
+def _heading(squirmer: dict[str, Any]) -> Array:
+    axis = squirmer.get("axis")
+    if axis is not None:
+        return np.array(axis, dtype=float) / np.linalg.norm(axis)
+    angle = squirmer.get("heading", 0.0)
+    return np.array([np.cos(angle), np.sin(angle), 0.0])
+
+
+def _gaits(run: Run) -> list[tuple[str, dict[str, Any]]]:
+    """Name of a body and its gait, of all bodies that have one."""
+    names = list(run.bodies)
+    found = [(body["name"], body["gait"]) for body in run.case.get("body", []) if body.get("gait")]
+    for swimmer in run.case.get("swimmer", []):
+        kind, values = next(iter(swimmer["kind"].items()))
+        for name in _copies(swimmer, names):
+            members = _members(swimmer, name, names)
+            if kind == "body" and values.get("gait"):
+                found += [(member, values["gait"]) for member in members]
+            elif kind == "linked-spheres" and values.get("gaits"):
+                found += list(zip(members, values["gaits"], strict=False))
+            elif kind == "chain" and values.get("skin") is not None:
+                found += [(member, {"joints": {}}) for member in members]
+    return found
+
+
+def deforming(run: Run) -> set[str]:
+    """Bodies whose shape changes in time and was written once only."""
+    changing = {name for name, gait in _gaits(run) if next(iter(gait)) in DEFORMING}
+    return {name for name in changing if len(run.shapes.get(name, [])) < 2}
+
+
+def swims(run: Run) -> bool:
+    """Whether anything in a run swims."""
+    return bool(
+        run.case.get("swimmer") or any(body.get("gait") for body in run.case.get("body", []))
+    )

@@ -1,0 +1,178 @@
+"""Where a film in space is looked at from, and what is in view."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from alewife_post import bodies, planes, scene, style
+from alewife_post.film import Moment, Request
+from alewife_post.page import Page
+from alewife_post.periodic import domain_box, periods
+from alewife_post.read import Run
+
+if TYPE_CHECKING:
+    import pyvista
+
+Array = np.ndarray
+
+CAMERA = (-50.0, 20.0)
+"""Degrees about z and above the horizon."""
+MARGIN = 0.7
+"""Space shown around bodies over what they take."""
+WHOLE = 4.0
+"""A domain less than so many times as large as its bodies is shown as a whole."""
+
+
+@dataclass(frozen=True)
+class Camera:
+    """Parallel rays on to a picture."""
+
+    towards: Array
+    """From what is seen to the camera, `(3,)`."""
+    right: Array
+    up: Array
+    middle: Array
+    """What is in the middle of the picture."""
+    scale: float
+    """Half the height of the picture, in lengths of the run."""
+
+    def applied(self, plotter: pyvista.Plotter, offset: Array) -> None:
+        """Look at a place that has moved."""
+        camera = plotter.camera
+        camera.parallel_projection = True
+        focus = self.middle + offset
+        camera.focal_point = tuple(focus)
+        camera.position = tuple(focus + 100.0 * self.scale * self.towards)
+        camera.up = tuple(self.up)
+        camera.parallel_scale = self.scale
+        plotter.reset_camera_clipping_range()
+
+
+@dataclass(frozen=True)
+class Seen:
+    """What a film has in view, less where the view has moved to."""
+
+    box: Array
+    """Corners `(2, 3)`."""
+    points: Array
+    """Corners of all bodies at all times, `(n, 3)`."""
+    is_whole: bool
+    """Whether that is all of the domain."""
+    margin: float
+    """Length shown around the bodies."""
+
+
+def seen(run: Run, moments: list[Moment], request: Request, moved: Array) -> Seen:
+    """What is in view in all frames: what is around the bodies, or a domain that is small."""
+    low, high = domain_box(run.case)
+    if not np.isfinite(low).all() and run.fields:
+        nodes = run.field(moments[0].time).nodes
+        low, high = nodes.min(axis=0), nodes.max(axis=0)
+    domain = np.array([low, high])
+    members = bodies.groups(run).get(request.follow, [request.follow])
+    corners = []
+    step = max(1, len(moments) // 60)
+    for nth in range(0, len(moments), step):
+        for name, pose in bodies.poses(run, moments[nth].time).items():
+            if request.follow is None or name in members:
+                corners.append(np.array(bodies.corners(run, name, pose)) - moved[nth])
+    if not corners or periods(run.case).any():
+        return Seen(domain, np.zeros((0, 3)), True, 0.0)
+    found = np.array(corners)
+    box = np.array([found[:, 0].min(axis=0), found[:, 1].max(axis=0)])
+    extent = (box[1] - box[0]).max()
+    is_large = (domain[1] - domain[0]).max() >= WHOLE * extent
+    if request.follow is None and not is_large:
+        return Seen(domain, found.reshape(-1, 3), True, 0.0)
+    share = 0.1 if request.surface or request.quantity == "bodies" else MARGIN
+    if request.follow is not None:
+        share = max(share, 1.0)
+    margin = share * extent
+    box = box + margin * np.array([[-1.0], [1.0]])
+    if request.follow is None:
+        box = np.array([np.maximum(box[0], domain[0]), np.minimum(box[1], domain[1])])
+    return Seen(box, found.reshape(-1, 3), False, float(margin))
+
+
+def direction(run: Run, request: Request, plane: planes.Plane | None) -> tuple[Array, Array]:
+    """Where the camera looks from, and what it sees upright.
+
+    Without a wish it has the gravity downwards and looks on to the slice, askew.
+    """
+    if request.camera is not None:
+        return scene.direction(request.camera)
+    up = np.array([0.0, 0.0, 1.0])
+    gravity = np.array(run.case.get("fluid", {}).get("gravity", [0.0, 0.0, 0.0]), dtype=float)
+    if np.linalg.norm(gravity) > 0:
+        up = -gravity / np.linalg.norm(gravity)
+    towards, _ = scene.direction(CAMERA)
+    # Turned as z is turned to the direction upwards, by way of the nearest axes.
+    if up[2] < 0.9:
+        side = np.eye(3)[int(np.argmin(np.abs(up)))]
+        first = np.cross(side, up)
+        first = first / np.linalg.norm(first)
+        towards = np.array([first, np.cross(up, first), up]).T @ towards
+    if plane is not None:
+        normal = plane.normal * (np.sign(plane.normal @ towards) or 1.0)
+        towards = 0.9 * normal + 0.6 * towards
+        towards = towards / np.linalg.norm(towards)
+    if abs(towards @ up) > 0.99:
+        up = np.eye(3)[int(np.argmin(np.abs(towards)))]
+    return towards, up
+
+
+def camera(direction: tuple[Array, Array], corners: Array, aspect: float) -> Camera:
+    """The camera that has all corners `(n, 3)` in full view."""
+    towards, up = direction
+    right = np.cross(up, towards)
+    right = right / np.linalg.norm(right)
+    up = np.cross(towards, right)
+    across = np.array([right, up])
+    places = corners @ across.T
+    low, high = places.min(axis=0), places.max(axis=0)
+    depth = corners.mean(axis=0) @ towards
+    middle = 0.5 * (low + high) @ across + depth * towards
+    reach = 0.5 * (high - low)
+    scale = 1.04 * max(reach[1], reach[0] / aspect)
+    return Camera(towards, right, up, middle, float(scale))
+
+
+def corners_of(box: Array) -> Array:
+    """All corners `(8, 3)` of a box `(2, 3)`."""
+    return np.array([[box[i, 0], box[j, 1], box[k, 2]] for i, j, k in np.ndindex(2, 2, 2)])
+
+
+def legend(page: Page, camera: Camera, units: str) -> None:
+    """Directions of the axes and a length, in the lower corners."""
+    page.axes.set_axis_off()
+    page.axes.set_xlim(0, 1)
+    page.axes.set_ylim(0, 1)
+    width, height = page.pixels
+    root, reach = np.array([50.0, 50.0]), 32.0
+    for name, axis in zip("xyz", np.eye(3), strict=True):
+        tip = np.array([camera.right @ axis, camera.up @ axis])
+        end = root + reach * tip
+        page.axes.annotate(
+            "",
+            end / (width, height),
+            root / (width, height),
+            arrowprops={
+                "arrowstyle": "-|>",
+                "color": style.BOUNDARY,
+                "lw": 1.0,
+                "mutation_scale": 7,
+            },
+        )
+        at = (root + (reach + 9) * tip) / (width, height)
+        if np.linalg.norm(tip) > 0.15:
+            page.axes.text(*at, name, ha="center", va="center", fontsize=8)
+    across = 2 * camera.scale * width / height
+    length = style.round_length(0.2 * across)
+    end = 1.0 - 20.0 / width
+    start = end - length / across
+    page.axes.plot([start, end], [30 / height] * 2, color=style.BOUNDARY, lw=2, zorder=20)
+    text = style.length_text(length, units)
+    page.axes.text(0.5 * (start + end), 36 / height, text, ha="center", va="bottom", fontsize=8)

@@ -1,0 +1,185 @@
+"""What one frame in the plane shows: the flow, bodies, what joins them, their ways and headings."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Literal
+
+import numpy as np
+from matplotlib.axes import Axes
+
+from alewife_post import bodies, drawing, scene, style
+from alewife_post.elements import inside, mirrored
+from alewife_post.periodic import domain_low, images, joined, periods, tiles, trail
+from alewife_post.quantities import speed
+from alewife_post.read import Field, Run
+
+Array = np.ndarray
+View = tuple[float, float, float, float]
+Lines = Literal["streamlines", "arrows", "none"]
+Painter = Literal["auto", "vtk", "matplotlib"]
+
+SMALL_BODY = 0.1
+"""A body smaller than this part of the domain is looked at from near."""
+NEAR_SWIMMER = 0.5
+"""Space left around swimmers over what they take themselves."""
+
+
+@dataclass(frozen=True)
+class Look:
+    """How frames are painted, the same for all frames of a film."""
+
+    quantity: str
+    colour_map: str
+    limits: style.Limits
+    lines: Lines
+    painter: Painter
+    width: int
+    """Pixels of the image of the flow from left to right."""
+    is_smooth: bool = True
+    """Whether it is rendered finer than that, and averaged."""
+    is_mirrored: bool = False
+
+
+def chosen_painter(painter: Painter) -> Painter:
+    """The painter that can paint here."""
+    can_render = painter != "matplotlib" and scene.can_render()
+    if painter == "auto":
+        return "vtk" if can_render else "matplotlib"
+    if painter == "vtk" and not can_render:
+        raise ValueError("VTK can have no window here: install libosmesa6, or draw by matplotlib")
+    return painter
+
+
+def prepared(run: Run, field: Field, view: View, *, mirror: bool) -> list[Field]:
+    """The flow as a frame shows it: on both sides of an axis, with images in a periodic domain."""
+    if run.is_axisymmetric and mirror:
+        field = mirrored(field)
+    x0, x1, y0, y1 = view
+    region = (np.array([x0, y0, 0.0]), np.array([x1, y1, 0.0]))
+    found = [inside(tile, view) for tile in tiles(run.case, field, region)]
+    return [tile for tile in found if len(tile.cells)] or found[:1]
+
+
+def paint(axes: Axes, flow: list[Field], view: View, look: Look) -> None:
+    """Paint a flow that is `prepared`."""
+    field = joined(flow)
+    values = None if look.quantity == "mesh" else nodal_values(field, look.quantity)
+    if look.painter == "vtk":
+        size = (look.width, look.is_smooth)
+        image = scene.render(
+            field, view, size, values, look.colour_map, look.limits, values is None
+        )
+        axes.imshow(image, extent=view, zorder=1, interpolation="antialiased", aspect="equal")
+    elif values is None:
+        drawing.draw_fluid(axes, field)
+        drawing.draw_edges(axes, field)
+    else:
+        drawing.draw_values(axes, field, values, look.colour_map, look.limits)
+    colour = style.STREAMLINE if look.quantity == "speed" else style.STREAMLINE_ON_LIGHT
+    if look.lines == "streamlines":
+        drawing.draw_streamlines(axes, flow, view, colour, is_mirrored=look.is_mirrored)
+    elif look.lines == "arrows":
+        drawing.draw_arrows(axes, flow, view, colour)
+
+
+def paint_bodies(
+    axes: Axes,
+    run: Run,
+    view: View,
+    time: float,
+    *,
+    field: Field | None,
+    colour: Callable[[str], str] = lambda name: style.BODY,
+    trails: bool = False,
+) -> None:
+    """Bodies below the flow, so that its edge is theirs, and what tells of their motion above it.
+
+    `field` is the whole flow. Bodies that deform are what its mesh leaves out; without it they are
+    dots.
+    """
+    placed = bodies.poses(run, time)
+    changing = bodies.deforming(run) | {
+        name for name in placed if bodies.shape(run, name, time) is None
+    }
+    if field is not None and not bodies.is_written(run, time):
+        # The mesh knows better than messages of another time where they are.
+        changing = set(placed)
+    region = (np.array([view[0], view[2], 0.0]), np.array([view[1], view[3], 0.0]))
+    if field is not None:
+        low, high = field.nodes.min(axis=0), field.nodes.max(axis=0)
+        shifts = images(run.case, np.append(low, 0.0), np.append(high, 0.0), region)[:, :2]
+        drawing.draw_boundary(axes, field, periods(run.case)[:2], shifts)
+        # Bodies of a run whose messages are lost are holes as well.
+        if changing or not placed:
+            drawing.draw_holes(axes, run.case, field, shifts)
+    for name, (center, turn) in placed.items():
+        size = bodies.radius(run, name)
+        for shift in images(run.case, center - size, center + size, region):
+            pose = (center + shift, turn)
+            if name not in changing:
+                seen = bodies.shape(run, name, time)
+                drawing.draw_shape(axes, seen, pose, colour(name))
+            elif field is None:
+                axes.plot(*pose[0][:2], "o", ms=4.0, color=colour(name), zorder=0)
+    if trails:
+        for name, history in run.bodies.items():
+            if np.ptp(history.center, axis=0).max() > 0.05 * bodies.radius(run, name):
+                past = history.center[history.time <= time * (1 + 1e-12)]
+                drawing.draw_trail(
+                    axes,
+                    [
+                        piece + shift
+                        for piece in trail(run.case, past)
+                        for shift in images(run.case, piece.min(axis=0), piece.max(axis=0), region)
+                    ],
+                )
+    for arrow in bodies.headings(run, placed):
+        for shift in images(run.case, arrow.start, arrow.start, region):
+            drawing.draw_heading(axes, replace(arrow, start=arrow.start + shift))
+    for points in bodies.rods(run, placed, time):
+        for shift in images(run.case, points.min(axis=0), points.max(axis=0), region):
+            drawing.draw_rod(axes, points + shift)
+
+
+def nodal_values(field: Field, quantity: str) -> Array:
+    """Values of a quantity at the nodes, `(n_nodes,)`."""
+    if quantity == "speed":
+        return speed(field.velocity)
+    values = getattr(field, quantity)
+    return np.linalg.norm(values, axis=1) if values.ndim > 1 else values
+
+
+def whole_view(run: Run, field: Field, *, mirror: bool = True) -> View:
+    """All of the domain, of a periodic one as the case has it."""
+    low, high = field.nodes.min(axis=0), field.nodes.max(axis=0)
+    lengths, start = periods(run.case)[:2], domain_low(run.case)[:2]
+    low = np.where(lengths > 0, start, low)
+    high = np.where(lengths > 0, start + lengths, high)
+    if run.is_axisymmetric and mirror:
+        low[1] = -high[1]
+    return float(low[0]), float(high[0]), float(low[1]), float(high[1])
+
+
+def default_view(run: Run, whole: View, times: Array) -> View:
+    """All of the domain, or the surroundings of small bodies and of swimmers at some times."""
+    low, high = np.array(whole[::2]), np.array(whole[1::2])
+    around = bodies.surroundings(run, times[:: max(1, len(times) // 100)])
+    if around is None or periods(run.case)[:2].any():
+        return whole
+    body_low, body_high = around[0][:2], around[1][:2]
+    largest = max(bodies.radius(run, name) for name in bodies.poses(run, times[-1]))
+    extent = (body_high - body_low).max()
+    if 2 * largest < SMALL_BODY * (high - low).min():
+        reach = 3.0 * largest + 0.25 * (extent - 2 * largest)
+    elif bodies.swims(run):
+        reach = NEAR_SWIMMER * extent
+    else:
+        return whole
+    if run.is_axisymmetric and low[1] < 0.0:
+        body_low[1] = -body_high[1]
+    near = np.maximum(low, body_low - reach), np.minimum(high, body_high + reach)
+    if np.prod(near[1] - near[0]) > 0.7 * np.prod(high - low):
+        return whole
+    return float(near[0][0]), float(near[1][0]), float(near[0][1]), float(near[1][1])

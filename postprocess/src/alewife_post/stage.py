@@ -1,0 +1,248 @@
+"""Films in space: bodies, a slice, what joins bodies, their ways and headings, by one camera."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from alewife_post import camera as view
+from alewife_post import planes, scene, space, style, surfaces
+from alewife_post.cast import Cast
+from alewife_post.film import Moment, Request, field_at, limits_of, offsets, thinned, time_stamp
+from alewife_post.page import Page
+from alewife_post.periodic import domain_box, periods
+from alewife_post.periodic import images as images_of
+from alewife_post.read import Field, Run
+
+if TYPE_CHECKING:
+    import pyvista
+
+Array = np.ndarray
+
+IN_SPACE = ("speed", "pressure", "vorticity", "bodies")
+SLICE_OPACITY = 0.8
+
+
+def images(run: Run, moments: list[Moment], request: Request) -> Iterator[Array]:
+    """One image a moment."""
+    if request.quantity not in IN_SPACE:
+        raise ValueError(f"{request.quantity} is not filmed in space: {', '.join(IN_SPACE)}")
+    if not scene.can_render():
+        raise ValueError("VTK can have no window here: install libosmesa6")
+    return _images(run, moments, request)
+
+
+def _images(run: Run, moments: list[Moment], request: Request) -> Iterator[Array]:
+    import pyvista
+
+    moved = offsets(run, request.follow, moments)
+    seen = view.seen(run, moments, request, moved)
+    cut, cuts = None, None
+    if request.quantity != "bodies" and not request.surface:
+        cut = _cut(run, moments, request, seen, moved)
+        cuts = [cut.at(offset) for offset in moved]
+    parts = _flow(run, moments, request, cuts)
+    units = run.case.get("units", "")
+    bar, look = None, {}
+    if parts is not None:
+        colour_map, limits = limits_of(
+            request.quantity, [thinned(*_samples(part)) for part in parts if part.n_cells]
+        )
+        every = np.concatenate([_samples(part)[0] for part in parts if part.n_cells])
+        alpha = 1.0 if request.surface else SLICE_OPACITY
+        bar = (colour_map, limits, every, style.label(request.quantity, units), alpha)
+        look = {"scalars": "values", "cmap": colour_map, "clim": limits, "show_scalar_bar": False}
+    page = Page(request.size, run.case["title"], None, bar)
+    corners = view.corners_of(seen.box)
+    if cut is not None and not seen.is_whole:
+        corners = np.concatenate([cut.corners(), seen.points])
+    direction = view.direction(run, request, cut and cut.plane)
+    camera = view.camera(direction, corners, page.pixels[0] / page.pixels[1])
+    view.legend(page, camera, units)
+    plotter = pyvista.Plotter(off_screen=True, window_size=page.pixels)
+    plotter.set_background("white")
+    plotter.enable_anti_aliasing("ssaa")
+    walls = _walls(run, moments, is_whole=seen.is_whole)
+    cast = Cast(run)
+    try:
+        for nth, moment in enumerate(moments):
+            plotter.clear_actors()
+            for wall, wall_look in walls:
+                plotter.add_mesh(wall, render=False, **wall_look)
+            if parts is not None and request.surface:
+                plotter.add_mesh(_smooth(parts[nth]), render=False, **look, **style.SOLID)
+            elif parts is not None and parts[nth].n_cells:
+                plotter.add_mesh(
+                    parts[nth], render=False, lighting=False, opacity=SLICE_OPACITY, **look
+                )
+            cast.play(plotter, moment, request, is_plain=parts is not None)
+            camera.applied(plotter, moved[nth])
+            plotter.render()
+            image = plotter.screenshot(return_img=True)
+            page.clear_images()
+            page.axes.imshow(image, extent=(0, 1, 0, 1), aspect="auto", interpolation="nearest")
+            yield page.image(time_stamp(run, moment.time))
+    finally:
+        plotter.close()
+
+
+# ---- The flow ------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Cut:
+    """A slice that a film shows, less where the view has moved to."""
+
+    plane: planes.Plane
+    low: Array
+    """Least coordinates in the plane, `(2,)`."""
+    high: Array
+    moves: bool
+    """Whether it goes with the view."""
+
+    def at(self, offset: Array, *, with_view: bool = False) -> Cut:
+        """The same where the view has moved to; all of it `with_view`, even if it stands still."""
+        if self.moves or with_view:
+            return replace(self, plane=replace(self.plane, origin=self.plane.origin + offset))
+        shift = self.plane.across @ offset
+        return replace(self, low=self.low + shift, high=self.high + shift)
+
+    def corners(self) -> Array:
+        """`(4, 3)`."""
+        pairs = [(x, y) for x in (self.low[0], self.high[0]) for y in (self.low[1], self.high[1])]
+        return self.plane.points(np.array(pairs))
+
+
+def _cut(run: Run, moments: list[Moment], request: Request, seen: view.Seen, moved: Array) -> Cut:
+    """Through the bodies if no plane is asked for, and there as far as the bodies' surroundings."""
+    times = np.array([moment.time for moment in moments])
+    moves = request.plane is None and request.follow is not None
+    if request.plane is not None:
+        plane = planes.parsed(request.plane)
+    else:
+        plane = planes.through_bodies(run, times[:1] if moves else times, seen.box.mean(axis=0))
+    if moves:
+        plane = replace(plane, origin=plane.origin - moved[0])
+    box = plane.coordinates(view.corners_of(seen.box))
+    low, high = box.min(axis=0), box.max(axis=0)
+    if not seen.is_whole:
+        near = plane.coordinates(seen.points)
+        low = np.maximum(low, near.min(axis=0) - seen.margin)
+        high = np.minimum(high, near.max(axis=0) + seen.margin)
+    return Cut(plane, low, high, moves)
+
+
+def _flow(
+    run: Run, moments: list[Moment], request: Request, cuts: list[Cut] | None
+) -> list[pyvista.PolyData] | None:
+    """A slice or the surfaces of bodies with nodal `values`, one a moment."""
+    if request.quantity == "bodies":
+        return None
+    if cuts is None:
+        return [
+            surfaces.bodies_surface(run, field_at(moment), request.quantity) for moment in moments
+        ]
+    found = [
+        whole_slice(run.case, field_at(moment), cut, request.quantity)
+        for moment, cut in zip(moments, cuts, strict=True)
+    ]
+    if not any(part.n_cells for part in found):
+        raise ValueError(f"the slice {cuts[0].plane.text} meets no fluid that is seen")
+    return found
+
+
+def whole_slice(case: dict[str, Any], field: Field, cut: Cut, quantity: str) -> pyvista.PolyData:
+    """A slice that goes on beyond the mesh of a periodic domain."""
+    if not periods(case).any():
+        return slice_of(field, cut, quantity)
+    import pyvista
+
+    mesh = (field.nodes.min(axis=0), field.nodes.max(axis=0))
+    found = []
+    for shift in images_of(case, *mesh, domain_box(case)):
+        part = slice_of(field, cut.at(-shift, with_view=True), quantity)
+        if part.n_cells:
+            found.append(part.translate(shift))
+    return pyvista.merge(found) if found else pyvista.PolyData()
+
+
+def slice_of(field: Field, cut: Cut, quantity: str) -> pyvista.PolyData:
+    """The part of a plane that is cut out, with nodal `values`."""
+    import pyvista
+
+    plane = cut.plane
+    height = (field.nodes - plane.origin) @ plane.normal
+    own = plane.coordinates(field.nodes)[field.cells]
+    heights = height[field.cells]
+    near = (heights.min(axis=1) <= 0) & (heights.max(axis=1) >= 0)
+    near &= (own.max(axis=1) >= cut.low).all(axis=1) & (own.min(axis=1) <= cut.high).all(axis=1)
+    if not near.any():
+        return pyvista.PolyData()
+    pieces = field.cells[near][:, space.PIECES].reshape(-1, 4)
+    grid = pyvista.UnstructuredGrid({space.TETRAHEDRON: pieces}, field.nodes)
+    grid.point_data["values"] = surfaces.nodal_values(field, quantity)
+    found = grid.slice(normal=plane.normal, origin=plane.origin)
+    for along, (low, high) in zip(plane.across, zip(cut.low, cut.high, strict=True), strict=True):
+        for end, outwards in ((low, -along), (high, along)):
+            if found.n_cells:
+                found = found.clip(normal=outwards, origin=plane.origin + end * along)
+    return found
+
+
+def _samples(part: pyvista.PolyData) -> tuple[Array, Array]:
+    """Values at cells of a surface and the areas they hold."""
+    sized = part.compute_cell_sizes(length=False, volume=False)
+    values = sized.point_data_to_cell_data().cell_data["values"]
+    areas = np.asarray(sized.cell_data["Area"])
+    return np.asarray(values), areas + 1e-300
+
+
+# ---- What is seen, and from where ----------------------------------------------------------------
+
+
+def _walls(
+    run: Run, moments: list[Moment], *, is_whole: bool
+) -> list[tuple[pyvista.PolyData, dict[str, Any]]]:
+    """The sides of the domain: edges of a box, rims and wall of a tube or of a mesh."""
+    import pyvista
+
+    ((kind, domain),) = run.case["domain"].items()
+    lines = {"color": style.EDGE, "line_width": 1.5, "lighting": False}
+    glass = {"color": style.EDGE, "opacity": 0.12, "lighting": False}
+    match kind:
+        case "box":
+            low, high = domain_box(run.case)
+            edges = pyvista.Box(np.array([low, high]).T.ravel()).extract_feature_edges()
+            return [(edges, lines)]
+        case "cylinder":
+            start, end = domain["x"]
+            tube = pyvista.Cylinder(
+                center=(0.5 * (start + end), 0.0, 0.0),
+                direction=(1.0, 0.0, 0.0),
+                radius=domain["radius"],
+                height=end - start,
+                resolution=96,
+                capping=False,
+            )
+            rims = tube.extract_feature_edges(
+                boundary_edges=True,
+                feature_edges=False,
+                manifold_edges=False,
+                non_manifold_edges=False,
+            )
+            return [(rims, lines), (tube, glass)]
+        case "mesh" if run.fields:
+            return [(surfaces.outer_surface(run.field(moments[0].time)), glass)]
+        case "sphere" if is_whole:
+            center, radius = domain.get("center", (0.0, 0.0, 0.0)), domain["radius"]
+            ball = pyvista.Icosphere(radius=radius, center=center, nsub=4)
+            return [(ball, glass)]
+    # A ball that is far away is left out: it is seen from inside.
+    return []
+
+
+def _smooth(surface: pyvista.PolyData) -> pyvista.PolyData:
+    return surface.compute_normals(feature_angle=40.0, split_vertices=True)

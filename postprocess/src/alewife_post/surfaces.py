@@ -1,0 +1,120 @@
+"""Surfaces of runs in space: of bodies, of the domain, and the faces they are made of."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from alewife_post.periodic import is_joined, periods
+from alewife_post.quantities import speed
+from alewife_post.read import QUADRATIC_TRIANGLE, Field, Run
+
+Array = np.ndarray
+
+FACES = np.array([[0, 1, 2, 4, 5, 6], [0, 1, 3, 4, 8, 7], [0, 2, 3, 6, 9, 7], [1, 2, 3, 5, 9, 8]])
+"""Nodes of each face of a tetrahedron: vertices, then those between them."""
+OPPOSITE = np.array([3, 2, 1, 0])
+"""The vertex that a face has not."""
+ON_SIDE = 1e-5
+"""Distance from a side over the size of the domain below which a node is on it."""
+SUBDIVISION = 3
+
+
+def bodies_surface(run: Run, field: Field, quantity: str):  # noqa: ANN201  (loads VTK)
+    """The surface of the fluid without the sides of the domain, with nodal `values`."""
+    faces = boundary_faces(field)
+    sides = distances_to_sides(run.case, field.nodes)
+    if sides.shape[1] > 0:
+        is_side = np.abs(sides) < ON_SIDE * np.ptp(field.nodes, axis=0).max()
+        lengths = periods(run.case)
+        if lengths.any():
+            # Where the mesh is cut open
+            is_side = np.column_stack([is_side, is_joined(field.nodes, lengths)])
+        kept = _surface(field, quantity, faces[~is_side[faces].all(axis=1).any(axis=1)])
+    else:
+        whole = _surface(field, quantity, faces).connectivity("all")
+        cells = whole.faces.reshape(-1, 4)[:, 1:]
+        is_outer = _is_on_largest_part(whole)[cells[:, 0]]
+        kept = whole.extract_cells(np.flatnonzero(~is_outer))
+        kept = kept.extract_surface(algorithm="dataset_surface")
+    if kept.n_cells == 0:
+        raise ValueError("there is no body in this run: draw a slice")
+    return kept
+
+
+def _surface(field: Field, quantity: str, faces: Array):  # noqa: ANN202  (loads VTK)
+    """Curved faces `(n, 6)` as flat triangles, with nodal `values`."""
+    import pyvista
+
+    if len(faces) == 0:
+        return pyvista.PolyData()
+    grid = pyvista.UnstructuredGrid({QUADRATIC_TRIANGLE: faces}, field.nodes)
+    grid.point_data["values"] = nodal_values(field, quantity)
+    return grid.extract_surface(nonlinear_subdivision=SUBDIVISION, algorithm="dataset_surface")
+
+
+def _is_on_largest_part(surface) -> Array:  # noqa: ANN001  (VTK)
+    """Whether each point of a surface is on its part of the largest extent, the outer one."""
+    part = np.asarray(surface.point_data["RegionId"])
+    points = np.asarray(surface.points)
+    extents = [np.ptp(points[part == index], axis=0).max() for index in range(part.max() + 1)]
+    return part == np.argmax(extents)
+
+
+def outer_surface(field: Field):  # noqa: ANN201  (loads VTK)
+    """The outer part of the surface of the fluid: the sides of its domain."""
+    surface = _surface(field, "speed", boundary_faces(field)).connectivity("all")
+    cells = surface.faces.reshape(-1, 4)[:, 1:]
+    kept = np.flatnonzero(_is_on_largest_part(surface)[cells[:, 0]])
+    return surface.extract_cells(kept).extract_surface(algorithm="dataset_surface")
+
+
+def boundary_faces(field: Field) -> Array:
+    """Nodes `(n, 6)` of the faces that only one cell has, counter-clockwise seen from outside."""
+    cells, n = field.cells, len(field.nodes)
+    ends = np.sort(cells[:, FACES[:, :3]].reshape(-1, 3), axis=1).astype(np.int64)
+    keys = (ends[:, 0] * n + ends[:, 1]) * n + ends[:, 2]
+    _, first, counts = np.unique(keys, return_index=True, return_counts=True)
+    found = first[counts == 1]
+    faces = cells[:, FACES].reshape(-1, 6)[found]
+    inner = field.nodes[cells[:, OPPOSITE].ravel()[found]]
+    a, b, c = (field.nodes[faces[:, k]] for k in range(3))
+    is_inwards = np.einsum("ij,ij->i", np.cross(b - a, c - a), inner - a) > 0
+    faces[is_inwards] = faces[is_inwards][:, [0, 2, 1, 5, 4, 3]]
+    return faces
+
+
+def distances_to_sides(case: dict[str, Any], nodes: Array) -> Array:
+    """Distance of each node from each side of the domain, `(n_nodes, n_sides)`.
+
+    The sides of an imported mesh are not known: it has none here.
+    """
+    ((kind, domain),) = case["domain"].items()
+    match kind:
+        case "box":
+            return np.hstack([nodes - domain["min"], nodes - domain["max"]])
+        case "cylinder":
+            off_axis = np.hypot(nodes[:, 1], nodes[:, 2]) - domain["radius"]
+            ends = nodes[:, :1] - np.asarray(domain["x"])
+            return np.column_stack([ends, off_axis])
+        case "sphere":
+            off = nodes - domain.get("center", [0.0, 0.0, 0.0])
+            return np.linalg.norm(off, axis=1, keepdims=True) - domain["radius"]
+        case "mesh":
+            return np.empty((len(nodes), 0))
+        case _:
+            raise ValueError(f"a {kind} is no domain in space")
+
+
+def nodal_values(field: Field, quantity: str) -> Array:
+    """Values of a quantity at the nodes, `(n_nodes,)`; of the vorticity its magnitude."""
+    match quantity:
+        case "speed":
+            return speed(field.velocity)
+        case "vorticity":
+            return speed(field.vorticity)
+        case "pressure":
+            return field.pressure
+        case _:
+            raise ValueError(f"{quantity} is not drawn in space: speed, pressure or vorticity")
