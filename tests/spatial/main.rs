@@ -5,7 +5,9 @@ mod gaps;
 mod imported;
 mod iterative;
 mod joints;
+mod mirror;
 mod reciprocity;
+mod rotation;
 mod scene;
 
 use alewife_core::body::{Inertia, Pose, Twist, Wrench};

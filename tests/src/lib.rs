@@ -12,7 +12,7 @@ mod study;
 mod swim;
 mod tetrahedra;
 
-pub use moved::Moved;
+pub use moved::{Moved, mirror_image};
 pub use norms::{Errors, errors};
 pub use setup::{fluid_only, rest, sides};
 pub use spheres::ChainOfSpheres;

@@ -1,6 +1,6 @@
 //! Meshes turned, mirrored and shifted as a whole.
 
-use alewife_mesh::{Mesh, Point};
+use alewife_mesh::{Mesh, Point, Simplex};
 use nalgebra::Rotation2;
 
 /// A mirror image about the x axis or none, then a turn about the origin, then a shift.
@@ -42,20 +42,41 @@ impl Moved {
     /// A mesh, its cells counter-clockwise as they were.
     #[must_use]
     pub fn mesh(&self, mesh: &Mesh<2>) -> Mesh<2> {
-        let mut moved = mesh.clone();
+        let mut moved = if self.mirrored { mirror_image(mesh, 1) } else { mesh.clone() };
         for node in &mut moved.nodes {
-            *node = self.place(*node);
-        }
-        if self.mirrored {
-            // Vertices a, b, c become a, c, b, and so the edges ab, bc, ca: ca, bc, ab.
-            for cell in moved.cells.chunks_exact_mut(6) {
-                cell.swap(1, 2);
-                cell.swap(3, 5);
-            }
-            for facet in &mut moved.facets {
-                facet.side = 2 - facet.side;
-            }
+            *node = Self { mirrored: false, ..*self }.place(*node);
         }
         moved
     }
+}
+
+/// A mesh in a mirror across an axis, its cells positive as they were: their second and third vertices change places.
+#[must_use]
+pub fn mirror_image<const D: usize>(mesh: &Mesh<D>, axis: usize) -> Mesh<D> {
+    let other = |vertex: usize| [0, 2, 1, 3][vertex];
+    let is_image =
+        |one: &[usize], image: &[usize]| one.iter().all(|vertex| image.contains(&other(*vertex)));
+    let edges = Simplex::<D>::EDGES;
+    let edge_of = |edge: &[usize; 2]| edges.iter().position(|image| is_image(edge, image));
+    let vertices = (0..=D).map(|vertex| Some(other(vertex)));
+    let nodes = vertices.chain(edges.iter().map(|edge| edge_of(edge).map(|edge| edge + D + 1)));
+    let nodes: Vec<usize> = nodes.flatten().collect();
+    let sides: Vec<[usize; D]> = (0..=D).map(Simplex::<D>::facet_vertices).collect();
+    let side_of = |side: usize| sides.iter().position(|image| is_image(&sides[side], image));
+
+    let mut moved = mesh.clone();
+    for node in &mut moved.nodes {
+        node[axis] = -node[axis];
+    }
+    let n = Simplex::<D>::N_NODES;
+    for (cell, image) in mesh.cells().zip(moved.cells.chunks_exact_mut(n)) {
+        for (place, from) in image.iter_mut().zip(&nodes) {
+            *place = cell[*from];
+        }
+    }
+    for facet in &mut moved.facets {
+        let side = side_of(usize::from(facet.side)).unwrap_or(0);
+        facet.side = u8::try_from(side).unwrap_or(0);
+    }
+    moved
 }

@@ -10,6 +10,8 @@ use super::gait::{
     AnguilliformGait, CarangiformGait, FishShape, FlagellateShape, FlagellumGait, JointsGait,
     PulsatingGait, TubeShape,
 };
+use super::orientation::Orientation;
+use super::spring::SpringSpec;
 
 /// `shape`: one of these, in the body's own frame.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -205,24 +207,24 @@ impl Geometry {
     }
 }
 
-/// `orientation`: how the body frame is turned from that of the laboratory, one of these.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+/// `load_frame`: axes along which the external force and torque of a body are given.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(rename_all = "kebab-case", deny_unknown_fields)]
-pub enum Orientation {
-    /// Turned about an axis.
-    Turned {
-        /// Direction of the axis, of any length.
-        axis: [f64; 3],
-        /// Angle, right-handed about the axis (rad).
-        #[serde(deserialize_with = "super::angle::deserialize")]
-        #[cfg_attr(test, schemars(with = "super::angle::Angle"))]
-        angle: f64,
-    },
-    /// Unit quaternion [w, x, y, z], from the body frame to the laboratory.
-    Quaternion([f64; 4]),
-    /// The body's x axis points along this direction, of any length, by the shortest turn.
-    Along([f64; 3]),
+#[serde(rename_all = "kebab-case")]
+pub enum LoadFrame {
+    /// Those of the laboratory.
+    #[default]
+    Laboratory,
+    /// Those of the body, with which the load turns.
+    Body,
+}
+
+impl LoadFrame {
+    /// Whether it is that of the laboratory.
+    #[must_use]
+    pub fn is_laboratory(&self) -> bool {
+        *self == Self::Laboratory
+    }
 }
 
 /// How a swimmer's surface moves by itself.
@@ -285,36 +287,6 @@ impl SquirmerGait {
     }
 }
 
-/// `spring`: force -stiffness (position - anchor) - damping velocity, and the same for the turn.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
-pub struct SpringSpec {
-    /// Stiffness along x and y (N/m; N/m2 planar).
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub stiffness: Vec<f64>,
-    /// Damping along x and y (N s/m; N s/m2 planar).
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub damping: Vec<f64>,
-    /// Where the centre of mass rests (m); where it starts, if absent.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub anchor: Vec<f64>,
-    /// Torque per turn (N m/rad; N/rad planar).
-    #[serde(default)]
-    pub torsion: f64,
-    /// Torque per angular velocity (N m s/rad; N s/rad planar).
-    #[serde(default)]
-    pub torsion_damping: f64,
-    /// Angle at rest (rad); that at the start, if absent.
-    #[serde(
-        default,
-        skip_serializing_if = "Option::is_none",
-        deserialize_with = "super::angle::deserialize"
-    )]
-    #[cfg_attr(test, schemars(with = "Option<super::angle::Angle>"))]
-    pub rest_angle: Option<f64>,
-}
-
 /// `[[body]]`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
@@ -353,6 +325,9 @@ pub struct Body {
     /// Factor in time for the external force and torque.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub load_factor: Option<TimeFunction>,
+    /// Axes along which the external force and torque are given.
+    #[serde(default, skip_serializing_if = "LoadFrame::is_laboratory")]
+    pub load_frame: LoadFrame,
     /// Spring and damper that tie it to a point.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub spring: Option<SpringSpec>,

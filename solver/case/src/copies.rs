@@ -6,9 +6,10 @@ use alewife_mesh::Point;
 use nalgebra::{Isometry3, Quaternion, UnitQuaternion};
 
 use super::balls::{Ball, BallGrid};
-use super::body::{Body, Orientation};
+use super::body::Body;
 use super::diagnostic::CaseError;
 use super::joint::PlanarPose;
+use super::orientation::Orientation;
 use super::part_pose::PartPose;
 use super::parts::{Part, poses};
 use super::swimmer::{Copies, SwimmerSpec};

@@ -28,6 +28,7 @@ mod model;
 mod names;
 mod nearest;
 mod numbers;
+mod orientation;
 mod output;
 mod part_pose;
 mod parts;
@@ -43,6 +44,7 @@ mod solid;
 mod solid_shape;
 mod source;
 mod speed;
+mod spring;
 mod stroke;
 mod stroke_file;
 mod swimmer;
@@ -54,8 +56,8 @@ mod wall_time;
 
 pub use axial_vector::AxialVector;
 pub use body::{
-    Body, CurveShape, CylinderAxis, GaitSpec, HelixShape, ImposedMotion, Lock, Motion, Orientation,
-    PartSpec, ShapeSpec, SpringSpec, SquirmerGait,
+    Body, CurveShape, CylinderAxis, GaitSpec, HelixShape, ImposedMotion, LoadFrame, Lock, Motion,
+    PartSpec, ShapeSpec, SquirmerGait,
 };
 pub use case::Case;
 pub use check::check;
@@ -77,6 +79,7 @@ pub use mesh_file::MeshFile;
 pub use model::{Model, SwimmerModel};
 pub use nearest::nearest;
 pub use numbers::{DerivedNumber, derived_numbers, geometry_name, number_table, significant};
+pub use orientation::Orientation;
 pub use output::{Cadence, Checkpoints, Output, Precision, Probe};
 pub use quantity::{
     BodyQuantity, Column, FlowQuantity, JointQuantity, ProbeQuantity, Quantity, Source,
@@ -89,6 +92,7 @@ pub use reference::{
 pub use region::{normal_axis, opposite};
 pub use schema::schema;
 pub use source::Location;
+pub use spring::SpringSpec;
 pub use stroke::{Stroke, smooth_ramp};
 pub use swimmer::{Copies, Pivot, Skin, SwimmerKind, SwimmerSpec};
 pub use time::{Adaptive, Convection, Initial, Scheme, Steady, TimeSettings, Unsteady};

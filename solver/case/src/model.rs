@@ -7,7 +7,7 @@ use super::diagnostic::CaseError;
 use super::parts::{Part, parts, poses};
 use super::{
     AxialVector, Body, BoundaryCondition, Case, Copies, FlowModel, GaitSpec, Geometry, Joint,
-    Motion, SwimmerKind, SwimmerSpec, TimeSettings,
+    LoadFrame, Motion, SwimmerKind, SwimmerSpec, TimeSettings,
 };
 
 /// Most bodies of a case; a run with a tenth of it takes days.
@@ -213,6 +213,7 @@ impl Model {
                 force: Vec::new(),
                 torque: AxialVector::default(),
                 load_factor: None,
+                load_frame: LoadFrame::default(),
                 spring: None,
                 size: swimmer.size,
             });

@@ -2,8 +2,8 @@
 
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 
-use super::body::Orientation;
 use super::joint::{JointKind, PlanarPose, child_pose};
+use super::orientation::Orientation;
 
 /// Position and orientation of a part of a swimmer.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -2,9 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::body::{GaitSpec, Motion, Orientation, ShapeSpec};
+use super::body::{GaitSpec, Motion, ShapeSpec};
 use super::joint::{Hinge, JointKind};
 use super::link::Link;
+use super::orientation::Orientation;
 use super::stroke::Stroke;
 
 /// `[[swimmer]]`.

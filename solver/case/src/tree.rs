@@ -13,7 +13,7 @@ use super::source::{Origin, Source};
 /// Tables that hold exactly one of several alternatives.
 ///
 /// Where two texts name different alternatives, the later one replaces the earlier one whole.
-pub const CHOICES: [&str; 17] = [
+pub const CHOICES: [&str; 18] = [
     "kind",
     "length",
     "angle",
@@ -25,6 +25,7 @@ pub const CHOICES: [&str; 17] = [
     "motion",
     "gait",
     "orientation",
+    "rest_orientation",
     "contact",
     "factor",
     "load_factor",

@@ -230,6 +230,13 @@ fn check_motion(findings: &mut Findings<'_>, key: &str, body: &Body) {
                 "add force = [x, y] or torque = ..., or leave it out",
             );
         }
+        if !body.load_frame.is_laboratory() && !is_pulled && body.torque.is_zero() {
+            findings.warning(
+                &format!("{key}.load_frame"),
+                format!("`load_frame` has no force or torque of \"{}\" to turn", body.name),
+                "add force = [x, y] or torque = ..., or leave it out",
+            );
+        }
         return;
     }
     let idle = [
@@ -237,6 +244,7 @@ fn check_motion(findings: &mut Findings<'_>, key: &str, body: &Body) {
         ("force", is_pulled),
         ("torque", !body.torque.is_zero()),
         ("load_factor", body.load_factor.is_some()),
+        ("load_frame", !body.load_frame.is_laboratory()),
     ];
     for (name, is_given) in idle {
         if is_given {

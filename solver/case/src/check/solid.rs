@@ -99,7 +99,7 @@ pub fn check_parts(
         let key = format!("{key}.{index}");
         check_shape(findings, &format!("{key}.shape"), &part.shape);
         if let Some(orientation) = &part.orientation {
-            check_orientation(findings, &key, orientation);
+            check_orientation(findings, &format!("{key}.orientation"), orientation);
         }
     }
 }

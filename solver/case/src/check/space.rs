@@ -119,7 +119,7 @@ fn check_turns(findings: &mut Findings<'_>, key: &str, body: &Body) {
         );
     }
     if let Some(orientation) = &body.orientation {
-        check_orientation(findings, key, orientation);
+        check_orientation(findings, &format!("{key}.orientation"), orientation);
     }
     if let Some(GaitSpec::Squirmer(squirmer)) = &body.gait {
         let gait = format!("{key}.gait.squirmer");
@@ -142,18 +142,20 @@ fn check_turns(findings: &mut Findings<'_>, key: &str, body: &Body) {
             }
         }
     }
-    if let Some(spring) = &body.spring
-        && (spring.torsion != 0.0 || spring.torsion_damping != 0.0 || spring.rest_angle.is_some())
-    {
+    let Some(spring) = &body.spring else { return };
+    if spring.rest_angle.is_some() {
         findings.error(
-            &format!("{key}.spring"),
-            "a spring against turning works in the plane only so far".to_owned(),
-            "leave out torsion, torsion_damping and rest_angle",
+            &format!("{key}.spring.rest_angle"),
+            "`rest_angle` is an angle in the plane".to_owned(),
+            "in space write rest_orientation = { turned = { axis = [x, y, z], angle = ... } }",
         );
+    }
+    if let Some(orientation) = &spring.rest_orientation {
+        check_orientation(findings, &format!("{key}.spring.rest_orientation"), orientation);
     }
 }
 
-/// An orientation about an axis that points somewhere.
+/// An orientation, of this key, about an axis that points somewhere.
 pub(super) fn check_orientation(findings: &mut Findings<'_>, key: &str, orientation: &Orientation) {
     let mut no_direction = |name: &str, vector: &[f64]| {
         if norm(vector) == 0.0 {
@@ -165,10 +167,10 @@ pub(super) fn check_orientation(findings: &mut Findings<'_>, key: &str, orientat
         }
     };
     match orientation {
-        Orientation::Turned { axis, .. } => no_direction("orientation.turned.axis", axis),
-        Orientation::Along(direction) => no_direction("orientation.along", direction),
+        Orientation::Turned { axis, .. } => no_direction("turned.axis", axis),
+        Orientation::Along(direction) => no_direction("along", direction),
         Orientation::Quaternion(parts) if (norm(parts) - 1.0).abs() > ROUNDING => findings.error(
-            &format!("{key}.orientation.quaternion"),
+            &format!("{key}.quaternion"),
             format!("the quaternion {parts:?} has the length {:.6}", norm(parts)),
             "write [w, x, y, z] of length 1; without a turn it is [1.0, 0.0, 0.0, 0.0]",
         ),
@@ -182,7 +184,9 @@ fn refuse_turns(findings: &mut Findings<'_>, key: &str, body: &Body) {
         matches!(&body.motion, Motion::Imposed(imposed) if imposed.angular_velocity.tilts());
     let has_axis =
         matches!(&body.gait, Some(GaitSpec::Squirmer(squirmer)) if squirmer.axis.is_some());
+    let rests_turned = body.spring.as_ref().is_some_and(|spring| spring.rest_orientation.is_some());
     for (name, is_given, help) in [
+        ("spring.rest_orientation", rests_turned, "write rest_angle = ... (rad)"),
         ("orientation", body.orientation.is_some(), "write angle = ... (rad)"),
         ("torque", body.torque.tilts(), "write one number, about z"),
         ("motion.imposed.angular_velocity", tilts, "write one number, about z"),
@@ -248,6 +252,11 @@ body = [{{ name = 'b', shape = {{ {shape} = {{ radius = 1.0 }} }}, center = [{ce
                 "body.0.gait={ squirmer = { modes = [1.0], heading = 0.5 } }",
                 "body.0.gait.squirmer.heading",
             ),
+            ("body.0.spring={ torsion = 1.0, rest_angle = 0.1 }", "body.0.spring.rest_angle"),
+            (
+                "body.0.spring={ torsion = 1.0, rest_orientation = { along = [0.0, 0.0, 0.0] } }",
+                "body.0.spring.rest_orientation.along",
+            ),
             ("body.0.center=[0.0, 0.0]", "body.0.center"),
             ("domain.box.max=[4.0, 4.0]", "domain.box.max"),
             ("body.0.shape={ disc = { radius = 1.0 } }", "body.0.shape"),
@@ -303,6 +312,10 @@ body = [{{ name = 'b', shape = {{ {shape} = {{ radius = 1.0 }} }}, center = [{ce
         for (setting, key) in [
             ("body.0.orientation={ along = [0.0, 1.0, 0.0] }", "body.0.orientation"),
             ("body.0.torque=[0.0, 1.0, 1.0]", "body.0.torque"),
+            (
+                "body.0.spring={ torsion = 1.0, rest_orientation = { along = [0.0, 1.0, 0.0] } }",
+                "body.0.spring.rest_orientation",
+            ),
             (
                 "body.0.motion={ imposed = { angular_velocity = [1.0, 0.0, 0.0] } }",
                 "body.0.motion.imposed.angular_velocity",

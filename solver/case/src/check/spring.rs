@@ -45,7 +45,7 @@ fn check_hold(findings: &mut Findings<'_>, key: &str, body: &Body, spring: &Spri
         is_given(&spring.stiffness) || is_given(&spring.damping)
     };
     let turning = spring.torsion != 0.0 || spring.torsion_damping != 0.0;
-    if !(along(0) || along(1) || turning) {
+    if !(along(0) || along(1) || along(2) || turning) {
         findings.warning(
             key,
             format!("the spring of \"{name}\" does nothing: all its numbers are 0"),
@@ -56,6 +56,7 @@ fn check_hold(findings: &mut Findings<'_>, key: &str, body: &Body, spring: &Spri
     for (lock, acts, motion, keys) in [
         (Lock::X, along(0), "along x", "stiffness and damping"),
         (Lock::Y, along(1), "along y", "stiffness and damping"),
+        (Lock::Z, along(2), "along z", "stiffness and damping"),
         (Lock::Rotation, turning, "against turning", "torsion and torsion_damping"),
     ] {
         if acts && body.locked.contains(&lock) {
@@ -70,6 +71,7 @@ fn check_hold(findings: &mut Findings<'_>, key: &str, body: &Body, spring: &Spri
     for (name, is_idle, wanted) in [
         ("anchor", !spring.anchor.is_empty() && !is_stiff, "stiffness"),
         ("rest_angle", spring.rest_angle.is_some() && spring.torsion == 0.0, "torsion"),
+        ("rest_orientation", spring.rest_orientation.is_some() && spring.torsion == 0.0, "torsion"),
     ] {
         if is_idle {
             findings.warning(
@@ -171,6 +173,7 @@ center = [0.0, 0.0]
                 "body.0.spring.rest_angle",
                 "no effect without `torsion`",
             ),
+            ("load_frame = 'body'", "body.0.load_frame", "no force or torque"),
         ] {
             let found = problems(&format!("motion = 'free'\n{lines}"), Severity::Warning);
             assert_one(&found, key, message);

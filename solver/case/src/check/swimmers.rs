@@ -48,7 +48,7 @@ fn place(findings: &mut Findings<'_>, key: &str, swimmer: &SwimmerSpec) {
             );
         }
         if let Some(orientation) = &swimmer.orientation {
-            check_orientation(findings, key, orientation);
+            check_orientation(findings, &format!("{key}.orientation"), orientation);
         }
     } else if swimmer.orientation.is_some() {
         findings.error(

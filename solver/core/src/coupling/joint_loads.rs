@@ -115,7 +115,7 @@ fn missing_load<const D: usize>(problem: &Problem<D>, now: &BodyStates<'_>, body
         let way = pose.displacement_from(&spring.rest);
         load += spring.stiffness.component_mul(&way) + spring.damping.component_mul(&twist);
     }
-    load -= rigid.external(now.shapes.time());
+    load -= rigid.external(now.shapes.time(), pose);
     load -= now.loads[body].to_vector();
     Wrench::from_vector(&load)
 }

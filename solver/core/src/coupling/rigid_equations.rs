@@ -47,13 +47,39 @@ pub struct PivotLoad {
     pub torque: Vector3<f64>,
 }
 
-/// Where bodies get to: `unmoved` plus `coefficient` (s) times their velocities, to first order.
+/// Where bodies get to: `expected` plus `coefficient` (s) times what their velocities differ by from
+/// those that lead there from `unmoved`.
+///
+/// In the plane this is `unmoved` plus `coefficient` times the velocity, whatever is expected.
+/// Rotations in space do not commute: from `unmoved` on it would be off by half the coefficient times
+/// the angular velocity x the turn of a spring, which is of first order in the step.
 #[derive(Debug, Clone, Copy)]
 pub struct PosesByVelocity<'a> {
     /// Poses without velocity.
     pub unmoved: &'a [Pose],
+    /// Poses that are expected, such as those for which the flow is solved.
+    pub expected: &'a [Pose],
     /// Change of a pose by the velocity (s).
     pub coefficient: f64,
+}
+
+impl PosesByVelocity<'_> {
+    /// Of bodies that stay where they are.
+    #[must_use]
+    pub fn staying(poses: &[Pose]) -> PosesByVelocity<'_> {
+        PosesByVelocity { unmoved: poses, expected: poses, coefficient: 0.0 }
+    }
+
+    /// The displacement of a body from a pose, to which the velocity adds its part.
+    fn way_from(&self, body: usize, rest: &Pose) -> RigidVector {
+        let expected = &self.expected[body];
+        expected.displacement_from(rest) - self.led_by_velocity(body)
+    }
+
+    /// What the velocity that is expected does.
+    fn led_by_velocity(&self, body: usize) -> RigidVector {
+        self.expected[body].displacement_from(&self.unmoved[body])
+    }
 }
 
 /// Motion of a body at an older time.
@@ -99,7 +125,7 @@ impl RigidBodyEquations {
     #[must_use]
     pub fn steady<const D: usize>(problem: &Problem<D>, poses: &[Pose], time: f64) -> Self {
         let mut equations = Self::without_loads(problem.bodies.len());
-        equations.add_loads(problem, time, PosesByVelocity { unmoved: poses, coefficient: 0.0 });
+        equations.add_loads(problem, time, PosesByVelocity::staying(poses));
         equations
     }
 
@@ -116,14 +142,14 @@ impl RigidBodyEquations {
         time: f64,
         reached: PosesByVelocity<'_>,
     ) {
-        let PosesByVelocity { unmoved, coefficient } = reached;
+        let PosesByVelocity { expected, coefficient, .. } = reached;
         for (child, rigid) in problem.bodies.iter().enumerate() {
             let Some(joint) = &rigid.joint else { continue };
             let Turn::Free(pivot) = &joint.turn else { continue };
-            let at_rest = unmoved[joint.parent].composed(&joint.rest);
-            let turned = unmoved[child].displacement_from(&at_rest);
+            let at_rest = expected[joint.parent].composed(&joint.rest);
+            let turned = reached.way_from(child, &at_rest) + reached.led_by_velocity(joint.parent);
             let motor = pivot.motor.as_ref().map_or(0.0, |motor| motor(time));
-            let axis = pivot.axis.map(|axis| unmoved[joint.parent].to_world(&axis));
+            let axis = pivot.axis.map(|axis| expected[joint.parent].to_world(&axis));
             let about_axis = |value: f64| axis.map_or_else(Vector3::zeros, |axis| axis * value);
             let bend = turned.fixed_rows::<3>(3) - about_axis(pivot.rest);
             self.pivots.push(PivotLoad {
@@ -133,12 +159,11 @@ impl RigidBodyEquations {
                 torque: about_axis(motor) - bend * pivot.stiffness,
             });
         }
-        for ((equation, rigid), unmoved) in self.bodies.iter_mut().zip(&problem.bodies).zip(unmoved)
-        {
-            equation.external = rigid.external(time);
+        for (body, (equation, rigid)) in self.bodies.iter_mut().zip(&problem.bodies).enumerate() {
+            equation.external = rigid.external(time, &expected[body]);
             let Some(spring) = &rigid.spring else { continue };
             equation.resistance = spring.damping + spring.stiffness * coefficient;
-            let way = unmoved.displacement_from(&spring.rest);
+            let way = reached.way_from(body, &spring.rest);
             equation.external -= spring.stiffness.component_mul(&way);
         }
     }

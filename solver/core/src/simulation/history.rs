@@ -137,8 +137,8 @@ impl<const D: usize> StepHistory<D> {
         let Step { time, bdf, .. } = self.step;
         let mut equations = RigidBodyEquations::without_loads(problem.bodies.len());
         let Some(older) = &self.older else {
-            let reached = PosesByVelocity { unmoved: &self.unmoved, coefficient: 0.0 };
-            equations.add_loads(problem, self.boundary_shapes().time(), reached);
+            let time = self.boundary_shapes().time();
+            equations.add_loads(problem, time, PosesByVelocity::staying(&self.unmoved));
             return equations;
         };
         equations.rate = bdf.next;
@@ -152,7 +152,8 @@ impl<const D: usize> StepHistory<D> {
             });
             equation.history = bdf.history(now, before);
         }
-        let reached = PosesByVelocity { unmoved: &self.unmoved, coefficient: 1.0 / bdf.next };
+        let unmoved = &self.unmoved;
+        let reached = PosesByVelocity { unmoved, expected: poses, coefficient: 1.0 / bdf.next };
         equations.add_loads(problem, time, reached);
         equations
     }

@@ -65,6 +65,8 @@ pub struct RigidBody {
     pub load: Wrench,
     /// Factor of the external load in time.
     pub load_factor: Option<TimeValue>,
+    /// Whether the external load is given in the frame of the body, with which it turns.
+    pub load_in_body: bool,
     /// Spring and damper.
     pub spring: Option<Spring>,
     /// Slip of the surface.
@@ -90,6 +92,7 @@ impl RigidBody {
             weight: Wrench::default(),
             load: Wrench::default(),
             load_factor: None,
+            load_in_body: false,
             spring: None,
             gait: None,
             shape: None,
@@ -109,11 +112,18 @@ impl RigidBody {
         &self.drives[mode]
     }
 
-    /// Load from outside (N, N m) at a time (s), without those of fluid, springs and contact.
+    /// Load from outside (N, N m) at a time (s) on the body at a pose, without those of fluid, springs
+    /// and contact.
     #[must_use]
-    pub fn external(&self, time: f64) -> RigidVector {
+    pub fn external(&self, time: f64, pose: &Pose) -> RigidVector {
         let factor = self.load_factor.as_ref().map_or(1.0, |factor| factor(time));
-        self.weight.to_vector() + self.load.to_vector() * factor
+        let load = if self.load_in_body {
+            let Wrench { force, torque } = &self.load;
+            Wrench { force: pose.to_world(force), torque: pose.to_world(torque) }
+        } else {
+            self.load
+        };
+        self.weight.to_vector() + load.to_vector() * factor
     }
 
     /// Mass and inertia tensor with an outline, those at rest for a body that does not deform.

@@ -54,6 +54,7 @@ pub(super) fn rigid_body<const D: usize>(
             .load_factor
             .clone()
             .map(|factor| -> TimeValue { Box::new(move |time| factor_at(Some(&factor), time)) }),
+        load_in_body: !body.load_frame.is_laboratory(),
         spring: body.spring.as_ref().map(|spring| rigid_spring(spring, &pose)),
         gait: slip(body, metric),
         shape: shape_motion(body)?,
@@ -88,12 +89,17 @@ fn drives(body: &Body, metric: Metric, geometry: Geometry) -> [Drive; 6] {
 }
 
 fn rigid_spring(spring: &SpringSpec, pose: &Pose) -> Spring {
+    let in_space = matches!(pose.orientation, Orientation::Spatial(_));
     let rigid = |linear: &[f64], angular: f64| {
+        let about: &[Mode] =
+            if in_space { &[Mode::AboutX, Mode::AboutY, Mode::AboutZ] } else { &[Mode::AboutZ] };
         let mut rigid = RigidVector::zeros();
         for axis in 0..3 {
             rigid[Mode::along(axis)] = component(linear, axis);
         }
-        rigid[Mode::AboutZ] = angular;
+        for mode in about {
+            rigid[*mode] = angular;
+        }
         rigid
     };
     let anchor = |axis: usize| spring.anchor.get(axis).copied().unwrap_or(pose.center[axis]);
@@ -102,7 +108,8 @@ fn rigid_spring(spring: &SpringSpec, pose: &Pose) -> Spring {
             Pose::planar(anchor(0), anchor(1), spring.rest_angle.unwrap_or(angle))
         }
         Orientation::Spatial(rotation) => {
-            Pose::spatial(Vector3::from_fn(|axis, _| anchor(axis)), rotation)
+            let rest = spring.rest_orientation.map_or(rotation, |rest| rest.rotation());
+            Pose::spatial(Vector3::from_fn(|axis, _| anchor(axis)), rest)
         }
     };
     Spring {

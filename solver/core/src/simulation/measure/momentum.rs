@@ -28,7 +28,8 @@ pub(super) fn momentum_record<const D: usize>(
     let mut exchange = loads.sides_force.norm();
     let mut bodies = Vec::new();
     for (body, rigid) in problem.bodies.iter().enumerate() {
-        let external = rigid.external(state.time).fixed_rows::<3>(0).into_owned();
+        let external =
+            rigid.external(state.time, &state.poses[body]).fixed_rows::<3>(0).into_owned();
         let fluid = loads.bodies[body].load.force;
         let force = fluid + state.contact.wrenches[body].force + external;
         // Forces in joints and springs are not known here
