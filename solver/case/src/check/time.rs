@@ -1,7 +1,9 @@
 //! Problems of `[time]`.
 
 use super::Findings;
-use crate::{Adaptive, FlowModel, Scheme, TimeSettings, Unsteady};
+use crate::{
+    Adaptive, BoundaryCondition, ContactSpec, FlowModel, Motion, Scheme, TimeSettings, Unsteady, Until,
+};
 
 /// Distance of end / step from a whole number above which the last step is not a whole one.
 const WHOLE_STEPS: f64 = 1e-6;
@@ -60,6 +62,9 @@ pub fn check(findings: &mut Findings<'_>) {
             if let Some(adaptive) = &unsteady.adaptive {
                 adaptive_steps(findings, unsteady, adaptive);
             }
+            if let Some(until) = &unsteady.until {
+                check_until(findings, until);
+            }
         }
     }
 }
@@ -111,6 +116,36 @@ fn adaptive_steps(findings: &mut Findings<'_>, unsteady: &Unsteady, adaptive: &A
                 "lower it, or raise time.unsteady.step",
             );
         }
+    }
+}
+
+/// Bodies leave through a side that is open, before contact keeps them from it.
+fn check_until(findings: &mut Findings<'_>, until: &Until) {
+    let key = format!("time.unsteady.{}", until.key());
+    let case = findings.case();
+    findings.positive(&key, until.distance());
+    if !case.boundary.values().any(BoundaryCondition::is_open) {
+        findings.error(
+            &key,
+            "no side is open, so that no body can leave".to_owned(),
+            "write \"do-nothing\" or \"traction-free\" for one, or leave `until` out",
+        );
+    }
+    let free = findings.model().bodies.iter().any(|body| body.motion == Motion::Free);
+    if !free || !findings.model().mesh_moves() {
+        findings.error(
+            &key,
+            "no body is free to leave".to_owned(),
+            "write motion = \"free\" for one, or leave `until` out",
+        );
+    }
+    let range = case.contact.as_ref().map_or(0.0, ContactSpec::range);
+    if until.distance() <= range {
+        findings.error(
+            &key,
+            format!("contact acts within {range}, and open sides are walls for it"),
+            "write a larger distance, about the edge length on the bodies and more",
+        );
     }
 }
 
