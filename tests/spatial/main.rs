@@ -7,6 +7,7 @@ mod iterative;
 mod joints;
 mod reciprocity;
 mod scene;
+mod walks;
 
 use alewife_core::body::{Inertia, Pose, Twist, Wrench};
 use alewife_core::case::{Convection, Scheme};
