@@ -6,7 +6,9 @@ use alewife_core::motion::{
     Fresh, Limits, MeshMotion, MotionKind, RigidMove, Transfer, mesh_boundary_conditions,
     needs_remesh,
 };
-use alewife_mesh::spatial::{Body, Domain, GapQuery, Part, Shape, check_placement, generate};
+use alewife_mesh::spatial::{
+    Body, Domain, GapQuery, Imported, Part, Shape, check_placement, generate,
+};
 use alewife_mesh::{BoundaryId, BoundaryKind, Mesh, Point, Quality, Sizing, check_mesh};
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 
@@ -71,11 +73,15 @@ impl Random {
     }
 
     fn domain(&mut self) -> Domain {
-        let kind = 3.0 * self.number();
+        let kind = 4.0 * self.number();
+        let tube = Domain::Cylinder { x: [-1.8, 1.8], radius: 1.3 };
         if kind < 1.0 {
             Domain::walls(Point::<3>::repeat(-1.5), Point::<3>::repeat(1.5))
         } else if kind < 2.0 {
-            Domain::Cylinder { x: [-1.8, 1.8], radius: 1.3 }
+            tube
+        } else if kind < 3.0 {
+            let mesh = generate(&tube, &[], &Sizing::graded(0.5, 0.5, 0.5));
+            Domain::Imported(Imported::new(mesh.expect("a tube is meshed")))
         } else {
             Domain::Ball { center: Point::<3>::new(0.1, 0.2, -0.1), radius: 1.7 }
         }

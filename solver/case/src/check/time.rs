@@ -183,7 +183,8 @@ body = [{ name = 'b', shape.disc.radius = 0.5, center = [2.0, 2.0], motion = 'fr
 ";
         let settings: Vec<String> = settings.iter().map(|&setting| setting.to_owned()).collect();
         let file = Case::parse("t.toml", text, &settings).unwrap();
-        let errors = check(&file).into_iter().filter(|found| found.severity == crate::Severity::Error);
+        let errors =
+            check(&file).into_iter().filter(|found| found.severity == crate::Severity::Error);
         errors.map(|found| found.key).collect()
     }
 
