@@ -171,14 +171,18 @@ fn starts(one: &SmoothSurface, two: &SmoothSurface) -> Vec<Point<3>> {
 }
 
 /// Places between a surface and a side of a given mesh, which may face it in many places: the nearest, and
-/// from all around it those from which a gap below `range` (m) can be found.
+/// from all around it those from which a gap below `range` (m) can be found, or the smallest one where that is
+/// infinite.
 fn starts_at_given(one: &SmoothSurface, side: &SmoothSurface, range: f64) -> Vec<Point<3>> {
     let toward = one.foot(side.foot(one.origin()).point).point;
     let far = 2.0 * one.reach();
     let around = directions(STARTS).map(|to| one.foot(one.origin() + to * far).point);
-    let near = around.filter(|on| side.gap(*on) < range + NEIGHBOUR * one.reach());
-    let between = |on_one: Point<3>| (on_one + side.foot(on_one).point) * 0.5;
-    iter::once(toward).chain(near).map(between).collect()
+    let places: Vec<Between> =
+        iter::once(toward).chain(around).map(|at| Between { at, gap: side.gap(at) }).collect();
+    let least = places.iter().map(|place| place.gap).fold(f64::INFINITY, f64::min);
+    let bound = if range.is_finite() { range } else { least } + NEIGHBOUR * one.reach();
+    let near = places.into_iter().filter(|place| place.gap < bound);
+    near.map(|place| (place.at + side.foot(place.at).point) * 0.5).collect()
 }
 
 /// The place near a start where the sum of the distances to two surfaces is least; `None` where none is found.
@@ -338,6 +342,8 @@ mod tests {
                 let exact = body.closest_to_wall(exact, 5.0)[0];
                 let found = body.closest_to_wall(given, 5.0)[0];
                 check_points(&found);
+                let nearest = body.closest_to_wall(given, f64::INFINITY)[0];
+                assert!((nearest.gap - found.gap).abs() < 1e-12, "{nearest:?} {found:?}");
                 // Quadratic edges of 0.5 on a radius of 1 are off it by 3e-4, and turned by 4e-3
                 assert!((found.gap - exact.gap).abs() < 1e-3, "{seed}: {found:?} {exact:?}");
                 assert!((found.normal - exact.normal).norm() < 0.03, "{found:?} {exact:?}");
