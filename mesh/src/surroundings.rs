@@ -13,8 +13,8 @@ pub trait Sides<const D: usize> {
     /// Whether a side is one that bodies face, as a wall.
     fn is_faced(&self, side: usize) -> bool;
 
-    /// Signed distance from a point (m) to a side (m), positive in the fluid.
-    fn gap_to_side(&self, side: usize, point: Point<D>) -> f64;
+    /// Signed distance from a point (m) to a side (m), positive in the fluid, where it is below a bound.
+    fn gap_to_side(&self, side: usize, point: Point<D>, bound: f64) -> Option<f64>;
 }
 
 /// Sides and bodies that face each other across the fluid.
@@ -72,8 +72,10 @@ impl<const D: usize, R: Sides<D>, S: Surface<D>> FacingSurfaces<D> for Surroundi
             .map(|near| Facing { boundary: n_sides + near.surface, gap: near.gap });
         let sides = (0..n_sides)
             .filter(|&side| but.is_some() && self.domain.is_faced(side))
-            .map(|side| Facing { boundary: side, gap: self.domain.gap_to_side(side, point) })
-            .filter(|facing| facing.gap < reach);
+            .filter_map(|side| {
+                let gap = self.domain.gap_to_side(side, point, reach)?;
+                Some(Facing { boundary: side, gap })
+            });
         body.into_iter().chain(sides).min_by(|a, b| a.gap.total_cmp(&b.gap))
     }
 }

@@ -59,6 +59,51 @@ fn poiseuille_flow_in_a_tube_is_nearly_exact_with_bent_walls() {
     assert!(bent.abs() < 0.03 && straight > 3.0 * bent.abs(), "{bent} {straight}");
 }
 
+/// A sphere carried through a tube until it leaves, against the same in a tube of the mesher.
+#[test]
+fn a_sphere_leaves_a_given_tube_as_it_leaves_a_tube() {
+    let carried = r#"
+title = "t"
+geometry = "spatial"
+fluid = { model = "stokes", viscosity = 1.0 }
+mesh = { size = 0.5, surface = 0.15, growth = 0.6, gap_layers = 1 }
+time.unsteady = { step = 0.1, end = 3.0, until = { one-leaves = 0.25 } }
+[[body]]
+name = "sphere"
+shape.sphere.radius = 0.25
+center = [0.6, 0.5, 0.1]
+motion = "free"
+"#;
+    let inlet = "{ parabolic = { peak = 1.0 } }, wall = 'no-slip'";
+    let given = format!("boundary = {{ inlet = {inlet}, outlet = 'do-nothing' }}\n{carried}");
+    let given = simulate::<3>(&case(&given, Some("pipe-2-binary")).model, &mut []);
+    let built = format!(
+        "boundary = {{ left = {inlet}, right = 'do-nothing' }}\n\
+         domain.cylinder = {{ x = [0.0, 2.0], radius = 1.0 }}\n{carried}"
+    );
+    let built = simulate::<3>(&case(&built, None).model, &mut []);
+    let runs = [given, built].map(|run| run.expect("the case runs"));
+    for run in &runs {
+        // It has come by 0.25 and its radius near to the end of the tube, and not a step before
+        let x = run.series.column("sphere.x").expect("it is measured");
+        assert!(x[x.len() - 1] > 1.5 && x[x.len() - 2] < 1.5, "{x:?}");
+        assert_eq!(run.steps + 1, x.len());
+        assert!(last(run, "flow.remeshes") >= 1.0 && last(run, "flow.minimum_gap") > 0.1);
+        // Iterations leave 1e-6 of the change of a flow, of which pi / 2 enters
+        let defect = last(run, "flow.mass_defect");
+        println!("defect {defect:.1e}, {} meshes", last(run, "flow.remeshes"));
+        assert!(defect.abs() < 2e-6, "{defect}");
+    }
+    // Both meshes are coarse; the one that is given has bent edges of a third of the radius
+    let [given, built] = runs;
+    assert_eq!(given.steps, built.steps);
+    for (name, tolerance) in [("sphere.x", 5e-3), ("sphere.y", 5e-3), ("sphere.velocity.x", 2e-2)] {
+        let [one, other] = [&given, &built].map(|run| last(run, name));
+        println!("{name} {one} {other}");
+        assert!((one - other).abs() < tolerance, "{name}: {one} {other}");
+    }
+}
+
 /// A sphere in a box that is given, against the same in a box of the mesher.
 #[test]
 fn a_sphere_in_a_given_box_has_the_resistance_of_one_in_a_box() {

@@ -9,6 +9,7 @@ mod mirror;
 mod reciprocity;
 mod rotation;
 mod scene;
+mod walks;
 
 use alewife_core::body::{Inertia, Pose, Twist, Wrench};
 use alewife_core::case::{Convection, Scheme};

@@ -16,8 +16,8 @@ impl Sides<2> for Domain {
         !self.is_periodic(side)
     }
 
-    fn gap_to_side(&self, side: usize, point: Point<2>) -> f64 {
-        self.side_gap(side, point)
+    fn gap_to_side(&self, side: usize, point: Point<2>, bound: f64) -> Option<f64> {
+        Some(self.side_gap(side, point)).filter(|gap| *gap < bound)
     }
 }
 

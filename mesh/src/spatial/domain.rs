@@ -86,10 +86,7 @@ impl Domain {
                 [point.x - x[0], x[1] - point.x, radius - point.y.hypot(point.z)][side]
             }
             Self::Ball { center, radius } => radius - (point - center).norm(),
-            Self::Imported(imported) => {
-                let gap = imported.side(side).foot(point).gap;
-                if imported.contains(point) { gap } else { -gap }
-            }
+            Self::Imported(imported) => imported.side(side).foot(point).gap,
         }
     }
 

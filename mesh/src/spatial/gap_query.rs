@@ -18,8 +18,11 @@ impl Sides<3> for Domain {
         !self.is_periodic(side) && !self.is_symmetric(side)
     }
 
-    fn gap_to_side(&self, side: usize, point: Point<3>) -> f64 {
-        self.side_gap(side, point)
+    fn gap_to_side(&self, side: usize, point: Point<3>, bound: f64) -> Option<f64> {
+        if let Self::Imported(imported) = self {
+            return imported.side(side).gap_within(point, bound);
+        }
+        Some(self.side_gap(side, point)).filter(|gap| *gap < bound)
     }
 }
 

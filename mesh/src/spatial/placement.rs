@@ -97,7 +97,7 @@ fn check_inside(
     for direction in directions(STARTS) {
         let at = surface.foot(surface.origin() + direction * (2.0 * surface.reach())).point;
         if !imported.contains(at) {
-            let gaps = (0..n_sides).map(|side| imported.side(side).foot(at).gap).enumerate();
+            let gaps = (0..n_sides).map(|side| imported.side(side).foot(at).gap.abs()).enumerate();
             let nearest = gaps.min_by(|one, other| one.1.total_cmp(&other.1));
             let (side, gap) = nearest.unwrap_or_default();
             return refuse(side, -gap, at);

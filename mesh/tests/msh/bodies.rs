@@ -105,6 +105,9 @@ fn bodies_that_meet_a_side_are_refused() {
     let named = Body::new("wall", Shape::Sphere { radius: 0.1 }, at(1.0, 0.0, 0.0));
     let error = generate(&pipe, &[named], &sizing(0.1, 0.5)).unwrap_err();
     assert!(matches!(error, MeshError::DuplicateName { .. }), "{error}");
-    let far = Point::<3>::new(1.0, 0.0, 0.0);
-    assert!(pipe.side_gap(0, far) > 0.8 && pipe.side_gap(0, far * 3.0) < 0.0);
+    // The pipe goes from 0 to 2
+    let inlet = pipe.sides().iter().position(|side| *side == "inlet").unwrap();
+    for x in [-0.5, 0.5, 3.0] {
+        assert!((pipe.side_gap(inlet, Point::<3>::new(x, 0.1, 0.2)) - x).abs() < 1e-12);
+    }
 }

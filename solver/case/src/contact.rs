@@ -23,3 +23,12 @@ pub enum ContactSpec {
         stiffness: f64,
     },
 }
+
+impl ContactSpec {
+    /// Gap at which the force begins (m).
+    #[must_use]
+    pub fn range(&self) -> f64 {
+        let (Self::Quadratic { range, .. } | Self::Barrier { range, .. }) = self;
+        *range
+    }
+}

@@ -191,3 +191,11 @@ pub enum BoundaryCondition {
     /// One of a periodic pair: the side opposite, by name.
     Periodic(String),
 }
+
+impl BoundaryCondition {
+    /// Whether fluid enters and leaves freely.
+    #[must_use]
+    pub fn is_open(&self) -> bool {
+        matches!(self, Self::DoNothing | Self::TractionFree)
+    }
+}

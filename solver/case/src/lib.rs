@@ -95,5 +95,5 @@ pub use source::Location;
 pub use spring::SpringSpec;
 pub use stroke::{Stroke, smooth_ramp};
 pub use swimmer::{Copies, Pivot, Skin, SwimmerKind, SwimmerSpec};
-pub use time::{Adaptive, Convection, Initial, Scheme, Steady, TimeSettings, Unsteady};
+pub use time::{Adaptive, Convection, Initial, Scheme, Steady, TimeSettings, Unsteady, Until};
 pub use wall_time::WallTime;

@@ -48,6 +48,39 @@ pub struct Unsteady {
     /// Steps chosen by the error they make; fixed steps if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub adaptive: Option<Adaptive>,
+    /// What ends the run before `end`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub until: Option<Until>,
+}
+
+/// What ends a run before its end: bodies that come to a side through which fluid leaves freely
+/// (`do-nothing`, `traction-free`).
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Until {
+    /// One of them is nearer to such a side than this (m).
+    OneLeaves(f64),
+    /// All of them are at once.
+    AllLeave(f64),
+}
+
+impl Until {
+    /// Distance from a side (m) at which a body leaves.
+    #[must_use]
+    pub fn distance(&self) -> f64 {
+        let (Self::OneLeaves(distance) | Self::AllLeave(distance)) = self;
+        *distance
+    }
+
+    /// Its key in `[time.unsteady]`.
+    #[must_use]
+    pub fn key(&self) -> &'static str {
+        match self {
+            Self::OneLeaves(_) => "until.one-leaves",
+            Self::AllLeave(_) => "until.all-leave",
+        }
+    }
 }
 
 impl Unsteady {

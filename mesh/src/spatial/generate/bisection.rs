@@ -32,7 +32,7 @@ struct LongEdge {
 }
 
 impl Improver<'_> {
-    /// Refines the lattice to the sizes wanted.
+    /// Refines the lattice to a part of the sizes wanted.
     ///
     /// Each edge that is too long is split, but the longest edge of its cells before it, and so on,
     /// which keeps the angles of the lattice and ends (@rivara1984). Inside bodies edges may be longer
@@ -40,7 +40,8 @@ impl Improver<'_> {
     ///
     /// # Errors
     /// [`MeshError::TooManyCells`].
-    pub fn refine_lattice(&mut self) -> Result<(), MeshError> {
+    pub fn refine_lattice(&mut self, part: f64) -> Result<(), MeshError> {
+        self.longest = part * LONGEST;
         for vertex in 0..self.mesh.points.len() {
             self.mesh.sizes[vertex] += self.depth(self.mesh.points[vertex]);
         }
@@ -128,10 +129,10 @@ impl Improver<'_> {
         let [a, b] = ends.map(|end| self.mesh.point(end));
         let [wanted, other] = ends.map(|end| self.mesh.sizes[end as usize]);
         let length = (a - b).norm();
-        let most = LONGEST * wanted.min(other);
+        let most = self.longest * wanted.min(other);
         let is_long = length > most
             || (length > LOOK_CLOSER * most
-                && (length > LONGEST * self.lattice_size(middle(a, b))
+                && (length > self.longest * self.lattice_size(middle(a, b))
                     || self.goes_through_body(a, b)));
         #[expect(clippy::cast_possible_truncation, reason = "an order needs no more digits")]
         let length_bits = (length as f32).to_bits();

@@ -93,6 +93,8 @@ pub struct Improver<'a> {
     pub twins: Twins,
     /// Nodes in bent edges of a given mesh.
     pub given: GivenNodes,
+    /// Edges longer than this many wanted lengths are bisected.
+    pub longest: f64,
     projections: Projections<'a>,
     measure: Measure,
     is_curved: Vec<bool>,
@@ -112,6 +114,7 @@ impl<'a> Improver<'a> {
             given: GivenNodes::default(),
             sizes,
             geometry,
+            longest: f64::INFINITY,
             projections: Projections::new(geometry),
             measure: Measure::straight(Straight::VolumeLength),
             is_curved: geometry.surfaces.iter().map(|surface| !surface.is_flat()).collect(),

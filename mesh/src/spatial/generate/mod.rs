@@ -42,7 +42,8 @@ use crate::{Mesh, MeshError, Sizing};
 /// Edge of the cubes of the lattice over the largest size wanted.
 const CUBE: f64 = 1.3;
 
-/// Parts of a cube by which the lattice is moved, one after the other until the mesh is good.
+/// Parts of a cube by which the lattice is moved, one after the other until the mesh is good; a given mesh
+/// cannot be moved, and has edges bisected that are so much shorter instead.
 const SHIFTS: [f64; 4] = [0.013, 0.231, 0.372, 0.117];
 
 /// Mesh of the fluid in a domain around bodies.
@@ -66,12 +67,13 @@ pub fn generate(
     for shift in SHIFTS {
         let improver = attempt(&sizes, shift)?;
         let verdict = Verdict::of(&improver);
-        let is_good = verdict.is_good();
+        // The angles of a given mesh stay as they are where no body is near
+        let is_given = sizes.geometry().imported.is_some();
+        let is_enough = verdict.is_good() || (is_given && verdict.is_acceptable());
         if best.as_ref().is_none_or(|(_, known)| verdict.is_better_than(known)) {
             best = Some((improver, verdict));
         }
-        // A given mesh cannot be moved
-        if is_good || sizes.geometry().imported.is_some() {
+        if is_enough {
             break;
         }
     }
@@ -83,7 +85,7 @@ pub fn generate(
 }
 
 /// The mesh from a lattice moved by a part of its cubes, or in a periodic box from one with cubes so much
-/// smaller.
+/// smaller, or from a given one.
 fn attempt(sizes: &SizeField, shift: f64) -> Result<Improver<'_>, MeshError> {
     let mut improver = Improver::new(sizes);
     let cube = CUBE * sizes.largest();
@@ -99,7 +101,8 @@ fn attempt(sizes: &SizeField, shift: f64) -> Result<Improver<'_>, MeshError> {
     } else {
         improver.fill_with_lattice(cube, shift);
     }
-    improver.refine_lattice()?;
+    let shorter = if sizes.geometry().imported.is_some() { shift - SHIFTS[0] } else { 0.0 };
+    improver.refine_lattice(1.0 - shorter)?;
     for index in first..sizes.geometry().surfaces.len() {
         let index = u16::try_from(index).map_err(|_| too_many_surfaces(sizes))?;
         improver.cut(index)?;

@@ -124,7 +124,8 @@ impl Verdict {
         self.angle.value >= self.good_angle && self.is_acceptable()
     }
 
-    fn is_acceptable(&self) -> bool {
+    /// Whether it may be given away.
+    pub fn is_acceptable(&self) -> bool {
         self.angle.value >= self.least_angle
             && self.coefficient.value >= self.least_coefficient
             && self.off_surface.value >= -OFF_SURFACE

@@ -59,6 +59,9 @@ impl SmoothSurface {
     /// the normal, positive where the solid is convex.
     #[must_use]
     pub fn curvature(&self, on: Point<3>) -> Matrix3<f64> {
+        if let Form::Facets(facets) = &self.form {
+            return facets.curvature(on);
+        }
         let normal = self.foot(on).normal;
         let along = Matrix3::identity() - normal * normal.transpose();
         if self.is_flat() {

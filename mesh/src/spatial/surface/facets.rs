@@ -1,40 +1,59 @@
-//! `Facets`: a side of a given mesh as triangles, and the distance to it.
+//! `Facets`: a side of a given mesh as triangles, straight or quadratic, and the distance to it.
+
+use std::collections::BTreeMap;
+
+use nalgebra::Matrix3;
 
 use super::Foot;
-use crate::{BoundaryId, Bounds, BoxTree, Mesh, Point};
+use super::patch::{OnPatch, Patch};
+use crate::{BoundaryId, Bounds, BoxTree, Facet, Mesh, NodeId, Point};
+
+/// Distances that differ by less than this part are the same: those of two triangles to a point that is
+/// nearest to their common edge.
+const TIE: f64 = 1e-9;
 
 /// Triangles, in a tree of the boxes around them.
 #[derive(Debug, Clone)]
 pub struct Facets {
-    triangles: Vec<[Point<3>; 3]>,
+    patches: Vec<Patch>,
     tree: BoxTree<3>,
     is_curved: bool,
 }
 
 impl PartialEq for Facets {
     fn eq(&self, other: &Self) -> bool {
-        self.triangles == other.triangles
+        self.patches == other.patches
     }
 }
 
+/// The nearest point of all triangles.
+#[derive(Debug, Clone, Copy)]
+struct Nearest {
+    patch: usize,
+    on: OnPatch,
+    distance: f64,
+    /// Component of the way from there to the point along the normal into the fluid (m).
+    height: f64,
+}
+
 impl Facets {
-    /// Those of one boundary of a mesh; curved ones as four triangles each.
+    /// Those of one boundary of a mesh.
     #[must_use]
     pub fn of(mesh: &Mesh<3>, side: BoundaryId) -> Self {
-        let mut triangles = Vec::new();
-        let mut is_curved = false;
-        for facet in mesh.facets.iter().filter(|facet| facet.boundary == side) {
-            let n: Vec<Point<3>> = mesh.facet_nodes(facet).map(|node| mesh.nodes[node]).collect();
-            if (0..3).any(|i| is_bent(&n[i], &n[(i + 1) % 3], &n[3 + i])) {
-                is_curved = true;
-                triangles.extend([[n[0], n[3], n[5]], [n[1], n[4], n[3]], [n[2], n[5], n[4]]]);
-                triangles.push([n[3], n[4], n[5]]);
-            } else {
-                triangles.push([n[0], n[1], n[2]]);
-            }
+        let own: Vec<&Facet> = mesh.facets.iter().filter(|facet| facet.boundary == side).collect();
+        let mut n_sharing: BTreeMap<[NodeId; 2], usize> = BTreeMap::new();
+        for edge in own.iter().flat_map(|facet| edges(mesh, facet)) {
+            *n_sharing.entry(edge).or_default() += 1;
         }
-        let boxes: Vec<Bounds<3>> = triangles.iter().map(Bounds::around).collect();
-        Self { tree: BoxTree::new(&boxes), triangles, is_curved }
+        let patch = |facet: &&Facet| {
+            let n: Vec<Point<3>> = mesh.facet_nodes(facet).map(|node| mesh.nodes[node]).collect();
+            let is_rim = edges(mesh, facet).map(|edge| n_sharing[&edge] == 1);
+            Patch::new([n[0], n[1], n[2]], [n[3], n[4], n[5]], is_rim)
+        };
+        let patches: Vec<Patch> = own.iter().map(patch).collect();
+        let boxes: Vec<Bounds<3>> = patches.iter().map(Patch::bounds).collect();
+        let is_curved = patches.iter().any(Patch::is_curved);
+        Self { tree: BoxTree::new(&boxes), patches, is_curved }
     }
 
     /// Whether edges on it may be bent.
@@ -43,32 +62,81 @@ impl Facets {
         self.is_curved
     }
 
-    /// Corners of its triangles (m), each at least once.
+    /// Nodes of its triangles (m), each at least once.
     pub fn points(&self) -> impl Iterator<Item = Point<3>> + '_ {
-        self.triangles.iter().flatten().copied()
+        self.patches.iter().flat_map(Patch::points)
     }
 
-    /// The nearest point to another one, its gap never negative.
-    #[must_use]
-    pub fn foot(&self, point: Point<3>) -> Foot {
-        let mut nearest = point;
-        let mut inward = Point::<3>::zeros();
-        let mut least = f64::INFINITY;
-        self.tree.visit_near(point, f64::INFINITY, |index, reach| {
-            let triangle = &self.triangles[index];
-            let on = nearest_on_triangle(triangle, &point);
-            let distance = (point - on).norm();
-            if distance < least {
-                (least, nearest) = (distance, on);
-                let [a, b, c] = triangle;
-                inward = -(b - a).cross(&(c - a)).normalize();
-                *reach = distance;
+    /// The nearest point to another one within a distance (m).
+    fn nearest(&self, point: Point<3>, within: f64) -> Option<Nearest> {
+        let mut nearest: Option<Nearest> = None;
+        self.tree.visit_near(point, within, |index, reach| {
+            let patch = &self.patches[index];
+            let Some(on) = patch.nearest(&point, *reach) else { return false };
+            let way = point - on.point;
+            let distance = way.norm();
+            if distance > *reach {
+                return false;
+            }
+            let height = way.dot(&patch.inward(on.place));
+            let is_better = nearest.is_none_or(|known| {
+                let is_tie = (distance - known.distance).abs() <= TIE * known.distance;
+                // Of those that meet in an edge the one it stands out from more tells the side
+                if is_tie { height.abs() > known.height.abs() } else { distance < known.distance }
+            });
+            if is_better {
+                nearest = Some(Nearest { patch: index, on, distance, height });
+                *reach = reach.min(distance * (1.0 + TIE));
             }
             false
         });
-        let normal = if least > 0.0 { (point - nearest) / least } else { inward };
-        Foot { point: nearest, normal, gap: least }
+        nearest
     }
+
+    /// The nearest point to another one. The gap is negative behind the triangles, but where the
+    /// surface ends: nothing is behind its rim.
+    #[must_use]
+    pub fn foot(&self, point: Point<3>) -> Foot {
+        match self.nearest(point, f64::INFINITY) {
+            Some(nearest) => self.foot_of(point, &nearest),
+            None => Foot { point, normal: Point::<3>::zeros(), gap: f64::INFINITY },
+        }
+    }
+
+    fn foot_of(&self, point: Point<3>, nearest: &Nearest) -> Foot {
+        let Nearest { patch, on, distance, height } = *nearest;
+        let patch = &self.patches[patch];
+        let is_behind = height < 0.0 && !patch.is_on_rim(on.place);
+        let gap = if is_behind { -distance } else { distance };
+        let normal = if patch.is_inner(on.place) || distance == 0.0 {
+            patch.inward(on.place)
+        } else {
+            (point - on.point) / gap
+        };
+        Foot { point: on.point, normal, gap }
+    }
+
+    /// The gap of [`Self::foot`] (m) where it is below a bound.
+    #[must_use]
+    pub fn gap_within(&self, point: Point<3>, bound: f64) -> Option<f64> {
+        self.nearest(point, bound).map(|at| self.foot_of(point, &at).gap)
+    }
+
+    /// The derivative of the unit normal into the fluid at the point nearest to another one (1/m).
+    #[must_use]
+    pub fn curvature(&self, point: Point<3>) -> Matrix3<f64> {
+        let nearest = self.nearest(point, f64::INFINITY);
+        nearest.map_or_else(Matrix3::zeros, |at| self.patches[at.patch].curvature(at.on.place))
+    }
+}
+
+/// The edges of a facet from each vertex to the next, by their ends in ascending order.
+fn edges(mesh: &Mesh<3>, facet: &Facet) -> [[NodeId; 2]; 3] {
+    let vertices = mesh.facet_vertices(facet);
+    std::array::from_fn(|i| {
+        let (a, b) = (vertices[i], vertices[(i + 1) % 3]);
+        [a.min(b), a.max(b)]
+    })
 }
 
 /// Distance of a node from the middle of its edge, in lengths of the edge, below which it is there.
@@ -77,27 +145,6 @@ const STRAIGHT: f64 = 1e-9;
 /// Whether the edge between two points is bent to a node.
 pub fn is_bent(a: &Point<3>, b: &Point<3>, node: &Point<3>) -> bool {
     (node - (a + b) * 0.5).norm() > STRAIGHT * (b - a).norm()
-}
-
-/// The point of a triangle nearest to another one.
-///
-/// On its plane, where that is over it, else on the nearest of its sides.
-fn nearest_on_triangle([a, b, c]: &[Point<3>; 3], point: &Point<3>) -> Point<3> {
-    let normal = (b - a).cross(&(c - a));
-    let square = normal.norm_squared();
-    let over = |from: &Point<3>, to: &Point<3>| (to - from).cross(&(point - from)).dot(&normal);
-    let weights = [over(b, c), over(c, a), over(a, b)];
-    if square > 0.0 && weights.iter().all(|weight| *weight >= 0.0) {
-        return (a * weights[0] + b * weights[1] + c * weights[2]) / square;
-    }
-    let on_side = |from: &Point<3>, to: &Point<3>| {
-        let along = to - from;
-        let part = (point - from).dot(&along) / along.norm_squared();
-        from + along * part.clamp(0.0, 1.0)
-    };
-    let distance = |on: &Point<3>| (point - on).norm_squared();
-    let sides = [on_side(a, b), on_side(b, c), on_side(c, a)];
-    sides.into_iter().min_by(|p, q| distance(p).total_cmp(&distance(q))).unwrap_or(*a)
 }
 
 #[cfg(test)]
@@ -111,15 +158,16 @@ mod tests {
         let facets = Facets::of(&mesh, BoundaryId::new(0));
         for (point, nearest, gap) in [
             ([0.5, 0.4, 0.1], [0.5, 0.4, 0.0], 0.1),
-            ([2.0, 0.5, 0.3], [1.0, 0.5, 0.3], 1.0),
-            ([2.0, 2.0, 0.5], [1.0, 1.0, 0.5], 2.0_f64.sqrt()),
-            ([-1.0, -1.0, -1.0], [0.0, 0.0, 0.0], 3.0_f64.sqrt()),
+            ([2.0, 0.5, 0.3], [1.0, 0.5, 0.3], -1.0),
+            ([2.0, 2.0, 0.5], [1.0, 1.0, 0.5], -2.0_f64.sqrt()),
+            ([-1.0, -1.0, -1.0], [0.0, 0.0, 0.0], -3.0_f64.sqrt()),
             ([0.0, 0.2, 0.7], [0.0, 0.2, 0.7], 0.0),
         ] {
             let foot = facets.foot(point.into());
             assert!((foot.gap - gap).abs() < 1e-14, "{foot:?}");
             assert!((foot.point - Point::from(nearest)).norm() < 1e-14, "{foot:?}");
             assert!((foot.normal.norm() - 1.0).abs() < 1e-14);
+            assert_eq!(facets.gap_within(point.into(), 0.5).is_some(), gap.abs() < 0.5);
         }
     }
 }

@@ -3,6 +3,7 @@
 mod curvature;
 mod ellipsoid;
 mod facets;
+mod patch;
 mod revolved;
 mod tube;
 
@@ -133,7 +134,7 @@ impl SmoothSurface {
         surface
     }
 
-    /// A side of a given mesh; its distances are never negative.
+    /// A side of a given mesh.
     #[must_use]
     pub fn of_facets(facets: Arc<Facets>) -> Self {
         Self::new(Form::Facets(facets), &Isometry3::identity(), false)
@@ -149,10 +150,16 @@ impl SmoothSurface {
         }
     }
 
+    /// Whether it is a side of a given mesh.
+    #[must_use]
+    pub fn is_given(&self) -> bool {
+        matches!(self.form, Form::Facets(_))
+    }
+
     /// Whether what is on it stays as it is: a side of a given mesh, or a periodic one.
     #[must_use]
     pub fn is_fixed(&self) -> bool {
-        self.is_periodic || matches!(self.form, Form::Facets(_))
+        self.is_periodic || self.is_given()
     }
 
     /// Position of the origin of its own frame (m).

@@ -165,10 +165,7 @@ impl<'a> Surroundings<'a> {
         let sides = self.domain.sides().iter().enumerate();
         sides.filter_map(|(index, side)| {
             let condition = self.model.case.boundary.get(*side);
-            let is_open = matches!(
-                condition,
-                Some(BoundaryCondition::DoNothing | BoundaryCondition::TractionFree)
-            );
+            let is_open = condition.is_some_and(BoundaryCondition::is_open);
             self.domain.wall(index).filter(|_| !is_open).map(|wall| (*side, wall))
         })
     }

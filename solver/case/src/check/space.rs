@@ -41,13 +41,6 @@ fn check_supported(findings: &mut Findings<'_>) {
             );
         }
     }
-    if model.mesh_moves() && matches!(case.domain, DomainSpec::Mesh(_)) {
-        findings.error(
-            "time",
-            "bodies cannot move through a mesh that is given so far".to_owned(),
-            "write time = { steady = {} } for the velocities of bodies where they are, or hold them",
-        );
-    }
 }
 
 /// A cylinder goes through a box from side to side, and does not leave its sides.

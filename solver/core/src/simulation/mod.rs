@@ -14,6 +14,7 @@ mod explicit;
 mod explicit_contact;
 mod fluid_loads;
 mod history;
+mod leaving;
 mod measure;
 mod mesh_path;
 mod momentum;

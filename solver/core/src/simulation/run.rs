@@ -104,12 +104,21 @@ pub(super) struct Run<'a, const D: usize> {
 }
 
 /// What a run has warned of; each is told once.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct Warned {
     /// Steps too long for extrapolated convection.
     pub of_cfl: bool,
     /// A gap far below the range of contact.
     pub of_gap: bool,
+    /// Bodies that leave through an open side.
+    pub left: Vec<usize>,
+}
+
+impl Warned {
+    /// Whether it was told that a body leaves.
+    pub fn has_left(&self, body: usize) -> bool {
+        self.left.contains(&body)
+    }
 }
 
 /// What is reported of a step besides loads.

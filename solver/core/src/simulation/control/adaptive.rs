@@ -82,6 +82,7 @@ impl<const D: usize> Run<'_, D> {
                 state.time = settings.end;
             }
             state.step = index;
+            let is_last = is_last || self.is_over(settings)?;
             let Made { report, size, .. } = made;
             let (iterations, crossing) = (report.iterations, Some(crossing));
             let summary = StepSummary { iterations, time_step: size, is_last, crossing };

@@ -46,6 +46,8 @@ impl<const D: usize> Run<'_, D> {
             let is_last = index + 1 == n_steps;
             let state = &mut self.simulation.state;
             state.time = if is_last { settings.end } else { (index + 1) as f64 * settings.step };
+            let is_last = is_last || self.is_over(settings)?;
+            let state = &self.simulation.state;
             let summary = StepSummary {
                 iterations: tally.iterations,
                 time_step: state.time - started,
@@ -53,6 +55,9 @@ impl<const D: usize> Run<'_, D> {
                 crossing: None,
             };
             self.report(&tally.loads, summary)?;
+            if is_last {
+                break;
+            }
             self.check_signals(is_last)?;
         }
         Ok(self.simulation.state.step)
