@@ -1,9 +1,12 @@
 //! Checks that bodies in space lie inside the domain and apart from each other.
 
+use nalgebra::Translation3;
+
 use super::centreline::Centreline;
 use super::domain::Domain;
 use super::geometry::{sides, surfaces_of};
 use super::imported::Imported;
+use super::periods::Periods;
 use super::shape::{Body, Shape};
 use super::surface::{SmoothSurface, directions};
 use crate::{MeshError, Point, SMALLEST_GAP};
@@ -27,6 +30,7 @@ const MOST_STEPS: usize = 200;
 pub fn check_placement(domain: &Domain, bodies: &[Body]) -> Result<(), MeshError> {
     check_domain(domain)?;
     let (walls, names) = (sides(domain), domain.sides());
+    let periods = Periods::new(domain.periods());
     for (i, body) in bodies.iter().enumerate() {
         check_body(domain, body, &bodies[..i])?;
         for surface in surfaces_of(body)? {
@@ -34,7 +38,11 @@ pub fn check_placement(domain: &Domain, bodies: &[Body]) -> Result<(), MeshError
                 check_inside(imported, body, &surface)?;
             }
             for (side, wall) in walls.iter().enumerate() {
-                if surface.goes_through(wall) && !domain.is_periodic(side) {
+                let is_endless = surface.endless_axis().is_some();
+                // Other bodies go through periodic sides
+                let is_open =
+                    if domain.is_periodic(side) { !is_endless } else { surface.goes_through(wall) };
+                if is_open {
                     continue;
                 }
                 let gap = least_gap(&surface, wall);
@@ -58,8 +66,12 @@ pub fn check_placement(domain: &Domain, bodies: &[Body]) -> Result<(), MeshError
             }
             for other in &bodies[..i] {
                 for facing in surfaces_of(other)? {
-                    check_apart(body, &surface, other, &facing)?;
+                    check_apart_from_images(body, &surface, other, &facing, &periods)?;
                 }
+            }
+            let own = if periods.is_any() { surfaces_of(body)? } else { Vec::new() };
+            for facing in own {
+                check_apart_from_images(body, &surface, body, &facing, &periods)?;
             }
         }
     }
@@ -142,6 +154,31 @@ fn check_apart(
             gap: gap.value,
             at: gap.at.into(),
         });
+    }
+    Ok(())
+}
+
+/// Whether a part of a body is apart from all images of a part of another one, or of its own but itself.
+fn check_apart_from_images(
+    body: &Body,
+    surface: &SmoothSurface,
+    other: &Body,
+    facing: &SmoothSurface,
+    periods: &Periods,
+) -> Result<(), MeshError> {
+    let is_own = body.name == other.name;
+    let nearest = periods.beside(facing.origin(), surface.origin()) - facing.origin();
+    for shift in periods.shifts().into_iter().map(|shift| nearest + shift) {
+        if is_own && shift.norm() < 0.5 * periods.shortest() {
+            continue;
+        }
+        let image = facing.moved(&Translation3::from(shift).into());
+        match check_apart(body, surface, other, &image) {
+            Err(MeshError::BodiesMeet { second: body, gap, at, .. }) if is_own => {
+                return Err(MeshError::BodyMeetsImage { body, gap, at });
+            }
+            checked => checked?,
+        }
     }
     Ok(())
 }

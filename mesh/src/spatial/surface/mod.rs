@@ -149,10 +149,10 @@ impl SmoothSurface {
         }
     }
 
-    /// Whether what is on it stays as it is: a side of a given mesh, or a periodic one.
+    /// Whether it is a side of a given mesh, on which everything stays as it is.
     #[must_use]
-    pub fn is_fixed(&self) -> bool {
-        self.is_periodic || matches!(self.form, Form::Facets(_))
+    pub fn is_given(&self) -> bool {
+        matches!(self.form, Form::Facets(_))
     }
 
     /// Position of the origin of its own frame (m).
