@@ -5,6 +5,7 @@ mod gaps;
 mod imported;
 mod iterative;
 mod joints;
+mod periodic;
 mod reciprocity;
 mod scene;
 
