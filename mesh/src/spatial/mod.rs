@@ -13,6 +13,7 @@ mod gap_query;
 mod generate;
 mod geometry;
 mod imported;
+mod least_gap;
 mod periods;
 mod placement;
 mod shape;
