@@ -4,7 +4,7 @@ use std::collections::{HashMap, HashSet};
 
 use crate::curved::{determinant, jacobian_coefficients};
 use crate::mesh::Edge;
-use crate::{CellId, Mesh, MeshError, NodeId, Simplex};
+use crate::{BoundaryKind, CellId, Mesh, MeshError, NodeId, Simplex};
 
 /// Nodes of a straight edge are this near to it, in lengths of the edge.
 const STRAIGHT: f64 = 1e-12;
@@ -22,7 +22,7 @@ struct Side {
 ///
 /// - Every cell is positive everywhere; interior edges are straight.
 /// - Cells that share an edge agree about its inner nodes, and see a common facet from both sides.
-/// - Every facet with one cell is a boundary facet, once; no cell has two.
+/// - Every facet with one cell is a boundary facet, once; no cell has two but on periodic sides.
 /// - Every node is used, and periodic pairs hold a copy once, never as an original.
 ///
 /// The boundary is closed when these hold, as the boundary of a sum of cells.
@@ -92,6 +92,11 @@ fn check_facets<const D: usize>(mesh: &Mesh<D>) -> Result<HashSet<[NodeId; 2]>, 
     }
     let mut n_facets = vec![0; mesh.n_cells()];
     let mut edges = HashSet::new();
+    let mut is_paired = vec![false; mesh.n_nodes()];
+    for pair in &mesh.periodic {
+        is_paired[pair.copy] = true;
+        is_paired[pair.original] = true;
+    }
     for facet in &mesh.facets {
         if facet.boundary.index() >= mesh.boundaries.len() {
             return broken("a facet has a boundary that does not exist", facet.cell.index());
@@ -101,7 +106,9 @@ fn check_facets<const D: usize>(mesh: &Mesh<D>) -> Result<HashSet<[NodeId; 2]>, 
         if side.is_none_or(|at| (at.cell, at.side) != (facet.cell, usize::from(facet.side))) {
             return broken("a facet is not on the boundary or is listed twice", facet.cell.index());
         }
-        n_facets[facet.cell] += 1;
+        let is_side = mesh.boundaries[facet.boundary].kind == BoundaryKind::Side;
+        let is_periodic = is_side && mesh.facet_inner_nodes(facet).all(|node| is_paired[node]);
+        n_facets[facet.cell] += usize::from(!is_periodic);
         for (i, &a) in vertices.iter().enumerate() {
             edges.extend(vertices[i + 1..].iter().map(|&b| [a, b]));
         }

@@ -201,10 +201,23 @@ pub enum MeshError {
         /// Where (m).
         at: [f64; 3],
     },
-    /// A body in space touches a periodic side or crosses it.
+    /// A body meets its own image in a periodic box.
     #[error(
-        "body \"{body}\" touches or crosses the periodic side \"{side}\" at {}: gap {gap:.3e}; in \
-         space bodies stay inside of periodic sides: move all of them, or move the box", place(.at)
+        "body \"{body}\" touches or overlaps its own image one period away, at {}: gap {gap:.3e}",
+        place(.at)
+    )]
+    BodyMeetsImage {
+        /// Name of the body.
+        body: String,
+        /// Smallest signed gap (m).
+        gap: f64,
+        /// Where (m).
+        at: [f64; 3],
+    },
+    /// A cylinder without ends touches a periodic side or crosses it.
+    #[error(
+        "the cylinder \"{body}\" touches or crosses the periodic side \"{side}\" at {}: gap \
+         {gap:.3e}; cylinders without ends stay inside of periodic sides", place(.at)
     )]
     BodyMeetsPeriodicSide {
         /// Name of the body.

@@ -6,6 +6,7 @@ mod imported;
 mod iterative;
 mod joints;
 mod mirror;
+mod periodic;
 mod reciprocity;
 mod rotation;
 mod scene;

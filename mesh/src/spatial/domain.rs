@@ -1,7 +1,11 @@
 //! `Domain`: the region in space that fluid and bodies share, with its named sides.
 
 use super::imported::Imported;
-use crate::Point;
+use crate::number::whole;
+use crate::{Bounds, Point};
+
+/// Most periods by which points lie apart whose images are looked at: a mesh is replaced long before.
+const MOST_PERIODS: f64 = 8.0;
 
 /// The region of a problem in space before bodies are cut out of it.
 #[derive(Debug, Clone, PartialEq)]
@@ -134,6 +138,41 @@ impl Domain {
             images.extend(beside.collect::<Vec<_>>());
         }
         images
+    }
+
+    /// The vectors by which the domain repeats (m), zero first, so many that points that lie periods apart
+    /// have all images around each other.
+    #[must_use]
+    pub fn images_around<'a>(
+        &self,
+        points: impl IntoIterator<Item = &'a Point<3>>,
+    ) -> Vec<Point<3>> {
+        let periods = self.periods();
+        let bounds = Bounds::around(points);
+        let mut images = vec![Point::<3>::zeros()];
+        for axis in (0..3).filter(|&axis| periods[axis] > 0.0) {
+            let extent = (bounds.max[axis] - bounds.min[axis]) / periods[axis];
+            let most = extent.floor().clamp(1.0, MOST_PERIODS);
+            let steps = (1..=whole(most)).flat_map(|k| [k as f64, -(k as f64)]);
+            let shifts = steps.map(|step| Point::<3>::ith(axis, step * periods[axis]));
+            let beside = shifts.flat_map(|shift| images.iter().map(move |image| image + shift));
+            let beside: Vec<_> = beside.collect();
+            images.extend(beside);
+        }
+        images
+    }
+
+    /// The whole periods that bring a point into the box (m).
+    #[must_use]
+    pub fn shift_into(&self, point: Point<3>) -> Point<3> {
+        let ([min, _], periods) = (self.corners(), self.periods());
+        Point::<3>::from_fn(|axis, _| {
+            if periods[axis] > 0.0 {
+                -((point[axis] - min[axis]) / periods[axis]).floor() * periods[axis]
+            } else {
+                0.0
+            }
+        })
     }
 
     /// Whether a side is a plane of symmetry.

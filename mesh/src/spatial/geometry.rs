@@ -6,12 +6,16 @@ use nalgebra::{Isometry3, Matrix3, Translation3};
 
 use super::domain::Domain;
 use super::imported::Imported;
+use super::periods::Periods;
 use super::shape::{Body, Part, Shape};
-use super::surface::{Ellipsoid, Form, Revolved, SmoothSurface, Tube};
+use super::surface::{Ellipsoid, Foot, Form, Revolved, SmoothSurface, Tube};
 use crate::{Boundary, BoundaryId, BoundaryKind, MeshError, Point, Sizing};
 
 /// Steps of Newton's method onto several surfaces at once.
 const MOST_STEPS: usize = 20;
+
+/// Part of a period up to which a surface reaches from its middle whose nearest image is that of its middle.
+const LARGE: f64 = 0.49;
 
 /// Surfaces that belong together: the sides of the domain, or the parts of a body.
 #[derive(Debug, Clone)]
@@ -39,8 +43,8 @@ pub struct Geometry {
     pub boundaries: Vec<Boundary>,
     /// Corners of a box around the fluid (m).
     pub corners: [Point<3>; 2],
-    /// Lengths of the box along which it is periodic (m), zero along others.
-    pub periods: Point<3>,
+    /// Lengths of the box along which it is periodic.
+    pub periods: Periods,
     /// The mesh that is to be cut by the bodies, where one is given.
     pub imported: Option<Imported>,
 }
@@ -59,10 +63,12 @@ impl Geometry {
             let own = sizing.sides.iter().filter(|(named, _)| is_own(named));
             let own = own.map(|(_, size)| *size).fold(f64::INFINITY, f64::min);
             surface.boundary = BoundaryId::new(side);
-            surface.size = own.min(sizing.size).min(domain.facing(side) / sizing.gap_layers);
+            surface.is_periodic = domain.is_periodic(side);
+            // The fluid goes on there, and nothing faces it
+            let facing = if surface.is_periodic { f64::INFINITY } else { domain.facing(side) };
+            surface.size = own.min(sizing.size).min(facing / sizing.gap_layers);
             surface.turn = sizing.turn;
             surface.is_symmetry = domain.is_symmetric(side);
-            surface.is_periodic = domain.is_periodic(side);
         }
         let far = Point::<3>::zeros();
         let mut groups = vec![Group {
@@ -91,7 +97,8 @@ impl Geometry {
             Domain::Imported(imported) => Some(imported.clone()),
             Domain::Box { .. } | Domain::Cylinder { .. } | Domain::Ball { .. } => None,
         };
-        Ok(Self { surfaces, groups, boundaries, corners, periods: domain.periods(), imported })
+        let periods = Periods::new(domain.periods());
+        Ok(Self { surfaces, groups, boundaries, corners, periods, imported })
     }
 
     /// Whether a body has several parts, whose surfaces may meet.
@@ -104,16 +111,61 @@ impl Geometry {
     pub fn clearance(&self, point: Point<3>, bound: f64) -> f64 {
         let mut least = f64::INFINITY;
         for group in &self.groups {
-            let apart = (point - group.center).norm() - group.reach;
+            let apart = self.periods.beside(point, group.center) - group.center;
+            let apart = apart.norm() - group.reach;
             if apart > bound {
                 least = least.min(apart);
                 continue;
             }
-            for surface in &self.surfaces[group.first..group.last] {
-                least = least.min(surface.gap(point));
+            for surface in group.first..group.last {
+                if !self.surfaces[surface].is_periodic {
+                    least = least.min(self.gap(surface, point));
+                }
             }
         }
         least
+    }
+
+    /// The image of a point (m) that is nearest to a surface.
+    #[inline]
+    fn nearest_image(&self, surface: usize, point: Point<3>) -> Point<3> {
+        if !self.periods.is_any() || surface < self.groups[0].last {
+            return point;
+        }
+        let surface = &self.surfaces[surface];
+        let beside = self.periods.beside(point, surface.origin());
+        if surface.reach() < LARGE * self.periods.shortest() {
+            return beside;
+        }
+        let (mut nearest, mut least) = (beside, surface.gap(beside));
+        for image in self.periods.shifts().into_iter().skip(1).map(|shift| beside + shift) {
+            if surface.least_gap(image) < least {
+                let gap = surface.gap(image);
+                if gap < least {
+                    (nearest, least) = (image, gap);
+                }
+            }
+        }
+        nearest
+    }
+
+    /// Signed distance of a point to the nearest image of a surface (m), positive in the fluid.
+    #[inline]
+    pub fn gap(&self, surface: usize, point: Point<3>) -> f64 {
+        self.surfaces[surface].gap(self.nearest_image(surface, point))
+    }
+
+    /// The nearest point of the nearest image of a surface to a point (m).
+    #[inline]
+    pub fn foot(&self, surface: usize, point: Point<3>) -> Foot {
+        let image = self.nearest_image(surface, point);
+        let foot = self.surfaces[surface].foot(image);
+        Foot { point: foot.point + (point - image), ..foot }
+    }
+
+    /// Whole periods from a point on a surface (m) to where the surface is.
+    pub fn steps_home(&self, surface: usize, point: Point<3>) -> [i32; 3] {
+        self.periods.steps(point, self.nearest_image(surface, point))
     }
 
     /// The point on all of these surfaces near a point (m); on several by Newton's method, each step
@@ -121,7 +173,7 @@ impl Geometry {
     pub fn project(&self, surfaces: &[u16], point: Point<3>) -> Point<3> {
         match surfaces {
             [] => point,
-            [one] => self.surfaces[usize::from(*one)].foot(point).point,
+            [one] => self.foot(usize::from(*one), point).point,
             several => self.project_onto_several(several, point),
         }
     }
@@ -131,7 +183,7 @@ impl Geometry {
             let mut normals = Matrix3::<f64>::zeros();
             let mut gaps = Point::<3>::zeros();
             for (row, surface) in surfaces.iter().take(3).enumerate() {
-                let foot = self.surfaces[usize::from(*surface)].foot(point);
+                let foot = self.foot(usize::from(*surface), point);
                 normals.set_row(row, &foot.normal.transpose());
                 gaps[row] = foot.gap;
             }

@@ -13,6 +13,8 @@ mod gap_query;
 mod generate;
 mod geometry;
 mod imported;
+mod least_gap;
+mod periods;
 mod placement;
 mod shape;
 mod size_field;

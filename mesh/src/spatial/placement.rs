@@ -1,24 +1,16 @@
 //! Checks that bodies in space lie inside the domain and apart from each other.
 
+use nalgebra::Translation3;
+
 use super::centreline::Centreline;
 use super::domain::Domain;
 use super::geometry::{sides, surfaces_of};
 use super::imported::Imported;
+use super::least_gap::{Least, STARTS, least_gap};
+use super::periods::Periods;
 use super::shape::{Body, Shape};
 use super::surface::{SmoothSurface, directions};
 use crate::{MeshError, Point, SMALLEST_GAP};
-
-/// Places on a surface at which the search for the smallest gap starts.
-const STARTS: usize = 48;
-
-/// Steps of the search from each of them.
-const FIRST_STEPS: usize = 3;
-
-/// Places from which the search goes on, those with the smallest gaps.
-const KEPT: usize = 4;
-
-/// Most steps from one of them.
-const MOST_STEPS: usize = 200;
 
 /// Whether bodies can be meshed in a domain: sizes, names, inside, apart.
 ///
@@ -27,6 +19,7 @@ const MOST_STEPS: usize = 200;
 pub fn check_placement(domain: &Domain, bodies: &[Body]) -> Result<(), MeshError> {
     check_domain(domain)?;
     let (walls, names) = (sides(domain), domain.sides());
+    let periods = Periods::new(domain.periods());
     for (i, body) in bodies.iter().enumerate() {
         check_body(domain, body, &bodies[..i])?;
         for surface in surfaces_of(body)? {
@@ -34,7 +27,11 @@ pub fn check_placement(domain: &Domain, bodies: &[Body]) -> Result<(), MeshError
                 check_inside(imported, body, &surface)?;
             }
             for (side, wall) in walls.iter().enumerate() {
-                if surface.goes_through(wall) && !domain.is_periodic(side) {
+                let is_endless = surface.endless_axis().is_some();
+                // Other bodies go through periodic sides
+                let is_open =
+                    if domain.is_periodic(side) { !is_endless } else { surface.goes_through(wall) };
+                if is_open {
                     continue;
                 }
                 let gap = least_gap(&surface, wall);
@@ -58,8 +55,12 @@ pub fn check_placement(domain: &Domain, bodies: &[Body]) -> Result<(), MeshError
             }
             for other in &bodies[..i] {
                 for facing in surfaces_of(other)? {
-                    check_apart(body, &surface, other, &facing)?;
+                    check_apart_from_images(body, &surface, other, &facing, &periods)?;
                 }
+            }
+            let own = if periods.is_any() { surfaces_of(body)? } else { Vec::new() };
+            for facing in own {
+                check_apart_from_images(body, &surface, body, &facing, &periods)?;
             }
         }
     }
@@ -142,6 +143,31 @@ fn check_apart(
             gap: gap.value,
             at: gap.at.into(),
         });
+    }
+    Ok(())
+}
+
+/// Whether a part of a body is apart from all images of a part of another one, or of its own but itself.
+fn check_apart_from_images(
+    body: &Body,
+    surface: &SmoothSurface,
+    other: &Body,
+    facing: &SmoothSurface,
+    periods: &Periods,
+) -> Result<(), MeshError> {
+    let is_own = body.name == other.name;
+    let nearest = periods.beside(facing.origin(), surface.origin()) - facing.origin();
+    for shift in periods.shifts().into_iter().map(|shift| nearest + shift) {
+        if is_own && shift.norm() < 0.5 * periods.shortest() {
+            continue;
+        }
+        let image = facing.moved(&Translation3::from(shift).into());
+        match check_apart(body, surface, other, &image) {
+            Err(MeshError::BodiesMeet { second: body, gap, at, .. }) if is_own => {
+                return Err(MeshError::BodyMeetsImage { body, gap, at });
+            }
+            checked => checked?,
+        }
     }
     Ok(())
 }
@@ -241,77 +267,6 @@ fn lengths(shape: &Shape) -> Vec<Length> {
         }
     };
     all.into_iter().map(|(what, value)| Length { what, value }).collect()
-}
-
-/// The least gap found between two surfaces (m), and where.
-#[derive(Debug, Clone, Copy)]
-struct Least {
-    value: f64,
-    at: Point<3>,
-}
-
-impl Least {
-    /// Whether it is too small for a mesh beside this surface.
-    fn is_refused(&self, surface: &SmoothSurface) -> bool {
-        self.value.is_nan() || self.value <= SMALLEST_GAP * surface.scale()
-    }
-}
-
-/// Least gap of a surface to another one.
-///
-/// From places all around the surface: to the nearest point of the other one and back, again and
-/// again. The distance never grows, so each ends where it is least.
-///
-/// A cylinder without ends goes along a plane, or through it.
-fn least_gap(surface: &SmoothSurface, other: &SmoothSurface) -> Least {
-    if surface.endless_axis().is_some() {
-        let value = other.gap(surface.origin()) - surface.scale();
-        let value = if surface.goes_through(other) { f64::NEG_INFINITY } else { value };
-        return Least { value, at: surface.origin() };
-    }
-    if let Some(radius) = surface.radius_of_sphere() {
-        let foot = other.foot(surface.origin());
-        let at = surface.origin() - foot.normal * radius;
-        return Least { value: foot.gap - radius, at };
-    }
-    let mut starts: Vec<Least> = directions(STARTS)
-        .map(|direction| {
-            let at = surface.foot(surface.origin() + direction * (2.0 * surface.reach())).point;
-            approach(surface, other, Least { value: other.gap(at), at }, FIRST_STEPS)
-        })
-        .collect();
-    starts.sort_by(|a, b| a.value.total_cmp(&b.value));
-    starts.truncate(KEPT);
-    let ends = starts.into_iter().map(|start| approach(surface, other, start, MOST_STEPS));
-    ends.min_by(|a, b| a.value.total_cmp(&b.value))
-        .unwrap_or(Least { value: f64::NAN, at: surface.origin() })
-}
-
-/// Some steps from a point of a surface towards another surface.
-///
-/// Near a place where both touch the way to and fro gets ever shorter, so steps are stretched as long as
-/// that helps.
-fn approach(surface: &SmoothSurface, other: &SmoothSurface, start: Least, steps: usize) -> Least {
-    let Least { mut value, mut at } = start;
-    let mut stretch = 1.0;
-    for _ in 0..steps {
-        if value <= 0.0 {
-            break;
-        }
-        let way = surface.foot(other.foot(at).point).point - at;
-        let next = surface.foot(at + way * stretch).point;
-        let shorter = other.gap(next);
-        if shorter >= value * (1.0 - 1e-10) {
-            if stretch == 1.0 {
-                break;
-            }
-            stretch = 1.0;
-            continue;
-        }
-        (at, value) = (next, shorter);
-        stretch *= 2.0;
-    }
-    Least { value, at }
 }
 
 #[cfg(test)]

@@ -1,18 +1,20 @@
 //! `SizeField`: the edge length wanted at a point, from surfaces, gaps and boxes.
 
 use super::domain::Domain;
-use super::generate::shifts;
 use super::geometry::{Geometry, Group};
 use super::placement::check_placement;
 use super::shape::Body;
 use crate::{Bounds, MeshError, Point, SizeBox, Sizing};
+
+/// Fewest edges of the largest size in a period.
+const PERIOD: f64 = 4.0;
 
 /// The edge length wanted anywhere, inside bodies and outside the domain, too.
 ///
 /// h(x) = min(size, surface sizes + growth · distance, box sizes + growth · distance,
 /// (d + d') / layers), where d and d' are the distances to the two nearest of the bodies and the
 /// walls: across a gap d + d' is its width. In a periodic box bodies and boxes of sizes repeat, and
-/// between a body and a periodic side is one edge at least.
+/// a period has four edges at least.
 #[derive(Debug, Clone)]
 pub struct SizeField {
     geometry: Geometry,
@@ -46,9 +48,9 @@ impl SizeField {
     /// The sizes around surfaces.
     pub(super) fn of(geometry: Geometry, sizing: &Sizing<3>) -> Self {
         Self {
-            shifts: shifts(&geometry.periods),
+            shifts: geometry.periods.shifts(),
+            size: sizing.size.min(geometry.periods.shortest() / PERIOD),
             geometry,
-            size: sizing.size,
             growth: sizing.growth,
             layers: sizing.gap_layers,
             boxes: sizing.boxes.clone(),
@@ -69,6 +71,8 @@ impl SizeField {
     /// The edge length wanted at a point (m).
     #[must_use]
     pub fn at(&self, point: Point<3>) -> f64 {
+        let [min, max] = self.geometry.corners;
+        let point = self.geometry.periods.beside(point, (min + max) * 0.5);
         let mut size = self.size;
         for (one, shift) in
             self.boxes.iter().flat_map(|one| self.shifts.iter().map(move |s| (one, s)))
@@ -80,19 +84,24 @@ impl SizeField {
         let mut to_walls = f64::INFINITY;
         let (domain, bodies) = self.geometry.groups.split_at(1);
         let (mut nearest, mut second) = (f64::INFINITY, f64::INFINITY);
-        let copies = bodies.iter().flat_map(|body| self.shifts.iter().map(move |s| (body, s)));
-        for (group, shift) in domain.iter().zip(&self.shifts).chain(copies) {
-            let seen = point - shift;
-            let apart = ((seen - group.center).norm() - group.reach).max(0.0);
-            if apart * self.growth.min(1.0 / self.layers) >= size {
+        for group in domain {
+            let wish = self.wish(group, point);
+            size = size.min(wish.size);
+            to_walls = wish.distance;
+        }
+        let least = self.growth.min(1.0 / self.layers);
+        let images = bodies.iter().flat_map(|body| {
+            let beside = self.geometry.periods.beside(point, body.center);
+            let is_near = self.least_distance(body, beside) * least < self.size;
+            let shifts = if is_near { &self.shifts[..] } else { &[] };
+            shifts.iter().map(move |shift| (body, beside - shift))
+        });
+        for (group, seen) in images {
+            if self.least_distance(group, seen) * least >= size {
                 continue;
             }
             let wish = self.wish(group, seen);
             size = size.min(wish.size);
-            if group.first == 0 {
-                to_walls = wish.distance;
-                continue;
-            }
             size = size.min(self.size_before_sides(group, wish.distance, point));
             let facing = if group.cut_by.is_empty() {
                 to_walls
@@ -109,6 +118,11 @@ impl SizeField {
         size.min((nearest + second) / self.layers)
     }
 
+    /// A lower bound of the distance of a point to a group (m).
+    fn least_distance(&self, group: &Group, point: Point<3>) -> f64 {
+        ((point - group.center).norm() - group.reach).max(0.0)
+    }
+
     /// Distance to the nearest wall but for some sides (m).
     fn distance_to_walls(&self, but: &[usize], point: Point<3>) -> f64 {
         let sides = self.geometry.surfaces[..self.geometry.groups[0].last].iter().enumerate();
@@ -122,10 +136,7 @@ impl SizeField {
         let mut size = f64::INFINITY;
         for (side, plane) in sides.iter().enumerate().filter(|(_, side)| !side.is_solid()) {
             let gap = distance + plane.gap(point).abs();
-            if plane.is_periodic {
-                // The side stays as it is in the lattice
-                size = size.min(gap);
-            } else if !body.cut_by.contains(&side) {
+            if !plane.is_periodic && !body.cut_by.contains(&side) {
                 // A body faces its image behind a plane of symmetry that does not cut it
                 size = size.min(2.0 * gap / self.layers);
             }

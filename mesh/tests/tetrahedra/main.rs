@@ -8,8 +8,8 @@ use std::f64::consts::PI;
 
 use alewife_mesh::spatial::{Body, BodySurface, Domain, Part, Shape, generate};
 use alewife_mesh::{
-    Mesh, Point, Quality, Simplex, Sizing, Surface, check_mesh, jacobian_coefficients,
-    map_quadratic,
+    Boundary, BoundaryKind, Facet, Mesh, Point, Quality, Simplex, Sizing, Surface, check_mesh,
+    jacobian_coefficients, map_quadratic,
 };
 use nalgebra::{Isometry3, UnitQuaternion};
 use random::{random_placement, random_swimmer};
@@ -74,11 +74,28 @@ fn assert_mesh(mesh: &Mesh<3>, domain: &Domain, bodies: &[Body], smallest_angle:
     assert_manifold(mesh);
 }
 
+/// Facets that are not on periodic sides.
+fn walls(mesh: &Mesh<3>) -> impl Iterator<Item = &Facet> {
+    let mut is_paired = vec![false; mesh.n_nodes()];
+    for pair in &mesh.periodic {
+        is_paired[pair.copy] = true;
+        is_paired[pair.original] = true;
+    }
+    let is_side = |facet: &Facet| mesh.boundaries[facet.boundary].kind == BoundaryKind::Side;
+    let is_periodic = move |facet: &Facet| {
+        is_side(facet) && mesh.facet_inner_nodes(facet).all(|node| is_paired[node])
+    };
+    mesh.facets.iter().filter(move |facet| !is_periodic(facet))
+}
+
 /// Every cell has a node that is on no wall.
 fn assert_free_velocities(mesh: &Mesh<3>) {
     let mut is_on_wall = vec![false; mesh.n_nodes()];
-    for facet in &mesh.facets {
+    for facet in walls(mesh) {
         mesh.facet_nodes(facet).for_each(|node| is_on_wall[node] = true);
+    }
+    for pair in &mesh.periodic {
+        is_on_wall[pair.copy] |= is_on_wall[pair.original];
     }
     for cell in mesh.cells() {
         assert!(!cell.iter().all(|node| is_on_wall[*node]));
@@ -90,7 +107,7 @@ fn assert_surfaces(mesh: &Mesh<3>, domain: &Domain, bodies: &[Body]) {
     let n_sides = domain.sides().len();
     let surfaces: Vec<BodySurface> = bodies.iter().map(surface).collect();
     let scale = domain.corners().map(|corner| corner.amax()).into_iter().fold(0.0, f64::max);
-    for facet in &mesh.facets {
+    for facet in walls(mesh) {
         let boundary = facet.boundary.index();
         if boundary < n_sides {
             for node in mesh.facet_nodes(facet) {
@@ -137,13 +154,16 @@ fn facet_points(side: usize) -> Vec<[f64; 3]> {
 }
 
 /// Each boundary is a closed surface with the right number of handles: vertices - edges + faces is 2
-/// for each of the domain as a whole and the bodies.
+/// for each of the bodies and, but where it is periodic, of the domain as a whole.
 fn assert_manifold(mesh: &Mesh<3>) {
-    let n_bodies = mesh.boundaries.iter().filter(|b| b.kind != alewife_mesh::BoundaryKind::Side);
-    let pieces = 1 + n_bodies.count();
+    let is_body = |boundary: &Boundary| boundary.kind != BoundaryKind::Side;
+    let is_closed = mesh.periodic.is_empty();
+    let pieces = usize::from(is_closed) + mesh.boundaries.iter().filter(|b| is_body(b)).count();
     let mut edges = std::collections::BTreeMap::new();
     let mut vertices = std::collections::BTreeSet::new();
-    for facet in &mesh.facets {
+    let is_counted = |facet: &&Facet| is_closed || is_body(&mesh.boundaries[facet.boundary]);
+    let facets: Vec<&Facet> = mesh.facets.iter().filter(is_counted).collect();
+    for facet in &facets {
         let own = mesh.facet_vertices(facet);
         vertices.extend(own);
         for i in 0..3 {
@@ -152,7 +172,7 @@ fn assert_manifold(mesh: &Mesh<3>) {
         }
     }
     assert!(edges.values().all(|n| *n == 2));
-    assert_eq!(vertices.len() + mesh.facets.len() - edges.len(), 2 * pieces);
+    assert_eq!(vertices.len() + facets.len() - edges.len(), 2 * pieces);
 }
 
 #[test]

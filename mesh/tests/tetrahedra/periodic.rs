@@ -1,10 +1,11 @@
-//! Boxes with periodic sides: opposite facets match node by node, and cells are as good as elsewhere.
+//! Boxes with periodic sides: bodies anywhere, facets that match node by node, and cells as good as elsewhere.
 
 use std::collections::BTreeMap;
 
 use alewife_mesh::spatial::{Body, Domain, Shape, SizeField, check_placement, generate};
-use alewife_mesh::{Mesh, MeshError, NodeId, Point, Quality, SizeBox, Sizing};
+use alewife_mesh::{Facet, Mesh, MeshError, NodeId, Point, Quality, SizeBox, Sizing};
 
+use super::random::random_crowd;
 use super::{SMALLEST_ANGLE, assert_mesh, at, sizing, sphere};
 
 fn periodic_box(min: Point<3>, max: Point<3>, periodic: [bool; 3]) -> Domain {
@@ -15,8 +16,8 @@ fn unit_box(periodic: [bool; 3]) -> Domain {
     periodic_box(Point::<3>::repeat(-0.5), Point::<3>::repeat(0.5), periodic)
 }
 
-/// Every node on a side with the largest coordinate is the copy of that apart from it by the periods, and
-/// no other node is one.
+/// Nodes are whole periods from their originals, and each facet on a periodic side is that of its image on the
+/// opposite side.
 fn assert_pairs(mesh: &Mesh<3>, domain: &Domain) {
     let [_, max] = domain.corners();
     let periods = domain.periods();
@@ -24,22 +25,27 @@ fn assert_pairs(mesh: &Mesh<3>, domain: &Domain) {
     let original: BTreeMap<NodeId, NodeId> =
         mesh.periodic.iter().map(|pair| (pair.copy, pair.original)).collect();
     assert_eq!(original.len(), mesh.periodic.len());
-    for node in mesh.node_ids() {
-        let here = mesh.nodes[node];
-        let shift = Point::<3>::from_fn(|axis, _| {
-            let is_on = periods[axis] > 0.0 && (here[axis] - max[axis]).abs() < rounding;
-            if is_on { periods[axis] } else { 0.0 }
-        });
-        match original.get(&node) {
-            Some(original) => {
-                assert!(
-                    shift.amax() > 0.0 && (here - shift - mesh.nodes[*original]).amax() < rounding
-                );
-            }
-            None => assert_eq!(shift.amax(), 0.0, "{here} has no original"),
+    for (copy, original) in &original {
+        let away = mesh.nodes[*copy] - mesh.nodes[*original];
+        for axis in 0..3 {
+            let step = if periods[axis] > 0.0 { (away[axis] / periods[axis]).round() } else { 0.0 };
+            assert!((away[axis] - step * periods[axis]).abs() < rounding, "{away}");
         }
     }
     assert!(original.values().all(|node| !original.contains_key(node)));
+    let mut sides: BTreeMap<Vec<NodeId>, Vec<usize>> = BTreeMap::new();
+    let is_periodic =
+        |facet: &&Facet| facet.boundary.index() < 6 && domain.is_periodic(facet.boundary.index());
+    for facet in mesh.facets.iter().filter(is_periodic) {
+        let nodes = mesh.facet_nodes(facet);
+        let mut nodes: Vec<NodeId> =
+            nodes.map(|node| *original.get(&node).unwrap_or(&node)).collect();
+        nodes.sort_unstable();
+        sides.entry(nodes).or_default().push(facet.boundary.index());
+    }
+    for pair in sides.values() {
+        assert!(matches!(pair[..], [one, other] if one == other ^ 1), "{pair:?}");
+    }
 }
 
 fn check(domain: &Domain, bodies: &[Body], sizing: &Sizing<3>) -> Mesh<3> {
@@ -50,39 +56,41 @@ fn check(domain: &Domain, bodies: &[Body], sizing: &Sizing<3>) -> Mesh<3> {
     mesh
 }
 
+const BALL: f64 = 4.0 / 3.0 * std::f64::consts::PI;
+
 #[test]
-fn opposite_sides_match_around_a_sphere() {
-    let volume = 1.0 - 4.0 / 3.0 * std::f64::consts::PI * 0.027;
+fn a_sphere_may_be_anywhere_in_a_periodic_box() {
+    let volume = 1.0 - BALL * 0.027;
     for periodic in [[true, false, false], [false, true, true], [true; 3]] {
-        let bodies = [sphere("s", 0.3, at(0.1, -0.05, 0.15))];
-        let mesh = check(&unit_box(periodic), &bodies, &sizing(0.08, 0.2));
-        assert!((mesh.measure() / volume - 1.0).abs() < 3e-5, "{} {volume}", mesh.measure());
-        assert_eq!(mesh, check(&unit_box(periodic), &bodies, &sizing(0.08, 0.2)));
+        for [x, y, z] in [[0.1, -0.05, 0.15], [0.45, 0.5, -0.4], [0.5; 3], [0.2, -0.5, 0.1]] {
+            let along = |axis: usize, x: f64| if periodic[axis] { x } else { 0.3 * x };
+            let bodies = [sphere("s", 0.3, at(along(0, x), along(1, y), along(2, z)))];
+            let mesh = check(&unit_box(periodic), &bodies, &sizing(0.08, 0.2));
+            assert!((mesh.measure() / volume - 1.0).abs() < 3e-5, "{} {volume}", mesh.measure());
+            assert_eq!(mesh, check(&unit_box(periodic), &bodies, &sizing(0.08, 0.2)));
+        }
     }
 }
 
-/// Eight corners are one point, and so are four points of edges.
 #[test]
-fn corners_and_edges_are_identified() {
-    for (periodic, at_corner, at_edge) in [([true, true, false], 4, 4), ([true; 3], 8, 4)] {
+fn a_box_without_bodies_closes() {
+    for periodic in [[true, true, false], [true; 3]] {
         let domain =
             periodic_box(Point::<3>::new(0.0, -1.0, 2.0), Point::<3>::new(1.0, 0.3, 2.9), periodic);
         let mesh = check(&domain, &[], &sizing(0.2, 0.2));
-        let mut images: BTreeMap<NodeId, usize> = BTreeMap::new();
-        for pair in &mesh.periodic {
-            *images.entry(pair.original).or_insert(1) += 1;
-        }
-        let [min, _] = domain.corners();
-        for (original, n) in images {
-            let here = mesh.nodes[original];
-            let n_sides =
-                (0..3).filter(|axis| periodic[*axis] && here[*axis] == min[*axis]).count();
-            assert_eq!(n, 1 << n_sides);
-            let on_sides = (0..3).filter(|axis| here[*axis] == min[*axis]).count();
-            assert!(on_sides < 3 || n == at_corner);
-            assert!(n_sides != 2 || n == at_edge);
-        }
+        assert!((mesh.measure() / (1.3 * 0.9) - 1.0).abs() < 1e-13);
+        // Vertices - edges + faces - cells of a product of circles is 0, that of a slab of it, too
+        let n_vertices = mesh.n_vertices - count(&mesh, |node| node.index() < mesh.n_vertices);
+        let n_edges =
+            mesh.n_nodes() - mesh.n_vertices - count(&mesh, |node| node.index() >= mesh.n_vertices);
+        let n_walls = super::walls(&mesh).count();
+        let n_faces = (4 * mesh.n_cells() + n_walls) / 2;
+        assert_eq!(n_vertices + n_faces, n_edges + mesh.n_cells());
     }
+}
+
+fn count(mesh: &Mesh<3>, is_one: impl Fn(NodeId) -> bool) -> usize {
+    mesh.periodic.iter().filter(|pair| is_one(pair.copy)).count()
 }
 
 /// Bodies and boxes of sizes are felt through the sides.
@@ -108,21 +116,43 @@ fn sizes_are_periodic() {
 }
 
 #[test]
-fn bodies_stay_inside_of_periodic_sides() {
-    let crossing = [sphere("s", 0.3, at(0.0, 0.0, 0.3))];
-    match check_placement(&unit_box([false, false, true]), &crossing) {
-        Err(MeshError::BodyMeetsPeriodicSide { body, side, gap, .. }) => {
-            assert_eq!((body.as_str(), &*side), ("s", "front"));
-            assert!(gap < 0.0);
+fn a_body_that_meets_its_image_is_refused() {
+    let long = |half: f64, turn: f64| {
+        let turn = nalgebra::UnitQuaternion::from_euler_angles(0.0, 0.0, turn);
+        let shape = Shape::Ellipsoid { semi_axes: [half, 0.1, 0.1] };
+        Body::new("s", shape, at(0.2, 0.0, 0.3) * turn)
+    };
+    let check = |body| check_placement(&unit_box([true; 3]), &[body]);
+    match check(long(0.51, 0.0)) {
+        Err(MeshError::BodyMeetsImage { body, gap, .. }) => {
+            assert!(body == "s" && gap < 0.0);
         }
         other => panic!("{other:?}"),
+    }
+    assert!(check(long(0.49, 0.0)).is_ok());
+    // Past its images
+    assert!(check(long(0.6, 0.46)).is_ok());
+    let pair = [sphere("s", 0.2, at(0.4, 0.0, 0.0)), sphere("t", 0.2, at(-0.3, 0.1, 0.0))];
+    let met = check_placement(&unit_box([true; 3]), &pair);
+    assert!(matches!(met, Err(MeshError::BodiesMeet { .. })));
+}
+
+#[test]
+fn a_body_longer_than_half_a_period_passes_its_images() {
+    for (half, turn) in [(0.45, 0.0), (0.6, 0.46)] {
+        let turn = nalgebra::UnitQuaternion::from_euler_angles(0.0, 0.0, turn);
+        let shape = Shape::Ellipsoid { semi_axes: [half, 0.1, 0.1] };
+        let bodies = [Body::new("s", shape, at(0.2, 0.0, 0.3) * turn)];
+        let mesh = check(&unit_box([true; 3]), &bodies, &sizing(0.05, 0.15));
+        let volume = 1.0 - BALL * half * 0.01;
+        assert!((mesh.measure() / volume - 1.0).abs() < 3e-5, "{} {volume}", mesh.measure());
     }
 }
 
 #[test]
 fn narrow_gaps_to_images_are_meshed() {
-    for gap in [0.13, 0.06] {
-        let bodies = [sphere("s", 0.5 * (1.0 - gap), at(0.0, 0.0, 0.0))];
+    for gap in [0.13, 0.06, 0.02] {
+        let bodies = [sphere("s", 0.5 * (1.0 - gap), at(0.1, 0.3, 0.5))];
         check(&unit_box([true; 3]), &bodies, &sizing(0.1, 0.2));
     }
 }
@@ -136,12 +166,39 @@ fn random_bodies_in_periodic_boxes_give_good_meshes() {
         let domain = periodic_box(Point::<3>::zeros(), max, periodic);
         let turn = nalgebra::UnitQuaternion::from_euler_angles(part(2.0), part(4.0), part(8.0));
         let semi_axes = [0.15 + 0.25 * part(11.0), 0.2, 0.1 + 0.1 * part(13.0)];
-        let center = Point::<3>::new(part(17.0), part(19.0), part(23.0));
-        let reach = 0.43;
-        let center = center.component_mul(&max.add_scalar(-2.0 * reach)).add_scalar(reach);
+        let along = Point::<3>::new(part(17.0), part(19.0), part(23.0));
+        let center = Point::<3>::from_fn(|axis, _| {
+            let reach = if periodic[axis] { 0.0 } else { 0.43 };
+            reach + along[axis] * (max[axis] - 2.0 * reach)
+        });
         let pose = at(center.x, center.y, center.z) * turn;
         let bodies = [Body::new("e", Shape::Ellipsoid { semi_axes }, pose)];
         println!("seed {seed}");
         check(&domain, &bodies, &sizing(0.07, 0.25));
     }
+}
+
+fn check_crowds(seeds: std::ops::Range<u64>) {
+    let mut failed = Vec::new();
+    for seed in seeds {
+        let (domain, bodies) = random_crowd(seed);
+        println!("seed {seed}: {} bodies", bodies.len());
+        let is_good = std::panic::catch_unwind(|| check(&domain, &bodies, &sizing(0.22, 0.5)));
+        if is_good.is_err() {
+            failed.push(seed);
+        }
+    }
+    assert!(failed.is_empty(), "{failed:?}");
+}
+
+#[test]
+fn crowds_anywhere_in_periodic_boxes_give_good_meshes() {
+    check_crowds(0..4);
+}
+
+/// `cargo test --release -p alewife-mesh --test tetrahedra many_crowds -- --ignored`.
+#[test]
+#[ignore = "takes half an hour"]
+fn many_crowds_in_periodic_boxes_give_good_meshes() {
+    check_crowds(1000..1500);
 }

@@ -73,6 +73,58 @@ pub fn random_placement(seed: u64) -> (Domain, Vec<Body>) {
     (domain, bodies)
 }
 
+/// Twenty bodies anywhere in a periodic box, spheres and ellipsoids, some of them close to others, down to
+/// gaps of 0.02 of the larger radius.
+pub fn random_crowd(seed: u64) -> (Domain, Vec<Body>) {
+    let mut random = Random(seed);
+    let min = random.point(10.0);
+    let max = min + Point::<3>::from_fn(|_, _| random.between(4.0, 5.5));
+    let domain = Domain::Box { min, max, periodic: [true; 3], symmetric: [false; 6] };
+    let mut bodies: Vec<Body> = Vec::new();
+    while bodies.len() < 20 {
+        let place = Point::<3>::from_fn(|axis, _| random.between(min[axis], max[axis]));
+        let pose = Isometry3::from_parts(Translation3::from(place), random.rotation());
+        let radius = random.between(0.45, 0.65);
+        let shape = if random.number() < 0.5 {
+            Shape::Sphere { radius }
+        } else {
+            let mut part = || radius * random.between(0.55, 0.95);
+            Shape::Ellipsoid { semi_axes: [radius, part(), part()] }
+        };
+        let mut all = bodies.clone();
+        all.push(Body::new(&format!("body{}", bodies.len()), shape, pose));
+        let gap = 0.02 * 0.65 + 0.1 * random.number().powi(2);
+        let is_close = random.number() < 0.6;
+        let way = random.point(1.0).normalize();
+        if is_close {
+            approach(&domain, &mut all, way, gap);
+            if let Some(last) = all.last_mut() {
+                let place = &mut last.pose.translation.vector;
+                *place = Point::<3>::from_fn(|axis, _| {
+                    min[axis] + (place[axis] - min[axis]).rem_euclid(max[axis] - min[axis])
+                });
+            }
+        }
+        if check_placement(&domain, &all).is_ok() && has_gaps(&domain, &all, 0.02 * 0.65) {
+            bodies = all;
+        }
+    }
+    (domain, bodies)
+}
+
+/// Whether the last of some bodies is a gap away from all images of the others.
+fn has_gaps(domain: &Domain, bodies: &[Body], gap: f64) -> bool {
+    let Some((last, others)) = bodies.split_last() else { return true };
+    let own = surface(last);
+    others.iter().all(|other| {
+        domain.images().into_iter().all(|shift| {
+            let image = surface(other).placed_at(&(Translation3::from(shift) * other.pose));
+            let apart = (own.center() - image.center()).norm() - own.reach() - image.reach();
+            apart > gap || own.closest_points(&image, f64::INFINITY)[0].gap >= gap
+        })
+    })
+}
+
 /// Moves the last body along a way until it touches something, and back by a gap.
 fn approach(domain: &Domain, bodies: &mut [Body], way: Point<3>, gap: f64) {
     if check_placement(domain, bodies).is_err() {

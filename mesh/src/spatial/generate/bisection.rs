@@ -53,23 +53,20 @@ impl Improver<'_> {
             heap.extend(above.filter_map(|other| self.long_edge([vertex, *other])));
         }
         while let Some(top) = heap.pop() {
-            self.shell_of_images(top.ends, &mut shell);
+            self.mesh.shell(top.ends[0], top.ends[1], &mut shell);
             if shell.is_empty() {
                 continue;
             }
             let ends = self.longest_around(top.ends, &mut shell);
-            let new = self.bisect(ends, &mut shell);
-            if new.is_empty() {
+            let Some(vertex) = self.bisect(ends, &mut shell) else {
                 continue;
-            }
+            };
             if ends != top.ends {
                 heap.push(top);
             }
-            for vertex in new {
-                self.mesh.neighbours(vertex, &mut neighbours);
-                let ends = neighbours.iter().map(|&other| [other.min(vertex), other.max(vertex)]);
-                heap.extend(ends.filter_map(|ends| self.long_edge(ends)));
-            }
+            self.mesh.neighbours(vertex, &mut neighbours);
+            let ends = neighbours.iter().map(|&other| [other.min(vertex), other.max(vertex)]);
+            heap.extend(ends.filter_map(|ends| self.long_edge(ends)));
             if self.mesh.points.len() > MOST_VERTICES {
                 let smallest = self.mesh.sizes.iter().copied().fold(f64::INFINITY, f64::min);
                 let what = "vertices";
@@ -85,26 +82,16 @@ impl Improver<'_> {
         Ok(())
     }
 
-    /// Splits an edge and its images in the middle; gives the new vertices.
-    fn bisect(&mut self, ends: [u32; 2], shell: &mut Vec<u32>) -> Vec<u32> {
-        let mut new = Vec::new();
-        for [a, b] in self.images(ends) {
-            let surfaces = self.mesh.edge_surfaces(a, b);
-            self.mesh.shell(a, b, shell);
-            let given = self.given_parts([a, b], shell);
-            let straight = middle(self.mesh.point(a), self.mesh.point(b));
-            let point = self.given.of([a, b]).unwrap_or(straight);
-            let split = Split { ends: [a, b], point, surfaces, least_quality: 0.0 };
-            if let Some(vertex) = self.split(&split, shell) {
-                self.given.add(vertex, &given);
-                self.mesh.sizes[vertex as usize] += self.depth(point);
-                new.push(vertex);
-            }
-        }
-        if new.len() > 1 {
-            self.twins.link(&new);
-        }
-        new
+    /// Splits an edge in the middle; gives the new vertex.
+    fn bisect(&mut self, ends: [u32; 2], shell: &mut Vec<u32>) -> Option<u32> {
+        let surfaces = self.mesh.edge_surfaces(ends[0], ends[1]);
+        self.mesh.shell(ends[0], ends[1], shell);
+        let given = self.given_parts(ends, shell);
+        let point = self.given.of(ends).unwrap_or_else(|| self.mesh.middle(ends));
+        let vertex = self.split(&Split { ends, point, surfaces, least_quality: 0.0 }, shell)?;
+        self.given.add(vertex, &given);
+        self.mesh.sizes[vertex as usize] += self.depth(point);
+        Some(vertex)
     }
 
     /// How far a point is outside the fluid (m), by which edges of the lattice may be longer there.
@@ -126,7 +113,7 @@ impl Improver<'_> {
 
     /// An edge that is too long.
     fn long_edge(&self, ends: [u32; 2]) -> Option<LongEdge> {
-        let [a, b] = ends.map(|end| self.mesh.point(end));
+        let [a, b] = self.mesh.corners(ends);
         let [wanted, other] = ends.map(|end| self.mesh.sizes[end as usize]);
         let length = (a - b).norm();
         let most = self.longest * wanted.min(other);
@@ -141,7 +128,7 @@ impl Improver<'_> {
 
     /// The edge at the end of the path of ever longer edges from one of them, and its cells.
     fn longest_around(&self, from: [u32; 2], shell: &mut Vec<u32>) -> [u32; 2] {
-        let length = |[a, b]: [u32; 2]| (self.mesh.point(a) - self.mesh.point(b)).norm();
+        let length = |[a, b]: [u32; 2]| self.mesh.length(a, b);
         let mut ends = from;
         let mut longest = length(ends);
         loop {
@@ -160,7 +147,7 @@ impl Improver<'_> {
             if ends == before {
                 return ends;
             }
-            self.shell_of_images(ends, shell);
+            self.mesh.shell(ends[0], ends[1], shell);
         }
     }
 }

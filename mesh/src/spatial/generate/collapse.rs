@@ -119,7 +119,8 @@ impl Collapse<'_, '_> {
 
     fn keeps_surface(&self) -> bool {
         let mesh = &self.improver.mesh;
-        let kept_at = mesh.point(self.kept);
+        let gone_at = mesh.point(self.gone);
+        let [kept_at] = mesh.corners_beside([self.kept], gone_at);
         for &cell in &self.ball {
             for (opposite, tag) in mesh.tags(cell).into_iter().enumerate() {
                 let vertices = mesh.face_vertices(Face { cell, opposite });
@@ -127,7 +128,7 @@ impl Collapse<'_, '_> {
                 if !is_moved || vertices.contains(&self.kept) {
                     continue;
                 }
-                let before = vertices.map(|vertex| mesh.point(vertex));
+                let before = mesh.corners_beside(vertices, gone_at);
                 let after =
                     std::array::from_fn(
                         |i| {

@@ -8,7 +8,6 @@ use super::measure::{FACES, middle};
 use super::split::Split;
 use super::surface_set::SurfaceSet;
 use super::tetrahedra::Face;
-use crate::spatial::surface::SmoothSurface;
 use crate::{MeshError, Point};
 
 /// Vertices are moved along an edge onto a surface that cuts it nearer than this part of its length.
@@ -29,7 +28,6 @@ const MOST_STEPS: usize = 40;
 /// A cut that is being made.
 struct Cut<'i, 'a> {
     improver: &'i mut Improver<'a>,
-    surface: &'a SmoothSurface,
     index: u16,
     /// Gap of each vertex to the surface (m), zero where the vertex counts as on it.
     gaps: Vec<f64>,
@@ -53,8 +51,8 @@ impl Improver<'_> {
         let surface = &self.geometry.surfaces[usize::from(index)];
         let [min, max] = self.geometry.corners;
         let tolerance = ON_SURFACE * (max - min).amax();
-        let gaps = self.gaps_to(surface);
-        let mut cut = Cut { improver: &mut *self, surface, index, gaps, tolerance };
+        let gaps = self.gaps_to(usize::from(index));
+        let mut cut = Cut { improver: &mut *self, index, gaps, tolerance };
         cut.move_vertices();
         cut.split_edges();
         // Only a part of a body can be hidden, in another part
@@ -67,10 +65,11 @@ impl Improver<'_> {
     }
 
     /// Gaps of all vertices to a surface (m); a lower bound far from it.
-    fn gaps_to(&self, surface: &SmoothSurface) -> Vec<f64> {
+    fn gaps_to(&self, index: usize) -> Vec<f64> {
+        let surface = &self.geometry.surfaces[index];
         let gap = |point: &Point<3>| {
-            let least = surface.least_gap(*point);
-            if least > surface.reach() { least } else { surface.gap(*point) }
+            let least = surface.least_gap(self.geometry.periods.beside(*point, surface.origin()));
+            if least > surface.reach() { least } else { self.geometry.gap(index, *point) }
         };
         self.mesh.points.iter().map(gap).collect()
     }
@@ -79,6 +78,11 @@ impl Improver<'_> {
 impl Cut<'_, '_> {
     fn gap(&self, vertex: u32) -> f64 {
         self.gaps[vertex as usize]
+    }
+
+    /// Gap of a point to the surface (m).
+    fn gap_at(&self, point: Point<3>) -> f64 {
+        self.improver.geometry.gap(usize::from(self.index), point)
     }
 
     /// Edges that go through the surface, from the vertex beyond it to that in the fluid.
@@ -98,7 +102,7 @@ impl Cut<'_, '_> {
     /// Part of the way from one end of an edge to the other at which the surface is met: by the
     /// secant, each third time by halving.
     fn crossing(&self, [from, to]: [u32; 2]) -> f64 {
-        let [a, b] = [from, to].map(|end| self.improver.mesh.point(end));
+        let [a, b] = self.improver.mesh.corners([from, to]);
         let (mut low, mut high) = (0.0, 1.0);
         let [mut gap_low, mut gap_high] = [self.gap(from), self.gap(to)];
         let mut part = 0.5;
@@ -108,7 +112,7 @@ impl Cut<'_, '_> {
             } else {
                 low + (high - low) * gap_low / (gap_low - gap_high)
             };
-            let gap = self.surface.gap(a + (b - a) * part);
+            let gap = self.gap_at(a + (b - a) * part);
             if gap.abs() < self.tolerance {
                 break;
             }
@@ -124,8 +128,7 @@ impl Cut<'_, '_> {
     /// Part of an edge along which its first end would move onto the surface; `None` where that is
     /// too far.
     fn part_to_move(&self, edge: [u32; 2]) -> Option<f64> {
-        let [a, b] = edge.map(|end| self.improver.mesh.point(end));
-        if self.gap(edge[0]).abs() >= FAR * (a - b).norm() {
+        if self.gap(edge[0]).abs() >= FAR * self.improver.mesh.length(edge[0], edge[1]) {
             return None;
         }
         Some(self.crossing(edge)).filter(|part| *part < NEAR)
@@ -172,7 +175,7 @@ impl Cut<'_, '_> {
                 continue;
             }
             let point = self.improver.project(surfaces, self.improver.mesh.point(vertex));
-            let is_on = self.surface.gap(point).abs() <= 1e3 * self.tolerance;
+            let is_on = self.gap_at(point).abs() <= 1e3 * self.tolerance;
             if !is_on || (gap < 0.0 && self.would_bridge(point, &neighbours)) {
                 continue;
             }
@@ -191,8 +194,8 @@ impl Cut<'_, '_> {
     /// a thin body to one of its neighbours, the fluid of the other side.
     fn would_bridge(&self, point: Point<3>, neighbours: &[u32]) -> bool {
         neighbours.iter().filter(|other| self.gap(**other) > 0.0).any(|&other| {
-            let there = self.improver.mesh.point(other);
-            self.surface.gap(middle(point, there)) < -DIP * (point - there).norm()
+            let [there] = self.improver.mesh.corners_beside([other], point);
+            self.gap_at(middle(point, there)) < -DIP * (point - there).norm()
         })
     }
 
@@ -202,7 +205,7 @@ impl Cut<'_, '_> {
         for ends in self.cut_edges() {
             self.improver.mesh.shell(ends[0], ends[1], &mut shell);
             let part = self.crossing(ends).clamp(1e-3, 1.0 - 1e-3);
-            let [a, b] = ends.map(|end| self.improver.mesh.point(end));
+            let [a, b] = self.improver.mesh.corners(ends);
             let straight = a + (b - a) * part;
             let edge = self.improver.mesh.edge_surfaces(ends[0], ends[1]);
             let surfaces = edge.with(self.index).unwrap_or(edge);
@@ -233,6 +236,7 @@ impl Cut<'_, '_> {
 
     /// Drops the cells beyond the surface and tags the faces they leave; gives their number.
     fn drop_cells(&mut self) -> usize {
+        let (geometry, index) = (self.improver.geometry, usize::from(self.index));
         let mesh = &mut self.improver.mesh;
         let mut is_beyond = vec![false; mesh.cells().last().map_or(0, |last| last as usize + 1)];
         let mut beyond = Vec::new();
@@ -245,7 +249,7 @@ impl Cut<'_, '_> {
                 && (least < 0.0 || {
                     let middle: Point<3> =
                         mesh.corners(mesh.cell(cell)).iter().sum::<Point<3>>() * 0.25;
-                    self.surface.gap(middle) <= 0.0
+                    geometry.gap(index, middle) <= 0.0
                 });
             if is_dropped {
                 is_beyond[cell as usize] = true;
@@ -298,7 +302,7 @@ impl Improver<'_> {
                 continue;
             }
             let here = self.mesh.point(vertex);
-            let off = |surface: &u16| self.geometry.surfaces[usize::from(*surface)].gap(here).abs();
+            let off = |surface: &u16| self.geometry.gap(usize::from(*surface), here).abs();
             let size = self.mesh.sizes[vertex as usize];
             if surfaces.as_slice().iter().map(off).fold(0.0, f64::max) < 1e-12 * size {
                 continue;

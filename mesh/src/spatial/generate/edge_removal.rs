@@ -134,8 +134,7 @@ impl Improver<'_> {
             return false;
         }
         let tag = tag_of(surfaces.as_slice()[0]);
-        let [c, d] = [c, d].map(|vertex| self.mesh.point(vertex));
-        let [a, b] = [a, b].map(|vertex| self.mesh.point(vertex));
+        let [a, b, c, d] = self.mesh.corners([a, b, c, d]);
         let is_good = |corners: &[Point<3>; 3]| {
             self.follows_surface(corners, tag) && self.is_fine_enough(corners, tag)
         };

@@ -65,7 +65,8 @@ impl Improver<'_> {
                 };
                 let edges = [ends, [ends[1], third], [third, ends[0]]];
                 if edges.iter().any(|edge| self.given.of(*edge).is_some()) {
-                    let [along, one, other] = edges.map(|[u, v]| self.middle_node(u, v));
+                    let [along, one, other] =
+                        edges.map(|[u, v]| self.mesh.middle([u, v]) + self.offset_of_node(u, v));
                     // Half way from the node of the edge to the third vertex
                     let node = (one + other) * 0.5 + along * 0.25 - (a + b) * 0.125;
                     parts.push(GivenPart { end: third, node });

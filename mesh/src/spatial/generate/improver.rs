@@ -5,7 +5,6 @@ use super::measure::{EDGES, least_coefficient, least_sine, middle, volume_length
 use super::projections::Projections;
 use super::surface_set::SurfaceSet;
 use super::tetrahedra::Tetrahedra;
-use super::twins::Twins;
 use crate::Point;
 use crate::spatial::geometry::Geometry;
 use crate::spatial::size_field::SizeField;
@@ -89,8 +88,6 @@ pub struct Improver<'a> {
     pub sizes: &'a SizeField,
     /// The surfaces.
     pub geometry: &'a Geometry,
-    /// Vertices on periodic sides that are one and the same.
-    pub twins: Twins,
     /// Nodes in bent edges of a given mesh.
     pub given: GivenNodes,
     /// Edges longer than this many wanted lengths are bisected.
@@ -109,8 +106,7 @@ impl<'a> Improver<'a> {
     pub fn new(sizes: &'a SizeField) -> Self {
         let geometry = sizes.geometry();
         Self {
-            mesh: Tetrahedra::default(),
-            twins: Twins::default(),
+            mesh: Tetrahedra::new(geometry.periods),
             given: GivenNodes::default(),
             sizes,
             geometry,
@@ -153,10 +149,16 @@ impl<'a> Improver<'a> {
         self.projections.of(surfaces, point)
     }
 
-    /// The node in an edge (m): its middle, on the surfaces the edge is on.
-    pub fn middle_node(&self, a: u32, b: u32) -> Point<3> {
-        let straight = middle(self.mesh.point(a), self.mesh.point(b));
-        self.node_on(self.mesh.edge_surfaces(a, b), [a, b], straight)
+    /// Whether what is on these surfaces stays as it is, being on a given side.
+    pub fn is_fixed(&self, surfaces: SurfaceSet) -> bool {
+        let sides = &self.geometry.surfaces;
+        surfaces.as_slice().iter().any(|surface| sides[usize::from(*surface)].is_given())
+    }
+
+    /// From the middle of an edge to the node in it (m), which is on the surfaces the edge is on.
+    pub fn offset_of_node(&self, a: u32, b: u32) -> Point<3> {
+        let straight = self.mesh.middle([a, b]);
+        self.node_on(self.mesh.edge_surfaces(a, b), [a, b], straight) - straight
     }
 
     /// The node in an edge on some surfaces, from its middle (m).
@@ -261,15 +263,30 @@ impl<'a> Improver<'a> {
         cells.iter().fold(f64::INFINITY, |least, &cell| least.min(self.quality(cell)))
     }
 
+    /// Places of vertices with one of them at a point (m), next to that.
+    #[inline]
+    pub fn corners_with<const N: usize>(
+        &self,
+        vertices: [u32; N],
+        vertex: u32,
+        point: Point<3>,
+    ) -> [Point<3>; N] {
+        let mut corners = self.mesh.corners_beside(vertices, point);
+        for (corner, other) in corners.iter_mut().zip(vertices) {
+            if other == vertex {
+                *corner = point;
+            }
+        }
+        corners
+    }
+
     /// The least quality of the cells around a vertex if it were at a point (m); some quality that is
     /// not positive as soon as one cell has one.
     pub fn least_quality_at(&self, vertex: u32, point: Point<3>) -> f64 {
         let mut least = f64::INFINITY;
         for &cell in self.mesh.around(vertex) {
             let vertices = self.mesh.cell(cell);
-            let corners = std::array::from_fn(|local| {
-                if vertices[local] == vertex { point } else { self.mesh.point(vertices[local]) }
-            });
+            let corners = self.corners_with(vertices, vertex, point);
             least = least.min(self.quality_of(vertices, &corners, &Pending::Nothing));
             if least <= 0.0 {
                 break;

@@ -11,8 +11,11 @@ use crate::number::whole;
 /// Part of a cube by which the lattice reaches beyond the fluid.
 const MARGIN: f64 = 0.6;
 
-/// Fewest cubes along an edge of a box, so that no cell reaches from a side to its image.
+/// Fewest cubes along an edge of a box.
 const FEWEST_CUBES: usize = 2;
+
+/// The same along a period: no cell is next to its own image, and edges are much shorter than half of it.
+const FEWEST_IN_PERIOD: usize = 4;
 
 /// Edge lengths that are tried for the cubes of a box.
 const EDGES_TRIED: u32 = 24;
@@ -29,17 +32,27 @@ struct Block {
     /// Edges of a cube, of nearly the same length (m).
     edges: Point<3>,
     n: [usize; 3],
+    /// Whether the last cubes along each axis are followed by the first ones.
+    is_closed: [bool; 3],
 }
 
 impl Block {
+    /// Numbers of corners along the axes.
+    fn n_corners(&self) -> [usize; 3] {
+        std::array::from_fn(|axis| self.n[axis] + usize::from(!self.is_closed[axis]))
+    }
+
     /// Number of a corner.
-    fn corner(&self, [i, j, k]: [usize; 3]) -> usize {
-        (i * (self.n[1] + 1) + j) * (self.n[2] + 1) + k
+    fn corner(&self, at: [usize; 3]) -> usize {
+        let n = self.n_corners();
+        let [i, j, k] = std::array::from_fn(|axis| at[axis] % n[axis]);
+        (i * n[1] + j) * n[2] + k
     }
 
     /// Number of a centre, which come after the corners.
-    fn center(&self, [i, j, k]: [usize; 3]) -> usize {
-        let n_corners = self.n.iter().map(|n| n + 1).product::<usize>();
+    fn center(&self, at: [usize; 3]) -> usize {
+        let n_corners = self.n_corners().into_iter().product::<usize>();
+        let [i, j, k] = std::array::from_fn(|axis| at[axis] % self.n[axis]);
         n_corners + (i * self.n[1] + j) * self.n[2] + k
     }
 
@@ -65,25 +78,29 @@ impl Improver<'_> {
         let n: [usize; 3] = std::array::from_fn(|axis| {
             whole(((high[axis] + MARGIN * edge - min[axis]) / edge).ceil()) + 1
         });
-        let block = Block { min, edges: Point::repeat(edge), n };
+        let block = Block { min, edges: Point::repeat(edge), n, is_closed: [false; 3] };
         for at in grid(n.map(|n| n + 1)) {
             self.add_vertex(block.point(at, 0.0), SurfaceSet::EMPTY);
         }
         self.fill(&block);
     }
 
-    /// Fills a box with a lattice of cubes of about an edge length (m), whose sides are faces of cubes;
-    /// those of periodic sides are images of each other.
-    pub fn fill_box_with_lattice(&mut self, edge: f64) {
+    /// Fills a box with a lattice of cubes of about an edge length (m). Sides are faces of cubes; along
+    /// periods the lattice is moved by a part of them, and goes on.
+    pub fn fill_box_with_lattice(&mut self, edge: f64, shift: f64) {
         let [min, max] = self.geometry.corners;
         let size = max - min;
-        let edge = common_edge(&size, edge);
-        let n = std::array::from_fn(|axis| n_cubes(size[axis], edge));
+        let is_closed = std::array::from_fn(|axis| self.geometry.periods.along(axis) > 0.0);
+        let edge = common_edge(&size, edge, is_closed);
+        let n = std::array::from_fn(|axis| n_cubes(size[axis], edge, is_closed[axis]));
         let edges = Point::<3>::from_fn(|axis, _| size[axis] / n[axis] as f64);
-        let block = Block { min, edges, n };
-        for at in grid(n.map(|n| n + 1)) {
+        let min = Point::<3>::from_fn(|axis, _| {
+            min[axis] + if is_closed[axis] { shift * edges[axis] } else { 0.0 }
+        });
+        let block = Block { min, edges, n, is_closed };
+        for at in grid(block.n_corners()) {
             let mut surfaces = SurfaceSet::EMPTY;
-            for axis in 0..3 {
+            for axis in (0..3).filter(|axis| !is_closed[*axis]) {
                 for is_max in [false, true] {
                     if at[axis] == if is_max { n[axis] } else { 0 } {
                         surfaces = surfaces.with(side(axis, is_max)).unwrap_or(surfaces);
@@ -93,16 +110,12 @@ impl Improver<'_> {
             self.add_vertex(block.point(at, 0.0), surfaces);
         }
         self.fill(&block);
-        self.link_corners(&block);
-        for axis in 0..3 {
+        for axis in (0..3).filter(|axis| !is_closed[*axis]) {
             for at in grid(n).filter(|at| at[axis] == 0) {
                 let mut opposite = at;
                 opposite[axis] = n[axis] - 1;
-                let pair =
-                    [self.close(&block, at, axis, false), self.close(&block, opposite, axis, true)];
-                if self.geometry.periods[axis] > 0.0 {
-                    self.twins.link(&pair);
-                }
+                self.close(&block, at, axis, false);
+                self.close(&block, opposite, axis, true);
             }
         }
     }
@@ -117,7 +130,7 @@ impl Improver<'_> {
             for axis in 0..3 {
                 let mut next = at;
                 next[axis] += 1;
-                if next[axis] < n[axis] {
+                if next[axis] < n[axis] || block.is_closed[axis] {
                     let ends = [block.center(at), block.center(next)];
                     self.add_between(block, ends, next, axis);
                 }
@@ -125,33 +138,9 @@ impl Improver<'_> {
         }
     }
 
-    /// Links the corners of cubes on periodic sides with their images.
-    fn link_corners(&mut self, block: &Block) {
-        let is_periodic = |axis: &usize| self.geometry.periods[*axis] > 0.0;
-        let axes: Vec<usize> = (0..3).filter(is_periodic).collect();
-        for at in grid(block.n.map(|n| n + 1)) {
-            if axes.iter().any(|axis| at[*axis] == block.n[*axis]) {
-                continue;
-            }
-            let mut ring = vec![at];
-            for &axis in axes.iter().filter(|axis| at[**axis] == 0) {
-                for i in 0..ring.len() {
-                    let mut image = ring[i];
-                    image[axis] = block.n[axis];
-                    ring.push(image);
-                }
-            }
-            let ring: Vec<u32> =
-                ring.iter().map(|at| crate::number::index_u32(block.corner(*at))).collect();
-            if ring.len() > 1 {
-                self.twins.link(&ring);
-            }
-        }
-    }
-
     /// Adds the middle of a face of a cube on a side of the box and the four tetrahedra between it and
-    /// the centre of the cube; gives the middle.
-    fn close(&mut self, block: &Block, at: [usize; 3], axis: usize, is_max: bool) -> u32 {
+    /// the centre of the cube.
+    fn close(&mut self, block: &Block, at: [usize; 3], axis: usize, is_max: bool) {
         let surface = side(axis, is_max);
         let mut face = at;
         face[axis] += usize::from(is_max);
@@ -167,7 +156,6 @@ impl Improver<'_> {
                 self.mesh.set_tag(Face { cell, opposite }, tag_of(surface));
             }
         }
-        middle
     }
 
     /// The four tetrahedra between the centres of two cubes that are neighbours along an axis, or between
@@ -203,14 +191,17 @@ fn side(axis: usize, is_max: bool) -> u16 {
 }
 
 /// Number of cubes of about an edge length (m) along one of a box.
-fn n_cubes(length: f64, edge: f64) -> usize {
-    whole((length / edge).round()).max(FEWEST_CUBES)
+fn n_cubes(length: f64, edge: f64, is_period: bool) -> usize {
+    let fewest = if is_period { FEWEST_IN_PERIOD } else { FEWEST_CUBES };
+    whole((length / edge).round()).max(fewest)
 }
 
 /// The edge length up to one that is wanted (m) with which the cubes that fill a box are nearest to cubes.
-fn common_edge(size: &Point<3>, wanted: f64) -> f64 {
+fn common_edge(size: &Point<3>, wanted: f64, is_period: [bool; 3]) -> f64 {
     let misfit = |edge: f64| {
-        let stretch = size.map(|length| (length / (n_cubes(length, edge) as f64 * edge)).ln());
+        let stretch = Point::<3>::from_fn(|axis, _| {
+            (size[axis] / (n_cubes(size[axis], edge, is_period[axis]) as f64 * edge)).ln()
+        });
         stretch.max() - stretch.min() + SHORTER * (wanted / edge).ln()
     };
     let edges = (0..EDGES_TRIED)
@@ -226,8 +217,8 @@ mod tests {
     fn cubes_that_fill_a_box_are_nearly_cubes() {
         for size in [[1.0, 1.0, 1.0], [1.0, 2.0, 3.3], [0.41, 0.41, 2.5], [1.0, 1.37, 9.1]] {
             let size = Point::from(size);
-            let edge = common_edge(&size, 0.4);
-            let edges = size.map(|length| length / n_cubes(length, edge) as f64);
+            let edge = common_edge(&size, 0.4, [false; 3]);
+            let edges = size.map(|length| length / n_cubes(length, edge, false) as f64);
             assert!(edges.max() / edges.min() < 1.35, "{edges}");
             assert!(edges.max() < 0.55, "{edges}");
         }

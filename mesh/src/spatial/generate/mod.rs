@@ -14,9 +14,9 @@ mod given_nodes;
 mod improver;
 mod lattice;
 mod measure;
+mod opened;
 mod passes;
 mod peel;
-mod periodic_edges;
 mod projections;
 mod quadratic;
 mod replace;
@@ -26,12 +26,10 @@ mod split;
 mod surface_faces;
 mod surface_set;
 mod tetrahedra;
-mod twins;
 mod verdict;
 mod worst_cells;
 
 use improver::Improver;
-pub(super) use twins::shifts;
 use verdict::Verdict;
 
 use super::domain::Domain;
@@ -84,18 +82,18 @@ pub fn generate(
     Ok(improver.quadratic(sizing.curved))
 }
 
-/// The mesh from a lattice moved by a part of its cubes, or in a periodic box from one with cubes so much
-/// smaller, or from a given one.
+/// The mesh from a lattice moved by a part of its cubes, which in a periodic box are smaller by half of it, or
+/// from a given one.
 fn attempt(sizes: &SizeField, shift: f64) -> Result<Improver<'_>, MeshError> {
     let mut improver = Improver::new(sizes);
     let cube = CUBE * sizes.largest();
-    let is_periodic = sizes.geometry().periods.amax() > 0.0;
+    let is_periodic = sizes.geometry().periods.is_any();
     let mut first = 0;
     if let Some(imported) = &sizes.geometry().imported {
         improver.fill_with_mesh(imported.mesh());
         first = sizes.geometry().groups[0].last;
     } else if is_periodic {
-        improver.fill_box_with_lattice(cube * (1.0 - shift));
+        improver.fill_box_with_lattice(cube * (1.0 - 0.5 * shift), shift);
         // The sides are those of the lattice
         first = sizes.geometry().groups[0].last;
     } else {

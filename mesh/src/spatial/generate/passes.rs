@@ -66,7 +66,8 @@ impl Improver<'_> {
     /// Whether an edge on a surface is too long for its curvature.
     fn bends(&self, a: u32, b: u32) -> bool {
         let surfaces = self.mesh.edge_surfaces(a, b);
-        !self.is_short_enough(self.mesh.point(a), self.mesh.point(b), surfaces)
+        let [a, b] = self.mesh.corners([a, b]);
+        !self.is_short_enough(a, b, surfaces)
     }
 
     /// Swaps faces and edges of cells with a quality up to `poor`, where something has changed since

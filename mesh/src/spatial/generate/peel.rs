@@ -24,7 +24,7 @@ impl Improver<'_> {
         for &opposite in &inner {
             let face = self.mesh.face_vertices(Face { cell, opposite });
             let is_on = |vertex: &u32| self.mesh.surfaces(*vertex).contains(surface_of(tag));
-            let corners = face.map(|vertex| self.mesh.point(vertex));
+            let corners = self.mesh.corners(face);
             if !face.iter().all(is_on) || !self.follows_surface(&corners, tag) {
                 return false;
             }

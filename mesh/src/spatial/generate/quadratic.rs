@@ -5,95 +5,142 @@ use std::collections::HashMap;
 
 use super::boundary_edges::{INNER, surface_of};
 use super::improver::Improver;
-use super::surface_set::SurfaceSet;
+use super::opened::{Opened, Steps};
 use super::tetrahedra::Face;
-use crate::{BoundaryId, CellId, Facet, Mesh, NodeId, PeriodicPair, Simplex};
+use crate::{BoundaryId, CellId, Facet, Mesh, NodeId, PeriodicPair, Point, Simplex};
+
+/// A node in an edge, where the edge is shown in one of its places.
+struct EdgeNode {
+    /// Whole periods to the first end.
+    steps: Steps,
+    is_on_boundary: bool,
+    node: NodeId,
+}
+
+/// The mesh as it is being made.
+struct Quadratic<'i, 'a> {
+    improver: &'i Improver<'a>,
+    opened: Opened,
+    is_curved: bool,
+    nodes: Vec<Point<3>>,
+    /// The first node of each vertex; its other places follow.
+    numbers: Vec<NodeId>,
+    /// Nodes in edges, by the ends of the edges.
+    middles: HashMap<[u32; 2], Vec<EdgeNode>>,
+}
 
 impl Improver<'_> {
     /// The mesh with quadratic geometry.
     pub fn quadratic(&self, is_curved: bool) -> Mesh<3> {
+        let opened = Opened::new(self);
         let mut numbers = vec![NodeId::default(); self.mesh.points.len()];
         let mut nodes = Vec::new();
         for vertex in self.mesh.vertices() {
             numbers[vertex as usize] = NodeId::new(nodes.len());
-            nodes.push(self.mesh.point(vertex));
+            let here = self.mesh.point(vertex);
+            let places = opened.places(vertex);
+            nodes.extend(places.map(|steps| here + self.geometry.periods.shift(steps)));
         }
         let n_vertices = nodes.len();
         let n_cells = self.mesh.n_cells();
-        let mut middles: HashMap<[u32; 2], NodeId> = HashMap::with_capacity(2 * n_cells);
+        let middles = HashMap::with_capacity(2 * n_cells);
+        let mut mesh = Quadratic { improver: self, opened, is_curved, nodes, numbers, middles };
         let mut cells = Vec::with_capacity(Simplex::<3>::N_NODES * n_cells);
         let mut curved = Vec::with_capacity(n_cells);
         let mut facets = Vec::new();
         for (index, cell) in self.mesh.cells().enumerate() {
-            let vertices = self.mesh.cell(cell);
-            cells.extend(vertices.map(|vertex| numbers[vertex as usize]));
-            let mut has_curved = false;
-            for ends in Simplex::<3>::EDGES {
-                let [a, b] = ends.map(|local| vertices[local]);
-                let on_curved = is_curved && self.has_curved(self.mesh.edge_surfaces(a, b));
-                has_curved |= on_curved;
-                cells.push(*middles.entry([a.min(b), a.max(b)]).or_insert_with(|| {
-                    nodes.push(if on_curved {
-                        self.middle_node(a, b)
-                    } else {
-                        (self.mesh.point(a) + self.mesh.point(b)) * 0.5
-                    });
-                    NodeId::new(nodes.len() - 1)
-                }));
-            }
-            curved.push(has_curved);
-            facets.extend(self.facets_of(cell, CellId::new(index)));
+            curved.push(mesh.add_cell(cell, &mut cells));
+            facets.extend(mesh.facets_of(cell, CellId::new(index)));
         }
         let boundaries = self.geometry.boundaries.clone();
-        let periodic = self.pairs(|a, b| {
-            if a == b {
-                Some(numbers[a as usize])
-            } else {
-                middles.get(&[a.min(b), a.max(b)]).copied()
-            }
-        });
-        Mesh { nodes, n_vertices, cells, curved, facets, boundaries, periodic }
+        let periodic = mesh.pairs();
+        Mesh { nodes: mesh.nodes, n_vertices, cells, curved, facets, boundaries, periodic }
     }
 
-    /// Periodic pairs of nodes by the number of the node between two vertices, or at one taken twice.
-    fn pairs(&self, number: impl Fn(u32, u32) -> Option<NodeId>) -> Vec<PeriodicPair> {
+    fn boundary_of(&self, tag: u16) -> BoundaryId {
+        self.geometry.surfaces[usize::from(surface_of(tag))].boundary
+    }
+}
+
+impl Quadratic<'_, '_> {
+    /// The node of a vertex as a cell shows it.
+    fn number(&self, cell: u32, local: usize) -> NodeId {
+        let vertex = self.improver.mesh.cell(cell)[local];
+        let place = self.opened.place_in(cell, local, vertex);
+        NodeId::new(self.numbers[vertex as usize].index() + place)
+    }
+
+    /// Adds the nodes of a cell; whether it is curved.
+    fn add_cell(&mut self, cell: u32, cells: &mut Vec<NodeId>) -> bool {
+        let improver = self.improver;
+        cells.extend((0..4).map(|local| self.number(cell, local)));
+        let (vertices, tags) = (improver.mesh.cell(cell), improver.mesh.tags(cell));
+        let mut has_curved = false;
+        for &[i, j] in Simplex::<3>::EDGES {
+            let [i, j] = if vertices[i] < vertices[j] { [i, j] } else { [j, i] };
+            let [a, b] = [vertices[i], vertices[j]];
+            let on_curved =
+                self.is_curved && improver.has_curved(improver.mesh.edge_surfaces(a, b));
+            has_curved |= on_curved;
+            let is_on_boundary = (0..4).any(|face| face != i && face != j && tags[face] != INNER);
+            let steps = self.opened.steps(cell, i);
+            let known = self.middles.entry([a, b]).or_default();
+            if let Some(known) = known.iter_mut().find(|known| known.steps == steps) {
+                known.is_on_boundary |= is_on_boundary;
+                cells.push(known.node);
+                continue;
+            }
+            let mut at = improver.mesh.middle([a, b]);
+            if on_curved {
+                at += improver.offset_of_node(a, b);
+            }
+            let node = NodeId::new(self.nodes.len());
+            self.nodes.push(at + improver.geometry.periods.shift(steps));
+            known.push(EdgeNode { steps, is_on_boundary, node });
+            cells.push(node);
+        }
+        has_curved
+    }
+
+    /// Periodic pairs of nodes.
+    fn pairs(&self) -> Vec<PeriodicPair> {
         let mut pairs = Vec::new();
-        let mut add = |a: u32, b: u32, surfaces: SurfaceSet| {
-            let (to_a, to_b) = (self.original(a, surfaces), self.original(b, surfaces));
-            if let (Some(copy), Some(original)) = (number(a, b), number(to_a, to_b))
-                && copy != original
-            {
-                pairs.push(PeriodicPair { copy, original });
-            }
-        };
-        for cell in self.mesh.cells() {
-            for (opposite, tag) in self.mesh.tags(cell).into_iter().enumerate() {
-                if tag != INNER && self.is_fixed(SurfaceSet::of(surface_of(tag))) {
-                    let [a, b, c] = self.mesh.face_vertices(Face { cell, opposite });
-                    for [a, b] in [[a, b], [b, c], [c, a]] {
-                        add(a, a, self.mesh.surfaces(a));
-                        add(a, b, self.mesh.edge_surfaces(a, b));
-                    }
-                }
-            }
+        if !self.improver.geometry.periods.is_any() {
+            return pairs;
+        }
+        for vertex in self.improver.mesh.vertices() {
+            let original = self.numbers[vertex as usize];
+            let copies = 1..self.opened.places(vertex).count();
+            let copies = copies.map(|place| NodeId::new(original.index() + place));
+            pairs.extend(copies.map(|copy| PeriodicPair { copy, original }));
+        }
+        for of_edge in self.middles.values().filter(|of_edge| of_edge.len() > 1) {
+            // On the boundary, where values are given, if the edge is there
+            let first = of_edge.iter().min_by_key(|known| (!known.is_on_boundary, known.node));
+            let Some(original) = first.map(|known| known.node) else { continue };
+            let copies = of_edge.iter().map(|known| known.node).filter(|node| *node != original);
+            pairs.extend(copies.map(|copy| PeriodicPair { copy, original }));
         }
         pairs.sort_unstable();
-        pairs.dedup();
         pairs
     }
 
     /// The boundary facets of a cell, which has a new number.
     fn facets_of(&self, cell: u32, number: CellId) -> impl Iterator<Item = Facet> + '_ {
-        let tags = self.mesh.tags(cell);
+        let improver = self.improver;
+        let is_periodic = improver.geometry.periods.is_any();
+        let tags = improver.mesh.tags(cell);
         (0_u8..4).filter_map(move |side| {
             let own = Simplex::<3>::facet_vertices(usize::from(side));
             let opposite = (0..4).find(|local| !own.contains(local))?;
-            let tag = tags[opposite];
-            (tag != INNER).then(|| Facet { cell: number, side, boundary: self.boundary_of(tag) })
+            let boundary = match tags[opposite] {
+                INNER if is_periodic => {
+                    BoundaryId::new(self.opened.side(improver, Face { cell, opposite })?)
+                }
+                INNER => return None,
+                tag => improver.boundary_of(tag),
+            };
+            Some(Facet { cell: number, side, boundary })
         })
-    }
-
-    fn boundary_of(&self, tag: u16) -> BoundaryId {
-        self.geometry.surfaces[usize::from(surface_of(tag))].boundary
     }
 }

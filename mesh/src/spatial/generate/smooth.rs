@@ -87,10 +87,7 @@ impl Improver<'_> {
                 || self.is_in_fluid(point, LEAST_CLEARANCE * self.mesh.sizes[vertex as usize]);
         }
         self.boundary_faces(vertex).all(|(face, tag)| {
-            let corners = self
-                .mesh
-                .face_vertices(face)
-                .map(|other| if other == vertex { point } else { self.mesh.point(other) });
+            let corners = self.corners_with(self.mesh.face_vertices(face), vertex, point);
             self.follows_surface(&corners, tag)
                 && (!self.is_curved() || self.is_fine_enough(&corners, tag))
         })
@@ -111,11 +108,12 @@ impl Improver<'_> {
     fn center_around(&self, vertex: u32, surfaces: SurfaceSet) -> Option<Point<3>> {
         let mut mean = Mean { sum: Point::zeros(), weight: 0.0 };
         let size = |vertex: u32| self.mesh.sizes[vertex as usize];
+        let here = self.mesh.point(vertex);
         match surfaces.len() {
             0 => {
                 for &cell in self.mesh.around(vertex) {
                     let vertices = self.mesh.cell(cell);
-                    let corners = self.mesh.corners(vertices);
+                    let corners = self.mesh.corners_beside(vertices, here);
                     let size = vertices.map(size).iter().sum::<f64>() * 0.25;
                     let center = corners.iter().sum::<Point<3>>() * 0.25;
                     mean.add(center, six_volumes(&corners).max(0.0) / (size * size * size));
@@ -124,18 +122,17 @@ impl Improver<'_> {
             1 => {
                 for (face, _) in self.boundary_faces(vertex) {
                     let vertices = self.mesh.face_vertices(face);
-                    let [a, b, c] = vertices.map(|vertex| self.mesh.point(vertex));
+                    let [a, b, c] = self.mesh.corners_beside(vertices, here);
                     let size = vertices.map(size).iter().sum::<f64>() / 3.0;
                     mean.add((a + b + c) / 3.0, (b - a).cross(&(c - a)).norm() / (size * size));
                 }
             }
             _ => {
-                let here = self.mesh.point(vertex);
                 for (face, _) in self.boundary_faces(vertex) {
                     for other in self.mesh.face_vertices(face) {
                         let along = surfaces.is_subset_of(self.mesh.edge_surfaces(vertex, other));
                         if other != vertex && along {
-                            let there = self.mesh.point(other);
+                            let [there] = self.mesh.corners_beside([other], here);
                             let size = 0.5 * (size(vertex) + size(other));
                             mean.add(middle(here, there), (there - here).norm() / size);
                         }
@@ -174,10 +171,9 @@ impl Improver<'_> {
     }
 
     fn shortest_edge(&self, vertex: u32) -> f64 {
-        let here = self.mesh.point(vertex);
         let others = self.mesh.around(vertex).iter().flat_map(|cell| self.mesh.cell(*cell));
         let lengths =
-            others.filter(|other| *other != vertex).map(|v| (self.mesh.point(v) - here).norm());
+            others.filter(|other| *other != vertex).map(|other| self.mesh.length(vertex, other));
         lengths.fold(f64::INFINITY, f64::min)
     }
 
@@ -186,9 +182,7 @@ impl Improver<'_> {
         let mut sum = 0.0;
         for &cell in self.mesh.around(vertex) {
             let vertices = self.mesh.cell(cell);
-            let corners = std::array::from_fn(|local| {
-                if vertices[local] == vertex { point } else { self.mesh.point(vertices[local]) }
-            });
+            let corners = self.corners_with(vertices, vertex, point);
             let quality = self.quality_of(vertices, &corners, &Pending::Nothing);
             sum -= quality.max(SOFT_FLOOR).powi(-4);
         }

@@ -27,8 +27,8 @@ impl Improver<'_> {
     pub fn split_in_middle(&self, ends: [u32; 2], least_quality: f64) -> Split {
         let [a, b] = ends;
         let surfaces = self.mesh.edge_surfaces(a, b);
-        let middle = (self.mesh.point(a) + self.mesh.point(b)) * 0.5;
-        Split { ends, point: self.project(surfaces, middle), surfaces, least_quality }
+        let point = self.project(surfaces, self.mesh.middle(ends));
+        Split { ends, point, surfaces, least_quality }
     }
 
     /// Splits an edge with these cells around it, unless a new cell would be too poor; gives the new
@@ -37,7 +37,7 @@ impl Improver<'_> {
         let Split { ends: [a, b], point, surfaces, least_quality } = *split;
         for &cell in shell {
             let vertices = self.mesh.cell(cell);
-            let corners = self.mesh.corners(vertices);
+            let corners = self.mesh.corners_beside(vertices, point);
             for end in [a, b] {
                 let at = vertices.iter().position(|vertex| *vertex == end)?;
                 let mut half = corners;
@@ -80,8 +80,8 @@ impl Improver<'_> {
 
     /// Whether the point of a split is far enough from all surfaces, or on one that may change.
     pub fn may_split(&self, split: &Split) -> bool {
-        let [a, b] = split.ends.map(|end| self.mesh.point(end));
-        let distance = LEAST_CLEARANCE * (a - b).norm();
+        let [a, b] = split.ends;
+        let distance = LEAST_CLEARANCE * self.mesh.length(a, b);
         if split.surfaces.is_empty() {
             self.is_in_fluid(split.point, distance)
         } else {

@@ -46,7 +46,9 @@ impl Improver<'_> {
         if surface.is_flat() {
             return true;
         }
-        let cosine = |at: Point<3>| (normal.dot(&surface.foot(at).normal) / area).abs();
+        let index = usize::from(surface_of(tag));
+        let cosine =
+            |at: Point<3>| (normal.dot(&self.geometry.foot(index, at).normal) / area).abs();
         corners.iter().all(|corner| cosine(*corner) > LEAST_AT_CORNERS)
             && cosine((a + b + c) / 3.0) > LEAST_IN_MIDDLE
     }
@@ -76,17 +78,20 @@ impl Improver<'_> {
 
     /// Largest distance of a curved face from its surface over the radius of curvature, at four points.
     fn surface_error(&self, vertices: [u32; 3], tag: u16) -> f64 {
-        let surface = &self.geometry.surfaces[usize::from(surface_of(tag))];
-        let [a, b, c] = vertices;
-        let corners = vertices.map(|vertex| self.mesh.point(vertex));
-        let middles = [[a, b], [b, c], [c, a]].map(|[a, b]| self.middle_node(a, b));
+        let index = usize::from(surface_of(tag));
+        let surface = &self.geometry.surfaces[index];
+        let corners = self.mesh.corners(vertices);
+        let middles = std::array::from_fn::<_, 3, _>(|i| {
+            let next = (i + 1) % 3;
+            middle(corners[i], corners[next]) + self.offset_of_node(vertices[i], vertices[next])
+        });
         let error = |weights: [f64; 3]| {
             let mut point = Point::<3>::zeros();
             for i in 0..3 {
                 let (u, v) = (weights[i], weights[(i + 1) % 3]);
                 point += corners[i] * (u * (2.0 * u - 1.0)) + middles[i] * (4.0 * u * v);
             }
-            let foot = surface.foot(point);
+            let foot = self.geometry.foot(index, point);
             foot.gap.abs() / surface.radius_of_curvature(foot.point)
         };
         FACE_POINTS.map(error).into_iter().fold(0.0, f64::max)
@@ -108,7 +113,7 @@ impl Improver<'_> {
         }
         let is_split = |improver: &mut Self, [a, b, c]: [u32; 3]| {
             let mesh = &improver.mesh;
-            let length = |[a, b]: &[u32; 2]| (mesh.point(*a) - mesh.point(*b)).norm();
+            let length = |[a, b]: &[u32; 2]| mesh.length(*a, *b);
             let mut sides = [[a, b], [b, c], [c, a]];
             sides.sort_by(|a, b| length(b).total_cmp(&length(a)));
             let is_still = sides.iter().all(|[a, b]| !mesh.edge_surfaces(*a, *b).is_empty());

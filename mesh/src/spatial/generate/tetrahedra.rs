@@ -4,6 +4,7 @@ use super::boundary_edges::{BoundaryEdges, INNER};
 use super::measure::FACES;
 use super::surface_set::SurfaceSet;
 use crate::Point;
+use crate::spatial::periods::Periods;
 
 /// Stands for no vertex: the first vertex of a place in the list of cells that is free.
 pub const NO_VERTEX: u32 = u32::MAX;
@@ -31,7 +32,9 @@ enum Change {
 /// Vertices are never taken out of their lists: one without cells is not part of the mesh.
 #[derive(Debug, Clone, Default)]
 pub struct Tetrahedra {
-    /// Places of the vertices (m).
+    /// Lengths by which space repeats (m), zero along the other axes.
+    periods: Periods,
+    /// Places of the vertices (m), each at one of its images.
     pub points: Vec<Point<3>>,
     /// Edge lengths wanted there (m).
     pub sizes: Vec<f64>,
@@ -55,6 +58,11 @@ pub struct Tetrahedra {
 }
 
 impl Tetrahedra {
+    /// A mesh without vertices in space that may repeat.
+    pub fn new(periods: Periods) -> Self {
+        Self { periods, ..Self::default() }
+    }
+
     /// Adds a vertex, which has no cells yet.
     pub fn add_vertex(&mut self, point: Point<3>, size: f64, surfaces: SurfaceSet) -> u32 {
         let vertex = crate::number::index_u32(self.points.len());
@@ -213,10 +221,20 @@ impl Tetrahedra {
         self.tags[cell as usize]
     }
 
-    /// Places of the vertices of a cell (m).
+    /// Places of vertices of a cell (m), next to that of the first of them.
     #[inline]
-    pub fn corners(&self, vertices: [u32; 4]) -> [Point<3>; 4] {
-        vertices.map(|vertex| self.points[vertex as usize])
+    pub fn corners<const N: usize>(&self, vertices: [u32; N]) -> [Point<3>; N] {
+        self.corners_beside(vertices, self.point(vertices[0]))
+    }
+
+    /// Places of vertices (m), next to a point.
+    #[inline]
+    pub fn corners_beside<const N: usize>(
+        &self,
+        vertices: [u32; N],
+        beside: Point<3>,
+    ) -> [Point<3>; N] {
+        vertices.map(|vertex| self.periods.beside(self.points[vertex as usize], beside))
     }
 
     /// Place of a vertex (m).
@@ -302,11 +320,25 @@ impl Tetrahedra {
         self.mark
     }
 
+    /// Middle of an edge (m), next to its first end.
+    #[inline]
+    pub fn middle(&self, ends: [u32; 2]) -> Point<3> {
+        let [a, b] = self.corners(ends);
+        (a + b) * 0.5
+    }
+
+    /// Length of an edge (m).
+    #[inline]
+    pub fn length(&self, a: u32, b: u32) -> f64 {
+        let [a, b] = self.corners([a, b]);
+        (a - b).norm()
+    }
+
     /// Length of an edge over the mean of the sizes wanted at its ends.
     #[inline]
     pub fn relative_length(&self, a: u32, b: u32) -> f64 {
         let mean = 0.5 * (self.sizes[a as usize] + self.sizes[b as usize]);
-        (self.point(a) - self.point(b)).norm() / mean
+        self.length(a, b) / mean
     }
 
     /// The quality of a cell that was kept, not a number where there is none.

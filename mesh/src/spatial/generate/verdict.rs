@@ -1,7 +1,7 @@
 //! `Verdict`: whether a mesh is good enough to be given away.
 
 use super::improver::Improver;
-use super::measure::{EDGES, least_coefficient, least_sine, middle, six_volumes};
+use super::measure::{EDGES, least_coefficient, least_sine, six_volumes};
 use crate::quality::smallest_angle;
 use crate::{MeshError, Point};
 
@@ -80,11 +80,11 @@ impl Verdict {
         for vertex in improver.mesh.vertices() {
             let here = improver.mesh.point(vertex);
             for surface in improver.mesh.surfaces(vertex).as_slice() {
-                let surface = &improver.geometry.surfaces[usize::from(*surface)];
-                if surface.is_fixed() {
+                let surface = usize::from(*surface);
+                if improver.geometry.surfaces[surface].is_given() {
                     continue;
                 }
-                let gap = surface.gap(here).abs();
+                let gap = improver.geometry.gap(surface, here).abs();
                 verdict.off_surface.take_less(-gap / improver.mesh.sizes[vertex as usize], here);
             }
         }
@@ -106,8 +106,7 @@ impl Verdict {
             let surfaces = improver.mesh.edge_surfaces(vertices[i], vertices[j]);
             n_edges += usize::from(!surfaces.is_empty());
             if improver.has_curved(surfaces) {
-                let node = improver.middle_node(vertices[i], vertices[j]);
-                offsets[edge] = node - middle(corners[i], corners[j]);
+                offsets[edge] = improver.offset_of_node(vertices[i], vertices[j]);
                 is_curved = true;
             }
         }

@@ -150,16 +150,10 @@ impl SmoothSurface {
         }
     }
 
-    /// Whether it is a side of a given mesh.
+    /// Whether it is a side of a given mesh, on which everything stays as it is.
     #[must_use]
     pub fn is_given(&self) -> bool {
         matches!(self.form, Form::Facets(_))
-    }
-
-    /// Whether what is on it stays as it is: a side of a given mesh, or a periodic one.
-    #[must_use]
-    pub fn is_fixed(&self) -> bool {
-        self.is_periodic || self.is_given()
     }
 
     /// Position of the origin of its own frame (m).

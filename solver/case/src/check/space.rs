@@ -94,7 +94,7 @@ fn check_cylinder(findings: &mut Findings<'_>, key: &str, body: &Body) {
         findings.error(
             &format!("{key}.shape.cylinder.axis"),
             format!(
-                "\"{name}\" goes through periodic sides, which bodies in space cannot do so far"
+                "\"{name}\" goes through periodic sides, which cylinders without ends cannot do"
             ),
             "make them planes of symmetry or walls",
         );

@@ -1,6 +1,6 @@
 //! `Boundaries`: nodes and facets of each boundary of a mesh, and the boundaries each node lies on.
 
-use alewife_mesh::{BoundaryId, BoundaryKind, FacetId, Mesh, NodeId};
+use alewife_mesh::{BoundaryId, BoundaryKind, FacetId, Mesh, NodeId, PeriodicPair};
 
 /// Nodes and facets of the boundaries of a mesh.
 #[derive(Debug, Clone)]
@@ -13,6 +13,8 @@ pub struct Boundaries {
     facets: Vec<Vec<FacetId>>,
     /// The body each boundary is the surface of.
     bodies: Vec<Option<usize>>,
+    /// Periodic copies of nodes on bodies, which are on none themselves.
+    body_copies: Vec<PeriodicPair>,
 }
 
 /// A node on a boundary.
@@ -49,7 +51,14 @@ impl Boundaries {
             BoundaryKind::Body(body) => Some(body),
             BoundaryKind::Side | BoundaryKind::Axis => None,
         });
-        Self { pairs, nodes, facets, bodies: bodies.collect() }
+        let bodies: Vec<Option<usize>> = bodies.collect();
+        let mut is_on_body = vec![false; mesh.n_nodes()];
+        for (node, _) in pairs.iter().filter(|(_, boundary)| bodies[*boundary].is_some()) {
+            is_on_body[*node] = true;
+        }
+        let is_copy = |pair: &PeriodicPair| is_on_body[pair.original] && !is_on_body[pair.copy];
+        let body_copies = mesh.periodic.iter().copied().filter(is_copy).collect();
+        Self { pairs, nodes, facets, bodies, body_copies }
     }
 
     /// Nodes with the boundaries they lie on, ascending.
@@ -59,6 +68,13 @@ impl Boundaries {
             let body = boundaries.iter().find_map(|&boundary| self.bodies[boundary]);
             BoundaryNode { node: pairs[0].0, boundaries, body }
         })
+    }
+
+    /// Periodic copies of nodes on bodies, which are on none themselves: cells that a body meets with an edge or
+    /// a corner only may be shown periods away from it.
+    #[must_use]
+    pub fn body_copies(&self) -> &[PeriodicPair] {
+        &self.body_copies
     }
 
     /// Nodes on one boundary, ascending.

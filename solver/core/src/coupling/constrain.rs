@@ -170,11 +170,15 @@ impl<const D: usize> Constrainer<'_, D> {
     }
 }
 
-/// The first vertex of each facet on a side of the domain.
+/// The first vertex of each facet on a side of the domain, if it is on no body.
 fn vertices_on_sides<const D: usize>(mesh: &Mesh<D>) -> impl Iterator<Item = NodeId> {
     let is_side = |boundary: BoundaryId| mesh.boundaries[boundary].kind == BoundaryKind::Side;
+    let mut is_on_body = vec![false; mesh.n_vertices];
+    for facet in mesh.facets.iter().filter(|facet| !is_side(facet.boundary)) {
+        mesh.facet_vertices(facet).iter().for_each(|vertex| is_on_body[*vertex] = true);
+    }
     let facets = mesh.facets.iter().filter(move |facet| is_side(facet.boundary));
-    facets.map(|facet| mesh.facet_vertices(facet)[0])
+    facets.map(|facet| mesh.facet_vertices(facet)[0]).filter(move |vertex| !is_on_body[*vertex])
 }
 
 /// The node that holds fluid and bodies where nothing else does: a vertex on a side that is no
@@ -217,6 +221,9 @@ pub fn impose_boundary_values<const D: usize>(
                 velocity[at.node][axis] = 0.0;
             }
         }
+    }
+    for pair in boundaries.body_copies() {
+        velocity[pair.copy] = velocity[pair.original];
     }
 }
 

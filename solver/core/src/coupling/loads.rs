@@ -3,7 +3,9 @@
 //! The residual tested with a function that is 1 on the body is minus the fluid's force on it;
 //! for P2-P1 it converges about twice as fast as an integral of the stress (@babuska1984).
 
-use alewife_mesh::{BoundaryId, Mesh, Point};
+use std::collections::HashMap;
+
+use alewife_mesh::{BoundaryId, Mesh, NodeId, Point};
 use nalgebra::Vector3;
 
 use super::boundaries::{Boundaries, BoundaryNode};
@@ -62,6 +64,13 @@ pub struct ResidualOnMesh<'a, const D: usize> {
     pub residual: &'a [f64],
 }
 
+impl<const D: usize> ResidualOnMesh<'_, D> {
+    /// The residual of a node (N): the force on the fluid there.
+    fn force_at(&self, node: NodeId) -> Point<D> {
+        Point::<D>::from_fn(|axis, _| self.residual[self.layout.velocity(node, axis)])
+    }
+}
+
 /// Loads of all bodies at these poses in the mesh, and the work of the sides.
 #[must_use]
 pub fn surface_loads<const D: usize>(
@@ -69,7 +78,10 @@ pub fn surface_loads<const D: usize>(
     poses: &[Pose],
     flow: &ResidualOnMesh<'_, D>,
 ) -> SurfaceLoads {
-    let sides_force = boundary_force(problem, flow, |node| node.body.is_none());
+    let mut sides_force = boundary_force(problem, flow, |node| node.body.is_none());
+    for pair in flow.boundaries.body_copies() {
+        sides_force -= problem.metric.total_force(&flow.force_at(pair.copy));
+    }
     SurfaceLoads {
         bodies: body_loads(problem, poses, flow),
         sides_power: sides_power(problem, flow),
@@ -84,10 +96,11 @@ fn boundary_force<const D: usize>(
     flow: &ResidualOnMesh<'_, D>,
     counts: impl Fn(&BoundaryNode) -> bool,
 ) -> Vector3<f64> {
-    let forces = flow.boundaries.nodes().filter(counts).map(|BoundaryNode { node, .. }| {
-        let force = Point::<D>::from_fn(|axis, _| flow.residual[flow.layout.velocity(node, axis)]);
-        problem.metric.total_force(&force)
-    });
+    let forces = flow
+        .boundaries
+        .nodes()
+        .filter(counts)
+        .map(|BoundaryNode { node, .. }| problem.metric.total_force(&flow.force_at(node)));
     forces.sum()
 }
 
@@ -96,12 +109,17 @@ fn body_loads<const D: usize>(
     poses: &[Pose],
     flow: &ResidualOnMesh<'_, D>,
 ) -> Vec<BodyLoads> {
+    // What cells that are shown periods away from a body do to it
+    let mut copies: HashMap<NodeId, Point<D>> = HashMap::new();
+    for pair in flow.boundaries.body_copies() {
+        *copies.entry(pair.original).or_insert_with(Point::<D>::zeros) += flow.force_at(pair.copy);
+    }
     let loads = problem.bodies.iter().zip(poses).map(|(body, pose)| {
         let center = on_mesh::<D>(&pose.center);
         let mut loads = BodyLoads::default();
         for &node in flow.boundaries.nodes_on(body.boundary) {
-            let force =
-                -Point::<D>::from_fn(|axis, _| flow.residual[flow.layout.velocity(node, axis)]);
+            let mut force = -flow.force_at(node);
+            force -= copies.get(&node).copied().unwrap_or_else(Point::<D>::zeros);
             let lever = flow.mesh.nodes[node] - center;
             loads.power -= force.dot(&flow.velocity[node]);
             loads.load.force += problem.metric.total_force(&force);
@@ -119,10 +137,6 @@ fn sides_power<const D: usize>(problem: &Problem<D>, flow: &ResidualOnMesh<'_, D
     let nodes = flow.boundaries.nodes();
     nodes
         .filter(|node| node.boundaries.iter().any(|&boundary| is_given(boundary)))
-        .map(|BoundaryNode { node, .. }| {
-            let force =
-                Point::<D>::from_fn(|axis, _| flow.residual[flow.layout.velocity(node, axis)]);
-            force.dot(&flow.velocity[node])
-        })
+        .map(|BoundaryNode { node, .. }| flow.force_at(node).dot(&flow.velocity[node]))
         .sum()
 }

@@ -1,6 +1,8 @@
 //! `TranslationNullspace`: the velocity fluid and bodies have in common where nothing holds them.
 
-use alewife_mesh::{Mesh, NodeId, Point};
+use std::collections::HashMap;
+
+use alewife_mesh::{BoundaryKind, Facet, Mesh, NodeId, Point};
 use nalgebra::{SMatrix, Vector3};
 
 use super::constrain::pinned_node;
@@ -93,25 +95,11 @@ impl<const D: usize> TranslationNullspace<D> {
 /// the way between them times the flux across, over the volume: int u_i = int div(x_i u), in which
 /// surfaces of bodies between fluid and body cancel.
 fn weights<const D: usize>(mesh: &Mesh<D>) -> Vec<NodeWeights<D>> {
-    let mut original = vec![None; mesh.n_nodes()];
-    for pair in &mesh.periodic {
-        original[pair.copy] = Some(pair.original);
-    }
     let [at_vertices, at_inner] = basis_means::<D>();
     let mut volume = Point::<D>::zeros();
     let mut all: Vec<NodeWeights<D>> = Vec::new();
-    for facet in &mesh.facets {
-        // Those of its nodes where it meets another pair of sides may be copies of that or farther ones
+    for (facet, way) in ways_across(mesh) {
         let mut inner = mesh.facet_inner_nodes(facet);
-        let mut ways = Vec::with_capacity(3);
-        for node in inner.clone() {
-            ways.extend(original[node].map(|of| mesh.nodes[node] - mesh.nodes[of]));
-        }
-        if ways.len() < inner.clone().count() {
-            continue;
-        }
-        let shortest = ways.into_iter().min_by(|a, b| a.norm().total_cmp(&b.norm()));
-        let Some(way) = shortest else { continue };
         let vertices = mesh.facet_vertices(facet);
         let outward = vector_area(&vertices.map(|vertex| mesh.nodes[vertex]));
         let mut add = |node: NodeId, mean: f64| {
@@ -130,6 +118,42 @@ fn weights<const D: usize>(mesh: &Mesh<D>) -> Vec<NodeWeights<D>> {
         }
     }
     all
+}
+
+/// One facet of each pair of periodic facets, with the way to it from the other one (m).
+fn ways_across<const D: usize>(mesh: &Mesh<D>) -> Vec<(&Facet, Point<D>)> {
+    let mut original: Vec<NodeId> = mesh.node_ids().collect();
+    let mut is_paired = vec![false; mesh.n_nodes()];
+    for pair in &mesh.periodic {
+        original[pair.copy] = pair.original;
+        is_paired[pair.copy] = true;
+        is_paired[pair.original] = true;
+    }
+    // By the originals of all its nodes, of which those inside it are no other facet's
+    let key = |facet: &Facet| {
+        let mut nodes: Vec<NodeId> = mesh.facet_nodes(facet).map(|node| original[node]).collect();
+        nodes.sort_unstable();
+        nodes
+    };
+    let is_side = |facet: &&Facet| mesh.boundaries[facet.boundary].kind == BoundaryKind::Side;
+    let is_periodic = |facet: &&Facet| mesh.facet_inner_nodes(facet).all(|node| is_paired[node]);
+    let mut open: HashMap<Vec<NodeId>, &Facet> = HashMap::new();
+    let mut ways = Vec::new();
+    for facet in mesh.facets.iter().filter(is_side).filter(is_periodic) {
+        let Some(first) = open.remove(&key(facet)) else {
+            open.insert(key(facet), facet);
+            continue;
+        };
+        let is_copy =
+            |facet: &Facet| mesh.facet_inner_nodes(facet).all(|node| original[node] != node);
+        let [one, other] = if is_copy(facet) { [facet, first] } else { [first, facet] };
+        let node_of =
+            |facet: &Facet, of: NodeId| mesh.facet_nodes(facet).find(|node| original[*node] == of);
+        let Some(from) = mesh.facet_nodes(one).next() else { continue };
+        let Some(to) = node_of(other, original[from]) else { continue };
+        ways.push((one, mesh.nodes[from] - mesh.nodes[to]));
+    }
+    ways
 }
 
 /// Means over a facet of the quadratic basis functions of its vertices and of its inner nodes.

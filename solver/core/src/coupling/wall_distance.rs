@@ -5,6 +5,9 @@ use std::collections::BinaryHeap;
 
 use alewife_mesh::{Mesh, NodeId, Point};
 
+/// Part of a distance that is rounding.
+const ROUNDING: f64 = 1e-12;
+
 /// Distance (m) of each node to the nearest node for which `is_wall` holds; infinite where no wall is.
 ///
 /// Vertices get theirs from neighbours (@dijkstra1959), who hand on the vector from their wall: distances
@@ -67,7 +70,8 @@ impl<'a, const D: usize> FromWall<'a, D> {
     /// Takes note of a way to a vertex, if it is the shortest so far.
     fn reach(&mut self, vertex: NodeId, vector: Point<D>) {
         let distance = vector.norm();
-        if distance < self.distance(vertex) {
+        // Ways around through periodic sides differ by rounding
+        if distance < self.distance(vertex) * (1.0 - ROUNDING) {
             self.vectors[vertex.index()] = Some(vector);
             self.front.push(Reverse((distance.to_bits(), vertex)));
         }

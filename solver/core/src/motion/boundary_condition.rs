@@ -122,6 +122,8 @@ pub(super) struct ConstrainedVertices<const D: usize> {
     is_constrained: Vec<[bool; D]>,
     /// Periodic pairs of vertices.
     periodic: Vec<PeriodicPair>,
+    /// Those of them whose original has a prescribed displacement and the copy has none of its own.
+    carried: Vec<PeriodicPair>,
 }
 
 impl<const D: usize> ConstrainedVertices<D> {
@@ -161,7 +163,13 @@ impl<const D: usize> ConstrainedVertices<D> {
                 is_constrained[original][axis] = either;
             }
         }
-        Ok(Self { prescribed, is_constrained, periodic })
+        let is_prescribed =
+            |vertex: NodeId| prescribed.binary_search_by_key(&vertex, |(known, _)| *known).is_ok();
+        let carried = periodic.iter().copied();
+        let carried = carried
+            .filter(|pair| is_prescribed(pair.original) && !is_prescribed(pair.copy))
+            .collect();
+        Ok(Self { prescribed, is_constrained, periodic, carried })
     }
 
     /// Components that are constrained at the same vertices, so that one matrix serves them all.
@@ -221,6 +229,9 @@ impl<const D: usize> ConstrainedVertices<D> {
         let mut displacements = vec![Point::zeros(); self.is_constrained.len()];
         for &(vertex, boundary) in &self.prescribed {
             displacements[vertex] = prescribed(boundary, vertex, &reference[vertex]);
+        }
+        for PeriodicPair { copy, original } in &self.carried {
+            displacements[*copy] = displacements[*original];
         }
         displacements
     }

@@ -4,7 +4,7 @@
 //! which the matrix lives: its solver is set up once. The mesh
 //! depends on where its boundary is and not on its path, so a body that returns brings it back.
 
-use alewife_mesh::{BoundaryId, Mesh, NodeId, Point, Simplex};
+use alewife_mesh::{BoundaryId, Mesh, NodeId, PeriodicPair, Point, Simplex};
 
 use super::boundary_condition::{
     ConstrainedVertices, MeshBoundaryCondition, MotionError, PrescribedDisplacement,
@@ -36,6 +36,8 @@ pub struct MeshMotion<const D: usize> {
     interpolated: Vec<EdgeNode>,
     /// Inner nodes of curved facets with a prescribed displacement, and their boundary.
     prescribed: Vec<BoundaryNode>,
+    /// Periodic copies of those.
+    carried: Vec<PeriodicPair>,
 }
 
 /// A node with the boundary that prescribes its displacement.
@@ -89,8 +91,14 @@ impl<const D: usize> MeshMotion<D> {
         }
         let prescribed = curved_facet_nodes(mesh, conditions);
         let interpolated = edge_nodes(mesh, &prescribed);
+        let is_prescribed =
+            |node: NodeId| prescribed.binary_search_by_key(&node, |known| known.node).is_ok();
+        let carried = mesh.periodic.iter().copied();
+        let carried = carried
+            .filter(|pair| is_prescribed(pair.original) && !is_prescribed(pair.copy))
+            .collect();
         let reference = mesh.nodes.clone();
-        Ok(Self { reference, vertices, stiffness, systems, interpolated, prescribed })
+        Ok(Self { reference, vertices, stiffness, systems, interpolated, prescribed, carried })
     }
 
     /// Displacements (m) of all nodes from the reference configuration.
@@ -117,6 +125,9 @@ impl<const D: usize> MeshMotion<D> {
         }
         for &BoundaryNode { node, boundary } in &self.prescribed {
             displacements[node] = prescribed(boundary, node, &self.reference[node]);
+        }
+        for PeriodicPair { copy, original } in &self.carried {
+            displacements[*copy] = displacements[*original];
         }
         Ok(displacements)
     }

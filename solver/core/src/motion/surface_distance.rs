@@ -4,30 +4,40 @@ use std::collections::VecDeque;
 
 use alewife_mesh::{Mesh, NodeId, Point};
 
+/// Part of a distance that is rounding.
+const ROUNDING: f64 = 1e-12;
+
 /// Distance (m) from the centre of each cell to the nearest of some vertices; infinite without any.
 ///
 /// Each vertex learns a surface vertex from its neighbours and walks from there along the surface
 /// to the nearest one, since far away cells are wider than the strips that have a surface vertex
-/// in common. The time is about in proportion to the mesh.
+/// in common. The time is about in proportion to the mesh. In space a mesh may be cut open right beside
+/// bodies, and the way goes on across periodic sides.
 pub(super) fn surface_distances<const D: usize>(
     mesh: &Mesh<D>,
     surface: impl Iterator<Item = NodeId>,
 ) -> Vec<f64> {
     let neighbours = Neighbours::new(mesh);
-    let mut nearest: Vec<Option<NodeId>> = vec![None; mesh.n_vertices];
+    let images = if D == 3 { images(mesh) } else { vec![Vec::new(); mesh.n_vertices] };
+    let mut nearest: Vec<Option<Source<D>>> = vec![None; mesh.n_vertices];
     let mut is_surface = vec![false; mesh.n_vertices];
     let mut waiting = VecDeque::new();
     for vertex in surface {
-        nearest[vertex] = Some(vertex);
+        nearest[vertex] = Some(Source { vertex, away: Point::zeros() });
         is_surface[vertex] = true;
         waiting.push_back(vertex);
     }
-    let gap = |point: &Point<D>, source: NodeId| (point - mesh.nodes[source]).norm();
-    let walk = |point: &Point<D>, mut source: NodeId| {
-        let mut least = gap(point, source);
+    let gap = |point: &Point<D>, source: &Source<D>| {
+        (point - mesh.nodes[source.vertex] - source.away).norm()
+    };
+    let walk = |point: &Point<D>, mut source: Source<D>| {
+        let mut least = gap(point, &source);
         loop {
-            let along = neighbours.of(source).iter().filter(|next| is_surface[**next]);
-            let better = along.map(|&next| (gap(point, next), next)).filter(|next| next.0 < least);
+            let along = neighbours.of(source.vertex).iter().filter(|next| is_surface[**next]);
+            let better = along
+                .map(|&vertex| Source { vertex, ..source })
+                .map(|next| (gap(point, &next), next))
+                .filter(|next| next.0 < least);
             match better.min_by(|one, other| one.0.total_cmp(&other.0)) {
                 Some(next) => (least, source) = next,
                 None => return (least, source),
@@ -36,11 +46,17 @@ pub(super) fn surface_distances<const D: usize>(
     };
     while let Some(vertex) = waiting.pop_front() {
         let Some(source) = nearest[vertex] else { continue };
-        for &next in neighbours.of(vertex) {
+        let at_image = images[vertex.index()].iter().map(|&image| {
+            let away = source.away + mesh.nodes[image] - mesh.nodes[vertex];
+            (image, Source { away, ..source })
+        });
+        let beside = neighbours.of(vertex).iter().map(|&next| (next, source));
+        for (next, source) in beside.chain(at_image) {
             let point = &mesh.nodes[next];
-            let known = nearest[next].map_or(f64::INFINITY, |known| gap(point, known));
+            let known = nearest[next].map_or(f64::INFINITY, |known| gap(point, &known));
             let (found, source) = walk(point, source);
-            if found < known {
+            // What comes back from an image differs by rounding
+            if found < known * (1.0 - ROUNDING) {
                 nearest[next] = Some(source);
                 waiting.push_back(next);
             }
@@ -53,6 +69,24 @@ pub(super) fn surface_distances<const D: usize>(
             sources.map(|source| walk(&center, source).0).fold(f64::INFINITY, f64::min)
         })
         .collect()
+}
+
+/// A surface vertex, or an image of one.
+#[derive(Debug, Clone, Copy)]
+struct Source<const D: usize> {
+    vertex: NodeId,
+    /// From the vertex to the image (m).
+    away: Point<D>,
+}
+
+/// The periodic images of each vertex that are in the mesh.
+fn images<const D: usize>(mesh: &Mesh<D>) -> Vec<Vec<NodeId>> {
+    let mut images = vec![Vec::new(); mesh.n_vertices];
+    for pair in mesh.periodic.iter().filter(|pair| pair.copy.index() < mesh.n_vertices) {
+        images[pair.copy.index()].push(pair.original);
+        images[pair.original.index()].push(pair.copy);
+    }
+    images
 }
 
 /// The vertices that share a cell with each vertex; some are listed more than once.

@@ -80,7 +80,11 @@ fn message(error: &MeshError) -> String {
         MeshError::Outside { body, gap, x, y } => outside(body, None, *gap, &[*x, *y]),
         MeshError::BodyMeetsSide { body, side, gap, at } => outside(body, Some(side), *gap, at),
         MeshError::BodyMeetsPeriodicSide { body, side, gap, at } => format!(
-            "body \"{body}\" touches or crosses the periodic side `{side}` at {}: gap {gap:.3e}",
+            "the cylinder \"{body}\" touches or crosses the periodic side `{side}` at {}: gap {gap:.3e}",
+            coordinates(at)
+        ),
+        MeshError::BodyMeetsImage { body, gap, at } => format!(
+            "body \"{body}\" touches or overlaps its own image one period away, at {}: gap {gap:.3e}",
             coordinates(at)
         ),
         MeshError::Overlap { first, second, gap, x, y } => {
@@ -131,8 +135,9 @@ fn remedy(error: &MeshError) -> &'static str {
             "move it inward, make it smaller, enlarge the domain, or make the side a plane of symmetry"
         }
         MeshError::BodyMeetsPeriodicSide { .. } => {
-            "bodies in space do not cross periodic sides so far: move all of them, or the box"
+            "cylinders without ends do not cross periodic sides: move them, or the box"
         }
+        MeshError::BodyMeetsImage { .. } => "make it smaller, turn it, or enlarge the domain",
         MeshError::Overlap { .. } | MeshError::BodiesMeet { .. } => {
             "move them apart, or make them smaller"
         }

@@ -81,7 +81,9 @@ impl Arrangement for Solids {
         // Some bodies are without ends
         let is_inside = |surface: &BodySurface| {
             let reach = surface.reach().min((max - min).norm());
-            surface.nearest_point(point).gap < -ROUNDING * reach
+            let images = self.domain.images().into_iter();
+            let gaps = images.map(|shift| surface.nearest_point(point - shift).gap);
+            gaps.fold(f64::INFINITY, f64::min) < -ROUNDING * reach
         };
         let around =
             self.bodies.iter().filter(|solid| solid.surface.as_ref().is_some_and(is_inside));

@@ -2,6 +2,7 @@
 
 use alewife_mesh::spatial::{Body as Solid, Domain};
 use alewife_mesh::{Point, Sizing};
+use nalgebra::Vector3;
 
 use crate::body::Pose;
 use crate::case::Model;
@@ -64,6 +65,17 @@ impl SpatialCase {
 pub(super) fn solids(model: &Model) -> Result<Vec<Solid>, RunError> {
     let scale = model.case.mesh.scale;
     model.bodies.iter().map(|body| body.solid(scale).ok_or_else(|| no_solid(body))).collect()
+}
+
+/// Moves bodies by whole periods to where their frames are in the domain; gives how far (m).
+pub(super) fn move_into(domain: &Domain, solids: &mut [Solid]) -> Vec<Vector3<f64>> {
+    let into = |solid: &mut Solid| {
+        let center = &mut solid.pose.translation.vector;
+        let shift = domain.shift_into(*center);
+        *center += shift;
+        shift
+    };
+    solids.iter_mut().map(into).collect()
 }
 
 pub(super) fn no_domain() -> RunError {

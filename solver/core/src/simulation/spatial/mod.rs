@@ -9,7 +9,7 @@ use alewife_mesh::spatial::{estimate_cells, generate};
 use alewife_mesh::{Mesh, Point};
 use nalgebra::Vector3;
 
-use self::case::{SpatialCase, no_domain, solids};
+use self::case::{SpatialCase, move_into, no_domain, solids};
 use self::scene::SpatialScene;
 use super::RunError;
 use super::case_mesh::{CaseMesh, Dimension, InitialMesh, MakeMovingMesh};
@@ -25,20 +25,23 @@ use crate::coupling::Problem;
 impl CaseMesh<3> for Dimension<3> {
     fn generate(model: &Model) -> Result<InitialMesh<3>, RunError> {
         let case = &model.case;
-        let (solids, sizing) = (solids(model)?, sizing(case));
+        let (mut solids, sizing) = (solids(model)?, sizing(case));
         let domain = case.domain_in_space().ok_or_else(no_domain)?;
+        let shifts = move_into(&domain, &mut solids);
         check_cells::<3>(|limit| estimate_cells(&domain, &solids, &sizing, limit))?;
         let mesh = generate(&domain, &solids, &sizing)?;
-        Ok(initial(model, mesh))
+        Ok(initial(mesh, shifts))
     }
 
     fn adopt(model: &Model, mesh: Mesh<3>) -> Result<InitialMesh<3>, RunError> {
-        Ok(initial(model, mesh))
+        let domain = model.case.domain_in_space().ok_or_else(no_domain)?;
+        let shifts = move_into(&domain, &mut solids(model)?);
+        Ok(initial(mesh, shifts))
     }
 
-    /// Itself alone: periodic sides in space are flat, and the mesh fills the box.
-    fn images(_case: &Case, _mesh: &Mesh<3>) -> Vec<Point<3>> {
-        vec![Point::<3>::zeros()]
+    fn images(case: &Case, mesh: &Mesh<3>) -> Vec<Point<3>> {
+        let domain = case.domain_in_space();
+        domain.map_or(vec![Point::<3>::zeros()], |domain| domain.images_around(&mesh.nodes))
     }
 
     fn moving_mesh_of(
@@ -52,9 +55,8 @@ impl CaseMesh<3> for Dimension<3> {
     }
 }
 
-/// A mesh with what moves it.
-fn initial(model: &Model, mesh: Mesh<3>) -> InitialMesh<3> {
-    let shifts = vec![Vector3::zeros(); model.bodies.len()];
+/// A mesh with what moves it, its bodies moved by whole periods (m).
+fn initial(mesh: Mesh<3>, shifts: Vec<Vector3<f64>>) -> InitialMesh<3> {
     let make: MakeMovingMesh<3> = Box::new(|model, problem, mesh, poses| {
         moving(model, problem, mesh, poses, 0.0)?.map_err(RunError::from_remesh)
     });

@@ -6,7 +6,7 @@ use alewife_mesh::spatial::{GapQuery, generate};
 use alewife_mesh::{BoundaryId, Mesh, NodeId, Point};
 use nalgebra::Vector3;
 
-use super::case::SpatialCase;
+use super::case::{SpatialCase, move_into};
 use crate::body::Pose;
 use crate::contact::{Gaps, SpatialGaps, frame_of};
 use crate::coupling::BodyShapes;
@@ -96,16 +96,16 @@ impl Scene<3> for SpatialScene {
         shifted: PosesByShift<'_>,
     ) -> Result<Meshed<3>, RemeshError> {
         let case = &self.case;
-        let mesh = generate(&case.domain, &case.solids_at(poses), &case.sizing)?;
-        let shifts = vec![Vector3::zeros(); poses.len()];
+        let mut solids = case.solids_at(poses);
+        let shifts = move_into(&case.domain, &mut solids);
+        let mesh = generate(&case.domain, &solids, &case.sizing)?;
         let poses = shifted(&shifts);
         let scene = Self::new(Arc::clone(case), &mesh, &poses)?;
         Ok(Meshed { mesh, scene: Box::new(scene), poses, shifts })
     }
 
-    /// None but itself: periodic sides are flat, and the mesh fills the box.
-    fn images(&self, _meshes: [&Mesh<3>; 2]) -> Vec<Point<3>> {
-        vec![Point::<3>::zeros()]
+    fn images(&self, [old, new]: [&Mesh<3>; 2]) -> Vec<Point<3>> {
+        self.case.domain.images_around(old.nodes.iter().chain(&new.nodes))
     }
 
     fn domain_start(&self) -> Point<3> {
