@@ -10,7 +10,7 @@ use nalgebra::{Matrix3, SymmetricEigen};
 use super::body_surface::BodySurface;
 use super::domain::Domain;
 use super::geometry::sides;
-use super::surface::{SmoothSurface, directions};
+use super::surface::SmoothSurface;
 use crate::Point;
 
 /// Places around a solid that is not convex from which the search starts.
@@ -156,8 +156,7 @@ fn starts(one: &SmoothSurface, two: &SmoothSurface) -> Vec<Point<3>> {
     if one.is_convex() && two.is_convex() {
         return vec![between(one.foot(two.foot(one.origin()).point).point)];
     }
-    let far = 2.0 * one.reach();
-    directions(STARTS).map(|to| between(one.foot(one.origin() + to * far).point)).collect()
+    one.places(STARTS).into_iter().map(between).collect()
 }
 
 /// The place near a start where the sum of the distances to two surfaces is least; `None` where none is found.
@@ -219,6 +218,7 @@ fn downhill(bend: Matrix3<f64>, slope: Point<3>, longest: f64) -> Point<3> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::spatial::surface::directions;
     use crate::spatial::{Body, Shape};
     use nalgebra::{Isometry3, Translation3, UnitQuaternion};
 

@@ -5,7 +5,7 @@ use super::domain::Domain;
 use super::geometry::{sides, surfaces_of};
 use super::imported::Imported;
 use super::shape::{Body, Shape};
-use super::surface::{SmoothSurface, directions};
+use super::surface::SmoothSurface;
 use crate::{MeshError, Point, SMALLEST_GAP};
 
 /// Places on a surface at which the search for the smallest gap starts.
@@ -94,8 +94,7 @@ fn check_inside(
         Err(MeshError::BodyMeetsSide { body: body.name.clone(), side, gap, at: at.into() })
     };
     let n_sides = imported.mesh().boundaries.len();
-    for direction in directions(STARTS) {
-        let at = surface.foot(surface.origin() + direction * (2.0 * surface.reach())).point;
+    for at in surface.places(STARTS) {
         if !imported.contains(at) {
             let gaps = (0..n_sides).map(|side| imported.side(side).foot(at).gap).enumerate();
             let nearest = gaps.min_by(|one, other| one.1.total_cmp(&other.1));
@@ -230,7 +229,7 @@ fn lengths(shape: &Shape) -> Vec<Length> {
         Shape::Ellipsoid { semi_axes } => semi_axes.map(|axis| ("semi_axes", axis)).to_vec(),
         Shape::Capsule { radius, length } => vec![("radius", *radius), ("length", *length)],
         // Checked where its surface is made
-        Shape::Revolved { .. } => Vec::new(),
+        Shape::Revolved { .. } | Shape::Slender(_) => Vec::new(),
         Shape::Tube { centreline, radius } => {
             let mut all = vec![("radius", *radius)];
             if let Centreline::Helix { radius, pitch, turns } = centreline {
@@ -274,11 +273,10 @@ fn least_gap(surface: &SmoothSurface, other: &SmoothSurface) -> Least {
         let at = surface.origin() - foot.normal * radius;
         return Least { value: foot.gap - radius, at };
     }
-    let mut starts: Vec<Least> = directions(STARTS)
-        .map(|direction| {
-            let at = surface.foot(surface.origin() + direction * (2.0 * surface.reach())).point;
-            approach(surface, other, Least { value: other.gap(at), at }, FIRST_STEPS)
-        })
+    let mut starts: Vec<Least> = surface
+        .places(STARTS)
+        .into_iter()
+        .map(|at| approach(surface, other, Least { value: other.gap(at), at }, FIRST_STEPS))
         .collect();
     starts.sort_by(|a, b| a.value.total_cmp(&b.value));
     starts.truncate(KEPT);

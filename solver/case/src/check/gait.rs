@@ -5,8 +5,8 @@ use std::f64::consts::TAU;
 use super::Findings;
 use super::boundary::check_factor;
 use crate::{
-    AnguilliformGait, Body, CarangiformGait, FlagellumGait, GaitSpec, PulsatingGait, ShapeSpec,
-    SquirmerGait, TimeSettings,
+    AnguilliformGait, Body, CarangiformGait, FishShape, FlagellumGait, GaitSpec, Geometry,
+    PulsatingGait, ShapeSpec, SquirmerGait, TimeSettings,
 };
 
 /// Lengths of a fish or a flagellate.
@@ -36,6 +36,16 @@ pub fn check_shape(findings: &mut Findings<'_>, key: &str, shape: &ShapeSpec) {
         ),
         _ => return,
     };
+    if let ShapeSpec::Fish(FishShape { height: Some(height), .. }) = shape {
+        findings.positive(&format!("{key}.fish.height"), *height);
+        if findings.case().geometry == Geometry::Planar {
+            findings.error(
+                &format!("{key}.fish.height"),
+                "a fish in the plane has no height".to_owned(),
+                "leave it out, or take geometry = \"spatial\"",
+            );
+        }
+    }
     for (field, value) in &lengths {
         findings.positive(&format!("{key}.{name}.{field}"), *value);
     }

@@ -13,7 +13,7 @@ use crate::case::{
 use crate::coupling::{Drive, RigidBody, Spring, TimeValue};
 use crate::gait::{Gait, InTime, Squirmer};
 use crate::simulation::RunError;
-use crate::simulation::planar::shape_motion;
+use crate::simulation::shape_motion;
 use crate::space::Metric;
 use crate::time::factor_at;
 
@@ -56,7 +56,7 @@ pub(super) fn rigid_body<const D: usize>(
             .map(|factor| -> TimeValue { Box::new(move |time| factor_at(Some(&factor), time)) }),
         spring: body.spring.as_ref().map(|spring| rigid_spring(spring, &pose)),
         gait: slip(body, metric),
-        shape: shape_motion(body)?,
+        shape: shape_motion(body, case.geometry)?,
         ..RigidBody::held(body.name.clone(), boundary, pose)
     })
 }
