@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::stroke::Stroke;
 
-/// `shape.fish`: straight along the body's x, head towards +x, origin in the centre of area or volume.
+/// `shape.fish`: straight along the body's x, head towards +x, origin in the centre of area.
 ///
 /// All lengths but the first are over the length.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -32,13 +32,12 @@ pub struct FishShape {
     /// Radius with which the corner at `tail_start` is rounded.
     #[serde(default = "corner_radius")]
     pub corner_radius: f64,
-    /// Half height across the plane in which it bends, in the middle, of half an ellipse from head to tail
-    /// (spatial); its sections are circles if absent.
+    /// Half height in the middle, of half an ellipse from head to tail (spatial); circles if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub height: Option<f64>,
 }
 
-/// `shape.flagellate`: straight along the body's x, head towards +x, origin in the centre of area or volume.
+/// `shape.flagellate`: straight along the body's x, head towards +x, origin in the centre of area.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]

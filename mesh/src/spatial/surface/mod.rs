@@ -310,6 +310,10 @@ impl SmoothSurface {
     /// Edge length wanted on the surface (m) at one of its points.
     #[must_use]
     pub fn size_at(&self, on: Point<3>) -> f64 {
+        if let Form::Slender(slender) = &self.form {
+            let parts = [self.turn, EDGES_OF_RADIUS_INSIDE];
+            return self.size.min(slender.smaller_radius(self.to_local(on), parts));
+        }
         let size = self.size.min(self.turn * self.radius_of_curvature(on));
         size.min(EDGES_OF_RADIUS_INSIDE * self.radius_inside(on))
     }

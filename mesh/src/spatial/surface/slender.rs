@@ -27,7 +27,7 @@ const ROUNDING: f64 = 4e-16;
 const FLAT: f64 = 1e-10;
 
 /// Least distance from the ends over the whole parameter, so that a section has a direction.
-const OFF_ENDS: f64 = 1e-9;
+const OFF_ENDS: f64 = 1e-12;
 
 /// Part of the slope of the width at an end down to which a place belongs to the end, where places are
 /// told by plane coordinates about it.
@@ -241,7 +241,17 @@ impl Slender {
     /// Smallest radius of curvature (m) at one of its points.
     #[must_use]
     pub fn radius_of_curvature(&self, on: Point<3>) -> f64 {
+        self.radius_of_curvature_at(self.parameter_of(on))
+    }
+
+    /// The smaller one of a part of the radius of curvature and of a part of the radius inside (m).
+    #[must_use]
+    pub fn smaller_radius(&self, on: Point<3>, [of_curvature, inside]: [f64; 2]) -> f64 {
         let at = self.parameter_of(on);
+        (of_curvature * self.radius_of_curvature_at(at)).min(inside * self.radius_inside_at(at))
+    }
+
+    fn radius_of_curvature_at(&self, at: SectionPoint) -> f64 {
         let local = self.local(at);
         let chart = self.chart(at.along, &local);
         let normal = local.normal();
@@ -258,7 +268,10 @@ impl Slender {
     /// as the normal goes to the nearer one of the planes of the section's axes.
     #[must_use]
     pub fn radius_inside(&self, on: Point<3>) -> f64 {
-        let at = self.parameter_of(on);
+        self.radius_inside_at(self.parameter_of(on))
+    }
+
+    fn radius_inside_at(&self, at: SectionPoint) -> f64 {
         let local = self.local(at);
         let normal = local.normal();
         let [section, ..] = self.sections.at(at.along);
