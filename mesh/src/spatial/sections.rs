@@ -279,12 +279,21 @@ impl<T: Summand> SectionMoments<T> {
 pub(super) mod test_bodies {
     use super::*;
 
-    /// Sections through points given by angles from nose to tail: midline, direction of the width, width, height.
-    fn through(n: usize, at: impl Fn(f64) -> ([f64; 2], [f64; 2], f64, f64)) -> Sections {
-        let stations: Vec<_> = (0..=n).map(|i| at(PI * i as f64 / n as f64)).collect();
+    /// A section at a place from nose to tail.
+    struct At {
+        center: [f64; 2],
+        /// Direction of its width.
+        side: [f64; 2],
+        half_width: f64,
+        half_height: f64,
+    }
+
+    /// Through sections at angles from nose to tail.
+    fn through(n: usize, at: impl Fn(f64) -> At) -> Sections {
+        let stations: Vec<At> = (0..=n).map(|i| at(PI * i as f64 / n as f64)).collect();
         let side = |sign: f64| {
-            let shifted = move |(c, e, w, _): &([f64; 2], [f64; 2], f64, f64)| {
-                [0, 1].map(|axis| c[axis] + sign * w * e[axis])
+            let shifted = move |at: &At| {
+                [0, 1].map(|axis| at.center[axis] + sign * at.half_width * at.side[axis])
             };
             stations.iter().map(shifted)
         };
@@ -293,7 +302,7 @@ pub(super) mod test_bodies {
         // As if it were straight
         let knots: Vec<f64> = (0..=2 * n).map(|i| PI * i as f64 / n as f64).collect();
         let spline = Spline::with_knots(&points, &knots).unwrap();
-        let heights: Vec<f64> = stations.iter().map(|station| station.3).collect();
+        let heights: Vec<f64> = stations.iter().map(|at| at.half_height).collect();
         Sections::new(&spline, &heights).unwrap()
     }
 
@@ -301,7 +310,8 @@ pub(super) mod test_bodies {
     pub fn ellipsoid([a, b, c]: [f64; 3], n: usize) -> Sections {
         through(n, |angle| {
             let sin = if angle >= PI { 0.0 } else { angle.sin() };
-            ([a * angle.cos(), 0.0], [0.0, 1.0], b * sin, c * sin)
+            let (center, side) = ([a * angle.cos(), 0.0], [0.0, 1.0]);
+            At { center, side, half_width: b * sin, half_height: c * sin }
         })
     }
 
@@ -312,9 +322,10 @@ pub(super) mod test_bodies {
             let sin = if angle >= PI { 0.0 } else { angle.sin() };
             let slope = 0.3 * 3.0 * (3.0 * x).cos();
             let length = slope.hypot(1.0);
-            let normal = [-slope / length, 1.0 / length];
-            let width = sin * (0.12 + 0.05 * x);
-            ([x, 0.3 * (3.0 * x).sin()], normal, width, width * (1.3 - 0.5 * x))
+            let side = [-slope / length, 1.0 / length];
+            let half_width = sin * (0.12 + 0.05 * x);
+            let half_height = half_width * (1.3 - 0.5 * x);
+            At { center: [x, 0.3 * (3.0 * x).sin()], side, half_width, half_height }
         })
     }
 }

@@ -37,8 +37,8 @@ const CAP: f64 = 0.7;
 #[derive(Clone)]
 pub struct Slender {
     sections: Sections,
-    /// Parameter in the middle of each piece, and the section there.
-    rings: Vec<(f64, Section)>,
+    /// In the middle of each piece.
+    rings: Vec<Ring>,
     boxes: BoxTree<3>,
     /// Parameters up to which the ends go, from each end.
     caps: [f64; 2],
@@ -56,6 +56,21 @@ impl PartialEq for Slender {
     fn eq(&self, other: &Self) -> bool {
         self.sections == other.sections
     }
+}
+
+/// A section and its parameter.
+#[derive(Debug, Clone, Copy)]
+struct Ring {
+    along: f64,
+    section: Section,
+}
+
+/// Half the squared distance near a place.
+struct Quadratic {
+    slope: Vector2<f64>,
+    bend: Matrix2<f64>,
+    /// Its second derivative on the surface itself: squares of lengths.
+    metric: Matrix2<f64>,
 }
 
 /// A place of the surface with derivatives along and around.
@@ -83,7 +98,7 @@ impl Slender {
         let (mut rings, mut boxes) = (Vec::new(), Vec::new());
         for pair in knots.windows(2) {
             let middle = 0.5 * (pair[0] + pair[1]);
-            rings.push((middle, sections.at(middle)[0]));
+            rings.push(Ring { along: middle, section: sections.at(middle)[0] });
             let ends = [pair[0], middle, pair[1]].map(|along| sections.at(along)[0]);
             let points: Vec<Point<3>> = ends.iter().flat_map(ring_corners).collect();
             let bounds = Bounds::around(&points);
@@ -131,7 +146,7 @@ impl Slender {
 
     /// Places all over the surface (m).
     pub fn places(&self) -> impl Iterator<Item = Point<3>> + '_ {
-        self.rings.iter().flat_map(|(_, section)| ring_corners(section))
+        self.rings.iter().flat_map(|ring| ring_corners(&ring.section))
     }
 
     /// The nearest point to a point (m) of its frame, the normal outward.
@@ -148,7 +163,7 @@ impl Slender {
         let mut nearest = SectionPoint { along: 0.0, around: 0.0 };
         let mut least = f64::INFINITY;
         self.boxes.visit_near(of, f64::INFINITY, |index, reach| {
-            let (along, section) = &self.rings[index];
+            let Ring { along, section } = &self.rings[index];
             let on = OnRing::nearest(section, &of);
             if on.distance < least {
                 nearest = SectionPoint { along: *along, around: on.around };
@@ -168,7 +183,7 @@ impl Slender {
             let off = local.point - of;
             let square = off.norm_squared();
             let chart = self.chart(at.along, &local);
-            let (slope, bend, metric) = chart.quadratic(&local, &off);
+            let Quadratic { slope, bend, metric } = chart.quadratic(&local, &off);
             let Some(down) = metric.cholesky().map(|metric| metric.solve(&-slope)) else { break };
             let offset = (-slope.dot(&down)).max(0.0).sqrt();
             if offset <= ROUNDING * (off.norm() + of.norm() + self.reach) {
@@ -256,7 +271,7 @@ impl Slender {
         let chart = self.chart(at.along, &local);
         let normal = local.normal();
         // Along the normal the second derivative of half the squared distance is the metric less it
-        let (_, bend, metric) = chart.quadratic(&local, &normal);
+        let Quadratic { bend, metric, .. } = chart.quadratic(&local, &normal);
         let Some(root) = metric.cholesky().and_then(|metric| metric.l().try_inverse()) else {
             return self.inner_radius;
         };
@@ -299,12 +314,8 @@ impl Local {
 }
 
 impl Chart {
-    /// Slope and second derivative of half the squared distance at an offset (m) from the foot, and the metric.
-    fn quadratic(
-        &self,
-        local: &Local,
-        off: &Point<3>,
-    ) -> (Vector2<f64>, Matrix2<f64>, Matrix2<f64>) {
+    /// Half the squared distance to a point that the place is off by this (m).
+    fn quadratic(&self, local: &Local, off: &Point<3>) -> Quadratic {
         let Self { radius, sign } = *self;
         let (ahead, facing) = if sign == 0.0 { (1.0, 0.0) } else { (sign, 1.0 / radius) };
         let along = local.along * ahead;
@@ -319,7 +330,8 @@ impl Chart {
             along.dot(&around),
             around.norm_squared(),
         );
-        (slope, metric + Matrix2::new(far, mixed, mixed, back), metric)
+        let bend = metric + Matrix2::new(far, mixed, mixed, back);
+        Quadratic { slope, bend, metric }
     }
 }
 

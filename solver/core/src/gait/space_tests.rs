@@ -141,8 +141,13 @@ fn volume_and_centre_stay_and_velocities_are_the_rates_of_places() {
     }
 }
 
-/// Points of the interior and their parts of the volume, in the frame of the head.
-fn interior(swimmer: &Swimmer, grid: &Grid, time: f64) -> Vec<(Vector3<f64>, f64)> {
+/// A point of the interior, in the frame of the head, and its part of the volume.
+struct Inside {
+    at: Vector3<f64>,
+    part: f64,
+}
+
+fn interior(swimmer: &Swimmer, grid: &Grid, time: f64) -> Vec<Inside> {
     let frames: Frames<f64> = swimmer.midline.frames(grid, time);
     // Chords by an angle: trigonometric polynomials
     let (rule, angles) = (GaussRule::new(5), GaussRule::new(12));
@@ -160,7 +165,7 @@ fn interior(swimmer: &Swimmer, grid: &Grid, time: f64) -> Vec<(Vector3<f64>, f64
                 let [px, py] = frame.position;
                 let at = Vector3::new(px + tx * y, py + ty * y, height * narrowing * sin);
                 let part = 2.0 * across * chord * height * cos * PI * weight * node.weight;
-                points.push((at, part));
+                points.push(Inside { at, part });
             }
         }
     }
@@ -184,24 +189,22 @@ fn no_angular_momentum_is_left_in_space() {
             let factors = [45.0, -45.0, -9.0, 9.0, 1.0, -1.0].map(|factor| factor / (60.0 * step));
             let points = at(0.0);
             let rate = |i: usize| -> Vector3<f64> {
-                stencil.iter().zip(factors).map(|(points, factor)| points[i].0 * factor).sum()
+                stencil.iter().zip(factors).map(|(points, factor)| points[i].at * factor).sum()
             };
-            let volume: f64 = points.iter().map(|(_, part)| part).sum();
-            let center: Vector3<f64> =
-                points.iter().map(|(at, part)| at * *part).sum::<Vector3<f64>>() / volume;
-            let drift: Vector3<f64> = points
-                .iter()
-                .enumerate()
-                .map(|(i, (_, part))| rate(i) * *part)
-                .sum::<Vector3<f64>>()
-                / volume;
+            let volume: f64 = points.iter().map(|inside| inside.part).sum();
+            let mean = |f: &dyn Fn(usize) -> Vector3<f64>| -> Vector3<f64> {
+                let parts = points.iter().enumerate().map(|(i, inside)| f(i) * inside.part);
+                parts.sum::<Vector3<f64>>() / volume
+            };
+            let center = mean(&|i| points[i].at);
+            let drift = mean(&rate);
             let now = body.at(time).unwrap();
             let recoil = now.recoil;
             let off = (volume / now.moments.measure - 1.0).abs();
             assert!(off < 1e-4, "{name}: volume off by {off:.1e}");
             let turning = Vector3::z() * recoil.angular_velocity;
             let (mut total, mut size) = (Vector3::zeros(), 0.0);
-            for (i, (at, part)) in points.iter().enumerate() {
+            for (i, Inside { at, part }) in points.iter().enumerate() {
                 let arm = at - center;
                 let moment = arm.cross(&(rate(i) - drift - turning.cross(&arm))) * *part;
                 total += moment;
