@@ -27,7 +27,7 @@ const ROUNDING: f64 = 4e-16;
 const FLAT: f64 = 1e-10;
 
 /// Least distance from the ends over the whole parameter, so that a section has a direction.
-const OFF_ENDS: f64 = 1e-12;
+const OFF_ENDS: f64 = 1e-9;
 
 /// Part of the slope of the width at an end down to which a place belongs to the end, where places are
 /// told by plane coordinates about it.
