@@ -1,8 +1,13 @@
 //! Bodies that bend in space, with inertia: momentum, angular momentum, and a gait that is none.
 
+use alewife_core::case::Model;
 use alewife_core::coupling::BodyShapes;
-use alewife_core::simulation::{build_mesh, build_problem};
-use tests::cases::{case, column, last, run};
+use alewife_core::simulation::{RunSummary, build_mesh, build_problem, simulate};
+use tests::cases::{case, column, last};
+
+fn run(model: &Model) -> RunSummary {
+    simulate::<3>(model, &mut []).expect("the case runs")
+}
 
 /// A stout fish in a closed box.
 fn fish(body: &str, time: &str) -> String {
