@@ -3,6 +3,8 @@
 use std::f64::consts::PI;
 use std::sync::Arc;
 
+use nalgebra::Matrix3;
+
 use crate::planar::vector::cross;
 use crate::quadrature::integrate;
 use crate::{Point, Spline};
@@ -87,6 +89,11 @@ pub enum SecondMoments {
         /// The same about any axis through the centroid across it (m^5).
         across: f64,
     },
+    /// Of a body in space.
+    Spatial {
+        /// Tensor of inertia about the centroid (m^5).
+        tensor: Matrix3<f64>,
+    },
 }
 
 impl Shape {
@@ -157,7 +164,7 @@ mod tests {
         assert!((spline.centroid - Point::from(shift)).norm() < 1e-5);
         let polar = |m: Moments| match m.second {
             SecondMoments::Planar { polar } => polar,
-            SecondMoments::Revolved { .. } => panic!("is planar"),
+            _ => panic!("is planar"),
         };
         assert!((polar(spline) / polar(exact) - 1.0).abs() < 1e-5);
     }

@@ -12,7 +12,7 @@ use nalgebra::{Matrix3, SymmetricEigen};
 use super::body_surface::BodySurface;
 use super::domain::Domain;
 use super::geometry::sides;
-use super::surface::{SmoothSurface, directions};
+use super::surface::SmoothSurface;
 use crate::Point;
 
 /// Places around a solid that is not convex from which the search starts.
@@ -166,8 +166,7 @@ fn starts(one: &SmoothSurface, two: &SmoothSurface) -> Vec<Point<3>> {
     if one.is_convex() && two.is_convex() {
         return vec![between(one.foot(two.foot(one.origin()).point).point)];
     }
-    let far = 2.0 * one.reach();
-    directions(STARTS).map(|to| between(one.foot(one.origin() + to * far).point)).collect()
+    one.places(STARTS).into_iter().map(between).collect()
 }
 
 /// Places between a surface and a side of a given mesh, which may face it in many places: the nearest, and
@@ -175,8 +174,7 @@ fn starts(one: &SmoothSurface, two: &SmoothSurface) -> Vec<Point<3>> {
 /// infinite.
 fn starts_at_given(one: &SmoothSurface, side: &SmoothSurface, range: f64) -> Vec<Point<3>> {
     let toward = one.foot(side.foot(one.origin()).point).point;
-    let far = 2.0 * one.reach();
-    let around = directions(STARTS).map(|to| one.foot(one.origin() + to * far).point);
+    let around = one.places(STARTS).into_iter();
     let places: Vec<Between> =
         iter::once(toward).chain(around).map(|at| Between { at, gap: side.gap(at) }).collect();
     let least = places.iter().map(|place| place.gap).fold(f64::INFINITY, f64::min);
@@ -244,6 +242,7 @@ fn downhill(bend: Matrix3<f64>, slope: Point<3>, longest: f64) -> Point<3> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::spatial::surface::directions;
     use crate::spatial::{Body, Shape};
     use nalgebra::{Isometry3, Translation3, UnitQuaternion};
 

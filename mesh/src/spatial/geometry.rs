@@ -243,6 +243,7 @@ pub fn surfaces_of(body: &Body) -> Result<Vec<SmoothSurface>, MeshError> {
             Shape::Revolved { profile } => {
                 Form::Revolved(Arc::new(Revolved::new(&body.name, profile)?))
             }
+            Shape::Slender(slender) => Form::Slender(Arc::clone(slender)),
             Shape::Tube { centreline, radius } => {
                 Form::Tube(Arc::new(Tube::new(centreline.clone(), *radius)))
             }

@@ -1,6 +1,6 @@
 //! The least gap of one surface to another, by steps to and fro between them.
 
-use super::surface::{SmoothSurface, directions};
+use super::surface::SmoothSurface;
 use crate::{Point, SMALLEST_GAP};
 
 /// Places on a surface at which the search for the smallest gap starts.
@@ -48,11 +48,10 @@ pub fn least_gap(surface: &SmoothSurface, other: &SmoothSurface) -> Least {
         let at = surface.origin() - foot.normal * radius;
         return Least { value: foot.gap - radius, at };
     }
-    let mut starts: Vec<Least> = directions(STARTS)
-        .map(|direction| {
-            let at = surface.foot(surface.origin() + direction * (2.0 * surface.reach())).point;
-            approach(surface, other, Least { value: other.gap(at), at }, FIRST_STEPS)
-        })
+    let mut starts: Vec<Least> = surface
+        .places(STARTS)
+        .into_iter()
+        .map(|at| approach(surface, other, Least { value: other.gap(at), at }, FIRST_STEPS))
         .collect();
     starts.sort_by(|a, b| a.value.total_cmp(&b.value));
     starts.truncate(KEPT);

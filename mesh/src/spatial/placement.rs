@@ -9,7 +9,7 @@ use super::imported::Imported;
 use super::least_gap::{Least, STARTS, least_gap};
 use super::periods::Periods;
 use super::shape::{Body, Shape};
-use super::surface::{SmoothSurface, directions};
+use super::surface::SmoothSurface;
 use crate::{MeshError, Point, SMALLEST_GAP};
 
 /// Whether bodies can be meshed in a domain: sizes, names, inside, apart.
@@ -95,8 +95,7 @@ fn check_inside(
         Err(MeshError::BodyMeetsSide { body: body.name.clone(), side, gap, at: at.into() })
     };
     let n_sides = imported.mesh().boundaries.len();
-    for direction in directions(STARTS) {
-        let at = surface.foot(surface.origin() + direction * (2.0 * surface.reach())).point;
+    for at in surface.places(STARTS) {
         if !imported.contains(at) {
             let gaps = (0..n_sides).map(|side| imported.side(side).foot(at).gap.abs()).enumerate();
             let nearest = gaps.min_by(|one, other| one.1.total_cmp(&other.1));
@@ -256,7 +255,7 @@ fn lengths(shape: &Shape) -> Vec<Length> {
         Shape::Ellipsoid { semi_axes } => semi_axes.map(|axis| ("semi_axes", axis)).to_vec(),
         Shape::Capsule { radius, length } => vec![("radius", *radius), ("length", *length)],
         // Checked where its surface is made
-        Shape::Revolved { .. } => Vec::new(),
+        Shape::Revolved { .. } | Shape::Slender(_) => Vec::new(),
         Shape::Tube { centreline, radius } => {
             let mut all = vec![("radius", *radius)];
             if let Centreline::Helix { radius, pitch, turns } = centreline {

@@ -1,8 +1,11 @@
 //! `Shape` and `Body`: what bodies in space are made of, and where they are.
 
+use std::sync::Arc;
+
 use nalgebra::Isometry3;
 
 use super::centreline::Centreline;
+use super::surface::Slender;
 
 /// A solid in its own frame.
 #[derive(Debug, Clone, PartialEq)]
@@ -44,6 +47,8 @@ pub enum Shape {
         /// Radius (m).
         radius: f64,
     },
+    /// Elliptic sections about a midline in the plane z = 0: a fish, a flagellate, at rest or bent.
+    Slender(Arc<Slender>),
 }
 
 /// A solid that a body is made of.

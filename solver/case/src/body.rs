@@ -33,9 +33,9 @@ pub enum ShapeSpec {
         /// Points counter-clockwise in the body frame (m), the first not repeated.
         points: Vec<[f64; 2]>,
     },
-    /// Fish (planar).
+    /// Fish (planar, spatial).
     Fish(FishShape),
-    /// Head with a tail (planar).
+    /// Head with a tail (planar, spatial).
     Flagellate(FlagellateShape),
     /// Chain with a skin; made from the links of a swimmer only.
     #[serde(skip)]

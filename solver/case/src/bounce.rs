@@ -18,7 +18,8 @@ impl Model {
             ContactSpec::Quadratic { epsilon, .. } => range / epsilon,
         };
         let of_body = |body: &Body| {
-            let mass = body.density.unwrap_or(self.case.fluid.density) * body.shape.volume();
+            let mass = body.density.unwrap_or(self.case.fluid.density)
+                * body.shape.volume_in(self.case.geometry);
             let reach = body.shape.reach();
             // Leading terms of Jeffrey and Onishi 1981 for a disc, of Brenner 1961 for a sphere
             let resistance = self.case.fluid.viscosity

@@ -32,6 +32,9 @@ pub struct FishShape {
     /// Radius with which the corner at `tail_start` is rounded.
     #[serde(default = "corner_radius")]
     pub corner_radius: f64,
+    /// Half height in the middle, of half an ellipse from head to tail (spatial); circles if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub height: Option<f64>,
 }
 
 /// `shape.flagellate`: straight along the body's x, head towards +x, origin in the centre of area.

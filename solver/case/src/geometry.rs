@@ -2,10 +2,11 @@
 
 use std::sync::Arc;
 
+use alewife_mesh::spatial::{SectionHeight, Sections};
 use alewife_mesh::{FishForm, FlagellateForm, PlacedShape, Point, Profile, Shape, Spline};
 
 use super::solid_shape::{self, Measures};
-use super::{Body, GaitSpec, Geometry, Lock, Motion, ShapeSpec};
+use super::{Body, FishShape, GaitSpec, Geometry, Lock, Motion, ShapeSpec};
 
 /// Directions in which the width of a spline is measured.
 const DIRECTIONS: u32 = 90;
@@ -37,12 +38,10 @@ impl ShapeSpec {
     #[must_use]
     pub fn geometries(&self) -> &'static [Geometry] {
         match self {
-            Self::Disc { .. }
-            | Self::Ellipse { .. }
-            | Self::Spline { .. }
-            | Self::Fish(_)
-            | Self::Flagellate(_)
-            | Self::Tube(_) => &[Geometry::Planar],
+            Self::Disc { .. } | Self::Ellipse { .. } | Self::Spline { .. } | Self::Tube(_) => {
+                &[Geometry::Planar]
+            }
+            Self::Fish(_) | Self::Flagellate(_) => &[Geometry::Planar, Geometry::Spatial],
             Self::Sphere { .. } | Self::Spheroid { .. } => {
                 &[Geometry::Axisymmetric, Geometry::Spatial]
             }
@@ -79,6 +78,32 @@ impl ShapeSpec {
             Self::Tube(tube) => tube.profile(),
             _ => None,
         }
+    }
+
+    /// How high the sections of a slender body are in space; `None` of other shapes.
+    #[must_use]
+    pub fn section_height(&self) -> Option<SectionHeight> {
+        match self {
+            Self::Fish(FishShape { height: Some(height), length, .. }) => {
+                Some(SectionHeight::Ellipse { half_height: height * length })
+            }
+            Self::Fish(_) | Self::Flagellate(_) => Some(SectionHeight::Round),
+            _ => None,
+        }
+    }
+
+    /// The sections of a slender body in space at rest; `None` of other shapes, and for lengths that make
+    /// no body.
+    #[must_use]
+    pub fn sections(&self) -> Option<Sections> {
+        self.profile()?.sections(self.section_height()?)
+    }
+
+    /// Volume in a geometry, in the plane area (m3, m2).
+    #[must_use]
+    pub fn volume_in(&self, geometry: Geometry) -> f64 {
+        let sections = self.sections().filter(|_| geometry == Geometry::Spatial);
+        sections.map_or_else(|| self.volume(), |sections| sections.moments().volume)
     }
 
     /// Points of a spline or a slender body in the body frame (m); none of other shapes.
@@ -210,6 +235,9 @@ impl ShapeSpec {
             }
             (Self::Capsule { length, radius } | Self::Cylinder { length, radius, .. }, None) => {
                 2.0 * PI * radius * length
+            }
+            (Self::Fish(_) | Self::Flagellate(_), None) => {
+                self.sections().map_or(0.0, |sections| sections.area())
             }
             (_, None) => self.measures().map_or(0.0, |measures| measures.area),
         }

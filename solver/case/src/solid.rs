@@ -1,8 +1,9 @@
 //! Domain and bodies of a case in three dimensions, as they are meshed.
 
 use std::f64::consts::PI;
+use std::sync::Arc;
 
-use alewife_mesh::spatial::{Body as SolidBody, Centreline, Domain, Part, Shape};
+use alewife_mesh::spatial::{Body as SolidBody, Centreline, Domain, Part, Shape, Slender};
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion, UnitVector3, Vector3};
 
 use super::{Body, BoundaryCondition, Case, DomainSpec, HelixShape, Orientation, ShapeSpec};
@@ -114,6 +115,9 @@ impl ShapeSpec {
                 one(Shape::Tube { centreline, radius: curve.tube_radius })
             }
             Self::Revolved { profile } => one(Shape::Revolved { profile: profile.clone() }),
+            Self::Fish(_) | Self::Flagellate(_) => {
+                one(Shape::Slender(Arc::new(Slender::new(self.sections()?))))
+            }
             Self::Union(parts) => {
                 let mut all = Vec::new();
                 for part in parts {

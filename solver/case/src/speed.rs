@@ -107,7 +107,7 @@ fn resistance(case: &Case, body: &Body) -> f64 {
 /// Weight less buoyancy of a body over the acceleration of gravity (kg; kg/m planar); 0 of a shape that is
 /// none.
 fn excess_mass(case: &Case, body: &Body) -> f64 {
-    let volume = body.shape.volume();
+    let volume = body.shape.volume_in(case.geometry);
     (body.density.unwrap_or(case.fluid.density) - case.fluid.density) * volume
 }
 

@@ -49,6 +49,15 @@ impl Solids {
                 Shape::Tube { centreline, radius } => {
                     self.tube(&pose, &points(centreline), *radius);
                 }
+                Shape::Slender(slender) => {
+                    let sections = slender.sections();
+                    let knots = sections.knots().windows(2);
+                    for pair in knots.map(|pair| [pair[0], pair[1]]) {
+                        let ends = pair.map(|along| sections.at(along)[0]);
+                        let at = ends.map(|end| Vector3::new(end[0], end[1], 0.0));
+                        self.cone(&pose, at, ends.map(|end| end[2].hypot(end[3])));
+                    }
+                }
                 Shape::Revolved { profile } => {
                     let at = |[x, _]: [f64; 2]| Vector3::new(x, 0.0, 0.0);
                     for pair in profile.windows(2) {

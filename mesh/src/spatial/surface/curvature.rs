@@ -18,6 +18,7 @@ impl SmoothSurface {
             Form::Tube(tube) => tube.radius(),
             Form::Ellipsoid(ellipsoid) => ellipsoid.radius_of_curvature(self.to_local(on)),
             Form::Revolved(revolved) => revolved.radius_of_curvature(self.to_local(on)),
+            Form::Slender(slender) => slender.radius_of_curvature(self.to_local(on)),
         }
     }
 
@@ -26,6 +27,7 @@ impl SmoothSurface {
     pub(super) fn radius_inside(&self, on: Point<3>) -> f64 {
         match &self.form {
             Form::Ellipsoid(ellipsoid) => ellipsoid.radius_inside(self.to_local(on)),
+            Form::Slender(slender) => slender.radius_inside(self.to_local(on)),
             _ => f64::INFINITY,
         }
     }
@@ -39,6 +41,7 @@ impl SmoothSurface {
             Form::Tube(tube) => tube.radius(),
             Form::Ellipsoid(ellipsoid) => ellipsoid.inner_radius(),
             Form::Revolved(revolved) => revolved.inner_radius(),
+            Form::Slender(slender) => slender.inner_radius(),
         }
     }
 
@@ -51,7 +54,7 @@ impl SmoothSurface {
             | Form::Cylinder(_)
             | Form::Capsule { .. }
             | Form::Ellipsoid(_) => true,
-            Form::Tube(_) | Form::Revolved(_) | Form::Facets(_) => false,
+            Form::Tube(_) | Form::Revolved(_) | Form::Slender(_) | Form::Facets(_) => false,
         }
     }
 

@@ -5,11 +5,13 @@ mod ellipsoid;
 mod facets;
 mod patch;
 mod revolved;
+mod slender;
 mod tube;
 
 pub use ellipsoid::Ellipsoid;
 pub use facets::{Facets, is_bent};
 pub use revolved::Revolved;
+pub use slender::Slender;
 pub use tube::Tube;
 
 use std::sync::Arc;
@@ -40,6 +42,8 @@ pub enum Form {
     Tube(Arc<Tube>),
     /// A surface of revolution about the x axis.
     Revolved(Arc<Revolved>),
+    /// Elliptic sections about a midline in the plane z = 0.
+    Slender(Arc<Slender>),
     /// A side of a given mesh, in the frame of the mesh.
     Facets(Arc<Facets>),
 }
@@ -178,6 +182,7 @@ impl SmoothSurface {
             Form::Ellipsoid(ellipsoid) => ellipsoid.reach(),
             Form::Tube(tube) => tube.reach(),
             Form::Revolved(revolved) => revolved.reach(),
+            Form::Slender(slender) => slender.reach(),
         }
     }
 
@@ -235,6 +240,7 @@ impl SmoothSurface {
             | Form::Sphere(_)
             | Form::Ellipsoid(_)
             | Form::Revolved(_)
+            | Form::Slender(_)
             | Form::Facets(_) => off,
         }
     }
@@ -248,7 +254,7 @@ impl SmoothSurface {
                 self.off_skeleton(point).norm() - radius
             }
             Form::Tube(tube) => self.off_skeleton(point).norm() - tube.radius(),
-            Form::Ellipsoid(_) | Form::Revolved(_) | Form::Facets(_) => {
+            Form::Ellipsoid(_) | Form::Revolved(_) | Form::Slender(_) | Form::Facets(_) => {
                 return self.foot(point).gap;
             }
         };
@@ -270,6 +276,7 @@ impl SmoothSurface {
             Form::Tube(tube) => self.foot_around(point, tube.radius()),
             Form::Ellipsoid(ellipsoid) => self.to_world(&ellipsoid.foot(self.to_local(point))),
             Form::Revolved(revolved) => self.to_world(&revolved.foot(self.to_local(point))),
+            Form::Slender(slender) => self.to_world(&slender.foot(self.to_local(point))),
             Form::Facets(facets) => facets.foot(point),
         };
         if self.is_hollow {
@@ -304,6 +311,10 @@ impl SmoothSurface {
     /// Edge length wanted on the surface (m) at one of its points.
     #[must_use]
     pub fn size_at(&self, on: Point<3>) -> f64 {
+        if let Form::Slender(slender) = &self.form {
+            let parts = [self.turn, EDGES_OF_RADIUS_INSIDE];
+            return self.size.min(slender.smaller_radius(self.to_local(on), parts));
+        }
         let size = self.size.min(self.turn * self.radius_of_curvature(on));
         size.min(EDGES_OF_RADIUS_INSIDE * self.radius_inside(on))
     }
@@ -312,7 +323,7 @@ impl SmoothSurface {
     #[must_use]
     pub fn uniform_size(&self) -> Option<f64> {
         match &self.form {
-            Form::Ellipsoid(_) | Form::Revolved(_) => None,
+            Form::Ellipsoid(_) | Form::Revolved(_) | Form::Slender(_) => None,
             _ => Some(self.size_at(self.origin)),
         }
     }
@@ -323,10 +334,20 @@ impl SmoothSurface {
         if self.endless_axis().is_some() {
             return self.goes_through(plane) || plane.gap(self.origin) <= self.scale();
         }
-        let on =
-            directions(SAMPLES).map(|to| self.foot(self.origin + to * (2.0 * self.reach())).point);
-        let mut gaps = on.map(|point| plane.gap(point));
-        gaps.any(|gap| gap <= 0.0)
+        self.places(SAMPLES).iter().any(|point| plane.gap(*point) <= 0.0)
+    }
+
+    /// About so many places on it, as seen from far away; of a slender body all over it.
+    #[must_use]
+    pub fn places(&self, n: usize) -> Vec<Point<3>> {
+        if let Form::Slender(slender) = &self.form {
+            let all: Vec<Point<3>> = slender.places().collect();
+            let every = (all.len() / n).max(1);
+            let own = all.iter().step_by(every);
+            return own.map(|place| self.origin + self.rotation * place).collect();
+        }
+        let far = 2.0 * self.reach();
+        directions(n).map(|to| self.foot(self.origin + to * far).point).collect()
     }
 
     /// Finds the places where it bends so much that the edge length grows faster from them than by
@@ -340,7 +361,7 @@ impl SmoothSurface {
             [axis, -axis]
         });
         let far = 2.0 * self.reach();
-        let on = axes.chain(directions(SAMPLES)).map(|to| self.foot(self.origin + to * far).point);
+        let on = axes.map(|to| self.foot(self.origin + to * far).point).chain(self.places(SAMPLES));
         let mut all: Vec<Bend> = on.map(|at| Bend { at, size: self.size_at(at) }).collect();
         all.retain(|bend| bend.size < self.size);
         all.sort_by(|a, b| a.size.total_cmp(&b.size));

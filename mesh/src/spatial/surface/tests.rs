@@ -3,6 +3,7 @@
 use super::*;
 use crate::spatial::SpaceSpline;
 use crate::spatial::centreline::Centreline;
+use crate::spatial::sections::test_bodies::{bent_fish, ellipsoid};
 use nalgebra::{Translation3, UnitQuaternion};
 
 fn forms() -> Vec<Form> {
@@ -15,6 +16,7 @@ fn forms() -> Vec<Form> {
         Form::Tube(Arc::new(Tube::new(helix(), 0.1))),
         Form::Tube(Arc::new(Tube::new(bent(), 0.1))),
         Form::Revolved(Arc::new(Revolved::new("bean", &bean()).unwrap())),
+        Form::Slender(Arc::new(Slender::new(bent_fish()))),
     ]
 }
 
@@ -106,6 +108,29 @@ fn the_radius_inside_an_ellipsoid_is_that_of_the_largest_ball() {
         assert!((depth(foot.point - foot.normal * radius) - radius).abs() < 1e-6 * radius);
         let larger = 1.1 * radius;
         assert!(depth(foot.point - foot.normal * larger) < (1.0 - 1e-4) * larger);
+    }
+}
+
+/// Through sections of an ellipsoid a slender body is the ellipsoid, ends included.
+#[test]
+fn a_slender_body_of_elliptic_sections_is_an_ellipsoid() {
+    let semi_axes = [0.9, 0.3, 0.5];
+    let (slender, exact) = (Slender::new(ellipsoid(semi_axes, 80)), Ellipsoid::new(semi_axes));
+    let on_axes = [[2.0, 0.0, 0.0], [-2.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.95, 0.0, 1e-9]];
+    for x in points().chain(on_axes.map(Point::<3>::from)) {
+        let (own, foot) = (slender.foot(x), exact.foot(x));
+        // Deep inside there may be two nearest points
+        assert!((own.gap - foot.gap).abs() < 1e-5, "{x} {own:?} {foot:?}");
+        if foot.gap > 0.0 {
+            assert!(
+                (own.point - foot.point).norm() < 1e-4 && (own.normal - foot.normal).norm() < 1e-3
+            );
+            let radii =
+                [slender.radius_of_curvature(own.point), exact.radius_of_curvature(foot.point)];
+            assert!((radii[0] / radii[1] - 1.0).abs() < 2e-2, "{x} {radii:?}");
+            let inside = [slender.radius_inside(own.point), exact.radius_inside(foot.point)];
+            assert!(inside[0] / inside[1] > 0.6 && inside[0] / inside[1] < 1.6, "{x} {inside:?}");
+        }
     }
 }
 

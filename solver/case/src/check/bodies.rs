@@ -101,7 +101,8 @@ pub(super) fn check_shape(findings: &mut Findings<'_>, key: &str, shape: &ShapeS
         Geometry::Planar => "disc, ellipse, spline, fish, flagellate",
         Geometry::Axisymmetric => "sphere, spheroid",
         Geometry::Spatial => {
-            "sphere, spheroid, ellipsoid, capsule, cylinder, helix, curve, revolved, union"
+            "sphere, spheroid, ellipsoid, capsule, cylinder, helix, curve, revolved, union, fish, \
+             flagellate"
         }
     };
     let name = shape.name();

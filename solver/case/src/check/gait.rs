@@ -5,8 +5,8 @@ use std::f64::consts::TAU;
 use super::Findings;
 use super::boundary::check_factor;
 use crate::{
-    AnguilliformGait, Body, CarangiformGait, FlagellumGait, GaitSpec, PulsatingGait, ShapeSpec,
-    SquirmerGait, TimeSettings,
+    AnguilliformGait, Body, CarangiformGait, FishShape, FlagellumGait, GaitSpec, Geometry,
+    PulsatingGait, ShapeSpec, SquirmerGait, TimeSettings,
 };
 
 /// Lengths of a fish or a flagellate.
@@ -36,6 +36,9 @@ pub fn check_shape(findings: &mut Findings<'_>, key: &str, shape: &ShapeSpec) {
         ),
         _ => return,
     };
+    if let ShapeSpec::Fish(FishShape { height: Some(height), .. }) = shape {
+        check_height(findings, &format!("{key}.fish.height"), *height);
+    }
     for (field, value) in &lengths {
         findings.positive(&format!("{key}.{name}.{field}"), *value);
     }
@@ -71,6 +74,18 @@ pub fn check_shape(findings: &mut Findings<'_>, key: &str, shape: &ShapeSpec) {
             "these lengths make no flagellate".to_owned(),
             "make the tail longer than its thickness and its fillet, or the fillet smaller",
         ),
+    }
+}
+
+/// A height of sections is one across the plane.
+fn check_height(findings: &mut Findings<'_>, key: &str, height: f64) {
+    findings.positive(key, height);
+    if findings.case().geometry == Geometry::Planar {
+        findings.error(
+            key,
+            "a fish in the plane has no height".to_owned(),
+            "leave it out, or take geometry = \"spatial\"",
+        );
     }
 }
 
@@ -349,6 +364,7 @@ motion = 'free'
         let cases = [
             (fish("shape.fish.head_end = 0.05"), "body.0.shape.fish.head_end"),
             (fish("shape.fish.tail_width = 0.1"), "body.0.shape.fish"),
+            (fish("shape.fish.height = 0.1"), "body.0.shape.fish.height"),
             (tail("thickness = 0.3"), "body.0.shape.flagellate.thickness"),
             (tail("thickness = 0.02, fillet = 900.0"), "body.0.shape.flagellate"),
             (disc("gait.carangiform.period = 1.0"), "body.0.gait"),

@@ -43,6 +43,13 @@ impl SpatialGaps {
     }
 }
 
+impl SpatialGaps {
+    /// Gives a body another surface, its origin the centre of mass.
+    pub fn deform_surface(&mut self, body: usize, surface: BodySurface) {
+        self.deform(body, SpatialSurface(surface));
+    }
+}
+
 /// Where the frame of a body is whose centre of mass is at a place of it (m).
 pub fn frame_of(pose: &Pose, centroid: &Point<3>) -> Isometry3<f64> {
     let rotation = pose.rotation();

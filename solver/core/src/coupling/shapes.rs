@@ -1,11 +1,12 @@
 //! `BodyShapes`: the shapes of all bodies at one time, and the velocities of their surfaces.
 
+use alewife_mesh::spatial::BodySurface;
 use alewife_mesh::{Outline, Point};
 use nalgebra::Vector3;
 use thiserror::Error;
 
 use super::problem::RigidBody;
-use crate::body::{Inertia, Pose};
+use crate::body::{Inertia, Orientation, Pose};
 use crate::gait::{DeformedOutline, Gait, GaitError};
 
 /// A gait that gives a body no shape at some time.
@@ -30,7 +31,16 @@ pub struct BodyShapes {
 #[derive(Debug, Clone)]
 struct BodyShape {
     deformed: DeformedOutline,
-    outline: Outline,
+    boundary: ShapeBoundary,
+}
+
+/// What bounds a body that deforms, in its own frame.
+#[derive(Debug, Clone)]
+enum ShapeBoundary {
+    /// In the plane or the meridian plane.
+    Curve(Outline),
+    /// In space.
+    Surface(BodySurface),
 }
 
 impl RigidBody {
@@ -63,10 +73,16 @@ impl BodyShapes {
     pub fn at(bodies: &[RigidBody], time: f64) -> Result<Self, ShapeError> {
         let shape = |body: &RigidBody| {
             let Some(deformed) = body.deformed_at(time)? else { return Ok(None) };
-            let outline = deformed.outline(time);
-            let outline =
-                outline.map_err(|reason| ShapeError { body: body.name.clone(), reason })?;
-            Ok(Some(BodyShape { deformed, outline }))
+            let refuse = |reason| ShapeError { body: body.name.clone(), reason };
+            // A body in space crosses itself where its outline in the plane of the midline does
+            let outline = deformed.outline(time).map_err(refuse)?;
+            let boundary = match body.pose.orientation {
+                Orientation::Planar(_) => ShapeBoundary::Curve(outline),
+                Orientation::Spatial(_) => ShapeBoundary::Surface(
+                    deformed.surface().ok_or(GaitError::Shape).map_err(refuse)?,
+                ),
+            };
+            Ok(Some(BodyShape { deformed, boundary }))
         };
         Ok(Self { time, shapes: bodies.iter().map(shape).collect::<Result<_, _>>()? })
     }
@@ -92,7 +108,19 @@ impl BodyShapes {
     /// The closed curve of a body that deforms; its centre is the origin, its angle zero.
     #[must_use]
     pub fn outline(&self, body: usize) -> Option<&Outline> {
-        self.shapes[body].as_ref().map(|shape| &shape.outline)
+        match &self.shapes[body].as_ref()?.boundary {
+            ShapeBoundary::Curve(outline) => Some(outline),
+            ShapeBoundary::Surface(_) => None,
+        }
+    }
+
+    /// The surface of a body that deforms in space, in its own frame.
+    #[must_use]
+    pub fn surface(&self, body: usize) -> Option<&BodySurface> {
+        match &self.shapes[body].as_ref()?.boundary {
+            ShapeBoundary::Curve(_) => None,
+            ShapeBoundary::Surface(surface) => Some(surface),
+        }
     }
 
     /// What moves the surfaces of the bodies at these poses, besides their rigid motions.
@@ -105,7 +133,11 @@ impl BodyShapes {
         let surface = |((body, shape), pose): ((&'a RigidBody, &'a Option<BodyShape>), &Pose)| {
             let place = |shape: &'a BodyShape| {
                 let center = Point::<2>::new(pose.center.x, pose.center.y);
-                (&shape.deformed, shape.outline.placed_at(center, pose.angle()))
+                let outline = match &shape.boundary {
+                    ShapeBoundary::Curve(outline) => Some(outline.placed_at(center, pose.angle())),
+                    ShapeBoundary::Surface(_) => None,
+                };
+                (&shape.deformed, outline)
             };
             MovingSurface {
                 gait: body.gait.as_deref(),
@@ -121,8 +153,8 @@ impl BodyShapes {
 /// The surface of a body at one time.
 pub struct MovingSurface<'a> {
     gait: Option<&'a dyn Gait>,
-    /// The outline in the frame of the body, and where it is in the world.
-    shape: Option<(&'a DeformedOutline, Outline)>,
+    /// The shape in the frame of the body, and where the outline of one in the plane is in the world.
+    shape: Option<(&'a DeformedOutline, Option<Outline>)>,
     pose: Pose,
     time: f64,
 }
@@ -135,7 +167,7 @@ impl MovingSurface<'_> {
     }
 
     /// Velocity of the surface relative to the rigid motion, in the world (m/s), at a point of it
-    /// (m); of a body that deforms, in the plane.
+    /// (m).
     #[must_use]
     pub fn velocity(&self, point: &Vector3<f64>) -> Vector3<f64> {
         let rotation = self.pose.rotation();
@@ -145,8 +177,16 @@ impl MovingSurface<'_> {
             velocity += gait.velocity(&(rotation.inverse() * lever), self.time);
         }
         if let Some((deformed, outline)) = &self.shape {
-            let rate = deformed.rate(outline.parameter_of(point.xy()));
-            velocity += Vector3::new(rate.x, rate.y, 0.0);
+            velocity += match outline {
+                Some(outline) => {
+                    let rate = deformed.rate(outline.parameter_of(point.xy()));
+                    Vector3::new(rate.x, rate.y, 0.0)
+                }
+                None => {
+                    let place = rotation.inverse() * (point - self.pose.center);
+                    deformed.velocity(deformed.material_at(&place))
+                }
+            };
         }
         rotation * velocity
     }

@@ -2,10 +2,23 @@
 
 use std::sync::Arc;
 
+use alewife_mesh::spatial::{self, BodySurface, SectionPoint, Sections, Slender};
 use alewife_mesh::{Moments, Outline, PlacedShape, Point, Shape, Spline};
+use nalgebra::{Isometry3, Vector3};
+
+use super::closed_surface::on_outline;
 
 use super::error::GaitError;
 use super::recoil_motion::RecoilMotion;
+
+/// A material point of a body that deforms.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MaterialPoint {
+    /// Parameter of a curve, or along the body from its nose; of a sphere the angle from its x axis.
+    pub along: f64,
+    /// Angle about the midline or the axis (rad); zero in the plane.
+    pub around: f64,
+}
 
 /// How the outline of a body moves in the body's own frame.
 pub trait ShapeMotion: std::fmt::Debug + Send + Sync {
@@ -44,6 +57,8 @@ pub struct DeformedOutline {
 pub(super) enum MaterialCurve {
     /// Positions (m) and velocities (m/s), linear in the same parameter.
     Spline { points: Arc<Spline>, rates: Spline },
+    /// Sections in space, and those of their velocities.
+    Sections { surface: Arc<Slender>, rates: Sections },
     /// A disc or a sphere; the parameter is the angle.
     Round { radius: f64, radial_speed: f64, is_sphere: bool },
 }
@@ -82,20 +97,42 @@ impl RecoilCorrection {
 
 impl MaterialCurve {
     /// The curve, whose parameter is a material point.
-    pub(super) fn shape(&self) -> Shape {
-        match *self {
+    pub(super) fn shape(&self) -> Option<Shape> {
+        Some(match *self {
             Self::Spline { ref points, .. } => Shape::Curve { spline: Arc::clone(points) },
+            Self::Sections { .. } => Shape::Curve { spline: Arc::new(self.outline()?) },
             Self::Round { radius, is_sphere: true, .. } => Shape::Sphere { radius },
             Self::Round { radius, is_sphere: false, .. } => Shape::Disc { radius },
-        }
+        })
     }
 }
 
 impl DeformedOutline {
-    /// The outline, whose parameter is a material point.
+    /// The outline, whose parameter is a material point; of a body in space in the plane of its midline.
     #[must_use]
-    pub fn shape(&self) -> Shape {
+    pub fn shape(&self) -> Option<Shape> {
         self.curve.shape()
+    }
+
+    /// The body in space; `None` of one in the plane.
+    #[must_use]
+    pub fn solid(&self) -> Option<spatial::Shape> {
+        match &self.curve {
+            MaterialCurve::Sections { surface, .. } => {
+                Some(spatial::Shape::Slender(Arc::clone(surface)))
+            }
+            MaterialCurve::Round { radius, is_sphere: true, .. } => {
+                Some(spatial::Shape::Sphere { radius: *radius })
+            }
+            MaterialCurve::Spline { .. } | MaterialCurve::Round { .. } => None,
+        }
+    }
+
+    /// The surface in space, in the frame of the body; `None` of a body in the plane.
+    #[must_use]
+    pub fn surface(&self) -> Option<BodySurface> {
+        let name = "a body that deforms";
+        BodySurface::new(&spatial::Body::new(name, self.solid()?, Isometry3::identity())).ok()
     }
 
     /// The closed curve in the frame of the body: its centre is the origin, its angle zero. `time` (s)
@@ -106,7 +143,7 @@ impl DeformedOutline {
     pub fn outline(&self, time: f64) -> Result<Outline, GaitError> {
         let placed = PlacedShape {
             name: "a body that deforms".to_owned(),
-            shape: self.shape(),
+            shape: self.shape().ok_or(GaitError::Shape)?,
             center: Point::<2>::zeros(),
             angle: 0.0,
             size: None,
@@ -120,6 +157,10 @@ impl DeformedOutline {
     pub fn position(&self, parameter: f64) -> Point<2> {
         match &self.curve {
             MaterialCurve::Spline { points, .. } => points.evaluate(parameter)[0],
+            MaterialCurve::Sections { surface, .. } => {
+                let sections = surface.sections();
+                sections.point(on_outline(sections, parameter)).xy()
+            }
             MaterialCurve::Round { radius, .. } => radial(parameter) * *radius,
         }
     }
@@ -129,9 +170,61 @@ impl DeformedOutline {
     pub fn rate(&self, parameter: f64) -> Point<2> {
         match &self.curve {
             MaterialCurve::Spline { rates, .. } => rates.evaluate(parameter)[0],
+            MaterialCurve::Sections { rates, .. } => rates.point(on_outline(rates, parameter)).xy(),
             MaterialCurve::Round { radial_speed, .. } => radial(parameter) * *radial_speed,
         }
     }
+}
+
+impl DeformedOutline {
+    /// The material point of the surface in space nearest to a point of the body frame (m).
+    #[must_use]
+    pub fn material_at(&self, point: &Vector3<f64>) -> MaterialPoint {
+        match &self.curve {
+            MaterialCurve::Sections { surface, .. } => {
+                let SectionPoint { along, around } = surface.parameter_of(*point);
+                MaterialPoint { along, around }
+            }
+            MaterialCurve::Spline { .. } | MaterialCurve::Round { .. } => MaterialPoint {
+                along: point.y.hypot(point.z).atan2(point.x),
+                around: point.z.atan2(point.y),
+            },
+        }
+    }
+
+    /// Where a material point of a surface in space is in the body frame (m).
+    #[must_use]
+    pub fn place(&self, at: MaterialPoint) -> Vector3<f64> {
+        match &self.curve {
+            MaterialCurve::Sections { surface, .. } => surface.sections().point(at.into()),
+            MaterialCurve::Spline { .. } | MaterialCurve::Round { .. } => {
+                around_axis(self.position(at.along), at.around)
+            }
+        }
+    }
+
+    /// Velocity of a material point of a surface in space in the body frame (m/s): the rate of
+    /// [`Self::place`].
+    #[must_use]
+    pub fn velocity(&self, at: MaterialPoint) -> Vector3<f64> {
+        match &self.curve {
+            MaterialCurve::Sections { rates, .. } => rates.point(at.into()),
+            MaterialCurve::Spline { .. } | MaterialCurve::Round { .. } => {
+                around_axis(self.rate(at.along), at.around)
+            }
+        }
+    }
+}
+
+impl From<MaterialPoint> for SectionPoint {
+    fn from(MaterialPoint { along, around }: MaterialPoint) -> Self {
+        Self { along, around }
+    }
+}
+
+/// A vector of the plane turned about x by an angle (rad).
+fn around_axis(vector: Point<2>, angle: f64) -> Vector3<f64> {
+    Vector3::new(vector.x, vector.y * angle.cos(), vector.y * angle.sin())
 }
 
 /// Unit vector at an angle (rad).

@@ -1,9 +1,11 @@
 //! How a swimmer's surface moves by itself: slip along it, or an outline that deforms.
 
 mod closed_curve;
+mod closed_surface;
 mod deformed_outline;
 mod error;
 mod grid;
+mod hull;
 mod midline;
 mod momentum;
 #[cfg(test)]
@@ -14,12 +16,14 @@ mod recoil;
 mod recoil_motion;
 mod sheet;
 mod slender_body;
+#[cfg(test)]
+mod space_tests;
 mod squirmer;
 mod surface_motion;
 #[cfg(test)]
 mod tests;
 
-pub use deformed_outline::{DeformedOutline, RecoilCorrection, ShapeMotion};
+pub use deformed_outline::{DeformedOutline, MaterialPoint, RecoilCorrection, ShapeMotion};
 pub use error::GaitError;
 pub use midline::{AngleInTime, Anguilliform, Carangiform, Flagellum, Joint, Joints, Midline};
 pub use pulse::{Pulse, PulseLaw};

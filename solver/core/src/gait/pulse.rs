@@ -77,11 +77,13 @@ impl ShapeMotion for Pulse {
         }
         let is_sphere = self.is_sphere;
         let curve = MaterialCurve::Round { radius, radial_speed: speed, is_sphere };
-        let moments = curve.shape().moments().expect("a disc and a sphere have moments");
+        let moments = curve.shape().and_then(|shape| shape.moments());
+        let moments = moments.expect("a disc and a sphere have moments");
         // Inertia goes with the power 2 + dimension of the radius
         let inertia = match moments.second {
             SecondMoments::Planar { polar } => polar,
             SecondMoments::Revolved { across, .. } => across,
+            SecondMoments::Spatial { tensor } => tensor[(2, 2)],
         };
         Ok(DeformedOutline {
             curve,

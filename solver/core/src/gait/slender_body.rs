@@ -1,14 +1,13 @@
 //! `SlenderBody`: a body about a midline that bends, in the frame without momentum of its own.
 
-use std::sync::Arc;
+use alewife_mesh::spatial::SectionHeight;
+use alewife_mesh::{Point, Profile, whole};
+use num_dual::Dual64;
 
-use alewife_mesh::{GaussRule, Moments, Point, Profile, SecondMoments, Shape, Spline, whole};
-use num_dual::{Dual64, DualNum};
-
-use super::closed_curve::ClosedCurve;
-use super::deformed_outline::{DeformedOutline, MaterialCurve, RecoilCorrection, ShapeMotion};
+use super::deformed_outline::{DeformedOutline, RecoilCorrection, ShapeMotion};
 use super::error::GaitError;
 use super::grid::Grid;
+use super::hull::{Closed, Hull};
 use super::midline::{Frame, Midline};
 use super::momentum::Interior;
 use super::recoil::RecoilAngle;
@@ -23,24 +22,13 @@ const TRIALS: u32 = 24;
 /// Periods of a recording that are looked at each by itself.
 const MOST_PERIODS: usize = 32;
 
-/// Points of the Gauss rule on each piece of the outline: exact for all its moments.
-const RULE_POINTS: usize = 6;
-
 /// A fish or a flagellate.
 #[derive(Debug)]
 pub struct SlenderBody {
     grid: Grid,
     midline: Midline,
-    rest: Arc<Spline>,
-    rest_area: f64,
-    rule: GaussRule,
+    hull: Hull,
     recoil_angle: RecoilAngle,
-}
-
-/// An outline with the area at rest, and the speed along its normals that keeps the area (m/s).
-struct Kept {
-    points: Vec<[Dual64; 2]>,
-    normal_speed: f64,
 }
 
 impl SlenderBody {
@@ -50,23 +38,37 @@ impl SlenderBody {
     /// [`GaitError`] when there is no such body, or when at some time of a cycle its midline cannot
     /// follow, its outline crosses itself, or its area changes by more than a small correction.
     pub fn new(profile: &Profile, midline: Midline) -> Result<Self, GaitError> {
+        Self::closed(profile, None, midline)
+    }
+
+    /// A body in space whose elliptic sections have these widths and heights.
+    ///
+    /// # Errors
+    /// As [`Self::new`], with its volume in place of its area.
+    pub fn in_space(
+        profile: &Profile,
+        height: SectionHeight,
+        midline: Midline,
+    ) -> Result<Self, GaitError> {
+        Self::closed(profile, Some(height), midline)
+    }
+
+    fn closed(
+        profile: &Profile,
+        height: Option<SectionHeight>,
+        midline: Midline,
+    ) -> Result<Self, GaitError> {
         if let Midline::Carangiform(gait) = &midline
             && gait.curvature.len() < 2
         {
             return Err(GaitError::Curvature { points: gait.curvature.len() });
         }
-        let rest = Arc::new(profile.spline().ok_or(GaitError::Shape)?);
-        let rest_area = Shape::Curve { spline: Arc::clone(&rest) }
-            .moments()
-            .map(|moments| moments.measure)
-            .ok_or(GaitError::Shape)?;
         let [transient, period] = midline.cycle();
+        let grid = Grid::new(profile, &midline.discontinuities());
         let body = Self {
-            grid: Grid::new(profile, &midline.discontinuities()),
+            hull: Hull::new(profile, &grid, height)?,
+            grid,
             midline,
-            rest,
-            rest_area,
-            rule: GaussRule::new(RULE_POINTS),
             recoil_angle: RecoilAngle::new(transient, period),
         };
         body.validate()?;
@@ -104,73 +106,41 @@ impl SlenderBody {
     /// The outline at a time (s), turned by an angle (rad) from the frame of the head.
     fn deformed(&self, time: f64, angle: f64) -> Result<DeformedOutline, GaitError> {
         let frames = self.midline.frames(&self.grid, Dual64::new(time, 1.0));
-        let interior = Interior::of(&self.grid.nodes, &frames.nodes);
+        let across = self.hull.across();
+        let interior = Interior::of(&self.grid.nodes, &frames.nodes, across);
         let turning = recoil_rate(&interior, time)?;
-        let Kept { points, normal_speed } = self.keep_area(time, &self.points(&frames.stations))?;
-        let knots = self.rest.knots();
-        let through = |points: &[[Dual64; 2]]| {
-            ClosedCurve::through(points, knots).ok_or(GaitError::NoOffset { time })
-        };
-        let enclosed = through(&points)?.enclosed(&self.rule);
-        let (sin, cos) = Dual64::new(angle, turning).sin_cos();
-        let placed: Vec<[Dual64; 2]> = points
-            .iter()
-            .map(|point| {
-                let [x, y] = [0, 1].map(|i| point[i] - enclosed.center[i]);
-                [cos * x - sin * y, sin * x + cos * y]
-            })
-            .collect();
-        let closed = through(&placed)?;
-        let mean_normal_speed = closed.mean_normal_speed();
-        let drift = [0, 1].map(|i| interior.center[i].eps - enclosed.center[i].eps);
-        let curve = MaterialCurve::Spline { points: Arc::new(closed.points), rates: closed.rates };
+        let narrowing: Vec<Dual64> =
+            frames.stations.iter().map(|frame| across.narrowing(frame)).collect();
+        let points = self.points(&frames.stations, &narrowing);
+        let closed = self.hull.close(time, &points, &narrowing, Dual64::new(angle, turning))?;
+        let Closed { curve, moments, inertia_rate, center, .. } = closed;
+        let drift = [0, 1].map(|i| interior.center[i].eps - center[i].eps);
         Ok(DeformedOutline {
             curve,
-            moments: Moments {
-                measure: enclosed.area.re,
-                centroid: Point::<2>::zeros(),
-                second: SecondMoments::Planar { polar: enclosed.polar.re },
-            },
-            inertia_rate: enclosed.polar.eps,
+            moments,
+            inertia_rate,
             recoil: RecoilCorrection {
-                center: Point::<2>::from(enclosed.center.map(|part| part.re)),
-                velocity: Point::<2>::from(enclosed.center.map(|part| part.eps)),
+                center: Point::<2>::from(center.map(|part| part.re)),
+                velocity: Point::<2>::from(center.map(|part| part.eps)),
                 angle: -angle,
                 angular_velocity: -turning,
-                normal_speed,
-                mean_normal_speed,
+                normal_speed: closed.normal_speed,
+                mean_normal_speed: closed.mean_normal_speed,
                 interior_drift: drift[0].hypot(drift[1]),
             },
         })
     }
 
-    /// The points, moved along the normals of their curve by the same offset, so that it encloses
-    /// the area at rest.
-    fn keep_area(&self, time: f64, raw: &[[Dual64; 2]]) -> Result<Kept, GaitError> {
-        let knots = self.rest.knots();
-        let curve = ClosedCurve::through(raw, knots).ok_or(GaitError::Midline { time })?;
-        let normals = curve.normals();
-        let widening = ClosedCurve::through(&normals, knots).ok_or(GaitError::Midline { time })?;
-        // area + first offset + second offset² = area at rest
-        let [area, first, second] = curve.area_along(&self.rule, &widening);
-        let missing = -area + self.rest_area;
-        let root = (first * first + second * missing * 4.0).sqrt();
-        let offset = missing * 2.0 / (first + root);
-        let points = raw
-            .iter()
-            .zip(&normals)
-            .map(|(point, normal)| [0, 1].map(|i| point[i] + normal[i] * offset))
-            .collect();
-        Ok(Kept { points, normal_speed: offset.eps })
-    }
-
     /// Material points from the head counter-clockwise.
-    fn points(&self, frames: &[Frame<Dual64>]) -> Vec<[Dual64; 2]> {
-        let stations = self.grid.stations.iter().zip(frames);
+    fn points(&self, frames: &[Frame<Dual64>], narrowing: &[Dual64]) -> Vec<[Dual64; 2]> {
+        let stations = self.grid.stations.iter().zip(frames).zip(narrowing);
         let side = |sign: f64| {
-            move |(station, frame): (&alewife_mesh::Station, &Frame<Dual64>)| {
+            move |((station, frame), narrowing): (
+                (&alewife_mesh::Station, &Frame<Dual64>),
+                &Dual64,
+            )| {
                 let normal = frame.normal();
-                let width = frame.stretch.recip() * (sign * station.half_width);
+                let width = *narrowing * (sign * station.half_width);
                 [0, 1].map(|i| frame.position[i] + normal[i] * width)
             }
         };
@@ -189,7 +159,7 @@ impl SlenderBody {
 
     fn interior(&self, time: f64) -> Interior {
         let frames = self.midline.frames(&self.grid, Dual64::new(time, 1.0));
-        Interior::of(&self.grid.nodes, &frames.nodes)
+        Interior::of(&self.grid.nodes, &frames.nodes, self.hull.across())
     }
 
     /// What is subtracted at a time (s), from the interior alone.

@@ -86,7 +86,8 @@ pub(super) fn all() -> Vec<(&'static str, Profile, Midline, [f64; 3])> {
 fn polar(deformed: &DeformedOutline) -> f64 {
     match deformed.moments.second {
         alewife_mesh::SecondMoments::Planar { polar } => polar,
-        alewife_mesh::SecondMoments::Revolved { .. } => panic!("is planar"),
+        alewife_mesh::SecondMoments::Revolved { across, .. } => across,
+        alewife_mesh::SecondMoments::Spatial { .. } => panic!("is planar or round"),
     }
 }
 
@@ -111,7 +112,7 @@ fn area_and_centre_stay_and_rates_are_the_derivatives_of_positions() {
         let rest = swimmer.at(0.0).unwrap();
         for time in times {
             let now = swimmer.at(time).unwrap();
-            let moments = now.shape().moments().unwrap();
+            let moments = now.shape().unwrap().moments().unwrap();
             let off = (moments.measure / rest.moments.measure - 1.0).abs();
             assert!(off < 1e-12, "{name} at {time}: area off by {off:.1e}");
             assert!((now.moments.measure / moments.measure - 1.0).abs() < 1e-13);
@@ -120,7 +121,7 @@ fn area_and_centre_stay_and_rates_are_the_derivatives_of_positions() {
             let inertia = difference(|t| polar(&swimmer.at(t).unwrap()), time, step);
             let scale = polar(&now) / period;
             assert!((inertia - now.inertia_rate).abs() < 1e-7 * scale, "{name}");
-            let knots = match now.shape() {
+            let knots = match now.shape().unwrap() {
                 Shape::Curve { spline } => spline.period(),
                 _ => panic!("is a curve"),
             };
@@ -149,7 +150,8 @@ fn interior(grid: &Grid, midline: &Midline, time: f64, across: &[f64]) -> Vec<Po
         let normal = Point::<2>::from(frame.normal());
         for m in across {
             points.push(
-                Point::<2>::from(frame.position) + normal * offset(frame, node.half_width, *m),
+                Point::<2>::from(frame.position)
+                    + normal * offset(frame, node.half_width / frame.stretch, *m),
             );
         }
     }
@@ -248,9 +250,10 @@ fn midlines_agree_with_their_derivatives() {
                 assert!(off < 1e-6, "{name}: length off by {off:.1e}");
             }
             for (node, frame) in grid.nodes.iter().zip(&frames.nodes) {
+                let width = node.half_width / frame.stretch;
                 for m in [-0.8, 0.1, 0.9] {
-                    let slope = difference(|m| offset(frame, node.half_width, m), m, 1e-2);
-                    let y: f64 = offset(frame, node.half_width, m);
+                    let slope = difference(|m| offset(frame, width, m), m, 1e-2);
+                    let y: f64 = offset(frame, width, m);
                     let density = frame.stretch * (1.0 + frame.curvature * y) * slope;
                     assert!((density / node.half_width - 1.0).abs() < 1e-9, "{name}");
                 }
@@ -323,7 +326,7 @@ fn outlines_do_not_cross_themselves_and_are_fast_to_make() {
         for deformed in shapes {
             let body = PlacedShape {
                 name: name.to_owned(),
-                shape: deformed.shape(),
+                shape: deformed.shape().unwrap(),
                 center: Point::<2>::zeros(),
                 angle: 0.0,
                 size: None,
@@ -363,10 +366,7 @@ fn the_rates_of_pulses_are_the_derivatives_of_positions() {
                 let now = pulse.at(time).unwrap();
                 let rate = difference(|t| pulse.at(t).unwrap().position(0.6), time, 1e-2);
                 assert!((rate - now.rate(0.6)).norm() < 1e-7);
-                let inertia = |t: f64| match pulse.at(t).unwrap().moments.second {
-                    alewife_mesh::SecondMoments::Planar { polar } => polar,
-                    alewife_mesh::SecondMoments::Revolved { across, .. } => across,
-                };
+                let inertia = |t: f64| polar(&pulse.at(t).unwrap());
                 assert!((difference(inertia, time, 1e-2) - now.inertia_rate).abs() < 1e-7);
             }
         }

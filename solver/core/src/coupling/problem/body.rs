@@ -133,6 +133,11 @@ impl RigidBody {
             return self.inertia;
         };
         let (deformed, rest) = (second_moments(&outline.moments), self.volume.tensor);
+        if let SecondMoments::Spatial { .. } = outline.moments.second {
+            // Of one density everywhere
+            let tensor = deformed * (self.inertia.mass / self.volume.mass);
+            return Inertia { tensor, ..self.inertia };
+        }
         let tensor = Matrix3::from_fn(|i, j| {
             let at_rest = self.inertia.tensor[(i, j)];
             if at_rest == 0.0 { 0.0 } else { at_rest * deformed[(i, j)] / rest[(i, j)] }
@@ -148,6 +153,7 @@ pub fn second_moments(moments: &Moments) -> Matrix3<f64> {
         // In the plane only the moment about z is known, and needed
         SecondMoments::Planar { polar } => [0.0, 0.0, polar],
         SecondMoments::Revolved { along, across } => [along, across, across],
+        SecondMoments::Spatial { tensor } => return tensor,
     };
     Matrix3::from_diagonal(&Vector3::new(along, across, about_z))
 }

@@ -142,7 +142,7 @@ mod tests {
         let rest = shape.moments().unwrap().measure;
         for time in [0.2, 0.9, 1.4, 3.7] {
             let now = swimmer.at(time).unwrap();
-            let area = now.shape().moments().unwrap().measure;
+            let area = now.shape().unwrap().moments().unwrap().measure;
             assert!((area / rest - 1.0).abs() < 1e-12, "{time}: {area} {rest}");
             let recoil = &now.recoil;
             assert!(recoil.interior_drift < 1e-5 * recoil.mean_normal_speed, "{recoil:?}");

@@ -13,7 +13,7 @@ use crate::case::{
 use crate::coupling::{Drive, RigidBody, Spring, TimeValue};
 use crate::gait::{Gait, InTime, Squirmer};
 use crate::simulation::RunError;
-use crate::simulation::planar::shape_motion;
+use crate::simulation::shape_motion;
 use crate::space::Metric;
 use crate::time::factor_at;
 
@@ -57,7 +57,7 @@ pub(super) fn rigid_body<const D: usize>(
         load_in_body: !body.load_frame.is_laboratory(),
         spring: body.spring.as_ref().map(|spring| rigid_spring(spring, &pose)),
         gait: slip(body, metric),
-        shape: shape_motion(body)?,
+        shape: shape_motion(body, case.geometry)?,
         ..RigidBody::held(body.name.clone(), boundary, pose)
     })
 }

@@ -2,6 +2,7 @@
 
 use std::f64::consts::PI;
 
+use alewife_mesh::spatial::SectionMoments;
 use alewife_mesh::{BoundaryId, Mesh, Point};
 use nalgebra::{Matrix3, Rotation2, Vector3};
 
@@ -63,6 +64,9 @@ impl Solid {
             return Ok(Self { volume: Inertia { mass, tensor }, pose });
         }
         let volume = match (&body.shape, body.shape.semi_axes()) {
+            (ShapeSpec::Fish(_) | ShapeSpec::Flagellate(_), None) => {
+                sections(body.shape.sections().ok_or_else(|| no_solid(body))?.moments())
+            }
             (_, Some(semi_axes)) => ellipsoid(semi_axes),
             (ShapeSpec::Capsule { length, radius }, None) => capsule(*length, *radius),
             (ShapeSpec::Cylinder { radius, axis, length }, None) => {
@@ -115,6 +119,13 @@ fn enclosed<const D: usize>(mesh: &Mesh<D>, boundary: BoundaryId) -> Enclosed {
     let central = second - centroid * centroid.transpose() * mass;
     let tensor = Matrix3::identity() * central.trace() - central;
     Enclosed { mass, centroid: near + centroid, tensor }
+}
+
+/// A body of sections about its centre, at rest, of unit density.
+fn sections(moments: SectionMoments<f64>) -> Inertia {
+    let [xx, _, yy, zz] = moments.second;
+    let diagonal = Vector3::new(yy + zz, xx + zz, xx + yy);
+    Inertia { mass: moments.volume, tensor: Matrix3::from_diagonal(&diagonal) }
 }
 
 /// An ellipsoid of unit density: m (b^2 + c^2) / 5 about its first axis.

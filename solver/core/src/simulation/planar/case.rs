@@ -3,7 +3,6 @@
 use alewife_mesh::{Domain, Mesh, PlacedShape, Sizing, estimate_cells};
 
 use super::periodic_cell::{PeriodicCell, initial_cell};
-use super::shape_motion::shape_motion;
 use crate::body::Pose;
 use crate::case::{Body, BoundaryCondition, Case, MeshFile, Model};
 use crate::coupling::{Problem, ShapeError};
@@ -11,6 +10,7 @@ use crate::gait::WavingSheet;
 use crate::motion::Limits;
 use crate::simulation::RunError;
 use crate::simulation::moving_mesh::MotionSettings;
+use crate::simulation::shape_motion;
 use crate::simulation::sizing::{limits, sizing};
 use crate::simulation::start::check_cells;
 
@@ -111,10 +111,12 @@ fn waving_sheet(case: &Case, side: &str) -> Option<WavingSheet> {
 fn placed_bodies(model: &Model) -> Result<Vec<PlacedShape>, RunError> {
     let placed = |body: &Body| {
         let mut placed = body.placed(model.case.mesh.scale);
-        if let Some(motion) = shape_motion(body)? {
+        if let Some(motion) = shape_motion(body, model.case.geometry)? {
             let start = motion.at(0.0);
             let start = start.map_err(|reason| ShapeError { body: body.name.clone(), reason })?;
-            placed.shape = start.shape();
+            if let Some(shape) = start.shape() {
+                placed.shape = shape;
+            }
         }
         Ok(placed)
     };

@@ -4,7 +4,4 @@ mod case;
 mod periodic_cell;
 mod resume;
 mod scene;
-mod shape_motion;
 mod start;
-
-pub use shape_motion::{BodyRecoil, recoils, shape_motion};

@@ -13,7 +13,7 @@ use super::periodic_cell::{PeriodicCell, choose_periodic_cell, start_of, started
 use crate::body::{Pose, on_mesh};
 use crate::contact::{Gaps, PlanarGaps};
 use crate::coupling::BodyShapes;
-use crate::gait::WavingSheet;
+use crate::gait::{DeformedOutline, WavingSheet};
 use crate::motion::{Fresh, RigidMove, needs_remesh};
 use crate::simulation::scene::{Meshed, PosesByShift, RemeshError, Scene};
 
@@ -73,9 +73,9 @@ impl PlanarScene {
         let starts = case.start_shapes.iter().zip(&case.start_poses).zip(&poses).enumerate();
         let carried = starts.map(|(body, ((shape, start), pose))| {
             let carried = RigidMove::between(start, pose).carry(shape);
-            match shapes.deformed(body) {
+            match shapes.deformed(body).and_then(DeformedOutline::shape) {
                 None => carried,
-                Some(deformed) => PlacedShape { shape: deformed.shape(), ..carried },
+                Some(shape) => PlacedShape { shape, ..carried },
             }
         });
         let carried = carried.collect();
@@ -86,16 +86,18 @@ impl PlanarScene {
     fn shapes_at(&self, poses: &[Pose], shapes: &BodyShapes) -> Vec<PlacedShape> {
         let bodies = self.shapes.iter().zip(&self.poses).zip(poses).enumerate();
         bodies
-            .map(|(body, ((shape, reference), pose))| match shapes.deformed(body) {
-                Some(deformed) => placed(shape, deformed.shape(), pose),
-                None => {
-                    let orientation = if self.case.motion.turns[body] {
-                        pose.orientation
-                    } else {
-                        reference.orientation
-                    };
-                    let to = Pose { orientation, ..*pose };
-                    RigidMove::between(reference, &to).carry(shape)
+            .map(|(body, ((shape, reference), pose))| {
+                match shapes.deformed(body).and_then(DeformedOutline::shape) {
+                    Some(deformed) => placed(shape, deformed, pose),
+                    None => {
+                        let orientation = if self.case.motion.turns[body] {
+                            pose.orientation
+                        } else {
+                            reference.orientation
+                        };
+                        let to = Pose { orientation, ..*pose };
+                        RigidMove::between(reference, &to).carry(shape)
+                    }
                 }
             })
             .collect()

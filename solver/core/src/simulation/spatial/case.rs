@@ -1,17 +1,19 @@
 //! What a case in space says of meshes: domain, sizes, bodies.
 
-use alewife_mesh::spatial::{Body as Solid, Domain};
+use alewife_mesh::spatial::{Body as Solid, Domain, Part};
 use alewife_mesh::{Point, Sizing};
-use nalgebra::Vector3;
+use nalgebra::{Isometry3, Vector3};
 
 use crate::body::Pose;
-use crate::case::Model;
+use crate::case::{Body, Model};
 use crate::contact::frame_of;
-use crate::coupling::Problem;
+use crate::coupling::{BodyShapes, Problem, ShapeError};
+use crate::gait::DeformedOutline;
 use crate::motion::Limits;
 use crate::simulation::RunError;
 use crate::simulation::build::no_solid;
 use crate::simulation::moving_mesh::MotionSettings;
+use crate::simulation::shape_motion;
 use crate::simulation::sizing::{limits, sizing};
 
 /// What stays the same over all meshes of a run.
@@ -31,6 +33,8 @@ pub(super) struct SpatialCase {
     solids: Vec<Solid>,
     /// Their centres of mass, in the frames of the bodies (m).
     pub centroids: Vec<Point<3>>,
+    /// Which bodies deform.
+    pub deforms: Vec<bool>,
 }
 
 impl SpatialCase {
@@ -38,7 +42,11 @@ impl SpatialCase {
     pub fn new(model: &Model, problem: &Problem<3>) -> Result<Self, RunError> {
         let solids = solids(model)?;
         let centroid = |(solid, body): (&Solid, &crate::coupling::RigidBody)| {
-            solid.pose.inverse_transform_point(&body.pose.center.into()).coords
+            // A body that deforms has its frame about its centre
+            match body.shape {
+                Some(_) => Point::<3>::zeros(),
+                None => solid.pose.inverse_transform_point(&body.pose.center.into()).coords,
+            }
         };
         Ok(Self {
             domain: model.case.domain_in_space().ok_or_else(no_domain)?,
@@ -46,25 +54,42 @@ impl SpatialCase {
             limits: limits(&model.case),
             motion: MotionSettings::new(model, problem),
             centroids: solids.iter().zip(&problem.bodies).map(centroid).collect(),
+            deforms: problem.bodies.iter().map(|body| body.shape.is_some()).collect(),
             pivots: problem.pairs_on_pivots(),
             solids,
         })
     }
 
-    /// The bodies in poses.
-    pub fn solids_at(&self, poses: &[Pose]) -> Vec<Solid> {
-        let placed = |((solid, centroid), pose): ((&Solid, &Point<3>), &Pose)| Solid {
-            pose: frame_of(pose, centroid),
-            ..solid.clone()
+    /// The bodies with these shapes in poses.
+    pub fn solids_at(&self, poses: &[Pose], shapes: &BodyShapes) -> Vec<Solid> {
+        let bodies = self.solids.iter().zip(&self.centroids).zip(poses).enumerate();
+        let placed = |(body, ((solid, centroid), pose)): (usize, ((&Solid, &Point<3>), &Pose))| {
+            let placed = Solid { pose: frame_of(pose, centroid), ..solid.clone() };
+            with_shape(placed, shapes.deformed(body))
         };
-        self.solids.iter().zip(&self.centroids).zip(poses).map(placed).collect()
+        bodies.map(placed).collect()
+    }
+}
+
+/// A body with the shape it has when it deforms.
+fn with_shape(solid: Solid, deformed: Option<&DeformedOutline>) -> Solid {
+    match deformed.and_then(DeformedOutline::solid) {
+        Some(shape) => Solid { parts: vec![Part { shape, pose: Isometry3::identity() }], ..solid },
+        None => solid,
     }
 }
 
 /// The bodies of a case as they are meshed at time zero.
 pub(super) fn solids(model: &Model) -> Result<Vec<Solid>, RunError> {
     let scale = model.case.mesh.scale;
-    model.bodies.iter().map(|body| body.solid(scale).ok_or_else(|| no_solid(body))).collect()
+    let solid = |body: &Body| {
+        let rest = body.solid(scale).ok_or_else(|| no_solid(body))?;
+        let motion = shape_motion(body, model.case.geometry)?;
+        let start = motion.map(|motion| motion.at(0.0)).transpose();
+        let start = start.map_err(|reason| ShapeError { body: body.name.clone(), reason })?;
+        Ok(with_shape(rest, start.as_ref()))
+    };
+    model.bodies.iter().map(solid).collect()
 }
 
 /// Moves bodies by whole periods to where their frames are in the domain; gives how far (m).

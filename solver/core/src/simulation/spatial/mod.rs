@@ -20,7 +20,7 @@ use super::sizing::sizing;
 use super::start::check_cells;
 use crate::body::Pose;
 use crate::case::{Case, Model};
-use crate::coupling::Problem;
+use crate::coupling::{BodyShapes, Problem};
 
 impl CaseMesh<3> for Dimension<3> {
     fn generate(model: &Model) -> Result<InitialMesh<3>, RunError> {
@@ -72,9 +72,10 @@ fn moving(
     time: f64,
 ) -> Result<Result<MovingMesh<3>, RemeshError>, RunError> {
     let case = Arc::new(SpatialCase::new(model, problem)?);
+    let shapes = BodyShapes::at(&problem.bodies, time)?;
     let moving = || {
         let settings = case.motion.clone();
-        let scene = SpatialScene::new(Arc::clone(&case), mesh, &poses)?;
+        let scene = SpatialScene::new(Arc::clone(&case), mesh, &poses, &shapes)?;
         Ok(MovingMesh::new(mesh, Box::new(scene), settings, poses, time)?)
     };
     Ok(moving())

@@ -1,8 +1,8 @@
-//! From shape and gait of a case to the motion of an outline.
+//! From shape and gait of a case to the motion of an outline, or of a surface in space.
 
 use std::sync::Arc;
 
-use crate::case::{BentJoint, Body, GaitSpec, JointsGait, Model, ShapeSpec, Stroke};
+use crate::case::{BentJoint, Body, GaitSpec, Geometry, JointsGait, Model, ShapeSpec, Stroke};
 use crate::coupling::ShapeError;
 use crate::gait::{
     AngleInTime, Anguilliform, Carangiform, Flagellum, Joint, Joints, Midline, Pulse, PulseLaw,
@@ -13,11 +13,14 @@ use crate::simulation::RunError;
 /// Knots of angles from a file that are taken for a period.
 const KNOTS_OF_PERIOD: f64 = 16.0;
 
-/// How the outline of a body moves in the body's frame; `None` if it does not.
+/// How the outline or the surface of a body moves in the body's frame; `None` if it does not.
 ///
 /// # Errors
 /// When the gait does not fit the shape, or moves the body as no body can.
-pub fn shape_motion(body: &Body) -> Result<Option<Arc<dyn ShapeMotion>>, RunError> {
+pub fn shape_motion(
+    body: &Body,
+    geometry: Geometry,
+) -> Result<Option<Arc<dyn ShapeMotion>>, RunError> {
     let refuse = |why: &str| RunError::Unsupported(format!("body `{}`: {why}", body.name));
     if !body.deforms() {
         return Ok(None);
@@ -75,8 +78,12 @@ pub fn shape_motion(body: &Body) -> Result<Option<Arc<dyn ShapeMotion>>, RunErro
         _ => return Err(refuse("its gait does not fit its shape")),
     };
     let profile = body.shape.profile().ok_or_else(|| refuse("its lengths make no body"))?;
-    let slender = SlenderBody::new(&profile, midline)
-        .map_err(|reason| ShapeError { body: body.name.clone(), reason })?;
+    let height = body.shape.section_height().filter(|_| geometry == Geometry::Spatial);
+    let slender = match height {
+        Some(height) => SlenderBody::in_space(&profile, height, midline),
+        None => SlenderBody::new(&profile, midline),
+    };
+    let slender = slender.map_err(|reason| ShapeError { body: body.name.clone(), reason })?;
     Ok(Some(Arc::new(slender)))
 }
 
@@ -96,7 +103,7 @@ pub struct BodyRecoil {
 pub fn recoils(model: &Model) -> Result<Vec<BodyRecoil>, RunError> {
     let mut recoils = Vec::new();
     for body in &model.bodies {
-        let Some(shape) = shape_motion(body)? else { continue };
+        let Some(shape) = shape_motion(body, model.case.geometry)? else { continue };
         let motion =
             shape.recoil().map_err(|reason| ShapeError { body: body.name.clone(), reason })?;
         recoils.push(BodyRecoil { body: body.name.clone(), motion });
@@ -179,15 +186,17 @@ motion = 'free'
              gait.flagellum = { period = 0.3, wavelength = 2.0, amplitude = 0.4 }",
             "shape.disc.radius = 1.0\ngait.pulsating = { amplitude = 0.5, period = 1.0 }",
         ] {
-            let start = shape_motion(&body(text)).unwrap().unwrap().at(0.0).unwrap();
+            let start =
+                shape_motion(&body(text), Geometry::Planar).unwrap().unwrap().at(0.0).unwrap();
             let outline = Outline::new(&body(text).placed(1.0)).unwrap();
             for parameter in [0.0, 0.3, 1.9] {
                 let off = start.position(parameter) - outline.at(parameter)[0];
                 assert!(off.norm() < 1e-12, "{text}: {off}");
             }
         }
-        assert!(shape_motion(&body("shape.fish.length = 1.0")).unwrap().is_none());
+        let motion = |text: &str| shape_motion(&body(text), Geometry::Planar);
+        assert!(motion("shape.fish.length = 1.0").unwrap().is_none());
         let bent = "shape.fish.length = 1.0\ngait.carangiform = { period = 1.0, bending = 9.0 }";
-        assert!(shape_motion(&body(bent)).unwrap_err().to_string().contains("crosses itself"));
+        assert!(motion(bent).unwrap_err().to_string().contains("crosses itself"));
     }
 }

@@ -1,0 +1,371 @@
+//! `Slender`: the surface of elliptic sections about a midline; its nearest points by Newton's method.
+
+use std::fmt;
+
+use nalgebra::{Matrix2, SymmetricEigen, Vector2};
+
+use super::Foot;
+use crate::spatial::sections::{Section, SectionPoint, Sections, on_section};
+use crate::{Bounds, BoxTree, Point};
+
+/// Angles at which a ring is looked at for the box around it, and for places on the surface.
+const ANGLES: usize = 8;
+
+/// Part of a box by which it is enlarged, as its surface bends out between the places that are looked at.
+const MARGIN: f64 = 0.1;
+
+/// Steps of Newton's method.
+const MOST_STEPS: usize = 60;
+
+/// Halvings of a step.
+const MOST_HALVINGS: usize = 30;
+
+/// Offset along the surface from the nearest point over the lengths involved that is rounding.
+const ROUNDING: f64 = 4e-16;
+
+/// Change of the squared distance over itself below which rounding decides whether a step helps.
+const FLAT: f64 = 1e-10;
+
+/// Least distance from the ends over the whole parameter, so that a section has a direction.
+const OFF_ENDS: f64 = 1e-9;
+
+/// Part of the slope of the width at an end down to which a place belongs to the end, where places are
+/// told by plane coordinates about it.
+const CAP: f64 = 0.7;
+
+/// A body of elliptic sections.
+#[derive(Clone)]
+pub struct Slender {
+    sections: Sections,
+    /// In the middle of each piece.
+    rings: Vec<Ring>,
+    boxes: BoxTree<3>,
+    /// Parameters up to which the ends go, from each end.
+    caps: [f64; 2],
+    reach: f64,
+    inner_radius: f64,
+}
+
+impl fmt::Debug for Slender {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "Slender of {} sections", self.sections.knots().len())
+    }
+}
+
+impl PartialEq for Slender {
+    fn eq(&self, other: &Self) -> bool {
+        self.sections == other.sections
+    }
+}
+
+/// A section and its parameter.
+#[derive(Debug, Clone, Copy)]
+struct Ring {
+    along: f64,
+    section: Section,
+}
+
+/// Half the squared distance near a place.
+struct Quadratic {
+    slope: Vector2<f64>,
+    bend: Matrix2<f64>,
+    /// Its second derivative on the surface itself: squares of lengths.
+    metric: Matrix2<f64>,
+}
+
+/// A place of the surface with derivatives along and around.
+struct Local {
+    point: Point<3>,
+    along: Point<3>,
+    around: Point<3>,
+    /// Second derivatives: along, mixed, around.
+    second: [Point<3>; 3],
+}
+
+/// Coordinates near an end, where angles have no meaning: r and t are lengths along and around.
+struct Chart {
+    /// Distance from the end, or what makes an angle a length.
+    radius: f64,
+    /// 1 where it grows with the parameter, -1 where it falls, 0 away from the ends.
+    sign: f64,
+}
+
+impl Slender {
+    /// The surface of sections whose widths are positive between the ends.
+    #[must_use]
+    pub fn new(sections: Sections) -> Self {
+        let knots = sections.knots();
+        let (mut rings, mut boxes) = (Vec::new(), Vec::new());
+        for pair in knots.windows(2) {
+            let middle = 0.5 * (pair[0] + pair[1]);
+            rings.push(Ring { along: middle, section: sections.at(middle)[0] });
+            let ends = [pair[0], middle, pair[1]].map(|along| sections.at(along)[0]);
+            let points: Vec<Point<3>> = ends.iter().flat_map(ring_corners).collect();
+            let bounds = Bounds::around(&points);
+            let margin = Point::<3>::repeat(MARGIN * (bounds.max - bounds.min).max());
+            boxes.push(Bounds { min: bounds.min - margin, max: bounds.max + margin });
+        }
+        let corners = boxes.iter().map(|one| one.min.abs().sup(&one.max.abs()).norm());
+        let reach = corners.fold(0.0, f64::max);
+        let end = sections.end();
+        let slope = |along: f64| sections.at(along)[1].fixed_rows::<2>(2).norm();
+        let cap = |from: f64, inner: &dyn Fn(usize) -> f64| {
+            let whole = slope(from);
+            let off = (1..=knots.len() / 2).map(|i| (inner(i) - from).abs());
+            let ends = (1..=knots.len() / 2).map(|i| slope(inner(i)) < CAP * whole);
+            off.zip(ends).find(|(_, ends)| *ends).map_or(0.25 * end, |(off, _)| off.min(0.25 * end))
+        };
+        let caps = [cap(0.0, &|i| knots[i]), cap(end, &|i| knots[knots.len() - 1 - i])];
+        let inner_radius = [0.0, end].map(|along| {
+            let [_, rate, second] = sections.at(along);
+            let bend = second.fixed_rows::<2>(0).norm();
+            rate.fixed_rows::<2>(2).norm().min(rate[4].abs()).powi(2) / bend
+        });
+        let inner_radius = inner_radius[0].min(inner_radius[1]);
+        let boxes = BoxTree::new(&boxes);
+        Self { sections, rings, boxes, caps, reach, inner_radius }
+    }
+
+    /// The sections it is made of.
+    #[must_use]
+    pub fn sections(&self) -> &Sections {
+        &self.sections
+    }
+
+    /// Radius of a ball about the origin that holds the surface (m).
+    #[must_use]
+    pub fn reach(&self) -> f64 {
+        self.reach
+    }
+
+    /// Radius (m) of a ball that fits into the more pointed one of its ends.
+    #[must_use]
+    pub fn inner_radius(&self) -> f64 {
+        self.inner_radius
+    }
+
+    /// Places all over the surface (m).
+    pub fn places(&self) -> impl Iterator<Item = Point<3>> + '_ {
+        self.rings.iter().flat_map(|ring| ring_corners(&ring.section))
+    }
+
+    /// The nearest point to a point (m) of its frame, the normal outward.
+    #[must_use]
+    pub fn foot(&self, of: Point<3>) -> Foot {
+        let local = self.local(self.parameter_of(of));
+        let normal = local.normal();
+        Foot { point: local.point, normal, gap: (of - local.point).dot(&normal) }
+    }
+
+    /// Coordinates of the point nearest to a point (m).
+    #[must_use]
+    pub fn parameter_of(&self, of: Point<3>) -> SectionPoint {
+        let mut nearest = SectionPoint { along: 0.0, around: 0.0 };
+        let mut least = f64::INFINITY;
+        self.boxes.visit_near(of, f64::INFINITY, |index, reach| {
+            let Ring { along, section } = &self.rings[index];
+            let on = OnRing::nearest(section, &of);
+            if on.distance < least {
+                nearest = SectionPoint { along: *along, around: on.around };
+                least = on.distance;
+                *reach = on.distance;
+            }
+            false
+        });
+        self.descend(&of, nearest)
+    }
+
+    /// The place nearest to a point (m) that Newton's method finds from another place.
+    fn descend(&self, of: &Point<3>, start: SectionPoint) -> SectionPoint {
+        let mut at = start;
+        let mut local = self.local(at);
+        for _ in 0..MOST_STEPS {
+            let off = local.point - of;
+            let square = off.norm_squared();
+            let chart = self.chart(at.along, &local);
+            let Quadratic { slope, bend, metric } = chart.quadratic(&local, &off);
+            let Some(down) = metric.cholesky().map(|metric| metric.solve(&-slope)) else { break };
+            let offset = (-slope.dot(&down)).max(0.0).sqrt();
+            if offset <= ROUNDING * (off.norm() + of.norm() + self.reach) {
+                break;
+            }
+            let newton = bend.cholesky().map(|bend| bend.solve(&-slope));
+            let mut step = newton.unwrap_or(down);
+            let is_flat = -slope.dot(&step) < FLAT * square;
+            let mut is_better = false;
+            for _ in 0..MOST_HALVINGS {
+                let next = self.moved(at, &chart, &step);
+                let there = self.local(next);
+                if is_flat || (there.point - of).norm_squared() < square {
+                    (at, local, is_better) = (next, there, true);
+                    break;
+                }
+                step *= 0.5;
+            }
+            if !is_better {
+                break;
+            }
+        }
+        at
+    }
+
+    /// The coordinates in which steps from a place are made.
+    fn chart(&self, along: f64, local: &Local) -> Chart {
+        let from_end = self.sections.end() - along;
+        if along < self.caps[0] {
+            Chart { radius: along, sign: 1.0 }
+        } else if from_end < self.caps[1] {
+            Chart { radius: from_end, sign: -1.0 }
+        } else {
+            Chart { radius: local.around.norm(), sign: 0.0 }
+        }
+    }
+
+    /// The place a step away.
+    fn moved(&self, at: SectionPoint, chart: &Chart, step: &Vector2<f64>) -> SectionPoint {
+        let end = self.sections.end();
+        let (mut along, mut around) = (at.along, at.around);
+        if chart.sign == 0.0 {
+            along += step[0].clamp(-0.1 * end, 0.1 * end);
+            around += (step[1] / chart.radius).clamp(-1.0, 1.0);
+        } else {
+            let ahead = chart.radius + step[0];
+            around += step[1].atan2(ahead);
+            let radius = ahead.hypot(step[1]).min(0.5 * end);
+            along = if chart.sign > 0.0 { radius } else { end - radius };
+        }
+        SectionPoint { along: along.clamp(OFF_ENDS * end, (1.0 - OFF_ENDS) * end), around }
+    }
+
+    fn local(&self, at: SectionPoint) -> Local {
+        let end = self.sections.end();
+        let along = at.along.clamp(OFF_ENDS * end, (1.0 - OFF_ENDS) * end);
+        let [value, rate, second] = self.sections.at(along);
+        let (sin, cos) = at.around.sin_cos();
+        let turned =
+            |part: &Section| Point::<3>::new(-part[2] * sin, -part[3] * sin, part[4] * cos);
+        let back = Point::<3>::new(-value[2] * cos, -value[3] * cos, -value[4] * sin);
+        Local {
+            point: on_section(&value, at.around),
+            along: on_section(&rate, at.around),
+            around: turned(&value),
+            second: [on_section(&second, at.around), turned(&rate), back],
+        }
+    }
+
+    /// Smallest radius of curvature (m) at one of its points.
+    #[must_use]
+    pub fn radius_of_curvature(&self, on: Point<3>) -> f64 {
+        self.radius_of_curvature_at(self.parameter_of(on))
+    }
+
+    /// The smaller one of a part of the radius of curvature and of a part of the radius inside (m).
+    #[must_use]
+    pub fn smaller_radius(&self, on: Point<3>, [of_curvature, inside]: [f64; 2]) -> f64 {
+        let at = self.parameter_of(on);
+        (of_curvature * self.radius_of_curvature_at(at)).min(inside * self.radius_inside_at(at))
+    }
+
+    fn radius_of_curvature_at(&self, at: SectionPoint) -> f64 {
+        let local = self.local(at);
+        let chart = self.chart(at.along, &local);
+        let normal = local.normal();
+        // Along the normal the second derivative of half the squared distance is the metric less it
+        let Quadratic { bend, metric, .. } = chart.quadratic(&local, &normal);
+        let Some(root) = metric.cholesky().and_then(|metric| metric.l().try_inverse()) else {
+            return self.inner_radius;
+        };
+        let curvatures = SymmetricEigen::new(root * (bend - metric) * root.transpose()).eigenvalues;
+        1.0 / curvatures.amax()
+    }
+
+    /// About the radius (m) of the largest ball inside that touches the surface at one of its points: as far
+    /// as the normal goes to the nearer one of the planes of the section's axes.
+    #[must_use]
+    pub fn radius_inside(&self, on: Point<3>) -> f64 {
+        self.radius_inside_at(self.parameter_of(on))
+    }
+
+    fn radius_inside_at(&self, at: SectionPoint) -> f64 {
+        let local = self.local(at);
+        let normal = local.normal();
+        let [section, ..] = self.sections.at(at.along);
+        let (sin, cos) = at.around.sin_cos();
+        let width = section[2].hypot(section[3]);
+        let side = (normal.x * section[2] + normal.y * section[3]) / width;
+        let way = |offset: f64, part: f64| {
+            if part > 0.0 && offset > 0.0 { offset / part } else { f64::INFINITY }
+        };
+        way(width * cos.abs(), side.abs()).min(way(section[4].abs() * sin.abs(), normal.z.abs()))
+    }
+}
+
+/// Places around a section.
+fn ring_corners(section: &Section) -> [Point<3>; ANGLES] {
+    let angle = std::f64::consts::TAU / ANGLES as f64;
+    std::array::from_fn(|i| on_section(section, angle * i as f64))
+}
+
+impl Local {
+    fn normal(&self) -> Point<3> {
+        // Next to an end the derivative around is small, but has its direction
+        self.along.cross(&self.around.normalize()).normalize()
+    }
+}
+
+impl Chart {
+    /// Half the squared distance to a point that the place is off by this (m).
+    fn quadratic(&self, local: &Local, off: &Point<3>) -> Quadratic {
+        let Self { radius, sign } = *self;
+        let (ahead, facing) = if sign == 0.0 { (1.0, 0.0) } else { (sign, 1.0 / radius) };
+        let along = local.along * ahead;
+        let around = local.around / radius;
+        let slope = Vector2::new(off.dot(&along), off.dot(&around));
+        let [far, mixed, back] = [0, 1, 2].map(|i| off.dot(&local.second[i]));
+        let mixed = ahead * mixed / radius - slope[1] * facing;
+        let back = back / (radius * radius) + slope[0] * facing;
+        let metric = Matrix2::new(
+            along.norm_squared(),
+            along.dot(&around),
+            along.dot(&around),
+            around.norm_squared(),
+        );
+        let bend = metric + Matrix2::new(far, mixed, mixed, back);
+        Quadratic { slope, bend, metric }
+    }
+}
+
+/// The point of an ellipse in space nearest to another point.
+struct OnRing {
+    around: f64,
+    distance: f64,
+}
+
+impl OnRing {
+    /// By three steps on the evolute, which are good enough to start from.
+    fn nearest(section: &Section, of: &Point<3>) -> Self {
+        let width = section[2].hypot(section[3]);
+        let (dx, dy) = (of.x - section[0], of.y - section[1]);
+        let side = (dx * section[2] + dy * section[3]) / width;
+        let height = section[4].abs();
+        let (x, z) = (side.abs(), of.z.abs());
+        let [mut cos, mut sin] = [std::f64::consts::FRAC_1_SQRT_2; 2];
+        let apart = width * width - height * height;
+        for _ in 0..3 {
+            let [ex, ez] = [apart * cos.powi(3) / width, -apart * sin.powi(3) / height];
+            let radius = (width * cos - ex).hypot(height * sin - ez);
+            let off = (x - ex).hypot(z - ez);
+            if off > 0.0 {
+                cos = (((x - ex) * radius / off + ex) / width).clamp(0.0, 1.0);
+                sin = (((z - ez) * radius / off + ez) / height).clamp(0.0, 1.0);
+            }
+            let norm = cos.hypot(sin);
+            if norm > 0.0 {
+                (cos, sin) = (cos / norm, sin / norm);
+            }
+        }
+        let around = (sin * of.z.signum()).atan2(cos * side.signum());
+        let distance = (on_section(section, around) - of).norm();
+        Self { around, distance }
+    }
+}
