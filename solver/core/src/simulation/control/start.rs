@@ -61,6 +61,7 @@ mod tests {
             convection: Convection::Extrapolated,
             initial: Initial::Rest,
             adaptive: None,
+            until: None,
         };
         assert_eq!(settings.n_steps(), 10);
         let pieces = start_pieces(settings.scheme, true, 0.1);
