@@ -60,6 +60,7 @@ mod tests {
             scheme: Scheme::Bdf2,
             convection: Convection::Extrapolated,
             initial: Initial::Rest,
+            until: None,
             adaptive: None,
         };
         assert_eq!(settings.n_steps(), 10);
