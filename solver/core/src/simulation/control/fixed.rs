@@ -58,7 +58,7 @@ impl<const D: usize> Run<'_, D> {
             if is_last {
                 break;
             }
-            self.check_signals(is_last)?;
+            self.check_signals(false)?;
         }
         Ok(self.simulation.state.step)
     }

@@ -60,6 +60,7 @@ mod tests {
             scheme: Scheme::Bdf2,
             convection: Convection::Extrapolated,
             initial: Initial::Rest,
+            until: None,
             adaptive: None,
             until: None,
         };
