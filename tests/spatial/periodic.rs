@@ -126,28 +126,28 @@ fn a_sphere_is_carried_through_several_periods() {
 
 /// Two squirmers head on, with the middle between them at some x.
 fn squirmers_towards_each_other(middle: f64) -> RunSummary {
-    let [left, right] = [middle - 0.75, middle + 0.75].map(|x: f64| x.rem_euclid(5.0));
+    let [left, right] = [middle - 0.625, middle + 0.625].map(|x: f64| x.rem_euclid(4.0));
     run(&format!(
         r#"
         title = "two squirmers head on"
         geometry = "spatial"
         fluid = {{ model = "stokes", viscosity = 1.0 }}
-        domain.box = {{ min = [0.0, 0.0, 0.0], max = [5.0, 3.0, 3.0] }}
+        domain.box = {{ min = [0.0, 0.0, 0.0], max = [4.0, 2.0, 2.0] }}
         {PERIODIC}
-        mesh = {{ size = 0.75, surface = 0.25, growth = 0.5, gap_layers = 1 }}
-        time.unsteady = {{ step = 0.025, end = 0.6 }}
-        contact.barrier = {{ range = 0.1, stiffness = 50.0 }}
+        mesh = {{ size = 0.75, surface = 0.3, growth = 0.5, gap_layers = 1 }}
+        time.unsteady = {{ step = 0.04, end = 0.32 }}
+        contact.barrier = {{ range = 0.2, stiffness = 50.0 }}
         [[body]]
         name = "a"
         shape.sphere.radius = 0.5
-        center = [{left}, 1.5, 2.9]
+        center = [{left}, 1.0, 1.9]
         motion = "free"
         orientation.along = [1.0, 0.0, 0.0]
         gait.squirmer.modes = [1.5, 3.0]
         [[body]]
         name = "b"
         shape.sphere.radius = 0.5
-        center = [{right}, 1.5, 2.9]
+        center = [{right}, 1.0, 1.9]
         motion = "free"
         orientation.along = [-1.0, 0.0, 0.0]
         gait.squirmer.modes = [1.5, 3.0]
@@ -157,11 +157,11 @@ fn squirmers_towards_each_other(middle: f64) -> RunSummary {
 
 #[test]
 fn bodies_meet_across_a_periodic_side_as_they_do_elsewhere() {
-    let [inside, across] = [2.5, 0.0].map(squirmers_towards_each_other);
+    let [inside, across] = [2.0, 0.0].map(squirmers_towards_each_other);
     let [one, other] = [&inside, &across].map(|outcome| column(outcome, "flow.minimum_gap"));
     println!("{one:.4?} {other:.4?}");
     let least = other.iter().copied().fold(f64::INFINITY, f64::min);
-    assert!(least > 0.0 && least < 0.1, "{least}");
+    assert!(least > 0.0 && least < 0.2, "{least}");
     for (one, other) in one.iter().zip(&other) {
         assert!((one - other).abs() < 0.01, "{one} {other}");
     }

@@ -20,11 +20,12 @@ struct Copy {
     is_on_boundary: bool,
 }
 
-impl Copy {
-    /// By this the originals come first: on the boundary, whose values are given, and near.
-    fn rank(&self) -> (bool, i32, Steps) {
-        (!self.is_on_boundary, self.steps.iter().map(|step| step.abs()).sum(), self.steps)
-    }
+/// A vertex of a cell that is on a body.
+struct OnBody {
+    /// Its number in the cell.
+    local: usize,
+    /// The surface it is on.
+    surface: usize,
 }
 
 /// Where cells and vertices are shown.
@@ -64,7 +65,11 @@ impl Opened {
             }
         }
         for of_vertex in &mut copies {
-            of_vertex.sort_by_key(Copy::rank);
+            // The originals first: on the boundary, whose values are given, and near
+            of_vertex.sort_by_key(|copy| {
+                let n_steps: i32 = copy.steps.iter().map(|step| step.abs()).sum();
+                (!copy.is_on_boundary, n_steps, copy.steps)
+            });
         }
         Self { cells, copies }
     }
@@ -111,7 +116,7 @@ impl Improver<'_> {
         // To where the cell is whole beside its first vertex, and from there
         let together = vertices.map(|vertex| periods.steps(self.mesh.point(vertex), first));
         let on = match self.body_vertex(cell) {
-            Some((local, surface)) => {
+            Some(OnBody { local, surface }) => {
                 let home = self.geometry.steps_home(surface, self.mesh.point(vertices[local]));
                 subtract(home, together[local])
             }
@@ -124,18 +129,19 @@ impl Improver<'_> {
         together.map(|steps| add(steps, on))
     }
 
-    /// A vertex of a cell on a body, by its number in the cell, and the surface: that of a face where there is
-    /// one, else the first.
-    fn body_vertex(&self, cell: u32) -> Option<(usize, usize)> {
+    /// A vertex of a cell on a body: that of a face where there is one, else the first.
+    fn body_vertex(&self, cell: u32) -> Option<OnBody> {
         let first_of_bodies = self.geometry.groups[0].last;
         let tags = self.mesh.tags(cell).into_iter().enumerate();
         let faces = tags.filter(|(_, tag)| *tag != INNER);
-        let mut faces = faces.map(|(at, tag)| (FACES[at][0], usize::from(surface_of(tag))));
-        faces.find(|(_, surface)| *surface >= first_of_bodies).or_else(|| {
+        let mut faces = faces
+            .map(|(at, tag)| OnBody { local: FACES[at][0], surface: usize::from(surface_of(tag)) });
+        faces.find(|on| on.surface >= first_of_bodies).or_else(|| {
             self.mesh.cell(cell).into_iter().enumerate().find_map(|(local, vertex)| {
                 let surfaces = self.mesh.surfaces(vertex);
                 let mut own = surfaces.as_slice().iter().map(|surface| usize::from(*surface));
-                own.find(|surface| *surface >= first_of_bodies).map(|surface| (local, surface))
+                own.find(|surface| *surface >= first_of_bodies)
+                    .map(|surface| OnBody { local, surface })
             })
         })
     }

@@ -98,7 +98,7 @@ fn weights<const D: usize>(mesh: &Mesh<D>) -> Vec<NodeWeights<D>> {
     let [at_vertices, at_inner] = basis_means::<D>();
     let mut volume = Point::<D>::zeros();
     let mut all: Vec<NodeWeights<D>> = Vec::new();
-    for (facet, way) in ways_across(mesh) {
+    for Crossing { facet, way } in crossings(mesh) {
         let mut inner = mesh.facet_inner_nodes(facet);
         let vertices = mesh.facet_vertices(facet);
         let outward = vector_area(&vertices.map(|vertex| mesh.nodes[vertex]));
@@ -120,8 +120,15 @@ fn weights<const D: usize>(mesh: &Mesh<D>) -> Vec<NodeWeights<D>> {
     all
 }
 
-/// One facet of each pair of periodic facets, with the way to it from the other one (m).
-fn ways_across<const D: usize>(mesh: &Mesh<D>) -> Vec<(&Facet, Point<D>)> {
+/// A facet through which the fluid goes on elsewhere.
+struct Crossing<'a, const D: usize> {
+    facet: &'a Facet,
+    /// The way to it from its image (m).
+    way: Point<D>,
+}
+
+/// One facet of each pair of periodic facets.
+fn crossings<const D: usize>(mesh: &Mesh<D>) -> Vec<Crossing<'_, D>> {
     let mut original: Vec<NodeId> = mesh.node_ids().collect();
     let mut is_paired = vec![false; mesh.n_nodes()];
     for pair in &mesh.periodic {
@@ -151,7 +158,7 @@ fn ways_across<const D: usize>(mesh: &Mesh<D>) -> Vec<(&Facet, Point<D>)> {
             |facet: &Facet, of: NodeId| mesh.facet_nodes(facet).find(|node| original[*node] == of);
         let Some(from) = mesh.facet_nodes(one).next() else { continue };
         let Some(to) = node_of(other, original[from]) else { continue };
-        ways.push((one, mesh.nodes[from] - mesh.nodes[to]));
+        ways.push(Crossing { facet: one, way: mesh.nodes[from] - mesh.nodes[to] });
     }
     ways
 }
