@@ -213,9 +213,9 @@ fn no_angular_momentum_is_left_in_space() {
             }
             let left = total.norm() / size;
             println!("{name} at {time}: angular momentum {left:.1e} of its parts");
-            // With seven angles 1.5e-7 and with twelve 7e-9 of the first fish; without the curvature in the
-            // interior it would be the square of width over length, 1e-3
-            assert!(left < 1e-6, "{name} at {time}: {left:.1e}");
+            // The square root of an elliptic height is nearly singular at the tail: 1e-8 there
+            let allowed = if swimmer.height == SectionHeight::Round { 1e-10 } else { 1e-7 };
+            assert!(left < allowed, "{name} at {time}: {left:.1e}");
             let slip = (drift.xy() - recoil.velocity).norm();
             assert!(slip < 1e-4 * recoil.mean_normal_speed, "{name}: {slip:.1e}");
         }
