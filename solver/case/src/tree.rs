@@ -13,7 +13,7 @@ use super::source::{Origin, Source};
 /// Tables that hold exactly one of several alternatives.
 ///
 /// Where two texts name different alternatives, the later one replaces the earlier one whole.
-pub const CHOICES: [&str; 18] = [
+pub const CHOICES: [&str; 19] = [
     "kind",
     "length",
     "angle",
@@ -32,6 +32,7 @@ pub const CHOICES: [&str; 18] = [
     "turn",
     "fields",
     "series",
+    "until",
 ];
 
 /// A value and where it is written.

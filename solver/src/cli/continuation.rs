@@ -8,7 +8,7 @@ use serde_json::Value;
 use super::engine::Resumed;
 use super::exit::{Exit, Failure};
 use crate::case::{Case, CaseFile, TimeSettings};
-use crate::observer::{History, RunState, Status, checkpoints, latest_checkpoint};
+use crate::observer::{Checkpoint, History, RunState, Status, checkpoints, latest_checkpoint};
 
 /// Tables of a case that change nothing of what is computed.
 const IRRELEVANT: [&str; 5] = ["title", "description", "output", "reference", "variant"];
@@ -66,7 +66,7 @@ pub fn beginning<const D: usize>(
         return Ok(Beginning::IsDone);
     }
     let damaged = |error: std::io::Error| Failure::new(Exit::BadCase, error.to_string());
-    let Some((path, state)) = latest_checkpoint::<D>(out).map_err(damaged)? else {
+    let Some(Checkpoint { path, state }) = latest_checkpoint::<D>(out).map_err(damaged)? else {
         return Ok(Beginning::AtStart);
     };
     state.check_case(file.case()).map_err(|error| {

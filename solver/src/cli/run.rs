@@ -90,19 +90,12 @@ where
 {
     let name = file.full_name();
     let out = options.out.clone().unwrap_or_else(|| Path::new("runs").join(name.replace('/', "-")));
-    let resumed: Option<Resumed<D>> = match &options.resume {
-        Some(path) => Some(read_resumed(path, file.case(), &out)?),
-        None if options.overwrite => None,
-        None => {
-            let is_asked = options.continues || is_requeued();
-            match beginning(&out, file, is_asked)? {
-                Beginning::AtStart => None,
-                Beginning::From(resumed) => Some(*resumed),
-                Beginning::IsDone => {
-                    say(&format!("{} has come to its end before", out.display()));
-                    return Ok(Exit::Done);
-                }
-            }
+    let resumed: Option<Resumed<D>> = match beginning_of(options, file, &out)? {
+        Beginning::AtStart => None,
+        Beginning::From(resumed) => Some(*resumed),
+        Beginning::IsDone => {
+            say(&format!("{} has come to its end before", out.display()));
+            return Ok(Exit::Done);
         }
     };
     let earlier = match &resumed {
@@ -123,14 +116,7 @@ where
     engine::start_log(Some(&out), verbosity)?;
 
     if let Some(resumed) = &resumed {
-        let (step, time) = (resumed.state.step, resumed.state.time);
-        tracing::info!(step, time, from = %resumed.from.display(), "resumed");
-        if !options.quiet {
-            complain(&format!(
-                "continues at step {step}, t {time}, from {}",
-                resumed.from.display()
-            ));
-        }
+        tell_of_resuming(resumed, options.quiet);
     }
     let limit = WallLimit::new(options.max_walltime.as_deref())?;
     let watch = SignalWatch::start()?;
@@ -164,6 +150,28 @@ where
     ));
     tell_cell_numbers(&outcome);
     Ok(Exit::Done)
+}
+
+/// What a run begins with: a state that is asked for, or one in its directory.
+fn beginning_of<const D: usize>(
+    options: &Options,
+    file: &CaseFile,
+    out: &Path,
+) -> Result<Beginning<D>, Failure> {
+    match &options.resume {
+        Some(path) => Ok(Beginning::From(Box::new(read_resumed(path, file.case(), out)?))),
+        None if options.overwrite => Ok(Beginning::AtStart),
+        None => beginning(out, file, options.continues || is_requeued()),
+    }
+}
+
+/// Tells from where a run goes on.
+fn tell_of_resuming<const D: usize>(resumed: &Resumed<D>, quiet: bool) {
+    let (step, time, from) = (resumed.state.step, resumed.state.time, resumed.from.display());
+    tracing::info!(step, time, from = %from, "resumed");
+    if !quiet {
+        complain(&format!("continues at step {step}, t {time}, from {from}"));
+    }
 }
 
 /// Whether a file lies in a directory.

@@ -8,18 +8,13 @@ use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
 use super::atomic::AtPath;
-use super::removal::{names_in, remove_if_there};
+use super::checkpoint_list::{ENDING, FOLDER, REQUEST, checkpoints};
+use super::removal::remove_if_there;
 use super::run_directory::remove_failure;
 use super::state_file::{read_state, write_state};
 use crate::case::{Checkpoints, TimeSettings};
 use crate::simulation::{LastState, Observer, RunError, SavedState, Snapshot};
 
-/// The folder they are in.
-pub(super) const FOLDER: &str = "checkpoints";
-/// How the names of states end.
-pub(super) const ENDING: &str = ".state";
-/// A file of this name in the directory of a run asks for a checkpoint; it is removed then.
-pub(super) const REQUEST: &str = "CHECKPOINT";
 /// How often it is looked for.
 const LOOK_EVERY: Duration = Duration::from_secs(1);
 
@@ -92,28 +87,24 @@ fn write<const D: usize>(directory: &Path, state: &SavedState<D>, keep: usize) -
     Ok(())
 }
 
-/// The checkpoints of the run in a directory, the latest first.
-pub fn checkpoints(directory: &Path) -> io::Result<Vec<PathBuf>> {
-    let folder = directory.join(FOLDER);
-    let step = |name: &String| name.strip_suffix(ENDING)?.parse::<u64>().ok();
-    let mut found: Vec<(u64, String)> =
-        names_in(&folder)?.into_iter().filter_map(|name| Some((step(&name)?, name))).collect();
-    found.sort_unstable_by(|one, other| other.cmp(one));
-    Ok(found.into_iter().map(|(_, name)| folder.join(name)).collect())
+/// A state, and where it lies.
+#[derive(Debug)]
+pub struct Checkpoint<const D: usize> {
+    /// The file.
+    pub path: PathBuf,
+    /// What it holds.
+    pub state: SavedState<D>,
 }
 
-/// The latest checkpoint that can be read of the run in a directory, with where it is; none if there is
-/// none.
+/// The latest checkpoint that can be read of the run in a directory; none if there is none.
 ///
 /// # Errors
 /// When there are some, and none can be read: the error of the latest.
-pub fn latest_checkpoint<const D: usize>(
-    directory: &Path,
-) -> io::Result<Option<(PathBuf, SavedState<D>)>> {
+pub fn latest_checkpoint<const D: usize>(directory: &Path) -> io::Result<Option<Checkpoint<D>>> {
     let mut first_error = None;
     for path in checkpoints(directory)? {
         match read_state(&path) {
-            Ok(state) => return Ok(Some((path, state))),
+            Ok(state) => return Ok(Some(Checkpoint { path, state })),
             Err(error) => {
                 tracing::warn!("{error}; the checkpoint before it is taken");
                 first_error.get_or_insert(error);

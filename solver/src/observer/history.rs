@@ -5,7 +5,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use super::atomic::AtPath;
-use super::status::Restarts;
+use super::restarts::Restarts;
 use crate::simulation::Series;
 
 /// One field file.

@@ -16,6 +16,7 @@
 //! | `lock` | Held while the run is under way | – |
 
 mod atomic;
+mod checkpoint_list;
 mod checkpoints;
 mod csv;
 mod fields;
@@ -28,6 +29,7 @@ mod process;
 mod progress;
 mod provenance;
 mod removal;
+mod restarts;
 mod run_directory;
 mod schedule;
 mod solids;
@@ -41,7 +43,8 @@ use crate::case::Model;
 use crate::simulation::{Dimension, Observer, Solve};
 
 pub use atomic::write_atomic;
-pub use checkpoints::{CheckpointFiles, checkpoints, latest_checkpoint};
+pub use checkpoint_list::checkpoints;
+pub use checkpoints::{Checkpoint, CheckpointFiles, latest_checkpoint};
 pub use csv::SeriesFile;
 pub use fields::FieldFiles;
 pub use history::History;
@@ -50,11 +53,12 @@ pub use log::start_log;
 pub use mcap::MessageFile;
 pub use progress::Progress;
 pub use provenance::Provenance;
+pub use restarts::Restarts;
 pub use run_directory::{
     Earlier, FAILURE_FOLDER, FAILURE_STATE, RunDirectory, RunDirectoryError, STOP, run_of_state,
 };
 pub use state_file::read_state;
-pub use status::{Restarts, RunState, Status, StatusFile};
+pub use status::{RunState, Status, StatusFile};
 
 /// All observers of a run in `directory`, which goes on after a `history` if there is one; with
 /// `quiet`, without progress on the terminal.

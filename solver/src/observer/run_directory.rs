@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use thiserror::Error;
 
 use super::atomic::{AtPath, UNFINISHED, write_atomic};
-use super::checkpoints::{self, REQUEST, checkpoints};
+use super::checkpoint_list::{self, REQUEST, checkpoints};
 use super::provenance::{self, Provenance};
 use super::removal::{names_in, remove_if_empty, remove_if_there};
 use super::status::{RunState, Status};
@@ -35,7 +35,7 @@ const FILES: [&str; 11] = [
 ];
 
 /// Folders of a run that hold files of its.
-const FOLDERS: [&str; 3] = ["fields", FAILURE_FOLDER, checkpoints::FOLDER];
+const FOLDERS: [&str; 3] = ["fields", FAILURE_FOLDER, checkpoint_list::FOLDER];
 
 /// A file of this name in the directory of a run stops it after its step; it is removed then.
 pub const STOP: &str = "STOP";
@@ -209,7 +209,7 @@ fn check_replaceable(path: &Path) -> Result<(), RunDirectoryError> {
 /// `None` if it is elsewhere.
 pub fn run_of_state(state: &Path) -> Option<&Path> {
     let folder = state.parent()?;
-    let is_within = folder.ends_with(FAILURE_FOLDER) || folder.ends_with(checkpoints::FOLDER);
+    let is_within = folder.ends_with(FAILURE_FOLDER) || folder.ends_with(checkpoint_list::FOLDER);
     let folder = if is_within { folder.parent()? } else { folder };
     let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
     is_a_run(folder).then_some(folder)
@@ -273,8 +273,8 @@ fn is_of_a_run(folder: &Path, name: &str) -> bool {
         return name == FAILURE_STATE || name == FAILURE_FLOW;
     }
     let is_number = |stem: &str| stem.len() >= 6 && stem.bytes().all(|byte| byte.is_ascii_digit());
-    if folder.ends_with(checkpoints::FOLDER) {
-        return name.strip_suffix(checkpoints::ENDING).is_some_and(is_number);
+    if folder.ends_with(checkpoint_list::FOLDER) {
+        return name.strip_suffix(checkpoint_list::ENDING).is_some_and(is_number);
     }
     name.strip_suffix(".vtu").is_some_and(|stem| stem == "stopped" || is_number(stem))
 }

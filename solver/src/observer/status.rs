@@ -10,6 +10,7 @@ use serde::{Deserialize, Serialize};
 use super::atomic::write_atomic;
 use super::history::History;
 use super::process;
+use super::restarts::Restarts;
 use crate::case::{Case, TimeSettings};
 use crate::simulation::{LastState, Observer, RunError, Snapshot, Stage, Timing, cpu_seconds};
 
@@ -28,24 +29,6 @@ pub enum RunState {
     Failed,
     /// A signal stopped it.
     Stopped,
-}
-
-/// Restarts in a row from one and the same step.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Restarts {
-    /// The step.
-    pub step: usize,
-    /// How many.
-    pub count: usize,
-}
-
-impl Restarts {
-    /// With one more, from a step.
-    #[must_use]
-    pub fn next(self, step: usize) -> Self {
-        let count = if step == self.step { self.count + 1 } else { 1 };
-        Self { step, count }
-    }
 }
 
 /// The content of `status.json`.

@@ -139,14 +139,6 @@ fn edges(mesh: &Mesh<3>, facet: &Facet) -> [[NodeId; 2]; 3] {
     })
 }
 
-/// Distance of a node from the middle of its edge, in lengths of the edge, below which it is there.
-const STRAIGHT: f64 = 1e-9;
-
-/// Whether the edge between two points is bent to a node.
-pub fn is_bent(a: &Point<3>, b: &Point<3>, node: &Point<3>) -> bool {
-    (node - (a + b) * 0.5).norm() > STRAIGHT * (b - a).norm()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

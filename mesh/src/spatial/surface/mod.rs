@@ -9,7 +9,8 @@ mod slender;
 mod tube;
 
 pub use ellipsoid::Ellipsoid;
-pub use facets::{Facets, is_bent};
+pub use facets::Facets;
+pub use patch::is_bent;
 pub use revolved::Revolved;
 pub use slender::Slender;
 pub use tube::Tube;

@@ -2,7 +2,6 @@
 
 use nalgebra::Matrix3;
 
-use super::facets::is_bent;
 use crate::{Bounds, Point};
 
 /// Steps of Newton's method.
@@ -226,6 +225,14 @@ fn nearest_on_triangle([a, b, c]: &[Point<3>; 3], point: &Point<3>) -> [f64; 2] 
     let places = [[parts[0], 0.0], [1.0 - parts[1], parts[1]], [0.0, 1.0 - parts[2]]];
     let off = |[u, v]: &[f64; 2]| (a * (1.0 - u - v) + b * *u + c * *v - point).norm_squared();
     places.into_iter().min_by(|p, q| off(p).total_cmp(&off(q))).unwrap_or_default()
+}
+
+/// Distance of a node from the middle of its edge, in lengths of the edge, below which it is there.
+const STRAIGHT: f64 = 1e-9;
+
+/// Whether the edge between two points is bent to a node.
+pub fn is_bent(a: &Point<3>, b: &Point<3>, node: &Point<3>) -> bool {
+    (node - (a + b) * 0.5).norm() > STRAIGHT * (b - a).norm()
 }
 
 #[cfg(test)]

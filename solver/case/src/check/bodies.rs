@@ -121,16 +121,7 @@ pub(super) fn check_shape(findings: &mut Findings<'_>, key: &str, shape: &ShapeS
             check_semi_axes(findings, key, name, semi_axes);
         }
         ShapeSpec::Ellipsoid { semi_axes } => check_semi_axes(findings, key, name, semi_axes),
-        ShapeSpec::Capsule { length, radius } => {
-            findings.positive(&format!("{key}.capsule.radius"), *radius);
-            if *length <= 2.0 * radius {
-                findings.error(
-                    &format!("{key}.capsule.length"),
-                    format!("the capsule is {length} long and its ends have the radius {radius}"),
-                    "the length from end to end is larger than twice the radius",
-                );
-            }
-        }
+        ShapeSpec::Capsule { length, radius } => check_capsule(findings, key, *length, *radius),
         ShapeSpec::Cylinder { radius, .. } => {
             findings.positive(&format!("{key}.cylinder.radius"), *radius);
         }
@@ -162,6 +153,17 @@ pub(super) fn check_shape(findings: &mut Findings<'_>, key: &str, shape: &ShapeS
                 );
             }
         }
+    }
+}
+
+fn check_capsule(findings: &mut Findings<'_>, key: &str, length: f64, radius: f64) {
+    findings.positive(&format!("{key}.capsule.radius"), radius);
+    if length <= 2.0 * radius {
+        findings.error(
+            &format!("{key}.capsule.length"),
+            format!("the capsule is {length} long and its ends have the radius {radius}"),
+            "the length from end to end is larger than twice the radius",
+        );
     }
 }
 

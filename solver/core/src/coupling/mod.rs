@@ -20,6 +20,7 @@ mod propulsion;
 mod rigid_equations;
 mod shapes;
 mod solution;
+mod solver_memory;
 mod surface_load;
 mod system;
 mod wall_distance;

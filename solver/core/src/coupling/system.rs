@@ -21,9 +21,7 @@ use super::rigid_equations::{RigidBodyEquations, rotations};
 use super::shapes::BodyShapes;
 use super::solution::Solution;
 use super::surface_load::SurfaceStress;
-use crate::algebra::{
-    Accuracy, AffineConstraints, LinearError, SolverMemory, SparseMatrix, Term, Unknowns,
-};
+use crate::algebra::{Accuracy, AffineConstraints, SparseMatrix, Term, Unknowns};
 use crate::body::{Modes, Pose};
 use crate::flow::{Assembly, Convection, FlowTerms, assemble, residual};
 use crate::space::{DofLayout, FacetRule, Tables};
@@ -152,25 +150,6 @@ impl<const D: usize> FluidSystem<D> {
     #[must_use]
     pub fn matrix(&self) -> SparseMatrix {
         self.linear.matrix()
-    }
-
-    /// Marks what the linear solver keeps at present as what belongs to the state of a run.
-    pub fn mark_solver(&mut self) {
-        self.linear.mark();
-    }
-
-    /// What the linear solver kept from system to system when that was marked.
-    #[must_use]
-    pub fn solver_memory(&self) -> SolverMemory {
-        self.linear.memory()
-    }
-
-    /// Goes on as the system, on the same mesh, whose solver kept this.
-    ///
-    /// # Errors
-    /// When it was another system.
-    pub fn recall(&mut self, memory: SolverMemory) -> Result<(), LinearError> {
-        self.linear.recall(memory)
     }
 
     /// Basis tables, for measurements.

@@ -62,7 +62,6 @@ mod tests {
             initial: Initial::Rest,
             until: None,
             adaptive: None,
-            until: None,
         };
         assert_eq!(settings.n_steps(), 10);
         let pieces = start_pieces(settings.scheme, true, 0.1);
