@@ -124,7 +124,7 @@ fn a_hinge_in_space_turns_about_its_axis_alone_under_the_torque_of_its_law() {
     println!("{offs:?}");
     // The torque is that at the poses of the last pass, which end up elsewhere by less than the tolerance of
     // passes, whatever the step: 1e-6 and 3e-6 were found. Taken at the poses without velocity it was off
-    // by 5e-5 and a third of that, by the square of the step.
+    // by up to 5e-5, with the square of the step.
     assert!(offs.iter().all(|off| *off < 1e-5), "{offs:?}");
 }
 
