@@ -81,6 +81,7 @@ pub use nearest::nearest;
 pub use numbers::{DerivedNumber, derived_numbers, geometry_name, number_table, significant};
 pub use orientation::Orientation;
 pub use output::{Cadence, Checkpoints, Output, Precision, Probe};
+pub use problem_keys::collect_keys;
 pub use quantity::{
     BodyQuantity, Column, FlowQuantity, JointQuantity, ProbeQuantity, Quantity, Source,
     SwimmerQuantity, When, columns, known_quantities,

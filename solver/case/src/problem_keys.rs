@@ -21,7 +21,7 @@ impl Case {
         let case = serde_json::to_value(self)?;
         for table in TABLES {
             if let Some(value) = case.get(table) {
-                collect(table.to_owned(), value, &mut keys);
+                collect_keys(table.to_owned(), value, &mut keys);
             }
         }
         // A file is known by its checksum, wherever it is
@@ -30,16 +30,17 @@ impl Case {
     }
 }
 
-fn collect(path: String, value: &Value, keys: &mut BTreeMap<String, String>) {
+/// Adds the values of all keys of a value at a path, by their paths.
+pub fn collect_keys(path: String, value: &Value, keys: &mut BTreeMap<String, String>) {
     match value {
         Value::Object(entries) => {
             for (key, value) in entries {
-                collect(format!("{path}.{key}"), value, keys);
+                collect_keys(format!("{path}.{key}"), value, keys);
             }
         }
         Value::Array(items) if items.iter().any(|item| item.is_object()) => {
             for (index, item) in items.iter().enumerate() {
-                collect(format!("{path}.{index}"), item, keys);
+                collect_keys(format!("{path}.{index}"), item, keys);
             }
         }
         value => drop(keys.insert(path, value.to_string())),

@@ -7,7 +7,7 @@ use serde_json::Value;
 
 use super::engine::Resumed;
 use super::exit::{Exit, Failure};
-use crate::case::{Case, CaseFile, TimeSettings};
+use crate::case::{Case, CaseFile, TimeSettings, collect_keys};
 use crate::observer::{Checkpoint, History, RunState, Status, checkpoints, latest_checkpoint};
 
 /// Tables of a case that change nothing of what is computed.
@@ -145,25 +145,9 @@ fn keys_of(case: &Value) -> BTreeMap<String, String> {
     if let Value::Object(tables) = case {
         for (name, value) in tables.iter().filter(|(name, _)| !IRRELEVANT.contains(&name.as_str()))
         {
-            collect(name.clone(), value, &mut keys);
+            collect_keys(name.clone(), value, &mut keys);
         }
     }
     IRRELEVANT_KEYS.iter().for_each(|key| drop(keys.remove(*key)));
     keys
-}
-
-fn collect(path: String, value: &Value, keys: &mut BTreeMap<String, String>) {
-    match value {
-        Value::Object(entries) => {
-            for (key, value) in entries {
-                collect(format!("{path}.{key}"), value, keys);
-            }
-        }
-        Value::Array(items) if items.iter().any(Value::is_object) => {
-            for (index, item) in items.iter().enumerate() {
-                collect(format!("{path}.{index}"), item, keys);
-            }
-        }
-        value => drop(keys.insert(path, value.to_string())),
-    }
 }
