@@ -5,8 +5,9 @@ use super::entries::{EntryMap, Positions};
 use super::front::{Front, Subtree};
 use super::graph::{Graph, Vertices};
 use super::ordering::{Ordering, order};
+use super::segments::{Segment, Slot};
 use super::stacks::plan_stack;
-use super::subtrees::CutTree;
+use super::subtrees::{CutTree, MIN_PARALLEL_FLOPS};
 use super::tree::{Supernode, flops, supernodes};
 use crate::sparse::index::to_u32;
 use crate::sparse::{Pattern, Unknowns};
@@ -24,14 +25,16 @@ pub struct Analysis {
     pub(super) is_pressure_at: Vec<bool>,
     /// Unknowns with dense rows, ascending.
     pub(super) dense: Vec<u32>,
-    /// 0, 1, 2, ...: the positions of the pivot columns of a front are a slice of it.
-    pub(super) pivot_positions: Vec<u32>,
+    /// 0, 1, 2, ...: the slots of the pivot columns of a front are a slice of it.
+    pub(super) pivot_slots: Vec<u32>,
     /// Diagonal entry of the unknown at each position, where one is stored.
     pub(super) diagonal: Vec<Option<u32>>,
     pub(super) fronts: Vec<Front>,
     pub(super) children: Vec<u32>,
     /// Positions of the border of each front, ascending.
     pub(super) border: Vec<u32>,
+    /// Slots of these in the segment of the front.
+    pub(super) border_slots: Vec<u32>,
     /// Indices of these in the parent front: its own unknowns, then its border.
     pub(super) relative: Vec<u32>,
     pub(super) entries: EntryMap,
@@ -41,6 +44,10 @@ pub struct Analysis {
     pub(super) subtrees: Vec<Subtree>,
     /// The fronts above the subtrees.
     pub(super) top: Subtree,
+    /// Of each subtree, then of the fronts above.
+    pub(super) segments: Vec<Segment>,
+    /// Where each unknown is.
+    pub(super) slots: Vec<Slot>,
 }
 
 impl Analysis {
@@ -52,6 +59,16 @@ impl Analysis {
     /// When `unknowns` does not fit the pattern.
     #[must_use]
     pub fn new(pattern: &Pattern, unknowns: &Unknowns, ordering: Ordering) -> Self {
+        Self::cut(pattern, unknowns, ordering, MIN_PARALLEL_FLOPS)
+    }
+
+    /// The same, cut into subtrees where a factorisation has that many operations.
+    pub(super) fn cut(
+        pattern: &Pattern,
+        unknowns: &Unknowns,
+        ordering: Ordering,
+        least: f64,
+    ) -> Self {
         let n = pattern.n();
         assert_eq!(unknowns.node.len(), n, "a node for each unknown");
         assert_eq!(unknowns.is_pressure.len(), n, "a kind for each unknown");
@@ -59,7 +76,7 @@ impl Analysis {
         let graph = Graph::new(pattern, &vertices);
         let mut sequence = order(&graph.truncated(vertices.n_nodes), ordering);
         sequence.extend(to_u32(vertices.n_nodes)..to_u32(vertices.n));
-        let tree = CutTree::new(supernodes(&graph, &sequence));
+        let tree = CutTree::new(supernodes(&graph, &sequence), least);
 
         let members = Members {
             sequence: &sequence,
@@ -84,23 +101,29 @@ impl Analysis {
             first = range.end;
             plan_stack(&mut fronts, &children, range)
         };
-        let subtrees = tree.subtree_sizes.iter().map(|&size| next_subtree(size)).collect();
+        let subtrees: Vec<Subtree> =
+            tree.subtree_sizes.iter().map(|&size| next_subtree(size)).collect();
         let top = next_subtree(tree.n_above);
+        let segments = segments(&subtrees, &top, &fronts, &border);
+        let border_slots = border_slots(&segments, &mut fronts, &border);
         Self {
             n_entries: pattern.n_entries(),
             diagonal: diagonal(pattern, &unknown_at),
             is_pressure_at,
+            slots: slots(&segments, &unknown_at),
             unknown_at,
             dense,
-            pivot_positions: (0..to_u32(n)).collect(),
+            pivot_slots: (0..to_u32(n)).collect(),
             fronts,
             children,
             border,
+            border_slots,
             relative,
             entries,
             n_values,
             subtrees,
             top,
+            segments,
         }
     }
 
@@ -137,6 +160,10 @@ impl Analysis {
 
     pub(super) fn border_of(&self, front: &Front) -> &[u32] {
         &self.border[front.border()]
+    }
+
+    pub(super) fn border_slots_of(&self, front: &Front) -> &[u32] {
+        &self.border_slots[front.border()]
     }
 
     pub(super) fn relative_of(&self, front: &Front) -> &[u32] {
@@ -272,6 +299,42 @@ fn relative_indices(fronts: &[Front], border: &[u32]) -> Vec<u32> {
         }
     }
     relative
+}
+
+/// The segments of subtrees, then that of the fronts above.
+fn segments(
+    subtrees: &[Subtree],
+    top: &Subtree,
+    fronts: &[Front],
+    border: &[u32],
+) -> Vec<Segment> {
+    let all = subtrees.iter().chain([top]);
+    all.map(|subtree| Segment::new(subtree, fronts, border)).collect()
+}
+
+/// Slots of the borders of all fronts; those of their own unknowns are set.
+fn border_slots(segments: &[Segment], fronts: &mut [Front], border: &[u32]) -> Vec<u32> {
+    let mut slots = vec![0; border.len()];
+    for segment in segments {
+        for front in &mut fronts[segment.fronts.clone()] {
+            front.slot = front.start - segment.positions.start;
+            for (slot, &position) in slots[front.border()].iter_mut().zip(&border[front.border()]) {
+                *slot = segment.slot(position).expect("a border is in that of the root");
+            }
+        }
+    }
+    slots
+}
+
+/// Where each unknown is.
+fn slots(segments: &[Segment], unknown_at: &[u32]) -> Vec<Slot> {
+    let mut slots = vec![Slot::default(); unknown_at.len()];
+    for (segment, of_segment) in (0..).zip(segments) {
+        for (index, &unknown) in (0..).zip(&unknown_at[of_segment.positions.clone()]) {
+            slots[unknown as usize] = Slot { segment, index };
+        }
+    }
+    slots
 }
 
 /// Where the diagonal entry of each position is stored.

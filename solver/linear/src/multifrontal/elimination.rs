@@ -73,9 +73,9 @@ pub(super) struct DelayedPivotFactors {
     pub l: Vec<f64>,
     /// p x (m - p) entries of U12.
     pub u: Vec<f64>,
-    /// Positions of the rows, pivots first.
+    /// Positions of the rows, pivots first; slots of them once all is factorised.
     pub rows: Vec<u32>,
-    /// Positions of the columns, pivots first.
+    /// The same of the columns.
     pub columns: Vec<u32>,
     /// p.
     pub n_pivots: usize,
@@ -96,7 +96,7 @@ pub(super) struct FrontTarget<'a> {
     pub panel: &'a mut [f64],
     /// The contribution.
     pub contribution: &'a mut [f64],
-    /// Positions of the pivot rows.
+    /// Slots of the pivot rows.
     pub pivot_rows: &'a mut [u32],
     /// Row exchanges, k at least: workspace.
     pub swaps: &'a mut [u32],
@@ -144,8 +144,8 @@ pub(super) fn factorise_static<'a>(
     }
     let swaps = &mut swaps[..k];
     matrix.eliminate(context, &context.pivot_floors[front.positions()], swaps, accum)?;
-    for (position, row) in (to_u32(front.start)..).zip(pivot_rows.iter_mut()) {
-        *row = position;
+    for (slot, row) in (to_u32(front.slot)..).zip(pivot_rows.iter_mut()) {
+        *row = slot;
     }
     for (row, &swap) in swaps.iter().enumerate() {
         pivot_rows.swap(row, row + swap as usize);

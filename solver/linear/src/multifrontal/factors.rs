@@ -6,9 +6,10 @@ use std::sync::{Mutex, PoisonError};
 use rayon::prelude::*;
 
 use super::analysis::Analysis;
-use super::elimination::{DelayedPivotFactors, FactorisationContext};
+use super::elimination::{DelayedContribution, DelayedPivotFactors, FactorisationContext};
 use super::front::Subtree;
 use super::scaling::scale_pressures;
+use super::segments::Delays;
 use super::substitution::Scratch;
 use super::traversal::{
     Incoming, Singular, SubtreeFactors, SubtreeResult, Workspace, factorise_subtree,
@@ -20,10 +21,12 @@ use crate::sparse::SparseMatrix;
 pub struct Factors {
     /// Factors of the fronts without delayed pivots, one after the other.
     pub(super) values: Vec<f64>,
-    /// Position of each pivot's row.
+    /// Slot of each pivot's row.
     pub(super) pivot_rows: Vec<u32>,
-    /// Factors of the fronts with delayed pivots.
+    /// Factors of the fronts with delayed pivots, their rows and columns by slots.
     pub(super) delayed: BTreeMap<usize, DelayedPivotFactors>,
+    /// What subtrees delayed to the fronts above.
+    pub(super) delays: Delays,
     /// Contributions of the roots of the subtrees.
     outgoing: Vec<Vec<f64>>,
     /// Memory of the threads that factorise subtrees.
@@ -57,6 +60,7 @@ impl Factors {
             values: vec![0.0; analysis.n_values],
             pivot_rows: vec![0; analysis.n()],
             delayed: BTreeMap::new(),
+            delays: Delays::default(),
             outgoing: outgoing.collect(),
             workspaces: Mutex::new(Vec::new()),
             top_workspace,
@@ -149,7 +153,22 @@ impl Factors {
         let workspace = &mut self.top_workspace;
         let result = factorise_subtree(context, &analysis.top, factors, workspace, incoming, None);
         self.delayed.extend(result.delayed_factors);
+        self.place_delayed(analysis, &delayed_contributions);
         result.singular.map_or(Ok(()), Err)
+    }
+
+    /// Replaces positions by slots in the fronts with delayed pivots.
+    fn place_delayed(
+        &mut self,
+        analysis: &Analysis,
+        contributions: &BTreeMap<usize, DelayedContribution>,
+    ) {
+        self.delays = Delays::new(&analysis.segments, contributions);
+        for (&front, own) in &mut self.delayed {
+            let segment = &analysis.segments[analysis.subtree_of(front)];
+            own.rows = self.delays.slots_of_rows(segment, &own.rows);
+            own.columns = self.delays.slots_of_columns(segment, &own.columns);
+        }
     }
 }
 

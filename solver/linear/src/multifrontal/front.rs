@@ -8,6 +8,8 @@ use std::ops::Range;
 pub(super) struct Front {
     /// Position of the first eliminated unknown.
     pub start: usize,
+    /// Its slot in the segment of the front.
+    pub slot: usize,
     /// Number of unknowns eliminated.
     pub k: usize,
     /// Number of unknowns of the border.
@@ -38,6 +40,7 @@ impl Front {
     pub fn new(start: usize, k: usize, r: usize, parent: Option<usize>) -> Self {
         Self {
             start,
+            slot: 0,
             k,
             r,
             n_dense: 0,
@@ -65,6 +68,11 @@ impl Front {
     /// Positions of the unknowns eliminated.
     pub fn positions(&self) -> Range<usize> {
         self.start..self.start + self.k
+    }
+
+    /// Slots of the unknowns eliminated.
+    pub fn slots(&self) -> Range<usize> {
+        self.slot..self.slot + self.k
     }
 
     /// Its part of the borders and relative indices of all fronts.

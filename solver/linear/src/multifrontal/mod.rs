@@ -32,6 +32,8 @@ mod graph;
 mod metis;
 mod ordering;
 mod scaling;
+mod segments;
+mod shared;
 mod solve;
 mod stacks;
 mod substitution;

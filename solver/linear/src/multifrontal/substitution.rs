@@ -1,5 +1,7 @@
 //! Forward and backward substitution in one front.
 
+use std::ops::Range;
+
 use faer::linalg::matmul::matmul;
 use faer::linalg::triangular_solve::{
     solve_unit_lower_triangular_in_place, solve_upper_triangular_in_place,
@@ -8,26 +10,29 @@ use faer::{Accum, Par};
 
 use super::dense::{view, view_mut};
 
-/// Vectors of the substitutions, kept from one solve to the next.
+/// Vectors of the substitutions, kept from one solve to the next: all segments, one after the other.
 #[derive(Debug, Default)]
 pub(super) struct Scratch {
-    /// Right-hand sides in the order of elimination.
+    /// Right-hand sides.
     pub b: Vec<f64>,
-    /// Solutions in the order of elimination.
+    /// Solutions.
     pub x: Vec<f64>,
-    /// Values of the unknowns of a front.
-    pub local: Vec<f64>,
-    /// Values of the border of a front.
+}
+
+/// Values of the unknowns of one front.
+#[derive(Debug)]
+pub(super) struct LocalValues {
+    /// Of all or of the pivots.
+    pub own: Vec<f64>,
+    /// Of the border.
     pub border: Vec<f64>,
 }
 
-impl Scratch {
-    /// Sets the sizes for `n_sides` right-hand sides of n values, and fronts of that order at most.
-    pub fn fit(&mut self, n: usize, largest_front: usize, n_sides: usize) {
-        self.b.resize(n * n_sides, 0.0);
-        self.x.resize(n * n_sides, 0.0);
-        self.local.resize(largest_front * n_sides, 0.0);
-        self.border.resize(largest_front * n_sides, 0.0);
+impl LocalValues {
+    /// Of fronts of that order at most, for `n_sides` right-hand sides.
+    pub fn new(largest_front: usize, n_sides: usize) -> Self {
+        let zeros = vec![0.0; largest_front * n_sides];
+        Self { own: zeros.clone(), border: zeros }
     }
 }
 
@@ -37,13 +42,13 @@ pub(super) struct FrontFactors<'a> {
     pub l: &'a [f64],
     /// p x q entries of U12.
     pub u: &'a [f64],
-    /// Positions of the rows of the pivots.
+    /// Slots of the rows of the pivots.
     pub pivot_rows: &'a [u32],
-    /// Positions of the other rows.
+    /// Slots of the other rows.
     pub border_rows: &'a [u32],
-    /// Positions of the columns of the pivots.
+    /// Slots of the columns of the pivots.
     pub pivot_columns: &'a [u32],
-    /// Positions of the other columns.
+    /// Slots of the other columns.
     pub border_columns: &'a [u32],
 }
 
@@ -66,19 +71,19 @@ fn add_one(y: &mut [f64], column: &[f64], factor: f64) {
     }
 }
 
-/// Reads the values at some positions.
+/// Reads the values in some slots.
 #[inline(always)]
-fn gather(values: &mut [f64], from: &[f64], positions: &[u32]) {
-    for (value, &position) in values.iter_mut().zip(positions) {
-        *value = from[position as usize];
+pub(super) fn gather(values: &mut [f64], from: &[f64], slots: &[u32]) {
+    for (value, &slot) in values.iter_mut().zip(slots) {
+        *value = from[slot as usize];
     }
 }
 
-/// Writes values to some positions.
+/// Writes values to some slots.
 #[inline(always)]
-fn scatter(values: &[f64], positions: &[u32], target: &mut [f64]) {
-    for (value, &position) in values.iter().zip(positions) {
-        target[position as usize] = *value;
+pub(super) fn scatter(values: &[f64], slots: &[u32], target: &mut [f64]) {
+    for (value, &slot) in values.iter().zip(slots) {
+        target[slot as usize] = *value;
     }
 }
 
@@ -90,9 +95,20 @@ pub(super) fn forward(front: &FrontFactors<'_>, b: &mut [f64], local: &mut [f64]
     let local = &mut local[..m];
     gather(local, b, front.pivot_rows);
     local[p..].fill(0.0);
-    let mut j = 0;
-    while j + 4 <= p {
-        let columns: [&[f64]; 4] = std::array::from_fn(|c| &front.l[(j + c) * m..(j + c + 1) * m]);
+    eliminate_down(front.l, m, 0..p, local);
+    scatter(local, front.pivot_rows, b);
+    for (&row, value) in front.border_rows.iter().zip(&local[p..]) {
+        b[row as usize] += value;
+    }
+}
+
+/// Eliminates the unknowns of some columns of L, of stride m, from the rows below them that `local` has.
+#[inline(always)]
+pub(super) fn eliminate_down(l: &[f64], m: usize, columns: Range<usize>, local: &mut [f64]) {
+    let rows = local.len();
+    let mut j = columns.start;
+    while j + 4 <= columns.end {
+        let columns: [&[f64]; 4] = std::array::from_fn(|c| &l[(j + c) * m..(j + c) * m + rows]);
         let mut factors = [0.0; 4];
         for c in 0..4 {
             factors[c] = -local[j + c];
@@ -104,57 +120,103 @@ pub(super) fn forward(front: &FrontFactors<'_>, b: &mut [f64], local: &mut [f64]
         add_four(&mut local[j + 4..], below, factors);
         j += 4;
     }
-    for j in j..p {
+    for j in j..columns.end {
         let factor = -local[j];
-        add_one(&mut local[j + 1..], &front.l[j * m + j + 1..(j + 1) * m], factor);
-    }
-    scatter(local, front.pivot_rows, b);
-    for (&row, value) in front.border_rows.iter().zip(&local[p..]) {
-        b[row as usize] += value;
+        add_one(&mut local[j + 1..], &l[j * m + j + 1..j * m + rows], factor);
     }
 }
 
 /// x of the pivot columns from b of the pivot rows and x of the others.
 #[inline(always)]
-pub(super) fn backward(front: &FrontFactors<'_>, b: &[f64], x: &mut [f64], local: &mut [f64]) {
-    let p = front.pivot_rows.len();
-    let m = p + front.border_rows.len();
-    let local = &mut local[..p];
+pub(super) fn backward(front: &FrontFactors<'_>, b: &[f64], x: &mut [f64], values: &mut LocalValues) {
+    let (p, q) = (front.pivot_rows.len(), front.border_columns.len());
+    let (local, border) = (&mut values.own[..p], &mut values.border[..q]);
     gather(local, b, front.pivot_rows);
-    let mut columns = front.u.chunks_exact(p.max(1) * 4);
-    let mut positions = front.border_columns.chunks_exact(4);
-    for (four, positions) in (&mut columns).zip(&mut positions) {
-        let factors = std::array::from_fn(|c| -x[positions[c] as usize]);
-        add_four(local, std::array::from_fn(|c| &four[c * p..(c + 1) * p]), factors);
-    }
-    if p > 0 {
-        for (column, &position) in columns.remainder().chunks_exact(p).zip(positions.remainder()) {
-            add_one(local, column, -x[position as usize]);
-        }
-    }
-    let mut j = p;
-    while j >= 4 {
+    gather(border, x, front.border_columns);
+    subtract_columns(Columns { values: front.u, stride: p, first_row: 0 }, border, local);
+    eliminate_up(front.l, p + q, 0..p, local);
+    scatter(local, front.pivot_columns, x);
+}
+
+/// Solves for the unknowns of some columns of U, of stride m, the last first, and eliminates them from the
+/// rows above them down to the first of these columns; those rows begin `local` at `columns.start`.
+#[inline(always)]
+pub(super) fn eliminate_up(l: &[f64], m: usize, columns: Range<usize>, local: &mut [f64]) {
+    let first = columns.start;
+    let mut j = columns.end;
+    while j >= first + 4 {
         j -= 4;
         let columns: [&[f64]; 4] =
-            std::array::from_fn(|c| &front.l[(j + c) * m..(j + c) * m + j + 4]);
+            std::array::from_fn(|c| &l[(j + c) * m + first..(j + c) * m + j + 4]);
         let mut factors = [0.0; 4];
+        let own = j - first;
         for c in (0..4).rev() {
-            let value = local[j + c] / columns[c][j + c];
-            local[j + c] = value;
+            let value = local[own + c] / columns[c][own + c];
+            local[own + c] = value;
             factors[c] = -value;
             for earlier in 0..c {
-                local[j + earlier] -= columns[c][j + earlier] * value;
+                local[own + earlier] -= columns[c][own + earlier] * value;
             }
         }
-        let above = columns.map(|column| &column[..j]);
-        add_four(&mut local[..j], above, factors);
+        let above = columns.map(|column| &column[..own]);
+        add_four(&mut local[..own], above, factors);
+    }
+    for j in (first..j).rev() {
+        let value = local[j - first] / l[j * m + j];
+        local[j - first] = value;
+        add_one(&mut local[..j - first], &l[j * m + first..j * m + j], -value);
+    }
+}
+
+/// Columns of a matrix, `stride` apart, from some row on.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Columns<'a> {
+    pub values: &'a [f64],
+    pub stride: usize,
+    pub first_row: usize,
+}
+
+impl<'a> Columns<'a> {
+    /// The same rows further down.
+    pub fn below(self, rows: usize) -> Self {
+        Self { first_row: self.first_row + rows, ..self }
+    }
+
+    #[inline(always)]
+    fn column(self, index: usize, rows: usize) -> &'a [f64] {
+        &self.values[index * self.stride + self.first_row..][..rows]
+    }
+}
+
+/// Subtracts columns times factors, the first column first.
+#[inline(always)]
+pub(super) fn subtract_columns(columns: Columns<'_>, factors: &[f64], target: &mut [f64]) {
+    let rows = target.len();
+    let mut fours = factors.chunks_exact(4);
+    let mut j = 0;
+    for four in &mut fours {
+        let factors = std::array::from_fn(|c| -four[c]);
+        add_four(target, std::array::from_fn(|c| columns.column(j + c, rows)), factors);
+        j += 4;
+    }
+    for (j, factor) in (j..).zip(fours.remainder()) {
+        add_one(target, columns.column(j, rows), -factor);
+    }
+}
+
+/// The same, the last column first.
+#[inline(always)]
+pub(super) fn subtract_last_first(columns: Columns<'_>, factors: &[f64], target: &mut [f64]) {
+    let rows = target.len();
+    let mut j = factors.len();
+    while j >= 4 {
+        j -= 4;
+        let four = std::array::from_fn(|c| -factors[j + c]);
+        add_four(target, std::array::from_fn(|c| columns.column(j + c, rows)), four);
     }
     for j in (0..j).rev() {
-        let value = local[j] / front.l[j * m + j];
-        local[j] = value;
-        add_one(&mut local[..j], &front.l[j * m..j * m + j], -value);
+        add_one(target, columns.column(j, rows), -factors[j]);
     }
-    scatter(local, front.pivot_columns, x);
 }
 
 /// [`forward`] for several right-hand sides.
@@ -188,13 +250,12 @@ pub(super) fn forward_block(
     }
 }
 
-/// [`backward`] for several right-hand sides; `border` is workspace.
+/// [`backward`] for several right-hand sides.
 pub(super) fn backward_block(
     front: &FrontFactors<'_>,
     b: &[f64],
     x: &mut [f64],
-    local: &mut [f64],
-    border: &mut [f64],
+    values: &mut LocalValues,
     n_sides: usize,
 ) {
     let (p, q) = (front.pivot_rows.len(), front.border_columns.len());
@@ -202,7 +263,8 @@ pub(super) fn backward_block(
     if p == 0 {
         return;
     }
-    let local = &mut local[..p * n_sides];
+    let LocalValues { own, border } = values;
+    let local = &mut own[..p * n_sides];
     for (side, local) in b.chunks(n).zip(local.chunks_mut(p)) {
         gather(local, side, front.pivot_rows);
     }

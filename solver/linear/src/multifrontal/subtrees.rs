@@ -6,7 +6,7 @@ use crate::sparse::index::to_u32;
 /// A subtree is cut off when it takes less than this part of all arithmetic.
 const SUBTREE_SHARE: f64 = 1.0 / 24.0;
 /// Matrices with less arithmetic are one subtree.
-const MIN_PARALLEL_FLOPS: f64 = 2e7;
+pub(super) const MIN_PARALLEL_FLOPS: f64 = 2e7;
 
 /// A tree of supernodes in which each subtree is contiguous and the supernodes above come last.
 #[derive(Debug)]
@@ -19,8 +19,9 @@ pub(super) struct CutTree {
 }
 
 impl CutTree {
-    /// Cuts a tree, given in postorder; the cut does not depend on the number of threads.
-    pub fn new(supernodes: Vec<Supernode>) -> Self {
+    /// Cuts a tree, given in postorder, if it takes `least` arithmetic; the cut does not depend on the number
+    /// of threads.
+    pub fn new(supernodes: Vec<Supernode>, least: f64) -> Self {
         let n = supernodes.len();
         let mut total_flops = vec![0.0; n];
         let mut size = vec![1usize; n];
@@ -34,7 +35,7 @@ impl CutTree {
         }
         let roots = (0..n).filter(|&index| supernodes[index].parent.is_none());
         let all: f64 = roots.map(|index| total_flops[index]).sum();
-        let limit = if all < MIN_PARALLEL_FLOPS { f64::INFINITY } else { all * SUBTREE_SHARE };
+        let limit = if all < least { f64::INFINITY } else { all * SUBTREE_SHARE };
         let is_in_subtree = |index: usize| total_flops[index] <= limit;
         let mut sequence = Vec::with_capacity(n);
         let mut subtree_sizes = Vec::new();

@@ -6,6 +6,7 @@ use faer::Mat;
 use faer::linalg::solvers::Solve;
 use proptest::prelude::*;
 
+use super::subtrees::MIN_PARALLEL_FLOPS;
 use super::{Analysis, Factors, Ordering, Singular};
 use crate::sparse::index::to_u32;
 use crate::sparse::{Pattern, SparseMatrix, Unknowns};
@@ -14,6 +15,8 @@ use crate::sparse::{Pattern, SparseMatrix, Unknowns};
 struct System {
     matrix: SparseMatrix,
     unknowns: Unknowns,
+    /// Operations from which on the tree is cut into subtrees.
+    least_flops: f64,
 }
 
 impl System {
@@ -25,7 +28,12 @@ impl System {
         let rows = |column: usize| stored(column).map(|[row, _]| row).collect::<Vec<_>>();
         let pattern = Pattern::from_columns((0..n).map(rows));
         let values = (0..n).flat_map(stored).map(|[row, column]| dense[row][column]).collect();
-        Self { matrix: SparseMatrix::new(pattern, values), unknowns }
+        Self { matrix: SparseMatrix::new(pattern, values), unknowns, least_flops: MIN_PARALLEL_FLOPS }
+    }
+
+    /// The same, cut into subtrees or not.
+    fn cut(self, is_cut: bool) -> Self {
+        Self { least_flops: if is_cut { 0.0 } else { f64::INFINITY }, ..self }
     }
 
     fn n(&self) -> usize {
@@ -33,7 +41,7 @@ impl System {
     }
 
     fn analyse(&self, ordering: Ordering) -> Analysis {
-        Analysis::new(self.matrix.pattern(), &self.unknowns, ordering)
+        Analysis::cut(self.matrix.pattern(), &self.unknowns, ordering, self.least_flops)
     }
 
     fn dense(&self) -> Mat<f64> {
@@ -162,8 +170,9 @@ proptest! {
         n_dense in 0usize..4,
         minimum_degree in any::<bool>(),
         n_sides in 1usize..4,
+        is_cut in any::<bool>(),
     ) {
-        let system = saddle_point(width, height, seed, hard, n_dense);
+        let system = saddle_point(width, height, seed, hard, n_dense).cut(is_cut);
         let ordering = if minimum_degree { Ordering::MinimumDegree } else { Ordering::Best };
         prop_assert!(system.n() == 0 || agrees_with_dense_lu(&system, ordering, n_sides) != Some(false));
     }
@@ -177,8 +186,9 @@ proptest! {
         hard in 0.0f64..1.2,
         n_dense in 1usize..40,
         minimum_degree in any::<bool>(),
+        is_cut in any::<bool>(),
     ) {
-        let system = saddle_point(width, height, seed, hard, n_dense);
+        let system = saddle_point(width, height, seed, hard, n_dense).cut(is_cut);
         let ordering = if minimum_degree { Ordering::MinimumDegree } else { Ordering::Best };
         let analysis = system.analyse(ordering);
         let mut factors = Factors::new(&analysis);

@@ -22,7 +22,7 @@ pub struct Singular {
 pub(super) struct SubtreeFactors<'a> {
     /// Factors without delayed pivots, one front after the other.
     pub panels: &'a mut [f64],
-    /// Positions of the pivot rows.
+    /// Slots of the pivot rows.
     pub pivot_rows: &'a mut [u32],
 }
 
