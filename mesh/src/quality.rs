@@ -2,11 +2,15 @@
 
 use std::fmt;
 
+use rayon::prelude::*;
+
 use crate::curved::{determinant, jacobian_coefficients};
 use crate::{CellId, Mesh, Point, Simplex};
 
 /// Worst cells listed.
 const LISTED: usize = 5;
+/// Cells a thread measures at a time, at least.
+const CELLS_PER_TASK: usize = 512;
 
 /// Numbers that describe a mesh.
 ///
@@ -149,10 +153,17 @@ impl<const D: usize> Mesh<D> {
         if quality.is_nan() { f64::NEG_INFINITY } else { quality }
     }
 
+    /// The quality of each cell.
+    #[must_use]
+    pub fn cell_qualities(&self) -> Vec<f64> {
+        let cells = (0..self.n_cells()).into_par_iter().with_min_len(CELLS_PER_TASK);
+        cells.map(|cell| self.cell_quality(CellId::new(cell))).collect()
+    }
+
     /// The cell with the lowest quality; `None` for a mesh without cells.
     #[must_use]
     pub fn worst_cell(&self) -> Option<CellQuality<D>> {
-        let all = self.cell_ids().map(|cell| (cell, self.cell_quality(cell)));
+        let all = self.cell_ids().zip(self.cell_qualities());
         let (cell, quality) = all.min_by(|a, b| a.1.total_cmp(&b.1))?;
         Some(CellQuality { cell, quality, center: self.cell_center(cell) })
     }

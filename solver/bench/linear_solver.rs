@@ -64,8 +64,9 @@ fn multifrontal(criterion: &mut Criterion<CpuTime>, size: usize, system: &Linear
 
 fn by_faer(criterion: &mut Criterion<CpuTime>, size: usize, system: &LinearSystem) {
     let LinearSystem { matrix, rhs, .. } = system;
+    let matrix = &benches::transposed(matrix);
     let (n, pattern) = (matrix.n(), matrix.pattern());
-    let rows = pattern.rows();
+    let rows = pattern.columns();
     let shape = SymbolicSparseColMatRef::new_checked(n, n, pattern.starts(), None, &rows);
     let symbolic = factorize_symbolic_lu(shape, LuSymbolicParams::default())
         .expect("the analysis fits into memory");

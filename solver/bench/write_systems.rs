@@ -87,8 +87,9 @@ fn multifrontal(system: &LinearSystem) -> Figures {
 
 fn by_faer(system: &LinearSystem) -> Figures {
     let LinearSystem { matrix, rhs, .. } = system;
+    let matrix = &benches::transposed(matrix);
     let (n, pattern) = (matrix.n(), matrix.pattern());
-    let rows = pattern.rows();
+    let rows = pattern.columns();
     let shape = SymbolicSparseColMatRef::new_checked(n, n, pattern.starts(), None, &rows);
     let matrix = SparseColMatRef::new(shape, matrix.values());
     let analyse =

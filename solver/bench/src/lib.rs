@@ -13,10 +13,27 @@ use alewife_core::algebra::SparseMatrix;
 /// # Errors
 /// When a file cannot be written.
 pub fn write_matrix(folder: &Path, matrix: &SparseMatrix) -> Result<()> {
-    let pattern = matrix.pattern();
+    let transposed = transposed(matrix);
+    let pattern = transposed.pattern();
     write_integers(&folder.join("columns.npy"), pattern.starts())?;
-    write_integers(&folder.join("rows.npy"), &pattern.rows())?;
-    write_reals(&folder.join("values.npy"), matrix.values())
+    write_integers(&folder.join("rows.npy"), &pattern.columns())?;
+    write_reals(&folder.join("values.npy"), transposed.values())
+}
+
+/// The transposed of a matrix whose pattern is symmetric: its rows are the columns of the matrix.
+///
+/// # Panics
+/// When an entry has none across the diagonal.
+#[must_use]
+pub fn transposed(matrix: &SparseMatrix) -> SparseMatrix {
+    let pattern = matrix.pattern();
+    let mut values = Vec::with_capacity(pattern.n_entries());
+    for row in 0..matrix.n() {
+        let of_row = pattern.row(row).iter();
+        let across = of_row.map(|&column| pattern.entry(column as usize, row));
+        values.extend(across.map(|entry| matrix.values()[entry.expect("a symmetric pattern")]));
+    }
+    SparseMatrix::new(matrix.shared_pattern(), values)
 }
 
 /// Numbers as u64.

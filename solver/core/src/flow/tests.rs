@@ -118,9 +118,9 @@ fn check_symmetry<const D: usize>(mesh: Mesh<D>, metric: Metric) {
     let matrix = setting.matrix(Convection::None);
     let pattern = setting.maps.pattern();
     let most = matrix.iter().fold(0.0f64, |most, value| most.max(value.abs()));
-    for column in 0..setting.layout.n_fluid() {
-        for (position, &row) in pattern.entries(column).zip(pattern.column(column)) {
-            let row = row as usize;
+    for row in 0..setting.layout.n_fluid() {
+        for (position, &column) in pattern.entries(row).zip(pattern.row(row)) {
+            let column = column as usize;
             let mirrored = pattern.entry(column, row).expect("the pattern is symmetric");
             assert!((matrix[position] - matrix[mirrored]).abs() < 1e-14 * most);
         }

@@ -92,7 +92,7 @@ impl Fresh {
         surroundings: &impl FacingSurfaces<D>,
         limits: Limits,
     ) -> Self {
-        let quality = mesh.cell_ids().map(|cell| mesh.cell_quality(cell)).collect();
+        let quality = mesh.cell_qualities();
         let layers = mesh
             .facets
             .iter()
@@ -130,10 +130,8 @@ pub fn needs_remesh<const D: usize>(
 }
 
 fn worst_quality<const D: usize>(mesh: &Mesh<D>, fresh: &Fresh) -> Option<Reason<D>> {
-    let all = mesh.cell_ids().zip(&fresh.quality).map(|(cell, &when_new)| {
-        let quality = mesh.cell_quality(cell);
-        (cell, quality, when_new)
-    });
+    let qualities = mesh.cell_ids().zip(mesh.cell_qualities());
+    let all = qualities.zip(&fresh.quality).map(|((cell, quality), new)| (cell, quality, *new));
     let (cell, quality, when_new) =
         all.min_by(|one, other| (one.1 / one.2).total_cmp(&(other.1 / other.2)))?;
     (quality < fresh.limits.quality * when_new).then(|| Reason::Quality {

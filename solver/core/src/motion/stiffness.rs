@@ -137,10 +137,11 @@ impl Stiffness {
     /// -P^T K g for raw values g, most of which are zero.
     pub fn load(&self, constraints: &AffineConstraints, given: &[f64]) -> Vec<f64> {
         let mut load = vec![0.0; given.len()];
+        // The columns of a symmetric matrix are its rows
         for (column, &value) in given.iter().enumerate().filter(|(_, value)| **value != 0.0) {
             let pattern = self.matrix.pattern();
             let entries = &self.matrix.values()[pattern.entries(column)];
-            for (&row, entry) in pattern.column(column).iter().zip(entries) {
+            for (&row, entry) in pattern.row(column).iter().zip(entries) {
                 load[row as usize] -= entry * value;
             }
         }

@@ -1,5 +1,8 @@
 //! `Simulation`: problem, state and workspace; a step of a given size, on a new mesh where needed.
 
+use alewife_mesh::{CellId, NodeId};
+use rayon::prelude::*;
+
 use super::error::{RunError, StepError};
 use super::mesh_path::MeshPath;
 use super::moving_mesh::MovingMesh;
@@ -198,8 +201,8 @@ impl<const D: usize> Simulation<D> {
         let frame = state.origin_at(&self.problem, &state.poses)
             - state.origin_at(&self.problem, &state.previous_poses);
         let frame = crate::body::on_mesh::<D>(&frame);
-        let mut most = CellCrossing { rate: f64::MIN_POSITIVE, reach: 0.0 };
-        for cell in state.mesh.cell_ids() {
+        let of_cell = |cell: usize| {
+            let cell = CellId::new(cell);
             let length = |edge: alewife_mesh::Edge<'_>| {
                 let [from, to] = edge.ends;
                 (state.nodes[to] - state.nodes[from]).norm()
@@ -208,17 +211,24 @@ impl<const D: usize> Simulation<D> {
             for length in state.mesh.cell_edges(cell).map(length) {
                 (shortest, longest) = (shortest.min(length), longest.max(length));
             }
-            for &node in state.mesh.cell(cell) {
+            let passing = |&node: &NodeId| {
                 let mut passing = state.now.velocity[node];
                 if state.last_step > 0.0 {
                     let way = state.nodes[node] - state.nodes_before[node] + frame;
                     passing -= way / state.last_step;
                 }
-                most.rate = most.rate.max(passing.norm() / shortest);
-                most.reach = most.reach.max(passing.norm() * longest);
-            }
-        }
-        most
+                passing.norm()
+            };
+            let fastest = state.mesh.cell(cell).iter().map(passing).fold(0.0, f64::max);
+            CellCrossing { rate: fastest / shortest, reach: fastest * longest }
+        };
+        let least = CellCrossing { rate: f64::MIN_POSITIVE, reach: 0.0 };
+        let larger = |one: CellCrossing, other: CellCrossing| CellCrossing {
+            rate: one.rate.max(other.rate),
+            reach: one.reach.max(other.reach),
+        };
+        let cells = (0..state.mesh.n_cells()).into_par_iter().with_min_len(1024);
+        cells.map(of_cell).reduce(|| least, larger)
     }
 
     /// Records where swimmers are, and at the start what they do.

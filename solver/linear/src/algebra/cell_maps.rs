@@ -89,12 +89,13 @@ mod tests {
                 local.retain(Option::is_some);
             }
             let mut expected = Vec::new();
-            let pairs = local.iter().flat_map(|column| local.iter().map(move |row| (column, row)));
-            for (index, (column, row)) in pairs.enumerate() {
-                let entry = column
-                    .zip(*row)
-                    .and_then(|(column, row)| maps.pattern().entry(row as usize, column as usize));
-                expected.extend(entry.map(|entry| (index, entry)));
+            for (i, row) in local.iter().enumerate() {
+                for (j, column) in local.iter().enumerate() {
+                    let entry = row.zip(*column).and_then(|(row, column)| {
+                        maps.pattern().entry(row as usize, column as usize)
+                    });
+                    expected.extend(entry.map(|entry| (j * local.len() + i, entry)));
+                }
             }
             let mut entries = Vec::new();
             maps.entries.for_each(cell, |local, entry| entries.push((local, entry)));
@@ -117,6 +118,6 @@ mod tests {
             assert!(!folds.is_folded(index));
             maps.scatter(index, &cell, &mut values);
         }
-        assert_eq!(values, [2.0, -3.0, -1.0, 6.0]);
+        assert_eq!(values, [2.0, -1.0, -3.0, 6.0]);
     }
 }

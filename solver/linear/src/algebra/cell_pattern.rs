@@ -64,7 +64,7 @@ impl Runs {
     }
 }
 
-/// Columns of all pairs of unknowns that share a cell and couple.
+/// Rows of all pairs of unknowns that share a cell and couple.
 pub(super) fn build_pattern(
     n: usize,
     unknowns: &CellUnknowns,
@@ -81,7 +81,7 @@ pub(super) fn build_pattern(
     let mut pattern = Pattern::default();
     let mut last_near = vec![NO_UNKNOWN; runs.n()];
     let mut near: Vec<u32> = Vec::new();
-    let mut rows: Vec<u32> = Vec::new();
+    let mut columns: Vec<u32> = Vec::new();
     for run in 0..to_u32(runs.n()) {
         near.clear();
         for &cell in cells.list(runs.unknowns(run).start) {
@@ -93,11 +93,11 @@ pub(super) fn build_pattern(
             }
         }
         near.sort_unstable();
-        for column in runs.unknowns(run) {
-            rows.clear();
+        for row in runs.unknowns(run) {
+            columns.clear();
             let all = near.iter().flat_map(|&other| runs.unknowns(other));
-            rows.extend(all.filter(|&row| couples(row, column)).map(to_u32));
-            pattern.push(&rows);
+            columns.extend(all.filter(|&column| couples(row, column)).map(to_u32));
+            pattern.push(&columns);
         }
     }
     pattern.shrink();
@@ -113,12 +113,12 @@ pub(super) struct CellEntries {
     places: Vec<Place>,
     /// Start of each cell in `lengths`, and the end of the last.
     run_offsets: Vec<usize>,
-    /// Length of the columns of each run of each cell.
+    /// Length of the rows of each run of each cell.
     lengths: Vec<u32>,
     /// Start of each cell in `first`.
     first_offsets: Vec<usize>,
     /// For each two runs of a cell the entry of the first row of one in the first column of the
-    /// other, column by column; `NOT_STORED` for pairs that do not couple.
+    /// other, row by row; `NOT_STORED` for pairs that do not couple.
     first: Vec<u32>,
 }
 
@@ -155,10 +155,10 @@ impl CellEntries {
             all.place_offsets.push(all.places.len());
             all.first_offsets.push(all.first.len());
             for &run in &distinct {
-                let column = runs.unknowns(run).start;
-                all.lengths.push(to_u32(pattern.column(column).len()));
+                let row = runs.unknowns(run).start;
+                all.lengths.push(to_u32(pattern.row(row).len()));
                 all.first.extend(distinct.iter().map(|&other| {
-                    let entry = pattern.entry(runs.unknowns(other).start, column);
+                    let entry = pattern.entry(row, runs.unknowns(other).start);
                     entry.map_or(NOT_STORED, to_u32)
                 }));
             }
@@ -177,11 +177,11 @@ impl CellEntries {
         let lengths = &self.lengths[self.run_offsets[cell]..self.run_offsets[cell + 1]];
         let first = &self.first[self.first_offsets[cell]..][..lengths.len() * lengths.len()];
         let n = places.len();
-        for (column, place) in places.iter().enumerate().filter(|(_, place)| place.run != GIVEN) {
+        for (row, place) in places.iter().enumerate().filter(|(_, place)| place.run != GIVEN) {
             let run = usize::from(place.run);
             let shift = u32::from(place.offset) * lengths[run];
             let first = &first[run * lengths.len()..][..lengths.len()];
-            for (row, place) in places.iter().enumerate() {
+            for (column, place) in places.iter().enumerate() {
                 let Some(&first) = first.get(usize::from(place.run)) else { continue };
                 if first != NOT_STORED {
                     let entry = first + shift + u32::from(place.offset);

@@ -50,7 +50,8 @@ impl Cholesky {
     /// When the matrix is not positive definite, or memory runs out.
     pub fn factorise(matrix: &SparseMatrix) -> Result<Self, CholeskyError> {
         let (n, pattern) = (matrix.n(), matrix.pattern());
-        let rows = pattern.rows();
+        // The rows of a symmetric matrix are its columns
+        let rows = pattern.columns();
         let view = SymbolicSparseColMatRef::new_checked(n, n, pattern.starts(), None, &rows);
         let symbolic = factorize_symbolic_cholesky(
             view,
@@ -119,11 +120,11 @@ mod tests {
 
     /// The matrix of -u'' on n points with `shift` on its diagonal.
     fn chain(n: usize, shift: f64) -> SparseMatrix {
-        let rows = |column: usize| column.saturating_sub(1)..(column + 2).min(n);
+        let columns = |row: usize| row.saturating_sub(1)..(row + 2).min(n);
         let value = |row, column| if row == column { 2.0 + shift } else { -1.0 };
-        let of_column = |column| rows(column).map(move |row| value(row, column));
-        let values = (0..n).flat_map(of_column).collect();
-        SparseMatrix::new(Pattern::from_columns((0..n).map(rows)), values)
+        let of_row = |row| columns(row).map(move |column| value(row, column));
+        let values = (0..n).flat_map(of_row).collect();
+        SparseMatrix::new(Pattern::from_rows((0..n).map(columns)), values)
     }
 
     #[test]
@@ -133,7 +134,7 @@ mod tests {
         let exact: Vec<f64> = (0..80).map(|i| f64::from(i).sin()).collect();
         let mut sides = vec![0.0; 80];
         for (x, b) in exact.chunks(40).zip(sides.chunks_mut(40)) {
-            matrix.multiply_add(x, b);
+            matrix.multiply(x, b);
         }
         cholesky.solve(&mut sides).unwrap();
         for (found, wanted) in sides.iter().zip(&exact) {

@@ -7,11 +7,12 @@
 
 use std::sync::Arc;
 
-use super::fingerprint::Fingerprints;
-use super::krylov::{KrylovSolution, Stopping, fgmres, norm};
+use super::fingerprint::{Fingerprints, hash_of_values};
+use super::krylov::{KrylovSolution, Stopping, fgmres};
 use super::memory::{ForeignMemory, SolverMemory};
 use super::reuse::ReusePolicy;
 use super::solver::{Accuracy, LinearError, LinearSolver};
+use super::vectors::{combine, norm};
 use crate::multifrontal::{Analysis, Factors, Ordering};
 use crate::sparse::{Pattern, SparseMatrix, Unknowns};
 
@@ -122,17 +123,13 @@ impl DirectSolver {
         tolerance: f64,
     ) -> KrylovSolution {
         let multiply = |x: &[f64], y: &mut [f64]| {
-            y.fill(0.0);
-            matrix.multiply_add(x, y);
-            for (value, scale) in y.iter_mut().zip(scales) {
-                *value *= scale;
-            }
+            matrix.multiply(x, y);
+            combine(y, scales, |value, scale| value * scale);
         };
         let (factors, analysis) = (&mut self.factors, &self.analysis);
         let precondition = |r: &[f64], z: &mut [f64]| {
-            for ((z, value), scale) in z.iter_mut().zip(r).zip(scales) {
-                *z = value / scale;
-            }
+            z.copy_from_slice(r);
+            combine(z, scales, |value, scale| value / scale);
             factors.solve(analysis, z);
         };
         let stopping = Stopping { tolerance, max_iterations: self.policy.affordable_iterations() };
@@ -147,8 +144,8 @@ impl DirectSolver {
     }
 
     fn hash_of(&mut self, matrix: &SparseMatrix) -> u64 {
-        let values = matrix.values().iter().map(|value| value.to_bits());
-        self.fingerprints.hash_of(matrix.revision(), values)
+        let hash = || hash_of_values(matrix.values(), |value| value.to_bits());
+        self.fingerprints.hash_of(matrix.revision(), hash)
     }
 }
 

@@ -8,7 +8,8 @@ use std::sync::{Mutex, PoisonError};
 use thiserror::Error;
 
 use super::cholesky::{Cholesky, CholeskyError};
-use super::krylov::{Stopping, fgmres, norm};
+use super::krylov::{Stopping, fgmres};
+use super::vectors::norm;
 use crate::multigrid::{Block, BlockMatrix, HierarchySettings, Multigrid, RowBuilder};
 use crate::sparse::SparseMatrix;
 use crate::sparse::index::to_u32;
@@ -147,8 +148,7 @@ impl<const B: usize> Iterations<B> {
             return Ok(());
         }
         let multiply = |x: &[f64], y: &mut [f64]| {
-            y.fill(0.0);
-            self.matrix.multiply_add(x, y);
+            self.matrix.multiply(x, y);
         };
         let precondition = |r: &[f64], z: &mut [f64]| self.precondition(r, z);
         let stopping = Stopping { tolerance: TOLERANCE * size, max_iterations: MAX_ITERATIONS };
@@ -193,9 +193,8 @@ fn blocks<const B: usize>(
         row_blocks.clear();
         for (component, unknown) in components.iter().enumerate() {
             let Some(unknown) = *unknown else { continue };
-            // The row of a symmetric matrix is its column
             let values = &matrix.values()[pattern.entries(unknown)];
-            for (&other, &value) in pattern.column(unknown).iter().zip(values) {
+            for (&other, &value) in pattern.row(unknown).iter().zip(values) {
                 let [column, b] = places[other as usize];
                 let at = match row_blocks.iter().position(|(known, _)| *known == column) {
                     Some(at) => at,
@@ -251,15 +250,15 @@ mod tests {
                 _ => 0.0,
             }
         };
-        let mut columns: Vec<Vec<usize>> = Vec::new();
+        let mut rows: Vec<Vec<usize>> = Vec::new();
         let mut values = Vec::new();
-        for &column in &places {
-            let rows = (0..places.len()).filter(|&row| value(places[row], column) != 0.0);
-            let rows: Vec<usize> = rows.collect();
-            values.extend(rows.iter().map(|&row| value(places[row], column)));
-            columns.push(rows);
+        for &row in &places {
+            let columns = (0..places.len()).filter(|&column| value(row, places[column]) != 0.0);
+            let columns: Vec<usize> = columns.collect();
+            values.extend(columns.iter().map(|&column| value(row, places[column])));
+            rows.push(columns);
         }
-        (SparseMatrix::new(Pattern::from_columns(columns), values), places)
+        (SparseMatrix::new(Pattern::from_rows(rows), values), places)
     }
 
     fn check_against_factors(n_components: usize) {

@@ -1,6 +1,11 @@
 //! `Fingerprints`: whether the values of a matrix are those it had before.
 
+use rayon::prelude::*;
+
 use crate::sparse::Revision;
+
+/// Values that are hashed on their own, whatever the number of threads.
+const CHUNK: usize = 1 << 14;
 
 /// The hash of the values of a matrix at the revision last asked for.
 #[derive(Debug, Default)]
@@ -16,20 +21,27 @@ struct Fingerprint {
 }
 
 impl Fingerprints {
-    /// Hash of the values of a matrix at a revision, taken once for each.
+    /// The hash of the values of a matrix at a revision, taken once for each.
     ///
     /// A revision alone does not tell whether the factors at hand are those of a matrix: assembled again
     /// from the same terms it has equal values at another revision.
-    pub fn hash_of(&mut self, revision: &Revision, values: impl Iterator<Item = u64>) -> u64 {
+    pub fn hash_of(&mut self, revision: &Revision, hash: impl FnOnce() -> u64) -> u64 {
         let known = self.latest.as_ref().filter(|latest| latest.revision == *revision);
-        let hash = known.map_or_else(|| hash(values), |known| known.hash);
+        let hash = known.map_or_else(hash, |known| known.hash);
         self.latest = Some(Fingerprint { revision: revision.clone(), hash });
         hash
     }
 }
 
-/// A hash of all bits of all values.
-fn hash(values: impl Iterator<Item = u64>) -> u64 {
+/// A hash of the bits of all values.
+pub(super) fn hash_of_values<T: Sync>(values: &[T], bits: impl Fn(&T) -> u64 + Sync) -> u64 {
+    let chunks = values.par_chunks(CHUNK);
+    let hashes: Vec<u64> = chunks.map(|chunk| hash(chunk.iter().map(&bits))).collect();
+    hash(hashes.into_iter())
+}
+
+/// A hash of some numbers.
+pub(super) fn hash(values: impl Iterator<Item = u64>) -> u64 {
     const MIX: u64 = 0x9E37_79B9_7F4A_7C15;
     let mix = |hash: u64, value: u64| (hash ^ value).wrapping_mul(MIX).rotate_left(29);
     // Lanes do not wait for each other

@@ -1,5 +1,7 @@
 //! FGMRES: flexible GMRES, preconditioned from the right (@saad1993).
 
+use super::vectors::{add, dot, norm};
+
 /// When FGMRES ends.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Stopping {
@@ -23,7 +25,7 @@ pub(super) struct KrylovSolution {
 /// Solves A x = b from x = 0.
 ///
 /// `multiply` overwrites its second argument with A times the first, `precondition` with an
-/// approximation of A^-1 times the first. Sums run in the order of the unknowns.
+/// approximation of A^-1 times the first.
 pub(super) fn fgmres(
     mut multiply: impl FnMut(&[f64], &mut [f64]),
     mut precondition: impl FnMut(&[f64], &mut [f64]),
@@ -44,7 +46,7 @@ pub(super) fn fgmres(
         let mut column = Vec::with_capacity(basis.len());
         for vector in &basis {
             let component = dot(vector, &image);
-            subtract(component, vector, &mut image);
+            add(-component, vector, &mut image);
             column.push(component);
         }
         let size = norm(&image);
@@ -60,9 +62,7 @@ pub(super) fn fgmres(
     }
     let mut x = vec![0.0; n];
     for (weight, direction) in hessenberg.weights().iter().zip(&directions) {
-        for (x, &value) in x.iter_mut().zip(direction) {
-            *x += weight * value;
-        }
+        add(*weight, direction, &mut x);
     }
     KrylovSolution { x, iterations: hessenberg.n_columns(), residual: hessenberg.residual }
 }
@@ -140,32 +140,6 @@ impl Hessenberg {
             weights[row] /= self.columns[row][row];
         }
         weights
-    }
-}
-
-/// Scalar product.
-pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
-    // Eight sums side by side, in a fixed order.
-    let mut sums = [0.0; 8];
-    let (a_chunks, b_chunks) = (a.chunks_exact(8), b.chunks_exact(8));
-    let rest: f64 = a_chunks.remainder().iter().zip(b_chunks.remainder()).map(|(a, b)| a * b).sum();
-    for (a, b) in a_chunks.zip(b_chunks) {
-        for lane in 0..8 {
-            sums[lane] += a[lane] * b[lane];
-        }
-    }
-    sums.iter().sum::<f64>() + rest
-}
-
-/// Euclidean norm.
-pub(super) fn norm(vector: &[f64]) -> f64 {
-    dot(vector, vector).sqrt()
-}
-
-/// target -= factor * from.
-pub(super) fn subtract(factor: f64, from: &[f64], target: &mut [f64]) {
-    for (target, value) in target.iter_mut().zip(from) {
-        *target -= factor * value;
     }
 }
 

@@ -13,6 +13,7 @@ mod memory;
 mod reuse;
 mod saddle_point;
 mod solver;
+mod vectors;
 
 pub use crate::multifrontal::Singular;
 pub use crate::sparse::{Pattern, SparseMatrix, Unknowns};

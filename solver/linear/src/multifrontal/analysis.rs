@@ -302,12 +302,7 @@ fn relative_indices(fronts: &[Front], border: &[u32]) -> Vec<u32> {
 }
 
 /// The segments of subtrees, then that of the fronts above.
-fn segments(
-    subtrees: &[Subtree],
-    top: &Subtree,
-    fronts: &[Front],
-    border: &[u32],
-) -> Vec<Segment> {
+fn segments(subtrees: &[Subtree], top: &Subtree, fronts: &[Front], border: &[u32]) -> Vec<Segment> {
     let all = subtrees.iter().chain([top]);
     all.map(|subtree| Segment::new(subtree, fronts, border)).collect()
 }

@@ -39,14 +39,14 @@ impl EntryMap {
         }
         // Two buckets a front: entries among velocities, entries of pressures.
         let mut buckets = Vec::with_capacity(pattern.n_entries());
-        let mut columns = Vec::with_capacity(pattern.n_entries());
-        for (column, &own) in positions.of_unknown.iter().enumerate() {
-            for &row in pattern.column(column) {
-                let row = positions.of_unknown[row as usize];
+        let mut rows = Vec::with_capacity(pattern.n_entries());
+        for (row, &own) in positions.of_unknown.iter().enumerate() {
+            for &column in pattern.row(row) {
+                let column = positions.of_unknown[column as usize];
                 let has_pressure =
-                    positions.is_pressure[row as usize] || positions.is_pressure[own as usize];
-                buckets.push(2 * front_of[row.min(own) as usize] + u32::from(has_pressure));
-                columns.push(to_u32(column));
+                    positions.is_pressure[column as usize] || positions.is_pressure[own as usize];
+                buckets.push(2 * front_of[column.min(own) as usize] + u32::from(has_pressure));
+                rows.push(to_u32(row));
             }
         }
         let Buckets { starts, members: sources } = Buckets::new(&buckets, 2 * fronts.len());
@@ -64,10 +64,10 @@ impl EntryMap {
                 local[position as usize] = index;
             }
             for &entry in &sources[front.entries.clone()] {
-                let column = columns[entry as usize] as usize;
-                let row = pattern.column(column)[entry as usize - pattern.starts()[column]];
-                let row = positions.of_unknown[row as usize];
-                let column = positions.of_unknown[column];
+                let row = rows[entry as usize] as usize;
+                let column = pattern.row(row)[entry as usize - pattern.starts()[row]];
+                let column = positions.of_unknown[column as usize];
+                let row = positions.of_unknown[row];
                 let (row, column) = (local[row as usize] as usize, local[column as usize] as usize);
                 targets.push(to_u32(if column < front.k {
                     row + column * front.m()

@@ -65,36 +65,35 @@ impl Graph {
         let n = vertices.n;
         let vertex = &vertices.of_unknown;
         let unknowns = Buckets::new(vertex, n);
-        // Each pair (column, row) of vertices with an entry, once.
+        // Each pair (row, column) of vertices with an entry, once.
         let mut seen = vec![None; n];
-        let (mut columns, mut rows) = (Vec::new(), Vec::new());
+        let (mut rows, mut columns) = (Vec::new(), Vec::new());
         let mut pair_starts = vec![0];
         for from in 0..to_u32(n) {
             seen[from as usize] = Some(from);
-            for &column in unknowns.of(from as usize) {
-                for &row in pattern.column(column as usize) {
-                    let row = row as usize;
-                    let to = vertex[row];
+            for &row in unknowns.of(from as usize) {
+                for &column in pattern.row(row as usize) {
+                    let to = vertex[column as usize];
                     if seen[to as usize] != Some(from) {
                         seen[to as usize] = Some(from);
-                        columns.push(from);
-                        rows.push(to);
+                        rows.push(from);
+                        columns.push(to);
                     }
                 }
             }
-            pair_starts.push(rows.len());
+            pair_starts.push(columns.len());
         }
         // And its transpose, where that is another one.
-        let pairs_of_row = Buckets::new(&rows, n);
+        let pairs_of_column = Buckets::new(&columns, n);
         let weights = (0..n).map(|vertex| to_u32(unknowns.of(vertex).len())).collect();
         let mut graph = Self { starts: vec![0], neighbours: Vec::new(), weights };
         seen.fill(None);
         for from in 0..to_u32(n) {
             let vertex = from as usize;
-            let below = &rows[pair_starts[vertex]..pair_starts[vertex + 1]];
-            let across = pairs_of_row.of(vertex).iter().map(|&pair| columns[pair as usize]);
+            let own = &columns[pair_starts[vertex]..pair_starts[vertex + 1]];
+            let across = pairs_of_column.of(vertex).iter().map(|&pair| rows[pair as usize]);
             let start = graph.neighbours.len();
-            for to in below.iter().copied().chain(across) {
+            for to in own.iter().copied().chain(across) {
                 if seen[to as usize] != Some(from) {
                     seen[to as usize] = Some(from);
                     graph.neighbours.push(to);

@@ -43,8 +43,8 @@ pub(super) fn scale_pressures(
                 velocity.add(diagonal);
             }
         } else {
-            let column = &values[matrix.pattern().entries(unknown as usize)];
-            let largest = column.iter().fold(0.0f64, |most, value| most.max(value.abs()));
+            let row = &values[matrix.pattern().entries(unknown as usize)];
+            let largest = row.iter().fold(0.0f64, |most, value| most.max(value.abs()));
             pivot_floors[position] = largest;
             if analysis.is_pressure_at[position] {
                 pressure.add(largest);

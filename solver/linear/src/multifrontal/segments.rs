@@ -20,18 +20,23 @@ pub(super) struct Segment {
     pub positions: Range<usize>,
     /// Positions of the unknowns copied, ascending, which have the next slots.
     pub copies: Vec<u32>,
+    /// Order of the largest front that the analysis foresees.
+    pub largest_front: usize,
 }
 
 impl Segment {
     /// Of a subtree, or of the fronts above, which have nothing to copy.
     pub fn new(subtree: &Subtree, fronts: &[Front], border: &[u32]) -> Self {
         let range = subtree.fronts.clone();
-        let (Some(first), Some(root)) = (fronts[range.clone()].first(), fronts[range.clone()].last())
+        let (Some(first), Some(root)) =
+            (fronts[range.clone()].first(), fronts[range.clone()].last())
         else {
-            return Self { fronts: range, positions: 0..0, copies: Vec::new() };
+            return Self { fronts: range, positions: 0..0, copies: Vec::new(), largest_front: 0 };
         };
         let positions = first.start..root.start + root.k;
-        Self { fronts: range, positions, copies: border[root.border()].to_vec() }
+        let largest_front = fronts[range.clone()].iter().map(Front::m).fold(0, usize::max);
+        let copies = border[root.border()].to_vec();
+        Self { fronts: range, positions, copies, largest_front }
     }
 
     /// Number of slots that the analysis foresees.

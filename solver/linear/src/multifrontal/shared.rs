@@ -41,7 +41,13 @@ pub(super) fn forward(
     for start in (0..p).step_by(BLOCK) {
         let end = (start + BLOCK).min(p);
         let (solved, below) = local.split_at_mut(end);
-        arch.dispatch(Triangle { l: front.l, m, columns: start..end, local: solved, is_lower: true });
+        arch.dispatch(Triangle {
+            l: front.l,
+            m,
+            columns: start..end,
+            local: solved,
+            is_lower: true,
+        });
         let columns = Columns { values: &front.l[start * m..], stride: m, first_row: end };
         subtract(arch, columns, &solved[start..], below, Order::FirstFirst);
     }
@@ -86,11 +92,10 @@ fn subtract(
     target: &mut [f64],
     order: Order,
 ) {
-    let n_threads = rayon::current_num_threads();
-    if n_threads == 1 || target.len() * factors.len() < SMALL {
+    if target.len() * factors.len() < SMALL {
         return arch.dispatch(Rows { columns, factors, target, order });
     }
-    let even = target.len().div_ceil(2 * n_threads);
+    let even = target.len().div_ceil(2 * rayon::current_num_threads());
     let n_rows = even.next_multiple_of(8).max(MIN_ROWS);
     target.par_chunks_mut(n_rows).enumerate().for_each(|(index, target)| {
         let columns = columns.below(index * n_rows);

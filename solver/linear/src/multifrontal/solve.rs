@@ -7,7 +7,6 @@ use rayon::prelude::*;
 
 use super::analysis::Analysis;
 use super::factors::Factors;
-use super::front::Front;
 use super::segments::{Delay, Segment, Slot};
 use super::shared;
 use super::substitution::{
@@ -48,18 +47,18 @@ impl Factors {
                 let of_side = &block[side * n..(side + 1) * n];
                 let unknowns = &analysis.unknown_at[segment.positions.clone()];
                 let is_pressure = &analysis.is_pressure_at[segment.positions.clone()];
-                for ((value, &unknown), &is_pressure) in b.iter_mut().zip(unknowns).zip(is_pressure) {
+                for ((value, &unknown), &is_pressure) in b.iter_mut().zip(unknowns).zip(is_pressure)
+                {
                     *value = of_side[unknown as usize] * self.scale(is_pressure);
                 }
             };
             self.substitute(analysis, 0, &mut scratch, n_sides, fill);
-            let places = Places::new(self, analysis, n_sides);
             for (side, values) in block.chunks_mut(n).enumerate() {
+                let starts = self.starts_of_side(analysis, side, n_sides);
                 let slots = analysis.slots.par_chunks(CHUNK);
                 values.par_chunks_mut(CHUNK).zip(slots).for_each(|(values, slots)| {
-                    for (value, &slot) in values.iter_mut().zip(slots) {
-                        let is_pressure = places.is_pressure(analysis, slot);
-                        *value = scratch.x[places.index(slot, side)] * self.scale(is_pressure);
+                    for (value, slot) in values.iter_mut().zip(slots) {
+                        *value = scratch.x[starts[slot.segment as usize] + slot.index as usize];
                     }
                 });
             }
@@ -96,9 +95,12 @@ impl Factors {
                 }
             };
             self.substitute(analysis, first, &mut scratch, block.len(), fill);
-            let places = Places::new(self, analysis, block.len());
             for side in 0..block.len() {
-                inverse.extend(slots.iter().map(|&slot| scratch.x[places.index(slot, side)]));
+                let starts = self.starts_of_side(analysis, side, block.len());
+                let values = slots
+                    .iter()
+                    .map(|slot| scratch.x[starts[slot.segment as usize] + slot.index as usize]);
+                inverse.extend(values);
             }
         }
         self.scratch = scratch;
@@ -128,13 +130,18 @@ impl Factors {
         for part in &subtrees {
             above.add_from(part);
         }
-        self.forward(analysis, above, first, true);
-        self.backward(analysis, above, first, true);
-        let above = &*above;
-        subtrees.par_iter_mut().with_max_len(1).for_each(|part| {
-            part.copy_from(above);
+        // One thread alone comes to the same bits
+        let is_shared = rayon::current_num_threads() > 1;
+        self.forward(analysis, above, first, is_shared);
+        self.backward(analysis, above, first, is_shared);
+        let copied = &*above;
+        // The last first: their factors are still in the cache
+        subtrees.par_iter_mut().rev().with_max_len(1).for_each(|part| {
+            part.copy_from(copied);
             self.backward(analysis, part, first, false);
+            self.scale_pressures(analysis, part);
         });
+        self.scale_pressures(analysis, above);
     }
 
     /// The vectors, cut into segments.
@@ -175,12 +182,30 @@ impl Factors {
         starts
     }
 
+    /// Where each segment has the values of one right-hand side.
+    fn starts_of_side(&self, analysis: &Analysis, side: usize, n_sides: usize) -> Vec<usize> {
+        let starts = self.starts(analysis, n_sides);
+        let of_side = starts.windows(2).map(|ends| ends[0] + (ends[1] - ends[0]) / n_sides * side);
+        of_side.collect()
+    }
+
+    /// Gives the pressures of a segment their own scale again.
+    fn scale_pressures(&self, analysis: &Analysis, part: &mut Part<'_>) {
+        let n_slots = part.n_slots().max(1);
+        let is_pressure = &analysis.is_pressure_at[part.segment.positions.clone()];
+        for x in part.x.chunks_mut(n_slots) {
+            for (value, &is_pressure) in x.iter_mut().zip(is_pressure) {
+                *value *= self.scale(is_pressure);
+            }
+        }
+    }
+
     /// Forward substitution in a segment, in the fronts from `first` on.
-    fn forward(&self, analysis: &Analysis, part: &mut Part<'_>, first: usize, is_above: bool) {
-        let mut values = self.local_values(analysis, part);
+    fn forward(&self, analysis: &Analysis, part: &mut Part<'_>, first: usize, is_shared: bool) {
+        let mut values = self.local_values(part);
         let fronts = part.segment.fronts.start.max(first)..part.segment.fronts.end;
         let (b, n_sides) = (&mut *part.b, part.n_sides);
-        match (n_sides, is_above) {
+        match (n_sides, is_shared) {
             (1, false) => {
                 let fronts = fronts.map(|index| self.of_front(analysis, index));
                 self.arch.dispatch(Forward { fronts, b, values: &mut values });
@@ -195,11 +220,11 @@ impl Factors {
     }
 
     /// Backward substitution in a segment, in the fronts from `first` on.
-    fn backward(&self, analysis: &Analysis, part: &mut Part<'_>, first: usize, is_above: bool) {
-        let mut values = self.local_values(analysis, part);
+    fn backward(&self, analysis: &Analysis, part: &mut Part<'_>, first: usize, is_shared: bool) {
+        let mut values = self.local_values(part);
         let fronts = part.segment.fronts.start.max(first)..part.segment.fronts.end;
         let (b, x, n_sides) = (&*part.b, &mut *part.x, part.n_sides);
-        match (n_sides, is_above) {
+        match (n_sides, is_shared) {
             (1, false) => {
                 let fronts = fronts.rev().map(|index| self.of_front(analysis, index));
                 self.arch.dispatch(Backward { fronts, b, x, values: &mut values });
@@ -240,11 +265,10 @@ impl Factors {
         }
     }
 
-    fn local_values(&self, analysis: &Analysis, part: &Part<'_>) -> LocalValues {
-        let fronts = part.segment.fronts.clone();
-        let regular = analysis.fronts[fronts.clone()].iter().map(Front::m);
-        let delayed = self.delayed.range(fronts).map(|(_, own)| own.rows.len());
-        LocalValues::new(regular.chain(delayed).fold(0, usize::max), part.n_sides)
+    fn local_values(&self, part: &Part<'_>) -> LocalValues {
+        let delayed = self.delayed.range(part.segment.fronts.clone());
+        let orders = delayed.map(|(_, own)| own.rows.len());
+        LocalValues::new(orders.fold(part.segment.largest_front, usize::max), part.n_sides)
     }
 
     fn scale(&self, is_pressure: bool) -> f64 {
@@ -298,29 +322,6 @@ impl Part<'_> {
     }
 }
 
-/// Where the values of slots stand in the vectors of all segments.
-struct Places {
-    starts: Vec<usize>,
-    n_sides: usize,
-}
-
-impl Places {
-    fn new(factors: &Factors, analysis: &Analysis, n_sides: usize) -> Self {
-        Self { starts: factors.starts(analysis, n_sides), n_sides }
-    }
-
-    fn index(&self, slot: Slot, side: usize) -> usize {
-        let segment = slot.segment as usize;
-        let (start, end) = (self.starts[segment], self.starts[segment + 1]);
-        start + (end - start) / self.n_sides * side + slot.index as usize
-    }
-
-    fn is_pressure(&self, analysis: &Analysis, slot: Slot) -> bool {
-        let first = analysis.segments[slot.segment as usize].positions.start;
-        analysis.is_pressure_at[first + slot.index as usize]
-    }
-}
-
 /// The substitutions for one right-hand side: types of our own, so that they are compiled for the
 /// processor's vectors.
 struct Forward<'a, I> {
@@ -355,7 +356,7 @@ impl<'a, I: Iterator<Item = FrontFactors<'a>>> pulp::WithSimd for Backward<'_, I
     fn with_simd<S: pulp::Simd>(self, _simd: S) {
         let Self { fronts, b, x, values } = self;
         for front in fronts {
-            backward(&front, b, x, values);
+            backward(&front, b, x, &mut values.own);
         }
     }
 }

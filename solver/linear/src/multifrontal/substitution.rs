@@ -108,7 +108,7 @@ pub(super) fn eliminate_down(l: &[f64], m: usize, columns: Range<usize>, local: 
     let rows = local.len();
     let mut j = columns.start;
     while j + 4 <= columns.end {
-        let columns: [&[f64]; 4] = std::array::from_fn(|c| &l[(j + c) * m..(j + c) * m + rows]);
+        let columns = four_columns(l, m, j);
         let mut factors = [0.0; 4];
         for c in 0..4 {
             factors[c] = -local[j + c];
@@ -116,7 +116,8 @@ pub(super) fn eliminate_down(l: &[f64], m: usize, columns: Range<usize>, local: 
                 local[j + later] += columns[c][j + later] * factors[c];
             }
         }
-        let below = columns.map(|column| &column[j + 4..]);
+        let [a, b, c, d] = columns;
+        let below = [&a[j + 4..rows], &b[j + 4..rows], &c[j + 4..rows], &d[j + 4..rows]];
         add_four(&mut local[j + 4..], below, factors);
         j += 4;
     }
@@ -128,12 +129,21 @@ pub(super) fn eliminate_down(l: &[f64], m: usize, columns: Range<usize>, local: 
 
 /// x of the pivot columns from b of the pivot rows and x of the others.
 #[inline(always)]
-pub(super) fn backward(front: &FrontFactors<'_>, b: &[f64], x: &mut [f64], values: &mut LocalValues) {
+pub(super) fn backward(front: &FrontFactors<'_>, b: &[f64], x: &mut [f64], local: &mut [f64]) {
     let (p, q) = (front.pivot_rows.len(), front.border_columns.len());
-    let (local, border) = (&mut values.own[..p], &mut values.border[..q]);
+    let local = &mut local[..p];
     gather(local, b, front.pivot_rows);
-    gather(border, x, front.border_columns);
-    subtract_columns(Columns { values: front.u, stride: p, first_row: 0 }, border, local);
+    let mut columns = front.u.chunks_exact(p.max(1) * 4);
+    let mut slots = front.border_columns.chunks_exact(4);
+    for (four, slots) in (&mut columns).zip(&mut slots) {
+        let factors = std::array::from_fn(|c| -x[slots[c] as usize]);
+        add_four(local, std::array::from_fn(|c| &four[c * p..(c + 1) * p]), factors);
+    }
+    if p > 0 {
+        for (column, &slot) in columns.remainder().chunks_exact(p).zip(slots.remainder()) {
+            add_one(local, column, -x[slot as usize]);
+        }
+    }
     eliminate_up(front.l, p + q, 0..p, local);
     scatter(local, front.pivot_columns, x);
 }
@@ -146,8 +156,8 @@ pub(super) fn eliminate_up(l: &[f64], m: usize, columns: Range<usize>, local: &m
     let mut j = columns.end;
     while j >= first + 4 {
         j -= 4;
-        let columns: [&[f64]; 4] =
-            std::array::from_fn(|c| &l[(j + c) * m + first..(j + c) * m + j + 4]);
+        let [a, b, c, d] = four_columns(l, m, j);
+        let columns = [&a[first..j + 4], &b[first..j + 4], &c[first..j + 4], &d[first..j + 4]];
         let mut factors = [0.0; 4];
         let own = j - first;
         for c in (0..4).rev() {
@@ -158,7 +168,8 @@ pub(super) fn eliminate_up(l: &[f64], m: usize, columns: Range<usize>, local: &m
                 local[own + earlier] -= columns[c][own + earlier] * value;
             }
         }
-        let above = columns.map(|column| &column[..own]);
+        let [a, b, c, d] = columns;
+        let above = [&a[..own], &b[..own], &c[..own], &d[..own]];
         add_four(&mut local[..own], above, factors);
     }
     for j in (first..j).rev() {
@@ -166,6 +177,15 @@ pub(super) fn eliminate_up(l: &[f64], m: usize, columns: Range<usize>, local: &m
         local[j - first] = value;
         add_one(&mut local[..j - first], &l[j * m + first..j * m + j], -value);
     }
+}
+
+/// Four columns of a matrix of stride m, from column j on.
+#[inline(always)]
+fn four_columns(matrix: &[f64], m: usize, j: usize) -> [&[f64]; 4] {
+    let (a, others) = matrix[j * m..(j + 4) * m].split_at(m);
+    let (b, others) = others.split_at(m);
+    let (c, d) = others.split_at(m);
+    [a, b, c, d]
 }
 
 /// Columns of a matrix, `stride` apart, from some row on.
@@ -186,6 +206,13 @@ impl<'a> Columns<'a> {
     fn column(self, index: usize, rows: usize) -> &'a [f64] {
         &self.values[index * self.stride + self.first_row..][..rows]
     }
+
+    #[inline(always)]
+    fn four(self, first: usize, rows: usize) -> [&'a [f64]; 4] {
+        // Written out, because array::from_fn is not always inlined
+        let [a, b, c, d] = [first, first + 1, first + 2, first + 3];
+        [self.column(a, rows), self.column(b, rows), self.column(c, rows), self.column(d, rows)]
+    }
 }
 
 /// Subtracts columns times factors, the first column first.
@@ -195,8 +222,8 @@ pub(super) fn subtract_columns(columns: Columns<'_>, factors: &[f64], target: &m
     let mut fours = factors.chunks_exact(4);
     let mut j = 0;
     for four in &mut fours {
-        let factors = std::array::from_fn(|c| -four[c]);
-        add_four(target, std::array::from_fn(|c| columns.column(j + c, rows)), factors);
+        let factors = [-four[0], -four[1], -four[2], -four[3]];
+        add_four(target, columns.four(j, rows), factors);
         j += 4;
     }
     for (j, factor) in (j..).zip(fours.remainder()) {
@@ -211,8 +238,8 @@ pub(super) fn subtract_last_first(columns: Columns<'_>, factors: &[f64], target:
     let mut j = factors.len();
     while j >= 4 {
         j -= 4;
-        let four = std::array::from_fn(|c| -factors[j + c]);
-        add_four(target, std::array::from_fn(|c| columns.column(j + c, rows)), four);
+        let four = [-factors[j], -factors[j + 1], -factors[j + 2], -factors[j + 3]];
+        add_four(target, columns.four(j, rows), four);
     }
     for j in (0..j).rev() {
         add_one(target, columns.column(j, rows), -factors[j]);

@@ -2,7 +2,14 @@
 
 use std::sync::Arc;
 
+use rayon::prelude::*;
+
 use super::pattern::Pattern;
+
+/// Rows of a product that a thread takes at a time.
+const ROWS_PER_TASK: usize = 1024;
+/// Sums side by side in a row.
+const LANES: usize = 4;
 
 /// A state of the values of one matrix: equal revisions mean equal values.
 #[derive(Debug, Clone)]
@@ -33,7 +40,7 @@ impl PartialEq for Revision {
     }
 }
 
-/// A square sparse matrix by compressed columns.
+/// A square sparse matrix by compressed rows.
 #[derive(Debug)]
 pub struct SparseMatrix {
     pattern: Arc<Pattern>,
@@ -111,21 +118,20 @@ impl SparseMatrix {
         &self.revision
     }
 
-    /// y += A x.
-    pub fn multiply_add(&self, x: &[f64], y: &mut [f64]) {
-        self.pattern.multiply_add(&self.values, x, y);
+    /// y = A x.
+    ///
+    /// # Panics
+    /// When a vector has another length.
+    pub fn multiply(&self, x: &[f64], y: &mut [f64]) {
+        assert_eq!([x.len(), y.len()], [self.n(); 2], "a value for each unknown");
+        self.for_each_row(y, |row, y| *y = self.sum_of_terms(row, x, |term| term));
     }
 
     /// |A| |x|: the sum of the absolute values of the terms of each row of A x.
     #[must_use]
     pub fn absolute_product(&self, x: &[f64]) -> Vec<f64> {
         let mut sums = vec![0.0; self.n()];
-        for (column, &factor) in x.iter().enumerate() {
-            let values = &self.values[self.pattern.entries(column)];
-            for (&row, value) in self.pattern.column(column).iter().zip(values) {
-                sums[row as usize] += (value * factor).abs();
-            }
-        }
+        self.for_each_row(&mut sums, |row, sum| *sum = self.sum_of_terms(row, x, f64::abs));
         sums
     }
 
@@ -133,16 +139,39 @@ impl SparseMatrix {
     #[must_use]
     pub fn residual(&self, x: &[f64], b: &[f64]) -> Residual {
         let mut defect = b.to_vec();
-        let mut size: Vec<f64> = b.iter().map(|value| value.abs()).collect();
-        for (column, &factor) in x.iter().enumerate() {
-            let values = &self.values[self.pattern.entries(column)];
-            for (&row, value) in self.pattern.column(column).iter().zip(values) {
-                let product = value * factor;
-                defect[row as usize] -= product;
-                size[row as usize] += product.abs();
+        self.for_each_row(&mut defect, |row, defect| {
+            *defect -= self.sum_of_terms(row, x, |term| term)
+        });
+        let mut size = self.absolute_product(x);
+        size.iter_mut().zip(b).for_each(|(size, value)| *size += value.abs());
+        Residual { defect, size }
+    }
+
+    /// The sum of what `of` makes of each term of a row of A x.
+    #[inline(always)]
+    fn sum_of_terms(&self, row: usize, x: &[f64], of: impl Fn(f64) -> f64) -> f64 {
+        let term = |column: u32, value: f64| of(value * x[column as usize]);
+        let columns = self.pattern.row(row).chunks_exact(LANES);
+        let values = self.values[self.pattern.entries(row)].chunks_exact(LANES);
+        let rest = columns.remainder().iter().zip(values.remainder());
+        let rest: f64 = rest.map(|(&column, &value)| term(column, value)).sum();
+        let mut sums = [0.0; LANES];
+        for (columns, values) in columns.zip(values) {
+            for lane in 0..LANES {
+                sums[lane] += term(columns[lane], values[lane]);
             }
         }
-        Residual { defect, size }
+        sums.iter().sum::<f64>() + rest
+    }
+
+    /// Calls `work` with each row and the value that a vector has there, in parallel.
+    #[inline(always)]
+    fn for_each_row(&self, vector: &mut [f64], work: impl Fn(usize, &mut f64) + Sync) {
+        vector.par_chunks_mut(ROWS_PER_TASK).enumerate().for_each(|(task, values)| {
+            for (row, value) in (task * ROWS_PER_TASK..).zip(values) {
+                work(row, value);
+            }
+        });
     }
 }
 
@@ -176,7 +205,7 @@ mod tests {
 
     /// [[2, 1], [0, 4]].
     fn matrix() -> SparseMatrix {
-        SparseMatrix::new(Pattern::from_columns([vec![0], vec![0, 1]]), vec![2.0, 1.0, 4.0])
+        SparseMatrix::new(Pattern::from_rows([vec![0, 1], vec![1]]), vec![2.0, 1.0, 4.0])
     }
 
     #[test]
@@ -198,8 +227,8 @@ mod tests {
         let matrix = matrix();
         let x = [1.0, -3.0];
         let mut y = vec![10.0, 0.0];
-        matrix.multiply_add(&x, &mut y);
-        assert_eq!(y, [9.0, -12.0]);
+        matrix.multiply(&x, &mut y);
+        assert_eq!(y, [-1.0, -12.0]);
         assert_eq!(matrix.absolute_product(&x), [5.0, 12.0]);
         let residual = matrix.residual(&x, &[0.0, -8.0]);
         assert_eq!(residual.defect, [1.0, 4.0]);

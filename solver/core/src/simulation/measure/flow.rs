@@ -1,14 +1,13 @@
 //! The quantities of the flow: its integrals, its energy balance, and the mesh it is computed on.
 
-use alewife_mesh::Point;
-use nalgebra::{SMatrix, Vector3};
+use nalgebra::Vector3;
 
+use super::integrals::Integrals;
 use super::momentum::FluidMomentum;
 use crate::case::FlowQuantity;
 use crate::coupling::{MeanFlowReport, Problem, SurfaceLoads};
 use crate::simulation::advance::{CellCrossing, Simulation};
 use crate::simulation::energy::EnergyRecord;
-use crate::space::CellValues;
 
 /// The whole flow at one time.
 pub(in crate::simulation) struct FlowMeasurement {
@@ -50,15 +49,16 @@ impl FlowMeasurement {
     ) -> Self {
         let Simulation { problem, state, work, .. } = simulation;
         let tables = work.system.tables();
-        let mut sums = Self {
-            dissipation: 0.0,
-            kinetic_energy: 0.0,
-            momentum: Vector3::zeros(),
-            squared_speed: 0.0,
-            mass_defect: 0.0,
+        let sums = Integrals::over_fluid(problem, &state.mesh, &state.now.velocity, tables);
+        Self {
+            dissipation: 2.0 * problem.viscosity * sums.squared_rate,
+            kinetic_energy: 0.5 * problem.density * sums.squared_speed,
+            momentum: problem.metric.total_force(&sums.velocity) * problem.density,
+            squared_speed: sums.squared_speed,
+            mass_defect: sums.divergence,
             energy_defect: f64::NAN,
             momentum_defect: f64::NAN,
-            volume: 0.0,
+            volume: sums.volume,
             mean_flow: work.system.mean_flow(&problem.mean_flow_at(state.time), &state.now),
             crossing: problem
                 .has_convection
@@ -68,31 +68,7 @@ impl FlowMeasurement {
             minimum_gap: state.contact.minimum_gap.map_or(f64::INFINITY, |minimum| minimum.gap),
             cells: state.mesh.n_cells(),
             remeshes: state.remeshes,
-        };
-        let mut workspace = CellValues::default();
-        for cell in state.mesh.cell_ids() {
-            let nodes = state.mesh.cell(cell);
-            workspace.for_each_point(tables, &state.mesh, cell, |at| {
-                let mut velocity = Point::<D>::zeros();
-                let mut gradient = SMatrix::<f64, D, D>::zeros();
-                for (a, &node) in nodes.iter().enumerate() {
-                    let nodal = &state.now.velocity[node];
-                    velocity += nodal * at.phi[a];
-                    gradient += nodal * at.grad_phi[a].transpose();
-                }
-                let rate = (gradient + gradient.transpose()) / 2.0;
-                let stretch = problem.metric.hoop_strain(&velocity, &at.position);
-                sums.dissipation +=
-                    2.0 * problem.viscosity * (rate.norm_squared() + stretch * stretch) * at.dx;
-                sums.squared_speed += velocity.norm_squared() * at.dx;
-                sums.momentum += problem.metric.total_force(&(velocity * at.dx));
-                sums.volume += at.dx;
-                sums.mass_defect += (gradient.trace() + stretch) * at.dx;
-            });
         }
-        sums.kinetic_energy = 0.5 * problem.density * sums.squared_speed;
-        sums.momentum *= problem.density;
-        sums
     }
 
     /// What the balance of momentum records of the fluid of a density (kg/m3).

@@ -5,6 +5,7 @@
 
 mod bodies;
 mod flow;
+mod integrals;
 mod momentum;
 mod probes;
 mod swimmers;

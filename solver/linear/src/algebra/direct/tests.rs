@@ -6,9 +6,9 @@ use super::*;
 fn chain(n: usize) -> (SparseMatrix, Unknowns) {
     let is_pressure: Vec<bool> = (0..n).map(|index| index % 3 == 2).collect();
     let couples = |row: usize, column: usize| !is_pressure[row] || !is_pressure[column];
-    let pattern = Pattern::from_columns((0..n).map(|column| {
-        let rows = column.saturating_sub(3)..(column + 4).min(n);
-        rows.filter(move |&row| couples(row, column))
+    let pattern = Pattern::from_rows((0..n).map(|row| {
+        let columns = row.saturating_sub(3)..(row + 4).min(n);
+        columns.filter(move |&column| couples(row, column))
     }));
     let mut matrix = SparseMatrix::zeros(pattern);
     let node = (0u32..).take(n).collect();
@@ -21,9 +21,9 @@ fn chain(n: usize) -> (SparseMatrix, Unknowns) {
 fn set_convection(matrix: &mut SparseMatrix, unknowns: &Unknowns, convection: f64) {
     let pattern = matrix.pattern().clone();
     let values = matrix.values_mut();
-    for column in 0..pattern.n() {
-        for (entry, &row) in pattern.entries(column).zip(pattern.column(column)) {
-            let row = row as usize;
+    for row in 0..pattern.n() {
+        for (entry, &column) in pattern.entries(row).zip(pattern.row(row)) {
+            let column = column as usize;
             let distance = row as f64 - column as f64;
             let has_pressure = unknowns.is_pressure[row] || unknowns.is_pressure[column];
             values[entry] = match (has_pressure, row == column) {

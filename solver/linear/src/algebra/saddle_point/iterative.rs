@@ -1,7 +1,7 @@
 //! `IterativeSolver`: GCR for saddle-point systems, with a direct solver as the last resort.
 
 use super::super::direct::DirectSolver;
-use super::super::fingerprint::Fingerprints;
+use super::super::fingerprint::{Fingerprints, hash, hash_of_values};
 use super::super::memory::{ForeignMemory, SolverMemory};
 use super::super::solver::{Accuracy, LinearError, LinearSolver};
 use super::data::{SaddlePoint, Weights};
@@ -313,10 +313,9 @@ impl LinearSolver for IterativeSolver {
     type Matrix = SaddleMatrix;
 
     fn set_up(&mut self, matrix: &SaddleMatrix) -> Result<(), LinearError> {
-        let bits = |[leading, rest]: [f32; 2]| {
-            u64::from(leading.to_bits()) << 32 | u64::from(rest.to_bits())
-        };
-        let hash = self.fingerprints.hash_of(matrix.revision(), matrix.numbers().map(bits));
+        let of_part = |part: &[f32]| hash_of_values(part, |value| u64::from(value.to_bits()));
+        let of_all = || hash(matrix.parts().into_iter().map(of_part));
+        let hash = self.fingerprints.hash_of(matrix.revision(), of_all);
         if self.set_up.as_ref().is_some_and(|set_up| set_up.matrix == hash) {
             return Ok(());
         }

@@ -100,17 +100,16 @@ impl SaddleMatrix {
 
     /// Whether all values are finite.
     pub(super) fn is_finite(&self) -> bool {
-        let mut values = self.numbers();
-        values.all(|[leading, rest]| leading.is_finite() && rest.is_finite())
+        self.parts().into_iter().all(|part| part.par_iter().all(|value| value.is_finite()))
     }
 
-    /// All numbers, with the rest of each.
-    pub(crate) fn numbers(&self) -> impl Iterator<Item = [f32; 2]> {
-        let velocity = self.velocity.blocks().as_flattened().as_flattened().iter();
-        let velocity = velocity.zip(self.velocity_rest.as_flattened().as_flattened());
-        let gradient = self.gradient.values().as_flattened().iter();
-        let gradient = gradient.zip(self.gradient_rest.as_flattened());
-        velocity.chain(gradient).map(|(leading, rest)| [*leading, *rest])
+    /// All numbers: F and what single precision leaves of it, then the same of G.
+    pub(crate) fn parts(&self) -> [&[f32]; 4] {
+        let velocity = [self.velocity.blocks(), &self.velocity_rest];
+        let gradient = [self.gradient.values(), &self.gradient_rest];
+        let [leading, rest] = velocity.map(|part| part.as_flattened().as_flattened());
+        let [gradient, gradient_rest] = gradient.map(|part| part.as_flattened());
+        [leading, rest, gradient, gradient_rest]
     }
 
     /// Sets all values to zero.
@@ -247,12 +246,12 @@ impl SaddleMatrix {
         sums
     }
 
-    /// The same with compressed columns, G^T included, for a direct solver.
+    /// The same with compressed rows, G^T included, for a direct solver.
     #[must_use]
     pub fn to_sparse(&self) -> SparseMatrix {
         let Numbering { blocks, pressures, .. } = &self.numbering;
-        // Column of each unknown as rows with their values; both triangles have the same pattern
-        let mut columns: Vec<Vec<(u32, f64)>> = vec![Vec::new(); self.n()];
+        // Row of each unknown as columns with their values; both triangles have the same pattern
+        let mut rows: Vec<Vec<(u32, f64)>> = vec![Vec::new(); self.n()];
         for (row, unknowns) in blocks.iter().enumerate() {
             let own = || unknowns.iter().enumerate().filter_map(|(a, one)| one.map(|one| (a, one)));
             for (&column, index) in
@@ -262,7 +261,7 @@ impl SaddleMatrix {
                 for (b, other) in blocks[column as usize].iter().enumerate() {
                     let Some(other) = other else { continue };
                     for (a, one) in own() {
-                        columns[*other as usize].push((one, whole(leading[b][a], rest[b][a])));
+                        rows[one as usize].push((*other, whole(leading[b][a], rest[b][a])));
                     }
                 }
             }
@@ -271,17 +270,17 @@ impl SaddleMatrix {
                 let (leading, rest) = (self.gradient.values()[index], self.gradient_rest[index]);
                 for (a, one) in own() {
                     let value = whole(leading[a], rest[a]);
-                    columns[pressure as usize].push((one, value));
-                    columns[one as usize].push((pressure, value));
+                    rows[pressure as usize].push((one, value));
+                    rows[one as usize].push((pressure, value));
                 }
             }
         }
-        columns.iter_mut().for_each(|column| column.sort_unstable_by_key(|(row, _)| *row));
-        let rows = |column: &Vec<(u32, f64)>| -> Vec<usize> {
-            column.iter().map(|(row, _)| *row as usize).collect()
+        rows.iter_mut().for_each(|row| row.sort_unstable_by_key(|(column, _)| *column));
+        let columns = |row: &Vec<(u32, f64)>| -> Vec<usize> {
+            row.iter().map(|(column, _)| *column as usize).collect()
         };
-        let pattern = Pattern::from_columns(columns.iter().map(rows));
-        let values = columns.iter().flatten().map(|(_, value)| *value).collect();
+        let pattern = Pattern::from_rows(rows.iter().map(columns));
+        let values = rows.iter().flatten().map(|(_, value)| *value).collect();
         SparseMatrix::new(pattern, values)
     }
 }

@@ -1,6 +1,6 @@
 //! `Scaled`: a saddle-point system with scaled rows and columns, in double and in single precision.
 
-use super::super::krylov::norm;
+use super::super::vectors::norm;
 use super::guess::EarlierSolutions;
 use super::matrix::SaddleMatrix;
 use super::preconditioner::Preconditioner;

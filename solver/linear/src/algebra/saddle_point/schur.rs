@@ -144,9 +144,9 @@ impl Masses {
 fn single_precision(matrix: &SparseMatrix) -> BlockMatrix<1> {
     let pattern = matrix.pattern();
     let mut rows = RowBuilder::new(matrix.n());
-    for column in 0..matrix.n() {
-        for (&row, entry) in pattern.column(column).iter().zip(pattern.entries(column)) {
-            rows.push(row, [[single(matrix.values()[entry])]]);
+    for row in 0..matrix.n() {
+        for (&column, entry) in pattern.row(row).iter().zip(pattern.entries(row)) {
+            rows.push(column, [[single(matrix.values()[entry])]]);
         }
         rows.end_row();
     }
