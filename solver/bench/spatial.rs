@@ -175,7 +175,7 @@ fn write(
         *value = flow.velocity[node as usize][axis];
     }
     let mut rhs = vec![0.0; x.len()];
-    matrix.multiply_add(&x, &mut rhs);
+    matrix.multiply(&x, &mut rhs);
     write_matrix(folder, &matrix)?;
     write_reals(&folder.join("rhs.npy"), &rhs)?;
     let nodes: Vec<usize> = unknowns.node.iter().map(|node| *node as usize).collect();

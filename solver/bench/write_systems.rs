@@ -141,7 +141,7 @@ fn by_faer(system: &LinearSystem) -> Figures {
 
 fn residual(system: &LinearSystem, x: &[f64]) -> f64 {
     let mut image = vec![0.0; x.len()];
-    system.matrix.multiply_add(x, &mut image);
+    system.matrix.multiply(x, &mut image);
     let norm = |values: &mut dyn Iterator<Item = f64>| values.map(|v| v * v).sum::<f64>().sqrt();
     let defect = norm(&mut image.iter().zip(&system.rhs).map(|(a, b)| a - b));
     defect / norm(&mut system.rhs.iter().copied())
