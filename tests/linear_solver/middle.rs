@@ -211,7 +211,7 @@ fn solved_both_ways(matrices: &Matrices, difference: f64) -> Result<bool, String
     let typical = scattered(latest.n());
     let exact: Vec<f64> = typical.iter().map(|value| CORRECTION * value).collect();
     let mut b = vec![0.0; latest.n()];
-    latest.multiply_add(&exact, &mut b);
+    latest.multiply(&exact, &mut b);
     let off = |x: &[f64]| largest(x.iter().zip(&exact).map(|(x, exact)| x - exact)) / CORRECTION;
     let mut direct = DirectSolver::new(latest.pattern(), unknowns);
     direct.set_up(latest).map_err(|error| error.to_string())?;
