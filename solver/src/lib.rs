@@ -4,6 +4,7 @@
 
 pub mod cli;
 pub mod observer;
+pub mod sweep;
 pub mod validation;
 
 pub use alewife_core::{body, case, coupling, flow, simulation, timing};

@@ -11,7 +11,7 @@ use std::fs;
 use sources::{CRATES, all_sources, root, sources};
 
 /// The rooms of the solver, lowest first, and the rooms each may use.
-const ROOMS: [(&str, &[&str]); 19] = [
+const ROOMS: [(&str, &[&str]); 20] = [
     ("case", &[]),
     ("timing", &[]),
     ("space", &[]),
@@ -35,7 +35,8 @@ const ROOMS: [(&str, &[&str]); 19] = [
     ),
     ("observer", &["body", "case", "flow", "simulation"]),
     ("validation", &["case", "simulation"]),
-    ("cli", &["case", "coupling", "observer", "simulation", "validation"]),
+    ("sweep", &["case", "observer", "simulation", "validation"]),
+    ("cli", &["case", "coupling", "observer", "simulation", "sweep", "validation"]),
     ("main", &["cli"]),
 ];
 

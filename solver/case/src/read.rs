@@ -2,11 +2,10 @@
 //!
 //! A case is put together in this order, the later over the earlier: the file it `extends`, the
 //! file itself, the variant, the settings of the command line. Tables are merged, everything else
-//! is replaced. `reference`, `variant` and `quick` of an extended file are not inherited: what is
-//! known of one problem does not hold for another. Then the values of files take the place of their
+//! is replaced. `reference`, `variant`, `quick` and `sweep` of an extended file are not inherited:
+//! what is known of one problem does not hold for another. Then the values of files take the place of their
 //! names.
 
-use std::path::PathBuf;
 use std::sync::Arc;
 
 use serde::Deserialize;
@@ -16,13 +15,17 @@ use super::diagnostic::{CaseError, Diagnostic, Severity};
 use super::nearest::nearest;
 use super::region::opposite;
 use super::source::{Location, Origin, Source};
+use super::sweep::spec;
 use super::tree::{self, Found, TomlNode, TomlValue, TreeError};
 use super::type_error::{Mismatch, TypeError};
 use super::variants::{apply_variant, check_names, variant_names};
-use super::{BoundaryCondition, Case, Model, ShapeSpec, library, read_mesh, stroke_file};
+use super::{BoundaryCondition, Case, Model, ShapeSpec, library, read_mesh, setting, stroke_file};
 
 /// Keys of a file that those who extend it do not inherit.
-const OWN_KEYS: [&str; 3] = ["reference", "variant", "quick"];
+const OWN_KEYS: [&str; 4] = ["reference", "variant", "quick", SWEEP];
+
+/// The table that says what a sweep varies; it is no part of the case itself.
+pub(super) const SWEEP: &str = "sweep";
 
 /// Most diagnostics listed at once.
 const MOST_DIAGNOSTICS: usize = 20;
@@ -40,6 +43,8 @@ pub struct CaseFile {
     pub variants: Vec<String>,
     /// Name of the file that was read.
     pub file: String,
+    /// Whether the file has a `[sweep]`.
+    pub has_sweep: bool,
     root: TomlNode,
 }
 
@@ -79,11 +84,12 @@ impl CaseFile {
     /// Name and variant: `sphere-in-tube/free-0.5`.
     #[must_use]
     pub fn full_name(&self) -> String {
-        match &self.variant {
-            Some(variant) => format!("{}/{variant}", self.name),
-            None => self.name.clone(),
-        }
+        full_name(&self.name, self.variant.as_deref())
     }
+}
+
+fn full_name(name: &str, variant: Option<&str>) -> String {
+    variant.map_or_else(|| name.to_owned(), |variant| format!("{name}/{variant}"))
 }
 
 impl Case {
@@ -94,7 +100,7 @@ impl Case {
     /// [`CaseError`]: no such case, a file that cannot be read, or all that is wrong in it.
     pub fn read(argument: &str, settings: &[String]) -> Result<CaseFile, CaseError> {
         let Located { text, variant } = locate(argument)?;
-        assemble(&text, variant.as_deref(), settings)
+        UntypedCase::assemble(&text, variant, settings)?.typed()
     }
 
     /// Reads a case from a text; `name` stands for its file in messages.
@@ -104,7 +110,7 @@ impl Case {
     pub fn parse(name: &str, text: &str, settings: &[String]) -> Result<CaseFile, CaseError> {
         let source = Source { name: name.to_owned(), directory: None, text: text.to_owned() };
         let text = CaseText { name: stem(name), source: Arc::new(source) };
-        assemble(&text, None, settings)
+        UntypedCase::assemble(&text, None, settings)?.typed()
     }
 
     /// The case as a TOML text, with all defaults written out.
@@ -136,35 +142,73 @@ fn collect_numbers(node: &TomlNode, path: String, numbers: &mut Vec<WrittenNumbe
     }
 }
 
-/// Puts the tree together, and types it.
-fn assemble(
-    text: &CaseText,
-    variant: Option<&str>,
-    settings: &[String],
-) -> Result<CaseFile, CaseError> {
-    let mut root = extended(text)?;
-    let variants = variant_names(&root);
-    check_names(&root)?;
-    if let Some(variant) = variant {
-        apply_variant(&mut root, &text.source, variant).map_err(wrong)?;
+/// A case that is put together and not typed yet.
+#[derive(Debug, Clone)]
+pub(super) struct UntypedCase {
+    /// Name, and name of the file.
+    names: [String; 2],
+    variant: Option<String>,
+    variants: Vec<String>,
+    /// The case, without its sweep.
+    pub root: TomlNode,
+    /// What a sweep varies, if the file has one.
+    pub sweep: Option<TomlNode>,
+}
+
+impl UntypedCase {
+    /// Puts the tree together.
+    pub fn assemble(
+        text: &CaseText,
+        variant: Option<String>,
+        settings: &[String],
+    ) -> Result<Self, CaseError> {
+        let mut root = extended(text)?;
+        let variants = variant_names(&root);
+        check_names(&root)?;
+        if let Some(variant) = &variant {
+            apply_variant(&mut root, &text.source, variant).map_err(wrong)?;
+        }
+        for setting in settings {
+            let setting::Setting { path, value } = setting::read(&root, setting).map_err(wrong)?;
+            root.set(&path, value).map_err(wrong)?;
+        }
+        let sweep = root.table_mut().and_then(|entries| entries.remove(SWEEP));
+        let names = [&text.name, &text.source.name].map(ToOwned::to_owned);
+        Ok(Self { names, variant, variants, root, sweep })
     }
-    for setting in settings {
-        apply_setting(&mut root, setting).map_err(wrong)?;
+
+    /// Name and variant: `sphere-in-tube/free-0.5`.
+    pub fn full_name(&self) -> String {
+        full_name(&self.names[0], self.variant.as_deref())
     }
-    stroke_file::resolve(&mut root).map_err(wrong)?;
-    let mut case = typed(&root)?;
-    read_mesh::read_into(&mut case, &root).map_err(wrong)?;
-    complete_periodic(&mut case);
-    complete_cylinders(&mut case);
-    let model = Model::new(case).map_err(|error| located(&root, error))?;
-    Ok(CaseFile {
-        model,
-        name: text.name.clone(),
-        variant: variant.map(ToOwned::to_owned),
-        variants,
-        file: text.source.name.clone(),
-        root,
-    })
+
+    /// Name of the file that was read.
+    pub fn file(&self) -> &str {
+        &self.names[1]
+    }
+
+    /// Types it; a sweep is read to find what is wrong in it, and left out.
+    pub fn typed(mut self) -> Result<CaseFile, CaseError> {
+        if let Some(sweep) = &self.sweep {
+            spec::read(sweep).map_err(wrong)?;
+        }
+        stroke_file::resolve(&mut self.root).map_err(wrong)?;
+        let mut case = typed(&self.root)?;
+        read_mesh::read_into(&mut case, &self.root).map_err(wrong)?;
+        complete_periodic(&mut case);
+        complete_cylinders(&mut case);
+        let model = Model::new(case).map_err(|error| located(&self.root, error))?;
+        let [name, file] = self.names;
+        Ok(CaseFile {
+            model,
+            name,
+            variant: self.variant,
+            variants: self.variants,
+            file,
+            has_sweep: self.sweep.is_some(),
+            root: self.root,
+        })
+    }
 }
 
 /// Where the value at a dotted path is written, or the table it would stand in.
@@ -185,7 +229,7 @@ fn located(root: &TomlNode, error: CaseError) -> CaseError {
     CaseError::Wrong(diagnostics)
 }
 
-fn wrong(error: TreeError) -> CaseError {
+pub(super) fn wrong(error: TreeError) -> CaseError {
     CaseError::Wrong(vec![Diagnostic {
         severity: Severity::Error,
         key: String::new(),
@@ -240,51 +284,6 @@ fn extended(text: &CaseText) -> Result<TomlNode, CaseError> {
     }
     base.merge(root);
     Ok(base)
-}
-
-/// Sets one `KEY=VALUE` of the command line.
-fn apply_setting(root: &mut TomlNode, setting: &str) -> Result<(), TreeError> {
-    let source = Arc::new(Source {
-        name: "--set".to_owned(),
-        directory: Some(PathBuf::new()),
-        text: setting.to_owned(),
-    });
-    let written_at = |span| Origin { source: Arc::clone(&source), span };
-    let whole = written_at(0..setting.len());
-    let Some((path, raw)) = setting.split_once('=') else {
-        return Err(TreeError {
-            origin: whole,
-            message: format!("`{setting}` sets nothing"),
-            help: "write --set KEY=VALUE, such as --set mesh.scale=0.5".to_owned(),
-        });
-    };
-    let start = path.len() + 1;
-    let path = path.trim();
-    let wants_text = root.get(path).and_then(TomlNode::text).is_some();
-    let as_text = || TomlNode {
-        key: whole.clone(),
-        origin: written_at(start..setting.len()),
-        value: TomlValue::String(raw.trim().to_owned()),
-    };
-    let mut value = match tree::parse_value(&source, start) {
-        Ok(node)
-            if wants_text && matches!(node.value, TomlValue::Integer(_) | TomlValue::Float(_)) =>
-        {
-            as_text()
-        }
-        Ok(node) => node,
-        // A word without quotes is a string; what starts like something else is a mistake.
-        Err(reason) if raw.trim().is_empty() || raw.trim().starts_with(['[', '{', '"', '\'']) => {
-            return Err(TreeError {
-                origin: written_at(start..setting.len()),
-                message: format!("`{}` is not a TOML value: {reason}", raw.trim()),
-                help: "close every quote and bracket; quote the setting for your shell".to_owned(),
-            });
-        }
-        Err(_) => as_text(),
-    };
-    value.key = written_at(0..start - 1);
-    root.set(path, value)
 }
 
 /// A side whose partner is periodic is periodic, too, and need not say so.

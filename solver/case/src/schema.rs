@@ -28,8 +28,10 @@ mod tests {
             "type": "string",
             "description": "The case this one starts from: the relative path of a case file, or the \
                             name of a shipped case. Tables are merged, everything else is replaced; \
-                            reference, variant and quick are not inherited.",
+                            reference, variant, quick and sweep are not inherited.",
         });
+        schema["properties"]["sweep"] = sweep();
+        schema["$defs"]["SweepRange"] = sweep_range();
         // A plain number is a stroke, too
         if let Some(strokes) = schema["$defs"]["Stroke"]["oneOf"].as_array_mut() {
             strokes.push(json!({ "type": "number", "description": "The same as `constant`." }));
@@ -61,6 +63,72 @@ mod tests {
             );
         }
         schema
+    }
+
+    /// The schema of `[sweep]`, whose keys are those of the case by their paths.
+    fn sweep() -> Value {
+        let values = json!({
+            "description": "Values by the paths of keys, such as \"fluid.viscosity\" = [1.0, 2.0] or \
+                            { from = 1.0, to = 10.0, n = 5 }.",
+            "type": "object",
+            "additionalProperties": { "anyOf": [
+                { "type": "array", "minItems": 1 },
+                { "$ref": "#/$defs/SweepRange" },
+                { "type": "object" },
+            ] },
+        });
+        let points = json!({ "description": "Values of a point.", "type": "object" });
+        json!({
+            "description": "What `alewife sweep` varies: all combinations of what stands here.",
+            "type": "object",
+            "additionalProperties": false,
+            "properties": {
+                "grid": values,
+                "zip": {
+                    "description": "Keys that vary together: their first values, their second ones, ...",
+                    "anyOf": [values, { "type": "array", "items": values }],
+                },
+                "list": { "description": "Points one by one.", "type": "array", "items": points },
+                "latin-hypercube": {
+                    "description": "Points at random in ranges, one in each of the equal parts of every \
+                                    range.",
+                    "type": "object",
+                    "required": ["points"],
+                    "properties": {
+                        "points": { "description": "How many.", "type": "integer", "minimum": 1 },
+                        "seed": {
+                            "description": "Equal seeds give equal points.",
+                            "type": "integer",
+                            "minimum": 0,
+                        },
+                    },
+                },
+                "quantities": {
+                    "description": "Quantities to collect, with a statistic in front if wanted: \
+                                    \"mean squirmer.power\".",
+                    "type": "array",
+                    "items": { "type": "string" },
+                },
+            },
+        })
+    }
+
+    /// The schema of a range of a sweep.
+    fn sweep_range() -> Value {
+        json!({
+            "type": "object",
+            "additionalProperties": false,
+            "required": ["from", "to"],
+            "properties": {
+                "from": { "description": "First value.", "type": "number" },
+                "to": { "description": "Last value.", "type": "number" },
+                "n": { "description": "Number of values.", "type": "integer", "minimum": 2 },
+                "scale": {
+                    "description": "Equal steps or equal factors.",
+                    "enum": ["linear", "log"],
+                },
+            },
+        })
     }
 
     /// Lets the values of a function of time be angles with a unit, which its own schema does not know.

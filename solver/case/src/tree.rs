@@ -162,7 +162,7 @@ fn node(source: &Arc<Source>, origin: &Origin, value: &DeValue<'_>) -> Result<To
 
 impl TomlNode {
     /// Says of this value and all within that they are written at `origin`.
-    fn relocate(&mut self, origin: &Origin) {
+    pub fn relocate(&mut self, origin: &Origin) {
         self.key = origin.clone();
         self.origin = origin.clone();
         match &mut self.value {

@@ -10,9 +10,10 @@ use super::exit::{Exit, Failure};
 use super::facts::{count, facts, one_line};
 use super::read::{CheckedCase, read_and_check};
 use super::style::{self, Ink, on_stdout, say};
+use super::sweep::check_points;
 use crate::case::{
-    Cadence, CaseFile, Diagnostic, FlowModel, Model, Precision, TimeSettings, known_quantities,
-    number_table, printable, significant,
+    Cadence, CaseFile, Diagnostic, FlowModel, Model, Precision, Sweep, TimeSettings,
+    known_quantities, number_table, printable, significant,
 };
 use crate::simulation::{BodyRecoil, Dimension, Solve, cpu_seconds, recoils};
 
@@ -64,6 +65,9 @@ fn check_one(argument: &str, settings: &[String], has_mesh: bool) -> Result<(), 
         style::complain(&format!("\n{}", style::diagnostics(&warnings)));
     }
     check_variants(argument, &file, settings)?;
+    if file.has_sweep {
+        check_sweep(argument)?;
+    }
     say("\nnothing was solved");
     Ok(())
 }
@@ -103,6 +107,18 @@ fn check_variants(argument: &str, file: &CaseFile, settings: &[String]) -> Resul
     }
     if !file.case().variant.is_empty() {
         say(&format!("\n{} variants are valid, too", file.case().variant.len()));
+    }
+    Ok(())
+}
+
+/// So has every point of the sweep, as the file has it.
+fn check_sweep(argument: &str) -> Result<(), Failure> {
+    let sweep = Sweep::read(argument, &[])?;
+    let n = sweep.n_points();
+    let warnings = check_points(&sweep, 0..n)?;
+    say(&format!("\nsweep of {n} points over {}: all are valid", sweep.keys().join(", ")));
+    if !warnings.is_empty() {
+        style::complain(&style::diagnostics(&warnings));
     }
     Ok(())
 }

@@ -7,6 +7,7 @@ use super::style;
 use crate::case::{CaseError, Diagnostic};
 use crate::observer::RunDirectoryError;
 use crate::simulation::RunError;
+use crate::sweep::SweepDirectoryError;
 
 /// What became of it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -118,6 +119,20 @@ impl From<RunDirectoryError> for Failure {
             | RunDirectoryError::Resumable { .. }
             | RunDirectoryError::NotARun { .. } => Exit::Usage,
             _ => Exit::InputOutput,
+        };
+        Self::new(exit, error.to_string())
+    }
+}
+
+impl From<SweepDirectoryError> for Failure {
+    fn from(error: SweepDirectoryError) -> Self {
+        let exit = match error {
+            SweepDirectoryError::NotASweep { .. } => Exit::Usage,
+            SweepDirectoryError::None { .. } => Exit::NoInput,
+            SweepDirectoryError::Other { .. } | SweepDirectoryError::Damaged { .. } => {
+                Exit::BadCase
+            }
+            SweepDirectoryError::Io(_) => Exit::InputOutput,
         };
         Self::new(exit, error.to_string())
     }

@@ -15,6 +15,7 @@ mod signal;
 mod status;
 mod stop_file;
 mod style;
+mod sweep;
 mod threads;
 mod validate;
 mod wall_limit;
@@ -38,6 +39,7 @@ Examples:
   alewife show squirmer-alone --source > my.toml
   alewife check my.toml                         read it, mesh it, estimate the cost; no solve
   alewife run my.toml --set mesh.scale=0.5      the same on a mesh twice as fine
+  alewife sweep run my.toml --set fluid.viscosity=1:100:9:log
   alewife validate --quick                      do the shipped cases agree with their references?
 
 A CASE is the path of a .toml file, the name of a shipped case, or either with /VARIANT behind it.
@@ -99,6 +101,8 @@ enum Command {
     Run(run::Options),
     /// Tell how far a run is
     Status(status::Options),
+    /// Run a case at many points: with several values of some of its keys
+    Sweep(sweep::Options),
     /// Run shipped cases and compare them with their references
     Validate(validate::Options),
     /// Print the JSON Schema of case files
@@ -148,6 +152,7 @@ fn dispatch(command: Command) -> Result<Exit, Failure> {
         }
         Command::Run(options) => run::run(&options),
         Command::Status(options) => status::status(&options),
+        Command::Sweep(options) => sweep::sweep(&options),
         Command::Validate(options) => validate::validate(&options),
         Command::Schema => {
             say(crate::case::schema().trim_end());

@@ -15,14 +15,11 @@ use super::wall_limit::WallLimit;
 use super::{engine, threads};
 use crate::case::{Case, CaseFile, Model, TimeSettings, significant};
 use crate::observer::{
-    Earlier, FAILURE_STATE, History, RunDirectory, checkpoints, read_state, run_of_state,
-    write_atomic,
+    COMPARISON_FILE, Earlier, FAILURE_STATE, History, RunDirectory, checkpoints, read_state,
+    run_of_state, write_atomic,
 };
 use crate::simulation::{Dimension, RunError, RunSummary, SavedState, Solve};
 use crate::validation::{Comparison, Verdict, compare, comparison_table, comparisons_to_json};
-
-/// File of a run that holds its comparison with the references.
-const COMPARISON_FILE: &str = "comparison.json";
 
 /// What `run` is asked for.
 #[derive(Debug, Args)]
@@ -75,12 +72,50 @@ pub struct Options {
     verbose: u8,
 }
 
+/// How a point of a sweep is run.
+pub struct PointRun {
+    /// Its directory.
+    pub out: PathBuf,
+    /// Threads.
+    pub threads: Option<usize>,
+    /// Its time on the clock.
+    pub max_walltime: Option<String>,
+    /// Whether an earlier run is replaced, and not continued.
+    pub overwrite: bool,
+    /// Whether there is no progress on the terminal.
+    pub quiet: bool,
+}
+
+impl Options {
+    /// What a point of a sweep is asked for, whose case has been read.
+    pub fn of_point(point: PointRun) -> Self {
+        let PointRun { out, threads, max_walltime, overwrite, quiet } = point;
+        Self {
+            case: String::new(),
+            settings: Settings { set: Vec::new() },
+            out: Some(out),
+            threads,
+            resume: None,
+            continues: true,
+            max_walltime,
+            no_references: false,
+            overwrite,
+            quiet,
+            verbose: 0,
+        }
+    }
+}
+
 /// Runs a case.
 pub fn run(options: &Options) -> Result<Exit, Failure> {
-    let file = read_case(&options.case, &options.settings.set)?;
+    run_file(options, &read_case(&options.case, &options.settings.set)?)
+}
+
+/// Runs a case that has been read.
+pub fn run_file(options: &Options, file: &CaseFile) -> Result<Exit, Failure> {
     match file.case().geometry.dimensions() {
-        2 => run_in::<2>(options, &file),
-        _ => run_in::<3>(options, &file),
+        2 => run_in::<2>(options, file),
+        _ => run_in::<3>(options, file),
     }
 }
 
@@ -222,7 +257,7 @@ fn state_in(path: &Path) -> PathBuf {
 }
 
 /// A word as a shell reads it.
-fn quoted(word: &str) -> String {
+pub fn quoted(word: &str) -> String {
     let is_plain = |c: char| c.is_ascii_alphanumeric() || "-_./=,:+@%".contains(c);
     if !word.is_empty() && word.chars().all(is_plain) {
         word.to_owned()

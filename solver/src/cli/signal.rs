@@ -47,6 +47,11 @@ impl SignalWatch {
         });
         Ok(Self { has_come })
     }
+
+    /// Whether a signal has come.
+    pub fn has_come(&self) -> bool {
+        self.has_come.load(Ordering::Relaxed)
+    }
 }
 
 /// Makes a file that grows beyond what the system allows an error of that file: the signal that comes

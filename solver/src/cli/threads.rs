@@ -30,6 +30,13 @@ pub fn start(wanted: Option<usize>) -> Result<usize, Failure> {
     Ok(threads)
 }
 
+/// Cores this process may use: those of the machine, of its affinity and control group, or fewer where the
+/// batch system grants fewer to a task.
+pub fn granted() -> usize {
+    let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    first_of(&VARIABLES[1..]).map_or(cores, |granted| granted.min(cores))
+}
+
 /// Does work on one of the threads: what it does in parallel then begins there, where each piece would have to be
 /// handed over from the main thread, which takes longer than many of them.
 pub fn within<R: Send>(work: impl FnOnce() -> R + Send) -> R {
@@ -37,7 +44,11 @@ pub fn within<R: Send>(work: impl FnOnce() -> R + Send) -> R {
 }
 
 fn from_environment() -> Option<usize> {
-    VARIABLES
+    first_of(&VARIABLES)
+}
+
+fn first_of(variables: &[&str]) -> Option<usize> {
+    variables
         .iter()
         .filter_map(|name| std::env::var(name).ok()?.parse().ok())
         .find(|threads| *threads > 0)

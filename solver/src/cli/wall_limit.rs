@@ -26,12 +26,20 @@ impl WallLimit {
     /// # Errors
     /// When what is asked for is no time.
     pub fn new(asked: Option<&str>) -> Result<Option<Self>, Failure> {
+        let (now, end) = (Instant::now(), Self::end(asked)?);
+        Ok(end.map(|end| Self { end, last: now, longest: Arc::new(AtomicU64::new(0)) }))
+    }
+
+    /// When the time that is asked for is over, or else that of the batch job, if there is one.
+    ///
+    /// # Errors
+    /// When what is asked for is no time.
+    pub fn end(asked: Option<&str>) -> Result<Option<Instant>, Failure> {
         let wrong = |reason| Failure::new(Exit::Usage, format!("--max-walltime: {reason}"));
         let asked: Option<WallTime> = asked.map(str::parse).transpose().map_err(wrong)?;
         let now = Instant::now();
         let left = asked.map(WallTime::duration).or_else(left_of_job);
-        let end = left.and_then(|left| now.checked_add(left));
-        Ok(end.map(|end| Self { end, last: now, longest: Arc::new(AtomicU64::new(0)) }))
+        Ok(left.and_then(|left| now.checked_add(left)))
     }
 }
 

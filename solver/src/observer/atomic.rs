@@ -7,7 +7,7 @@ use std::path::Path;
 use tempfile::NamedTempFile;
 
 /// How the names of files begin that are not whole yet.
-pub(super) const UNFINISHED: &str = ".unfinished-";
+pub const UNFINISHED: &str = ".unfinished-";
 
 /// An error of the file system that names the file.
 pub(super) trait AtPath<T> {

@@ -35,6 +35,7 @@ mod schedule;
 mod solids;
 mod state_file;
 mod status;
+mod tally;
 mod terminal;
 #[cfg(test)]
 mod tests;
@@ -42,7 +43,7 @@ mod tests;
 use crate::case::Model;
 use crate::simulation::{Dimension, Observer, Solve};
 
-pub use atomic::write_atomic;
+pub use atomic::{UNFINISHED, write_atomic};
 pub use checkpoint_list::checkpoints;
 pub use checkpoints::{Checkpoint, CheckpointFiles, latest_checkpoint};
 pub use csv::SeriesFile;
@@ -55,10 +56,12 @@ pub use progress::Progress;
 pub use provenance::Provenance;
 pub use restarts::Restarts;
 pub use run_directory::{
-    Earlier, FAILURE_FOLDER, FAILURE_STATE, RunDirectory, RunDirectoryError, STOP, run_of_state,
+    COMPARISON_FILE, Earlier, FAILURE_FOLDER, FAILURE_STATE, RunDirectory, RunDirectoryError, STOP,
+    is_in_use, run_of_state,
 };
 pub use state_file::read_state;
 pub use status::{RunState, Status, StatusFile};
+pub use tally::Tally;
 
 /// All observers of a run in `directory`, which goes on after a `history` if there is one; with
 /// `quiet`, without progress on the terminal.

@@ -29,13 +29,16 @@ const FILES: [&str; 11] = [
     "series.csv",
     "run.mcap",
     "fields.pvd",
-    "comparison.json",
+    COMPARISON_FILE,
     REQUEST,
     STOP,
 ];
 
 /// Folders of a run that hold files of its.
 const FOLDERS: [&str; 3] = ["fields", FAILURE_FOLDER, checkpoint_list::FOLDER];
+
+/// The comparison of a run with the references of its case.
+pub const COMPARISON_FILE: &str = "comparison.json";
 
 /// A file of this name in the directory of a run stops it after its step; it is removed then.
 pub const STOP: &str = "STOP";
@@ -227,6 +230,13 @@ fn lock(path: &Path) -> io::Result<Option<File>> {
         }
         Err(TryLockError::Error(error)) => Err(error),
     }
+}
+
+/// Whether a process runs in a directory just now; it does not where the system has no locks.
+#[must_use]
+pub fn is_in_use(path: &Path) -> bool {
+    let file = File::open(path.join("lock"));
+    file.is_ok_and(|file| matches!(file.try_lock_shared(), Err(TryLockError::WouldBlock)))
 }
 
 /// Removes what an earlier run left, and nothing else.

@@ -1,0 +1,270 @@
+//! Many points of a sweep, each in a process of its own.
+
+use std::fs;
+use std::ops::Range;
+use std::os::unix::process::CommandExt;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+use super::collect;
+use super::points::check_points;
+use super::run_options::Options;
+use super::swept::directory_of;
+use crate::case::Sweep;
+use crate::cli::exit::{Exit, Failure};
+use crate::cli::signal::SignalWatch;
+use crate::cli::style::{self, complain, say};
+use crate::cli::threads;
+use crate::cli::wall_limit::WallLimit;
+use crate::observer::{STOP, Tally};
+use crate::sweep::{
+    Ending, Event, Launch, Plan, PointFailure, PointState, SweepDirectory, run_children, stand,
+};
+
+/// Time that has to be left for a point to be started: what its run keeps for its last state, and a little
+/// more (s).
+const LEAST_TIME: Duration = Duration::from_secs(12);
+/// Points that failed which are listed at most.
+const MOST_LISTED: usize = 20;
+
+/// What becomes of the points of a call.
+#[derive(Debug, Default)]
+struct Score {
+    finished: usize,
+    failed: Vec<FailedPoint>,
+    stopped: usize,
+    running: usize,
+}
+
+#[derive(Debug)]
+struct FailedPoint {
+    index: usize,
+    failure: PointFailure,
+}
+
+/// Runs all points that are asked for and missing.
+pub fn run(options: &Options) -> Result<Exit, Failure> {
+    let started = Instant::now();
+    let n_threads = options.threads.unwrap_or(1);
+    let jobs = n_jobs(options.jobs, n_threads)?;
+    let end = WallLimit::end(options.max_walltime.as_deref())?;
+    let sweep = options.swept.read()?;
+    let range = match options.index {
+        Some(index) => index.range(sweep.n_points())?,
+        None => 0..sweep.n_points(),
+    };
+    let warnings = check_points(&sweep, range.clone())?;
+    if !warnings.is_empty() {
+        complain(&style::diagnostics(&warnings));
+    }
+    let directory = directory(options, &sweep)?;
+    let ToMake { points, mut score } = points_to_make(&directory, range.clone(), options.retry);
+    let [before, n_points] = [score.finished, points.len()];
+    tell_beginning(options, &directory, &score, n_points);
+
+    let watch = SignalWatch::start()?;
+    let mut tally = Tally::new(points.len(), options.quiet);
+    let calls = Calls { options, directory: &directory, n_threads, end };
+    let stop_file = directory.path().join(STOP);
+    run_children(
+        points,
+        jobs,
+        &|index| calls.launch(index),
+        &|| watch.has_come() || stop_file.is_file(),
+        &mut |event| {
+            count(event, &mut score, &tally, &directory);
+            let failed = score.failed.len();
+            let done = score.finished - before + failed + score.stopped;
+            tally.show(done, failed, score.running);
+        },
+    );
+    drop(tally);
+    let is_stopped = watch.has_come() || stop_file.is_file();
+    remove_stop_file(&stop_file)?;
+    let n_left = range.len() - score.finished - score.failed.len();
+    if options.index.is_none() {
+        collect::write(&directory, None, &[])?;
+    }
+    tell_end(&directory, &score, range.len(), started.elapsed());
+    if n_left > 0 {
+        let why = if is_stopped { "asked to stop" } else { "stopped" };
+        let reason = format!("{why} with {n_left} points to go; the same call again continues");
+        return Err(Failure::new(Exit::Stopped, reason));
+    }
+    Ok(score.failed.first().map_or(Exit::Done, |failed| exit_of(&failed.failure)))
+}
+
+/// How many points run at once, so that their threads have the cores that are granted.
+fn n_jobs(asked: Option<usize>, n_threads: usize) -> Result<usize, Failure> {
+    let granted = threads::granted();
+    let refuse = |reason: String| Err(Failure::new(Exit::Usage, reason));
+    let jobs = asked.unwrap_or_else(|| (granted / n_threads.max(1)).max(1));
+    if jobs == 0 || n_threads == 0 {
+        return refuse("--jobs and --threads are 1 at least".to_owned());
+    }
+    if jobs.saturating_mul(n_threads) > granted {
+        let most = granted / n_threads;
+        let remedy = match most {
+            0 => format!("give --threads up to {granted}"),
+            _ => format!("give --jobs up to {most}, or fewer --threads"),
+        };
+        return refuse(format!(
+            "{jobs} jobs of {n_threads} threads each want {} cores, and {granted} are granted; {remedy}",
+            jobs.saturating_mul(n_threads)
+        ));
+    }
+    Ok(jobs)
+}
+
+fn directory(options: &Options, sweep: &Sweep) -> Result<SweepDirectory, Failure> {
+    let first = sweep.case(0)?;
+    let plan = Plan::new(sweep, first.case()).map_err(std::io::Error::from)?;
+    Ok(SweepDirectory::create(&directory_of(options.out.as_ref(), sweep), plan)?)
+}
+
+/// The points of a call to be made, and the score of the others.
+struct ToMake {
+    points: Vec<usize>,
+    score: Score,
+}
+
+fn points_to_make(directory: &SweepDirectory, range: Range<usize>, retry: bool) -> ToMake {
+    let (mut points, mut score) = (Vec::new(), Score::default());
+    for index in range {
+        let stand = stand(directory, index);
+        match stand.failure {
+            _ if stand.state == PointState::Finished => score.finished += 1,
+            Some(failure) if failure.is_for_good() && !retry => {
+                score.failed.push(FailedPoint { index, failure });
+            }
+            _ => points.push(index),
+        }
+    }
+    ToMake { points, score }
+}
+
+/// How the processes of points are called.
+struct Calls<'a> {
+    options: &'a Options,
+    directory: &'a SweepDirectory,
+    n_threads: usize,
+    /// When the time of the sweep is over.
+    end: Option<Instant>,
+}
+
+impl Calls<'_> {
+    fn launch(&self, index: usize) -> Launch {
+        match stand(self.directory, index).state {
+            PointState::Finished => return Launch::IsDone,
+            PointState::Running => return Launch::Busy,
+            PointState::Missing | PointState::Stopped | PointState::Failed => {}
+        }
+        let left = self.end.map(|end| end.saturating_duration_since(Instant::now()));
+        if left.is_some_and(|left| left < LEAST_TIME) {
+            return Launch::TimeIsOver;
+        }
+        let mut command = Command::new(this_program());
+        command.arg0(std::env::args_os().next().unwrap_or_else(|| "alewife".into()));
+        command.args(["sweep", "run", &self.options.swept.case]);
+        for setting in &self.options.swept.set {
+            command.args(["--set", setting]);
+        }
+        command.arg("--out").arg(self.directory.path());
+        command.args(["--index", &(index + 1).to_string()]);
+        command.args(["--threads", &self.n_threads.to_string()]);
+        command.args(["--parent", &std::process::id().to_string()]);
+        if let Some(left) = left {
+            command.args(["--max-walltime", &format!("{} s", left.as_secs_f64())]);
+        }
+        command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::piped());
+        Launch::Start(Box::new(command))
+    }
+}
+
+/// This program: the file it was started from, even where another one has taken its place since.
+fn this_program() -> PathBuf {
+    let of_process = Path::new("/proc/self/exe");
+    if of_process.exists() {
+        return of_process.to_owned();
+    }
+    std::env::current_exe().unwrap_or_else(|_| "alewife".into())
+}
+
+fn count(event: Event, score: &mut Score, tally: &Tally, directory: &SweepDirectory) {
+    let Event::Ended(index, ending) = event else {
+        score.running += 1;
+        return;
+    };
+    score.running = score.running.saturating_sub(1);
+    match ending {
+        Ending::Finished => score.finished += 1,
+        Ending::Stopped => score.stopped += 1,
+        Ending::Failed(failure) => {
+            tally.line(&failure_line(directory, index, &failure));
+            score.failed.push(FailedPoint { index, failure });
+        }
+    }
+}
+
+/// A point that failed, what it sets, and why it failed.
+pub fn failure_line(directory: &SweepDirectory, index: usize, failure: &PointFailure) -> String {
+    let label = directory.plan().label(index);
+    let code = failure.exit.map_or_else(String::new, |exit| format!(" with exit code {exit}"));
+    format!("point {} ({label}) failed{code}: {}", index + 1, failure.line())
+}
+
+fn remove_stop_file(path: &Path) -> Result<(), Failure> {
+    match fs::remove_file(path) {
+        Err(error) if error.kind() != std::io::ErrorKind::NotFound => Err(error.into()),
+        _ => Ok(()),
+    }
+}
+
+fn tell_beginning(options: &Options, directory: &SweepDirectory, score: &Score, n_points: usize) {
+    if options.quiet {
+        return;
+    }
+    let path = directory.path().display();
+    let mut line = format!("{n_points} points to make in {path}");
+    if score.finished > 0 {
+        line += &format!(", {} are finished", score.finished);
+    }
+    if !score.failed.is_empty() {
+        line += &format!(", {} have failed (--retry runs them again)", score.failed.len());
+    }
+    complain(&line);
+}
+
+fn tell_end(directory: &SweepDirectory, score: &Score, n: usize, elapsed: Duration) {
+    let finished = score.finished;
+    let seconds: f64 = (0..directory.n_points())
+        .filter_map(|index| stand(directory, index).status?.cpu_seconds.get("total").copied())
+        .sum();
+    let failed = match score.failed.len() {
+        0 => String::new(),
+        n => format!(", {n} failed"),
+    };
+    let path = directory.path().display();
+    say(&format!(
+        "{finished} of {n} points finished{failed}; {:.1} s for {seconds:.1} s of CPU time; written to {path}",
+        elapsed.as_secs_f64()
+    ));
+    for FailedPoint { index, failure } in score.failed.iter().take(MOST_LISTED) {
+        say(&failure_line(directory, *index, failure));
+    }
+    if score.failed.len() > MOST_LISTED {
+        say(&format!(
+            "... and {} more; alewife sweep status {path}",
+            score.failed.len() - MOST_LISTED
+        ));
+    }
+}
+
+/// The code of a point that failed.
+fn exit_of(failure: &PointFailure) -> Exit {
+    let known = [Exit::Diverged, Exit::Mesh, Exit::BadCase, Exit::NoInput, Exit::InputOutput];
+    let more = [Exit::NoProgress, Exit::Usage];
+    let all = known.into_iter().chain(more);
+    all.into_iter().find(|exit| Some(*exit as u8) == failure.exit).unwrap_or(Exit::Bug)
+}

@@ -1,0 +1,85 @@
+//! One point of a sweep, run by this very process.
+
+use super::points::check_points;
+use super::run_options::Options;
+use super::swept::directory_of;
+use crate::cli::exit::{Exit, Failure};
+use crate::cli::run::{self, PointRun};
+use crate::cli::style::{self, complain, say};
+use crate::sweep::{Plan, PointFailure, PointState, SweepDirectory, stand};
+
+/// Runs the point of an index from 0.
+pub fn run(options: &Options, index: usize) -> Result<Exit, Failure> {
+    stop_with(options.parent)?;
+    let sweep = options.swept.read()?;
+    let all = 0..sweep.n_points();
+    if let Some(named) = options.index {
+        named.range(all.len())?;
+    }
+    let warnings = check_points(&sweep, index..index + 1)?;
+    if !warnings.is_empty() && options.parent.is_none() {
+        complain(&style::diagnostics(&warnings));
+    }
+    let file = sweep.case(index)?;
+    let first = if index == 0 { file.clone() } else { sweep.case(0)? };
+    let plan = Plan::new(&sweep, first.case()).map_err(std::io::Error::from)?;
+    let directory = SweepDirectory::create(&directory_of(options.out.as_ref(), &sweep), plan)?;
+    let (out, before) = (directory.point(index), stand(&directory, index));
+    if before.state == PointState::Finished {
+        say(&format!("{} has come to its end before", out.display()));
+        return Ok(Exit::Done);
+    }
+    PointFailure::forget(&directory, index)?;
+    let asked = run::Options::of_point(PointRun {
+        out,
+        threads: options.threads,
+        max_walltime: options.max_walltime.clone(),
+        overwrite: before.has_failed_run(),
+        quiet: options.quiet || options.parent.is_some(),
+    });
+    run::run_file(&asked, &file).inspect_err(|failure| {
+        if failure.exit != Exit::Stopped {
+            let reason = without_colours(&failure.message);
+            let failure = PointFailure { exit: Some(failure.exit as u8), reason };
+            // Where it cannot be written the point is run again
+            if let Err(error) = failure.write(&directory, index) {
+                complain(&style::error(&error.to_string()));
+            }
+        }
+    })
+}
+
+/// Has this process asked to stop when the one that runs the sweep is killed.
+fn stop_with(parent: Option<u32>) -> Result<(), Failure> {
+    let Some(parent) = parent else { return Ok(()) };
+    #[cfg(target_os = "linux")]
+    rustix::process::set_parent_process_death_signal(Some(rustix::process::Signal::TERM))
+        .map_err(std::io::Error::from)?;
+    let has_parent = rustix::process::getppid()
+        .is_some_and(|now| u32::try_from(now.as_raw_pid()).is_ok_and(|now| now == parent));
+    if has_parent {
+        return Ok(());
+    }
+    Err(Failure::new(Exit::Stopped, "the process that ran the sweep is gone"))
+}
+
+/// A message as it is written to files.
+fn without_colours(message: &str) -> String {
+    let mut text = String::new();
+    for (nth, part) in message.split("\x1b[").enumerate() {
+        let rest = if nth == 0 { part } else { part.split_once('m').map_or("", |(_, rest)| rest) };
+        text += rest;
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::without_colours;
+
+    #[test]
+    fn colours_are_left_out() {
+        assert_eq!(without_colours("\x1b[1;31merror\x1b[0m: m"), "error: m");
+        assert_eq!(without_colours("plain"), "plain");
+    }
+}

@@ -1,0 +1,195 @@
+//! Points as child processes, several at once.
+
+use std::collections::{BTreeMap, VecDeque};
+use std::io::{self, Read};
+use std::os::unix::process::ExitStatusExt;
+use std::process::{Child, Command, ExitStatus};
+use std::sync::mpsc::{self, RecvTimeoutError, Sender};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::thread;
+use std::time::Duration;
+
+use rustix::process::{Pid, Signal, kill_process};
+
+use super::failure::PointFailure;
+
+/// How often it is looked whether the sweep is to stop.
+const LOOK_EVERY: Duration = Duration::from_millis(100);
+/// How long a point that another process runs is left alone.
+const LEFT_ALONE: Duration = Duration::from_millis(200);
+/// Code of a run that stopped and continues.
+const STOPPED: u8 = 75;
+/// Bytes of what a child said that are kept, the last ones.
+const KEPT: usize = 4000;
+
+/// What is to be done about a point when its turn comes.
+#[derive(Debug)]
+pub enum Launch {
+    /// Start this.
+    Start(Box<Command>),
+    /// Wait: another process runs it.
+    Busy,
+    /// Nothing: it is finished by now.
+    IsDone,
+    /// Nothing, and nothing any more: time is over.
+    TimeIsOver,
+}
+
+/// How the process of a point ended.
+#[derive(Debug)]
+pub enum Ending {
+    /// Its run came to its end.
+    Finished,
+    /// It stopped on its way.
+    Stopped,
+    /// It failed.
+    Failed(PointFailure),
+}
+
+/// What happened to a point, by its index.
+#[derive(Debug)]
+pub enum Event {
+    /// Its process began.
+    Started,
+    /// It is over.
+    Ended(usize, Ending),
+}
+
+/// Points that wait, and processes that run.
+struct Queue {
+    waiting: VecDeque<usize>,
+    running: BTreeMap<usize, u32>,
+    is_closed: bool,
+}
+
+struct Shared(Mutex<Queue>);
+
+impl Shared {
+    fn lock(&self) -> MutexGuard<'_, Queue> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn next(&self) -> Option<usize> {
+        let mut queue = self.lock();
+        if queue.is_closed { None } else { queue.waiting.pop_front() }
+    }
+
+    /// Starts a process, unless the sweep is to stop.
+    fn start(&self, index: usize, command: &mut Command) -> io::Result<Option<Child>> {
+        let mut queue = self.lock();
+        if queue.is_closed {
+            return Ok(None);
+        }
+        let child = command.spawn()?;
+        queue.running.insert(index, child.id());
+        Ok(Some(child))
+    }
+
+    /// Starts nothing any more, and asks all that run to stop.
+    fn stop(&self) {
+        let mut queue = self.lock();
+        queue.is_closed = true;
+        for id in queue.running.values() {
+            let process = i32::try_from(*id).ok().and_then(Pid::from_raw);
+            if let Some(process) = process {
+                // One that has just ended needs no signal
+                let _ = kill_process(process, Signal::TERM);
+            }
+        }
+    }
+}
+
+/// Runs points as processes, `jobs` of them at once, until all are over or `must_stop` says so; events are
+/// told as they come. `launch` says what to do with a point when its turn comes.
+pub fn run_children(
+    points: Vec<usize>,
+    jobs: usize,
+    launch: &(dyn Fn(usize) -> Launch + Sync),
+    must_stop: &dyn Fn() -> bool,
+    on_event: &mut dyn FnMut(Event),
+) {
+    let queue = Queue { waiting: points.into(), running: BTreeMap::new(), is_closed: false };
+    let shared = Shared(Mutex::new(queue));
+    thread::scope(|scope| {
+        let (sender, events) = mpsc::channel();
+        for _ in 0..jobs {
+            let (sender, shared) = (sender.clone(), &shared);
+            scope.spawn(move || work(shared, launch, &sender));
+        }
+        drop(sender);
+        let mut is_stopping = false;
+        loop {
+            match events.recv_timeout(LOOK_EVERY) {
+                Ok(event) => on_event(event),
+                Err(RecvTimeoutError::Timeout) => {}
+                Err(RecvTimeoutError::Disconnected) => break,
+            }
+            if !is_stopping && must_stop() {
+                is_stopping = true;
+                shared.stop();
+            }
+        }
+    });
+}
+
+/// Takes one point after the other.
+fn work(shared: &Shared, launch: &(dyn Fn(usize) -> Launch + Sync), sender: &Sender<Event>) {
+    // Nobody listens any more only when the sweep is over
+    let tell = |event| drop(sender.send(event));
+    while let Some(index) = shared.next() {
+        match launch(index) {
+            Launch::IsDone => tell(Event::Ended(index, Ending::Finished)),
+            Launch::Busy => {
+                shared.lock().waiting.push_back(index);
+                thread::sleep(LEFT_ALONE);
+            }
+            Launch::TimeIsOver => shared.lock().is_closed = true,
+            Launch::Start(mut command) => match shared.start(index, &mut command) {
+                Ok(None) => {}
+                Ok(Some(child)) => {
+                    tell(Event::Started);
+                    tell(Event::Ended(index, wait(shared, index, child)));
+                }
+                Err(error) => {
+                    let reason = format!("its process could not be started: {error}");
+                    let failure = PointFailure { exit: None, reason };
+                    tell(Event::Ended(index, Ending::Failed(failure)));
+                }
+            },
+        }
+    }
+}
+
+/// Waits for a process, and says how it ended.
+fn wait(shared: &Shared, index: usize, mut child: Child) -> Ending {
+    let mut said = Vec::new();
+    if let Some(stderr) = &mut child.stderr {
+        // What could be read says enough
+        let _ = stderr.read_to_end(&mut said);
+    }
+    // Its number is free for another process once it is waited for
+    shared.lock().running.remove(&index);
+    match child.wait() {
+        Ok(status) => ending(status, &said),
+        Err(error) => Ending::Failed(PointFailure { exit: None, reason: error.to_string() }),
+    }
+}
+
+fn ending(status: ExitStatus, said: &[u8]) -> Ending {
+    let said = String::from_utf8_lossy(&said[said.len().saturating_sub(KEPT)..]).trim().to_owned();
+    let exit = status.code().and_then(|code| u8::try_from(code).ok());
+    match (exit, status.signal()) {
+        (Some(0), _) => Ending::Finished,
+        (Some(STOPPED), _) => Ending::Stopped,
+        (_, Some(signal)) => {
+            let why = if signal == Signal::KILL.as_raw() {
+                ", by hand or for want of memory"
+            } else {
+                ""
+            };
+            let reason = format!("signal {signal} killed its process{why}");
+            Ending::Failed(PointFailure { exit: None, reason })
+        }
+        _ => Ending::Failed(PointFailure { exit, reason: said }),
+    }
+}
