@@ -13,14 +13,16 @@ pub struct Tally {
     bar: Option<ProgressBar>,
     is_quiet: bool,
     total: usize,
+    /// How many run at once.
+    jobs: usize,
     started: Instant,
     last_line: Instant,
 }
 
 impl Tally {
-    /// Shows that none of so many runs is done.
+    /// Shows that none of so many runs is done, `jobs` of which run at once.
     #[must_use]
-    pub fn new(total: usize, is_quiet: bool) -> Self {
+    pub fn new(total: usize, jobs: usize, is_quiet: bool) -> Self {
         let has_bar = !is_quiet && TERMINAL.is_terminal();
         let bar = has_bar.then(|| {
             let style = ProgressStyle::with_template("{bar:24}  {msg}")
@@ -30,15 +32,15 @@ impl Tally {
             bar
         });
         let now = Instant::now();
-        Self { bar, is_quiet, total, started: now, last_line: now }
+        Self { bar, is_quiet, total, jobs, started: now, last_line: now }
     }
 
-    /// Shows how many are done, failed ones included, how many of these failed, and how many run.
-    pub fn show(&mut self, done: usize, failed: usize, running: usize) {
+    /// Shows how many are done, failed ones included, and how many of these failed.
+    pub fn show(&mut self, done: usize, failed: usize) {
         if self.bar.is_none() && (self.is_quiet || self.last_line.elapsed() < LINE_INTERVAL) {
             return;
         }
-        let line = self.line_of(done, failed, running);
+        let line = self.line_of(done, failed);
         if let Some(bar) = &self.bar {
             bar.set_position(done as u64);
             bar.set_message(line);
@@ -48,9 +50,10 @@ impl Tally {
         }
     }
 
-    fn line_of(&self, done: usize, failed: usize, running: usize) -> String {
+    fn line_of(&self, done: usize, failed: usize) -> String {
         let failed = if failed > 0 { format!(", {failed} failed") } else { String::new() };
         let left = self.total.saturating_sub(done);
+        let running = left.min(self.jobs);
         let mut line = format!("{done} of {} done{failed}, {running} running", self.total);
         if done > 0 && left > 0 {
             let left = self.started.elapsed().mul_f64(left as f64 / done as f64);

@@ -46,13 +46,13 @@ pub enum Ending {
     Failed(PointFailure),
 }
 
-/// What happened to a point, by its index.
+/// A point that is over, and how it ended.
 #[derive(Debug)]
-pub enum Event {
-    /// Its process began.
-    Started,
-    /// It is over.
-    Ended(usize, Ending),
+pub struct Ended {
+    /// Its index.
+    pub index: usize,
+    /// How it ended.
+    pub ending: Ending,
 }
 
 /// Points that wait, and processes that run.
@@ -99,14 +99,14 @@ impl Shared {
     }
 }
 
-/// Runs points as processes, `jobs` of them at once, until all are over or `must_stop` says so; events are
+/// Runs points as processes, `jobs` of them at once, until all are over or `must_stop` says so; ends are
 /// told as they come. `launch` says what to do with a point when its turn comes.
 pub fn run_children(
     points: Vec<usize>,
     jobs: usize,
     launch: &(dyn Fn(usize) -> Launch + Sync),
     must_stop: &dyn Fn() -> bool,
-    on_event: &mut dyn FnMut(Event),
+    on_end: &mut dyn FnMut(Ended),
 ) {
     let queue = Queue { waiting: points.into(), running: BTreeMap::new(), is_closed: false };
     let shared = Shared(Mutex::new(queue));
@@ -120,7 +120,7 @@ pub fn run_children(
         let mut is_stopping = false;
         loop {
             match events.recv_timeout(LOOK_EVERY) {
-                Ok(event) => on_event(event),
+                Ok(ended) => on_end(ended),
                 Err(RecvTimeoutError::Timeout) => {}
                 Err(RecvTimeoutError::Disconnected) => break,
             }
@@ -133,12 +133,12 @@ pub fn run_children(
 }
 
 /// Takes one point after the other.
-fn work(shared: &Shared, launch: &(dyn Fn(usize) -> Launch + Sync), sender: &Sender<Event>) {
+fn work(shared: &Shared, launch: &(dyn Fn(usize) -> Launch + Sync), sender: &Sender<Ended>) {
     // Nobody listens any more only when the sweep is over
-    let tell = |event| drop(sender.send(event));
+    let tell = |index, ending| drop(sender.send(Ended { index, ending }));
     while let Some(index) = shared.next() {
         match launch(index) {
-            Launch::IsDone => tell(Event::Ended(index, Ending::Finished)),
+            Launch::IsDone => tell(index, Ending::Finished),
             Launch::Busy => {
                 shared.lock().waiting.push_back(index);
                 thread::sleep(LEFT_ALONE);
@@ -146,14 +146,11 @@ fn work(shared: &Shared, launch: &(dyn Fn(usize) -> Launch + Sync), sender: &Sen
             Launch::TimeIsOver => shared.lock().is_closed = true,
             Launch::Start(mut command) => match shared.start(index, &mut command) {
                 Ok(None) => {}
-                Ok(Some(child)) => {
-                    tell(Event::Started);
-                    tell(Event::Ended(index, wait(shared, index, child)));
-                }
+                Ok(Some(child)) => tell(index, wait(shared, index, child)),
                 Err(error) => {
                     let reason = format!("its process could not be started: {error}");
                     let failure = PointFailure { exit: None, reason };
-                    tell(Event::Ended(index, Ending::Failed(failure)));
+                    tell(index, Ending::Failed(failure));
                 }
             },
         }

@@ -17,7 +17,7 @@ mod plan;
 mod point_state;
 mod script;
 
-pub use children::{Ending, Event, Launch, run_children};
+pub use children::{Ended, Ending, Launch, run_children};
 pub use collect::collect;
 pub use directory::{PLAN_FILE, SweepDirectory, SweepDirectoryError, TABLE_FILE};
 pub use failure::PointFailure;

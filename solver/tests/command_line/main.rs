@@ -6,6 +6,8 @@ mod estimates;
 mod kills;
 mod skin;
 mod stopping;
+mod sweep_kills;
+mod sweeps;
 mod warnings;
 
 use std::path::Path;

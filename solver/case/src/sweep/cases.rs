@@ -61,28 +61,30 @@ impl Sweep {
     /// # Errors
     /// [`CaseError`]: no such case, or all that is wrong in it before the first point is made.
     pub fn read(argument: &str, settings: &[String]) -> Result<Self, CaseError> {
-        let (mut axes, mut plain) = (Vec::new(), Vec::new());
-        for setting in settings {
-            match axis_setting::read(setting).map_err(wrong)? {
-                Some(axis) => axes.push(axis),
-                None => plain.push(setting.clone()),
-            }
-        }
+        let axes: Vec<Option<Block>> = settings
+            .iter()
+            .map(|setting| axis_setting::read(setting).map_err(wrong))
+            .collect::<Result<_, _>>()?;
+        let is_plain =
+            |(setting, axis): (&String, &Option<Block>)| axis.is_none().then(|| setting.clone());
+        let plain: Vec<String> = settings.iter().zip(&axes).filter_map(is_plain).collect();
         let Located { text, variant } = locate(argument)?;
         let mut untyped = UntypedCase::assemble(&text, variant, &plain)?;
         let SweepSpec { mut blocks, quantities } = match untyped.sweep.take() {
             Some(sweep) => spec::read(&sweep).map_err(wrong)?,
             None => SweepSpec::default(),
         };
-        for axis in axes {
-            lay_over(&mut blocks, axis).map_err(wrong)?;
+        for (setting, axis) in settings.iter().zip(axes) {
+            match axis {
+                Some(axis) => lay_over(&mut blocks, axis),
+                None => fix(&untyped.root, setting, &mut blocks),
+            }
+            .map_err(wrong)?;
         }
         if blocks.is_empty() {
-            let help = "add a [sweep] to the case, or --set KEY=FROM:TO:N, such as --set fluid.viscosity=1:10:4";
+            let help = "add a [sweep] to the case, or --set KEY=FROM:TO:N, such as --set \
+                        fluid.viscosity=1:10:4";
             return Err(CaseError::at("sweep", "no key of the case is swept".to_owned(), help));
-        }
-        for text in &plain {
-            fix(&untyped.root, text, &mut blocks).map_err(wrong)?;
         }
         let n_points = blocks
             .iter()

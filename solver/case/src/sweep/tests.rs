@@ -266,3 +266,11 @@ fn quantities_to_collect_are_those_of_a_run() {
     assert!(found[0].help.contains("did you mean `squirmer.power`"), "{found:?}");
     assert_eq!(found[0].location.as_ref().unwrap().line, 4);
 }
+
+#[test]
+fn of_settings_of_one_key_the_last_one_holds() {
+    let n = |settings: &[&str]| points("", &[&["mesh.scale=1:2:2"], settings].concat()).len();
+    assert_eq!(n(&["fluid.viscosity=1:2:3", "fluid.viscosity=1:2:4"]), 8);
+    assert_eq!(n(&["fluid.viscosity=1:2:3", "fluid.viscosity=5"]), 2);
+    assert_eq!(n(&["fluid.viscosity=5", "fluid.viscosity=1:2:3"]), 6);
+}

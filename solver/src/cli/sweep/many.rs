@@ -19,7 +19,7 @@ use crate::cli::threads;
 use crate::cli::wall_limit::WallLimit;
 use crate::observer::{STOP, Tally};
 use crate::sweep::{
-    Ending, Event, Launch, Plan, PointFailure, PointState, SweepDirectory, run_children, stand,
+    Ended, Ending, Launch, Plan, PointFailure, PointState, SweepDirectory, run_children, stand,
 };
 
 /// Time that has to be left for a point to be started: what its run keeps for its last state, and a little
@@ -34,7 +34,6 @@ struct Score {
     finished: usize,
     failed: Vec<FailedPoint>,
     stopped: usize,
-    running: usize,
 }
 
 #[derive(Debug)]
@@ -60,11 +59,11 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
     }
     let directory = directory(options, &sweep)?;
     let ToMake { points, mut score } = points_to_make(&directory, range.clone(), options.retry);
-    let [before, n_points] = [score.finished, points.len()];
-    tell_beginning(options, &directory, &score, n_points);
+    let [before, failed_before] = [score.finished, score.failed.len()];
+    tell_beginning(options, &directory, &score, points.len());
 
     let watch = SignalWatch::start()?;
-    let mut tally = Tally::new(points.len(), options.quiet);
+    let mut tally = Tally::new(points.len(), jobs, options.quiet);
     let calls = Calls { options, directory: &directory, n_threads, end };
     let stop_file = directory.path().join(STOP);
     run_children(
@@ -72,11 +71,10 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
         jobs,
         &|index| calls.launch(index),
         &|| watch.has_come() || stop_file.is_file(),
-        &mut |event| {
-            count(event, &mut score, &tally, &directory);
-            let failed = score.failed.len();
-            let done = score.finished - before + failed + score.stopped;
-            tally.show(done, failed, score.running);
+        &mut |ended| {
+            count(ended, &mut score, &tally, &directory);
+            let failed = score.failed.len() - failed_before;
+            tally.show(score.finished - before + failed + score.stopped, failed);
         },
     );
     drop(tally);
@@ -191,12 +189,8 @@ fn this_program() -> PathBuf {
     std::env::current_exe().unwrap_or_else(|_| "alewife".into())
 }
 
-fn count(event: Event, score: &mut Score, tally: &Tally, directory: &SweepDirectory) {
-    let Event::Ended(index, ending) = event else {
-        score.running += 1;
-        return;
-    };
-    score.running = score.running.saturating_sub(1);
+fn count(ended: Ended, score: &mut Score, tally: &Tally, directory: &SweepDirectory) {
+    let Ended { index, ending } = ended;
     match ending {
         Ending::Finished => score.finished += 1,
         Ending::Stopped => score.stopped += 1,
