@@ -32,7 +32,9 @@ impl Tally {
             bar
         });
         let now = Instant::now();
-        Self { bar, is_quiet, total, jobs, started: now, last_line: now }
+        let mut tally = Self { bar, is_quiet, total, jobs, started: now, last_line: now };
+        tally.show(0, 0);
+        tally
     }
 
     /// Shows how many are done, failed ones included, and how many of these failed.

@@ -33,11 +33,14 @@ title = 't'
 geometry = 'planar'
 fluid = { model = 'navier-stokes', density = 1.0, viscosity = 0.1 }
 domain.box = { min = [-1.0, -1.0], max = [1.0, 1.0] }
-boundary = { left = 'no-slip', right = 'no-slip', bottom = 'no-slip' }
-boundary.top.velocity.value = [1.0, 0.0]
 mesh.size = 0.5
 time.steady.max_iterations = 8
 sweep.grid.fluid.viscosity = [0.1, 1e-7, 0.2]
+[boundary]
+left = 'no-slip'
+right = 'no-slip'
+bottom = 'no-slip'
+top.velocity.value = [1.0, 0.0]
 ";
 
 /// The rows of a table by the names of its columns.
@@ -74,9 +77,7 @@ fn all_points_that_are_wrong_are_named_and_none_is_run() {
     let output = run(place.path(), &["--set", &fixed, "--set", "fluid.viscosity=1,-2,3,-4"]);
     let told = told(&output);
     assert_eq!(output.status.code(), Some(65), "{told}");
-    for part in
-        ["point 2 (fluid.viscosity = -2)", "point 4 (fluid.viscosity = -4)", "2 of 4 points are"]
-    {
+    for part in ["point 2 (", "fluid.viscosity = -2):", "point 4 (", "2 of 4 points are wrong"] {
         assert!(told.contains(part), "{told}");
     }
     assert!(!place.path().join("s").exists());
@@ -250,7 +251,7 @@ fn run_task(directory: &Path, task: usize, srun: &str) -> Output {
     }
     let path = format!("{}:{}", programs.display(), std::env::var("PATH").unwrap());
     Command::new("bash")
-        .args(["-eu", "script.sh"])
+        .args(["-u", "script.sh"])
         .env("PATH", path)
         .env("SLURM_ARRAY_TASK_ID", task.to_string())
         .env("SLURM_ARRAY_JOB_ID", "17")

@@ -33,7 +33,6 @@ const MOST_LISTED: usize = 20;
 struct Score {
     finished: usize,
     failed: Vec<FailedPoint>,
-    stopped: usize,
 }
 
 #[derive(Debug)]
@@ -74,7 +73,7 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
         &mut |ended| {
             count(ended, &mut score, &tally, &directory);
             let failed = score.failed.len() - failed_before;
-            tally.show(score.finished - before + failed + score.stopped, failed);
+            tally.show(score.finished - before + failed, failed);
         },
     );
     drop(tally);
@@ -193,7 +192,8 @@ fn count(ended: Ended, score: &mut Score, tally: &Tally, directory: &SweepDirect
     let Ended { index, ending } = ended;
     match ending {
         Ending::Finished => score.finished += 1,
-        Ending::Stopped => score.stopped += 1,
+        // It is neither, and continues with the next call
+        Ending::Stopped => {}
         Ending::Failed(failure) => {
             tally.line(&failure_line(directory, index, &failure));
             score.failed.push(FailedPoint { index, failure });
