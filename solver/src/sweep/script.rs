@@ -40,7 +40,7 @@ impl ArrayScript<'_> {
         let cores = jobs * threads;
         format!(
             r#"#!/bin/bash
-# {n_points} points, {per_task} a task, {jobs} at once with {threads} threads each.
+# Points: {n_points}; of a task: {per_task}; at once: {jobs}; threads of each: {threads}.
 # A task that ends with 75 has left checkpoints and goes back into the queue.
 #SBATCH --job-name={name}
 #SBATCH --array=0-{last}

@@ -107,11 +107,11 @@ fn a_repeated_call_makes_what_is_missing_and_another_sweep_is_refused() {
 
     let all = run(place.path(), &["--set", &modes]);
     assert_eq!(all.status.code(), Some(0), "{}", told(&all));
-    assert!(told(&all).contains("3 points to make in s, 1 are finished"), "{}", told(&all));
+    assert!(told(&all).contains("points to make in s: 3; finished already: 1"), "{}", told(&all));
     assert_eq!(states(place.path()), ["finished"; 4]);
     assert_eq!(std::fs::read(&third).unwrap(), before);
     let again = run(place.path(), &["--set", &modes]);
-    assert!(told(&again).contains("0 points to make"), "{}", told(&again));
+    assert!(told(&again).contains("points to make in s: 0"), "{}", told(&again));
     let only = run(place.path(), &["--set", &modes, "--index", "3"]);
     assert!(String::from_utf8_lossy(&only.stdout).contains("has come to its end before"));
 
@@ -150,10 +150,12 @@ fn a_point_that_fails_is_listed_and_the_others_go_on() {
 
     // It would fail again
     let output = run(&[]);
-    assert!(told(&output).contains("0 points to make in s, 2 are finished, 1 have failed"));
+    assert!(told(&output).contains(
+        "make in s: 0; finished already: 2; failed, and not run again without --retry: 1"
+    ));
     assert_eq!(output.status.code(), Some(10));
     let output = run(&["--retry"]);
-    assert!(told(&output).contains("1 points to make"), "{}", told(&output));
+    assert!(told(&output).contains("points to make in s: 1"), "{}", told(&output));
     assert_eq!(output.status.code(), Some(10));
 }
 

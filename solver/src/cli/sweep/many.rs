@@ -77,6 +77,8 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
         },
     );
     drop(tally);
+    // The same on any number of cores
+    score.failed.sort_by_key(|point| point.index);
     let is_stopped = watch.has_come() || stop_file.is_file();
     remove_stop_file(&stop_file)?;
     let n_left = range.len() - score.finished - score.failed.len();
@@ -220,12 +222,12 @@ fn tell_beginning(options: &Options, directory: &SweepDirectory, score: &Score, 
         return;
     }
     let path = directory.path().display();
-    let mut line = format!("{n_points} points to make in {path}");
+    let mut line = format!("points to make in {path}: {n_points}");
     if score.finished > 0 {
-        line += &format!(", {} are finished", score.finished);
+        line += &format!("; finished already: {}", score.finished);
     }
     if !score.failed.is_empty() {
-        line += &format!(", {} have failed (--retry runs them again)", score.failed.len());
+        line += &format!("; failed, and not run again without --retry: {}", score.failed.len());
     }
     complain(&line);
 }
