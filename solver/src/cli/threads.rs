@@ -30,8 +30,8 @@ pub fn start(wanted: Option<usize>) -> Result<usize, Failure> {
     Ok(threads)
 }
 
-/// Cores this process may use: those of the machine, of its affinity and control group, or fewer where the
-/// batch system grants fewer to a task.
+/// Cores this process may use: those of the machine, of its affinity and control group, or fewer where
+/// the batch system grants fewer to a task.
 pub fn granted() -> usize {
     let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
     first_of(&VARIABLES[1..]).map_or(cores, |granted| granted.min(cores))

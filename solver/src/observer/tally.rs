@@ -1,4 +1,4 @@
-//! `Tally`: how many of many runs are done, on stderr: a bar on a terminal, a plain line now and then elsewhere.
+//! `Tally`: how many of many runs are done, on stderr: a bar on a terminal, else a line now and then.
 
 use std::time::{Duration, Instant};
 

@@ -99,8 +99,8 @@ impl Shared {
     }
 }
 
-/// Runs points as processes, `jobs` of them at once, until all are over or `must_stop` says so; ends are
-/// told as they come. `launch` says what to do with a point when its turn comes.
+/// Runs points as processes, `jobs` of them at once, until all are over or `must_stop` says so; ends
+/// are told as they come. `launch` says what to do with a point when its turn comes.
 pub fn run_children(
     points: Vec<usize>,
     jobs: usize,

@@ -50,8 +50,8 @@ fn number(value: f64) -> String {
     format!("{value:?}")
 }
 
-/// The table of a sweep as CSV, of the quantities asked for besides those of references; the last values of
-/// all quantities where there is neither.
+/// The table of a sweep as CSV, of the quantities asked for besides those of references; the last
+/// values of all quantities where there is neither.
 ///
 /// # Errors
 /// When files of finished points cannot be read.

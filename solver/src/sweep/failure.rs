@@ -17,8 +17,8 @@ pub struct PointFailure {
     pub reason: String,
 }
 
-/// Codes with which a point ends whenever it is run again: the solver diverged, the mesh could not be
-/// made, the case is wrong, there is no progress.
+/// Codes with which a point ends whenever it is run again: the solver diverged, the mesh could not
+/// be made, the case is wrong, there is no progress.
 const FOR_GOOD: [u8; 4] = [10, 11, 65, 76];
 
 impl PointFailure {

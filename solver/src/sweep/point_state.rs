@@ -49,16 +49,6 @@ pub struct Stand {
 }
 
 impl Stand {
-    /// Whether a call of the sweep runs it: it is not finished, and would not fail in the same way again.
-    #[must_use]
-    pub fn is_to_be_made(&self) -> bool {
-        match self.state {
-            PointState::Finished => false,
-            PointState::Failed => !self.failure.as_ref().is_some_and(PointFailure::is_for_good),
-            PointState::Missing | PointState::Running | PointState::Stopped => true,
-        }
-    }
-
     /// Whether its run left what a new one has to replace.
     #[must_use]
     pub fn has_failed_run(&self) -> bool {

@@ -22,8 +22,8 @@ use crate::sweep::{
     Ended, Ending, Launch, Plan, PointFailure, PointState, SweepDirectory, run_children, stand,
 };
 
-/// Time that has to be left for a point to be started: what its run keeps for its last state, and a little
-/// more (s).
+/// Time that has to be left for a point to be started: what its run keeps for its last state, and a
+/// little more.
 const LEAST_TIME: Duration = Duration::from_secs(12);
 /// Points that failed which are listed at most.
 const MOST_LISTED: usize = 20;
@@ -242,9 +242,10 @@ fn tell_end(directory: &SweepDirectory, score: &Score, n: usize, elapsed: Durati
         n => format!(", {n} failed"),
     };
     let path = directory.path().display();
+    let elapsed = elapsed.as_secs_f64();
     say(&format!(
-        "{finished} of {n} points finished{failed}; {:.1} s for {seconds:.1} s of CPU time; written to {path}",
-        elapsed.as_secs_f64()
+        "{finished} of {n} points finished{failed}; {elapsed:.1} s for {seconds:.1} s of CPU time; \
+         written to {path}"
     ));
     for FailedPoint { index, failure } in score.failed.iter().take(MOST_LISTED) {
         say(&failure_line(directory, *index, failure));

@@ -12,7 +12,7 @@ const MOST_SHOWN: usize = 10;
 /// Numbers of points that are listed at most.
 const MOST_LISTED: usize = 20;
 
-/// Checks the cases of points, by their indices from 0; warnings are handed back, each of them once.
+/// Checks the cases of points, by their indices from 0; warnings are handed back, each one once.
 ///
 /// # Errors
 /// All points whose case is wrong, and why.
