@@ -3,8 +3,8 @@
 //! A case is put together in this order, the later over the earlier: the file it `extends`, the
 //! file itself, the variant, the settings of the command line. Tables are merged, everything else
 //! is replaced. `reference`, `variant`, `quick` and `sweep` of an extended file are not inherited:
-//! what is known of one problem does not hold for another. Then the values of files take the place of their
-//! names.
+//! what is known of one problem does not hold for another. Then the values of files take the place of
+//! their names.
 
 use std::sync::Arc;
 

@@ -1,4 +1,4 @@
-//! A setting of the command line that gives a key several values: `KEY=a:b:n`, `KEY=a:b:n:log`, `KEY=a,b,c`.
+//! A setting of the command line that gives a key several values: `KEY=a:b:n[:log]`, `KEY=a,b,c`.
 
 use std::sync::Arc;
 

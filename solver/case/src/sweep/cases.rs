@@ -153,8 +153,8 @@ impl Sweep {
         untyped.typed()
     }
 
-    /// What is wrong in a case of the sweep: all that [`check`](crate::check) finds, and quantities to collect
-    /// that its run does not have.
+    /// What is wrong in a case of the sweep: all that [`check`](crate::check) finds, and quantities to
+    /// collect that its run does not have.
     #[must_use]
     pub fn check(&self, file: &CaseFile) -> Vec<Diagnostic> {
         let mut found = crate::check(file);

@@ -1,4 +1,4 @@
-//! Latin hypercubes: points at random, with one in each of the equal parts of every range (@mckay1979).
+//! Latin hypercubes: points at random, one in each of the equal parts of every range (@mckay1979).
 
 use alewife_mesh::whole;
 

@@ -63,8 +63,7 @@ fn table(sweep: &Sweep) -> Vec<String> {
     let headings = ["point"].into_iter().chain(sweep.keys()).map(printable).collect();
     let mut rows: Vec<Vec<String>> = vec![headings];
     for index in 0..sweep.n_points() {
-        let text =
-            |value: Value| value.as_str().map_or_else(|| value.to_string(), |text| printable(text));
+        let text = |value: Value| value.as_str().map_or_else(|| value.to_string(), printable);
         let values = sweep.point(index).values().into_iter().map(text);
         rows.push([(index + 1).to_string()].into_iter().chain(values).collect());
     }
