@@ -6,10 +6,10 @@ use std::sync::{Mutex, PoisonError};
 use rayon::prelude::*;
 
 use super::analysis::Analysis;
+use super::delays::Delays;
 use super::elimination::{DelayedContribution, DelayedPivotFactors, FactorisationContext};
 use super::front::Subtree;
 use super::scaling::scale_pressures;
-use super::segments::Delays;
 use super::substitution::Scratch;
 use super::traversal::{
     Incoming, Singular, SubtreeFactors, SubtreeResult, Workspace, factorise_subtree,

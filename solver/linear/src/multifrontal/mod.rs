@@ -22,6 +22,7 @@
 
 mod analysis;
 mod buckets;
+mod delays;
 mod dense;
 mod elimination;
 mod entries;

@@ -6,8 +6,9 @@
 use rayon::prelude::*;
 
 use super::analysis::Analysis;
+use super::delays::Delay;
 use super::factors::Factors;
-use super::segments::{Delay, Segment, Slot};
+use super::segments::{Segment, Slot};
 use super::shared;
 use super::substitution::{
     FrontFactors, LocalValues, Scratch, backward, backward_block, forward, forward_block,
