@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::continuation::{Beginning, beginning, is_requeued};
+use super::continuation::{Beginning, beginning, n_requeued};
 use super::engine::{Resumed, RunInto};
 use super::exit::{Exit, Failure};
 use super::read::{Settings, read_case};
@@ -15,8 +15,8 @@ use super::wall_limit::WallLimit;
 use super::{engine, threads};
 use crate::case::{Case, CaseFile, Model, TimeSettings, significant};
 use crate::observer::{
-    Earlier, FAILURE_STATE, History, RunDirectory, checkpoints, read_state, run_of_state,
-    write_atomic,
+    Earlier, FAILURE_STATE, History, Point, RunDirectory, RunLock, Start, checkpoints, read_state,
+    run_of_state, write_atomic,
 };
 use crate::simulation::{Dimension, RunError, RunSummary, SavedState, Solve};
 use crate::validation::{Comparison, Verdict, compare, comparison_table, comparisons_to_json};
@@ -90,6 +90,9 @@ where
 {
     let name = file.full_name();
     let out = options.out.clone().unwrap_or_else(|| Path::new("runs").join(name.replace('/', "-")));
+    // From here on, so that no signal ends the process without a word, and no other process writes to what is read
+    let watch = SignalWatch::start()?;
+    let lock = RunLock::of_run(&out)?;
     let resumed: Option<Resumed<D>> = match beginning_of(options, file, &out)? {
         Beginning::AtStart => None,
         Beginning::From(resumed) => Some(*resumed),
@@ -111,7 +114,12 @@ where
         ));
     }
     let n_threads = threads::start(options.threads)?;
-    let directory = RunDirectory::create(&out, file.case(), n_threads, earlier)?;
+    let from = resumed.as_ref().map_or(Point::default(), |resumed| Point {
+        step: resumed.state.step,
+        time: resumed.state.time,
+    });
+    let start = Start { threads: n_threads, from, lock };
+    let directory = RunDirectory::create(&out, file.case(), start, earlier)?;
     let verbosity = i8::try_from(options.verbose).unwrap_or(i8::MAX) - i8::from(options.quiet);
     engine::start_log(Some(&out), verbosity)?;
 
@@ -119,7 +127,6 @@ where
         tell_of_resuming(resumed, options.quiet);
     }
     let limit = WallLimit::new(options.max_walltime.as_deref())?;
-    let watch = SignalWatch::start()?;
     let run = RunInto { directory: &directory, quiet: options.quiet, watch, limit };
     let outcome =
         engine::simulate_into(&file.model, resumed.as_ref(), run).map_err(|error| match error {
@@ -129,7 +136,10 @@ where
     let comparisons =
         if options.no_references { Vec::new() } else { compare(&name, file.case(), &outcome) };
     if !comparisons.is_empty() {
-        let text = format!("{:#}\n", comparisons_to_json(&comparisons));
+        let mut json = comparisons_to_json(&comparisons);
+        json["provenance"] =
+            serde_json::to_value(&directory.provenance().origin).map_err(std::io::Error::from)?;
+        let text = format!("{json:#}\n");
         write_atomic(&out.join(COMPARISON_FILE), text.as_bytes())?;
     }
     print_comparisons(&comparisons);
@@ -161,7 +171,7 @@ fn beginning_of<const D: usize>(
     match &options.resume {
         Some(path) => Ok(Beginning::From(Box::new(read_resumed(path, file.case(), out)?))),
         None if options.overwrite => Ok(Beginning::AtStart),
-        None => beginning(out, file, options.continues || is_requeued()),
+        None => beginning(out, file, options.continues || n_requeued() > 0),
     }
 }
 

@@ -5,13 +5,13 @@
 use std::fmt::Write as _;
 use std::fs;
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use alewife_mesh::{Array, Mesh, Point, write_vtu_as};
 
 use super::atomic::{AtPath, write_atomic};
 use super::history::{Frame, History};
-use super::run_directory::{FAILURE_FLOW, FAILURE_FOLDER, FAILURE_STATE};
+use super::run_directory::{FAILURE_FLOW, FAILURE_FOLDER, FAILURE_STATE, RunDirectory};
 use super::schedule::Schedule;
 use super::state_file::write_state;
 use crate::body::in_space;
@@ -22,6 +22,8 @@ use crate::simulation::{Dimension, LastState, Observer, RunError, Snapshot, Solv
 #[derive(Debug)]
 pub struct FieldFiles {
     directory: PathBuf,
+    /// The comment that names it.
+    origin: String,
     schedule: Schedule,
     precision: alewife_mesh::Precision,
     frames: Vec<Frame>,
@@ -31,9 +33,12 @@ impl FieldFiles {
     /// Field files in `directory`, after those of a run that resumes there; none are written before
     /// the first step that is due.
     #[must_use]
-    pub fn new(directory: &Path, case: &Case, history: Option<&History>) -> Self {
+    pub fn new(directory: &RunDirectory, case: &Case, history: Option<&History>) -> Self {
+        // Two hyphens would end a comment
+        let origin = directory.provenance().origin.line().replace("--", "- -");
         Self {
-            directory: directory.to_owned(),
+            directory: directory.path().to_owned(),
+            origin: format!("<!-- {origin} -->\n"),
             schedule: Schedule::new(case.output.fields, history.map(|history| history.time)),
             precision: match case.output.precision {
                 Precision::F32 => alewife_mesh::Precision::F32,
@@ -77,15 +82,17 @@ impl FieldFiles {
         ];
         let mut bytes = Vec::new();
         write_vtu_as(self.precision, &mut bytes, mesh, Some(time), &arrays, &[])?;
+        // After the first line, which says that this is XML
+        let first = bytes.iter().position(|&byte| byte == b'\n').map_or(0, |end| end + 1);
+        bytes.splice(first..first, self.origin.bytes());
         Ok(bytes)
     }
 
     /// The list of all frames, as ParaView wants it.
     fn collection(&self) -> String {
-        let mut text = String::from(
-            "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" \
-             byte_order=\"LittleEndian\">\n<Collection>\n",
-        );
+        let mut text = String::from("<?xml version=\"1.0\"?>\n");
+        text += &self.origin;
+        text += "<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n<Collection>\n";
         for Frame { time, file } in &self.frames {
             // Writing to a string cannot fail.
             let _ = writeln!(text, "<DataSet timestep=\"{time:?}\" part=\"0\" file=\"{file}\"/>");
@@ -117,6 +124,10 @@ where
 
     fn on_failure(&mut self, error: &RunError, last: Option<&LastState<'_, D>>) -> io::Result<()> {
         let Some(last) = last else { return Ok(()) };
+        // Nothing is wrong with the flow, and where a file could not be written this would not help
+        if matches!(error, RunError::Output(_)) {
+            return Ok(());
+        }
         let bytes = self.frame(last.time, last.mesh, last.velocity, last.pressure)?;
         if matches!(error, RunError::Stopped { .. }) {
             let name = "fields/stopped.vtu".to_owned();

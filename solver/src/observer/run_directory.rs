@@ -1,6 +1,6 @@
 //! `RunDirectory`: the directory of one run, held by one process; files that are whole or absent.
 
-use std::fs::{self, File, TryLockError};
+use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -8,8 +8,9 @@ use thiserror::Error;
 
 use super::atomic::{AtPath, UNFINISHED, write_atomic};
 use super::checkpoint_list::{self, REQUEST, checkpoints};
-use super::provenance::{self, Provenance};
+use super::provenance::{Origin, Point, Provenance};
 use super::removal::{names_in, remove_if_empty, remove_if_there};
+use super::run_lock::RunLock;
 use super::status::{RunState, Status};
 use crate::case::{Case, MeshFile};
 
@@ -63,6 +64,25 @@ pub enum Earlier {
     Continue,
 }
 
+/// How a process begins in a directory.
+#[derive(Debug, Default)]
+pub struct Start {
+    /// Threads it may use.
+    pub threads: usize,
+    /// Where in the run it begins.
+    pub from: Point,
+    /// The directory, if it holds that already.
+    pub lock: Option<RunLock>,
+}
+
+impl Start {
+    /// At the first step.
+    #[must_use]
+    pub fn with_threads(threads: usize) -> Self {
+        Self { threads, ..Self::default() }
+    }
+}
+
 /// Why a run may not use a directory.
 #[derive(Debug, Error)]
 pub enum RunDirectoryError {
@@ -73,10 +93,15 @@ pub enum RunDirectoryError {
         path: PathBuf,
     },
     /// Another process runs in it.
-    #[error("another run is writing to {path}; wait for it, or give another directory with --out")]
+    #[error(
+        "another run{} is writing to {path}; wait for it, or give another directory with --out",
+        holder.as_ref().map(|holder| format!(" ({holder})")).unwrap_or_default()
+    )]
     InUse {
         /// The directory.
         path: PathBuf,
+        /// The other process, as far as it is known.
+        holder: Option<String>,
     },
     /// It holds a run that can be resumed.
     #[error(
@@ -109,8 +134,7 @@ pub struct RunDirectory {
     path: PathBuf,
     case_text: String,
     provenance: Provenance,
-    /// Open and locked; closing it gives the directory free, however the process ends.
-    _lock: File,
+    _lock: RunLock,
 }
 
 impl RunDirectory {
@@ -122,7 +146,7 @@ impl RunDirectory {
     pub fn create(
         path: &Path,
         case: &Case,
-        threads: usize,
+        start: Start,
         earlier: Earlier,
     ) -> Result<Self, RunDirectoryError> {
         fs::create_dir_all(path).at(path)?;
@@ -132,8 +156,9 @@ impl RunDirectory {
             }
             write_atomic(&path.join(MARKER_FILE), MARKER.as_bytes())?;
         }
-        let Some(lock) = lock(&path.join("lock")).at(&path.join("lock"))? else {
-            return Err(RunDirectoryError::InUse { path: path.to_owned() });
+        let lock = match start.lock {
+            Some(lock) => lock,
+            None => RunLock::take(path)?,
         };
         if earlier == Earlier::Keep {
             check_replaceable(path)?;
@@ -149,16 +174,13 @@ impl RunDirectory {
             write_atomic(&path.join(MESH_FILE), mesh)?;
         }
         let case_text = case.naming_mesh(MESH_FILE).to_toml()?;
-        let provenance = Provenance::of_this_process(&case_text, threads);
+        let origin = Origin::of_this_process(&case_text, start.threads);
         let provenance = match earlier {
-            Earlier::Continue => provenance.continuing(path),
-            Earlier::Keep | Earlier::Replace => provenance,
+            Earlier::Continue => Provenance::continuing(path, origin, start.from),
+            Earlier::Keep | Earlier::Replace => Provenance::beginning(origin, start.from),
         };
-        let mut provenance_text =
-            serde_json::to_vec_pretty(&provenance).map_err(io::Error::from)?;
-        provenance_text.push(b'\n');
+        provenance.write(path)?;
         write_atomic(&path.join("case.toml"), case_text.as_bytes())?;
-        write_atomic(&path.join(provenance::FILE), &provenance_text)?;
         Ok(Self { path: path.to_owned(), case_text, provenance, _lock: lock })
     }
 
@@ -182,7 +204,7 @@ impl RunDirectory {
 }
 
 /// Whether the marker of a run is there.
-fn is_a_run(path: &Path) -> bool {
+pub(super) fn is_a_run(path: &Path) -> bool {
     let marker = path.join(MARKER_FILE);
     fs::symlink_metadata(&marker).is_ok_and(|found| found.is_file())
         && fs::read(&marker).is_ok_and(|text| text == MARKER.as_bytes())
@@ -213,20 +235,6 @@ pub fn run_of_state(state: &Path) -> Option<&Path> {
     let folder = if is_within { folder.parent()? } else { folder };
     let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
     is_a_run(folder).then_some(folder)
-}
-
-/// The lock file, locked; nothing if another process has it.
-fn lock(path: &Path) -> io::Result<Option<File>> {
-    let file = File::options().create(true).truncate(false).write(true).open(path)?;
-    match file.try_lock() {
-        Ok(()) => Ok(Some(file)),
-        Err(TryLockError::WouldBlock) => Ok(None),
-        // Some network file systems have no locks; a run there is better than none.
-        Err(TryLockError::Error(error)) if error.kind() == io::ErrorKind::Unsupported => {
-            Ok(Some(file))
-        }
-        Err(TryLockError::Error(error)) => Err(error),
-    }
 }
 
 /// Removes what an earlier run left, and nothing else.
@@ -290,7 +298,7 @@ mod tests {
     }
 
     fn create(path: &Path, earlier: Earlier) -> Result<RunDirectory, RunDirectoryError> {
-        RunDirectory::create(path, &case(), 1, earlier)
+        RunDirectory::create(path, &case(), Start::with_threads(1), earlier)
     }
 
     fn put(path: &Path, files: &[&str]) {

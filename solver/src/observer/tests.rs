@@ -1,5 +1,6 @@
 //! The files of a run on a mesh of two triangles, written and read back.
 
+mod damage;
 mod two_triangles;
 
 use std::collections::BTreeMap;
@@ -109,8 +110,12 @@ impl Run {
 
     /// A complete run in `path`.
     fn complete(&self, path: &Path) {
-        let directory = RunDirectory::create(path, &self.model.case, 1, Earlier::Keep).unwrap();
-        self.to_its_end(&mut observers(&self.model, &directory, None, true).unwrap());
+        let directory =
+            RunDirectory::create(path, &self.model.case, Start::with_threads(1), Earlier::Keep)
+                .unwrap();
+        self.to_its_end(
+            &mut observers(&self.model, &directory, None, true, &WriteTimes::default()).unwrap(),
+        );
     }
 
     /// Shows all steps and the end to `everyone`.
@@ -218,8 +223,11 @@ fn the_status_tells_state_and_cost() {
     while cpu_seconds() < 0.2 {} // Earlier work of the process
     let place = tempfile::tempdir().unwrap();
     let run = Run::new();
-    let directory = RunDirectory::create(place.path(), &run.model.case, 1, Earlier::Keep).unwrap();
-    let mut everyone = observers(&run.model, &directory, None, true).unwrap();
+    let directory =
+        RunDirectory::create(place.path(), &run.model.case, Start::with_threads(1), Earlier::Keep)
+            .unwrap();
+    let mut everyone =
+        observers(&run.model, &directory, None, true, &WriteTimes::default()).unwrap();
     let before = Status::read(place.path()).unwrap();
     assert_eq!((before.state, before.step, before.steps), (RunState::Running, 0, Some(40)));
 
@@ -236,8 +244,11 @@ fn the_status_tells_state_and_cost() {
 fn a_failure_is_told_with_its_reason() {
     let place = tempfile::tempdir().unwrap();
     let run = Run::new();
-    let directory = RunDirectory::create(place.path(), &run.model.case, 1, Earlier::Keep).unwrap();
-    let mut everyone = observers(&run.model, &directory, None, true).unwrap();
+    let directory =
+        RunDirectory::create(place.path(), &run.model.case, Start::with_threads(1), Earlier::Keep)
+            .unwrap();
+    let mut everyone =
+        observers(&run.model, &directory, None, true, &WriteTimes::default()).unwrap();
     run.step(&mut everyone, 0);
     let error = RunError::Unsupported("mesh: no room between the bodies".to_owned());
     everyone.iter_mut().for_each(|observer| observer.on_failure(&error, None).unwrap());
@@ -260,8 +271,11 @@ fn a_failure_is_told_with_its_reason() {
 fn a_killed_run_leaves_whole_files_and_readable_messages() {
     let place = tempfile::tempdir().unwrap();
     let run = Run::new();
-    let directory = RunDirectory::create(place.path(), &run.model.case, 1, Earlier::Keep).unwrap();
-    let mut everyone = observers(&run.model, &directory, None, true).unwrap();
+    let directory =
+        RunDirectory::create(place.path(), &run.model.case, Start::with_threads(1), Earlier::Keep)
+            .unwrap();
+    let mut everyone =
+        observers(&run.model, &directory, None, true, &WriteTimes::default()).unwrap();
     (0..20).for_each(|step| run.step(&mut everyone, step));
 
     // What is on the disk now is what a kill would leave: nothing of this process is written any
@@ -310,7 +324,7 @@ fn two_runs_write_the_same_bytes_after_the_provenance() {
         let provenance: Provenance =
             serde_json::from_slice(&std::fs::read(place.path().join("provenance.json")).unwrap())
                 .unwrap();
-        (std::fs::read(place.path().join("run.mcap")).unwrap(), provenance.started_at)
+        (std::fs::read(place.path().join("run.mcap")).unwrap(), provenance.origin.started_at)
     });
     let [(first, first_start), (second, second_start)] = bytes;
     assert_eq!(first.len(), second.len());
@@ -342,7 +356,9 @@ fn the_list_of_frames_names_every_frame_and_is_closed() {
 fn a_finished_run_is_refused_and_an_unfinished_one_replaced() {
     let place = tempfile::tempdir().unwrap();
     let run = Run::new();
-    let create = |earlier| RunDirectory::create(place.path(), &run.model.case, 1, earlier);
+    let create = |earlier| {
+        RunDirectory::create(place.path(), &run.model.case, Start::with_threads(1), earlier)
+    };
     let held = create(Earlier::Keep).unwrap();
     assert!(matches!(create(Earlier::Replace), Err(RunDirectoryError::InUse { .. })));
     drop(held);
@@ -358,8 +374,12 @@ fn a_run_that_resumes_goes_on_in_its_files() {
     let (whole, halves) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
     let run = Run::new();
     run.complete(whole.path());
-    let begin = |earlier| RunDirectory::create(halves.path(), &run.model.case, 1, earlier).unwrap();
-    let mut everyone = observers(&run.model, &begin(Earlier::Keep), None, true).unwrap();
+    let begin = |earlier| {
+        RunDirectory::create(halves.path(), &run.model.case, Start::with_threads(1), earlier)
+            .unwrap()
+    };
+    let mut everyone =
+        observers(&run.model, &begin(Earlier::Keep), None, true, &WriteTimes::default()).unwrap();
     (0..=17).for_each(|step| run.step(&mut everyone, step));
     let time = 17.0 * 0.1;
     let error = RunError::Stopped { step: 17, time };
@@ -367,7 +387,8 @@ fn a_run_that_resumes_goes_on_in_its_files() {
 
     let history = History::read(halves.path(), 17, time).unwrap();
     let directory = begin(Earlier::Continue);
-    let mut everyone = observers(&run.model, &directory, Some(&history), true).unwrap();
+    let mut everyone =
+        observers(&run.model, &directory, Some(&history), true, &WriteTimes::default()).unwrap();
     // A run that is killed at once still says that it has made steps
     assert_eq!(Status::read(halves.path()).unwrap().step, 17);
     (18..=STEPS).for_each(|step| run.step(&mut everyone, step));

@@ -124,10 +124,10 @@ fn a_run_that_resumes_in_its_directory_goes_on_with_its_series() {
     assert_eq!(resumed.status.code(), Some(0), "{}", String::from_utf8_lossy(&resumed.stderr));
     let provenance: serde_json::Value =
         serde_json::from_str(&read("fall/provenance.json")).unwrap();
-    let earlier = provenance["earlier"].as_array().unwrap();
-    assert_eq!(earlier.len(), 1);
-    assert!(!earlier[0]["argv"].to_string().contains("--resume"), "{provenance}");
-    assert!(provenance["argv"].to_string().contains("--resume"), "{provenance}");
+    let legs = provenance["legs"].as_array().unwrap();
+    assert_eq!(legs.len(), 2);
+    assert!(!provenance["argv"].to_string().contains("--resume"), "{provenance}");
+    assert!(legs[1]["argv"].to_string().contains("--resume"), "{provenance}");
     assert!(read("fall/log.jsonl").contains("\"resumed\""));
     let whole = with(arguments("whole"), &["--set", &end]);
     assert_eq!(whole.status.code(), Some(0), "{}", String::from_utf8_lossy(&whole.stderr));

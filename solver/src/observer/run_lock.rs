@@ -1,0 +1,84 @@
+//! `RunLock`: one process for a run directory; the system gives it free however the process ends.
+
+use std::fs::{File, TryLockError};
+use std::io::{self, Read, Write};
+use std::path::Path;
+
+use super::atomic::AtPath;
+use super::process;
+use super::run_directory::{RunDirectoryError, is_a_run};
+
+/// The file that is locked.
+const FILE: &str = "lock";
+/// Longest name of a holder that is told (bytes).
+const LONGEST: u64 = 300;
+
+/// A run directory, held by this process as long as the value lives.
+#[derive(Debug)]
+pub struct RunLock {
+    /// Open and locked.
+    _file: File,
+}
+
+impl RunLock {
+    /// Holds a directory.
+    ///
+    /// # Errors
+    /// When another process has it, or the file system refuses.
+    pub fn take(directory: &Path) -> Result<Self, RunDirectoryError> {
+        let path = directory.join(FILE);
+        let file = File::options().create(true).truncate(false).read(true).write(true).open(&path);
+        let mut file = file.at(&path)?;
+        match file.try_lock() {
+            Ok(()) => {
+                // Tells others who it is; a full disk is found soon enough by files that matter
+                let _ = file.set_len(0).and_then(|()| file.write_all(holder().as_bytes()));
+                Ok(Self { _file: file })
+            }
+            Err(TryLockError::WouldBlock) => {
+                let mut holder = String::new();
+                let _ = file.take(LONGEST).read_to_string(&mut holder);
+                let holder = Some(holder.trim().to_owned()).filter(|holder| !holder.is_empty());
+                Err(RunDirectoryError::InUse { path: directory.to_owned(), holder })
+            }
+            // Some network file systems have no locks; a run there is better than none.
+            Err(TryLockError::Error(error)) if error.kind() == io::ErrorKind::Unsupported => {
+                Ok(Self { _file: file })
+            }
+            Err(TryLockError::Error(error)) => Err(error).at(&path)?,
+        }
+    }
+
+    /// Holds the directory of a run; nothing where there is none yet.
+    ///
+    /// # Errors
+    /// As [`take`](Self::take).
+    pub fn of_run(directory: &Path) -> Result<Option<Self>, RunDirectoryError> {
+        is_a_run(directory).then(|| Self::take(directory)).transpose()
+    }
+}
+
+/// How this process is known to others.
+fn holder() -> String {
+    let host = process::host_name().map_or(String::new(), |host| format!(" on {host}"));
+    format!("process {}{host}\n", std::process::id())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_second_is_told_who_is_first_and_a_file_that_was_left_does_not_matter() {
+        let place = tempfile::tempdir().unwrap();
+        std::fs::write(place.path().join(FILE), "process 1 on a computer that was switched off\n")
+            .unwrap();
+        let first = RunLock::take(place.path()).unwrap();
+        let told = RunLock::take(place.path()).unwrap_err().to_string();
+        let first_is = format!("process {}", std::process::id());
+        assert!(told.contains(&first_is) && !told.contains("switched off"), "{told}");
+        drop(first);
+        RunLock::take(place.path()).unwrap();
+        assert!(RunLock::of_run(place.path()).unwrap().is_none(), "no marker, no run");
+    }
+}
