@@ -11,12 +11,18 @@ use alewife_mesh::{Array, Mesh, Point, write_vtu_as};
 
 use super::atomic::{AtPath, write_atomic};
 use super::history::{Frame, History};
+use super::removal::remove_if_there;
 use super::run_directory::{FAILURE_FLOW, FAILURE_FOLDER, FAILURE_STATE, RunDirectory};
 use super::schedule::Schedule;
 use super::state_file::write_state;
 use crate::body::in_space;
 use crate::case::{Case, Precision};
-use crate::simulation::{Dimension, LastState, Observer, RunError, Snapshot, Solve};
+use crate::simulation::{Dimension, LastState, Observer, RunError, Snapshot, Solve, Timing};
+
+/// The flow of a run that was stopped, which goes once the run has gone on.
+const STOPPED: &str = "fields/stopped.vtu";
+/// The list of all frames.
+const LIST: &str = "fields.pvd";
 
 /// The files written so far.
 #[derive(Debug)]
@@ -27,6 +33,8 @@ pub struct FieldFiles {
     schedule: Schedule,
     precision: alewife_mesh::Precision,
     frames: Vec<Frame>,
+    /// Whether there is a flow at which the run was stopped before.
+    has_stopped: bool,
 }
 
 impl FieldFiles {
@@ -45,6 +53,7 @@ impl FieldFiles {
                 Precision::F64 => alewife_mesh::Precision::F64,
             },
             frames: history.map(|history| history.frames.clone()).unwrap_or_default(),
+            has_stopped: directory.path().join(STOPPED).is_file(),
         }
     }
 
@@ -88,6 +97,16 @@ impl FieldFiles {
         Ok(bytes)
     }
 
+    /// Writes the list. It names a file only once it is there, and is itself replaced as a whole: a list without
+    /// its last line cannot be read at all.
+    fn write_list(&mut self) -> io::Result<()> {
+        write_atomic(&self.directory.join(LIST), self.collection().as_bytes())?;
+        if std::mem::take(&mut self.has_stopped) {
+            remove_if_there(&self.directory.join(STOPPED))?;
+        }
+        Ok(())
+    }
+
     /// The list of all frames, as ParaView wants it.
     fn collection(&self) -> String {
         let mut text = String::from("<?xml version=\"1.0\"?>\n");
@@ -117,9 +136,19 @@ where
         let name = format!("fields/{:06}.vtu", snapshot.step);
         write_atomic(&self.directory.join(&name), &bytes)?;
         self.frames.push(Frame { time: snapshot.time, file: name });
-        // The list names a file only once it is there, and is itself replaced as a whole: a list
-        // without its last line cannot be read at all.
-        write_atomic(&self.directory.join("fields.pvd"), self.collection().as_bytes())
+        self.write_list()
+    }
+
+    fn on_end(&mut self, _timing: &Timing) -> io::Result<()> {
+        // Where no frame has come since
+        if !self.has_stopped {
+            return Ok(());
+        }
+        self.write_list()?;
+        match self.frames.is_empty() {
+            true => remove_if_there(&self.directory.join(LIST)),
+            false => Ok(()),
+        }
     }
 
     fn on_failure(&mut self, error: &RunError, last: Option<&LastState<'_, D>>) -> io::Result<()> {
@@ -130,11 +159,12 @@ where
         }
         let bytes = self.frame(last.time, last.mesh, last.velocity, last.pressure)?;
         if matches!(error, RunError::Stopped { .. }) {
-            let name = "fields/stopped.vtu".to_owned();
+            let name = STOPPED.to_owned();
             self.create_folder("fields")?;
             write_atomic(&self.directory.join(&name), &bytes)?;
             self.frames.push(Frame { time: last.time, file: name });
-            return write_atomic(&self.directory.join("fields.pvd"), self.collection().as_bytes());
+            self.has_stopped = false;
+            return self.write_list();
         }
         let folder = self.create_folder(FAILURE_FOLDER)?;
         if let Some(state) = last.saved {

@@ -50,6 +50,12 @@ fn results(run: &Path) -> Vec<(String, Vec<u8>)> {
         }
     }
     found.sort();
+    // One that comes due while another is being written is left out
+    let last = found.iter().rposition(|(name, _)| name.starts_with("checkpoints/"));
+    let (_, last) = found.swap_remove(last.unwrap());
+    found.retain(|(name, _)| !name.starts_with("checkpoints/"));
+    found.sort();
+    found.push(("the last state".to_owned(), last));
     found
 }
 
@@ -101,7 +107,7 @@ fn a_run_on_a_full_disk_goes_on_once_there_is_space() {
             .unwrap();
         let told = told(&output);
         let (first, second) = told.split_once("code 74\n").expect(&told);
-        assert!(first.contains("error: disk/run/") && first.contains("No space left"), "{told}");
+        assert!(first.contains("disk/run/") && first.contains("No space left"), "{told}");
         assert!(second.ends_with("code 0\n"), "{told}");
         let before = std::fs::read_to_string(directory.join("before")).unwrap();
         assert!(!before.contains(".unfinished"), "{before}");
@@ -129,7 +135,9 @@ fn the_second_run_in_a_directory_is_told_who_is_there_and_a_killed_one_bars_nobo
     // What the process left says nothing: the system has given the lock free
     let lock = std::fs::read_to_string(directory.join("fall/lock")).unwrap();
     assert!(lock.starts_with(&format!("process {}", first.id())), "{lock}");
-    stopped(directory);
+    let third = start(directory, &[], &["--quiet", "--max-walltime", "1 s"]);
+    let third = third.wait_with_output().unwrap();
+    assert_eq!(third.status.code(), Some(75), "{}", told(&third));
 }
 
 /// On network file systems names go wrong in more ways than on others. Here a folder stands where a file is to be,
@@ -255,9 +263,9 @@ fn a_run_in_legs_says_where_it_comes_from_as_one_in_a_single_one_does() {
     run.wait().unwrap();
     stopped(directory);
     let end = json("status.json")["time"].as_f64().unwrap() + 0.05;
-    let mut last = LONG[..8].to_vec();
+    let mut last = LONG[..4].to_vec();
     let end = format!("time.unsteady.end={end}");
-    last.extend(["--set", &end, "--no-references", "--threads", "2"]);
+    last.extend(["--set", "mesh.scale=2", "--set", &end, "--no-references", "--threads", "2"]);
     let output = alewife(directory, &last);
     assert_eq!(output.status.code(), Some(0), "{}", told(&output));
 
