@@ -6,7 +6,8 @@
 # Needs root, debootstrap and a network the first time. Debian's slurm-wlm and munge are installed into a
 # folder of their own, and their daemons run in namespaces of their own: nothing of this computer is changed,
 # and nothing goes on after the script. ALEWIFE_BIN is the program (target/release/alewife if unset),
-# ALEWIFE_SLURM_ROOT a folder in which the installation is kept for the next time.
+# ALEWIFE_SLURM_ROOT a folder in which the installation is kept for the next time, ALEWIFE_SLURM_END the end of the
+# longer runs: 60 is a bit more than a minute of CPU time, so that limits of a minute come before it.
 set -euo pipefail
 
 suite=bookworm
@@ -20,7 +21,9 @@ outside() {
     [ -x "$binary" ] || { echo "error: no program $binary; build it, or set ALEWIFE_BIN" >&2; exit 2; }
     place=$(mktemp -d "${TMPDIR:-/tmp}/alewife-slurm.XXXXXX")
     # The namespaces take all mounts and processes with them
-    trap 'rm -rf --one-file-system "$place"' EXIT
+    child=
+    trap '[ -z "$child" ] || kill -9 $child 2>/dev/null || true; rm -rf --one-file-system "$place"' EXIT
+    trap 'exit 130' INT TERM
     root=${ALEWIFE_SLURM_ROOT:-$place/root}
     if [ ! -x "$root/usr/sbin/slurmctld-wlm" ]; then
         command -v debootstrap >/dev/null || { echo "error: debootstrap is not installed" >&2; exit 2; }
@@ -46,7 +49,9 @@ outside() {
         for device in null zero random urandom; do
             touch '$root/dev/'\$device; mount --bind /dev/\$device '$root/dev/'\$device
         done
-        exec chroot '$root' /bin/bash /job/test.sh inside"
+        exec chroot '$root' /bin/bash /job/test.sh inside" &
+    child=$!
+    wait $child
 }
 
 # --- Inside ---------------------------------------------------------------------------------------
@@ -61,7 +66,7 @@ row() {
 }
 
 begin_slurm() {
-    export PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin
+    export PATH=/job:/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin
     ip link set lo up
     # Names are looked up only where there is an address besides 127.0.0.1
     ip address add 10.0.0.1/32 dev lo
@@ -172,12 +177,11 @@ n_resumed() { grep -c '"resumed"' "runs/$1/log.jsonl" || true; }
 
 inside() {
     cd /job
-    cp alewife /usr/local/bin/alewife
     begin_slurm
     echo "Slurm $(sinfo --version | cut -d' ' -f2), $(alewife --version)"
     local accurate='{ tolerance = 5e-3, largest = 0.005 }'
     case_file short 2.0 "$accurate"
-    case_file long 60.0 "$accurate"
+    case_file long "${ALEWIFE_SLURM_END:-60.0}" "$accurate"
     case_file diverging 2.0 '{ tolerance = 1e-9, smallest = 0.004 }'
     for name in a b d; do cp short.toml $name.toml; done
     for name in preempted killed limited unwarned cancelled; do cp long.toml $name.toml; done

@@ -89,7 +89,7 @@ fn a_run_on_a_full_disk_goes_on_once_there_is_space() {
     assert_eq!(whole.status.code(), Some(0), "{}", told(&whole));
     std::fs::create_dir(directory.join("disk")).unwrap();
     let mut continued = 0;
-    for kilobytes in [100, 400, 800, 1300] {
+    for kilobytes in [600, 1800, 2600, 3300] {
         let script = format!(
             "mount -t tmpfs -o size={kilobytes}k none disk
              run() {{ '{}' run case.toml --out disk/run --threads 1 --quiet; }}
