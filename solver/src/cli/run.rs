@@ -92,6 +92,7 @@ where
     let out = options.out.clone().unwrap_or_else(|| Path::new("runs").join(name.replace('/', "-")));
     // From here on, so that no signal ends the process without a word, and no other process writes to what is read
     let watch = SignalWatch::start()?;
+    let limit = WallLimit::new(options.max_walltime.as_deref())?;
     let lock = RunLock::of_run(&out)?;
     let resumed: Option<Resumed<D>> = match beginning_of(options, file, &out)? {
         Beginning::AtStart => None,
@@ -106,12 +107,8 @@ where
         _ if options.overwrite => Earlier::Replace,
         _ => Earlier::Keep,
     };
-    if earlier != Earlier::Continue && is_inside(Path::new(&file.file), &out) {
-        let (file, out) = (&file.file, out.display());
-        return Err(Failure::new(
-            Exit::Usage,
-            format!("{file} lies in {out}, which a new run would clear; give another --out"),
-        ));
+    if earlier != Earlier::Continue {
+        check_lies_elsewhere(file, &out)?;
     }
     let n_threads = threads::start(options.threads)?;
     let from = resumed.as_ref().map_or(Point::default(), |resumed| Point {
@@ -126,7 +123,6 @@ where
     if let Some(resumed) = &resumed {
         tell_of_resuming(resumed, options.quiet);
     }
-    let limit = WallLimit::new(options.max_walltime.as_deref())?;
     let run = RunInto { directory: &directory, quiet: options.quiet, watch, limit };
     let outcome =
         engine::simulate_into(&file.model, resumed.as_ref(), run).map_err(|error| match error {
@@ -136,11 +132,7 @@ where
     let comparisons =
         if options.no_references { Vec::new() } else { compare(&name, file.case(), &outcome) };
     if !comparisons.is_empty() {
-        let mut json = comparisons_to_json(&comparisons);
-        json["provenance"] =
-            serde_json::to_value(&directory.provenance().origin).map_err(std::io::Error::from)?;
-        let text = format!("{json:#}\n");
-        write_atomic(&out.join(COMPARISON_FILE), text.as_bytes())?;
+        write_comparisons(&directory, &comparisons)?;
     }
     print_comparisons(&comparisons);
     if comparisons.is_empty() {
@@ -182,6 +174,23 @@ fn tell_of_resuming<const D: usize>(resumed: &Resumed<D>, quiet: bool) {
     if !quiet {
         complain(&format!("continues at step {step}, t {time}, from {from}"));
     }
+}
+
+/// Refuses to clear the directory that the case file lies in.
+fn check_lies_elsewhere(file: &CaseFile, out: &Path) -> Result<(), Failure> {
+    if !is_inside(Path::new(&file.file), out) {
+        return Ok(());
+    }
+    let (file, out) = (&file.file, out.display());
+    let reason = format!("{file} lies in {out}, which a new run would clear; give another --out");
+    Err(Failure::new(Exit::Usage, reason))
+}
+
+/// Writes the comparison with the references, and what was run.
+fn write_comparisons(directory: &RunDirectory, all: &[Comparison]) -> std::io::Result<()> {
+    let mut json = comparisons_to_json(all);
+    json["provenance"] = serde_json::to_value(&directory.provenance().origin)?;
+    write_atomic(&directory.path().join(COMPARISON_FILE), format!("{json:#}\n").as_bytes())
 }
 
 /// Whether a file lies in a directory.
