@@ -15,7 +15,7 @@ use super::wall_limit::WallLimit;
 use super::{engine, threads};
 use crate::case::{Case, CaseFile, Model, TimeSettings, significant};
 use crate::observer::{
-    Earlier, FAILURE_STATE, History, Point, RunDirectory, RunLock, Start, checkpoints, read_state,
+    Earlier, FAILURE_STATE, History, Point, RunDirectory, Start, checkpoints, read_state,
     run_of_state, write_atomic,
 };
 use crate::simulation::{Dimension, RunError, RunSummary, SavedState, Solve};
@@ -93,7 +93,7 @@ where
     // From here on, so that no signal ends the process without a word, and no other process writes to what is read
     let watch = SignalWatch::start()?;
     let limit = WallLimit::new(options.max_walltime.as_deref())?;
-    let lock = RunLock::of_run(&out)?;
+    let lock = RunDirectory::hold(&out)?;
     let resumed: Option<Resumed<D>> = match beginning_of(options, file, &out)? {
         Beginning::AtStart => None,
         Beginning::From(resumed) => Some(*resumed),

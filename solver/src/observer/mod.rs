@@ -63,7 +63,7 @@ pub use run_directory::{
     Earlier, FAILURE_FOLDER, FAILURE_STATE, RunDirectory, RunDirectoryError, STOP, Start,
     run_of_state,
 };
-pub use run_lock::RunLock;
+pub use run_lock::{LockError, RunLock};
 pub use state_file::read_state;
 pub use status::{RunState, Status, StatusFile};
 pub use write_times::WriteTimes;

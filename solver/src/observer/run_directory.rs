@@ -10,7 +10,7 @@ use super::atomic::{AtPath, UNFINISHED, write_atomic};
 use super::checkpoint_list::{self, REQUEST, checkpoints};
 use super::provenance::{Origin, Point, Provenance};
 use super::removal::{names_in, remove_if_empty, remove_if_there};
-use super::run_lock::RunLock;
+use super::run_lock::{LockError, RunLock};
 use super::status::{RunState, Status};
 use crate::case::{Case, MeshFile};
 
@@ -92,17 +92,9 @@ pub enum RunDirectoryError {
         /// The directory.
         path: PathBuf,
     },
-    /// Another process runs in it.
-    #[error(
-        "another run{} is writing to {path}; wait for it, or give another directory with --out",
-        holder.as_ref().map(|holder| format!(" ({holder})")).unwrap_or_default()
-    )]
-    InUse {
-        /// The directory.
-        path: PathBuf,
-        /// The other process, as far as it is known.
-        holder: Option<String>,
-    },
+    /// Another process runs in it, or there is no telling.
+    #[error(transparent)]
+    Lock(#[from] LockError),
     /// It holds a run that can be resumed.
     #[error(
         "{path} holds a run that failed and can be resumed with other settings; give --resume {state}, \
@@ -184,6 +176,14 @@ impl RunDirectory {
         Ok(Self { path: path.to_owned(), case_text, provenance, _lock: lock })
     }
 
+    /// Holds the directory of a run before anything is read from it; nothing where there is none yet.
+    ///
+    /// # Errors
+    /// When another process has it, or the file system refuses.
+    pub fn hold(path: &Path) -> Result<Option<RunLock>, RunDirectoryError> {
+        Ok(is_a_run(path).then(|| RunLock::take(path)).transpose()?)
+    }
+
     /// Where it is.
     #[must_use]
     pub fn path(&self) -> &Path {
@@ -204,7 +204,7 @@ impl RunDirectory {
 }
 
 /// Whether the marker of a run is there.
-pub(super) fn is_a_run(path: &Path) -> bool {
+fn is_a_run(path: &Path) -> bool {
     let marker = path.join(MARKER_FILE);
     fs::symlink_metadata(&marker).is_ok_and(|found| found.is_file())
         && fs::read(&marker).is_ok_and(|text| text == MARKER.as_bytes())

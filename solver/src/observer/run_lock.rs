@@ -2,16 +2,36 @@
 
 use std::fs::{File, TryLockError};
 use std::io::{self, Read, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
+
+use thiserror::Error;
 
 use super::atomic::AtPath;
 use super::process;
-use super::run_directory::{RunDirectoryError, is_a_run};
 
 /// The file that is locked.
 const FILE: &str = "lock";
 /// Longest name of a holder that is told (bytes).
 const LONGEST: u64 = 300;
+
+/// Why a run directory cannot be held.
+#[derive(Debug, Error)]
+pub enum LockError {
+    /// Another process has it.
+    #[error(
+        "another run{} is writing to {path}; wait for it, or give another directory with --out",
+        holder.as_ref().map(|holder| format!(" ({holder})")).unwrap_or_default()
+    )]
+    InUse {
+        /// The directory.
+        path: PathBuf,
+        /// The other process, as far as it is known.
+        holder: Option<String>,
+    },
+    /// The file system refused.
+    #[error(transparent)]
+    Io(#[from] io::Error),
+}
 
 /// A run directory, held by this process as long as the value lives.
 #[derive(Debug)]
@@ -25,7 +45,7 @@ impl RunLock {
     ///
     /// # Errors
     /// When another process has it, or the file system refuses.
-    pub fn take(directory: &Path) -> Result<Self, RunDirectoryError> {
+    pub fn take(directory: &Path) -> Result<Self, LockError> {
         let path = directory.join(FILE);
         let file = File::options().create(true).truncate(false).read(true).write(true).open(&path);
         let mut file = file.at(&path)?;
@@ -39,7 +59,7 @@ impl RunLock {
                 let mut holder = String::new();
                 let _ = file.take(LONGEST).read_to_string(&mut holder);
                 let holder = Some(holder.trim().to_owned()).filter(|holder| !holder.is_empty());
-                Err(RunDirectoryError::InUse { path: directory.to_owned(), holder })
+                Err(LockError::InUse { path: directory.to_owned(), holder })
             }
             // Some network file systems have no locks; a run there is better than none.
             Err(TryLockError::Error(error)) if error.kind() == io::ErrorKind::Unsupported => {
@@ -47,14 +67,6 @@ impl RunLock {
             }
             Err(TryLockError::Error(error)) => Err(error).at(&path)?,
         }
-    }
-
-    /// Holds the directory of a run; nothing where there is none yet.
-    ///
-    /// # Errors
-    /// As [`take`](Self::take).
-    pub fn of_run(directory: &Path) -> Result<Option<Self>, RunDirectoryError> {
-        is_a_run(directory).then(|| Self::take(directory)).transpose()
     }
 }
 
@@ -79,6 +91,5 @@ mod tests {
         assert!(told.contains(&first_is) && !told.contains("switched off"), "{told}");
         drop(first);
         RunLock::take(place.path()).unwrap();
-        assert!(RunLock::of_run(place.path()).unwrap().is_none(), "no marker, no run");
     }
 }

@@ -347,7 +347,7 @@ fn a_finished_run_is_refused_and_an_unfinished_one_replaced() {
         RunDirectory::create(place.path(), &run.model.case, Start::with_threads(1), earlier)
     };
     let held = create(Earlier::Keep).unwrap();
-    assert!(matches!(create(Earlier::Replace), Err(RunDirectoryError::InUse { .. })));
+    assert!(matches!(create(Earlier::Replace), Err(RunDirectoryError::Lock(_))));
     drop(held);
     run.complete(place.path());
     assert!(matches!(create(Earlier::Keep), Err(RunDirectoryError::Finished { .. })));

@@ -20,7 +20,7 @@ fn the_list_of_frames_names_every_frame_and_is_closed() {
     assert!(header.ends_with("</VTKFile>\n"));
     // What it is of stands in the second line, which is a comment
     let hash = crc32fast::hash(&std::fs::read(place.path().join("case.toml")).unwrap());
-    for text in [&text, &*header] {
+    for text in [text.as_str(), &*header] {
         let line = text.lines().nth(1).unwrap();
         assert!(line.contains(&format!("case crc32:{hash:08x} -->")), "{line}");
     }
