@@ -39,7 +39,7 @@ fn run(directory: &Path, out: &str, more: &[&str]) -> Output {
 fn results(run: &Path) -> Vec<(String, Vec<u8>)> {
     let mut found = Vec::new();
     for folder in ["", "fields", "checkpoints"] {
-        for entry in std::fs::read_dir(run.join(folder)).unwrap() {
+        for entry in std::fs::read_dir(run.join(folder)).into_iter().flatten() {
             let path = entry.unwrap().path();
             let name = path.strip_prefix(run).unwrap().to_str().unwrap().to_owned();
             let is_result =
@@ -310,4 +310,51 @@ fn a_run_in_legs_says_where_it_comes_from_as_one_in_a_single_one_does() {
         let line = said.lines().find(|line| line.contains(&format!("leg {leg}: steps ")));
         assert!(line.is_some_and(|line| line.contains(end)), "{said}");
     }
+}
+
+/// A disc that turns as it sinks beside a wall, on meshes that are replaced: what one was generated for is that of a run
+/// that was never interrupted, however often it is resumed in between.
+#[test]
+fn a_mesh_that_is_replaced_after_a_run_was_resumed_is_that_of_the_unbroken_run() {
+    let place = tempfile::tempdir().unwrap();
+    let directory = place.path();
+    let text = CASE
+        .replace("center = [0.1, 0.2]", "center = [0.5, 0.6]")
+        .replace(
+            "{ wall = '1 h', time = 0.05, keep = 2 }",
+            "{ wall = '1 h', time = 0.1, keep = 99 }",
+        )
+        .replace("output.fields = { time = 0.02 }", "output.fields = 'never'")
+        .replace("step = 0.01, end = 0.4", "step = 0.02, end = 2.0");
+    std::fs::write(directory.join("case.toml"), text).unwrap();
+    let whole = run(directory, "whole", &[]);
+    assert_eq!(whole.status.code(), Some(0), "{}", told(&whole));
+    let read = |file: String| std::fs::read_to_string(directory.join(file)).unwrap();
+    let steps = |out: &str| -> Vec<u64> {
+        let log = read(format!("{out}/log.jsonl"));
+        let events =
+            log.lines().map(|line| serde_json::from_str::<serde_json::Value>(line).unwrap());
+        let remeshed = events.filter(|event| event["fields"]["message"] == "remeshed");
+        remeshed.map(|event| event["fields"]["step"].as_u64().unwrap()).collect()
+    };
+    let remeshed = steps("whole");
+    assert!(remeshed.len() >= 3, "{remeshed:?}");
+    let last = results(&directory.join("whole"));
+    // From a state between each two meshes
+    let mut resumed = 0;
+    for pair in remeshed.windows(2) {
+        let states = std::fs::read_dir(directory.join("whole/checkpoints")).unwrap();
+        let step =
+            |path: &Path| path.file_stem().unwrap().to_str().unwrap().parse::<u64>().unwrap();
+        let between = states
+            .map(|entry| entry.unwrap().path())
+            .find(|path| (pair[0] + 1..=pair[1]).contains(&step(path)));
+        let Some(state) = between else { continue };
+        let out = format!("from-{}", step(&state));
+        let from = run(directory, &out, &["--resume", state.to_str().unwrap()]);
+        assert_eq!(from.status.code(), Some(0), "{}", told(&from));
+        assert!(results(&directory.join(&out)) == last, "resumed from {}", state.display());
+        resumed += 1;
+    }
+    assert!(resumed >= 2, "{resumed} between {remeshed:?}");
 }
