@@ -156,8 +156,12 @@ impl Provenance {
         let Ok(mut earlier) = Self::read(directory) else { return new };
         if let Some(last) = earlier.legs.last_mut().filter(|last| last.end.is_none()) {
             last.end = Some(KILLED.to_owned());
+            last.to = Some(from);
+            // A checkpoint may be newer than the last status, which is up to a second behind
             if let Ok(status) = Status::read(directory) {
-                last.to = Some(Point { step: status.step, time: status.time });
+                if status.step > from.step {
+                    last.to = Some(Point { step: status.step, time: status.time });
+                }
                 last.ended_at = Some(status.updated_at);
             }
         }
