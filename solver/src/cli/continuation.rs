@@ -32,10 +32,10 @@ pub enum Beginning<const D: usize> {
     IsDone,
 }
 
-/// Whether a batch system has put this job back into its queue and started it again.
-pub fn is_requeued() -> bool {
-    let count = std::env::var("SLURM_RESTART_COUNT").ok().and_then(|count| count.parse().ok());
-    count.is_some_and(|count: u64| count > 0)
+/// How often a batch system has put this job back into its queue and started it again.
+pub fn n_requeued() -> usize {
+    let count = std::env::var("SLURM_RESTART_COUNT").ok();
+    count.and_then(|count| count.parse().ok()).unwrap_or(0)
 }
 
 /// How a run of a case begins in a directory; `is_asked` where it is to continue a finished run, too.
@@ -49,16 +49,20 @@ pub fn beginning<const D: usize>(
     is_asked: bool,
 ) -> Result<Beginning<D>, Failure> {
     let Ok(status) = Status::read(out) else { return Ok(Beginning::AtStart) };
-    let TimeSettings::Unsteady(settings) = &file.case().time else {
-        return Ok(Beginning::AtStart);
+    // Of a steady solution there is nothing to continue from
+    let end = match &file.case().time {
+        TimeSettings::Unsteady(settings) => Some(settings.end),
+        TimeSettings::Steady(_) => None,
     };
     let is_over = match status.state {
         RunState::Running | RunState::Stopped => false,
-        RunState::Finished if is_asked => status.time >= settings.end,
+        RunState::Failed if status.is_interrupted => false,
+        RunState::Finished if is_asked => end.is_none_or(|end| status.time >= end),
         // What follows from them is for who calls: another directory, or another beginning
         RunState::Finished | RunState::Failed => return Ok(Beginning::AtStart),
     };
-    if checkpoints(out)?.is_empty() && !is_over {
+    if !is_over && (end.is_none() || checkpoints(out)?.is_empty()) {
+        check_progress(out, n_requeued())?;
         return Ok(Beginning::AtStart);
     }
     check_same(out, file.case())?;
@@ -72,11 +76,12 @@ pub fn beginning<const D: usize>(
     state.check_case(file.case()).map_err(|error| {
         Failure::new(Exit::BadCase, format!("cannot continue from {}: {error}", path.display()))
     })?;
-    if state.time >= settings.end {
+    if end.is_some_and(|end| state.time >= end) {
         return Ok(Beginning::IsDone);
     }
     let mut history = History::read(out, state.step, state.time)?;
     history.restarts = status.restarts.next(state.step);
+    history.longest_checkpoint = status.longest_checkpoint;
     if history.restarts.count > MOST_RESTARTS {
         return Err(Failure::new(
             Exit::NoProgress,
@@ -95,6 +100,19 @@ pub fn beginning<const D: usize>(
         is_in_place: true,
         from: path,
     })))
+}
+
+/// Refuses to begin again at the start in a job that was put back into its queue too often.
+fn check_progress(out: &Path, n_requeued: usize) -> Result<(), Failure> {
+    if n_requeued <= MOST_RESTARTS {
+        return Ok(());
+    }
+    let reason = format!(
+        "the batch system has started this job {n_requeued} times again, and {} holds no checkpoint to continue \
+         from; give it more time, or --overwrite it",
+        out.display()
+    );
+    Err(Failure::new(Exit::NoProgress, reason))
 }
 
 /// Whether a directory holds a run of this very case.

@@ -9,7 +9,7 @@ use super::stop_file::StopFile;
 use super::threads;
 use super::wall_limit::WallLimit;
 use crate::case::Model;
-use crate::observer::{self, History, RunDirectory};
+use crate::observer::{self, History, RunDirectory, WriteTimes};
 use crate::simulation::{self, Dimension, RunError, RunSummary, SavedState, Solve};
 
 /// The mesh of a case.
@@ -73,10 +73,11 @@ where
 {
     threads::within(|| {
         let history = resumed.and_then(|resumed| resumed.history.as_ref());
-        let mut observers = observer::observers(model, run.directory, history, run.quiet)?;
+        let writes = WriteTimes::after(history.and_then(|history| history.longest_checkpoint));
+        let mut observers = observer::observers(model, run.directory, history, run.quiet, &writes)?;
         observers.push(Box::new(run.watch));
         if let Some(limit) = run.limit {
-            observers.push(Box::new(limit));
+            observers.push(Box::new(limit.learning_from(&writes)));
         }
         observers.push(Box::new(StopFile::new(run.directory.path())));
         simulation::simulate_from(model, resumed.map(|resumed| &resumed.state), &mut observers)

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::continuation::{Beginning, beginning, is_requeued};
+use super::continuation::{Beginning, beginning, n_requeued};
 use super::engine::{Resumed, RunInto};
 use super::exit::{Exit, Failure};
 use super::read::{Settings, read_case};
@@ -15,8 +15,8 @@ use super::wall_limit::WallLimit;
 use super::{engine, threads};
 use crate::case::{Case, CaseFile, Model, TimeSettings, significant};
 use crate::observer::{
-    COMPARISON_FILE, Earlier, FAILURE_STATE, History, RunDirectory, checkpoints, read_state,
-    run_of_state, write_atomic,
+    COMPARISON_FILE, Earlier, FAILURE_STATE, History, Point, RunDirectory, Start, checkpoints,
+    read_state, run_of_state, write_atomic,
 };
 use crate::simulation::{Dimension, RunError, RunSummary, SavedState, Solve};
 use crate::validation::{Comparison, Verdict, compare, comparison_table, comparisons_to_json};
@@ -125,6 +125,10 @@ where
 {
     let name = file.full_name();
     let out = options.out.clone().unwrap_or_else(|| Path::new("runs").join(name.replace('/', "-")));
+    // From here on, so that no signal ends the process without a word, and no other process writes to what is read
+    let watch = SignalWatch::start()?;
+    let limit = WallLimit::new(options.max_walltime.as_deref())?;
+    let lock = RunDirectory::hold(&out)?;
     let resumed: Option<Resumed<D>> = match beginning_of(options, file, &out)? {
         Beginning::AtStart => None,
         Beginning::From(resumed) => Some(*resumed),
@@ -138,23 +142,22 @@ where
         _ if options.overwrite => Earlier::Replace,
         _ => Earlier::Keep,
     };
-    if earlier != Earlier::Continue && is_inside(Path::new(&file.file), &out) {
-        let (file, out) = (&file.file, out.display());
-        return Err(Failure::new(
-            Exit::Usage,
-            format!("{file} lies in {out}, which a new run would clear; give another --out"),
-        ));
+    if earlier != Earlier::Continue {
+        check_lies_elsewhere(file, &out)?;
     }
     let n_threads = threads::start(options.threads)?;
-    let directory = RunDirectory::create(&out, file.case(), n_threads, earlier)?;
+    let from = resumed.as_ref().map_or(Point::default(), |resumed| Point {
+        step: resumed.state.step,
+        time: resumed.state.time,
+    });
+    let start = Start { threads: n_threads, from, lock };
+    let directory = RunDirectory::create(&out, file.case(), start, earlier)?;
     let verbosity = i8::try_from(options.verbose).unwrap_or(i8::MAX) - i8::from(options.quiet);
     engine::start_log(Some(&out), verbosity)?;
 
     if let Some(resumed) = &resumed {
         tell_of_resuming(resumed, options.quiet);
     }
-    let limit = WallLimit::new(options.max_walltime.as_deref())?;
-    let watch = SignalWatch::start()?;
     let run = RunInto { directory: &directory, quiet: options.quiet, watch, limit };
     let outcome =
         engine::simulate_into(&file.model, resumed.as_ref(), run).map_err(|error| match error {
@@ -164,8 +167,7 @@ where
     let comparisons =
         if options.no_references { Vec::new() } else { compare(&name, file.case(), &outcome) };
     if !comparisons.is_empty() {
-        let text = format!("{:#}\n", comparisons_to_json(&comparisons));
-        write_atomic(&out.join(COMPARISON_FILE), text.as_bytes())?;
+        write_comparisons(&directory, &comparisons)?;
     }
     print_comparisons(&comparisons);
     if comparisons.is_empty() {
@@ -196,7 +198,7 @@ fn beginning_of<const D: usize>(
     match &options.resume {
         Some(path) => Ok(Beginning::From(Box::new(read_resumed(path, file.case(), out)?))),
         None if options.overwrite => Ok(Beginning::AtStart),
-        None => beginning(out, file, options.continues || is_requeued()),
+        None => beginning(out, file, options.continues || n_requeued() > 0),
     }
 }
 
@@ -207,6 +209,23 @@ fn tell_of_resuming<const D: usize>(resumed: &Resumed<D>, quiet: bool) {
     if !quiet {
         complain(&format!("continues at step {step}, t {time}, from {from}"));
     }
+}
+
+/// Refuses to clear the directory that the case file lies in.
+fn check_lies_elsewhere(file: &CaseFile, out: &Path) -> Result<(), Failure> {
+    if !is_inside(Path::new(&file.file), out) {
+        return Ok(());
+    }
+    let (file, out) = (&file.file, out.display());
+    let reason = format!("{file} lies in {out}, which a new run would clear; give another --out");
+    Err(Failure::new(Exit::Usage, reason))
+}
+
+/// Writes the comparison with the references, and what was run.
+fn write_comparisons(directory: &RunDirectory, all: &[Comparison]) -> std::io::Result<()> {
+    let mut json = comparisons_to_json(all);
+    json["provenance"] = serde_json::to_value(&directory.provenance().origin)?;
+    write_atomic(&directory.path().join(COMPARISON_FILE), format!("{json:#}\n").as_bytes())
 }
 
 /// Whether a file lies in a directory.

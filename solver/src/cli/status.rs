@@ -8,7 +8,7 @@ use serde_json::json;
 
 use super::exit::{Exit, Failure};
 use super::style::say;
-use crate::observer::{RunState, Status, checkpoints};
+use crate::observer::{Leg, Provenance, RunState, Status, checkpoints};
 
 /// A running process writes its status every second; one that has not for this long was killed.
 const SILENCE: Duration = Duration::from_secs(120);
@@ -35,6 +35,8 @@ struct Progress {
     is_killed: bool,
     /// The latest checkpoint.
     checkpoint: Option<PathBuf>,
+    /// What ran it, one after another; none if that cannot be read.
+    legs: Vec<Leg>,
 }
 
 /// Tells how far runs are.
@@ -79,6 +81,7 @@ fn progress(directory: &Path) -> Result<Progress, Failure> {
         left: left.filter(|_| is_running),
         is_killed: is_running && age.is_some_and(|age| age > SILENCE),
         checkpoint: checkpoints(directory)?.into_iter().next(),
+        legs: Provenance::read(directory).map(|provenance| provenance.legs).unwrap_or_default(),
         status,
     })
 }
@@ -103,6 +106,7 @@ impl Progress {
             "seconds_left": self.left,
             "checkpoint": self.checkpoint,
             "status": status,
+            "legs": self.legs,
         }))
     }
 
@@ -127,7 +131,27 @@ impl Progress {
             Some(path) => say(&format!("  latest checkpoint: {}", path.display())),
             None => say("  no checkpoint"),
         }
+        for (index, leg) in self.legs.iter().enumerate() {
+            say(&format!("  leg {}: {}", index + 1, told(leg)));
+        }
     }
+}
+
+/// What a process did of a run, in a line.
+fn told(leg: &Leg) -> String {
+    let Leg { from, to, ended_at, end, origin } = leg;
+    let until = |text: Option<String>| text.map_or(String::new(), |text| format!(" to {text}"));
+    let threads = if origin.threads == 1 { "thread" } else { "threads" };
+    format!(
+        "steps {}{}, {}{}, alewife {} on {} {threads}{}",
+        from.step,
+        until(to.map(|to| to.step.to_string())),
+        origin.started_at,
+        until(ended_at.clone()),
+        origin.alewife,
+        origin.threads,
+        end.as_ref().map_or(String::new(), |end| format!(": {end}"))
+    )
 }
 
 /// A time in hours, minutes and seconds.

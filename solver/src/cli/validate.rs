@@ -11,7 +11,7 @@ use super::signal::SignalWatch;
 use super::style::{Ink, complain, on_stdout, say};
 use super::{engine, run, threads};
 use crate::case::{Cadence, Case, CaseFile, Numbers, Statistics, library};
-use crate::observer::{Earlier, RunDirectory, RunState, Status, read_outcome};
+use crate::observer::{Earlier, RunDirectory, RunState, Start, Status, read_outcome};
 use crate::simulation::{RunError, RunSummary};
 use crate::validation::{
     Comparison, compare, comparison_page, comparisons_to_json, count_table, not_computed, summary,
@@ -173,7 +173,8 @@ impl Work<'_> {
                 let is_finished =
                     Status::read(&place).is_ok_and(|status| status.state == RunState::Finished);
                 let earlier = if is_finished { Earlier::Keep } else { Earlier::Replace };
-                let directory = RunDirectory::create(&place, file.case(), self.n_threads, earlier)?;
+                let start = Start::with_threads(self.n_threads);
+                let directory = RunDirectory::create(&place, file.case(), start, earlier)?;
                 let run = RunInto { directory: &directory, quiet: true, watch, limit: None };
                 engine::simulate_afresh(&file.model, run)
             }

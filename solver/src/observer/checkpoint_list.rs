@@ -15,9 +15,28 @@ pub(super) const REQUEST: &str = "CHECKPOINT";
 /// The checkpoints of the run in a directory, the latest first.
 pub fn checkpoints(directory: &Path) -> io::Result<Vec<PathBuf>> {
     let folder = directory.join(FOLDER);
+    Ok(numbered(&folder)?.into_iter().map(|one| folder.join(one.name)).collect())
+}
+
+/// Those of later steps than one.
+pub(super) fn checkpoints_after(directory: &Path, step: usize) -> io::Result<Vec<PathBuf>> {
+    let folder = directory.join(FOLDER);
+    let later = numbered(&folder)?.into_iter().filter(|one| one.step > step as u64);
+    Ok(later.map(|one| folder.join(one.name)).collect())
+}
+
+/// A checkpoint by its step, then its name.
+#[derive(PartialEq, Eq, PartialOrd, Ord)]
+struct Numbered {
+    step: u64,
+    name: String,
+}
+
+fn numbered(folder: &Path) -> io::Result<Vec<Numbered>> {
     let step = |name: &String| name.strip_suffix(ENDING)?.parse::<u64>().ok();
-    let mut found: Vec<(u64, String)> =
-        names_in(&folder)?.into_iter().filter_map(|name| Some((step(&name)?, name))).collect();
+    let names = names_in(folder)?.into_iter();
+    let mut found: Vec<Numbered> =
+        names.filter_map(|name| Some(Numbered { step: step(&name)?, name })).collect();
     found.sort_unstable_by(|one, other| other.cmp(one));
-    Ok(found.into_iter().map(|(_, name)| folder.join(name)).collect())
+    Ok(found)
 }

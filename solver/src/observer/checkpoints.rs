@@ -8,11 +8,13 @@ use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
 use super::atomic::AtPath;
-use super::checkpoint_list::{ENDING, FOLDER, REQUEST, checkpoints};
+use super::checkpoint_list::{ENDING, FOLDER, REQUEST, checkpoints, checkpoints_after};
+use super::history::History;
 use super::removal::remove_if_there;
 use super::run_directory::remove_failure;
 use super::state_file::{read_state, write_state};
-use crate::case::{Checkpoints, TimeSettings};
+use super::write_times::WriteTimes;
+use crate::case::{Case, Checkpoints, TimeSettings};
 use crate::simulation::{LastState, Observer, RunError, SavedState, Snapshot};
 
 /// How often it is looked for.
@@ -30,17 +32,39 @@ pub struct CheckpointFiles {
     /// Multiples of the time between checkpoints that are past.
     periods: f64,
     writing: Option<JoinHandle<io::Result<()>>>,
+    times: WriteTimes,
 }
 
 impl CheckpointFiles {
-    /// For the run in a directory, which resumes at a time (s) or begins at zero.
-    #[must_use]
-    pub fn new(directory: &Path, settings: Checkpoints, time: &TimeSettings, from: f64) -> Self {
-        let is_active = matches!(time, TimeSettings::Unsteady(_)) && settings.keep > 0;
+    /// For the run in a directory, after a `history` if there is one. Checkpoints of later steps than its last are
+    /// removed: they belong to what is computed again, and newer ones would give way to them.
+    ///
+    /// # Errors
+    /// When the file system refuses.
+    pub fn create(
+        directory: &Path,
+        case: &Case,
+        history: Option<&History>,
+        times: WriteTimes,
+    ) -> io::Result<Self> {
+        if let Some(history) = history {
+            for later in checkpoints_after(directory, history.step)? {
+                remove_if_there(&later)?;
+            }
+        }
+        let settings = case.output.checkpoint;
+        let is_active = matches!(case.time, TimeSettings::Unsteady(_)) && settings.keep > 0;
         let now = Instant::now();
-        let directory = directory.to_owned();
-        let periods = periods(&settings, from);
-        Self { directory, settings, is_active, written: now, looked: now, periods, writing: None }
+        Ok(Self {
+            directory: directory.to_owned(),
+            settings,
+            is_active,
+            written: now,
+            looked: now,
+            periods: periods(&settings, history.map_or(0.0, |history| history.time)),
+            writing: None,
+            times,
+        })
     }
 
     fn is_requested(&mut self) -> io::Result<bool> {
@@ -73,7 +97,12 @@ fn periods(settings: &Checkpoints, time: f64) -> f64 {
 }
 
 /// Writes a state among the checkpoints of a run, and removes all but the latest.
-fn write<const D: usize>(directory: &Path, state: &SavedState<D>, keep: usize) -> io::Result<()> {
+fn write<const D: usize>(
+    directory: &Path,
+    state: &SavedState<D>,
+    keep: usize,
+    times: &WriteTimes,
+) -> io::Result<()> {
     let started = Instant::now();
     let folder = directory.join(FOLDER);
     fs::create_dir_all(&folder).at(&folder)?;
@@ -82,6 +111,7 @@ fn write<const D: usize>(directory: &Path, state: &SavedState<D>, keep: usize) -
     for old in checkpoints(directory)?.into_iter().skip(keep) {
         remove_if_there(&old)?;
     }
+    times.record(started.elapsed());
     let (step, time, seconds) = (state.step, state.time, started.elapsed().as_secs_f64());
     tracing::info!(step, time, bytes, seconds, "checkpoint");
     Ok(())
@@ -139,9 +169,9 @@ impl<const D: usize> Observer<D> for CheckpointFiles {
         self.finish()?;
         self.written = Instant::now();
         self.periods = periods(&self.settings, state.time);
-        let (directory, keep, state) =
-            (self.directory.clone(), self.settings.keep, Arc::clone(state));
-        let work = move || write(&directory, &state, keep);
+        let (directory, keep, state, times) =
+            (self.directory.clone(), self.settings.keep, Arc::clone(state), self.times.clone());
+        let work = move || write(&directory, &state, keep, &times);
         self.writing = Some(std::thread::Builder::new().name("checkpoint".to_owned()).spawn(work)?);
         Ok(())
     }
@@ -156,7 +186,7 @@ impl<const D: usize> Observer<D> for CheckpointFiles {
         let saved = last.and_then(|last| last.saved);
         if let Some(state) = saved.filter(|_| matches!(error, RunError::Stopped { .. })) {
             // Asked for: also where no other checkpoints are
-            write(&self.directory, state, self.settings.keep.max(1))?;
+            write(&self.directory, state, self.settings.keep.max(1), &self.times)?;
             remove_failure(&self.directory)?;
         }
         finished

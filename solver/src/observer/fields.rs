@@ -5,41 +5,55 @@
 use std::fmt::Write as _;
 use std::fs;
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use alewife_mesh::{Array, Mesh, Point, write_vtu_as};
 
 use super::atomic::{AtPath, write_atomic};
 use super::history::{Frame, History};
-use super::run_directory::{FAILURE_FLOW, FAILURE_FOLDER, FAILURE_STATE};
+use super::removal::remove_if_there;
+use super::run_directory::{FAILURE_FLOW, FAILURE_FOLDER, FAILURE_STATE, RunDirectory};
 use super::schedule::Schedule;
 use super::state_file::write_state;
 use crate::body::in_space;
 use crate::case::{Case, Precision};
-use crate::simulation::{Dimension, LastState, Observer, RunError, Snapshot, Solve};
+use crate::simulation::{Dimension, LastState, Observer, RunError, Snapshot, Solve, Timing};
+
+/// The flow of a run that was stopped, which goes once the run has gone on.
+const STOPPED: &str = "fields/stopped.vtu";
+/// The list of all frames.
+const LIST: &str = "fields.pvd";
 
 /// The files written so far.
 #[derive(Debug)]
 pub struct FieldFiles {
     directory: PathBuf,
+    /// The comment that names it.
+    origin: String,
     schedule: Schedule,
     precision: alewife_mesh::Precision,
     frames: Vec<Frame>,
+    /// Whether there is a flow at which the run was stopped before.
+    has_stopped: bool,
 }
 
 impl FieldFiles {
     /// Field files in `directory`, after those of a run that resumes there; none are written before
     /// the first step that is due.
     #[must_use]
-    pub fn new(directory: &Path, case: &Case, history: Option<&History>) -> Self {
+    pub fn new(directory: &RunDirectory, case: &Case, history: Option<&History>) -> Self {
+        // Two hyphens would end a comment
+        let origin = directory.provenance().origin.line().replace("--", "- -");
         Self {
-            directory: directory.to_owned(),
+            directory: directory.path().to_owned(),
+            origin: format!("<!-- {origin} -->\n"),
             schedule: Schedule::new(case.output.fields, history.map(|history| history.time)),
             precision: match case.output.precision {
                 Precision::F32 => alewife_mesh::Precision::F32,
                 Precision::F64 => alewife_mesh::Precision::F64,
             },
             frames: history.map(|history| history.frames.clone()).unwrap_or_default(),
+            has_stopped: directory.path().join(STOPPED).is_file(),
         }
     }
 
@@ -77,15 +91,27 @@ impl FieldFiles {
         ];
         let mut bytes = Vec::new();
         write_vtu_as(self.precision, &mut bytes, mesh, Some(time), &arrays, &[])?;
+        // After the first line, which says that this is XML
+        let first = bytes.iter().position(|&byte| byte == b'\n').map_or(0, |end| end + 1);
+        bytes.splice(first..first, self.origin.bytes());
         Ok(bytes)
+    }
+
+    /// Writes the list. It names a file only once it is there, and is itself replaced as a whole: a list without
+    /// its last line cannot be read at all.
+    fn write_list(&mut self) -> io::Result<()> {
+        write_atomic(&self.directory.join(LIST), self.collection().as_bytes())?;
+        if std::mem::take(&mut self.has_stopped) {
+            remove_if_there(&self.directory.join(STOPPED))?;
+        }
+        Ok(())
     }
 
     /// The list of all frames, as ParaView wants it.
     fn collection(&self) -> String {
-        let mut text = String::from(
-            "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" \
-             byte_order=\"LittleEndian\">\n<Collection>\n",
-        );
+        let mut text = String::from("<?xml version=\"1.0\"?>\n");
+        text += &self.origin;
+        text += "<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n<Collection>\n";
         for Frame { time, file } in &self.frames {
             // Writing to a string cannot fail.
             let _ = writeln!(text, "<DataSet timestep=\"{time:?}\" part=\"0\" file=\"{file}\"/>");
@@ -110,20 +136,35 @@ where
         let name = format!("fields/{:06}.vtu", snapshot.step);
         write_atomic(&self.directory.join(&name), &bytes)?;
         self.frames.push(Frame { time: snapshot.time, file: name });
-        // The list names a file only once it is there, and is itself replaced as a whole: a list
-        // without its last line cannot be read at all.
-        write_atomic(&self.directory.join("fields.pvd"), self.collection().as_bytes())
+        self.write_list()
+    }
+
+    fn on_end(&mut self, _timing: &Timing) -> io::Result<()> {
+        // Where no frame has come since
+        if !self.has_stopped {
+            return Ok(());
+        }
+        self.write_list()?;
+        match self.frames.is_empty() {
+            true => remove_if_there(&self.directory.join(LIST)),
+            false => Ok(()),
+        }
     }
 
     fn on_failure(&mut self, error: &RunError, last: Option<&LastState<'_, D>>) -> io::Result<()> {
         let Some(last) = last else { return Ok(()) };
+        // Nothing is wrong with the flow, and where a file could not be written this would not help
+        if matches!(error, RunError::Output(_)) {
+            return Ok(());
+        }
         let bytes = self.frame(last.time, last.mesh, last.velocity, last.pressure)?;
         if matches!(error, RunError::Stopped { .. }) {
-            let name = "fields/stopped.vtu".to_owned();
+            let name = STOPPED.to_owned();
             self.create_folder("fields")?;
             write_atomic(&self.directory.join(&name), &bytes)?;
             self.frames.push(Frame { time: last.time, file: name });
-            return write_atomic(&self.directory.join("fields.pvd"), self.collection().as_bytes());
+            self.has_stopped = false;
+            return self.write_list();
         }
         let folder = self.create_folder(FAILURE_FOLDER)?;
         if let Some(state) = last.saved {

@@ -232,6 +232,8 @@ pub fn scene(bodies: &[Body], reports: &[BodyReport], geometry: Geometry, time: 
 pub enum Severity {
     /// As expected.
     Info = 2,
+    /// Something is not as it should be.
+    Warning = 3,
     /// The run stopped.
     Error = 4,
 }

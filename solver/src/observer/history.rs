@@ -32,6 +32,8 @@ pub struct History {
     pub directory: PathBuf,
     /// Restarts at the step of the state so far, this one included.
     pub restarts: Restarts,
+    /// The longest time a state took to write so far (s), if that is known.
+    pub longest_checkpoint: Option<f64>,
 }
 
 impl History {
@@ -56,7 +58,15 @@ impl History {
             frame.time <= time && is_step && directory.join(&frame.file).is_file()
         });
         let (frames, directory) = (frames.collect(), directory.to_owned());
-        Ok(Self { step, time, series, frames, directory, restarts: Restarts::default() })
+        Ok(Self {
+            step,
+            time,
+            series,
+            frames,
+            directory,
+            restarts: Restarts::default(),
+            longest_checkpoint: None,
+        })
     }
 }
 

@@ -10,15 +10,16 @@ use std::fs::File;
 use std::io::{self, BufWriter};
 use std::path::PathBuf;
 use std::sync::Arc;
+use std::time::Duration;
 
-use mcap::read::Options;
 use mcap::records::{MessageHeader, Metadata};
-use mcap::{Attachment, Compression, McapError, MessageStream, Schema, WriteOptions, Writer};
+use mcap::{Attachment, Compression, McapError, Schema, WriteOptions, Writer};
 use serde_json::Value;
 
 use super::atomic::{AtPath, unfinished_file};
 use super::foxglove::{self, Kind, Severity};
 use super::history::History;
+use super::messages::Messages;
 use super::run_directory::RunDirectory;
 use super::schedule::Schedule;
 use crate::case::{Body, Geometry, Model};
@@ -30,6 +31,13 @@ const CHUNK: u64 = 256 * 1024;
 /// Steps between two flushes, except for the first few. Steps and not seconds, because a flush
 /// ends a chunk, and the bytes of a file shall not depend on the speed of a machine.
 const FLUSH_STEPS: usize = 16;
+
+/// Topic of the outlines of bodies, which come once.
+const SCENE: &str = "/scene";
+/// Topic of the log.
+const LOG: &str = "/log";
+/// Topics whose messages do not come with each step.
+const ONCE: [&str; 2] = [SCENE, LOG];
 
 /// The open file.
 pub struct MessageFile {
@@ -72,7 +80,7 @@ impl MessageFile {
             .disable_seeking(true)
             .create(file)
             .map_err(to_io)?;
-        let provenance = directory.provenance().flattened();
+        let provenance = directory.provenance().flattened()?;
         writer
             .write_metadata(&Metadata { name: "provenance".to_owned(), metadata: provenance })
             .map_err(to_io)?;
@@ -98,34 +106,47 @@ impl MessageFile {
             time: 0.0,
         };
         if let Some(history) = history {
-            let earlier = history.directory.join("run.mcap");
-            match std::fs::read(&earlier) {
-                Err(error) if error.kind() == io::ErrorKind::NotFound => {}
-                read => made.copy(&read.at(&earlier)?, history.time)?,
-            }
-            made.time = history.time;
-            made.log(Severity::Info, "resumed")?;
+            made.take_over(history)?;
         }
         if let Some(writer) = &mut made.writer {
             writer.flush().map_err(to_io)?;
         }
+        unfinished.as_file().sync_all().at(&made.path)?;
         unfinished.persist(&made.path).map_err(|refused| refused.error).at(&made.path)?;
         Ok(made)
     }
 
-    /// Copies the messages of another file up to a time (s); what a killed run left half written is
-    /// not there.
-    fn copy(&mut self, bytes: &[u8], time: f64) -> io::Result<()> {
-        let options = Options::IgnoreEndMagic.into();
-        let Ok(messages) = MessageStream::new_with_options(bytes, options) else { return Ok(()) };
-        let last = foxglove::nanoseconds(time);
-        for message in messages.map_while(Result::ok).filter(|message| message.log_time <= last) {
-            let Some(schema) = &message.channel.schema else { continue };
-            let topic = &message.channel.topic;
-            let channel = self.channel(topic, || Ok(Schema::clone(schema)))?;
-            self.write(channel, message.log_time, &message.data)?;
+    /// Copies the messages of another file up to the time of a state; what a killed run left half written
+    /// is not there. Where more is missing, that is told.
+    fn take_over(&mut self, history: &History) -> io::Result<()> {
+        let path = history.directory.join("run.mcap");
+        let found = match std::fs::read(&path) {
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Messages::default(),
+            read => Messages::read(&read.at(&path)?),
+        };
+        let last = foxglove::nanoseconds(history.time);
+        let mut n_kept = 0;
+        for message in found.all.iter().filter(|message| message.time <= last) {
+            let Some(schema) = found.schemas.get(&message.schema) else { continue };
+            let channel = self.channel(&message.topic, || Ok(schema.to_mcap()))?;
+            self.write(channel, message.time, &message.data)?;
+            n_kept += usize::from(!ONCE.contains(&message.topic.as_str()));
+            self.time = Duration::from_nanos(message.time).as_secs_f64();
         }
-        Ok(())
+        // Rows and messages are of the same steps, and both are on the disk before a state is
+        let n_written = history.series.times.len() * (2 + self.bodies.len());
+        if n_kept < n_written {
+            let reason = found.damage.unwrap_or_else(|| "it is too short".to_owned());
+            let (path, from, to) = (path.display(), self.time, history.time);
+            tracing::warn!(
+                "{path} is damaged ({reason}): {} of {n_written} messages, from t {from} to t {to}, are lost",
+                n_written - n_kept
+            );
+            let lost = format!("{} messages up to t {to} are lost: {reason}", n_written - n_kept);
+            self.log(Severity::Warning, &lost)?;
+        }
+        self.time = history.time;
+        self.log(Severity::Info, "resumed")
     }
 
     fn send(&mut self, topic: &str, kind: Kind, message: &Value) -> io::Result<()> {
@@ -166,7 +187,7 @@ impl MessageFile {
     }
 
     fn log(&mut self, severity: Severity, message: &str) -> io::Result<()> {
-        self.send("/log", Kind::Log, &foxglove::log(severity, message, self.time))
+        self.send(LOG, Kind::Log, &foxglove::log(severity, message, self.time))
     }
 
     fn finish(&mut self) -> io::Result<()> {
@@ -197,12 +218,11 @@ impl<const D: usize> Observer<D> for MessageFile {
 impl MessageFile {
     fn step<const D: usize>(&mut self, snapshot: &Snapshot<'_, D>) -> io::Result<()> {
         self.time = snapshot.time;
-        let is_first = self.sequence == 0;
-        if is_first {
+        if !self.channels.contains_key(SCENE) {
             let title = format!("start: {}", self.title);
             self.log(Severity::Info, &title)?;
             let scene = foxglove::scene(&self.bodies, snapshot.bodies, self.geometry, self.time);
-            self.send("/scene", Kind::Scene, &scene)?;
+            self.send(SCENE, Kind::Scene, &scene)?;
         }
         if self.schedule.is_due(snapshot.step, snapshot.time, snapshot.is_last) {
             self.send("/step", Kind::Step, &foxglove::step(snapshot))?;

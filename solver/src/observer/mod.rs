@@ -5,7 +5,7 @@
 //! | File | What it holds | When it is written |
 //! |---|---|---|
 //! | `case.toml` | The case as it is run, all defaults filled in | at the start |
-//! | `provenance.json` | Which program ran it, where and how | at the start |
+//! | `provenance.json` | Which program ran it, where and how, in which legs | at the start and at the end |
 //! | `status.json` | State, step, time, cost of each stage | every second and at the end |
 //! | `log.jsonl` | Log, one JSON object a line | as it happens |
 //! | `series.csv` | One row a step | flushed every second |
@@ -23,14 +23,17 @@ mod fields;
 mod foxglove;
 mod history;
 mod kept;
+mod legs;
 mod log;
 mod mcap;
+mod messages;
 mod process;
 mod progress;
 mod provenance;
 mod removal;
 mod restarts;
 mod run_directory;
+mod run_lock;
 mod schedule;
 mod solids;
 mod state_file;
@@ -39,6 +42,7 @@ mod tally;
 mod terminal;
 #[cfg(test)]
 mod tests;
+mod write_times;
 
 use crate::case::Model;
 use crate::simulation::{Dimension, Observer, Solve};
@@ -50,21 +54,24 @@ pub use csv::SeriesFile;
 pub use fields::FieldFiles;
 pub use history::History;
 pub use kept::read_outcome;
+pub use legs::LegFile;
 pub use log::start_log;
 pub use mcap::MessageFile;
 pub use progress::Progress;
-pub use provenance::Provenance;
+pub use provenance::{Leg, Point, Provenance};
 pub use restarts::Restarts;
 pub use run_directory::{
     COMPARISON_FILE, Earlier, FAILURE_FOLDER, FAILURE_STATE, RunDirectory, RunDirectoryError, STOP,
-    is_in_use, run_of_state,
+    Start, run_of_state,
 };
+pub use run_lock::{LockError, RunLock};
 pub use state_file::read_state;
 pub use status::{RunState, Status, StatusFile};
 pub use tally::Tally;
+pub use write_times::WriteTimes;
 
 /// All observers of a run in `directory`, which goes on after a `history` if there is one; with
-/// `quiet`, without progress on the terminal.
+/// `quiet`, without progress on the terminal. What states take to write is told in `times`.
 ///
 /// Make them before the mesh is generated: `status.json` shows the run from then on, and they are
 /// notified if the simulation cannot be built.
@@ -76,23 +83,25 @@ pub fn observers<const D: usize>(
     directory: &RunDirectory,
     history: Option<&History>,
     quiet: bool,
+    times: &WriteTimes,
 ) -> std::io::Result<Vec<Box<dyn Observer<D>>>>
 where
     Dimension<D>: Solve<D>,
 {
     let case = &model.case;
-    let from = history.map_or(0.0, |history| history.time);
+    let checkpoints = CheckpointFiles::create(directory.path(), case, history, times.clone())?;
     let mut everyone: Vec<Box<dyn Observer<D>>> = vec![
         Box::new(SeriesFile::create(directory.path(), case, history)?),
         Box::new(MessageFile::create(directory, model, history)?),
-        Box::new(FieldFiles::new(directory.path(), case, history)),
+        Box::new(FieldFiles::new(directory, case, history)),
         // After those whose rows and messages belong to a state
-        Box::new(CheckpointFiles::new(directory.path(), case.output.checkpoint, &case.time, from)),
+        Box::new(checkpoints),
+        Box::new(LegFile::new(directory, history)),
     ];
     if !quiet {
         everyone.push(Box::new(Progress::new(case)));
     }
     // The status comes last: when it says `finished`, all other files are complete.
-    everyone.push(Box::new(StatusFile::create(directory.path(), case, history)?));
+    everyone.push(Box::new(StatusFile::create(directory.path(), case, history, times.clone())?));
     Ok(everyone)
 }

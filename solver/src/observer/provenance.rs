@@ -1,14 +1,17 @@
-//! `Provenance`: which program ran a case, where and how; the content of `provenance.json`.
+//! `Provenance`: which program ran a case, where and how, in which legs; the content of `provenance.json`.
 
 use std::collections::BTreeMap;
+use std::io;
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
+use super::atomic::write_atomic;
 use super::process;
+use super::status::Status;
 
 /// Where it is written in the directory of a run.
-pub const FILE: &str = "provenance.json";
+const FILE: &str = "provenance.json";
 
 /// Variables by which Slurm names the job of a process.
 const SLURM: [&str; 9] = [
@@ -23,9 +26,21 @@ const SLURM: [&str; 9] = [
     "SLURM_CPUS_PER_TASK",
 ];
 
-/// Which program ran a case, where and how.
+/// How a leg ended whose process was killed.
+const KILLED: &str = "killed";
+
+/// A place in a run.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub struct Point {
+    /// Steps made.
+    pub step: usize,
+    /// Time reached (s).
+    pub time: f64,
+}
+
+/// Which program runs a case, where and how: what is known of a process when it begins.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Provenance {
+pub struct Origin {
     /// Version of alewife.
     pub alewife: String,
     /// `git describe` of its source, if it was built in a checkout.
@@ -48,13 +63,36 @@ pub struct Provenance {
     pub threads: usize,
     /// Cores this process may use.
     pub cores: usize,
-    /// Those of the parts that were run in the directory before this one, the first part first.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub earlier: Vec<Provenance>,
 }
 
-impl Provenance {
-    /// The provenance of a run of `case_text` that starts now in this process.
+/// What one process did of a run.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Leg {
+    /// Where it began in the run.
+    pub from: Point,
+    /// Where it ended; of a process that was killed, as far as is known.
+    pub to: Option<Point>,
+    /// When it ended (UTC).
+    pub ended_at: Option<String>,
+    /// Why: `finished`, `killed`, or what stopped it; nothing while it runs.
+    pub end: Option<String>,
+    /// What ran it.
+    #[serde(flatten)]
+    pub origin: Origin,
+}
+
+/// The origin of a run, which resuming does not change, and its legs.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Provenance {
+    /// That of the first leg.
+    #[serde(flatten)]
+    pub origin: Origin,
+    /// One for each process that ran in the directory, the first one first.
+    pub legs: Vec<Leg>,
+}
+
+impl Origin {
+    /// That of a run of `case_text` that starts now in this process.
     #[must_use]
     pub fn of_this_process(case_text: &str, threads: usize) -> Self {
         let slurm = SLURM.iter().filter_map(|name| Some((*name, std::env::var(name).ok()?)));
@@ -74,27 +112,18 @@ impl Provenance {
             case_hash: format!("crc32:{:08x}", crc32fast::hash(case_text.as_bytes())),
             threads,
             cores: std::thread::available_parallelism().map_or(1, std::num::NonZero::get),
-            earlier: Vec::new(),
         }
     }
 
-    /// The same after what was run in a directory before, as far as that can be read.
+    /// What to look for elsewhere to find what this is of, in a line.
     #[must_use]
-    pub fn continuing(self, directory: &Path) -> Self {
-        let read = || -> Option<Self> {
-            serde_json::from_slice(&std::fs::read(directory.join(FILE)).ok()?).ok()
-        };
-        let mut earlier = Vec::new();
-        if let Some(mut last) = read() {
-            earlier = std::mem::take(&mut last.earlier);
-            earlier.push(last);
-        }
-        Self { earlier, ..self }
+    pub fn line(&self) -> String {
+        let git = self.git.as_ref().map_or(String::new(), |git| format!(" ({git})"));
+        format!("alewife {}{git}, case {}", self.alewife, self.case_hash)
     }
 
-    /// The same as pairs of texts, lists joined by blanks, for formats that hold no more.
-    #[must_use]
-    pub fn flattened(&self) -> BTreeMap<String, String> {
+    /// The same as pairs of texts, lists joined by blanks.
+    fn flattened(&self) -> BTreeMap<String, String> {
         let mut pairs = BTreeMap::from([
             ("alewife".to_owned(), self.alewife.clone()),
             ("target".to_owned(), self.target.clone()),
@@ -109,5 +138,71 @@ impl Provenance {
         }
         pairs.extend(self.slurm.iter().map(|(name, value)| (name.clone(), value.clone())));
         pairs
+    }
+}
+
+impl Provenance {
+    /// That of a run that begins at a place: the start, or that of a state of another directory.
+    #[must_use]
+    pub fn beginning(origin: Origin, from: Point) -> Self {
+        let leg = Leg { from, to: None, ended_at: None, end: None, origin: origin.clone() };
+        Self { origin, legs: vec![leg] }
+    }
+
+    /// The same after what was run in a directory before, as far as that can be read.
+    #[must_use]
+    pub fn continuing(directory: &Path, origin: Origin, from: Point) -> Self {
+        let new = Self::beginning(origin, from);
+        let Ok(mut earlier) = Self::read(directory) else { return new };
+        if let Some(last) = earlier.legs.last_mut().filter(|last| last.end.is_none()) {
+            last.end = Some(KILLED.to_owned());
+            last.to = Some(from);
+            // A checkpoint may be newer than the last status, which is up to a second behind
+            if let Ok(status) = Status::read(directory) {
+                if status.step > from.step {
+                    last.to = Some(Point { step: status.step, time: status.time });
+                }
+                last.ended_at = Some(status.updated_at);
+            }
+        }
+        earlier.legs.extend(new.legs);
+        earlier
+    }
+
+    /// That of the run in a directory.
+    ///
+    /// # Errors
+    /// When there is none, or it cannot be read.
+    pub fn read(directory: &Path) -> io::Result<Self> {
+        Ok(serde_json::from_slice(&std::fs::read(directory.join(FILE))?)?)
+    }
+
+    /// Writes `provenance.json` to a directory.
+    ///
+    /// # Errors
+    /// When the file system refuses.
+    pub fn write(&self, directory: &Path) -> io::Result<()> {
+        let mut text = serde_json::to_vec_pretty(self)?;
+        text.push(b'\n');
+        write_atomic(&directory.join(FILE), &text)
+    }
+
+    /// The end of the present leg.
+    pub fn end_leg(&mut self, to: Point, end: &str) {
+        if let Some(leg) = self.legs.last_mut() {
+            leg.to = Some(to);
+            leg.ended_at = Some(process::now());
+            leg.end = Some(end.to_owned());
+        }
+    }
+
+    /// The same as pairs of texts, for formats that hold no more: those of the origin, and the legs as JSON.
+    ///
+    /// # Errors
+    /// None that is known of.
+    pub fn flattened(&self) -> io::Result<BTreeMap<String, String>> {
+        let mut pairs = self.origin.flattened();
+        pairs.insert("legs".to_owned(), serde_json::to_string(&self.legs)?);
+        Ok(pairs)
     }
 }

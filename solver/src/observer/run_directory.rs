@@ -1,6 +1,6 @@
 //! `RunDirectory`: the directory of one run, held by one process; files that are whole or absent.
 
-use std::fs::{self, File, TryLockError};
+use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -8,8 +8,9 @@ use thiserror::Error;
 
 use super::atomic::{AtPath, UNFINISHED, write_atomic};
 use super::checkpoint_list::{self, REQUEST, checkpoints};
-use super::provenance::{self, Provenance};
+use super::provenance::{Origin, Point, Provenance};
 use super::removal::{names_in, remove_if_empty, remove_if_there};
+use super::run_lock::{LockError, RunLock};
 use super::status::{RunState, Status};
 use crate::case::{Case, MeshFile};
 
@@ -66,6 +67,25 @@ pub enum Earlier {
     Continue,
 }
 
+/// How a process begins in a directory.
+#[derive(Debug, Default)]
+pub struct Start {
+    /// Threads it may use.
+    pub threads: usize,
+    /// Where in the run it begins.
+    pub from: Point,
+    /// The directory, if it holds that already.
+    pub lock: Option<RunLock>,
+}
+
+impl Start {
+    /// At the first step.
+    #[must_use]
+    pub fn with_threads(threads: usize) -> Self {
+        Self { threads, ..Self::default() }
+    }
+}
+
 /// Why a run may not use a directory.
 #[derive(Debug, Error)]
 pub enum RunDirectoryError {
@@ -75,12 +95,9 @@ pub enum RunDirectoryError {
         /// The directory.
         path: PathBuf,
     },
-    /// Another process runs in it.
-    #[error("another run is writing to {path}; wait for it, or give another directory with --out")]
-    InUse {
-        /// The directory.
-        path: PathBuf,
-    },
+    /// Another process runs in it, or there is no telling.
+    #[error(transparent)]
+    Lock(#[from] LockError),
     /// It holds a run that can be resumed.
     #[error(
         "{path} holds a run that failed and can be resumed with other settings; give --resume {state}, \
@@ -112,8 +129,7 @@ pub struct RunDirectory {
     path: PathBuf,
     case_text: String,
     provenance: Provenance,
-    /// Open and locked; closing it gives the directory free, however the process ends.
-    _lock: File,
+    _lock: RunLock,
 }
 
 impl RunDirectory {
@@ -125,7 +141,7 @@ impl RunDirectory {
     pub fn create(
         path: &Path,
         case: &Case,
-        threads: usize,
+        start: Start,
         earlier: Earlier,
     ) -> Result<Self, RunDirectoryError> {
         fs::create_dir_all(path).at(path)?;
@@ -135,8 +151,9 @@ impl RunDirectory {
             }
             write_atomic(&path.join(MARKER_FILE), MARKER.as_bytes())?;
         }
-        let Some(lock) = lock(&path.join("lock")).at(&path.join("lock"))? else {
-            return Err(RunDirectoryError::InUse { path: path.to_owned() });
+        let lock = match start.lock {
+            Some(lock) => lock,
+            None => RunLock::take(path)?,
         };
         if earlier == Earlier::Keep {
             check_replaceable(path)?;
@@ -152,17 +169,22 @@ impl RunDirectory {
             write_atomic(&path.join(MESH_FILE), mesh)?;
         }
         let case_text = case.naming_mesh(MESH_FILE).to_toml()?;
-        let provenance = Provenance::of_this_process(&case_text, threads);
+        let origin = Origin::of_this_process(&case_text, start.threads);
         let provenance = match earlier {
-            Earlier::Continue => provenance.continuing(path),
-            Earlier::Keep | Earlier::Replace => provenance,
+            Earlier::Continue => Provenance::continuing(path, origin, start.from),
+            Earlier::Keep | Earlier::Replace => Provenance::beginning(origin, start.from),
         };
-        let mut provenance_text =
-            serde_json::to_vec_pretty(&provenance).map_err(io::Error::from)?;
-        provenance_text.push(b'\n');
+        provenance.write(path)?;
         write_atomic(&path.join("case.toml"), case_text.as_bytes())?;
-        write_atomic(&path.join(provenance::FILE), &provenance_text)?;
         Ok(Self { path: path.to_owned(), case_text, provenance, _lock: lock })
+    }
+
+    /// Holds the directory of a run before anything is read from it; nothing where there is none yet.
+    ///
+    /// # Errors
+    /// When another process has it, or the file system refuses.
+    pub fn hold(path: &Path) -> Result<Option<RunLock>, RunDirectoryError> {
+        Ok(is_a_run(path).then(|| RunLock::take(path)).transpose()?)
     }
 
     /// Where it is.
@@ -216,27 +238,6 @@ pub fn run_of_state(state: &Path) -> Option<&Path> {
     let folder = if is_within { folder.parent()? } else { folder };
     let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
     is_a_run(folder).then_some(folder)
-}
-
-/// The lock file, locked; nothing if another process has it.
-fn lock(path: &Path) -> io::Result<Option<File>> {
-    let file = File::options().create(true).truncate(false).write(true).open(path)?;
-    match file.try_lock() {
-        Ok(()) => Ok(Some(file)),
-        Err(TryLockError::WouldBlock) => Ok(None),
-        // Some network file systems have no locks; a run there is better than none.
-        Err(TryLockError::Error(error)) if error.kind() == io::ErrorKind::Unsupported => {
-            Ok(Some(file))
-        }
-        Err(TryLockError::Error(error)) => Err(error),
-    }
-}
-
-/// Whether a process runs in a directory just now; it does not where the system has no locks.
-#[must_use]
-pub fn is_in_use(path: &Path) -> bool {
-    let file = File::open(path.join("lock"));
-    file.is_ok_and(|file| matches!(file.try_lock_shared(), Err(TryLockError::WouldBlock)))
 }
 
 /// Removes what an earlier run left, and nothing else.
@@ -300,7 +301,7 @@ mod tests {
     }
 
     fn create(path: &Path, earlier: Earlier) -> Result<RunDirectory, RunDirectoryError> {
-        RunDirectory::create(path, &case(), 1, earlier)
+        RunDirectory::create(path, &case(), Start::with_threads(1), earlier)
     }
 
     fn put(path: &Path, files: &[&str]) {

@@ -11,6 +11,7 @@ use super::atomic::write_atomic;
 use super::history::History;
 use super::process;
 use super::restarts::Restarts;
+use super::write_times::WriteTimes;
 use crate::case::{Case, TimeSettings};
 use crate::simulation::{LastState, Observer, RunError, Snapshot, Stage, Timing, cpu_seconds};
 
@@ -58,6 +59,12 @@ pub struct Status {
     /// How often in a row it was restarted at one and the same step.
     #[serde(default)]
     pub restarts: Restarts,
+    /// The longest time a state took to write (s), once one was.
+    #[serde(default)]
+    pub longest_checkpoint: Option<f64>,
+    /// Whether it ended for a reason outside of it, and continues when it is run again.
+    #[serde(default)]
+    pub is_interrupted: bool,
     /// The process.
     pub pid: u32,
     /// When this was written (UTC).
@@ -79,6 +86,7 @@ impl Status {
 pub struct StatusFile {
     path: PathBuf,
     status: Status,
+    times: WriteTimes,
     started: Instant,
     /// CPU seconds the process had taken when the run started: it may have had others before.
     cpu_before: f64,
@@ -90,7 +98,12 @@ impl StatusFile {
     ///
     /// # Errors
     /// When the file cannot be written.
-    pub fn create(directory: &Path, case: &Case, history: Option<&History>) -> io::Result<Self> {
+    pub fn create(
+        directory: &Path,
+        case: &Case,
+        history: Option<&History>,
+        times: WriteTimes,
+    ) -> io::Result<Self> {
         let (steps, end) = match &case.time {
             TimeSettings::Steady(_) => (None, None),
             TimeSettings::Unsteady(settings) => {
@@ -112,13 +125,15 @@ impl StatusFile {
             wall_seconds: BTreeMap::new(),
             peak_memory: None,
             restarts: history.map_or_else(Restarts::default, |history| history.restarts),
+            longest_checkpoint: None,
+            is_interrupted: false,
             pid: std::process::id(),
             updated_at: String::new(),
         };
         let now = Instant::now();
         let path = directory.join("status.json");
         let cpu_before = cpu_seconds();
-        let mut file = Self { path, status, started: now, cpu_before, written: now };
+        let mut file = Self { path, status, times, started: now, cpu_before, written: now };
         file.write()?;
         Ok(file)
     }
@@ -129,6 +144,7 @@ impl StatusFile {
         self.status.wall_seconds.insert("total".to_owned(), wall);
         let cpu = cpu_seconds() - self.cpu_before;
         self.status.cpu_seconds.insert("total".to_owned(), cpu);
+        self.status.longest_checkpoint = self.times.longest().map(|time| time.as_secs_f64());
         self.status.peak_memory = process::peak_memory();
         self.status.updated_at = process::now();
         let mut text = serde_json::to_vec_pretty(&self.status)?;
@@ -162,6 +178,8 @@ impl<const D: usize> Observer<D> for StatusFile {
             RunError::Stopped { .. } => RunState::Stopped,
             _ => RunState::Failed,
         };
+        self.status.is_interrupted =
+            matches!(error, RunError::Stopped { .. } | RunError::Output(_));
         self.status.reason = Some(error.to_string());
         self.write()
     }

@@ -1,5 +1,7 @@
 //! The files of a run on a mesh of two triangles, written and read back.
 
+mod damage;
+mod frames;
 mod two_triangles;
 
 use std::collections::BTreeMap;
@@ -109,8 +111,10 @@ impl Run {
 
     /// A complete run in `path`.
     fn complete(&self, path: &Path) {
-        let directory = RunDirectory::create(path, &self.model.case, 1, Earlier::Keep).unwrap();
-        self.to_its_end(&mut observers(&self.model, &directory, None, true).unwrap());
+        let directory =
+            RunDirectory::create(path, &self.model.case, Start::with_threads(1), Earlier::Keep)
+                .unwrap();
+        self.to_its_end(&mut everyone_at(&self.model, &directory, None));
     }
 
     /// Shows all steps and the end to `everyone`.
@@ -118,6 +122,15 @@ impl Run {
         (0..=STEPS).for_each(|step| self.step(everyone, step));
         everyone.iter_mut().for_each(|observer| observer.on_end(&self.timing).unwrap());
     }
+}
+
+/// All observers without progress on the terminal.
+fn everyone_at(
+    model: &Model,
+    directory: &RunDirectory,
+    history: Option<&History>,
+) -> Vec<Box<dyn Observer<2>>> {
+    observers(model, directory, history, true, &WriteTimes::default()).unwrap()
 }
 
 /// The files below `path`, sorted.
@@ -218,8 +231,10 @@ fn the_status_tells_state_and_cost() {
     while cpu_seconds() < 0.2 {} // Earlier work of the process
     let place = tempfile::tempdir().unwrap();
     let run = Run::new();
-    let directory = RunDirectory::create(place.path(), &run.model.case, 1, Earlier::Keep).unwrap();
-    let mut everyone = observers(&run.model, &directory, None, true).unwrap();
+    let directory =
+        RunDirectory::create(place.path(), &run.model.case, Start::with_threads(1), Earlier::Keep)
+            .unwrap();
+    let mut everyone = everyone_at(&run.model, &directory, None);
     let before = Status::read(place.path()).unwrap();
     assert_eq!((before.state, before.step, before.steps), (RunState::Running, 0, Some(40)));
 
@@ -236,8 +251,10 @@ fn the_status_tells_state_and_cost() {
 fn a_failure_is_told_with_its_reason() {
     let place = tempfile::tempdir().unwrap();
     let run = Run::new();
-    let directory = RunDirectory::create(place.path(), &run.model.case, 1, Earlier::Keep).unwrap();
-    let mut everyone = observers(&run.model, &directory, None, true).unwrap();
+    let directory =
+        RunDirectory::create(place.path(), &run.model.case, Start::with_threads(1), Earlier::Keep)
+            .unwrap();
+    let mut everyone = everyone_at(&run.model, &directory, None);
     run.step(&mut everyone, 0);
     let error = RunError::Unsupported("mesh: no room between the bodies".to_owned());
     everyone.iter_mut().for_each(|observer| observer.on_failure(&error, None).unwrap());
@@ -260,8 +277,10 @@ fn a_failure_is_told_with_its_reason() {
 fn a_killed_run_leaves_whole_files_and_readable_messages() {
     let place = tempfile::tempdir().unwrap();
     let run = Run::new();
-    let directory = RunDirectory::create(place.path(), &run.model.case, 1, Earlier::Keep).unwrap();
-    let mut everyone = observers(&run.model, &directory, None, true).unwrap();
+    let directory =
+        RunDirectory::create(place.path(), &run.model.case, Start::with_threads(1), Earlier::Keep)
+            .unwrap();
+    let mut everyone = everyone_at(&run.model, &directory, None);
     (0..20).for_each(|step| run.step(&mut everyone, step));
 
     // What is on the disk now is what a kill would leave: nothing of this process is written any
@@ -310,7 +329,7 @@ fn two_runs_write_the_same_bytes_after_the_provenance() {
         let provenance: Provenance =
             serde_json::from_slice(&std::fs::read(place.path().join("provenance.json")).unwrap())
                 .unwrap();
-        (std::fs::read(place.path().join("run.mcap")).unwrap(), provenance.started_at)
+        (std::fs::read(place.path().join("run.mcap")).unwrap(), provenance.origin.started_at)
     });
     let [(first, first_start), (second, second_start)] = bytes;
     assert_eq!(first.len(), second.len());
@@ -321,30 +340,14 @@ fn two_runs_write_the_same_bytes_after_the_provenance() {
 }
 
 #[test]
-fn the_list_of_frames_names_every_frame_and_is_closed() {
-    let place = tempfile::tempdir().unwrap();
-    Run::new().complete(place.path());
-    let text = std::fs::read_to_string(place.path().join("fields.pvd")).unwrap();
-    for (time, file) in [("0.0", "000000"), ("1.0", "000010"), ("4.0", "000040")] {
-        let line = format!("timestep=\"{time}\" part=\"0\" file=\"fields/{file}.vtu\"/>");
-        assert!(text.contains(&line), "{line} is not in\n{text}");
-    }
-    assert!(text.ends_with("</Collection>\n</VTKFile>\n"));
-    let frame = std::fs::read(place.path().join("fields/000040.vtu")).unwrap();
-    let header = String::from_utf8_lossy(&frame);
-    for name in ["TimeValue", "velocity", "pressure", "vorticity"] {
-        assert!(header.contains(&format!("Name=\"{name}\"")), "{name}");
-    }
-    assert!(header.ends_with("</VTKFile>\n"));
-}
-
-#[test]
 fn a_finished_run_is_refused_and_an_unfinished_one_replaced() {
     let place = tempfile::tempdir().unwrap();
     let run = Run::new();
-    let create = |earlier| RunDirectory::create(place.path(), &run.model.case, 1, earlier);
+    let create = |earlier| {
+        RunDirectory::create(place.path(), &run.model.case, Start::with_threads(1), earlier)
+    };
     let held = create(Earlier::Keep).unwrap();
-    assert!(matches!(create(Earlier::Replace), Err(RunDirectoryError::InUse { .. })));
+    assert!(matches!(create(Earlier::Replace), Err(RunDirectoryError::Lock(_))));
     drop(held);
     run.complete(place.path());
     assert!(matches!(create(Earlier::Keep), Err(RunDirectoryError::Finished { .. })));
@@ -358,8 +361,11 @@ fn a_run_that_resumes_goes_on_in_its_files() {
     let (whole, halves) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
     let run = Run::new();
     run.complete(whole.path());
-    let begin = |earlier| RunDirectory::create(halves.path(), &run.model.case, 1, earlier).unwrap();
-    let mut everyone = observers(&run.model, &begin(Earlier::Keep), None, true).unwrap();
+    let begin = |earlier| {
+        RunDirectory::create(halves.path(), &run.model.case, Start::with_threads(1), earlier)
+            .unwrap()
+    };
+    let mut everyone = everyone_at(&run.model, &begin(Earlier::Keep), None);
     (0..=17).for_each(|step| run.step(&mut everyone, step));
     let time = 17.0 * 0.1;
     let error = RunError::Stopped { step: 17, time };
@@ -367,7 +373,7 @@ fn a_run_that_resumes_goes_on_in_its_files() {
 
     let history = History::read(halves.path(), 17, time).unwrap();
     let directory = begin(Earlier::Continue);
-    let mut everyone = observers(&run.model, &directory, Some(&history), true).unwrap();
+    let mut everyone = everyone_at(&run.model, &directory, Some(&history));
     // A run that is killed at once still says that it has made steps
     assert_eq!(Status::read(halves.path()).unwrap().step, 17);
     (18..=STEPS).for_each(|step| run.step(&mut everyone, step));

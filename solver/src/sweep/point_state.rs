@@ -2,7 +2,7 @@
 
 use super::directory::SweepDirectory;
 use super::failure::PointFailure;
-use crate::observer::{RunState, Status, is_in_use};
+use crate::observer::{RunLock, RunState, Status};
 
 /// Where a point stands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -64,7 +64,7 @@ pub fn stand(directory: &SweepDirectory, index: usize) -> Stand {
     let mut failure = PointFailure::read(directory, index);
     let state = match status.as_ref().map(|status| status.state) {
         Some(RunState::Finished) => PointState::Finished,
-        Some(RunState::Running) if is_in_use(&path) => PointState::Running,
+        Some(RunState::Running) if RunLock::is_held(&path) => PointState::Running,
         _ if failure.is_some() => PointState::Failed,
         None => PointState::Missing,
         Some(RunState::Failed) => {

@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 use super::alewife;
 
 /// A run of a falling sphere far too long to end by itself.
-const LONG: [&str; 10] = [
+pub(super) const LONG: [&str; 10] = [
     "run",
     "sphere-free-fall",
     "--out",
@@ -23,7 +23,7 @@ const LONG: [&str; 10] = [
 /// Time after which a test gives up.
 const PATIENCE: Duration = Duration::from_secs(120);
 
-fn start(directory: &Path, environment: &[(&str, &str)], more: &[&str]) -> Child {
+pub(super) fn start(directory: &Path, environment: &[(&str, &str)], more: &[&str]) -> Child {
     Command::new(env!("CARGO_BIN_EXE_alewife"))
         .args(LONG)
         .args(more)
@@ -36,14 +36,14 @@ fn start(directory: &Path, environment: &[(&str, &str)], more: &[&str]) -> Child
 }
 
 /// The same until it has written rows.
-fn under_way(directory: &Path) -> Child {
+pub(super) fn under_way(directory: &Path) -> Child {
     let run = start(directory, &[], &["--quiet"]);
     let series = directory.join("fall/series.csv");
     wait_for(|| std::fs::read_to_string(&series).is_ok_and(|text| text.lines().count() > 2));
     run
 }
 
-fn wait_for(mut has_come: impl FnMut() -> bool) {
+pub(super) fn wait_for(mut has_come: impl FnMut() -> bool) {
     let started = Instant::now();
     while !has_come() {
         assert!(started.elapsed() < PATIENCE, "it did not come");
@@ -51,7 +51,7 @@ fn wait_for(mut has_come: impl FnMut() -> bool) {
     }
 }
 
-fn checkpoints(directory: &Path) -> Vec<PathBuf> {
+pub(super) fn checkpoints(directory: &Path) -> Vec<PathBuf> {
     let Ok(folder) = std::fs::read_dir(directory.join("fall/checkpoints")) else {
         return Vec::new();
     };
@@ -63,14 +63,14 @@ fn checkpoints(directory: &Path) -> Vec<PathBuf> {
 }
 
 /// A run with checkpoints after each second that ended at a request, to be continued.
-fn stopped(directory: &Path) {
+pub(super) fn stopped(directory: &Path) {
     let run = under_way(directory);
     std::fs::write(directory.join("fall/STOP"), "").unwrap();
     let output = run.wait_with_output().unwrap();
     assert_eq!(output.status.code(), Some(75), "{}", told(&output));
 }
 
-fn told(output: &Output) -> String {
+pub(super) fn told(output: &Output) -> String {
     String::from_utf8_lossy(&output.stderr).into_owned()
 }
 

@@ -6,6 +6,8 @@ use std::time::Duration;
 
 /// Kills in all, over all cases.
 const KILLS: usize = 50;
+/// Threads of the parts of a run, in turn.
+const THREADS: [&str; 3] = ["1", "2", "3"];
 
 const FLUID: &str = "
 title = 'killed'
@@ -48,9 +50,9 @@ fn cases() -> [String; 4] {
     ]
 }
 
-fn run(directory: &Path, out: &str) -> Command {
+fn run(directory: &Path, out: &str, threads: &str) -> Command {
     let mut run = Command::new(env!("CARGO_BIN_EXE_alewife"));
-    run.args(["run", "case.toml", "--out", out, "--continue", "--quiet", "--threads", "1"]);
+    run.args(["run", "case.toml", "--out", out, "--continue", "--quiet", "--threads", threads]);
     run.current_dir(directory).stdout(Stdio::null()).stderr(Stdio::piped());
     run
 }
@@ -71,7 +73,7 @@ fn fifty_kills_leave_no_trace() {
         let directory = place.path();
         std::fs::write(directory.join("case.toml"), text).unwrap();
         let started = std::time::Instant::now();
-        let whole = run(directory, "whole").output().unwrap();
+        let whole = run(directory, "whole", "1").output().unwrap();
         assert!(whole.status.success(), "{}", String::from_utf8_lossy(&whole.stderr));
         let longest = started.elapsed().as_millis();
         let due = KILLS * (index + 1) / 4;
@@ -81,7 +83,8 @@ fn fifty_kills_leave_no_trace() {
             round += 1;
             let is_given_up;
             loop {
-                let mut running = run(directory, &out).spawn().unwrap();
+                // Each part on another number of threads
+                let mut running = run(directory, &out, THREADS[kills % 3]).spawn().unwrap();
                 // A linear congruential generator (Knuth, MMIX): the same moments in each test
                 random = random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
                 let wait = u64::try_from(u128::from(random >> 33) % (longest / 2)).unwrap();

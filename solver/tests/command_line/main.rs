@@ -3,6 +3,7 @@
 
 mod continuing;
 mod estimates;
+mod faults;
 mod kills;
 mod skin;
 mod stopping;

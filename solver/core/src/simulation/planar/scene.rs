@@ -72,7 +72,11 @@ impl PlanarScene {
         let domain = started_at(&case.home, domain_start);
         let starts = case.start_shapes.iter().zip(&case.start_poses).zip(&poses).enumerate();
         let carried = starts.map(|(body, ((shape, start), pose))| {
-            let carried = RigidMove::between(start, pose).carry(shape);
+            // As by every remeshing before: the mesh of a body that looks the same from all sides does not turn
+            let is_turned = case.motion.turns[body] || shapes.deformed(body).is_some();
+            let orientation = if is_turned { pose.orientation } else { start.orientation };
+            let to = Pose { orientation, ..*pose };
+            let carried = RigidMove::between(start, &to).carry(shape);
             match shapes.deformed(body).and_then(DeformedOutline::shape) {
                 None => carried,
                 Some(shape) => PlacedShape { shape, ..carried },
