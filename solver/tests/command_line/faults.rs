@@ -319,13 +319,16 @@ fn a_mesh_that_is_replaced_after_a_run_was_resumed_is_that_of_the_unbroken_run()
     let place = tempfile::tempdir().unwrap();
     let directory = place.path();
     let text = CASE
+        .replace("min = [-1.0, -1.0]", "min = [-1.0, -4.0]")
+        .replace("size = 0.1", "size = 0.15")
         .replace("center = [0.1, 0.2]", "center = [0.5, 0.6]")
+        .replace("density = 2.0", "density = 3.0")
         .replace(
             "{ wall = '1 h', time = 0.05, keep = 2 }",
-            "{ wall = '1 h', time = 0.1, keep = 99 }",
+            "{ wall = '1 h', time = 0.3, keep = 99 }",
         )
         .replace("output.fields = { time = 0.02 }", "output.fields = 'never'")
-        .replace("step = 0.01, end = 0.4", "step = 0.02, end = 2.0");
+        .replace("step = 0.01, end = 0.4", "step = 0.03, end = 4.2");
     std::fs::write(directory.join("case.toml"), text).unwrap();
     let whole = run(directory, "whole", &[]);
     assert_eq!(whole.status.code(), Some(0), "{}", told(&whole));

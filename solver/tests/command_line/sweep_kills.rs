@@ -12,8 +12,8 @@ geometry = 'planar'
 fluid = { model = 'navier-stokes', density = 1.0, viscosity = 0.1, gravity = [0.0, -10.0] }
 domain.box = { min = [-1.0, -1.0], max = [1.0, 1.0] }
 boundary = { left = 'no-slip', right = 'no-slip', bottom = 'no-slip', top = 'no-slip' }
-mesh = { size = 0.1, surface = 0.03 }
-time.unsteady = { step = 0.01, end = 0.5 }
+mesh = { size = 0.1, surface = 0.06 }
+time.unsteady = { step = 0.01, end = 2.0 }
 output.checkpoint = { wall = '0.02 s', keep = 2 }
 [[body]]
 name = 'disc'
