@@ -1,6 +1,5 @@
-//! What a new mesh in space leaves as it was: momentum and angular momentum of fluid and bodies together.
+//! What a new mesh in space leaves as it was: the momentum of fluid and bodies together.
 
-use alewife_core::body::Wrench;
 use alewife_core::simulation::{Attempt, Simulation, build_mesh, simulation_on};
 use nalgebra::Vector3;
 use tests::cases::case;
@@ -42,55 +41,42 @@ fn pulled_apart(scale: f64) -> Simulation<3> {
     simulation_on(&model, mesh).expect("the case is a problem")
 }
 
-/// Momentum of bodies, and their angular momentum about the origin.
-fn momentum_of_bodies(simulation: &Simulation<3>) -> Wrench {
+/// Momentum of fluid and bodies together. There is no angular momentum to look at: the mesh of the torus is cut open
+/// elsewhere each time, and what is on the other side of the cut has another arm.
+fn momentum(simulation: &Simulation<3>) -> Vector3<f64> {
     let state = &simulation.state;
-    let mut sum = Wrench::default();
-    for (body, (pose, twist)) in
-        simulation.problem.bodies.iter().zip(state.poses.iter().zip(&state.now.twists))
-    {
-        let own = Wrench::from_vector(&body.inertia.momentum(pose, twist));
-        sum.force += own.force;
-        sum.torque += own.torque + pose.center.cross(&own.force);
-    }
-    sum
+    let of_bodies = simulation.problem.bodies.iter().zip(&state.now.twists);
+    let of_bodies: Vector3<f64> =
+        of_bodies.map(|(body, twist)| twist.linear * body.inertia.mass).sum();
+    fluid_momentum(state, &Vector3::zeros()).force + of_bodies
 }
 
-/// What a new mesh changes, over what bodies have.
-#[derive(Debug)]
-struct Jump {
-    momentum: f64,
-    angular_momentum: f64,
-}
-
-/// In a step so small that nothing moves in it, all that changes is due to the new mesh before it.
-fn jump(scale: f64) -> Jump {
+/// What a new mesh changes of the momentum, over that of a body: in a step so small that nothing moves in it, and
+/// without walls, all that changes is due to the mesh made before it.
+fn jump(scale: f64) -> f64 {
     let mut simulation = pulled_apart(scale);
-    let mut step = |size: f64| {
+    let step = |simulation: &mut Simulation<3>, size: f64| {
         let attempt = simulation.try_step(size, f64::INFINITY).expect("the step can be made");
         assert!(matches!(attempt, Attempt::Made(_)));
-        let fluid = fluid_momentum(&simulation.state, &Vector3::zeros());
-        let bodies = momentum_of_bodies(&simulation);
-        let force = fluid.force + bodies.force;
-        let all = Wrench { force, torque: fluid.torque + bodies.torque };
-        (simulation.state.remeshes, all)
     };
-    let (before, old) = (0..5).map(|_| step(0.04)).last().expect("steps were made");
-    let (after, new) = step(1e-7);
-    assert_eq!(after, before + 1);
-    let one = &simulation.problem.bodies[0];
-    let speed = simulation.state.now.twists[0].linear.norm();
-    let size = one.inertia.mass * speed;
-    // The same at the distance of the bodies from the origin
-    let arm = simulation.state.poses[0].center.norm();
-    Jump {
-        momentum: (new.force - old.force).norm() / size,
-        angular_momentum: (new.torque - old.torque).norm() / (arm * size),
+    for _ in 0..5 {
+        step(&mut simulation, 0.04);
     }
+    let (meshes, before) = (simulation.state.remeshes, momentum(&simulation));
+    step(&mut simulation, 1e-7);
+    assert_eq!(simulation.state.remeshes, meshes + 1);
+    let size =
+        simulation.problem.bodies[0].inertia.mass * simulation.state.now.twists[0].linear.norm();
+    (momentum(&simulation) - before).norm() / size
 }
 
+/// The projection onto the new mesh keeps momentum, uniform velocities being among its tests; what is left is the
+/// error of taking a quadratic field over at the points of a rule, of third order: a third at 0.7 of the edges.
 #[test]
-fn a_new_mesh_keeps_momentum_and_angular_momentum_of_fluid_and_bodies() {
+fn a_new_mesh_keeps_the_momentum_of_fluid_and_bodies() {
     let (coarse, fine) = (jump(1.0), jump(0.7));
-    println!("{coarse:?}\n{fine:?}");
+    println!("{coarse:e} {fine:e}");
+    // 3.8e-4 and 8.1e-5 were seen
+    assert!(coarse < 2e-3, "{coarse:e}");
+    assert!(fine < 0.6 * coarse, "{coarse:e} {fine:e}");
 }
