@@ -9,6 +9,7 @@ mod joints;
 mod mirror;
 mod periodic;
 mod reciprocity;
+mod remesh;
 mod rotation;
 mod scene;
 mod walks;

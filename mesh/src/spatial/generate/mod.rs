@@ -44,6 +44,19 @@ const CUBE: f64 = 1.3;
 /// cannot be moved, and has edges bisected that are so much shorter instead.
 const SHIFTS: [f64; 4] = [0.013, 0.231, 0.372, 0.117];
 
+/// Parts of the longest edges of the lattice, each tried where the one before gave no mesh that can be used:
+/// halving leaves edges between the longest and half of it, and the longest are those of a thin body's radius.
+const LATTICES: [f64; 3] = [1.0, 0.75, 0.6];
+
+/// Places of the lattice after which a finer one is tried where no mesh can be used yet.
+const ENOUGH_PLACES: usize = 2;
+
+/// A mesh and what is to be said of it.
+struct Candidate<'a> {
+    improver: Improver<'a>,
+    verdict: Verdict,
+}
+
 /// Mesh of the fluid in a domain around bodies.
 ///
 /// Boundaries are the sides in the order of [`Domain::sides`], then the bodies in theirs. A given mesh
@@ -61,30 +74,42 @@ pub fn generate(
     if let (Domain::Imported(imported), []) = (domain, bodies) {
         return Ok(imported.mesh().clone());
     }
-    let mut best: Option<(Improver<'_>, Verdict)> = None;
-    for shift in SHIFTS {
-        let improver = attempt(&sizes, shift)?;
-        let verdict = Verdict::of(&improver);
-        // The angles of a given mesh stay as they are where no body is near
-        let is_given = sizes.geometry().imported.is_some();
-        let is_enough = verdict.is_good() || (is_given && verdict.is_acceptable());
-        if best.as_ref().is_none_or(|(_, known)| verdict.is_better_than(known)) {
-            best = Some((improver, verdict));
-        }
-        if is_enough {
-            break;
-        }
-    }
-    let Some((improver, verdict)) = best else {
-        return Err(MeshError::Invariant { what: "no mesh was made", index: 0 });
-    };
+    let Candidate { improver, verdict } = best_candidate(&sizes)?;
     verdict.check()?;
     Ok(improver.quadratic(sizing.curved))
 }
 
+/// The first mesh that is good, or the best one of all.
+fn best_candidate(sizes: &SizeField) -> Result<Candidate<'_>, MeshError> {
+    let mut best: Option<Candidate<'_>> = None;
+    for part in LATTICES {
+        for (tried, shift) in SHIFTS.into_iter().enumerate() {
+            let can_be_used = best.as_ref().is_some_and(|best| best.verdict.is_acceptable());
+            if tried >= ENOUGH_PLACES && !can_be_used {
+                break;
+            }
+            let improver = attempt(sizes, shift, part)?;
+            let verdict = Verdict::of(&improver);
+            // The angles of a given mesh stay as they are where no body is near
+            let is_given = sizes.geometry().imported.is_some();
+            let is_enough = verdict.is_good() || (is_given && verdict.is_acceptable());
+            if best.as_ref().is_none_or(|known| verdict.is_better_than(&known.verdict)) {
+                best = Some(Candidate { improver, verdict });
+            }
+            if is_enough {
+                break;
+            }
+        }
+        if best.as_ref().is_some_and(|best| best.verdict.is_acceptable()) {
+            break;
+        }
+    }
+    best.ok_or(MeshError::Invariant { what: "no mesh was made", index: 0 })
+}
+
 /// The mesh from a lattice moved by a part of its cubes, which in a periodic box are smaller by half of it, or
-/// from a given one.
-fn attempt(sizes: &SizeField, shift: f64) -> Result<Improver<'_>, MeshError> {
+/// from a given one; with a part of the longest edges that are left before it is cut.
+fn attempt(sizes: &SizeField, shift: f64, part: f64) -> Result<Improver<'_>, MeshError> {
     let mut improver = Improver::new(sizes);
     let cube = CUBE * sizes.largest();
     let is_periodic = sizes.geometry().periods.is_any();
@@ -100,7 +125,7 @@ fn attempt(sizes: &SizeField, shift: f64) -> Result<Improver<'_>, MeshError> {
         improver.fill_with_lattice(cube, shift);
     }
     let shorter = if sizes.geometry().imported.is_some() { shift - SHIFTS[0] } else { 0.0 };
-    improver.refine_lattice(1.0 - shorter)?;
+    improver.refine_lattice(part * (1.0 - shorter))?;
     for index in first..sizes.geometry().surfaces.len() {
         let index = u16::try_from(index).map_err(|_| too_many_surfaces(sizes))?;
         improver.cut(index)?;

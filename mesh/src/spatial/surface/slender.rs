@@ -63,6 +63,18 @@ impl PartialEq for Slender {
 struct Ring {
     along: f64,
     section: Section,
+    center: Point<3>,
+    /// Radius of a ball about the centre that holds it (m).
+    reach: f64,
+}
+
+impl Ring {
+    fn new(sections: &Sections, along: f64) -> Self {
+        let [section, ..] = sections.at(along);
+        let center = Point::<3>::new(section[0], section[1], 0.0);
+        let reach = section[2].hypot(section[3]).max(section[4].abs());
+        Self { along, section, center, reach }
+    }
 }
 
 /// Half the squared distance near a place.
@@ -98,7 +110,7 @@ impl Slender {
         let (mut rings, mut boxes) = (Vec::new(), Vec::new());
         for pair in knots.windows(2) {
             let middle = 0.5 * (pair[0] + pair[1]);
-            rings.push(Ring { along: middle, section: sections.at(middle)[0] });
+            rings.push(Ring::new(&sections, middle));
             let ends = [pair[0], middle, pair[1]].map(|along| sections.at(along)[0]);
             let points: Vec<Point<3>> = ends.iter().flat_map(ring_corners).collect();
             let bounds = Bounds::around(&points);
@@ -163,7 +175,11 @@ impl Slender {
         let mut nearest = SectionPoint { along: 0.0, around: 0.0 };
         let mut least = f64::INFINITY;
         self.boxes.visit_near(of, f64::INFINITY, |index, reach| {
-            let Ring { along, section } = &self.rings[index];
+            let Ring { along, section, center, reach: own } = &self.rings[index];
+            let (off, bound) = (of - center, least + own);
+            if off.norm_squared() > bound * bound {
+                return false;
+            }
             let on = OnRing::nearest(section, &of);
             if on.distance < least {
                 nearest = SectionPoint { along: *along, around: on.around };
