@@ -24,8 +24,6 @@ pub(in crate::simulation) struct PlanarScene {
     domain: Domain,
     /// Bodies in the mesh.
     shapes: Vec<PlacedShape>,
-    /// Their poses.
-    poses: Vec<Pose>,
     /// Parameters on the outlines of bodies that deform, by node.
     materials: HashMap<NodeId, f64>,
     /// Sheet of each boundary.
@@ -47,7 +45,7 @@ impl PlanarScene {
         mesh: &Mesh<2>,
         domain: Domain,
         shapes: Vec<PlacedShape>,
-        poses: Vec<Pose>,
+        poses: &[Pose],
     ) -> Result<Self, RemeshError> {
         let sheets = mesh.boundaries.iter().map(|boundary| case.sheet(&boundary.name)).collect();
         let surroundings = GapQuery::new(&domain, &shapes)?;
@@ -56,8 +54,8 @@ impl PlanarScene {
             (0..domain.sides().len()).filter(|&side| domain.wall(side).is_some()).collect();
         let gaps =
             PlanarGaps::new(&domain, &walls, &shapes)?.with_joined(case.pivots.iter().copied());
-        let materials = materials(&case, mesh, &shapes, &poses)?;
-        Ok(Self { case, domain, shapes, poses, materials, sheets, fresh, surroundings, gaps })
+        let materials = materials(&case, mesh, &shapes, poses)?;
+        Ok(Self { case, domain, shapes, materials, sheets, fresh, surroundings, gaps })
     }
 
     /// That of a mesh whose domain starts at a point (m) along its periodic directions, with the bodies
@@ -70,42 +68,30 @@ impl PlanarScene {
         shapes: &BodyShapes,
     ) -> Result<Self, RemeshError> {
         let domain = started_at(&case.home, domain_start);
-        let starts = case.start_shapes.iter().zip(&case.start_poses).zip(&poses).enumerate();
-        let carried = starts.map(|(body, ((shape, start), pose))| {
-            // As by every remeshing before: the mesh of a body that looks the same from all sides does not turn
-            let is_turned = case.motion.turns[body] || shapes.deformed(body).is_some();
-            let orientation = if is_turned { pose.orientation } else { start.orientation };
-            let to = Pose { orientation, ..*pose };
-            let carried = RigidMove::between(start, &to).carry(shape);
-            match shapes.deformed(body).and_then(DeformedOutline::shape) {
-                None => carried,
-                Some(shape) => PlacedShape { shape, ..carried },
-            }
-        });
-        let carried = carried.collect();
-        Self::new(case, mesh, domain, carried, poses)
+        let carried = shapes_at(&case, &poses, shapes);
+        Self::new(case, mesh, domain, carried, &poses)
     }
+}
 
-    /// The bodies with these shapes at other poses.
-    fn shapes_at(&self, poses: &[Pose], shapes: &BodyShapes) -> Vec<PlacedShape> {
-        let bodies = self.shapes.iter().zip(&self.poses).zip(poses).enumerate();
-        bodies
-            .map(|(body, ((shape, reference), pose))| {
-                match shapes.deformed(body).and_then(DeformedOutline::shape) {
-                    Some(deformed) => placed(shape, deformed, pose),
-                    None => {
-                        let orientation = if self.case.motion.turns[body] {
-                            pose.orientation
-                        } else {
-                            reference.orientation
-                        };
-                        let to = Pose { orientation, ..*pose };
-                        RigidMove::between(reference, &to).carry(shape)
-                    }
+/// The bodies of a case with these shapes at poses.
+///
+/// Always carried from where they started, so that a scene that is restored has the same bits as one that has gone
+/// from mesh to mesh.
+fn shapes_at(case: &PlanarCase, poses: &[Pose], shapes: &BodyShapes) -> Vec<PlacedShape> {
+    let bodies = case.start_shapes.iter().zip(&case.start_poses).zip(poses).enumerate();
+    bodies
+        .map(|(body, ((shape, start), pose))| {
+            match shapes.deformed(body).and_then(DeformedOutline::shape) {
+                Some(deformed) => placed(shape, deformed, pose),
+                None => {
+                    // The mesh of a body that looks the same from all sides does not turn
+                    let is_turned = case.motion.turns[body];
+                    let orientation = if is_turned { pose.orientation } else { start.orientation };
+                    RigidMove::between(start, &Pose { orientation, ..*pose }).carry(shape)
                 }
-            })
-            .collect()
-    }
+            }
+        })
+        .collect()
 }
 
 /// Parameters on the outlines of bodies that deform, of the nodes on them.
@@ -183,7 +169,7 @@ impl Scene<2> for PlanarScene {
         poses: &[Pose],
         shapes: &BodyShapes,
     ) -> Option<String> {
-        let placed = self.shapes_at(poses, shapes);
+        let placed = shapes_at(&self.case, poses, shapes);
         for (body, PlacedShape { center, angle, .. }) in placed.into_iter().enumerate() {
             match shapes.outline(body) {
                 None => self.surroundings.place_body(body, center, angle),
@@ -201,7 +187,7 @@ impl Scene<2> for PlanarScene {
         shapes: &BodyShapes,
         shifted: PosesByShift<'_>,
     ) -> Result<Meshed<2>, RemeshError> {
-        let shapes = self.shapes_at(poses, shapes);
+        let shapes = shapes_at(&self.case, poses, shapes);
         let cell = choose_periodic_cell(&self.domain, &self.case.home, shapes)?;
         let mesh = cell.mesh(&self.case.sizing)?;
         let PeriodicCell { domain, shapes, shifts, .. } = cell;
@@ -209,7 +195,7 @@ impl Scene<2> for PlanarScene {
             shifts.iter().map(|shift| Vector3::new(shift.x, shift.y, 0.0)).collect();
         let poses = shifted(&shifts);
         let case = Arc::clone(&self.case);
-        let scene = Self::new(case, &mesh, domain, shapes, poses.clone())?;
+        let scene = Self::new(case, &mesh, domain, shapes, &poses)?;
         Ok(Meshed { mesh, scene: Box::new(scene), poses, shifts })
     }
 

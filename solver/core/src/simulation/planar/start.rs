@@ -46,7 +46,7 @@ fn initial(meshed: MeshedCell) -> InitialMesh<2> {
         let planar = Arc::new(PlanarCase::new(model, problem)?);
         let (domain, shapes) = (cell.domain, cell.shapes);
         let moving = || -> Result<_, RemeshError> {
-            let scene = PlanarScene::new(Arc::clone(&planar), mesh, domain, shapes, poses.clone())?;
+            let scene = PlanarScene::new(Arc::clone(&planar), mesh, domain, shapes, &poses)?;
             let settings = planar.motion.clone();
             Ok(MovingMesh::new(mesh, Box::new(scene), settings, poses, 0.0)?)
         };
