@@ -2,7 +2,7 @@
 
 use super::Findings;
 use crate::speed::norm;
-use crate::{Geometry, Hinge, Joint, JointKind};
+use crate::{Geometry, Hinge, Joint, JointKind, Slider};
 
 /// Distance between a child and where its joint puts it, over the size of the joint, that is taken
 /// for rounding.
@@ -40,11 +40,13 @@ fn in_space(findings: &mut Findings<'_>, key: &str, kind: &JointKind) {
         }
     };
     match kind {
-        JointKind::Arm { along, direction: angle, .. } => {
-            direction("arm.along", *along, "an arm");
+        JointKind::Arm { along, direction: angle, .. }
+        | JointKind::Slider(Slider { along, direction: angle, .. }) => {
+            let name = if matches!(kind, JointKind::Slider(_)) { "slider" } else { "arm" };
+            direction(&format!("{name}.along"), *along, "an arm");
             if *angle != 0.0 {
                 findings.error(
-                    &format!("{key}.kind.arm.direction"),
+                    &format!("{key}.kind.{name}.direction"),
                     "`direction` is an angle in the plane".to_owned(),
                     "write along = [x, y, z], in the frame of the parent",
                 );
@@ -59,6 +61,9 @@ fn in_space(findings: &mut Findings<'_>, key: &str, kind: &JointKind) {
 fn in_plane(findings: &mut Findings<'_>, key: &str, kind: &JointKind) {
     let (name, help) = match kind {
         JointKind::Arm { along: Some(_), .. } => ("arm.along", "write direction = ... (rad)"),
+        JointKind::Slider(Slider { along: Some(_), .. }) => {
+            ("slider.along", "write direction = ... (rad)")
+        }
         JointKind::Bent { axis: Some(_), .. } => ("bent.axis", "leave it out: the axis is z"),
         JointKind::Hinge(Hinge { axis: Some(_), .. }) => {
             ("hinge.axis", "leave it out: the axis is z")

@@ -17,7 +17,7 @@ use super::nullspace::TranslationNullspace;
 use super::preconditioning::{Coefficients, Discretised, saddle_point};
 use super::pressure_mean::PressureMean;
 use super::problem::{MeanFlowAt, Problem};
-use super::rigid_equations::{RigidBodyEquations, rotations};
+use super::rigid_equations::RigidBodyEquations;
 use super::shapes::BodyShapes;
 use super::solution::Solution;
 use super::surface_load::SurfaceStress;
@@ -359,13 +359,16 @@ impl<const D: usize> FluidSystem<D> {
                 }
             }
         }
-        for pivot in &at.bodies.pivots {
-            for (position, _) in rotations(modes) {
-                let [child, parent] = [pivot.child, pivot.parent].map(|body| row(body, position));
-                let opposite = parent.iter().map(|term| Term { weight: -term.weight, ..*term });
-                let turn: Vec<Term<u32>> = child.iter().copied().chain(opposite).collect();
-                self.linear.add_product(&turn, &turn, pivot.resistance);
+        for joint in &at.bodies.joints {
+            let mut rate: Vec<Term<u32>> = Vec::new();
+            for (body, share) in [(joint.child, joint.on_child), (joint.parent, joint.on_parent)] {
+                for (position, mode) in modes.iter().enumerate() {
+                    let scaled =
+                        |term: &Term<u32>| Term { weight: share[mode] * term.weight, ..*term };
+                    rate.extend(row(body, position).iter().map(scaled));
+                }
             }
+            self.linear.add_product(&rate, &rate, joint.resistance);
         }
     }
 
