@@ -11,6 +11,7 @@ mod periodic;
 mod reciprocity;
 mod rotation;
 mod scene;
+mod sliders;
 mod walks;
 
 use alewife_core::body::{Inertia, Pose, Twist, Wrench};

@@ -141,6 +141,8 @@ child = 'b'
             "kind.ball.stiffness = 1.0\non_parent = [0.0, 0.6, 0.8]\non_child = [0.0, -0.6, -0.8]",
             "kind.hinge = { axis = [0.0, 0.0, 1.0], torque.constant = 0.1 }\non_parent = [0.0, 1.2, 1.6]",
             "kind.bent = { angle.constant = 0.1, axis = [1.0, 0.0, 0.0] }\non_parent = [0.0, 1.2, 1.6]",
+            "kind.slider = { along = [0, 3, 4], stiffness = 1.0, rest = 3.0, force.constant = 0.1 }",
+            "kind.slider.along = [0.0, 0.0, -1.0]\non_parent = [0.0, 1.2, 0.3]",
         ] {
             assert_eq!(wrong(joint), [""; 0], "{joint}");
         }
@@ -154,6 +156,18 @@ child = 'b'
             (
                 "kind.bent = { angle.constant = 0.1 }\non_parent = [0.0, 1.2, 1.6]",
                 "joint.0.kind.bent.axis",
+            ),
+            ("kind.slider = {}", "joint.0.kind.slider.along"),
+            ("kind.slider = { along = [0, 3, 4], direction = 1 }", "joint.0.kind.slider.direction"),
+            ("kind.slider.along = [0.0, 0.0, 1.0]", "joint.0.child"),
+            ("kind.slider = { along = [0, 3, 4], damping = -1 }", "joint.0.kind.slider.damping"),
+            (
+                "kind.slider = { along = [0, 3, 4], stiffness = -1 }",
+                "joint.0.kind.slider.stiffness",
+            ),
+            (
+                "kind.slider = { along = [0, 3, 4], force.sine = { amplitude = 1.0, period = 0.0 } }",
+                "joint.0.kind.slider.force.sine.period",
             ),
             ("kind.ball = {}\non_parent = [1.2, 1.6]", "joint.0.on_parent"),
             ("kind.ball.damping = -1.0\non_parent = [0.0, 1.2, 1.6]", "joint.0.kind.ball.damping"),

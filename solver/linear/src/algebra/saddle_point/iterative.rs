@@ -375,7 +375,8 @@ impl LinearSolver for IterativeSolver {
         for &unknown in unknowns {
             let mut column = vec![0.0; matrix.n()];
             column[unknown] = 1.0;
-            self.solved(matrix, &mut column, self.settings.tolerance, false)?;
+            let tol = std::env::var("MOBTOL").ok().and_then(|t| t.parse().ok()).unwrap_or(1e-8);
+            self.solved(matrix, &mut column, tol, false)?;
             inverse.extend(unknowns.iter().map(|&row| column[row]));
         }
         Ok(inverse)
