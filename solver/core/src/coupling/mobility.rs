@@ -42,7 +42,7 @@ impl<const D: usize> FluidSystem<D> {
     ) -> Result<DMatrix<f64>, SolveError> {
         let modes = self.modes;
         let layout = self.layout;
-        let counts_all = !self.is_iterative() || std::env::var("ALLMODES").is_ok();
+        let counts_all = !self.is_iterative();
         let row = |loaded: &LoadedBody, (position, mode): (usize, Mode)| -> &[Term<u32>] {
             let counts = counts_all || loaded.turns || !mode.is_rotation();
             if counts { constraints.row(layout.rigid(loaded.body, position)) } else { &[] }

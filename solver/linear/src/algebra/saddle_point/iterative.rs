@@ -375,8 +375,7 @@ impl LinearSolver for IterativeSolver {
         for &unknown in unknowns {
             let mut column = vec![0.0; matrix.n()];
             column[unknown] = 1.0;
-            let tol = std::env::var("MOBTOL").ok().and_then(|t| t.parse().ok()).unwrap_or(1e-8);
-            self.solved(matrix, &mut column, tol, false)?;
+            self.solved(matrix, &mut column, self.settings.tolerance, false)?;
             inverse.extend(unknowns.iter().map(|&row| column[row]));
         }
         Ok(inverse)
