@@ -230,7 +230,10 @@ fn free_and_given_lengths_agree<const D: usize>() {
         size = size.max(law.abs());
     }
     println!("{D}: {:e} from the law, {:e} from that of given lengths", off_law / size, off / size);
-    assert!(off_law < 1e-3 * size && off < 1e-2 * size);
+    // 4e-5 and 8e-5 were found, 9e-5 and 5e-4 on the coarse mesh in space: poses of the last pass that are within
+    // its tolerance, and a stroke that is cubic between the steps. Before the system was numbered anew where
+    // another component is the longest, both were off by 5e-2 to 2e-1 from there on.
+    assert!(off_law < 2e-4 * size && off < 2e-3 * size, "{off_law} {off} {size}");
 }
 
 #[test]
