@@ -69,13 +69,20 @@ pub(super) fn add_joint(
         }
     };
     let body = &mut bodies[child];
+    link(body, &turn, model.case.geometry);
+    body.joint = Some(Joint { parent, on_parent, arm, on_child, turn, rest });
+    Ok(())
+}
+
+/// Has the velocities of a child follow from its parent, but for those a free pivot leaves to it.
+fn link(body: &mut RigidBody, turn: &Turn, geometry: Geometry) {
     // What of a rotation about one axis in space is independent changes with its direction
-    let is_free = match &turn {
-        Turn::Free(pivot) => pivot.axis.is_none() || !is_spatial,
+    let is_free = match turn {
+        Turn::Free(pivot) => pivot.axis.is_none() || geometry != Geometry::Spatial,
         Turn::Given { .. } => false,
     };
     let turned = || if is_free { Drive::Free } else { Drive::Linked };
-    let linked: &[Mode] = match model.case.geometry {
+    let linked: &[Mode] = match geometry {
         Geometry::Axisymmetric => &[Mode::X],
         Geometry::Planar => &[Mode::X, Mode::Y, Mode::AboutZ],
         Geometry::Spatial => &Mode::ALL,
@@ -83,8 +90,6 @@ pub(super) fn add_joint(
     for &mode in linked {
         body.drives[mode] = if mode.is_rotation() { turned() } else { Drive::Linked };
     }
-    body.joint = Some(Joint { parent, on_parent, arm, on_child, turn, rest });
-    Ok(())
 }
 
 /// Centre of mass of a body in its frame (m).
