@@ -4,12 +4,13 @@ use alewife_core::algebra::IterativeSettings;
 use alewife_core::body::{Inertia, Pose, Wrench};
 use alewife_core::case::Steady;
 use alewife_core::coupling::{
-    FluidSystem, Problem, RigidBody, Side, Solution, SolveError, SolverChoice,
+    BodiesAt, BodyShapes, FluidSystem, LoadedBody, Problem, RigidBody, Side, Solution, SolveError,
+    SolverChoice,
 };
 use alewife_core::simulation::{SteadyFlow, Timing};
 use alewife_core::space::Metric;
 use alewife_mesh::{BoundaryId, BoundaryKind, Mesh, Point};
-use nalgebra::{Matrix3, UnitQuaternion, Vector3};
+use nalgebra::{DMatrix, Matrix3, UnitQuaternion, Vector3};
 use tests::{BoxOfTetrahedra, fluid_only, one_system_from_rest, steady_with, workspace};
 
 /// Viscosity and density far from one: sizes of forces and pressures are not those of velocities.
@@ -210,4 +211,41 @@ fn stalled_iterations_leave_it_to_factors_or_say_what_to_do() {
     let error = setting.try_solve(SolverChoice::Iterative(without)).err();
     let message = error.map(|error| error.to_string()).unwrap_or_default();
     assert!(message.starts_with("3 iterations") && message.contains("flat cells"), "{message}");
+}
+
+/// The mobility of the body of a box, with its turns or without.
+fn mobility(setting: &Setting, choice: SolverChoice, turns: bool) -> DMatrix<f64> {
+    let mesh = setting.box_of.mesh();
+    let problem = setting.problem(&mesh);
+    let poses: Vec<Pose> = problem.bodies.iter().map(|body| body.pose).collect();
+    let mut system = FluidSystem::with_solver(&problem, &mesh, &poses, false, choice);
+    let mut timing = Timing::default();
+    one_system_from_rest(&mut system, &problem, &mesh, 0.0, &mut timing).expect("it is solved");
+    let shapes = BodyShapes::rigid(poses.len());
+    let bodies = BodiesAt { poses: &poses, shapes: &shapes };
+    let constraints = system.constraints(&problem, &mesh, bodies);
+    let loaded = [LoadedBody { body: 0, turns }];
+    system.mobility(&constraints, &loaded, &mut timing).expect("it is solved")
+}
+
+/// Of a body that contact does not turn half the columns are left out, and the others are the same.
+#[test]
+fn mobilities_by_iterations_are_those_by_factors() {
+    let setting = Setting::stokes(6, true);
+    let iterative = SolverChoice::Iterative(IterativeSettings::default());
+    let exact = mobility(&setting, SolverChoice::Direct, true);
+    assert_eq!(exact, mobility(&setting, SolverChoice::Direct, false));
+    let all = mobility(&setting, iterative, true);
+    let moves = mobility(&setting, iterative, false);
+    let off = [(0, &all), (3, &all), (0, &moves)].map(|(first, found)| {
+        let block = |matrix: &DMatrix<f64>| matrix.view((first, first), (3, 3)).into_owned();
+        (block(found) - block(&exact)).norm() / block(&exact).norm()
+    });
+    let block = |matrix: &DMatrix<f64>| matrix.view((0, 0), (3, 3)).into_owned();
+    assert_eq!(block(&all), block(&moves));
+    println!("{off:?}");
+    assert!(off.iter().all(|off| *off < 1e-7), "{off:?}");
+    for (i, j) in (0..6).flat_map(|i| (0..6).map(move |j| (i, j))).filter(|(i, j)| i.max(j) > &2) {
+        assert_eq!(moves[(i, j)], 0.0);
+    }
 }

@@ -103,6 +103,10 @@ impl Gaps for OneBody {
         1.0
     }
 
+    fn is_round(&self, _: usize) -> bool {
+        false
+    }
+
     fn pairs(&self, _: &[Pose], _: f64) -> Vec<ContactPair> {
         Vec::new()
     }

@@ -60,6 +60,13 @@ impl BodySurface {
         &self.parts
     }
 
+    /// Whether it is a sphere about the origin of the body.
+    #[must_use]
+    pub fn is_sphere(&self) -> bool {
+        let [part] = self.parts.as_slice() else { return false };
+        part.is_sphere() && part.origin() == self.pose.translation.vector
+    }
+
     /// Smallest radius of curvature of the surface at its point nearest to another one (m).
     #[must_use]
     pub fn radius_of_curvature(&self, near: Point<3>) -> f64 {

@@ -56,6 +56,9 @@ pub enum JointKind {
     /// A free pivot: torque on the child -stiffness (angle - rest) - damping rate + torque, with the
     /// angle of the child less that of the parent; the opposite on the parent.
     Hinge(Hinge),
+    /// An arm of free length: force on the child along it -stiffness (length - rest) - damping rate +
+    /// force; the opposite on the parent. It turns with the parent, and the child turns with both.
+    Slider(Slider),
     /// In three dimensions, a free pivot about all axes: torque on the child -stiffness times the rotation
     /// vector from where it was turned to at time zero, seen from the parent, - damping times the
     /// relative angular velocity; the opposite on the parent.
@@ -63,20 +66,38 @@ pub enum JointKind {
 }
 
 impl JointKind {
-    /// What is given in time of where the child is; nothing of a free pivot.
+    /// What is given in time of where the child is; nothing of a joint that is free.
     #[must_use]
     pub fn stroke(&self) -> Option<&Stroke> {
         match self {
             Self::Arm { length, .. } => Some(length),
             Self::Bent { angle, .. } => Some(angle),
-            Self::Hinge(_) | Self::Ball(_) => None,
+            Self::Hinge(_) | Self::Slider(_) | Self::Ball(_) => None,
         }
     }
 
-    /// Period of its stroke, or of the motor of a free pivot (s).
+    /// Whether it is an arm, of given or free length, along which the child goes without turning.
+    #[must_use]
+    pub fn is_arm(&self) -> bool {
+        matches!(self, Self::Arm { .. } | Self::Slider(_))
+    }
+
+    /// The spring of a joint that is free: load per angle or length.
+    #[must_use]
+    pub fn stiffness(&self) -> f64 {
+        match self {
+            Self::Hinge(Hinge { stiffness, .. })
+            | Self::Slider(Slider { stiffness, .. })
+            | Self::Ball(Ball { stiffness, .. }) => *stiffness,
+            Self::Arm { .. } | Self::Bent { .. } => 0.0,
+        }
+    }
+
+    /// Period of its stroke, or of the motor of a joint that is free (s).
     pub(crate) fn period(&self) -> Option<f64> {
         match self {
             Self::Hinge(hinge) => hinge.torque.as_ref(),
+            Self::Slider(slider) => slider.force.as_ref(),
             Self::Arm { .. } | Self::Bent { .. } | Self::Ball(_) => self.stroke(),
         }
         .and_then(Stroke::period)
@@ -92,7 +113,7 @@ pub(crate) struct PlanarPose {
     pub angle: f64,
 }
 
-/// Pose at a time (s) of a child whose parent has a given pose; a free pivot is at rest.
+/// Pose at a time (s) of a child whose parent has a given pose; a joint that is free is at rest.
 ///
 /// `on_parent` and `on_child` are the ends of the joint in the frames of the bodies (m).
 pub(crate) fn child_pose(
@@ -107,6 +128,9 @@ pub(crate) fn child_pose(
             (Rotation2::new(*direction) * Point::<2>::new(length.at(time)[0], 0.0), 0.0)
         }
         JointKind::Bent { angle, .. } => (Point::<2>::zeros(), angle.at(time)[0]),
+        JointKind::Slider(slider) => {
+            (Rotation2::new(slider.direction) * Point::<2>::new(slider.rest, 0.0), 0.0)
+        }
         JointKind::Hinge(hinge) => (Point::<2>::zeros(), hinge.rest),
         JointKind::Ball(_) => (Point::<2>::zeros(), 0.0),
     };
@@ -141,6 +165,12 @@ impl Joint {
             JointKind::Arm { length, along: Some(along), .. } => {
                 Vector3::from(*along).normalize() * length.at(0.0)[0]
             }
+            // It may start at any length: that of the bodies
+            JointKind::Slider(Slider { along: Some(along), .. }) => {
+                let along = Vector3::from(*along).normalize();
+                let end = child.transform_point(&Point3::from(on_child));
+                along * (parent.inverse_transform_point(&end).coords - on_parent).dot(&along)
+            }
             _ => Vector3::zeros(),
         };
         let joint = parent.transform_point(&Point3::from(on_parent + arm));
@@ -164,6 +194,46 @@ pub struct Ball {
     /// Torque per angular velocity (N m s/rad).
     #[serde(default)]
     pub damping: f64,
+}
+
+/// `slider`.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct Slider {
+    /// Force per length (N/m; N/m2 planar).
+    #[serde(default)]
+    pub stiffness: f64,
+    /// Force per rate of the length (N s/m; N s/m2 planar).
+    #[serde(default)]
+    pub damping: f64,
+    /// Length at rest (m).
+    #[serde(default)]
+    pub rest: f64,
+    /// Direction in the parent's frame, from x, counter-clockwise (rad).
+    #[serde(default, deserialize_with = "super::angle::deserialize")]
+    #[cfg_attr(test, schemars(with = "super::angle::Angle"))]
+    pub direction: f64,
+    /// In three dimensions, the direction in the parent's frame, of any length.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub along: Option<[f64; 3]>,
+    /// Force of a motor on the child along the arm (N; N/m planar).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub force: Option<Stroke>,
+}
+
+impl Slider {
+    /// Its length in the plane with bodies at their poses (m).
+    pub(crate) fn length_in_plane(
+        &self,
+        [parent, child]: [PlanarPose; 2],
+        [on_parent, on_child]: [[f64; 2]; 2],
+    ) -> f64 {
+        let end = child.center + Rotation2::new(child.angle) * Point::<2>::from(on_child);
+        let from_parent = Rotation2::new(-parent.angle) * (end - parent.center);
+        let along = Rotation2::new(self.direction) * Point::<2>::new(1.0, 0.0);
+        (from_parent - Point::<2>::from(on_parent)).dot(&along)
+    }
 }
 
 /// `hinge`.

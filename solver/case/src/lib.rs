@@ -74,7 +74,7 @@ pub use gait::{
     AnguilliformGait, BentJoint, CarangiformGait, FishShape, FlagellateShape, FlagellumGait,
     JointsGait, PulsatingGait, TubeShape,
 };
-pub use joint::{Ball, Hinge, Joint, JointKind};
+pub use joint::{Ball, Hinge, Joint, JointKind, Slider};
 pub use link::{Link, ShapedLink};
 pub use mean_flow::MeanFlowSpec;
 pub use mesh::{MeshEquation, MeshSettings, MovingMesh, RefinementBox};

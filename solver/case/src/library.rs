@@ -27,10 +27,15 @@ pub fn list() -> &'static [Shipped] {
     SHIPPED
 }
 
-/// The content of a file that is shipped beside the file of a case.
+/// The content of a file that is shipped beside the file of a case, or beside that of another one as
+/// `../OTHER/FILE`.
 #[must_use]
 pub fn file_beside(case_file: &str, name: &str) -> Option<&'static [u8]> {
-    let folder = case_file.strip_suffix("case.toml")?;
+    let own = case_file.strip_suffix("case.toml")?;
+    let (folder, name) = match name.strip_prefix("../") {
+        Some(beside_other) => ("cases/", beside_other),
+        None => (own, name),
+    };
     let is_it = |file: &&ShippedFile| file.path.strip_prefix(folder) == Some(name);
     FILES.iter().find(is_it).map(|file| file.bytes)
 }
@@ -39,4 +44,20 @@ pub fn file_beside(case_file: &str, name: &str) -> Option<&'static [u8]> {
 #[must_use]
 pub fn find(name: &str) -> Option<&'static Shipped> {
     SHIPPED.iter().find(|case| case.name == name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::file_beside;
+
+    #[test]
+    fn files_of_other_cases_are_found_by_their_folders() {
+        let own = file_beside("cases/vessel/case.toml", "vessel.msh");
+        assert!(own.is_some());
+        assert_eq!(file_beside("cases/three-sphere-3d/case.toml", "../vessel/vessel.msh"), own);
+        for wrong in ["vessel.msh", "../vessel.msh", "../../cases/vessel/vessel.msh", "../vessel/"]
+        {
+            assert_eq!(file_beside("cases/three-sphere-3d/case.toml", wrong), None, "{wrong}");
+        }
+    }
 }

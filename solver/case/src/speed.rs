@@ -3,7 +3,8 @@
 use std::f64::consts::{PI, TAU};
 
 use super::{
-    Body, BoundaryCondition, Case, ContactSpec, GaitSpec, Geometry, JointKind, Model, Motion,
+    Body, BoundaryCondition, Case, ContactSpec, GaitSpec, Geometry, Joint, JointKind, Model,
+    Motion, Stroke,
 };
 
 /// Times of a stroke's period at which its rate is looked at.
@@ -20,7 +21,7 @@ impl Model {
         let flow = case.flow.iter().flat_map(|flow| &flow.mean_velocity).map(|v| norm(v));
         let bodies = self.bodies.iter().map(|body| body_speed(case, body));
         let joints = self.joints.iter().map(|joint| {
-            let Some(stroke) = joint.kind.stroke() else { return 0.0 };
+            let Some(stroke) = joint.kind.stroke() else { return self.slider_speed(joint) };
             let period = stroke.period().unwrap_or(1.0);
             let time = |n: u32| period * (f64::from(n) + 0.5) / f64::from(TIMES);
             let rate = (0..TIMES).map(|n| stroke.at(time(n))[1].abs()).fold(0.0, f64::max);
@@ -33,6 +34,26 @@ impl Model {
         let scale = case.scales.iter().map(|scales| scales.velocity);
         let all = sides.chain(flow).chain(bodies).chain(joints).chain(scale);
         Some(all.fold(0.0, f64::max)).filter(|speed| *speed > 0.0)
+    }
+
+    /// The order of the rate at which forces change the length of an arm (m/s): by the resistance of its
+    /// child; 0 of other joints.
+    fn slider_speed(&self, joint: &Joint) -> f64 {
+        let (JointKind::Slider(slider), Some(child)) = (&joint.kind, self.body_index(&joint.child))
+        else {
+            return 0.0;
+        };
+        let motor = slider.force.as_ref().map_or([0.0; 2], Stroke::range);
+        let center = |body: usize, axis: usize| self.bodies[body].center.get(axis).copied();
+        let way = |parent: usize| {
+            let along = |axis| Some(center(child, axis)? - center(parent, axis)?);
+            norm(&(0..3).filter_map(along).collect::<Vec<_>>())
+        };
+        // Its length by that between the bodies
+        let length = self.body_index(&joint.parent).map_or(0.0, way);
+        let spring = slider.stiffness * (length - slider.rest).abs();
+        let force = motor.iter().fold(spring, |force, end| force.max(end.abs()));
+        force / (resistance(&self.case, &self.bodies[child]) + slider.damping)
     }
 
     /// The order of the force that presses bodies together (N; N/m planar): the largest drag at the

@@ -13,11 +13,12 @@ use super::source::{Origin, Source};
 /// Tables that hold exactly one of several alternatives.
 ///
 /// Where two texts name different alternatives, the later one replaces the earlier one whole.
-pub const CHOICES: [&str; 19] = [
+pub const CHOICES: [&str; 20] = [
     "kind",
     "length",
     "angle",
     "torque",
+    "force",
     "copies",
     "domain",
     "time",

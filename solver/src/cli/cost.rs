@@ -1,8 +1,7 @@
 //! What a run would cost: steps, linear systems, new meshes, and the CPU time and memory for them.
 
 use crate::case::{
-    Adaptive, Body, Convection, FlowModel, Geometry, JointKind, Model, Motion, Scheme,
-    TimeSettings, Unsteady,
+    Adaptive, Body, Convection, FlowModel, Geometry, Model, Motion, Scheme, TimeSettings, Unsteady,
 };
 use crate::coupling::memory_estimate;
 use crate::simulation::DOFS_OF_CELL;
@@ -163,7 +162,7 @@ fn part_of_pass(model: &Model) -> f64 {
         body.motion == Motion::Free && body.turns() && !body.is_round() && !body.deforms()
     };
     let case = &model.case;
-    let has_arms = model.joints.iter().all(|joint| matches!(joint.kind, JointKind::Arm { .. }));
+    let has_arms = model.joints.iter().all(|joint| joint.kind.is_arm());
     let deforms = model.bodies.iter().any(Body::deforms);
     let part = if time.scheme == Scheme::Rk3 && has_arms && !deforms {
         OF_EXPLICIT_PASS
@@ -286,7 +285,7 @@ fn passes(model: &Model, time: &Unsteady) -> f64 {
         // One for each stage
         return 3.0;
     }
-    let bends = model.joints.iter().any(|joint| !matches!(joint.kind, JointKind::Arm { .. }));
+    let bends = model.joints.iter().any(|joint| !joint.kind.is_arm());
     let free = model.bodies.iter().filter(|body| body.motion == Motion::Free);
     let n_free = free.clone().filter(|body| body.translates(model.case.geometry)).count() as f64;
     if bends || free.clone().any(|body| body.deforms()) {
@@ -310,8 +309,7 @@ fn n_new_meshes(model: &Model) -> f64 {
     let periods = model.swimmers.iter().filter_map(|swimmer| {
         let bends = |body: &usize| {
             let joint = model.joint_above(*body).map(|joint| &model.joints[joint].kind);
-            model.bodies[*body].deforms()
-                || joint.is_some_and(|kind| !matches!(kind, JointKind::Arm { .. }))
+            model.bodies[*body].deforms() || joint.is_some_and(|kind| !kind.is_arm())
         };
         swimmer.bodies.iter().any(bends).then_some(time.end / swimmer.period?)
     });

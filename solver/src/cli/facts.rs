@@ -240,6 +240,20 @@ fn joint_line(joint: &Joint) -> String {
         JointKind::Arm { length, direction, along: None } => {
             format!("arm of length {}, direction {}", stroke(length), angle_in_words(*direction))
         }
+        JointKind::Slider(slider) => {
+            let force = slider.force.as_ref().map(|force| format!(", force {}", stroke(force)));
+            let direction = match slider.along {
+                Some(along) => format!("along {along:?}"),
+                None => format!("direction {}", angle_in_words(slider.direction)),
+            };
+            format!(
+                "arm of free length, {direction}, stiffness {}, damping {}, at rest {}{}",
+                significant(slider.stiffness),
+                significant(slider.damping),
+                significant(slider.rest),
+                force.unwrap_or_default()
+            )
+        }
         JointKind::Bent { angle, axis } => {
             let about = axis.map(|axis| format!(" about {axis:?}"));
             format!("bent by {}{}", range(angle, angle_in_words), about.unwrap_or_default())

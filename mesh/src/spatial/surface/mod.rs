@@ -139,6 +139,12 @@ impl SmoothSurface {
         surface
     }
 
+    /// Whether it is a sphere.
+    #[must_use]
+    pub fn is_sphere(&self) -> bool {
+        matches!(self.form, Form::Sphere(_))
+    }
+
     /// A side of a given mesh.
     #[must_use]
     pub fn of_facets(facets: Arc<Facets>) -> Self {

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use super::Findings;
 use super::joints_in_space::{forms, place_of_child};
 use crate::joint::{PlanarPose, child_pose};
-use crate::{Geometry, Hinge, Joint, JointKind, Model, Motion, Stroke, TimeSettings};
+use crate::{Geometry, Hinge, Joint, JointKind, Model, Motion, Slider, Stroke, TimeSettings};
 
 /// Distance between a child and where its joint puts it, over the size of the joint, that is taken
 /// for rounding.
@@ -111,14 +111,18 @@ fn motion_of_child(findings: &mut Findings<'_>, key: &str, joint: &Joint, ends: 
 /// The child starts where the joint puts it.
 fn pose_of_child(findings: &mut Findings<'_>, key: &str, joint: &Joint, ends: Ends) {
     let [parent, found] = [ends.parent, ends.child].map(|body| start(findings.model(), body));
-    // A free pivot may start at any angle: that of the bodies
+    let [on_parent, on_child] = joint.ends_in_plane();
+    // What is free may start at any angle and length: those of the bodies
     let kind = match &joint.kind {
         JointKind::Hinge(hinge) => {
             JointKind::Hinge(Hinge { rest: found.angle - parent.angle, ..hinge.clone() })
         }
+        JointKind::Slider(slider) => {
+            let rest = slider.length_in_plane([parent, found], [on_parent, on_child]);
+            JointKind::Slider(Slider { rest, ..slider.clone() })
+        }
         kind => kind.clone(),
     };
-    let [on_parent, on_child] = joint.ends_in_plane();
     let wanted = child_pose(parent, on_parent, on_child, &kind, 0.0);
     let size = (wanted.center - parent.center).norm();
     let off = (wanted.center - found.center).norm();
@@ -179,7 +183,9 @@ fn find_loop(parents: &[Option<usize>]) -> Option<Vec<usize>> {
 fn along_the_axis(findings: &mut Findings<'_>) {
     for (index, joint) in findings.model().joints.iter().enumerate() {
         let is_along = match &joint.kind {
-            JointKind::Arm { direction, .. } => direction.sin().abs() < 1e-9,
+            JointKind::Arm { direction, .. } | JointKind::Slider(Slider { direction, .. }) => {
+                direction.sin().abs() < 1e-9
+            }
             JointKind::Bent { .. } | JointKind::Hinge(_) | JointKind::Ball(_) => false,
         };
         if !is_along || joint.ends_in_plane().iter().any(|end| end[1] != 0.0) {
@@ -201,6 +207,7 @@ fn stroke_of_joint(findings: &mut Findings<'_>, key: &str, kind: &JointKind) {
         }
         JointKind::Bent { angle, .. } => stroke(findings, &format!("{key}.kind.bent.angle"), angle),
         JointKind::Hinge(one) => hinge(findings, &format!("{key}.kind.hinge"), one),
+        JointKind::Slider(one) => slider(findings, &format!("{key}.kind.slider"), one),
         JointKind::Ball(ball) => {
             findings.not_negative(&format!("{key}.kind.ball.stiffness"), ball.stiffness);
             findings.not_negative(&format!("{key}.kind.ball.damping"), ball.damping);
@@ -217,7 +224,16 @@ pub(super) fn hinge(findings: &mut Findings<'_>, key: &str, hinge: &Hinge) {
     }
 }
 
-/// An arm has a positive length at all times.
+/// Numbers of an arm of free length.
+fn slider(findings: &mut Findings<'_>, key: &str, slider: &Slider) {
+    findings.not_negative(&format!("{key}.stiffness"), slider.stiffness);
+    findings.not_negative(&format!("{key}.damping"), slider.damping);
+    if let Some(force) = &slider.force {
+        stroke(findings, &format!("{key}.force"), force);
+    }
+}
+
+/// An arm of given length has a positive one at all times.
 pub(super) fn arm(findings: &mut Findings<'_>, key: &str, length: &Stroke) {
     let [least, _] = length.range();
     if least <= 0.0 {

@@ -2,7 +2,7 @@
 
 use super::Findings;
 use crate::speed::norm;
-use crate::{Geometry, Hinge, Joint, JointKind};
+use crate::{Geometry, Hinge, Joint, JointKind, Slider};
 
 /// Distance between a child and where its joint puts it, over the size of the joint, that is taken
 /// for rounding.
@@ -40,11 +40,13 @@ fn in_space(findings: &mut Findings<'_>, key: &str, kind: &JointKind) {
         }
     };
     match kind {
-        JointKind::Arm { along, direction: angle, .. } => {
-            direction("arm.along", *along, "an arm");
+        JointKind::Arm { along, direction: angle, .. }
+        | JointKind::Slider(Slider { along, direction: angle, .. }) => {
+            let name = if matches!(kind, JointKind::Slider(_)) { "slider" } else { "arm" };
+            direction(&format!("{name}.along"), *along, "an arm");
             if *angle != 0.0 {
                 findings.error(
-                    &format!("{key}.kind.arm.direction"),
+                    &format!("{key}.kind.{name}.direction"),
                     "`direction` is an angle in the plane".to_owned(),
                     "write along = [x, y, z], in the frame of the parent",
                 );
@@ -59,6 +61,9 @@ fn in_space(findings: &mut Findings<'_>, key: &str, kind: &JointKind) {
 fn in_plane(findings: &mut Findings<'_>, key: &str, kind: &JointKind) {
     let (name, help) = match kind {
         JointKind::Arm { along: Some(_), .. } => ("arm.along", "write direction = ... (rad)"),
+        JointKind::Slider(Slider { along: Some(_), .. }) => {
+            ("slider.along", "write direction = ... (rad)")
+        }
         JointKind::Bent { axis: Some(_), .. } => ("bent.axis", "leave it out: the axis is z"),
         JointKind::Hinge(Hinge { axis: Some(_), .. }) => {
             ("hinge.axis", "leave it out: the axis is z")
@@ -136,6 +141,8 @@ child = 'b'
             "kind.ball.stiffness = 1.0\non_parent = [0.0, 0.6, 0.8]\non_child = [0.0, -0.6, -0.8]",
             "kind.hinge = { axis = [0.0, 0.0, 1.0], torque.constant = 0.1 }\non_parent = [0.0, 1.2, 1.6]",
             "kind.bent = { angle.constant = 0.1, axis = [1.0, 0.0, 0.0] }\non_parent = [0.0, 1.2, 1.6]",
+            "kind.slider = { along = [0, 3, 4], stiffness = 1.0, rest = 3.0, force.constant = 0.1 }",
+            "kind.slider.along = [0.0, 0.0, -1.0]\non_parent = [0.0, 1.2, 0.3]",
         ] {
             assert_eq!(wrong(joint), [""; 0], "{joint}");
         }
@@ -149,6 +156,18 @@ child = 'b'
             (
                 "kind.bent = { angle.constant = 0.1 }\non_parent = [0.0, 1.2, 1.6]",
                 "joint.0.kind.bent.axis",
+            ),
+            ("kind.slider = {}", "joint.0.kind.slider.along"),
+            ("kind.slider = { along = [0, 3, 4], direction = 1 }", "joint.0.kind.slider.direction"),
+            ("kind.slider.along = [0.0, 0.0, 1.0]", "joint.0.child"),
+            ("kind.slider = { along = [0, 3, 4], damping = -1 }", "joint.0.kind.slider.damping"),
+            (
+                "kind.slider = { along = [0, 3, 4], stiffness = -1 }",
+                "joint.0.kind.slider.stiffness",
+            ),
+            (
+                "kind.slider = { along = [0, 3, 4], force.sine = { amplitude = 1.0, period = 0.0 } }",
+                "joint.0.kind.slider.force.sine.period",
             ),
             ("kind.ball = {}\non_parent = [1.2, 1.6]", "joint.0.on_parent"),
             ("kind.ball.damping = -1.0\non_parent = [0.0, 1.2, 1.6]", "joint.0.kind.ball.damping"),

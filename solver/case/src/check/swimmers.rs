@@ -10,8 +10,8 @@ use super::space::check_orientation;
 use crate::copies::product;
 use crate::speed::norm;
 use crate::{
-    Copies, FlowModel, Geometry, JointKind, Motion, Pivot, Scheme, Stroke, SwimmerKind,
-    SwimmerSpec, TimeSettings,
+    Copies, FlowModel, Geometry, Motion, Pivot, Scheme, Stroke, SwimmerKind, SwimmerSpec,
+    TimeSettings,
 };
 
 pub fn check(findings: &mut Findings<'_>) {
@@ -301,12 +301,7 @@ fn explicit_scheme(findings: &mut Findings<'_>) {
         return;
     }
     let model = findings.model();
-    let stiffness = |kind: &JointKind| match kind {
-        JointKind::Hinge(hinge) => hinge.stiffness,
-        JointKind::Ball(ball) => ball.stiffness,
-        JointKind::Arm { .. } | JointKind::Bent { .. } => 0.0,
-    };
-    let is_stiff = model.joints.iter().any(|joint| stiffness(&joint.kind) > 0.0);
+    let is_stiff = model.joints.iter().any(|joint| joint.kind.stiffness() > 0.0);
     let hinders = [
         (
             case.fluid.model != FlowModel::Stokes,
@@ -320,7 +315,7 @@ fn explicit_scheme(findings: &mut Findings<'_>) {
         ),
         (
             is_stiff,
-            "there are hinges with stiffness",
+            "there are joints with stiffness",
             "leave `scheme` out for `bdf2`, or write stiffness = 0.0",
         ),
     ];

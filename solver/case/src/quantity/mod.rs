@@ -5,7 +5,7 @@
 mod row;
 mod table;
 
-use super::{FlowModel, Geometry, JointKind, Model, TimeSettings};
+use super::{FlowModel, Geometry, Model, TimeSettings};
 
 use self::row::Circumstances;
 pub use self::row::{Quantity, When};
@@ -59,7 +59,7 @@ pub fn columns(model: &Model) -> Vec<Column> {
     }
     let joints = model.bodies.iter().enumerate().filter_map(|(index, child)| {
         let joint = model.joint_above(index)?;
-        Some((child, matches!(model.joints[joint].kind, JointKind::Arm { .. })))
+        Some((child, model.joints[joint].kind.is_arm()))
     });
     for (nth, (child, is_arm)) in joints.enumerate() {
         let source = |quantity| Source::Joint(nth, quantity);
@@ -91,8 +91,7 @@ fn has_separate_bodies(model: &Model, bodies: &[usize]) -> bool {
         let joint = model.joint_above(body).map(|joint| &model.joints[joint]);
         joint.is_some_and(|joint| {
             let parent = model.body_index(&joint.parent);
-            !matches!(joint.kind, JointKind::Arm { .. })
-                && parent.is_some_and(|parent| bodies.contains(&parent))
+            !joint.kind.is_arm() && parent.is_some_and(|parent| bodies.contains(&parent))
         })
     };
     let n_pivots = bodies.iter().filter(|body| is_on_pivot(**body)).count();

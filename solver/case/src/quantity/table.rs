@@ -109,13 +109,14 @@ quantities! {
     /// Quantities of a joint, named after its child: `CHILD.joint.angle` and so on.
     JointQuantity {
         Angle: "joint.angle", "rad", Pivot, "Angle of the child less that of the parent";
-        Length: "joint.length", "m", Arm, "Length of the arm";
+        Length: "joint.length", "m", Arm, "Length of the arm, from one joint to the other";
         Rate: "joint.rate", "rad/s or m/s", Always, "Rate of the angle or length";
         Torque: "joint.torque", "N m (N)", Pivot,
             "Torque of the joint on the child, the opposite on the parent: what a motor there \
              would need; at a hinge that of spring, damper and motor together";
         Force: "joint.force", "N (N/m)", Arm,
-            "Force of the arm on the child along it, the opposite on the parent";
+            "Force of the arm on the child along it, the opposite on the parent; of a `slider` that of spring, \
+             damper and motor together";
         Power: "joint.power", "W (W/m)", Always,
             "Work of the joint on both bodies: torque or force times rate";
     }

@@ -33,6 +33,10 @@ pub trait Gaps: Debug + Send + Sync {
     /// No point of a body is farther from its centre of mass (m).
     fn reach(&self, body: usize) -> f64;
 
+    /// Whether the surface of a body looks the same however it is turned about its centre of mass: contact
+    /// exerts no torque on it, and its turns change no gap.
+    fn is_round(&self, body: usize) -> bool;
+
     /// All close pairs of points with gaps below `range` (m); surfaces that overlap always have one
     /// with a gap of zero or less.
     fn pairs(&self, poses: &[Pose], range: f64) -> Vec<ContactPair>;

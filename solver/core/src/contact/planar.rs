@@ -88,6 +88,10 @@ impl ContactSurface<2> for PlanarSurface {
         self.outline.reach()
     }
 
+    fn is_round(&self) -> bool {
+        self.outline.circle_radius().is_some()
+    }
+
     fn thickness(&self) -> f64 {
         thickness(&self.outline)
     }

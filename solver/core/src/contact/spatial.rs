@@ -83,6 +83,10 @@ impl ContactSurface<3> for SpatialSurface {
         self.0.reach()
     }
 
+    fn is_round(&self) -> bool {
+        self.0.is_sphere()
+    }
+
     fn thickness(&self) -> f64 {
         self.0.thickness()
     }

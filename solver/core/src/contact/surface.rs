@@ -34,6 +34,9 @@ pub trait ContactSurface<const D: usize>: Debug + Clone + Send + Sync {
     /// Radius of that ball (m).
     fn reach(&self) -> f64;
 
+    /// Whether it is a circle or a sphere about the origin of its frame.
+    fn is_round(&self) -> bool;
+
     /// Width (m) of the body where it is thinnest.
     fn thickness(&self) -> f64;
 

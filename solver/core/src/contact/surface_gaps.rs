@@ -15,6 +15,9 @@ use crate::body::{Modes, Pose, in_space, on_mesh};
 /// Bodies up to which all gaps are looked at to find the smallest one.
 const FEW_BODIES: usize = 16;
 
+/// Distance of the centre of a round body from its centre of mass over its radius that is rounding.
+const ROUNDING: f64 = 1e-12;
+
 /// A body's surface in its own frame.
 #[derive(Debug, Clone)]
 pub(super) struct BodySolid<const D: usize, S> {
@@ -222,6 +225,11 @@ impl<const D: usize, S: ContactSurface<D>> Gaps for SurfaceGaps<D, S> {
 
     fn reach(&self, body: usize) -> f64 {
         self.bodies[body].reach
+    }
+
+    fn is_round(&self, body: usize) -> bool {
+        let BodySolid { surface, centroid, .. } = &self.bodies[body];
+        surface.is_round() && centroid.norm() <= ROUNDING * surface.reach()
     }
 
     /// Order: bodies, then images, then the points of the first surface; walls of a body last.

@@ -5,7 +5,8 @@
 
 use nalgebra::Vector3;
 
-use super::problem::{Joint, Pivot, Problem, Turn};
+use super::kinematics::Levers;
+use super::problem::{Joint, Length, Pivot, Problem, Turn};
 use super::shapes::BodyShapes;
 use crate::body::{Pose, RigidVector, Twist, Wrench};
 
@@ -69,8 +70,17 @@ pub fn joint_reports<const D: usize>(
 fn report(joint: &Joint, child: usize, load: &Wrench, now: &BodyStates<'_>) -> JointReport {
     let (time, parent) = (now.shapes.time(), joint.parent);
     if let Some(arm) = &joint.arm {
-        let [length, rate] = (arm.length)(time);
         let along = now.poses[parent].to_world(&arm.along);
+        let poses = [&now.poses[parent], &now.poses[child]];
+        let [length, rate] = match &arm.length {
+            Length::Given(length) => length(time),
+            Length::Free(_) => {
+                let levers = Levers::new(joint, poses, time);
+                let [on_parent, on_child] = [(parent, levers.parent), (child, levers.child)]
+                    .map(|(body, lever)| now.twists[body].velocity_at(&lever));
+                [joint.length_along(arm, poses), (on_child - on_parent).dot(&along)]
+            }
+        };
         let load = load.force.dot(&along);
         return JointReport { child, coordinate: length, rate, load, power: load * rate };
     }

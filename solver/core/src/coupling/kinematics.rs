@@ -2,8 +2,8 @@
 //!
 //! With a the lever from the centre of the parent to the joint and b that from the centre of the
 //! child, both in the world, U_child = U_parent + omega_parent x a + R da/dt - omega_child x b. The
-//! velocities of a tree are so made of those of its root and of its free pivots: reduced coordinates,
-//! in which Newton's and Euler's equations of all bodies are those of each body, tested with these
+//! velocities of a tree are so made of those of its root, of its free pivots and of its arms of free
+//! length: reduced coordinates, in which Newton's and Euler's equations of all bodies are those of each body, tested with these
 //! combinations (Kane's equations).
 
 use nalgebra::Vector3;
@@ -51,17 +51,17 @@ impl RigidRow {
 /// The rigid velocities of one body, by [`Mode`].
 pub(super) type RigidRows = [RigidRow; 6];
 
-/// Levers from the centres of parent and child to their joint, and the rate of the first one at rest, all
-/// in the world.
-struct Levers {
-    parent: Vector3<f64>,
-    child: Vector3<f64>,
+/// Levers from the centres of parent and child to their joint, and the given rate of the first one at
+/// rest, all in the world.
+pub(super) struct Levers {
+    pub parent: Vector3<f64>,
+    pub child: Vector3<f64>,
     rate: Vector3<f64>,
 }
 
 impl Levers {
-    fn new(joint: &Joint, parent: &Pose, child: &Pose, time: f64) -> Self {
-        let [lever, rate] = joint.lever_on_parent(time);
+    pub fn new(joint: &Joint, [parent, child]: [&Pose; 2], time: f64) -> Self {
+        let [lever, rate] = joint.lever_on_parent([parent, child], time);
         Self {
             parent: parent.to_world(&lever),
             child: child.to_world(&joint.on_child),
@@ -83,7 +83,7 @@ impl<const D: usize> Problem<D> {
     }
 
     /// Puts the bodies that hang on others where those want them at a time (s); rotations in free pivots
-    /// are those there are.
+    /// and lengths that are free are those there are.
     pub fn apply_joints(&self, poses: &mut [Pose], time: f64) {
         if !self.has_joints() {
             return;
@@ -103,7 +103,7 @@ impl<const D: usize> Problem<D> {
                 let turned = parent.turned(axis, angle);
                 poses[body].orientation = turned.composed(&joint.rest).orientation;
             }
-            let levers = Levers::new(joint, &parent, &poses[body], time);
+            let levers = Levers::new(joint, [&parent, &poses[body]], time);
             poses[body].center = parent.center + levers.parent - levers.child;
         }
     }
@@ -131,10 +131,13 @@ impl<const D: usize> Problem<D> {
                 }
                 Turn::Free(_) => {}
             }
-            let levers = Levers::new(joint, parent, &poses[body], time);
-            let translations: [RigidRow; D] = std::array::from_fn(|axis| {
+            let levers = Levers::new(joint, [parent, &poses[body]], time);
+            let mut translations: [RigidRow; D] = std::array::from_fn(|axis| {
                 joined_row([&rows[joint.parent], &rows[body]], &levers, modes, axis)
             });
+            if let Some((arm, _)) = joint.free_arm() {
+                slide_along(&parent.to_world(&arm.along), &mut translations, body);
+            }
             for (axis, row) in translations.into_iter().enumerate() {
                 rows[body][Mode::along(axis)] = row;
             }
@@ -152,6 +155,21 @@ fn turn_about(axis: &Vector3<f64>, rows: &mut [RigidRows], [parent, child]: [usi
     for mode in Modes::SPATIAL.rotations().filter(|mode| *mode != free) {
         let weight = axis[mode.axis()] / axis[longest];
         rows[child][mode] = rows[parent][mode].clone().plus(&rate, weight);
+    }
+}
+
+/// The velocity of a child that slides freely along an arm (in the world), from that without a rate of its
+/// length: the component along which the arm is longest is an unknown.
+fn slide_along<const D: usize>(arm: &Vector3<f64>, rows: &mut [RigidRow; D], child: usize) {
+    let longest = arm.iamax();
+    let free = RigidRow::independent(child, Mode::along(longest));
+    let rate = free.clone().plus(&rows[longest], -1.0);
+    for (axis, row) in rows.iter_mut().enumerate() {
+        *row = if axis == longest {
+            free.clone()
+        } else {
+            std::mem::take(row).plus(&rate, arm[axis] / arm[longest])
+        };
     }
 }
 

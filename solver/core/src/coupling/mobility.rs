@@ -6,7 +6,7 @@ use super::error::SolveError;
 use super::solution::Solution;
 use super::system::FluidSystem;
 use crate::algebra::{AffineConstraints, Term};
-use crate::body::RigidVector;
+use crate::body::{Mode, RigidVector};
 use crate::timing::Timing;
 
 /// A load on a body.
@@ -18,23 +18,39 @@ pub struct BodyLoad {
     pub load: RigidVector,
 }
 
+/// A body that loads may act on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct LoadedBody {
+    /// The body.
+    pub body: usize,
+    /// Whether there may be torques on it, or its turns make a difference.
+    pub turns: bool,
+}
+
 impl<const D: usize> FluidSystem<D> {
     /// Velocities (m/s, rad/s) of some bodies by unit loads in each of their rigid motions, with the
-    /// matrix last assembled: n m x n m for n bodies with m motions, zero for motions that are given.
+    /// matrix last assembled: n m x n m for n bodies with m motions, zero for motions that are given. Where
+    /// each unknown takes iterations it is zero, too, for turns of bodies that do not need them.
     ///
     /// # Errors
     /// When the matrix is singular.
     pub fn mobility(
         &mut self,
         constraints: &AffineConstraints,
-        bodies: &[usize],
+        bodies: &[LoadedBody],
         timing: &mut Timing,
     ) -> Result<DMatrix<f64>, SolveError> {
-        let n_modes = self.modes.len();
+        let modes = self.modes;
         let layout = self.layout;
-        let raw = bodies.iter().flat_map(|&body| (0..n_modes).map(move |mode| (body, mode)));
-        let rows: Vec<&[Term<u32>]> =
-            raw.map(|(body, mode)| constraints.row(layout.rigid(body, mode))).collect();
+        let counts_all = !self.is_iterative();
+        let row = |loaded: &LoadedBody, (position, mode): (usize, Mode)| -> &[Term<u32>] {
+            let counts = counts_all || loaded.turns || !mode.is_rotation();
+            if counts { constraints.row(layout.rigid(loaded.body, position)) } else { &[] }
+        };
+        let rows: Vec<&[Term<u32>]> = bodies
+            .iter()
+            .flat_map(|loaded| modes.iter().enumerate().map(move |mode| row(loaded, mode)))
+            .collect();
         let mut masters: Vec<usize> =
             rows.iter().flat_map(|row| row.iter().map(|term| term.unknown as usize)).collect();
         masters.sort_unstable();

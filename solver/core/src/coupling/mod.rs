@@ -18,6 +18,7 @@ mod problem;
 mod projection;
 mod propulsion;
 mod rigid_equations;
+mod rigid_unknowns;
 mod shapes;
 mod solution;
 mod solver_memory;
@@ -32,18 +33,18 @@ pub use joint_loads::{BodyStates, JointReport, joint_reports};
 pub use linear_system::{SolverChoice, memory_estimate};
 pub use loads::{BodyLoads, ResidualOnMesh, SurfaceLoads, surface_loads};
 pub use mean_flow::MeanFlowReport;
-pub use mobility::BodyLoad;
+pub use mobility::{BodyLoad, LoadedBody};
 pub use problem::{
-    Arm, Drive, Group, Joint, MeanFlow, MeanFlowAlong, MeanFlowAt, MovingValue, Pivot, Problem,
-    RateDiscontinuities, RigidBody, Side, Spring, TimeValue, Turn, VelocityProfile, angle_about,
-    second_moments,
+    Arm, Drive, Group, Joint, JointLaw, Length, MeanFlow, MeanFlowAlong, MeanFlowAt, MovingValue,
+    Pivot, Problem, RateDiscontinuities, RigidBody, Side, Spring, TimeValue, Turn, VelocityProfile,
+    angle_about, second_moments,
 };
 pub use projection::DivergenceFreeProjection;
 pub use propulsion::{
     LoadedBodies, MeanMotion, PropulsionPower, group_load, mean_motion, propulsion_power,
 };
 pub use rigid_equations::{
-    OlderMotion, PivotLoad, PosesByVelocity, RigidBodyEquation, RigidBodyEquations,
+    JointLoad, OlderMotion, PosesByVelocity, RigidBodyEquation, RigidBodyEquations,
 };
 pub use shapes::{BodyShapes, MovingSurface, ShapeError};
 pub use solution::Solution;

@@ -5,9 +5,10 @@
 
 use nalgebra::{Matrix6, Vector3};
 
-use super::problem::{Problem, RigidBody, Turn};
+use super::kinematics::Levers;
+use super::problem::{Joint, JointLaw, Problem, RigidBody, Turn};
 use super::shapes::BodyShapes;
-use crate::body::{Inertia, Mode, Modes, Pose, RigidVector, Twist, carried_velocity};
+use crate::body::{Inertia, Modes, Pose, RigidVector, Twist, Wrench, carried_velocity};
 
 /// The equations of all bodies.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -16,8 +17,8 @@ pub struct RigidBodyEquations {
     pub rate: f64,
     /// One for each body.
     pub bodies: Vec<RigidBodyEquation>,
-    /// Loads in free pivots.
-    pub pivots: Vec<PivotLoad>,
+    /// Loads in free pivots and along arms of free length.
+    pub joints: Vec<JointLoad>,
 }
 
 /// The equations of one body.
@@ -33,18 +34,38 @@ pub struct RigidBodyEquation {
     pub external: RigidVector,
 }
 
-/// Torque torque - resistance (omega_child - omega_parent) on a child in its pivot, the opposite on
-/// its parent.
+/// Load - resistance rate along a coordinate of a joint. The rate is on_child . V_child + on_parent .
+/// V_parent with the rigid velocities V, so that the loads on the bodies are those vectors times it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PivotLoad {
+pub struct JointLoad {
     /// The body that hangs.
     pub child: usize,
     /// The body it hangs on.
     pub parent: usize,
-    /// Torque per angular velocity (N m s).
+    /// Rate of the coordinate by velocities of the child.
+    pub on_child: RigidVector,
+    /// Rate of the coordinate by velocities of the parent.
+    pub on_parent: RigidVector,
+    /// Load per rate (N m s/rad, N s/m).
     pub resistance: f64,
-    /// Torque without the turning of this step (N m).
-    pub torque: Vector3<f64>,
+    /// Load without the motion of this step (N m, N).
+    pub load: f64,
+}
+
+impl JointLoad {
+    /// The rate of the coordinate at rigid velocities.
+    fn rate(&self, twists: &[Twist]) -> f64 {
+        let [child, parent] = [self.child, self.parent].map(|body| twists[body].to_vector());
+        self.on_child.dot(&child) + self.on_parent.dot(&parent)
+    }
+}
+
+/// A joint with the child that hangs by it, at a time (s).
+#[derive(Clone, Copy)]
+struct JointAt<'a> {
+    joint: &'a Joint,
+    child: usize,
+    time: f64,
 }
 
 /// Where bodies get to: `expected` plus `coefficient` (s) times what their velocities differ by from
@@ -145,19 +166,9 @@ impl RigidBodyEquations {
         let PosesByVelocity { expected, coefficient, .. } = reached;
         for (child, rigid) in problem.bodies.iter().enumerate() {
             let Some(joint) = &rigid.joint else { continue };
-            let Turn::Free(pivot) = &joint.turn else { continue };
-            let at_rest = expected[joint.parent].composed(&joint.rest);
-            let turned = reached.way_from(child, &at_rest) + reached.led_by_velocity(joint.parent);
-            let motor = pivot.motor.as_ref().map_or(0.0, |motor| motor(time));
-            let axis = pivot.axis.map(|axis| expected[joint.parent].to_world(&axis));
-            let about_axis = |value: f64| axis.map_or_else(Vector3::zeros, |axis| axis * value);
-            let bend = turned.fixed_rows::<3>(3) - about_axis(pivot.rest);
-            self.pivots.push(PivotLoad {
-                child,
-                parent: joint.parent,
-                resistance: pivot.damping + pivot.stiffness * coefficient,
-                torque: about_axis(motor) - bend * pivot.stiffness,
-            });
+            let at = JointAt { joint, child, time };
+            self.add_pivot(at, reached);
+            self.add_free_arm(at, reached);
         }
         for (body, (equation, rigid)) in self.bodies.iter_mut().zip(&problem.bodies).enumerate() {
             equation.external = rigid.external(time, &expected[body]);
@@ -168,7 +179,59 @@ impl RigidBodyEquations {
         }
     }
 
-    /// Adds what bodies and pivots lack to balance the loads of the fluid at rigid velocities to the
+    /// Adds the torque of a free pivot: about its axis, or about all.
+    fn add_pivot(&mut self, at: JointAt<'_>, reached: PosesByVelocity<'_>) {
+        let (joint, expected) = (at.joint, &reached.expected[at.joint.parent]);
+        let Turn::Free(pivot) = &joint.turn else { return };
+        let at_rest = expected.composed(&joint.rest);
+        let turned = reached.way_from(at.child, &at_rest) + reached.led_by_velocity(joint.parent);
+        let axes = match &pivot.axis {
+            Some(axis) => vec![expected.to_world(axis)],
+            None => vec![Vector3::x(), Vector3::y(), Vector3::z()],
+        };
+        for axis in axes {
+            let about = Wrench { force: Vector3::zeros(), torque: axis }.to_vector();
+            let numbers = [turned.dot(&about), reached.coefficient];
+            self.add_joint(at, [about, -about], &pivot.law, numbers);
+        }
+    }
+
+    /// Adds the force along an arm of free length, at its end.
+    fn add_free_arm(&mut self, at: JointAt<'_>, reached: PosesByVelocity<'_>) {
+        let (joint, child) = (at.joint, at.child);
+        let Some((arm, law)) = joint.free_arm() else { return };
+        let poses = [&reached.expected[joint.parent], &reached.expected[child]];
+        let levers = Levers::new(joint, poses, at.time);
+        let along = poses[0].to_world(&arm.along);
+        let pull =
+            |lever: &Vector3<f64>| Wrench { force: along, torque: lever.cross(&along) }.to_vector();
+        let (on_child, on_parent) = (pull(&levers.child), -pull(&levers.parent));
+        let led = on_child.dot(&reached.led_by_velocity(child))
+            + on_parent.dot(&reached.led_by_velocity(joint.parent));
+        let numbers = [joint.length_along(arm, poses) - led, reached.coefficient];
+        self.add_joint(at, [on_child, on_parent], law, numbers);
+    }
+
+    /// Adds a coordinate of a joint by its value without the motion of this step, with the loads on child
+    /// and parent that a unit load along it is.
+    fn add_joint(
+        &mut self,
+        at: JointAt<'_>,
+        [on_child, on_parent]: [RigidVector; 2],
+        law: &JointLaw,
+        [coordinate, coefficient]: [f64; 2],
+    ) {
+        self.joints.push(JointLoad {
+            child: at.child,
+            parent: at.joint.parent,
+            on_child,
+            on_parent,
+            resistance: law.damping + law.stiffness * coefficient,
+            load: law.motor_load(at.time) - law.stiffness * (coordinate - law.rest),
+        });
+    }
+
+    /// Adds what bodies and joints lack to balance the loads of the fluid at rigid velocities to the
     /// rows of a raw residual, `row(body, mode)` its index.
     pub(super) fn add_residual(
         &self,
@@ -186,18 +249,12 @@ impl RigidBodyEquations {
                     - equation.external[mode];
             }
         }
-        for pivot in &self.pivots {
-            let relative = twists[pivot.child].angular - twists[pivot.parent].angular;
-            let torque = pivot.torque - relative * pivot.resistance;
-            for (position, mode) in rotations(modes) {
-                raw[row(pivot.child, position)] -= torque[mode.axis()];
-                raw[row(pivot.parent, position)] += torque[mode.axis()];
+        for joint in &self.joints {
+            let load = joint.load - joint.resistance * joint.rate(twists);
+            for (position, mode) in modes.iter().enumerate() {
+                raw[row(joint.child, position)] -= load * joint.on_child[mode];
+                raw[row(joint.parent, position)] -= load * joint.on_parent[mode];
             }
         }
     }
-}
-
-/// The rotations among some motions, with their positions among them.
-pub(super) fn rotations(modes: Modes) -> impl Iterator<Item = (usize, Mode)> {
-    modes.iter().enumerate().filter(|(_, mode)| mode.is_rotation())
 }

@@ -17,11 +17,12 @@ use super::nullspace::TranslationNullspace;
 use super::preconditioning::{Coefficients, Discretised, saddle_point};
 use super::pressure_mean::PressureMean;
 use super::problem::{MeanFlowAt, Problem};
-use super::rigid_equations::{RigidBodyEquations, rotations};
+use super::rigid_equations::RigidBodyEquations;
+use super::rigid_unknowns::{Numbering, free_velocities};
 use super::shapes::BodyShapes;
 use super::solution::Solution;
 use super::surface_load::SurfaceStress;
-use crate::algebra::{Accuracy, AffineConstraints, SparseMatrix, Term, Unknowns};
+use crate::algebra::{Accuracy, AffineConstraints, SparseMatrix, Unknowns};
 use crate::body::{Modes, Pose};
 use crate::flow::{Assembly, Convection, FlowTerms, assemble, residual};
 use crate::space::{DofLayout, FacetRule, Tables};
@@ -52,8 +53,9 @@ pub struct FluidSystem<const D: usize> {
     pub n_unknowns: usize,
     pub(super) modes: Modes,
     facet_rule: FacetRule<D>,
-    assembly: Assembly<D>,
+    pub(super) assembly: Assembly<D>,
     pub(super) linear: LinearSystem,
+    pub(super) numbering: Numbering,
     pressure: PressureMean,
     /// The common velocity of fluid and bodies, where nothing holds them.
     pub(super) nullspace: Option<TranslationNullspace<D>>,
@@ -101,9 +103,11 @@ impl<const D: usize> FluidSystem<D> {
         let cell = driven.map(|_| CellIntegrals::new(problem, mesh, assembly.tables()));
         let saddle_point = saddle_point(&layout, &constraints, modes);
         let linear = LinearSystem::new(&assembly, &constraints, saddle_point, choice);
+        let is_free = free_velocities(&layout, problem.bodies.len(), modes, &constraints);
         Self {
             layout,
             boundaries,
+            numbering: Numbering { choice, frame, is_free },
             n_unknowns: constraints.n_unknowns(),
             modes,
             facet_rule: FacetRule::new(problem.metric),
@@ -340,33 +344,6 @@ impl<const D: usize> FluidSystem<D> {
             nullspace.subtract(&(self.mean_velocity(&solution) - mean), &mut solution);
         }
         solution
-    }
-
-    /// Adds what Newton's and Euler's equations have of the matrix.
-    fn add_rigid_matrix(&mut self, at: &Configuration<'_, D>) {
-        let layout = self.layout;
-        let row = |body: usize, position: usize| at.constraints.row(layout.rigid(body, position));
-        let modes = self.modes;
-        for (body, equation) in at.bodies.bodies.iter().enumerate() {
-            for (i, one) in modes.iter().enumerate() {
-                for (j, other) in modes.iter().enumerate() {
-                    let mut factor =
-                        equation.inertia[(one.index(), other.index())] * at.bodies.rate;
-                    if i == j {
-                        factor += equation.resistance[one];
-                    }
-                    self.linear.add_product(row(body, i), row(body, j), factor);
-                }
-            }
-        }
-        for pivot in &at.bodies.pivots {
-            for (position, _) in rotations(modes) {
-                let [child, parent] = [pivot.child, pivot.parent].map(|body| row(body, position));
-                let opposite = parent.iter().map(|term| Term { weight: -term.weight, ..*term });
-                let turn: Vec<Term<u32>> = child.iter().copied().chain(opposite).collect();
-                self.linear.add_product(&turn, &turn, pivot.resistance);
-            }
-        }
     }
 
     /// The solution with all free unknowns zero.

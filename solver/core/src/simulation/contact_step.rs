@@ -12,7 +12,7 @@ use super::workspace::Workspace;
 use super::{RunError, Stage};
 use crate::body::{Pose, Twist};
 use crate::contact::{ContactLoads, ContactSolution, ContactStep, Gaps, Law};
-use crate::coupling::{BodyLoad, SolveError};
+use crate::coupling::{BodyLoad, LoadedBody, SolveError};
 
 /// Contact is looked for where bodies may get to with this times their displacement.
 const CONTACT_MARGIN: f64 = 2.0;
@@ -45,7 +45,8 @@ impl<const D: usize> PassContact<'_, D> {
         let step = &self.equations.history.step;
         let fail = |error: SolveError| RunError::from_solve(error, step.number, step.time);
         let constraints = &self.equations.pass.constraints;
-        let mobility = system.mobility(constraints, &candidates, timing).map_err(fail)?;
+        let loaded = loaded_bodies(gaps, &candidates);
+        let mobility = system.mobility(constraints, &loaded, timing).map_err(fail)?;
         let loads = self.solve(gaps, law, &candidates, &flow.solution.twists, &mobility)?.loads;
         add_to_flow(work, self.equations, &loads, &candidates, flow)?;
         Ok(loads)
@@ -97,6 +98,12 @@ impl<const D: usize> PassContact<'_, D> {
         };
         Ok(step.solve()?)
     }
+}
+
+/// Bodies that may be in contact, as the mobility is asked for them: contact does not turn those that are round.
+pub(super) fn loaded_bodies(gaps: &dyn Gaps, bodies: &[usize]) -> Vec<LoadedBody> {
+    let loaded = |&body: &usize| LoadedBody { body, turns: !gaps.is_round(body) };
+    bodies.iter().map(loaded).collect()
 }
 
 /// Adds what loads of contact on some bodies change in a flow found without them, and its residual.

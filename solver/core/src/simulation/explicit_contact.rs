@@ -8,7 +8,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::RunError;
-use super::contact_step::add_to_flow;
+use super::contact_step::{add_to_flow, loaded_bodies};
 use super::error::StepError;
 use super::newton::Flow;
 use super::pass::PassEquations;
@@ -25,6 +25,7 @@ const LARGEST_DECAY: f64 = 1.0;
 /// What contact does at the poses of a stage.
 pub(super) struct StageContact<'a> {
     law: &'a Law,
+    gaps: &'a dyn Gaps,
     /// Pairs within the range.
     pairs: Vec<ContactPair>,
     /// Their loads.
@@ -38,7 +39,7 @@ impl<'a> StageContact<'a> {
     /// When bodies overlap there.
     pub fn new(
         law: Option<&'a Law>,
-        gaps: Option<&dyn Gaps>,
+        gaps: Option<&'a dyn Gaps>,
         seen: &[Pose],
     ) -> Result<Option<Self>, StepError> {
         let (Some(law), Some(gaps)) = (law, gaps) else { return Ok(None) };
@@ -50,7 +51,7 @@ impl<'a> StageContact<'a> {
                 gap: touching.gap,
             }));
         }
-        Ok(Some(Self { law, pairs, loads: ContactLoads::new(gaps, law, seen) }))
+        Ok(Some(Self { law, gaps, pairs, loads: ContactLoads::new(gaps, law, seen) }))
     }
 
     /// Adds contact to a flow found without it, as long as it is not stiff in a step of a size (s).
@@ -73,7 +74,9 @@ impl<'a> StageContact<'a> {
         let step = &equations.history.step;
         let fail = |error: SolveError| RunError::from_solve(error, step.number, step.time);
         let constraints = &equations.pass.constraints;
-        let mobility = system.mobility(constraints, &bodies, timing).map_err(fail)?;
+        let mobility = system
+            .mobility(constraints, &loaded_bodies(self.gaps, &bodies), timing)
+            .map_err(fail)?;
         let rate = self.fastest_decay(&bodies, stepper, &mobility);
         if rate * size > LARGEST_DECAY {
             return Err(StepError::StiffContact { size, time_scale: 1.0 / rate });

@@ -52,6 +52,8 @@ impl<const D: usize> Pass<D> {
         }
         let in_mesh = state.in_mesh(&poses);
         let bodies = BodiesAt { poses: &in_mesh, shapes: history.boundary_shapes() };
+        let constraints = work.system.constraints(problem, &work.mesh, bodies);
+        work.system.fit_to(problem, &work.mesh, &constraints);
         let mesh_velocity = if stepper.path.is_fixed() || !problem.has_inertia {
             Vec::new()
         } else {
@@ -64,7 +66,7 @@ impl<const D: usize> Pass<D> {
                 .collect()
         };
         Self {
-            constraints: work.system.constraints(problem, &work.mesh, bodies),
+            constraints,
             bodies: history.body_equations(problem, &poses),
             mean_flow: problem.mean_flow_at(history.boundary_shapes().time()),
             poses,

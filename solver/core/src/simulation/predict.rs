@@ -58,24 +58,35 @@ pub(super) fn integrate_poses<const D: usize>(
     step: &Step,
     twists: &[Twist],
 ) -> Vec<Pose> {
+    let mut poses = integrated_apart(stepper, state, step, twists);
+    stepper.problem.apply_joints(&mut poses, step.time);
+    poses
+}
+
+/// The same of each body by itself, whatever it hangs on.
+fn integrated_apart<const D: usize>(
+    stepper: &TimeStepper<'_, D>,
+    state: &State<D>,
+    step: &Step,
+    twists: &[Twist],
+) -> Vec<Pose> {
     let levels = state.poses.iter().zip(&state.previous_poses);
     let advanced = levels.zip(twists).enumerate().map(|(body, ((now, before), twist))| {
         let last = now.displacement_from(before);
         let increment = step.bdf.increment(twist.to_vector(), last);
         now.displaced(&stepper.restricted(body, &increment))
     });
-    let mut poses: Vec<Pose> = advanced.collect();
-    stepper.problem.apply_joints(&mut poses, step.time);
-    poses
+    advanced.collect()
 }
 
-/// Poses at the new time of bodies without velocity there.
+/// Poses at the new time of bodies without velocity there, whatever they hang on: the velocities of bodies
+/// on joints have what the joints give of them, and lead from here to where they are.
 pub(super) fn unmoved_poses<const D: usize>(
     stepper: &TimeStepper<'_, D>,
     state: &State<D>,
     step: &Step,
 ) -> Vec<Pose> {
-    integrate_poses(stepper, state, step, &vec![Twist::default(); state.poses.len()])
+    integrated_apart(stepper, state, step, &vec![Twist::default(); state.poses.len()])
 }
 
 /// As far on the way between poses as leaves some of the smallest gap: predictions know

@@ -1,4 +1,4 @@
-//! `Joint`: how a body hangs on another one: a bent or free pivot, or an arm of given length.
+//! `Joint`: how a body hangs on another one: a bent or free pivot, or an arm of given or free length.
 
 use std::f64::consts::PI;
 
@@ -24,12 +24,20 @@ pub struct Joint {
     pub rest: UnitQuaternion<f64>,
 }
 
-/// A bar of given length that turns with the parent.
+/// A bar that turns with the parent.
 pub struct Arm {
     /// Its direction in the frame of the parent.
     pub along: UnitVector3<f64>,
-    /// Its length (m, m/s).
-    pub length: MovingValue,
+    /// Its length.
+    pub length: Length,
+}
+
+/// The length of an arm.
+pub enum Length {
+    /// Given in time (m, m/s).
+    Given(MovingValue),
+    /// Free, with a force on the child along the arm; the opposite on the parent.
+    Free(JointLaw),
 }
 
 /// The rotation of a child relative to its parent.
@@ -45,28 +53,69 @@ pub enum Turn {
     Free(Pivot),
 }
 
-/// Torque on the child: -stiffness (rotation - rest) - damping rate + motor; the opposite on the
-/// parent.
+/// A pivot with a torque on the child; the opposite on the parent.
 pub struct Pivot {
     /// The axis of the angle at rest and of the motor, in the frame of the parent; `None` of a ball joint,
     /// which turns about all.
     pub axis: Option<UnitVector3<f64>>,
-    /// Torque per angle (N m).
+    /// The torque.
+    pub law: JointLaw,
+}
+
+/// Load in a joint that is free: -stiffness (coordinate - rest) - damping rate + motor, a torque by an
+/// angle or a force by a length.
+pub struct JointLaw {
+    /// Load per coordinate (N m/rad, N/m).
     pub stiffness: f64,
-    /// Torque per angular velocity (N m s).
+    /// Load per rate (N m s/rad, N s/m).
     pub damping: f64,
-    /// Angle at rest (rad).
+    /// Coordinate at rest (rad, m).
     pub rest: f64,
-    /// Torque of a motor (N m).
+    /// Load of a motor (N m, N).
     pub motor: Option<TimeValue>,
 }
 
+impl JointLaw {
+    /// Load of the motor at a time (s).
+    pub(in crate::coupling) fn motor_load(&self, time: f64) -> f64 {
+        self.motor.as_ref().map_or(0.0, |motor| motor(time))
+    }
+}
+
 impl Joint {
+    /// The arm of free length, and its law.
+    pub(in crate::coupling) fn free_arm(&self) -> Option<(&Arm, &JointLaw)> {
+        let arm = self.arm.as_ref()?;
+        match &arm.length {
+            Length::Free(law) => Some((arm, law)),
+            Length::Given(_) => None,
+        }
+    }
+
+    /// Whether the child has a motion of its own: in a free pivot, or along an arm of free length.
+    #[must_use]
+    pub fn is_free(&self) -> bool {
+        matches!(self.turn, Turn::Free(_)) || self.free_arm().is_some()
+    }
+
+    /// How far the joint of the child is from that of the parent along the arm (m).
+    pub(in crate::coupling) fn length_along(&self, arm: &Arm, [parent, child]: [&Pose; 2]) -> f64 {
+        let end = child.center + child.to_world(&self.on_child) - parent.center;
+        (parent.to_body(&end) - self.on_parent).dot(&arm.along)
+    }
+
     /// Where the joint of the child is in the frame of the parent, from its centre of mass, and the rate
-    /// of that (m, m/s).
-    pub(in crate::coupling) fn lever_on_parent(&self, time: f64) -> [Vector3<f64>; 2] {
+    /// of that by what is given (m, m/s); along an arm of free length it is where the child is.
+    pub(in crate::coupling) fn lever_on_parent(
+        &self,
+        poses: [&Pose; 2],
+        time: f64,
+    ) -> [Vector3<f64>; 2] {
         let Some(arm) = &self.arm else { return [self.on_parent, Vector3::zeros()] };
-        let [length, rate] = (arm.length)(time);
+        let [length, rate] = match &arm.length {
+            Length::Given(length) => length(time),
+            Length::Free(_) => [self.length_along(arm, poses), 0.0],
+        };
         [self.on_parent + arm.along.scale(length), arm.along.scale(rate)]
     }
 

@@ -3,8 +3,10 @@
 use nalgebra::{UnitQuaternion, UnitVector3, Vector3};
 
 use crate::body::Mode;
-use crate::case::{Ball, Geometry, Hinge, Joint as JointSpec, JointKind, Model};
-use crate::coupling::{Arm, Drive, Joint, Pivot, RigidBody, TimeValue, Turn, angle_about};
+use crate::case::{Ball, Geometry, Hinge, Joint as JointSpec, JointKind, Model, Slider, Stroke};
+use crate::coupling::{
+    Arm, Drive, Joint, JointLaw, Length, Pivot, RigidBody, TimeValue, Turn, angle_about,
+};
 use crate::simulation::RunError;
 
 /// Hangs a child on its parent.
@@ -33,7 +35,15 @@ pub(super) fn add_joint(
     let turn = match joint.kind.clone() {
         JointKind::Arm { length, direction, along } => {
             let along = along.map_or_else(|| in_plane(direction), direction_of);
-            arm = Some(Arm { along, length: Box::new(move |time| length.at(time)) });
+            let length = Length::Given(Box::new(move |time| length.at(time)));
+            arm = Some(Arm { along, length });
+            Turn::Given { axis: z, angle: Box::new(move |_| [bend, 0.0]) }
+        }
+        JointKind::Slider(slider) => {
+            let Slider { stiffness, damping, rest, force, direction, along } = slider;
+            let along = along.map_or_else(|| in_plane(direction), direction_of);
+            let law = JointLaw { stiffness, damping, rest, motor: force.map(value_of) };
+            arm = Some(Arm { along, length: Length::Free(law) });
             Turn::Given { axis: z, angle: Box::new(move |_| [bend, 0.0]) }
         }
         JointKind::Bent { angle, axis } => {
@@ -44,28 +54,35 @@ pub(super) fn add_joint(
             Turn::Given { axis, angle: Box::new(move |time| angle.at(time)) }
         }
         JointKind::Ball(Ball { stiffness, damping }) => {
-            Turn::Free(Pivot { axis: None, stiffness, damping, rest: 0.0, motor: None })
+            let law = JointLaw { stiffness, damping, rest: 0.0, motor: None };
+            Turn::Free(Pivot { axis: None, law })
         }
         JointKind::Hinge(hinge) => {
-            let motor = hinge
-                .torque
-                .map(|torque| -> TimeValue { Box::new(move |time| torque.at(time)[0]) });
-            let Hinge { stiffness, damping, rest: angle, .. } = hinge;
+            let Hinge { stiffness, damping, rest: angle, torque, .. } = hinge;
             let axis = hinge.axis.map_or(z, direction_of);
             if is_spatial {
                 rest = UnitQuaternion::from_axis_angle(&axis, -angle_about(&axis, &rest)) * rest;
             }
-            Turn::Free(Pivot { axis: Some(axis), stiffness, damping, rest: angle, motor })
+            let motor = torque.map(value_of);
+            let law = JointLaw { stiffness, damping, rest: angle, motor };
+            Turn::Free(Pivot { axis: Some(axis), law })
         }
     };
     let body = &mut bodies[child];
+    link(body, &turn, model.case.geometry);
+    body.joint = Some(Joint { parent, on_parent, arm, on_child, turn, rest });
+    Ok(())
+}
+
+/// Has the velocities of a child follow from its parent, but for those a free pivot leaves to it.
+fn link(body: &mut RigidBody, turn: &Turn, geometry: Geometry) {
     // What of a rotation about one axis in space is independent changes with its direction
-    let is_free = match &turn {
-        Turn::Free(pivot) => pivot.axis.is_none() || !is_spatial,
+    let is_free = match turn {
+        Turn::Free(pivot) => pivot.axis.is_none() || geometry != Geometry::Spatial,
         Turn::Given { .. } => false,
     };
     let turned = || if is_free { Drive::Free } else { Drive::Linked };
-    let linked: &[Mode] = match model.case.geometry {
+    let linked: &[Mode] = match geometry {
         Geometry::Axisymmetric => &[Mode::X],
         Geometry::Planar => &[Mode::X, Mode::Y, Mode::AboutZ],
         Geometry::Spatial => &Mode::ALL,
@@ -73,8 +90,6 @@ pub(super) fn add_joint(
     for &mode in linked {
         body.drives[mode] = if mode.is_rotation() { turned() } else { Drive::Linked };
     }
-    body.joint = Some(Joint { parent, on_parent, arm, on_child, turn, rest });
-    Ok(())
 }
 
 /// Centre of mass of a body in its frame (m).
@@ -86,6 +101,11 @@ fn centroid(model: &Model, bodies: &[RigidBody], body: usize) -> Vector3<f64> {
     let moments = model.bodies[body].shape.outline().moments();
     let centroid = moments.map(|moments| moments.centroid).unwrap_or_default();
     Vector3::new(centroid.x, centroid.y, 0.0)
+}
+
+/// The values of a stroke.
+fn value_of(stroke: Stroke) -> TimeValue {
+    Box::new(move |time| stroke.at(time)[0])
 }
 
 /// The direction at an angle in the plane (rad), along an axis to the last bit.

@@ -7,7 +7,7 @@ mod trial;
 
 use super::advance::Simulation;
 use super::error::{RunError, StepError};
-use crate::coupling::{Drive, Joint, RigidBody, Turn};
+use crate::coupling::{Drive, Joint, RigidBody};
 
 /// Part of a step by which a discontinuity may be off and still be at its end.
 const NEAR: f64 = 1e-7;
@@ -29,9 +29,8 @@ fn step_size_underflow<const D: usize>(
         format!("; nearest are `{}` and `{}`, {:.3e} apart", names[0], names[1], minimum.gap)
     });
     let is_free = |body: &RigidBody| {
-        let hangs_free = |joint: &Joint| matches!(joint.turn, Turn::Free(_));
         body.drives.iter().any(|drive| matches!(drive, Drive::Free))
-            || body.joint.as_ref().is_some_and(hangs_free)
+            || body.joint.as_ref().is_some_and(Joint::is_free)
     };
     let gives_way = problem.bodies.iter().any(is_free);
     let hint = match (&nearest, &simulation.law) {

@@ -1,0 +1,92 @@
+//! Rigid velocities in the linear system: their equations, and which of them are unknowns.
+
+use alewife_mesh::Mesh;
+
+use super::linear_system::{LinearSystem, SolverChoice};
+use super::preconditioning::saddle_point;
+use super::problem::Problem;
+use super::system::{Configuration, FluidSystem};
+use crate::algebra::{AffineConstraints, Term};
+use crate::body::Modes;
+use crate::flow::Assembly;
+use crate::space::DofLayout;
+
+/// What the numbering of a linear system was made for.
+#[derive(Debug, Clone)]
+pub(super) struct Numbering {
+    /// The solver that was asked for.
+    pub choice: SolverChoice,
+    /// The body whose velocity is an unknown of the convection, if any.
+    pub frame: Option<usize>,
+    /// Whether each rigid velocity is an unknown itself.
+    pub is_free: Vec<bool>,
+}
+
+/// Whether each rigid velocity is an unknown itself, body by body.
+pub(super) fn free_velocities<const D: usize>(
+    layout: &DofLayout<D>,
+    n_bodies: usize,
+    modes: Modes,
+    constraints: &AffineConstraints,
+) -> Vec<bool> {
+    let raw = (0..n_bodies).flat_map(|body| (0..modes.len()).map(move |mode| (body, mode)));
+    raw.map(|(body, mode)| constraints.unknown(layout.rigid(body, mode)).is_some()).collect()
+}
+
+impl<const D: usize> FluidSystem<D> {
+    /// Makes the system one for these constraints: where joints have turned so that other velocities of
+    /// bodies on them are the unknowns, cells and matrix are numbered anew.
+    pub fn fit_to(
+        &mut self,
+        problem: &Problem<D>,
+        mesh: &Mesh<D>,
+        constraints: &AffineConstraints,
+    ) {
+        if !problem.has_joints() {
+            return;
+        }
+        let n_bodies = problem.bodies.len();
+        let is_free = free_velocities(&self.layout, n_bodies, self.modes, constraints);
+        if is_free == self.numbering.is_free {
+            return;
+        }
+        let sides = problem.do_nothing_sides();
+        let (layout, frame) = (self.layout, self.numbering.frame);
+        self.assembly = Assembly::new(mesh, layout, constraints, problem.metric, &sides, frame);
+        let saddle_point = saddle_point(&layout, constraints, self.modes);
+        let choice = self.numbering.choice;
+        self.linear = LinearSystem::new(&self.assembly, constraints, saddle_point, choice);
+        self.n_unknowns = constraints.n_unknowns();
+        self.numbering.is_free = is_free;
+    }
+
+    /// Adds what Newton's and Euler's equations have of the matrix.
+    pub(super) fn add_rigid_matrix(&mut self, at: &Configuration<'_, D>) {
+        let layout = self.layout;
+        let row = |body: usize, position: usize| at.constraints.row(layout.rigid(body, position));
+        let modes = self.modes;
+        for (body, equation) in at.bodies.bodies.iter().enumerate() {
+            for (i, one) in modes.iter().enumerate() {
+                for (j, other) in modes.iter().enumerate() {
+                    let mut factor =
+                        equation.inertia[(one.index(), other.index())] * at.bodies.rate;
+                    if i == j {
+                        factor += equation.resistance[one];
+                    }
+                    self.linear.add_product(row(body, i), row(body, j), factor);
+                }
+            }
+        }
+        for joint in &at.bodies.joints {
+            let mut rate: Vec<Term<u32>> = Vec::new();
+            for (body, share) in [(joint.child, joint.on_child), (joint.parent, joint.on_parent)] {
+                for (position, mode) in modes.iter().enumerate() {
+                    let scaled =
+                        |term: &Term<u32>| Term { weight: share[mode] * term.weight, ..*term };
+                    rate.extend(row(body, position).iter().map(scaled));
+                }
+            }
+            self.linear.add_product(&rate, &rate, joint.resistance);
+        }
+    }
+}
