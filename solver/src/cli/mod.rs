@@ -10,6 +10,7 @@ mod library;
 mod mesh;
 mod panic;
 mod read;
+mod results;
 mod run;
 mod signal;
 mod status;

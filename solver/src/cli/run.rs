@@ -9,17 +9,18 @@ use super::continuation::{Beginning, beginning, n_requeued};
 use super::engine::{Resumed, RunInto};
 use super::exit::{Exit, Failure};
 use super::read::{Settings, read_case};
+use super::results::{print_comparisons, tell_cell_numbers, tell_last_values};
 use super::signal::SignalWatch;
-use super::style::{Ink, complain, on_stdout, say};
+use super::style::{complain, say};
 use super::wall_limit::WallLimit;
 use super::{engine, threads};
-use crate::case::{Case, CaseFile, Model, TimeSettings, significant};
+use crate::case::{Case, CaseFile, TimeSettings};
 use crate::observer::{
     COMPARISON_FILE, Earlier, FAILURE_STATE, History, Point, RunDirectory, Start, checkpoints,
     read_state, run_of_state, write_atomic,
 };
-use crate::simulation::{Dimension, RunError, RunSummary, SavedState, Solve};
-use crate::validation::{Comparison, Verdict, compare, comparison_table, comparisons_to_json};
+use crate::simulation::{Dimension, RunError, SavedState, Solve};
+use crate::validation::{Comparison, compare, comparisons_to_json};
 
 /// What `run` is asked for.
 #[derive(Debug, Args)]
@@ -330,72 +331,6 @@ fn read_unfinished<const D: usize>(path: &Path, case: &Case) -> Result<SavedStat
         return Err(Failure::new(Exit::BadCase, reason));
     }
     Ok(saved)
-}
-
-/// Prints by how much the flow crosses cells at most, for a flow with convection.
-fn tell_cell_numbers(outcome: &RunSummary) {
-    let most = |name: &str| {
-        let column = outcome.series.column(name)?;
-        Some(column.into_iter().fold(0.0, f64::max))
-    };
-    match (most("flow.cfl"), most("flow.cell_reynolds")) {
-        (Some(cfl), Some(reynolds)) => {
-            say(&format!("CFL number up to {cfl:.2}, cell Reynolds number up to {reynolds:.1}"));
-        }
-        (None, Some(reynolds)) => say(&format!("cell Reynolds number up to {reynolds:.1}")),
-        _ => {}
-    }
-}
-
-/// Prints how the bodies ended, for a case without references.
-fn tell_last_values(model: &Model, outcome: &RunSummary) {
-    let Some(last) = outcome.series.rows.last() else { return };
-    // Of the many bodies of a swimmer only what they do together.
-    let is_alone = |body: usize| {
-        !model.swimmers.iter().any(|one| one.bodies.len() > 1 && one.bodies.contains(&body))
-    };
-    let bodies = model.bodies.iter().enumerate().filter(|(index, _)| is_alone(*index));
-    let shown: Vec<&str> = bodies
-        .map(|(_, body)| body.name.as_str())
-        .chain(model.swimmers.iter().map(|swimmer| swimmer.name.as_str()))
-        .collect();
-    let body_of = |name: &str| shown.iter().any(|shown| name.starts_with(&format!("{shown}.")));
-    for (name, value) in outcome.series.names.iter().zip(last) {
-        // Of cycles nothing is known before the first has ended
-        let is_mean =
-            name.contains("flow.mean_velocity") || name.contains("flow.pressure_gradient");
-        if (is_mean || body_of(name)) && !name.contains("surface_") && !value.is_nan() {
-            say(&format!("{name:32}  {}", significant(*value)));
-        }
-    }
-}
-
-/// Prints the table of comparisons, verdicts in colour, with reasons and notes.
-pub fn print_comparisons(comparisons: &[Comparison]) {
-    if comparisons.is_empty() {
-        return;
-    }
-    let table = comparison_table(comparisons);
-    let mut lines = table.iter();
-    if let Some(header) = lines.next() {
-        say(&on_stdout(Ink::Bold, header));
-    }
-    for (line, comparison) in lines.zip(comparisons) {
-        let ink = match comparison.verdict {
-            Verdict::Within => Ink::Green,
-            Verdict::KnownOutside => Ink::Yellow,
-            Verdict::Outside | Verdict::NoLongerOutside | Verdict::NotComputed => Ink::Red,
-        };
-        let word = comparison.verdict.name();
-        let start = line.len() - word.len();
-        say(&format!("{}{}", &line[..start], on_stdout(ink, word)));
-        if let Err(reason) = &comparison.computed {
-            say(&format!("    {reason}"));
-        }
-        if let Some(reason) = &comparison.reference.outside {
-            say(&format!("    known to be outside: {reason}"));
-        }
-    }
 }
 
 #[cfg(test)]

@@ -9,7 +9,7 @@ use super::exit::{Exit, Failure};
 use super::read::{CheckedCase, read_and_check};
 use super::signal::SignalWatch;
 use super::style::{Ink, complain, on_stdout, say};
-use super::{engine, run, threads};
+use super::{engine, results, threads};
 use crate::case::{Cadence, Case, CaseFile, Numbers, Statistics, library};
 use crate::observer::{Earlier, RunDirectory, RunState, Start, Status, read_outcome};
 use crate::simulation::{RunError, RunSummary};
@@ -103,7 +103,7 @@ fn print(comparisons: &[Comparison], options: &Options) {
         say(comparison_page(comparisons).trim_end());
     } else {
         say(&format!("{}\n", count_table(comparisons).join("\n")));
-        run::print_comparisons(comparisons);
+        results::print_comparisons(comparisons);
         say(&on_stdout(if is_good { Ink::Green } else { Ink::Red }, &summary(comparisons)));
     }
 }

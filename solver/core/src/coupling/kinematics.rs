@@ -8,7 +8,7 @@
 
 use nalgebra::Vector3;
 
-use super::problem::{Joint, Pivot, Problem, Turn};
+use super::problem::{FreeArm, Joint, Pivot, Problem, Turn};
 use crate::body::{Mode, Modes, Pose};
 
 /// A rigid velocity of a body.
@@ -135,7 +135,7 @@ impl<const D: usize> Problem<D> {
             let mut translations: [RigidRow; D] = std::array::from_fn(|axis| {
                 joined_row([&rows[joint.parent], &rows[body]], &levers, modes, axis)
             });
-            if let Some((arm, _)) = joint.free_arm() {
+            if let Some(FreeArm { arm, .. }) = joint.free_arm() {
                 slide_along(&parent.to_world(&arm.along), &mut translations, body);
             }
             for (axis, row) in translations.into_iter().enumerate() {

@@ -12,6 +12,7 @@ mod loads;
 mod mean_flow;
 mod mobility;
 mod nullspace;
+mod numbering;
 mod preconditioning;
 mod pressure_mean;
 mod problem;

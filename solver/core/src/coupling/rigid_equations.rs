@@ -6,7 +6,7 @@
 use nalgebra::{Matrix6, Vector3};
 
 use super::kinematics::Levers;
-use super::problem::{Joint, JointLaw, Problem, RigidBody, Turn};
+use super::problem::{FreeArm, Joint, JointLaw, Problem, RigidBody, Turn};
 use super::shapes::BodyShapes;
 use crate::body::{Inertia, Modes, Pose, RigidVector, Twist, Wrench, carried_velocity};
 
@@ -199,7 +199,7 @@ impl RigidBodyEquations {
     /// Adds the force along an arm of free length, at its end.
     fn add_free_arm(&mut self, at: JointAt<'_>, reached: PosesByVelocity<'_>) {
         let (joint, child) = (at.joint, at.child);
-        let Some((arm, law)) = joint.free_arm() else { return };
+        let Some(FreeArm { arm, law }) = joint.free_arm() else { return };
         let poses = [&reached.expected[joint.parent], &reached.expected[child]];
         let levers = Levers::new(joint, poses, at.time);
         let along = poses[0].to_world(&arm.along);

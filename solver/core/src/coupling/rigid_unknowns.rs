@@ -2,36 +2,13 @@
 
 use alewife_mesh::Mesh;
 
-use super::linear_system::{LinearSystem, SolverChoice};
+use super::linear_system::LinearSystem;
+use super::numbering::free_velocities;
 use super::preconditioning::saddle_point;
 use super::problem::Problem;
 use super::system::{Configuration, FluidSystem};
 use crate::algebra::{AffineConstraints, Term};
-use crate::body::Modes;
 use crate::flow::Assembly;
-use crate::space::DofLayout;
-
-/// What the numbering of a linear system was made for.
-#[derive(Debug, Clone)]
-pub(super) struct Numbering {
-    /// The solver that was asked for.
-    pub choice: SolverChoice,
-    /// The body whose velocity is an unknown of the convection, if any.
-    pub frame: Option<usize>,
-    /// Whether each rigid velocity is an unknown itself.
-    pub is_free: Vec<bool>,
-}
-
-/// Whether each rigid velocity is an unknown itself, body by body.
-pub(super) fn free_velocities<const D: usize>(
-    layout: &DofLayout<D>,
-    n_bodies: usize,
-    modes: Modes,
-    constraints: &AffineConstraints,
-) -> Vec<bool> {
-    let raw = (0..n_bodies).flat_map(|body| (0..modes.len()).map(move |mode| (body, mode)));
-    raw.map(|(body, mode)| constraints.unknown(layout.rigid(body, mode)).is_some()).collect()
-}
 
 impl<const D: usize> FluidSystem<D> {
     /// Makes the system one for these constraints: where joints have turned so that other velocities of

@@ -75,6 +75,13 @@ pub struct JointLaw {
     pub motor: Option<TimeValue>,
 }
 
+/// An arm of free length.
+pub(in crate::coupling) struct FreeArm<'a> {
+    pub arm: &'a Arm,
+    /// The force along it.
+    pub law: &'a JointLaw,
+}
+
 impl JointLaw {
     /// Load of the motor at a time (s).
     pub(in crate::coupling) fn motor_load(&self, time: f64) -> f64 {
@@ -84,10 +91,10 @@ impl JointLaw {
 
 impl Joint {
     /// The arm of free length, and its law.
-    pub(in crate::coupling) fn free_arm(&self) -> Option<(&Arm, &JointLaw)> {
+    pub(in crate::coupling) fn free_arm(&self) -> Option<FreeArm<'_>> {
         let arm = self.arm.as_ref()?;
         match &arm.length {
-            Length::Free(law) => Some((arm, law)),
+            Length::Free(law) => Some(FreeArm { arm, law }),
             Length::Given(_) => None,
         }
     }

@@ -12,6 +12,7 @@ use alewife_mesh::{BoundaryId, Point};
 pub use body::{Drive, RigidBody, Spring, second_moments};
 pub use group::Group;
 pub use in_time::{MovingValue, RateDiscontinuities, TimeValue};
+pub(in crate::coupling) use joint::FreeArm;
 pub use joint::{Arm, Joint, JointLaw, Length, Pivot, Turn, angle_about};
 pub use mean_flow::{MeanFlow, MeanFlowAlong, MeanFlowAt};
 pub use side::{Side, VelocityProfile};
