@@ -181,7 +181,7 @@ fn explicit_steps_have_no_inertia_and_nothing_stiff() {
     refused_swimming(
         "damping = 0.1",
         "stiffness = 0.1",
-        &[&why("there are hinges with stiffness")],
+        &[&why("there are joints with stiffness")],
     );
     let spring = "motion = \"free\"\nspring.stiffness = [1.0, 1.0]";
     refused_swimming("motion = \"free\"", spring, &[&why("there are springs")]);
