@@ -56,7 +56,7 @@ impl ReusePolicy {
         [self.remaining_pause, self.next_pause]
     }
 
-    /// Goes on from such pauses.
+    /// Sets the pauses to those of an earlier solver.
     pub fn set_pauses(&mut self, [remaining, next]: [usize; 2]) {
         (self.remaining_pause, self.next_pause) =
             (remaining, next.clamp(FIRST_PAUSE, LONGEST_PAUSE));

@@ -63,7 +63,7 @@ impl<const D: usize> Run<'_, D> {
         Ok(self.simulation.state.step)
     }
 
-    /// Makes a step to a time (s) in its pieces, or what is left of it, in halves where it must be.
+    /// Makes a step to a time (s) in its pieces, or the rest of it, in halves where it must be.
     fn fixed_step(
         &mut self,
         settings: &Unsteady,
