@@ -8,8 +8,8 @@ use alewife_core::simulation::{
     Attempt, Meshed, MotionSettings, MovingMesh, PosesByShift, RemeshError, Scene, Simulation,
     build_mesh, simulation_on,
 };
-use alewife_mesh::{BoundaryId, Mesh, NodeId, Point};
-use nalgebra::{Quaternion, UnitQuaternion, Vector3};
+use alewife_mesh::{Mesh, Point};
+use nalgebra::{Quaternion, UnitQuaternion};
 use tests::cases::case;
 use tests::mirror_image;
 
@@ -76,22 +76,6 @@ struct Mirrored {
 impl Scene<3> for Mirrored {
     fn gaps(&self) -> &dyn Gaps {
         self.own.gaps()
-    }
-
-    fn deformed_gaps(&self, _: &BodyShapes) -> Option<Box<dyn Gaps>> {
-        None
-    }
-
-    fn material_position(&self, _: NodeId, _: usize, _: &BodyShapes) -> Option<Vector3<f64>> {
-        None
-    }
-
-    fn side_displacement(&self, _: BoundaryId, _: &Point<3>, _: f64) -> Option<Point<3>> {
-        None
-    }
-
-    fn has_moving_wall(&self) -> bool {
-        false
     }
 
     fn lowest_quality(&self) -> f64 {

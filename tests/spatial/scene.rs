@@ -4,7 +4,7 @@ use alewife_core::body::{Modes, Pose, on_mesh};
 use alewife_core::contact::{ContactPair, Gaps, MinimumGap, Partner};
 use alewife_core::coupling::BodyShapes;
 use alewife_core::simulation::{Meshed, PosesByShift, RemeshError, Scene};
-use alewife_mesh::{BoundaryId, Mesh, NodeId, Point};
+use alewife_mesh::{Mesh, Point};
 use nalgebra::Vector3;
 use tests::three_tetrahedra;
 
@@ -28,22 +28,6 @@ impl Bipyramid {
 impl Scene<3> for Bipyramid {
     fn gaps(&self) -> &dyn Gaps {
         &OneBody
-    }
-
-    fn deformed_gaps(&self, _: &BodyShapes) -> Option<Box<dyn Gaps>> {
-        None
-    }
-
-    fn material_position(&self, _: NodeId, _: usize, _: &BodyShapes) -> Option<Vector3<f64>> {
-        None
-    }
-
-    fn side_displacement(&self, _: BoundaryId, _: &Point<3>, _: f64) -> Option<Point<3>> {
-        None
-    }
-
-    fn has_moving_wall(&self) -> bool {
-        false
     }
 
     fn lowest_quality(&self) -> f64 {

@@ -9,7 +9,7 @@ use crate::case::WallTime;
 use crate::observer::WriteTimes;
 use crate::simulation::{Observer, Snapshot, StopRequest};
 
-/// Steps of which the longest is expected once more: a mesh is made anew every few of them.
+/// Steps of which the longest is expected once more: every few of them end with a remeshing.
 const RECENT: usize = 20;
 /// Time kept for a step, in steps of that length: the next one may be longer.
 const STEPS: f64 = 1.5;

@@ -6,28 +6,18 @@ use std::process::{Command, Output};
 
 use super::alewife;
 use super::continuing::{LONG, start, stopped, told, under_way};
+use super::{DISC, FLUID};
 
-/// A disc that sinks, with a checkpoint and a field file at every turn.
-const CASE: &str = "
-title = 'disturbed'
-geometry = 'planar'
-fluid = { model = 'navier-stokes', density = 1.0, viscosity = 0.1, gravity = [0.0, -10.0] }
-domain.box = { min = [-1.0, -1.0], max = [1.0, 1.0] }
-boundary = { left = 'no-slip', right = 'no-slip', bottom = 'no-slip', top = 'no-slip' }
+/// Checkpoints and field files of a disc that sinks at every turn.
+const RUN: &str = "
 mesh = { size = 0.1, surface = 0.06 }
 output.checkpoint = { wall = '1 h', time = 0.05, keep = 2 }
 output.fields = { time = 0.02 }
 time.unsteady = { step = 0.01, end = 0.4 }
-[[body]]
-name = 'disc'
-shape.disc.radius = 0.2
-center = [0.1, 0.2]
-density = 2.0
-motion = 'free'
 ";
 
 fn case(directory: &Path) {
-    std::fs::write(directory.join("case.toml"), CASE).unwrap();
+    std::fs::write(directory.join("case.toml"), format!("{FLUID}{RUN}{DISC}")).unwrap();
 }
 
 fn run(directory: &Path, out: &str, more: &[&str]) -> Output {
@@ -318,7 +308,7 @@ fn a_run_in_legs_says_where_it_comes_from_as_one_in_a_single_one_does() {
 fn a_mesh_that_is_replaced_after_a_run_was_resumed_is_that_of_the_unbroken_run() {
     let place = tempfile::tempdir().unwrap();
     let directory = place.path();
-    let text = CASE
+    let text = format!("{FLUID}{RUN}{DISC}")
         .replace("min = [-1.0, -1.0]", "min = [-1.0, -4.0]")
         .replace("size = 0.1", "size = 0.15")
         .replace("center = [0.1, 0.2]", "center = [0.5, 0.6]")

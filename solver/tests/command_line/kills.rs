@@ -4,34 +4,23 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::Duration;
 
+use super::{DISC, FLUID};
+
 /// Kills in all, over all cases.
 const KILLS: usize = 50;
 /// Threads of the parts of a run, in turn.
 const THREADS: [&str; 3] = ["1", "2", "3"];
 
-const FLUID: &str = "
-title = 'killed'
-geometry = 'planar'
-fluid = { model = 'navier-stokes', density = 1.0, viscosity = 0.1, gravity = [0.0, -10.0] }
-domain.box = { min = [-1.0, -1.0], max = [1.0, 1.0] }
-boundary = { left = 'no-slip', right = 'no-slip', bottom = 'no-slip', top = 'no-slip' }
+const MESH: &str = "
 mesh = { size = 0.1, surface = 0.03 }
 output.checkpoint = { wall = '0.05 s', keep = 2 }
-";
-
-const DISC: &str = "
-[[body]]
-name = 'disc'
-shape.disc.radius = 0.2
-center = [0.1, 0.2]
-density = 2.0
-motion = 'free'
 ";
 
 /// Steady steps with earlier factors, a mesh that is replaced, contact, and adaptive steps.
 fn cases() -> [String; 4] {
     let held = DISC.replace("'free'", "'held'");
-    let along = FLUID.replace(
+    let fluid = format!("{FLUID}{MESH}");
+    let along = fluid.replace(
         "left = 'no-slip', right = 'no-slip'",
         "left = { velocity = { value = [1.0, 0.0] } }, right = 'do-nothing'",
     );
@@ -40,13 +29,13 @@ fn cases() -> [String; 4] {
     let adaptive = "time.unsteady = { step = 0.01, end = 0.6, adaptive = { tolerance = 5e-3, largest = 0.03 } }\n";
     [
         format!("{along}{}{held}", steps(0.02, 2.4)),
-        format!("{FLUID}{}{DISC}", steps(0.01, 0.5)),
+        format!("{fluid}{}{DISC}", steps(0.01, 0.5)),
         format!(
-            "{FLUID}{}{contact}{}",
+            "{fluid}{}{contact}{}",
             steps(0.01, 0.5),
             DISC.replace("[0.1, 0.2]", "[0.1, -0.6]")
         ),
-        format!("{FLUID}{adaptive}{contact}{DISC}"),
+        format!("{fluid}{adaptive}{contact}{DISC}"),
     ]
 }
 

@@ -14,6 +14,24 @@ mod warnings;
 use std::path::Path;
 use std::process::{Command, Output};
 
+/// A box of fluid in which things sink, for runs that are disturbed, stopped and killed.
+const FLUID: &str = "
+title = 'disturbed'
+geometry = 'planar'
+fluid = { model = 'navier-stokes', density = 1.0, viscosity = 0.1, gravity = [0.0, -10.0] }
+domain.box = { min = [-1.0, -1.0], max = [1.0, 1.0] }
+boundary = { left = 'no-slip', right = 'no-slip', bottom = 'no-slip', top = 'no-slip' }
+";
+/// A disc that sinks in it.
+const DISC: &str = "
+[[body]]
+name = 'disc'
+shape.disc.radius = 0.2
+center = [0.1, 0.2]
+density = 2.0
+motion = 'free'
+";
+
 fn alewife(directory: &Path, arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_alewife"))
         .args(arguments)

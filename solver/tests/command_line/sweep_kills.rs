@@ -5,22 +5,17 @@ use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
-/// A falling disc with checkpoints all the time.
-const CASE: &str = "
-title = 'stopped'
-geometry = 'planar'
-fluid = { model = 'navier-stokes', density = 1.0, viscosity = 0.1, gravity = [0.0, -10.0] }
-domain.box = { min = [-1.0, -1.0], max = [1.0, 1.0] }
-boundary = { left = 'no-slip', right = 'no-slip', bottom = 'no-slip', top = 'no-slip' }
+use super::{DISC, FLUID};
+
+/// A run with checkpoints all the time.
+const RUN: &str = "
 mesh = { size = 0.1, surface = 0.06 }
 time.unsteady = { step = 0.01, end = 2.0 }
 output.checkpoint = { wall = '0.02 s', keep = 2 }
-[[body]]
-name = 'disc'
-shape.disc.radius = 0.2
-center = [0.1, 0.2]
-density = 2.0
-motion = 'free'
+";
+
+/// Its points.
+const SWEEP: &str = "
 [sweep.grid]
 body.0.density = [1.5, 2.0, 3.0]
 ";
@@ -56,7 +51,8 @@ fn ends(mut sweep: Command) {
 fn a_sweep_that_is_stopped_or_killed_continues_with_the_same_bytes() {
     let place = tempfile::tempdir().unwrap();
     let directory = place.path();
-    std::fs::write(directory.join("case.toml"), CASE).unwrap();
+    let text = format!("{FLUID}{RUN}{DISC}{SWEEP}");
+    std::fs::write(directory.join("case.toml"), text).unwrap();
     ends(sweep(directory, "whole"));
 
     // A signal to the sweep alone stops its points

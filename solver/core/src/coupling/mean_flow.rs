@@ -7,9 +7,7 @@
 //! of the cell. Where it is given, gamma is one more unknown: with J dy + b dgamma = -R a step of Newton's
 //! method is that without dgamma and the answer of the flow to b, J^-1 b.
 
-use std::ops::Range;
-
-use alewife_mesh::{CellId, Mesh, Point, Simplex};
+use alewife_mesh::{Mesh, Point, Simplex};
 use nalgebra::{DMatrix, DVector, Vector3};
 
 use super::error::SolveError;
@@ -18,8 +16,8 @@ use super::problem::{MeanFlowAlong, MeanFlowAt, Problem};
 use super::solution::Solution;
 use crate::algebra::{AffineConstraints, LinearError};
 use crate::body::{Mode, Modes, on_mesh};
-use crate::flow::for_each_cell;
-use crate::space::{CellValues, DofLayout, Tables};
+use crate::flow::integrate_basis;
+use crate::space::{DofLayout, Tables};
 use crate::timing::Timing;
 
 /// Integrals over the cell of a periodic domain.
@@ -37,21 +35,7 @@ impl<const D: usize> CellIntegrals<D> {
     /// Integrates over a mesh.
     pub fn new(problem: &Problem<D>, mesh: &Mesh<D>, tables: &Tables<D>) -> Self {
         let mut nodes = vec![0.0; mesh.n_nodes()];
-        let size = Simplex::<D>::N_NODES;
-        let compute = |cells: Range<usize>, integrals: &mut [f64]| {
-            let mut workspace = CellValues::default();
-            integrals.fill(0.0);
-            for (cell, of_cell) in cells.map(CellId::new).zip(integrals.chunks_exact_mut(size)) {
-                workspace.for_each_point(tables, mesh, cell, |at| {
-                    of_cell.iter_mut().zip(at.phi).for_each(|(sum, phi)| *sum += phi * at.dx);
-                });
-            }
-        };
-        for_each_cell(mesh.n_cells(), size, compute, |cell, of_cell| {
-            for (&node, integral) in mesh.cell(CellId::new(cell)).iter().zip(of_cell) {
-                nodes[node.index()] += integral;
-            }
-        });
+        integrate_basis(mesh, tables, Simplex::<D>::N_NODES, |at| at.phi, &mut nodes);
         let bodies: Vec<f64> = problem.bodies.iter().map(|body| body.volume.mass).collect();
         let volume = nodes.iter().sum::<f64>() + bodies.iter().sum::<f64>();
         Self { nodes, bodies, volume }

@@ -1,11 +1,9 @@
 //! `PressureMean`: the mean of the pressure, and the net flux that an enclosed fluid cannot take.
 
-use std::ops::Range;
+use alewife_mesh::Mesh;
 
-use alewife_mesh::{CellId, Mesh};
-
-use crate::flow::for_each_cell;
-use crate::space::{CellValues, Tables};
+use crate::flow::integrate_basis;
+use crate::space::Tables;
 
 /// Weights of the pressures in their mean over the fluid.
 #[derive(Debug)]
@@ -18,21 +16,7 @@ impl PressureMean {
     /// Integrates over a mesh.
     pub(super) fn new<const D: usize>(mesh: &Mesh<D>, tables: &Tables<D>) -> Self {
         let mut weights = vec![0.0; mesh.n_vertices];
-        let size = D + 1;
-        let compute = |cells: Range<usize>, integrals: &mut [f64]| {
-            let mut workspace = CellValues::default();
-            integrals.fill(0.0);
-            for (cell, of_cell) in cells.map(CellId::new).zip(integrals.chunks_exact_mut(size)) {
-                workspace.for_each_point(tables, mesh, cell, |at| {
-                    of_cell.iter_mut().zip(at.psi).for_each(|(sum, psi)| *sum += psi * at.dx);
-                });
-            }
-        };
-        for_each_cell(mesh.n_cells(), size, compute, |cell, of_cell| {
-            for (&vertex, integral) in mesh.cell(CellId::new(cell)).iter().zip(of_cell) {
-                weights[vertex] += integral;
-            }
-        });
+        integrate_basis(mesh, tables, D + 1, |at| at.psi, &mut weights);
         Self { weights }
     }
 

@@ -2,7 +2,10 @@
 
 use std::ops::Range;
 
+use alewife_mesh::{CellId, Mesh};
 use rayon::prelude::*;
+
+use crate::space::{CellValues, PointValues, Tables};
 
 /// Cells a thread takes at a time: enough for what handing them over costs, few enough that the threads end
 /// together.
@@ -51,6 +54,31 @@ pub(crate) fn for_each_cell(
                 },
                 || compute_block(index + 1, &mut next),
             );
+        }
+    });
+}
+
+/// Adds the integrals of basis functions over the mesh to one value for each node that has one, its
+/// first `per_cell` nodes in each cell.
+pub(crate) fn integrate_basis<const D: usize>(
+    mesh: &Mesh<D>,
+    tables: &Tables<D>,
+    per_cell: usize,
+    basis: impl for<'a> Fn(&PointValues<'a, D>) -> &'a [f64] + Sync,
+    integrals: &mut [f64],
+) {
+    let compute = |cells: Range<usize>, results: &mut [f64]| {
+        let mut workspace = CellValues::default();
+        results.fill(0.0);
+        for (cell, of_cell) in cells.map(CellId::new).zip(results.chunks_exact_mut(per_cell)) {
+            workspace.for_each_point(tables, mesh, cell, |at| {
+                of_cell.iter_mut().zip(basis(at)).for_each(|(sum, value)| *sum += value * at.dx);
+            });
+        }
+    };
+    for_each_cell(mesh.n_cells(), per_cell, compute, |cell, of_cell| {
+        for (node, integral) in mesh.cell(CellId::new(cell)).iter().zip(of_cell) {
+            integrals[node.index()] += integral;
         }
     });
 }

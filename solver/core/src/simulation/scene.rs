@@ -56,32 +56,43 @@ pub struct Meshed<const D: usize> {
 pub type PosesByShift<'a> = &'a dyn Fn(&[Vector3<f64>]) -> Vec<Pose>;
 
 /// Domain and bodies as they were meshed: the reference configuration of a moving mesh.
+///
+/// What is said of bodies that deform and of sides that move is, unless said otherwise, that there are
+/// none.
 pub trait Scene<const D: usize>: Debug + Send + Sync {
     /// Gaps between bodies in the shapes they had then, and walls.
     fn gaps(&self) -> &dyn Gaps;
 
     /// Gaps between bodies of these shapes, and walls; `None` where no body deforms.
-    fn deformed_gaps(&self, shapes: &BodyShapes) -> Option<Box<dyn Gaps>>;
+    fn deformed_gaps(&self, _shapes: &BodyShapes) -> Option<Box<dyn Gaps>> {
+        None
+    }
 
     /// Position of a node on a body that deforms, in the frame of the body (m); `None` for a node that
     /// is on none.
     fn material_position(
         &self,
-        node: NodeId,
-        body: usize,
-        shapes: &BodyShapes,
-    ) -> Option<Vector3<f64>>;
+        _node: NodeId,
+        _body: usize,
+        _shapes: &BodyShapes,
+    ) -> Option<Vector3<f64>> {
+        None
+    }
 
     /// Displacement (m) at a time (s) of a point of a side that moves; `None` for other sides.
     fn side_displacement(
         &self,
-        boundary: BoundaryId,
-        reference: &Point<D>,
-        time: f64,
-    ) -> Option<Point<D>>;
+        _boundary: BoundaryId,
+        _reference: &Point<D>,
+        _time: f64,
+    ) -> Option<Point<D>> {
+        None
+    }
 
     /// Whether a side moves, so that the mesh is not at rest even where bodies are.
-    fn has_moving_wall(&self) -> bool;
+    fn has_moving_wall(&self) -> bool {
+        false
+    }
 
     /// Lowest quality of a cell then.
     fn lowest_quality(&self) -> f64;

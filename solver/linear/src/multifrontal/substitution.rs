@@ -133,6 +133,8 @@ pub(super) fn backward(front: &FrontFactors<'_>, b: &[f64], x: &mut [f64], local
     let (p, q) = (front.pivot_rows.len(), front.border_columns.len());
     let local = &mut local[..p];
     gather(local, b, front.pivot_rows);
+    // As `subtract_columns`, with factors from where they are: columns of U have few rows in most fronts,
+    // and a copy of the factors would cost as much as the sums
     let mut columns = front.u.chunks_exact(p.max(1) * 4);
     let mut slots = front.border_columns.chunks_exact(4);
     for (four, slots) in (&mut columns).zip(&mut slots) {

@@ -143,7 +143,11 @@ impl SparseMatrix {
     #[must_use]
     pub fn absolute_product(&self, x: &[f64]) -> Vec<f64> {
         let mut sums = vec![0.0; self.n()];
-        self.for_each_row(&mut sums, |row, sum| *sum = self.sum_of_terms(row, x, f64::abs));
+        sums.par_chunks_mut(ROWS_PER_TASK).enumerate().for_each(|(task, sums)| {
+            for (row, sum) in (task * ROWS_PER_TASK..).zip(sums) {
+                *sum = self.sum_of_terms(row, x, f64::abs);
+            }
+        });
         sums
     }
 
@@ -151,11 +155,19 @@ impl SparseMatrix {
     #[must_use]
     pub fn residual(&self, x: &[f64], b: &[f64]) -> Residual {
         let mut defect = b.to_vec();
-        self.for_each_row(&mut defect, |row, defect| {
-            *defect -= self.sum_of_terms(row, x, |term| term)
-        });
-        let mut size = self.absolute_product(x);
-        size.iter_mut().zip(b).for_each(|(size, value)| *size += value.abs());
+        let mut size = vec![0.0; b.len()];
+        let sizes = size.par_chunks_mut(ROWS_PER_TASK);
+        defect.par_chunks_mut(ROWS_PER_TASK).zip(sizes).enumerate().for_each(
+            |(task, (defect, size))| {
+                // Both sums of a row while its entries are at hand
+                for (row, (defect, size)) in
+                    (task * ROWS_PER_TASK..).zip(defect.iter_mut().zip(size))
+                {
+                    *size = self.sum_of_terms(row, x, f64::abs) + defect.abs();
+                    *defect -= self.sum_of_terms(row, x, |term| term);
+                }
+            },
+        );
         Residual { defect, size }
     }
 
@@ -199,16 +211,6 @@ impl SparseMatrix {
             }
         }
         sums.iter().sum::<f64>() + rest
-    }
-
-    /// Calls `work` with each row and the value that a vector has there, in parallel.
-    #[inline(always)]
-    fn for_each_row(&self, vector: &mut [f64], work: impl Fn(usize, &mut f64) + Sync) {
-        vector.par_chunks_mut(ROWS_PER_TASK).enumerate().for_each(|(task, values)| {
-            for (row, value) in (task * ROWS_PER_TASK..).zip(values) {
-                work(row, value);
-            }
-        });
     }
 }
 

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 use alewife_mesh::spatial::{GapQuery, generate};
-use alewife_mesh::{BoundaryId, BoundaryKind, Mesh, NodeId, Point};
+use alewife_mesh::{BoundaryKind, Mesh, NodeId, Point};
 use nalgebra::Vector3;
 
 use super::case::{SpatialCase, move_into};
@@ -87,19 +87,6 @@ impl Scene<3> for SpatialScene {
         shapes: &BodyShapes,
     ) -> Option<Vector3<f64>> {
         Some(shapes.deformed(body)?.place(*self.materials.get(&node)?))
-    }
-
-    fn side_displacement(
-        &self,
-        _boundary: BoundaryId,
-        _reference: &Point<3>,
-        _time: f64,
-    ) -> Option<Point<3>> {
-        None
-    }
-
-    fn has_moving_wall(&self) -> bool {
-        false
     }
 
     fn lowest_quality(&self) -> f64 {
