@@ -47,20 +47,36 @@ fn problem(mesh: &Mesh<3>, has_convection: bool) -> Problem<3> {
 
 /// Momentum of the fluid, and its angular momentum about a point (m).
 fn fluid_momentum(state: &State<3>, about: &Vector3<f64>) -> Wrench {
-    let (tables, mut values) = (Tables::new(Metric::Cartesian), CellValues::default());
     let mut momentum = Wrench::default();
+    for_each_part(state, |position, part| {
+        momentum.force += part;
+        momentum.torque += (position - about).cross(&part);
+    });
+    momentum
+}
+
+/// Angular momentum of the fluid with an arm (m) for each point.
+fn fluid_angular_momentum(
+    state: &State<3>,
+    arm: impl Fn(Vector3<f64>) -> Vector3<f64>,
+) -> Vector3<f64> {
+    let mut sum = Vector3::zeros();
+    for_each_part(state, |position, part| sum += arm(position).cross(&part));
+    sum
+}
+
+/// Calls `add` with points of the fluid (m) and the momentum of the fluid around them.
+fn for_each_part(state: &State<3>, mut add: impl FnMut(Vector3<f64>, Vector3<f64>)) {
+    let (tables, mut values) = (Tables::new(Metric::Cartesian), CellValues::default());
     for cell in state.mesh.cell_ids() {
         let nodes = state.mesh.cell(cell);
         values.for_each_point(&tables, &state.mesh, cell, |at| {
             let velocity = nodes.iter().zip(at.phi);
             let velocity: Vector3<f64> =
                 velocity.map(|(&node, phi)| state.now.velocity[node] * *phi).sum();
-            let part = velocity * (DENSITY * at.dx);
-            momentum.force += part;
-            momentum.torque += (at.position - about).cross(&part);
+            add(at.position, velocity * (DENSITY * at.dx));
         });
     }
-    momentum
 }
 
 #[test]
