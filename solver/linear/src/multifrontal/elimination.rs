@@ -245,24 +245,20 @@ impl FrontMatrix<'_> {
         let Self { l, u, c, k, m, .. } = self;
         let (k, m, r) = (*k, *m, self.m - self.k);
         let n_summed = map.iter().take_while(|&&index| (index as usize) < k).count();
+        let (summed, others) = map.split_at(n_summed);
+        let (summed, others) = (runs(summed, 0), runs(others, k));
         for (&column, source) in map.iter().zip(values.chunks(map.len())) {
             let column = column as usize;
+            let (source_summed, source_others) = source.split_at(n_summed);
             if column < k {
-                let target = &mut l[column * m..(column + 1) * m];
-                for (&row, value) in map.iter().zip(source) {
-                    target[row as usize] += value;
-                }
+                let (target_summed, target_others) =
+                    l[column * m..(column + 1) * m].split_at_mut(k);
+                add_runs(&summed, source_summed, target_summed);
+                add_runs(&others, source_others, target_others);
             } else {
                 let column = column - k;
-                let (summed, others) = source.split_at(n_summed);
-                let target = &mut u[column * k..(column + 1) * k];
-                for (&row, value) in map.iter().zip(summed) {
-                    target[row as usize] += value;
-                }
-                let target = &mut c[column * r..(column + 1) * r];
-                for (&row, value) in map[n_summed..].iter().zip(others) {
-                    target[row as usize - k] += value;
-                }
+                add_runs(&summed, source_summed, &mut u[column * k..(column + 1) * k]);
+                add_runs(&others, source_others, &mut c[column * r..(column + 1) * r]);
             }
         }
     }
@@ -357,5 +353,28 @@ impl FrontMatrix<'_> {
             upper.extend_from_slice(&self.u[column * k..column * k + p]);
         }
         upper
+    }
+}
+
+/// Indices that follow each other, such as those of the velocities at a node.
+#[derive(Debug, Clone, Copy)]
+struct Run {
+    first: u32,
+    length: u32,
+}
+
+/// Runs of indices, less `start`.
+fn runs(indices: &[u32], start: usize) -> Vec<Run> {
+    let all = indices.chunk_by(|last, next| last + 1 == *next);
+    all.map(|run| Run { first: run[0] - to_u32(start), length: to_u32(run.len()) }).collect()
+}
+
+/// Adds values, one run after the other, to those they belong to.
+fn add_runs(runs: &[Run], mut values: &[f64], target: &mut [f64]) {
+    for run in runs {
+        let (these, rest) = values.split_at(run.length as usize);
+        let target = &mut target[run.first as usize..][..these.len()];
+        target.iter_mut().zip(these).for_each(|(target, value)| *target += value);
+        values = rest;
     }
 }
