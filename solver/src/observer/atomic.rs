@@ -26,25 +26,37 @@ impl<T> AtPath<T> for io::Result<T> {
     }
 }
 
-/// Writes a file that is seen whole or not at all, even after a power cut.
+/// Writes a file that is seen whole or not at all, even after a power cut, and is there after one.
 ///
 /// # Errors
 /// When the file system refuses, with the path; the old file is then still there.
 pub fn write_atomic(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    write_whole(path, bytes)?;
+    // The new name is on the disk only once the directory is.
+    #[cfg(unix)]
+    File::open(directory_of(path)).and_then(|directory| directory.sync_all()).at(path)?;
+    Ok(())
+}
+
+/// The same, but that after a power cut the old file may still be there, until [`write_atomic`] writes another
+/// into its directory: one wait for the disk less.
+///
+/// # Errors
+/// When the file system refuses, with the path; the old file is then still there.
+pub(super) fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
     replace(path, bytes).at(path)
 }
 
+fn directory_of(path: &Path) -> &Path {
+    path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}
+
 fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    let directory =
-        path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let mut file = unfinished_file(directory)?;
+    let mut file = unfinished_file(directory_of(path))?;
     // The temporary name tells nobody anything
     file.as_file_mut().write_all(bytes)?;
     file.as_file().sync_all()?;
     file.persist(path).map_err(|refused| refused.error)?;
-    // The new name is on the disk only once the directory is.
-    #[cfg(unix)]
-    File::open(directory)?.sync_all()?;
     Ok(())
 }
 

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use super::atomic::{AtPath, write_atomic};
+use super::atomic::{AtPath, write_whole};
 use super::history::History;
 use super::schedule::Schedule;
 use crate::case::Case;
@@ -49,7 +49,7 @@ impl SeriesFile {
             }
         }
         // What is there already is replaced as a whole, and never lost
-        write_atomic(&path, text.as_bytes())?;
+        write_whole(&path, text.as_bytes())?;
         Ok(Self {
             file: File::options().append(true).open(&path).at(&path)?,
             path,

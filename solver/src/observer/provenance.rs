@@ -6,7 +6,7 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use super::atomic::write_atomic;
+use super::atomic::write_whole;
 use super::process;
 use super::status::Status;
 
@@ -184,7 +184,7 @@ impl Provenance {
     pub fn write(&self, directory: &Path) -> io::Result<()> {
         let mut text = serde_json::to_vec_pretty(self)?;
         text.push(b'\n');
-        write_atomic(&directory.join(FILE), &text)
+        write_whole(&directory.join(FILE), &text)
     }
 
     /// The end of the present leg.

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
-use super::atomic::{AtPath, UNFINISHED, write_atomic};
+use super::atomic::{AtPath, UNFINISHED, write_whole};
 use super::checkpoint_list::{self, REQUEST, checkpoints};
 use super::provenance::{Origin, Point, Provenance};
 use super::removal::{names_in, remove_if_empty, remove_if_there};
@@ -149,7 +149,7 @@ impl RunDirectory {
             if fs::read_dir(path).at(path)?.next().is_some() {
                 return Err(RunDirectoryError::NotARun { path: path.to_owned() });
             }
-            write_atomic(&path.join(MARKER_FILE), MARKER.as_bytes())?;
+            write_whole(&path.join(MARKER_FILE), MARKER.as_bytes())?;
         }
         let lock = match start.lock {
             Some(lock) => lock,
@@ -166,7 +166,7 @@ impl RunDirectory {
 
         // A given mesh is part of the run
         if let Some(mesh) = case.given_mesh().and_then(MeshFile::bytes) {
-            write_atomic(&path.join(MESH_FILE), mesh)?;
+            write_whole(&path.join(MESH_FILE), mesh)?;
         }
         let case_text = case.naming_mesh(MESH_FILE).to_toml()?;
         let origin = Origin::of_this_process(&case_text, start.threads);
@@ -175,7 +175,7 @@ impl RunDirectory {
             Earlier::Keep | Earlier::Replace => Provenance::beginning(origin, start.from),
         };
         provenance.write(path)?;
-        write_atomic(&path.join("case.toml"), case_text.as_bytes())?;
+        write_whole(&path.join("case.toml"), case_text.as_bytes())?;
         Ok(Self { path: path.to_owned(), case_text, provenance, _lock: lock })
     }
 

@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use serde::{Deserialize, Serialize};
 
-use super::atomic::write_atomic;
+use super::atomic::{write_atomic, write_whole};
 use super::history::History;
 use super::process;
 use super::restarts::Restarts;
@@ -134,11 +134,12 @@ impl StatusFile {
         let path = directory.join("status.json");
         let cpu_before = cpu_seconds();
         let mut file = Self { path, status, times, started: now, cpu_before, written: now };
-        file.write()?;
+        let text = file.text()?;
+        write_atomic(&file.path, &text)?;
         Ok(file)
     }
 
-    fn write(&mut self) -> io::Result<()> {
+    fn text(&mut self) -> io::Result<Vec<u8>> {
         self.written = Instant::now();
         let wall = self.written.duration_since(self.started).as_secs_f64();
         self.status.wall_seconds.insert("total".to_owned(), wall);
@@ -149,7 +150,7 @@ impl StatusFile {
         self.status.updated_at = process::now();
         let mut text = serde_json::to_vec_pretty(&self.status)?;
         text.push(b'\n');
-        write_atomic(&self.path, &text)
+        Ok(text)
     }
 }
 
@@ -163,14 +164,19 @@ impl<const D: usize> Observer<D> for StatusFile {
             self.status.steps = self.status.steps.map(|_| snapshot.step);
         }
         let is_due = snapshot.is_last || snapshot.step == 0 || self.written.elapsed() >= INTERVAL;
-        if is_due { self.write() } else { Ok(()) }
+        if !is_due {
+            return Ok(());
+        }
+        let text = self.text()?;
+        write_whole(&self.path, &text)
     }
 
     fn on_end(&mut self, timing: &Timing) -> io::Result<()> {
         by_stage(&mut self.status, timing);
         // The last state is on the disk now, too
         self.status.state = RunState::Finished;
-        self.write()
+        let text = self.text()?;
+        write_atomic(&self.path, &text)
     }
 
     fn on_failure(&mut self, error: &RunError, _last: Option<&LastState<'_, D>>) -> io::Result<()> {
@@ -181,7 +187,8 @@ impl<const D: usize> Observer<D> for StatusFile {
         self.status.is_interrupted =
             matches!(error, RunError::Stopped { .. } | RunError::Output(_));
         self.status.reason = Some(error.to_string());
-        self.write()
+        let text = self.text()?;
+        write_atomic(&self.path, &text)
     }
 }
 
