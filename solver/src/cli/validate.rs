@@ -175,7 +175,8 @@ impl Work<'_> {
                 let earlier = if is_finished { Earlier::Keep } else { Earlier::Replace };
                 let start = Start::with_threads(self.n_threads);
                 let directory = RunDirectory::create(&place, file.case(), start, earlier)?;
-                let run = RunInto { directory: &directory, quiet: true, watch, limit: None };
+                let shown = Shown { quiet: true, live: None };
+                let run = RunInto { directory: &directory, shown, watch, limit: None };
                 engine::simulate_afresh(&file.model, run)
             }
             (None, Some(from)) => Ok(kept(&from.join(of_run), file.case())?),

@@ -3,12 +3,10 @@
 //! Viewers recognise a schema by its name alone, so the names of the `foxglove` messages and
 //! their fields are theirs. Times are simulated seconds.
 
-use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 use serde_json::{Value, json};
 
-use super::solids::{Solids, body_colour, quaternion, vector};
+use super::solids::{quaternion, vector};
 use crate::body::{Pose, Twist, Wrench, in_space};
-use crate::case::{Body, Geometry, ShapeSpec};
 use crate::simulation::{BodyReport, Snapshot};
 
 /// Frame all others are given in.
@@ -23,7 +21,7 @@ pub enum Kind {
     Scene,
     /// What happened to the run.
     Log,
-    /// One step: numbers of the solver and all quantities.
+    /// One step: numbers of the solver.
     Step,
     /// One body: pose, twist, loads.
     Body,
@@ -70,7 +68,6 @@ impl Kind {
                 ("time_step", number_schema()),
                 ("iterations", json!({"type": "integer"})),
                 ("n_dofs", json!({"type": "integer"})),
-                ("quantities", json!({"type": "object", "additionalProperties": number_schema()})),
             ]),
             Self::Body => object([
                 ("step", json!({"type": "integer"})),
@@ -139,6 +136,40 @@ fn scene_schema() -> Value {
         ])
     };
     let solid = || object([("pose", pose()), ("size", vector_schema()), ("color", colour())]);
+    let cylinder = || {
+        let mut schema = solid();
+        for scale in ["bottom_scale", "top_scale"] {
+            schema["properties"][scale] = number_schema();
+        }
+        schema
+    };
+    let integers = || list(json!({"type": "integer"}));
+    let triangles = || {
+        object([
+            ("pose", pose()),
+            ("points", list(vector_schema())),
+            ("color", colour()),
+            ("colors", list(colour())),
+            ("indices", integers()),
+        ])
+    };
+    let line = || {
+        let mut schema = triangles();
+        schema["properties"]["type"] = json!({"type": "integer"});
+        schema["properties"]["thickness"] = number_schema();
+        schema["properties"]["scale_invariant"] = json!({"type": "boolean"});
+        schema
+    };
+    let arrow = || {
+        object([
+            ("pose", pose()),
+            ("shaft_length", number_schema()),
+            ("shaft_diameter", number_schema()),
+            ("head_length", number_schema()),
+            ("head_diameter", number_schema()),
+            ("color", colour()),
+        ])
+    };
     object([
         ("deletions", list(json!({"type": "object"}))),
         (
@@ -150,8 +181,11 @@ fn scene_schema() -> Value {
                 ("lifetime", timestamp_schema()),
                 ("frame_locked", json!({"type": "boolean"})),
                 ("spheres", list(solid())),
-                ("cylinders", list(solid())),
-                ("lines", list(json!({"type": "object"}))),
+                ("cylinders", list(cylinder())),
+                ("lines", list(line())),
+                ("triangles", list(triangles())),
+                ("arrows", list(arrow())),
+                ("metadata", list(object([("key", text_schema()), ("value", text_schema())]))),
             ])),
         ),
     ])
@@ -169,62 +203,6 @@ pub fn transforms(bodies: &[BodyReport], time: f64) -> Value {
         })
     });
     json!({"transforms": transforms.collect::<Vec<_>>()})
-}
-
-/// Outlines of all bodies, which stay with the bodies' frames: with where those are.
-pub fn scene(bodies: &[Body], reports: &[BodyReport], geometry: Geometry, time: f64) -> Value {
-    let entities = bodies.iter().zip(reports).map(|(body, report)| {
-        let (mut solids, mut lines) = (Solids::default(), vec![]);
-        let centered = Isometry3::identity();
-        match &body.shape {
-            // A flat cylinder
-            ShapeSpec::Disc { radius } => solids.cylinder([*radius, *radius, *radius / 50.0]),
-            ShapeSpec::Ellipse { semi_axes: [a, b] } => solids.cylinder([*a, *b, *b / 50.0]),
-            ShapeSpec::Sphere { .. } | ShapeSpec::Spheroid { .. } | ShapeSpec::Ellipsoid { .. } => {
-                body.shape.semi_axes().into_iter().for_each(|own| solids.ellipsoid(&centered, own));
-            }
-            ShapeSpec::Capsule { .. }
-            | ShapeSpec::Helix(_)
-            | ShapeSpec::Curve(_)
-            | ShapeSpec::Revolved { .. }
-            | ShapeSpec::Union(_) => {
-                // The frame is at the centre of mass, the origin of the shape is not
-                let from = report.pose.rotation().inverse();
-                let origin = from * (body.pose_in_space().translation.vector - report.pose.center);
-                let place = Isometry3::translation(origin.x, origin.y, origin.z);
-                solids.parts(&place, &body.shape.parts().unwrap_or_default());
-            }
-            ShapeSpec::Cylinder { radius, length, .. } => {
-                for part in body.shape.parts().unwrap_or_default() {
-                    solids.cylinder_along_x(&part.pose, *radius, 0.5 * length);
-                }
-            }
-            ShapeSpec::Spline { .. }
-            | ShapeSpec::Fish(_)
-            | ShapeSpec::Flagellate(_)
-            | ShapeSpec::Tube(_) => {
-                lines.push(closed_line(&body.shape.points()));
-            }
-        }
-        let Solids { spheres, cylinders } = solids;
-        json!({
-            "timestamp": timestamp(time),
-            "frame_id": body.name,
-            "id": body.name,
-            "lifetime": timestamp(0.0),
-            "frame_locked": true,
-            "metadata": [{"key": "geometry", "value": geometry.name()}],
-            "arrows": [],
-            "cubes": [],
-            "spheres": spheres,
-            "cylinders": cylinders,
-            "lines": lines,
-            "triangles": [],
-            "texts": [],
-            "models": [],
-        })
-    });
-    json!({"deletions": [], "entities": entities.collect::<Vec<_>>()})
 }
 
 /// Severity of a log message.
@@ -252,14 +230,12 @@ pub fn log(severity: Severity, message: &str, time: f64) -> Value {
 
 /// One step.
 pub fn step<const D: usize>(snapshot: &Snapshot<'_, D>) -> Value {
-    let quantities = snapshot.names.iter().cloned().zip(snapshot.values.iter().map(|v| json!(v)));
     json!({
         "step": snapshot.step,
         "time": snapshot.time,
         "time_step": snapshot.time_step,
         "iterations": snapshot.iterations,
         "n_dofs": snapshot.n_dofs,
-        "quantities": quantities.collect::<serde_json::Map<_, _>>(),
     })
 }
 
@@ -298,7 +274,8 @@ pub fn nanoseconds(time: f64) -> u64 {
     (time * 1e9).round() as u64
 }
 
-fn timestamp(time: f64) -> Value {
+/// Simulated time as viewers know it.
+pub fn timestamp(time: f64) -> Value {
     let nanoseconds = nanoseconds(time);
     json!({"sec": nanoseconds / 1_000_000_000, "nsec": nanoseconds % 1_000_000_000})
 }
@@ -318,26 +295,4 @@ fn list(items: Value) -> Value {
 
 fn wrench(wrench: &Wrench) -> Value {
     json!({"force": vector(&wrench.force), "torque": vector(&wrench.torque)})
-}
-
-fn no_offset() -> Value {
-    json!({
-        "position": vector(&Vector3::zeros()),
-        "orientation": quaternion(&UnitQuaternion::identity()),
-    })
-}
-
-fn closed_line(points: &[[f64; 2]]) -> Value {
-    const LINE_LOOP: u8 = 1;
-    let points = points.iter().map(|&[x, y]| vector(&Vector3::new(x, y, 0.0)));
-    json!({
-        "type": LINE_LOOP,
-        "pose": no_offset(),
-        "thickness": 2.0,
-        "scale_invariant": true,
-        "points": points.collect::<Vec<_>>(),
-        "color": body_colour(),
-        "colors": [],
-        "indices": [],
-    })
 }

@@ -130,7 +130,8 @@ fn everyone_at(
     directory: &RunDirectory,
     history: Option<&History>,
 ) -> Vec<Box<dyn Observer<2>>> {
-    observers(model, directory, history, true, &WriteTimes::default()).unwrap()
+    let shown = Shown { quiet: true, live: None };
+    observers(model, directory, history, shown, &WriteTimes::default()).unwrap()
 }
 
 /// The files below `path`, sorted.
