@@ -272,13 +272,9 @@ fn stopped(error: &RunError, out: &Path) -> Failure {
     Failure::new(Exit::Stopped, format!("{error}; {remedy}"))
 }
 
-/// How the program was called, or would be from its source: what cargo builds is called by cargo.
+/// How the program was called: from here that works again.
 fn program(typed: &str) -> String {
-    match Path::new(typed).iter().any(|part| part == "target") {
-        true => "cargo run --release --".to_owned(),
-        false if typed.is_empty() => "alewife".to_owned(),
-        false => quoted(typed),
-    }
+    if typed.is_empty() { "alewife".to_owned() } else { quoted(typed) }
 }
 
 /// The state a path names: the latest checkpoint, where it is the directory of a run, or its last state.
@@ -353,10 +349,10 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_command_is_what_was_typed_or_what_cargo_runs() {
+    fn a_command_is_what_was_typed() {
         assert_eq!(program("alewife"), "alewife");
         assert_eq!(program("./my tools/alewife"), "'./my tools/alewife'");
-        assert_eq!(program("target/release/alewife"), "cargo run --release --");
+        assert_eq!(program("target/release/alewife"), "target/release/alewife");
         assert_eq!(program("/home/me/targets/alewife"), "/home/me/targets/alewife");
     }
 }

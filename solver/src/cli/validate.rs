@@ -11,7 +11,7 @@ use super::signal::SignalWatch;
 use super::style::{Ink, complain, on_stdout, say};
 use super::{engine, results, threads};
 use crate::case::{Cadence, Case, CaseFile, Numbers, Statistics, library};
-use crate::observer::{Earlier, RunDirectory, RunState, Start, Status, read_outcome};
+use crate::observer::{Earlier, RunDirectory, RunState, Shown, Start, Status, read_outcome};
 use crate::simulation::{RunError, RunSummary};
 use crate::validation::{
     Comparison, compare, comparison_page, comparisons_to_json, count_table, not_computed, summary,

@@ -301,7 +301,7 @@ impl Arm {
         let is_planar = model.case.geometry.dimensions() == 2;
         // Frames are at centres of mass, origins of shapes are not
         let centroid = |body: usize| match is_planar {
-            true => model.bodies[body].shape.outline().moments().ok(),
+            true => model.bodies[body].shape.outline().moments(),
             false => None,
         };
         let centroid = |body: usize| {

@@ -294,7 +294,7 @@ impl MessageFile {
         }
         if self.groups.is_empty() {
             self.groups = Group::all(snapshot.names);
-            let radii = self.bodies.iter().map(|body| body.shape.bounding_radius());
+            let radii = self.bodies.iter().map(|body| body.shape.reach());
             self.longest_arrow = ARROW * radii.fold(0.0, f64::max);
         }
         if self.schedule.is_due(snapshot.step, snapshot.time, snapshot.is_last) {
