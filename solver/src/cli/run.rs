@@ -17,8 +17,8 @@ use super::wall_limit::WallLimit;
 use super::{engine, live, threads};
 use crate::case::{Case, CaseFile, TimeSettings};
 use crate::observer::{
-    COMPARISON_FILE, Earlier, FAILURE_STATE, History, Point, RunDirectory, Shown, Start, checkpoints,
-    read_state, run_of_state, write_atomic,
+    COMPARISON_FILE, Earlier, FAILURE_STATE, History, Point, RunDirectory, Shown, Start,
+    checkpoints, read_state, run_of_state, write_atomic,
 };
 use crate::simulation::{Dimension, RunError, SavedState, Solve, cpu_seconds};
 use crate::validation::{Comparison, compare, comparisons_to_json};

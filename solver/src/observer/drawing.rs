@@ -103,14 +103,12 @@ pub fn surface<const D: usize>(
     geometry: Geometry,
     ink: &Value,
 ) -> Primitives {
-    let is_own = |facet: &&Facet| {
-        mesh.boundaries[facet.boundary.index()].kind == BoundaryKind::Body(body)
-    };
+    let is_own =
+        |facet: &&Facet| mesh.boundaries[facet.boundary.index()].kind == BoundaryKind::Body(body);
     let facets: Vec<&Facet> = mesh.facets.iter().filter(is_own).collect();
     let shift = image_shift(mesh, &facets, pose);
-    let place = |node: NodeId| {
-        pose.to_body(&(in_space(&(mesh.nodes[node.index()] - shift)) - pose.center))
-    };
+    let place =
+        |node: NodeId| pose.to_body(&(in_space(&(mesh.nodes[node.index()] - shift)) - pose.center));
     if D == 3 {
         return Primitives {
             triangles: faces(mesh, &facets, &place, ink).into_iter().collect(),
@@ -229,7 +227,8 @@ impl WallBox {
     pub fn differs(&self, other: &Self) -> bool {
         let extent = (0..3).map(|axis| self.high[axis] - self.low[axis]).fold(0.0, f64::max);
         let most = (0..3).map(|axis| {
-            let [low, high] = [self.low[axis] - other.low[axis], self.high[axis] - other.high[axis]];
+            let [low, high] =
+                [self.low[axis] - other.low[axis], self.high[axis] - other.high[axis]];
             low.abs().max(high.abs())
         });
         most.fold(0.0, f64::max) > NOTICEABLE * extent
@@ -243,9 +242,8 @@ impl WallBox {
 }
 
 fn sides<const D: usize>(mesh: &Mesh<D>) -> impl Iterator<Item = &Facet> {
-    let is_side = |facet: &&Facet| {
-        mesh.boundaries[facet.boundary.index()].kind == BoundaryKind::Side
-    };
+    let is_side =
+        |facet: &&Facet| mesh.boundaries[facet.boundary.index()].kind == BoundaryKind::Side;
     mesh.facets.iter().filter(is_side)
 }
 
@@ -309,9 +307,10 @@ impl Arm {
                 Vector3::new(moments.centroid.x, moments.centroid.y, 0.0)
             })
         };
-        let arms = model.joints.iter().filter(|joint| {
-            matches!(joint.kind, JointKind::Arm { .. } | JointKind::Slider(_))
-        });
+        let arms = model
+            .joints
+            .iter()
+            .filter(|joint| matches!(joint.kind, JointKind::Arm { .. } | JointKind::Slider(_)));
         arms.filter_map(|joint| {
             let bodies = [body(&joint.parent)?, body(&joint.child)?];
             let [on_parent, on_child] = joint.ends();

@@ -3,9 +3,10 @@
 //! Viewers recognise a schema by its name alone, so the names of the `foxglove` messages and
 //! their fields are theirs. Times are simulated seconds.
 
+use serde::Serialize;
 use serde_json::{Value, json};
 
-use super::solids::{quaternion, vector};
+use super::solids::{Xyz, Xyzw};
 use crate::body::{Pose, Twist, Wrench, in_space};
 use crate::simulation::{BodyReport, Snapshot};
 
@@ -192,17 +193,43 @@ fn scene_schema() -> Value {
 }
 
 /// Poses of all body frames in the world.
-pub fn transforms(bodies: &[BodyReport], time: f64) -> Value {
-    let transforms = bodies.iter().map(|body| {
-        json!({
-            "timestamp": timestamp(time),
-            "parent_frame_id": WORLD,
-            "child_frame_id": body.name,
-            "translation": vector(&body.pose.center),
-            "rotation": quaternion(&body.pose.rotation()),
-        })
+pub fn transforms(bodies: &[BodyReport], time: f64) -> impl Serialize {
+    let transforms = bodies.iter().map(|body| TransformMessage {
+        timestamp: Timestamp::of(time),
+        parent_frame_id: WORLD,
+        child_frame_id: &body.name,
+        translation: Xyz::of(&body.pose.center),
+        rotation: Xyzw::of(&body.pose.rotation()),
     });
-    json!({"transforms": transforms.collect::<Vec<_>>()})
+    TransformsMessage { transforms: transforms.collect() }
+}
+
+#[derive(Serialize)]
+struct TransformsMessage<'a> {
+    transforms: Vec<TransformMessage<'a>>,
+}
+
+#[derive(Serialize)]
+struct TransformMessage<'a> {
+    timestamp: Timestamp,
+    parent_frame_id: &'static str,
+    child_frame_id: &'a str,
+    translation: Xyz,
+    rotation: Xyzw,
+}
+
+/// A simulated time as viewers know it.
+#[derive(Serialize)]
+struct Timestamp {
+    sec: u64,
+    nsec: u64,
+}
+
+impl Timestamp {
+    fn of(time: f64) -> Self {
+        let nanoseconds = nanoseconds(time);
+        Self { sec: nanoseconds / 1_000_000_000, nsec: nanoseconds % 1_000_000_000 }
+    }
 }
 
 /// Severity of a log message.
@@ -240,32 +267,76 @@ pub fn step<const D: usize>(snapshot: &Snapshot<'_, D>) -> Value {
 }
 
 /// One body.
-pub fn body(report: &BodyReport, step: usize, time: f64) -> Value {
+pub fn body(report: &BodyReport, step: usize, time: f64) -> impl Serialize {
     let Pose { center, .. } = &report.pose;
     let Twist { linear, angular } = &report.twist;
-    let recoil = report.recoil.map(|recoil| {
-        json!({
-            "center": vector(&in_space(&recoil.center)),
-            "velocity": vector(&in_space(&recoil.velocity)),
-            "angle": recoil.angle,
-            "angular_velocity": recoil.angular_velocity,
-        })
+    let recoil = report.recoil.map(|recoil| RecoilMessage {
+        center: Xyz::of(&in_space(&recoil.center)),
+        velocity: Xyz::of(&in_space(&recoil.velocity)),
+        angle: recoil.angle,
+        angular_velocity: recoil.angular_velocity,
     });
-    json!({
-        "step": step,
-        "time": time,
-        "pose": {
-            "center": vector(center),
-            "rotation": quaternion(&report.pose.rotation()),
-            "angle": report.pose.heading(),
+    BodyMessage {
+        step,
+        time,
+        pose: PoseMessage {
+            center: Xyz::of(center),
+            rotation: Xyzw::of(&report.pose.rotation()),
+            angle: report.pose.heading(),
         },
-        "twist": {"linear": vector(linear), "angular": vector(angular)},
-        "load": wrench(&report.load),
-        "surface_load": wrench(&report.surface_load),
-        "contact": wrench(&report.contact),
-        "power": report.power,
-        "recoil": recoil,
-    })
+        twist: TwistMessage { linear: Xyz::of(linear), angular: Xyz::of(angular) },
+        load: WrenchMessage::of(&report.load),
+        surface_load: WrenchMessage::of(&report.surface_load),
+        contact: WrenchMessage::of(&report.contact),
+        power: report.power,
+        recoil,
+    }
+}
+
+#[derive(Serialize)]
+struct BodyMessage {
+    step: usize,
+    time: f64,
+    pose: PoseMessage,
+    twist: TwistMessage,
+    load: WrenchMessage,
+    surface_load: WrenchMessage,
+    contact: WrenchMessage,
+    power: f64,
+    recoil: Option<RecoilMessage>,
+}
+
+#[derive(Serialize)]
+struct PoseMessage {
+    center: Xyz,
+    rotation: Xyzw,
+    angle: f64,
+}
+
+#[derive(Serialize)]
+struct TwistMessage {
+    linear: Xyz,
+    angular: Xyz,
+}
+
+#[derive(Serialize)]
+struct WrenchMessage {
+    force: Xyz,
+    torque: Xyz,
+}
+
+impl WrenchMessage {
+    fn of(wrench: &Wrench) -> Self {
+        Self { force: Xyz::of(&wrench.force), torque: Xyz::of(&wrench.torque) }
+    }
+}
+
+#[derive(Serialize)]
+struct RecoilMessage {
+    center: Xyz,
+    velocity: Xyz,
+    angle: f64,
+    angular_velocity: f64,
 }
 
 /// Simulated time as the unsigned nanoseconds of a message; times before zero count as zero.
@@ -276,8 +347,8 @@ pub fn nanoseconds(time: f64) -> u64 {
 
 /// Simulated time as viewers know it.
 pub fn timestamp(time: f64) -> Value {
-    let nanoseconds = nanoseconds(time);
-    json!({"sec": nanoseconds / 1_000_000_000, "nsec": nanoseconds % 1_000_000_000})
+    let Timestamp { sec, nsec } = Timestamp::of(time);
+    json!({"sec": sec, "nsec": nsec})
 }
 
 fn timestamp_schema() -> Value {
@@ -291,8 +362,4 @@ fn object<'a>(properties: impl IntoIterator<Item = (&'a str, Value)>) -> Value {
 
 fn list(items: Value) -> Value {
     json!({"type": "array", "items": items})
-}
-
-fn wrench(wrench: &Wrench) -> Value {
-    json!({"force": vector(&wrench.force), "torque": vector(&wrench.torque)})
 }

@@ -14,7 +14,7 @@ use std::time::Duration;
 
 use mcap::records::{MessageHeader, Metadata};
 use mcap::{Attachment, Compression, McapError, Schema, WriteOptions, Writer};
-use serde_json::Value;
+use serde::Serialize;
 
 use super::atomic::{AtPath, unfinished_file};
 use super::drawing::{Arm, WallBox, arms, forces, walls};
@@ -168,8 +168,9 @@ impl MessageFile {
             let topic = message.topic.as_str();
             n_kept += usize::from(EACH_ROW.contains(&topic) || topic.starts_with("/body/"));
             if topic == WALLS {
-                self.walls =
-                    serde_json::from_slice(&message.data).ok().and_then(|of| WallBox::of_scene(&of));
+                self.walls = serde_json::from_slice(&message.data)
+                    .ok()
+                    .and_then(|of| WallBox::of_scene(&of));
             }
             self.time = Duration::from_nanos(message.time).as_secs_f64();
         }
@@ -189,7 +190,7 @@ impl MessageFile {
         self.log(Severity::Info, "resumed")
     }
 
-    fn send(&mut self, topic: &str, kind: Kind, message: &Value) -> io::Result<()> {
+    fn send(&mut self, topic: &str, kind: Kind, message: &impl Serialize) -> io::Result<()> {
         let channel = self.channel(topic, || {
             Ok(Schema {
                 id: 0,

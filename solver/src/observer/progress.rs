@@ -88,7 +88,8 @@ impl Progress {
         let mut text = String::new();
         if let Some(begin) = &self.swimmer {
             let is_component = |name: &str| {
-                name.strip_prefix(begin.as_str()).is_some_and(|axis| ["x", "y", "z"].contains(&axis))
+                name.strip_prefix(begin.as_str())
+                    .is_some_and(|axis| ["x", "y", "z"].contains(&axis))
             };
             let components = named().filter(|(name, _)| is_component(name)).map(|(_, value)| value);
             let speed = components.map(|component| component * component).sum::<f64>().sqrt();

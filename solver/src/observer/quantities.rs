@@ -53,10 +53,7 @@ impl Group {
             }
             tree.index = Some(index);
         }
-        order
-            .into_iter()
-            .filter_map(|name| Some(Self::new(name, trees.get(name)?)))
-            .collect()
+        order.into_iter().filter_map(|name| Some(Self::new(name, trees.get(name)?))).collect()
     }
 
     fn new(name: &str, tree: &Tree) -> Self {

@@ -2,6 +2,7 @@
 
 use alewife_mesh::spatial::{Centreline, Part, Shape};
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
+use serde::Serialize;
 use serde_json::{Value, json};
 
 /// Cylinders by which a turn of a helix is drawn.
@@ -119,6 +120,37 @@ fn solid(pose: &Isometry3<f64>, semi_axes: [f64; 3], [bottom, top]: [f64; 2]) ->
         "top_scale": top,
         "color": body_colour(),
     })
+}
+
+/// A vector as viewers know it.
+#[derive(Debug, Clone, Copy, Serialize)]
+pub struct Xyz {
+    x: f64,
+    y: f64,
+    z: f64,
+}
+
+impl Xyz {
+    /// That of a vector.
+    pub fn of(vector: &Vector3<f64>) -> Self {
+        Self { x: vector.x, y: vector.y, z: vector.z }
+    }
+}
+
+/// A rotation as viewers know it.
+#[derive(Debug, Clone, Copy, Serialize)]
+pub struct Xyzw {
+    x: f64,
+    y: f64,
+    z: f64,
+    w: f64,
+}
+
+impl Xyzw {
+    /// That of a rotation.
+    pub fn of(rotation: &UnitQuaternion<f64>) -> Self {
+        Self { x: rotation.i, y: rotation.j, z: rotation.k, w: rotation.w }
+    }
 }
 
 /// A vector as viewers know it.
