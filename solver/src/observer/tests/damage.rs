@@ -67,7 +67,7 @@ fn a_run_that_goes_on_after_a_damaged_file_tells_what_is_lost() {
         let start = Start::with_threads(1);
         let directory =
             RunDirectory::create(place.path(), &run.model.case, start, Earlier::Continue).unwrap();
-        drop(MessageFile::create(&directory, &run.model, Some(&history)).unwrap());
+        drop(MessageFile::create(&directory, &run.model, Some(&history), None).unwrap());
         let again = Messages::read(&std::fs::read(&path).unwrap());
         assert_eq!(again.damage, None, "damage {case}");
         assert_eq!(n_of_steps(&again.all), n_left, "damage {case}");
