@@ -12,7 +12,7 @@ use crate::case::{several_nearest, significant};
 /// Columns where there is no terminal to tell.
 const USUAL_WIDTH: usize = 80;
 /// Fewest and most columns of the curve.
-const WIDTHS: [usize; 2] = [8, 400];
+const WIDTHS: [usize; 2] = [4, 400];
 /// Dots of a character of Braille: across, and along.
 const DOTS: [usize; 2] = [2, 4];
 /// The bits of these dots, by rows.
@@ -148,7 +148,9 @@ fn curve(points: &[[f64; 2]], [width, height]: [usize; 2]) -> Vec<String> {
         })
         .collect();
     let [start, end] = times.map(significant);
-    let gap = n_columns.saturating_sub(start.len() + end.len()).max(1);
+    // Where there is no space for both, the end alone
+    let start = if start.len() + end.len() < n_columns { start } else { String::new() };
+    let gap = n_columns.saturating_sub(start.len() + end.len());
     lines.push(format!("{:margin$} +{}", "", "-".repeat(n_columns)));
     lines.push(format!("{:margin$}  {start}{:gap$}{end}", "", ""));
     lines

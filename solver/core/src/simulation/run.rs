@@ -9,6 +9,7 @@ use super::measure::Measure;
 use super::prepare::{Prepared, prepare};
 use super::resume::SavedState;
 use super::snapshot::{LastState, Observer, Snapshot};
+use super::soundness::Nearness;
 use super::steady::{SteadyFlow, SteadyTask, solve_steady};
 use super::{RunError, Series, Stage, StopRequest, Timing};
 use crate::case::{Case, Initial, Model, Steady, TimeSettings, Unsteady};
@@ -110,6 +111,8 @@ pub(super) struct Warned {
     pub of_cfl: bool,
     /// A gap far below the range of contact.
     pub of_gap: bool,
+    /// Bodies that stay near each other without contact.
+    pub nearness: Nearness,
     /// Bodies that leave through an open side.
     pub left: Vec<usize>,
 }
@@ -303,6 +306,7 @@ impl<const D: usize> Run<'_, D> {
         let is_wanted = wanted.count() > 0;
         series.rows.push(measured.values);
         self.check_soundness(&measured.flow)?;
+        self.propose_contact();
         if is_wanted { self.show_state() } else { Ok(()) }
     }
 
