@@ -98,8 +98,8 @@ impl<const D: usize> Run<'_, D> {
         let names = [gaps.body_name(minimum.body), gaps.partner_name(minimum.partner)];
         tracing::warn!(
             "step {step} (t = {time}): `{}` and `{}` are {gap:.2e} apart, and {} meshes were made since \
-             they came near: [contact] keeps bodies apart from each other and from walls; `check` \
-             proposes its numbers",
+             they came near: if they may meet, [contact], such as contact.barrier, keeps bodies apart from \
+             each other and from walls, with longer steps and fewer meshes",
             names[0],
             names[1],
             state.remeshes - since
