@@ -187,7 +187,6 @@ where
     if comparisons.is_empty() {
         tell_last_values(&file.model, &outcome);
     }
-    // Of the whole process and all its threads, not of the stages alone
     let (seconds, wall) = (cpu_seconds(), started.elapsed().as_secs_f64());
     let remeshes = outcome.series.column("flow.remeshes").and_then(|all| all.last().copied());
     let moving = remeshes.map_or_else(String::new, |remeshes| {

@@ -3,97 +3,19 @@
 use std::collections::{BTreeMap, HashMap, HashSet};
 
 use alewife_mesh::{BoundaryKind, Facet, Mesh, NodeId, Point};
-use nalgebra::{UnitQuaternion, Vector3};
-use serde_json::{Value, json};
+use nalgebra::Vector3;
+use serde_json::Value;
 
-use super::foxglove::{WORLD, timestamp};
-use super::solids::{quaternion, vector};
+use super::foxglove::WORLD;
+use super::primitives::{Arrow, Colour, Line, Primitives, SceneUpdate, Triangles, Xyz};
 use crate::body::{Pose, in_space};
 use crate::case::{Geometry, JointKind, Model};
 use crate::simulation::BodyReport;
 
-/// A closed line, in the words of viewers.
-const LINE_LOOP: u8 = 1;
-/// Pairs of points, in the words of viewers.
-const LINE_LIST: u8 = 2;
 /// Part of the longest extent of the walls by which they have to move to be drawn anew.
 const NOTICEABLE: f64 = 0.01;
 /// Part of the largest force below which a force is not drawn.
 const LEAST_FORCE: f64 = 1e-3;
-
-/// Primitives of one thing in a scene.
-#[derive(Debug, Default)]
-pub struct Primitives {
-    /// Lines.
-    pub lines: Vec<Value>,
-    /// Triangles.
-    pub triangles: Vec<Value>,
-    /// Arrows.
-    pub arrows: Vec<Value>,
-    /// Ellipsoids.
-    pub spheres: Vec<Value>,
-    /// Cylinders.
-    pub cylinders: Vec<Value>,
-}
-
-impl Primitives {
-    /// A thing of a scene that stays with a frame, with a note on it.
-    pub fn entity(self, frame: &str, id: &str, time: f64, note: [&str; 2]) -> Value {
-        let [key, value] = note;
-        json!({
-            "timestamp": timestamp(time),
-            "frame_id": frame,
-            "id": id,
-            "lifetime": timestamp(0.0),
-            "frame_locked": true,
-            "metadata": [{"key": key, "value": value}],
-            "arrows": self.arrows,
-            "cubes": [],
-            "spheres": self.spheres,
-            "cylinders": self.cylinders,
-            "lines": self.lines,
-            "triangles": self.triangles,
-            "texts": [],
-            "models": [],
-        })
-    }
-}
-
-/// A scene of these things.
-pub fn scene_of(entities: Vec<Value>) -> Value {
-    json!({"deletions": [], "entities": entities})
-}
-
-/// A colour, with its opacity.
-pub fn colour([r, g, b, a]: [f64; 4]) -> Value {
-    json!({"r": r, "g": g, "b": b, "a": a})
-}
-
-/// Lines through points: closed, or between pairs of them.
-fn line(kind: u8, points: &[Vector3<f64>], colour: &Value) -> Value {
-    json!({
-        "type": kind,
-        "pose": no_offset(),
-        "thickness": 2.0,
-        "scale_invariant": true,
-        "points": points.iter().map(vector).collect::<Vec<_>>(),
-        "color": colour,
-        "colors": [],
-        "indices": [],
-    })
-}
-
-/// A closed line.
-pub fn closed_line(points: &[Vector3<f64>], colour: &Value) -> Value {
-    line(LINE_LOOP, points, colour)
-}
-
-fn no_offset() -> Value {
-    json!({
-        "position": vector(&Vector3::zeros()),
-        "orientation": quaternion(&UnitQuaternion::identity()),
-    })
-}
 
 /// The surface of a body as the mesh has it, in the body's frame: its outline, in space its faces.
 pub fn surface<const D: usize>(
@@ -101,7 +23,7 @@ pub fn surface<const D: usize>(
     body: usize,
     pose: &Pose,
     geometry: Geometry,
-    ink: &Value,
+    ink: Colour,
 ) -> Primitives {
     let is_own =
         |facet: &&Facet| mesh.boundaries[facet.boundary.index()].kind == BoundaryKind::Body(body);
@@ -122,7 +44,7 @@ pub fn surface<const D: usize>(
         let mirrored: Vec<_> = mirrored.collect();
         points.extend(mirrored);
     }
-    Primitives { lines: vec![closed_line(&points, ink)], ..Primitives::default() }
+    Primitives { lines: vec![Line::closed(&points, ink)], ..Primitives::default() }
 }
 
 /// Whole periods by which a periodic mesh has a body away from its pose.
@@ -175,28 +97,20 @@ fn faces<const D: usize>(
     mesh: &Mesh<D>,
     facets: &[&Facet],
     place: &dyn Fn(NodeId) -> Vector3<f64>,
-    ink: &Value,
-) -> Option<Value> {
+    ink: Colour,
+) -> Option<Triangles> {
     let mut numbers: BTreeMap<NodeId, usize> = BTreeMap::new();
     let (mut points, mut indices) = (Vec::new(), Vec::with_capacity(3 * facets.len()));
     for facet in facets {
         for node in mesh.facet_vertices(facet) {
             let number = *numbers.entry(node).or_insert_with(|| {
-                points.push(vector(&place(node)));
+                points.push(Xyz::of(&place(node)));
                 points.len() - 1
             });
             indices.push(number);
         }
     }
-    (!indices.is_empty()).then(|| {
-        json!({
-            "pose": no_offset(),
-            "points": points,
-            "color": ink,
-            "colors": [],
-            "indices": indices,
-        })
-    })
+    (!indices.is_empty()).then(|| Triangles::new(points, indices, ink))
 }
 
 /// Lowest and highest corner of the sides of the domain.
@@ -253,7 +167,7 @@ pub fn walls<const D: usize>(
     geometry: Geometry,
     place: &WallBox,
     time: f64,
-) -> Value {
+) -> SceneUpdate {
     let periodic: HashSet<NodeId> =
         mesh.periodic.iter().flat_map(|pair| [pair.copy, pair.original]).collect();
     let mut by_name: BTreeMap<&str, Vec<&Facet>> = BTreeMap::new();
@@ -268,7 +182,7 @@ pub fn walls<const D: usize>(
     let entities = by_name.into_iter().map(|(name, facets)| {
         let mut drawn = Primitives::default();
         if D == 3 {
-            drawn.triangles.extend(faces(mesh, &facets, &at, &colour([0.5, 0.55, 0.6, 0.15])));
+            drawn.triangles.extend(faces(mesh, &facets, &at, Colour::new([0.5, 0.55, 0.6, 0.15])));
         } else {
             let mut points = Vec::with_capacity(4 * facets.len());
             for facet in facets {
@@ -278,11 +192,11 @@ pub fn walls<const D: usize>(
                     points.extend(ends.map(|p| Vector3::new(p.x, -p.y, p.z)));
                 }
             }
-            drawn.lines.push(line(LINE_LIST, &points, &colour([0.5, 0.55, 0.6, 1.0])));
+            drawn.lines.push(Line::between_pairs(&points, Colour::new([0.5, 0.55, 0.6, 1.0])));
         }
         drawn.entity(WORLD, name, time, ["box", &note])
     });
-    scene_of(entities.collect())
+    SceneUpdate::of(entities.collect())
 }
 
 /// Two bodies and the points of theirs between which an arm is.
@@ -322,7 +236,7 @@ impl Arm {
 }
 
 /// All arms in the world, as lines.
-pub fn arms(arms: &[Arm], bodies: &[BodyReport], time: f64) -> Value {
+pub fn arms(arms: &[Arm], bodies: &[BodyReport], time: f64) -> SceneUpdate {
     let points: Vec<Vector3<f64>> = arms
         .iter()
         .flat_map(|arm| {
@@ -332,39 +246,25 @@ pub fn arms(arms: &[Arm], bodies: &[BodyReport], time: f64) -> Value {
             })
         })
         .collect();
-    let lines = vec![line(LINE_LIST, &points, &colour([0.55, 0.57, 0.6, 1.0]))];
+    let lines = vec![Line::between_pairs(&points, Colour::new([0.55, 0.57, 0.6, 1.0]))];
     let drawn = Primitives { lines, ..Primitives::default() };
-    scene_of(vec![drawn.entity(WORLD, "arms", time, ["arms", &arms.len().to_string()])])
+    SceneUpdate::of(vec![drawn.entity(WORLD, "arms", time, ["arms", &arms.len().to_string()])])
 }
 
 /// Forces of the fluid and of contact on bodies as arrows, the longest as long as `longest` (m).
-pub fn forces(bodies: &[BodyReport], longest: f64, time: f64) -> Value {
-    let inks = [colour([0.1, 0.45, 0.85, 1.0]), colour([0.85, 0.25, 0.1, 1.0])];
+pub fn forces(bodies: &[BodyReport], longest: f64, time: f64) -> SceneUpdate {
+    let inks = [Colour::new([0.1, 0.45, 0.85, 1.0]), Colour::new([0.85, 0.25, 0.1, 1.0])];
     let both = |body: &BodyReport| [body.load.force, body.contact.force];
     let most = bodies.iter().flat_map(both).map(|force| force.norm()).fold(0.0, f64::max);
     let mut drawn = Primitives::default();
     for body in bodies {
-        for (force, ink) in both(body).into_iter().zip(&inks) {
+        for (force, ink) in both(body).into_iter().zip(inks) {
             if force.norm().is_finite() && most > 0.0 && force.norm() > LEAST_FORCE * most {
                 let length = longest * force.norm() / most;
-                drawn.arrows.push(arrow(&body.pose.center, &force, length, ink));
+                drawn.arrows.push(Arrow::new(&body.pose.center, &force, length, ink));
             }
         }
     }
     let per_length = (most / longest).to_string();
-    scene_of(vec![drawn.entity(WORLD, "forces", time, ["force per length", &per_length])])
-}
-
-fn arrow(from: &Vector3<f64>, way: &Vector3<f64>, length: f64, ink: &Value) -> Value {
-    // Arrows of viewers are along x
-    let turn = UnitQuaternion::rotation_between(&Vector3::x(), way);
-    let back = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), std::f64::consts::PI);
-    json!({
-        "pose": {"position": vector(from), "orientation": quaternion(&turn.unwrap_or(back))},
-        "shaft_length": 0.75 * length,
-        "shaft_diameter": 0.06 * length,
-        "head_length": 0.25 * length,
-        "head_diameter": 0.16 * length,
-        "color": ink,
-    })
+    SceneUpdate::of(vec![drawn.entity(WORLD, "forces", time, ["force per length", &per_length])])
 }

@@ -6,7 +6,7 @@
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use super::solids::{Xyz, Xyzw};
+use super::primitives::{Timestamp, Xyz, Xyzw};
 use crate::body::{Pose, Twist, Wrench, in_space};
 use crate::simulation::{BodyReport, Snapshot};
 
@@ -218,20 +218,6 @@ struct TransformMessage<'a> {
     rotation: Xyzw,
 }
 
-/// A simulated time as viewers know it.
-#[derive(Serialize)]
-struct Timestamp {
-    sec: u64,
-    nsec: u64,
-}
-
-impl Timestamp {
-    fn of(time: f64) -> Self {
-        let nanoseconds = nanoseconds(time);
-        Self { sec: nanoseconds / 1_000_000_000, nsec: nanoseconds % 1_000_000_000 }
-    }
-}
-
 /// Severity of a log message.
 #[derive(Debug, Clone, Copy)]
 pub enum Severity {
@@ -246,7 +232,7 @@ pub enum Severity {
 /// One line about the run.
 pub fn log(severity: Severity, message: &str, time: f64) -> Value {
     json!({
-        "timestamp": timestamp(time),
+        "timestamp": Timestamp::of(time),
         "level": severity as u8,
         "message": message,
         "name": "alewife",
@@ -337,18 +323,6 @@ struct RecoilMessage {
     velocity: Xyz,
     angle: f64,
     angular_velocity: f64,
-}
-
-/// Simulated time as the unsigned nanoseconds of a message; times before zero count as zero.
-#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates")]
-pub fn nanoseconds(time: f64) -> u64 {
-    (time * 1e9).round() as u64
-}
-
-/// Simulated time as viewers know it.
-pub fn timestamp(time: f64) -> Value {
-    let Timestamp { sec, nsec } = Timestamp::of(time);
-    json!({"sec": sec, "nsec": nsec})
 }
 
 fn timestamp_schema() -> Value {

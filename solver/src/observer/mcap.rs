@@ -20,8 +20,10 @@ use super::atomic::{AtPath, unfinished_file};
 use super::drawing::{Arm, WallBox, arms, forces, walls};
 use super::foxglove::{self, Kind, Severity};
 use super::history::History;
-use super::live::{LiveChannel, LiveServer};
+use super::live::LiveServer;
+use super::live_hub::LiveChannel;
 use super::messages::Messages;
+use super::primitives::nanoseconds;
 use super::quantities::Group;
 use super::run_directory::RunDirectory;
 use super::scene::{Shown, scene};
@@ -159,7 +161,7 @@ impl MessageFile {
             Err(error) if error.kind() == io::ErrorKind::NotFound => Messages::default(),
             read => Messages::read(&read.at(&path)?),
         };
-        let last = foxglove::nanoseconds(history.time);
+        let last = nanoseconds(history.time);
         let mut n_kept = 0;
         for message in found.all.iter().filter(|message| message.time <= last) {
             let Some(schema) = found.schemas.get(&message.schema) else { continue };
@@ -199,7 +201,7 @@ impl MessageFile {
                 data: Cow::Owned(serde_json::to_vec(&kind.schema())?),
             })
         })?;
-        self.write(channel, foxglove::nanoseconds(self.time), &serde_json::to_vec(message)?)
+        self.write(channel, nanoseconds(self.time), &serde_json::to_vec(message)?)
     }
 
     fn send_quantities(&mut self, values: &[f64]) -> io::Result<()> {
@@ -216,7 +218,7 @@ impl MessageFile {
                 }),
             };
             let channel = self.channel(&topic, || Ok(schema))?;
-            self.write(channel, foxglove::nanoseconds(self.time), &data)?;
+            self.write(channel, nanoseconds(self.time), &data)?;
         }
         Ok(())
     }

@@ -1,10 +1,10 @@
 //! The scene viewers are shown: all bodies, each in its own frame.
 
 use nalgebra::{Isometry3, Vector3};
-use serde_json::Value;
 
-use super::drawing::{Primitives, closed_line, scene_of, surface};
-use super::solids::{Solids, body_colour};
+use super::drawing::surface;
+use super::primitives::{Colour, Line, Primitives, SceneUpdate};
+use super::solids::Solids;
 use crate::case::{Body, Geometry, ShapeSpec};
 use crate::simulation::{BodyReport, Snapshot};
 
@@ -18,22 +18,25 @@ pub enum Shown {
 }
 
 /// Bodies, which stay with their frames: with where those are.
-pub fn scene<const D: usize>(bodies: &[Body], snapshot: &Snapshot<'_, D>, shown: Shown) -> Value {
+pub fn scene<const D: usize>(
+    bodies: &[Body],
+    snapshot: &Snapshot<'_, D>,
+    shown: Shown,
+) -> SceneUpdate {
     let geometry: Geometry = snapshot.case.geometry;
-    let ink = body_colour();
     let all = bodies.iter().zip(snapshot.bodies).enumerate();
     let entities = all
         .filter(|(_, (body, _))| shown == Shown::All || body.deforms())
         .map(|(index, (body, report))| {
             let drawn = if body.deforms() {
-                surface(snapshot.mesh, index, &report.pose, geometry, &ink)
+                surface(snapshot.mesh, index, &report.pose, geometry, Colour::BODY)
             } else {
                 rigid(body, report)
             };
             drawn.entity(&body.name, &body.name, snapshot.time, ["geometry", geometry.name()])
         })
         .collect();
-    scene_of(entities)
+    SceneUpdate::of(entities)
 }
 
 /// A body that keeps its shape, in its own frame.
@@ -69,7 +72,7 @@ fn rigid(body: &Body, report: &BodyReport) -> Primitives {
         | ShapeSpec::Tube(_) => {
             let points = body.shape.points();
             let points: Vec<_> = points.iter().map(|p| Vector3::new(p[0], p[1], 0.0)).collect();
-            lines.push(closed_line(&points, &body_colour()));
+            lines.push(Line::closed(&points, Colour::BODY));
         }
     }
     let Solids { spheres, cylinders } = solids;

@@ -9,7 +9,6 @@ use super::measure::Measure;
 use super::prepare::{Prepared, prepare};
 use super::resume::SavedState;
 use super::snapshot::{LastState, Observer, Snapshot};
-use super::soundness::Nearness;
 use super::steady::{SteadyFlow, SteadyTask, solve_steady};
 use super::{RunError, Series, Stage, StopRequest, Timing};
 use crate::case::{Case, Initial, Model, Steady, TimeSettings, Unsteady};
@@ -102,6 +101,17 @@ pub(super) struct Run<'a, const D: usize> {
     pub is_trial: bool,
     /// Fixed steps that were halved.
     pub rejections: usize,
+}
+
+/// How near bodies have come without contact.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Nearness {
+    /// Largest minimum gap so far (m).
+    pub largest_gap: f64,
+    /// Number of meshes when they came near, while they are.
+    pub since_mesh: Option<usize>,
+    /// Whether contact was proposed.
+    pub is_told: bool,
 }
 
 /// What a run has warned of; each is told once.

@@ -107,15 +107,6 @@ impl<const D: usize> Run<'_, D> {
     }
 }
 
-/// How near bodies have come without contact.
-#[derive(Debug, Clone, Default)]
-pub(super) struct Nearness {
-    largest_gap: f64,
-    /// Number of meshes when they came near, while they are.
-    since_mesh: Option<usize>,
-    is_told: bool,
-}
-
 impl<const D: usize> Simulation<D> {
     /// Largest speed of a body's surface or of a side with a given velocity (m/s).
     fn boundary_speed(&self) -> f64 {
