@@ -80,7 +80,7 @@ pub use mean_flow::MeanFlowSpec;
 pub use mesh::{MeshEquation, MeshSettings, MovingMesh, RefinementBox};
 pub use mesh_file::MeshFile;
 pub use model::{Model, SwimmerModel};
-pub use nearest::nearest;
+pub use nearest::{nearest, several_nearest};
 pub use numbers::{DerivedNumber, derived_numbers, geometry_name, number_table, significant};
 pub use orientation::Orientation;
 pub use output::{Cadence, Checkpoints, Output, Precision, Probe};

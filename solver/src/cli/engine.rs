@@ -9,7 +9,7 @@ use super::stop_file::StopFile;
 use super::threads;
 use super::wall_limit::WallLimit;
 use crate::case::Model;
-use crate::observer::{self, History, RunDirectory, WriteTimes};
+use crate::observer::{self, History, RunDirectory, Shown, WriteTimes};
 use crate::simulation::{self, Dimension, RunError, RunSummary, SavedState, Solve};
 
 /// The mesh of a case.
@@ -25,8 +25,8 @@ where
 pub struct RunInto<'a> {
     /// Where its files go.
     pub directory: &'a RunDirectory,
-    /// Whether there is no progress on the terminal.
-    pub quiet: bool,
+    /// What is shown of it.
+    pub shown: Shown,
     /// What may ask for its end.
     pub watch: SignalWatch,
     /// Its time on the clock, if that is limited.
@@ -74,7 +74,7 @@ where
     threads::within(|| {
         let history = resumed.and_then(|resumed| resumed.history.as_ref());
         let writes = WriteTimes::after(history.and_then(|history| history.longest_checkpoint));
-        let mut observers = observer::observers(model, run.directory, history, run.quiet, &writes)?;
+        let mut observers = observer::observers(model, run.directory, history, run.shown, &writes)?;
         observers.push(Box::new(run.watch));
         if let Some(limit) = run.limit {
             observers.push(Box::new(limit.learning_from(&writes)));

@@ -7,8 +7,10 @@ mod engine;
 mod exit;
 mod facts;
 mod library;
+mod live;
 mod mesh;
 mod panic;
+mod plot;
 mod read;
 mod results;
 mod run;
@@ -100,6 +102,8 @@ enum Command {
     },
     /// Run a case and compare it with its references
     Run(run::Options),
+    /// Draw quantities of a run over time, as text
+    Plot(plot::Options),
     /// Tell how far a run is
     Status(status::Options),
     /// Run a case at many points: with several values of some of its keys
@@ -152,6 +156,7 @@ fn dispatch(command: Command) -> Result<Exit, Failure> {
             mesh::mesh(&case, &settings.set, mesh::Target { out, as_text: text })
         }
         Command::Run(options) => run::run(&options),
+        Command::Plot(options) => plot::plot(&options),
         Command::Status(options) => status::status(&options),
         Command::Sweep(options) => sweep::sweep(&options),
         Command::Validate(options) => validate::validate(&options),

@@ -2,6 +2,7 @@
 
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
+use std::time::Instant;
 
 use clap::Args;
 
@@ -13,13 +14,13 @@ use super::results::{print_comparisons, tell_cell_numbers, tell_last_values};
 use super::signal::SignalWatch;
 use super::style::{complain, say};
 use super::wall_limit::WallLimit;
-use super::{engine, threads};
+use super::{engine, live, threads};
 use crate::case::{Case, CaseFile, TimeSettings};
 use crate::observer::{
-    COMPARISON_FILE, Earlier, FAILURE_STATE, History, Point, RunDirectory, Start, checkpoints,
-    read_state, run_of_state, write_atomic,
+    COMPARISON_FILE, Earlier, FAILURE_STATE, History, Point, RunDirectory, Shown, Start,
+    checkpoints, read_state, run_of_state, write_atomic,
 };
-use crate::simulation::{Dimension, RunError, SavedState, Solve};
+use crate::simulation::{Dimension, RunError, SavedState, Solve, cpu_seconds};
 use crate::validation::{Comparison, compare, comparisons_to_json};
 
 /// What `run` is asked for.
@@ -59,6 +60,15 @@ pub struct Options {
     /// of the batch job
     #[arg(long, value_name = "TIME")]
     max_walltime: Option<String>,
+    /// Show the run to viewers that speak the WebSocket protocol of Foxglove, such as its app: they connect
+    /// to ws://ADDRESS:PORT
+    #[arg(
+        long,
+        value_name = "ADDRESS:PORT",
+        num_args = 0..=1,
+        default_missing_value = live::DEFAULT_ADDRESS
+    )]
+    live: Option<String>,
     /// Do not compare with references
     #[arg(long)]
     no_references: bool,
@@ -99,6 +109,7 @@ impl Options {
             resume: None,
             continues: true,
             max_walltime,
+            live: None,
             no_references: false,
             overwrite,
             quiet,
@@ -124,11 +135,12 @@ fn run_in<const D: usize>(options: &Options, file: &CaseFile) -> Result<Exit, Fa
 where
     Dimension<D>: Solve<D>,
 {
-    let name = file.full_name();
+    let (name, started) = (file.full_name(), Instant::now());
     let out = options.out.clone().unwrap_or_else(|| Path::new("runs").join(name.replace('/', "-")));
     // From here on, so that no signal ends the process without a word, and no other process writes to what is read
     let watch = SignalWatch::start()?;
     let limit = WallLimit::new(options.max_walltime.as_deref())?;
+    let live = options.live.as_deref().map(|address| live::start(address, &name)).transpose()?;
     let lock = RunDirectory::hold(&out)?;
     let resumed: Option<Resumed<D>> = match beginning_of(options, file, &out)? {
         Beginning::AtStart => None,
@@ -159,7 +171,8 @@ where
     if let Some(resumed) = &resumed {
         tell_of_resuming(resumed, options.quiet);
     }
-    let run = RunInto { directory: &directory, quiet: options.quiet, watch, limit };
+    let shown = Shown { quiet: options.quiet, live };
+    let run = RunInto { directory: &directory, shown, watch, limit };
     let outcome =
         engine::simulate_into(&file.model, resumed.as_ref(), run).map_err(|error| match error {
             RunError::Stopped { .. } => stopped(&error, &out),
@@ -174,14 +187,15 @@ where
     if comparisons.is_empty() {
         tell_last_values(&file.model, &outcome);
     }
-    let seconds: f64 = outcome.timing.cpu.iter().sum();
+    let (seconds, wall) = (cpu_seconds(), started.elapsed().as_secs_f64());
     let remeshes = outcome.series.column("flow.remeshes").and_then(|all| all.last().copied());
     let moving = remeshes.map_or_else(String::new, |remeshes| {
         let steps = outcome.steps - resumed.as_ref().map_or(0, |resumed| resumed.state.step);
-        format!(", {:.3} s a step, {remeshes} remeshings", seconds / steps.max(1) as f64)
+        format!(", {:.3} s of it a step, {remeshes} remeshings", seconds / steps.max(1) as f64)
     });
     say(&format!(
-        "{} unknowns, {} steps, {seconds:.2} s of CPU time{moving}; written to {}",
+        "{} unknowns, {} steps, {seconds:.2} s of CPU time, {wall:.2} s on the clock{moving}; \
+         written to {}",
         outcome.n_dofs,
         outcome.steps,
         out.display()
@@ -257,13 +271,9 @@ fn stopped(error: &RunError, out: &Path) -> Failure {
     Failure::new(Exit::Stopped, format!("{error}; {remedy}"))
 }
 
-/// How the program was called, or would be from its source: what cargo builds is called by cargo.
+/// How the program was called: from here that works again.
 fn program(typed: &str) -> String {
-    match Path::new(typed).iter().any(|part| part == "target") {
-        true => "cargo run --release --".to_owned(),
-        false if typed.is_empty() => "alewife".to_owned(),
-        false => quoted(typed),
-    }
+    if typed.is_empty() { "alewife".to_owned() } else { quoted(typed) }
 }
 
 /// The state a path names: the latest checkpoint, where it is the directory of a run, or its last state.
@@ -338,10 +348,10 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_command_is_what_was_typed_or_what_cargo_runs() {
+    fn a_command_is_what_was_typed() {
         assert_eq!(program("alewife"), "alewife");
         assert_eq!(program("./my tools/alewife"), "'./my tools/alewife'");
-        assert_eq!(program("target/release/alewife"), "cargo run --release --");
+        assert_eq!(program("target/release/alewife"), "target/release/alewife");
         assert_eq!(program("/home/me/targets/alewife"), "/home/me/targets/alewife");
     }
 }

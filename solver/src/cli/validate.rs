@@ -11,7 +11,7 @@ use super::signal::SignalWatch;
 use super::style::{Ink, complain, on_stdout, say};
 use super::{engine, results, threads};
 use crate::case::{Cadence, Case, CaseFile, Numbers, Statistics, library};
-use crate::observer::{Earlier, RunDirectory, RunState, Start, Status, read_outcome};
+use crate::observer::{Earlier, RunDirectory, RunState, Shown, Start, Status, read_outcome};
 use crate::simulation::{RunError, RunSummary};
 use crate::validation::{
     Comparison, compare, comparison_page, comparisons_to_json, count_table, not_computed, summary,
@@ -175,7 +175,8 @@ impl Work<'_> {
                 let earlier = if is_finished { Earlier::Keep } else { Earlier::Replace };
                 let start = Start::with_threads(self.n_threads);
                 let directory = RunDirectory::create(&place, file.case(), start, earlier)?;
-                let run = RunInto { directory: &directory, quiet: true, watch, limit: None };
+                let shown = Shown { quiet: true, live: None };
+                let run = RunInto { directory: &directory, shown, watch, limit: None };
                 engine::simulate_afresh(&file.model, run)
             }
             (None, Some(from)) => Ok(kept(&from.join(of_run), file.case())?),

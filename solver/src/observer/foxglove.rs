@@ -3,12 +3,11 @@
 //! Viewers recognise a schema by its name alone, so the names of the `foxglove` messages and
 //! their fields are theirs. Times are simulated seconds.
 
-use nalgebra::{Isometry3, UnitQuaternion, Vector3};
+use serde::Serialize;
 use serde_json::{Value, json};
 
-use super::solids::{Solids, body_colour, quaternion, vector};
+use super::primitives::{Timestamp, Xyz, Xyzw};
 use crate::body::{Pose, Twist, Wrench, in_space};
-use crate::case::{Body, Geometry, ShapeSpec};
 use crate::simulation::{BodyReport, Snapshot};
 
 /// Frame all others are given in.
@@ -23,7 +22,7 @@ pub enum Kind {
     Scene,
     /// What happened to the run.
     Log,
-    /// One step: numbers of the solver and all quantities.
+    /// One step: numbers of the solver.
     Step,
     /// One body: pose, twist, loads.
     Body,
@@ -70,7 +69,6 @@ impl Kind {
                 ("time_step", number_schema()),
                 ("iterations", json!({"type": "integer"})),
                 ("n_dofs", json!({"type": "integer"})),
-                ("quantities", json!({"type": "object", "additionalProperties": number_schema()})),
             ]),
             Self::Body => object([
                 ("step", json!({"type": "integer"})),
@@ -139,6 +137,40 @@ fn scene_schema() -> Value {
         ])
     };
     let solid = || object([("pose", pose()), ("size", vector_schema()), ("color", colour())]);
+    let cylinder = || {
+        let mut schema = solid();
+        for scale in ["bottom_scale", "top_scale"] {
+            schema["properties"][scale] = number_schema();
+        }
+        schema
+    };
+    let integers = || list(json!({"type": "integer"}));
+    let triangles = || {
+        object([
+            ("pose", pose()),
+            ("points", list(vector_schema())),
+            ("color", colour()),
+            ("colors", list(colour())),
+            ("indices", integers()),
+        ])
+    };
+    let line = || {
+        let mut schema = triangles();
+        schema["properties"]["type"] = json!({"type": "integer"});
+        schema["properties"]["thickness"] = number_schema();
+        schema["properties"]["scale_invariant"] = json!({"type": "boolean"});
+        schema
+    };
+    let arrow = || {
+        object([
+            ("pose", pose()),
+            ("shaft_length", number_schema()),
+            ("shaft_diameter", number_schema()),
+            ("head_length", number_schema()),
+            ("head_diameter", number_schema()),
+            ("color", colour()),
+        ])
+    };
     object([
         ("deletions", list(json!({"type": "object"}))),
         (
@@ -150,81 +182,40 @@ fn scene_schema() -> Value {
                 ("lifetime", timestamp_schema()),
                 ("frame_locked", json!({"type": "boolean"})),
                 ("spheres", list(solid())),
-                ("cylinders", list(solid())),
-                ("lines", list(json!({"type": "object"}))),
+                ("cylinders", list(cylinder())),
+                ("lines", list(line())),
+                ("triangles", list(triangles())),
+                ("arrows", list(arrow())),
+                ("metadata", list(object([("key", text_schema()), ("value", text_schema())]))),
             ])),
         ),
     ])
 }
 
 /// Poses of all body frames in the world.
-pub fn transforms(bodies: &[BodyReport], time: f64) -> Value {
-    let transforms = bodies.iter().map(|body| {
-        json!({
-            "timestamp": timestamp(time),
-            "parent_frame_id": WORLD,
-            "child_frame_id": body.name,
-            "translation": vector(&body.pose.center),
-            "rotation": quaternion(&body.pose.rotation()),
-        })
+pub fn transforms(bodies: &[BodyReport], time: f64) -> impl Serialize {
+    let transforms = bodies.iter().map(|body| TransformMessage {
+        timestamp: Timestamp::of(time),
+        parent_frame_id: WORLD,
+        child_frame_id: &body.name,
+        translation: Xyz::of(&body.pose.center),
+        rotation: Xyzw::of(&body.pose.rotation()),
     });
-    json!({"transforms": transforms.collect::<Vec<_>>()})
+    TransformsMessage { transforms: transforms.collect() }
 }
 
-/// Outlines of all bodies, which stay with the bodies' frames: with where those are.
-pub fn scene(bodies: &[Body], reports: &[BodyReport], geometry: Geometry, time: f64) -> Value {
-    let entities = bodies.iter().zip(reports).map(|(body, report)| {
-        let (mut solids, mut lines) = (Solids::default(), vec![]);
-        let centered = Isometry3::identity();
-        match &body.shape {
-            // A flat cylinder
-            ShapeSpec::Disc { radius } => solids.cylinder([*radius, *radius, *radius / 50.0]),
-            ShapeSpec::Ellipse { semi_axes: [a, b] } => solids.cylinder([*a, *b, *b / 50.0]),
-            ShapeSpec::Sphere { .. } | ShapeSpec::Spheroid { .. } | ShapeSpec::Ellipsoid { .. } => {
-                body.shape.semi_axes().into_iter().for_each(|own| solids.ellipsoid(&centered, own));
-            }
-            ShapeSpec::Capsule { .. }
-            | ShapeSpec::Helix(_)
-            | ShapeSpec::Curve(_)
-            | ShapeSpec::Revolved { .. }
-            | ShapeSpec::Union(_) => {
-                // The frame is at the centre of mass, the origin of the shape is not
-                let from = report.pose.rotation().inverse();
-                let origin = from * (body.pose_in_space().translation.vector - report.pose.center);
-                let place = Isometry3::translation(origin.x, origin.y, origin.z);
-                solids.parts(&place, &body.shape.parts().unwrap_or_default());
-            }
-            ShapeSpec::Cylinder { radius, length, .. } => {
-                for part in body.shape.parts().unwrap_or_default() {
-                    solids.cylinder_along_x(&part.pose, *radius, 0.5 * length);
-                }
-            }
-            ShapeSpec::Spline { .. }
-            | ShapeSpec::Fish(_)
-            | ShapeSpec::Flagellate(_)
-            | ShapeSpec::Tube(_) => {
-                lines.push(closed_line(&body.shape.points()));
-            }
-        }
-        let Solids { spheres, cylinders } = solids;
-        json!({
-            "timestamp": timestamp(time),
-            "frame_id": body.name,
-            "id": body.name,
-            "lifetime": timestamp(0.0),
-            "frame_locked": true,
-            "metadata": [{"key": "geometry", "value": geometry.name()}],
-            "arrows": [],
-            "cubes": [],
-            "spheres": spheres,
-            "cylinders": cylinders,
-            "lines": lines,
-            "triangles": [],
-            "texts": [],
-            "models": [],
-        })
-    });
-    json!({"deletions": [], "entities": entities.collect::<Vec<_>>()})
+#[derive(Serialize)]
+struct TransformsMessage<'a> {
+    transforms: Vec<TransformMessage<'a>>,
+}
+
+#[derive(Serialize)]
+struct TransformMessage<'a> {
+    timestamp: Timestamp,
+    parent_frame_id: &'static str,
+    child_frame_id: &'a str,
+    translation: Xyz,
+    rotation: Xyzw,
 }
 
 /// Severity of a log message.
@@ -241,7 +232,7 @@ pub enum Severity {
 /// One line about the run.
 pub fn log(severity: Severity, message: &str, time: f64) -> Value {
     json!({
-        "timestamp": timestamp(time),
+        "timestamp": Timestamp::of(time),
         "level": severity as u8,
         "message": message,
         "name": "alewife",
@@ -252,55 +243,86 @@ pub fn log(severity: Severity, message: &str, time: f64) -> Value {
 
 /// One step.
 pub fn step<const D: usize>(snapshot: &Snapshot<'_, D>) -> Value {
-    let quantities = snapshot.names.iter().cloned().zip(snapshot.values.iter().map(|v| json!(v)));
     json!({
         "step": snapshot.step,
         "time": snapshot.time,
         "time_step": snapshot.time_step,
         "iterations": snapshot.iterations,
         "n_dofs": snapshot.n_dofs,
-        "quantities": quantities.collect::<serde_json::Map<_, _>>(),
     })
 }
 
 /// One body.
-pub fn body(report: &BodyReport, step: usize, time: f64) -> Value {
+pub fn body(report: &BodyReport, step: usize, time: f64) -> impl Serialize {
     let Pose { center, .. } = &report.pose;
     let Twist { linear, angular } = &report.twist;
-    let recoil = report.recoil.map(|recoil| {
-        json!({
-            "center": vector(&in_space(&recoil.center)),
-            "velocity": vector(&in_space(&recoil.velocity)),
-            "angle": recoil.angle,
-            "angular_velocity": recoil.angular_velocity,
-        })
+    let recoil = report.recoil.map(|recoil| RecoilMessage {
+        center: Xyz::of(&in_space(&recoil.center)),
+        velocity: Xyz::of(&in_space(&recoil.velocity)),
+        angle: recoil.angle,
+        angular_velocity: recoil.angular_velocity,
     });
-    json!({
-        "step": step,
-        "time": time,
-        "pose": {
-            "center": vector(center),
-            "rotation": quaternion(&report.pose.rotation()),
-            "angle": report.pose.heading(),
+    BodyMessage {
+        step,
+        time,
+        pose: PoseMessage {
+            center: Xyz::of(center),
+            rotation: Xyzw::of(&report.pose.rotation()),
+            angle: report.pose.heading(),
         },
-        "twist": {"linear": vector(linear), "angular": vector(angular)},
-        "load": wrench(&report.load),
-        "surface_load": wrench(&report.surface_load),
-        "contact": wrench(&report.contact),
-        "power": report.power,
-        "recoil": recoil,
-    })
+        twist: TwistMessage { linear: Xyz::of(linear), angular: Xyz::of(angular) },
+        load: WrenchMessage::of(&report.load),
+        surface_load: WrenchMessage::of(&report.surface_load),
+        contact: WrenchMessage::of(&report.contact),
+        power: report.power,
+        recoil,
+    }
 }
 
-/// Simulated time as the unsigned nanoseconds of a message; times before zero count as zero.
-#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates")]
-pub fn nanoseconds(time: f64) -> u64 {
-    (time * 1e9).round() as u64
+#[derive(Serialize)]
+struct BodyMessage {
+    step: usize,
+    time: f64,
+    pose: PoseMessage,
+    twist: TwistMessage,
+    load: WrenchMessage,
+    surface_load: WrenchMessage,
+    contact: WrenchMessage,
+    power: f64,
+    recoil: Option<RecoilMessage>,
 }
 
-fn timestamp(time: f64) -> Value {
-    let nanoseconds = nanoseconds(time);
-    json!({"sec": nanoseconds / 1_000_000_000, "nsec": nanoseconds % 1_000_000_000})
+#[derive(Serialize)]
+struct PoseMessage {
+    center: Xyz,
+    rotation: Xyzw,
+    angle: f64,
+}
+
+#[derive(Serialize)]
+struct TwistMessage {
+    linear: Xyz,
+    angular: Xyz,
+}
+
+#[derive(Serialize)]
+struct WrenchMessage {
+    force: Xyz,
+    torque: Xyz,
+}
+
+impl WrenchMessage {
+    fn of(wrench: &Wrench) -> Self {
+        Self { force: Xyz::of(&wrench.force), torque: Xyz::of(&wrench.torque) }
+    }
+}
+
+#[derive(Serialize)]
+struct RecoilMessage {
+    center: Xyz,
+    velocity: Xyz,
+    angle: f64,
+    angular_velocity: f64,
 }
 
 fn timestamp_schema() -> Value {
@@ -314,30 +336,4 @@ fn object<'a>(properties: impl IntoIterator<Item = (&'a str, Value)>) -> Value {
 
 fn list(items: Value) -> Value {
     json!({"type": "array", "items": items})
-}
-
-fn wrench(wrench: &Wrench) -> Value {
-    json!({"force": vector(&wrench.force), "torque": vector(&wrench.torque)})
-}
-
-fn no_offset() -> Value {
-    json!({
-        "position": vector(&Vector3::zeros()),
-        "orientation": quaternion(&UnitQuaternion::identity()),
-    })
-}
-
-fn closed_line(points: &[[f64; 2]]) -> Value {
-    const LINE_LOOP: u8 = 1;
-    let points = points.iter().map(|&[x, y]| vector(&Vector3::new(x, y, 0.0)));
-    json!({
-        "type": LINE_LOOP,
-        "pose": no_offset(),
-        "thickness": 2.0,
-        "scale_invariant": true,
-        "points": points.collect::<Vec<_>>(),
-        "color": body_colour(),
-        "colors": [],
-        "indices": [],
-    })
 }

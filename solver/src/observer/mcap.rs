@@ -14,15 +14,21 @@ use std::time::Duration;
 
 use mcap::records::{MessageHeader, Metadata};
 use mcap::{Attachment, Compression, McapError, Schema, WriteOptions, Writer};
-use serde_json::Value;
+use serde::Serialize;
 
 use super::atomic::{AtPath, unfinished_file};
+use super::drawing::{Arm, WallBox, arms, forces, walls};
 use super::foxglove::{self, Kind, Severity};
 use super::history::History;
+use super::live::LiveServer;
+use super::live_hub::LiveChannel;
 use super::messages::Messages;
+use super::primitives::nanoseconds;
+use super::quantities::Group;
 use super::run_directory::RunDirectory;
+use super::scene::{Shown, scene};
 use super::schedule::Schedule;
-use crate::case::{Body, Geometry, Model};
+use crate::case::{Body, Model};
 use crate::simulation::{LastState, Observer, RunError, SavedState, Snapshot};
 
 /// Size of a chunk, the unit of compression (bytes).
@@ -32,12 +38,20 @@ const CHUNK: u64 = 256 * 1024;
 /// ends a chunk, and the bytes of a file shall not depend on the speed of a machine.
 const FLUSH_STEPS: usize = 16;
 
-/// Topic of the outlines of bodies, which come once.
+/// Topic of the outlines of bodies, which come once but for those that change.
 const SCENE: &str = "/scene";
+/// Topic of the sides of the domain, which come again where they have moved.
+const WALLS: &str = "/walls";
+/// Topic of arms between bodies.
+const ARMS: &str = "/arms";
+/// Topic of forces on bodies.
+const FORCES: &str = "/forces";
 /// Topic of the log.
 const LOG: &str = "/log";
-/// Topics whose messages do not come with each step.
-const ONCE: [&str; 2] = [SCENE, LOG];
+/// Topics whose messages come with each row: `/body/NAME` besides.
+const EACH_ROW: [&str; 2] = ["/step", "/tf"];
+/// Length of the longest arrow over the radius of the largest body.
+const ARROW: f64 = 2.0;
 
 /// The open file.
 pub struct MessageFile {
@@ -47,17 +61,34 @@ pub struct MessageFile {
     file: File,
     path: PathBuf,
     schedule: Schedule,
-    channels: BTreeMap<String, u16>,
+    channels: BTreeMap<String, Channel>,
+    /// Who looks on while the run is under way.
+    live: Option<LiveServer>,
+    /// Made with the first step.
+    groups: Vec<Group>,
+    arms: Vec<Arm>,
+    /// Whether the outline of a body changes in time.
+    deforms: bool,
+    /// Where the walls were drawn.
+    walls: Option<WallBox>,
+    /// Length of the longest arrow (m).
+    longest_arrow: f64,
     sequence: u32,
     title: String,
     bodies: Vec<Body>,
-    geometry: Geometry,
     time: f64,
+}
+
+/// Numbers of a topic, in the file and for those who look on.
+#[derive(Debug, Clone, Copy)]
+struct Channel {
+    file: u16,
+    live: Option<usize>,
 }
 
 impl MessageFile {
     /// `run.mcap` in `directory`, with the case as attachment, the provenance as metadata, and the
-    /// messages of a run that resumes.
+    /// messages of a run that resumes. A live server is told the same.
     ///
     /// # Errors
     /// When it cannot be written.
@@ -65,6 +96,7 @@ impl MessageFile {
         directory: &RunDirectory,
         model: &Model,
         history: Option<&History>,
+        live: Option<LiveServer>,
     ) -> io::Result<Self> {
         let cadence = model.case.output.series;
         // The file that is there, if any, is replaced once all its messages are in the new one
@@ -99,10 +131,15 @@ impl MessageFile {
             schedule: Schedule::new(cadence, history.map(|history| history.time)),
             path: directory.path().join("run.mcap"),
             channels: BTreeMap::new(),
+            live,
+            groups: Vec::new(),
+            arms: Arm::all(model),
+            deforms: model.bodies.iter().any(Body::deforms),
+            walls: None,
+            longest_arrow: 0.0,
             sequence: 0,
             title: model.case.title.clone(),
             bodies: model.bodies.clone(),
-            geometry: model.case.geometry,
             time: 0.0,
         };
         if let Some(history) = history {
@@ -124,13 +161,19 @@ impl MessageFile {
             Err(error) if error.kind() == io::ErrorKind::NotFound => Messages::default(),
             read => Messages::read(&read.at(&path)?),
         };
-        let last = foxglove::nanoseconds(history.time);
+        let last = nanoseconds(history.time);
         let mut n_kept = 0;
         for message in found.all.iter().filter(|message| message.time <= last) {
             let Some(schema) = found.schemas.get(&message.schema) else { continue };
             let channel = self.channel(&message.topic, || Ok(schema.to_mcap()))?;
             self.write(channel, message.time, &message.data)?;
-            n_kept += usize::from(!ONCE.contains(&message.topic.as_str()));
+            let topic = message.topic.as_str();
+            n_kept += usize::from(EACH_ROW.contains(&topic) || topic.starts_with("/body/"));
+            if topic == WALLS {
+                self.walls = serde_json::from_slice(&message.data)
+                    .ok()
+                    .and_then(|of| WallBox::of_scene(&of));
+            }
             self.time = Duration::from_nanos(message.time).as_secs_f64();
         }
         // Rows and messages are of the same steps, and both are on the disk before a state is
@@ -149,7 +192,7 @@ impl MessageFile {
         self.log(Severity::Info, "resumed")
     }
 
-    fn send(&mut self, topic: &str, kind: Kind, message: &Value) -> io::Result<()> {
+    fn send(&mut self, topic: &str, kind: Kind, message: &impl Serialize) -> io::Result<()> {
         let channel = self.channel(topic, || {
             Ok(Schema {
                 id: 0,
@@ -158,7 +201,26 @@ impl MessageFile {
                 data: Cow::Owned(serde_json::to_vec(&kind.schema())?),
             })
         })?;
-        self.write(channel, foxglove::nanoseconds(self.time), &serde_json::to_vec(message)?)
+        self.write(channel, nanoseconds(self.time), &serde_json::to_vec(message)?)
+    }
+
+    fn send_quantities(&mut self, values: &[f64]) -> io::Result<()> {
+        for nth in 0..self.groups.len() {
+            let group = &self.groups[nth];
+            let (topic, data) = (group.topic.clone(), group.message(values)?);
+            let schema = Schema {
+                id: 0,
+                name: group.schema_name.clone(),
+                encoding: "jsonschema".to_owned(),
+                data: Cow::Owned(match self.channels.contains_key(&topic) {
+                    true => Vec::new(),
+                    false => serde_json::to_vec(&group.schema)?,
+                }),
+            };
+            let channel = self.channel(&topic, || Ok(schema))?;
+            self.write(channel, nanoseconds(self.time), &data)?;
+        }
+        Ok(())
     }
 
     /// The channel of a topic, made with its schema when it is first asked for.
@@ -166,23 +228,31 @@ impl MessageFile {
         &mut self,
         topic: &str,
         schema: impl FnOnce() -> io::Result<Schema<'a>>,
-    ) -> io::Result<u16> {
-        if let Some(&id) = self.channels.get(topic) {
-            return Ok(id);
+    ) -> io::Result<Channel> {
+        if let Some(&channel) = self.channels.get(topic) {
+            return Ok(channel);
         }
-        let Some(writer) = &mut self.writer else { return Ok(0) };
+        let Some(writer) = &mut self.writer else { return Ok(Channel { file: 0, live: None }) };
         let Schema { name, encoding, data, .. } = schema()?;
         let schema = writer.add_schema(&name, &encoding, &data).map_err(to_io)?;
-        let id = writer.add_channel(schema, topic, "json", &BTreeMap::new()).map_err(to_io)?;
-        self.channels.insert(topic.to_owned(), id);
-        Ok(id)
+        let file = writer.add_channel(schema, topic, "json", &BTreeMap::new()).map_err(to_io)?;
+        let live = self.live.as_ref().map(|live| {
+            let schema = String::from_utf8_lossy(&data).into_owned();
+            live.add_channel(LiveChannel { topic: topic.to_owned(), schema_name: name, schema })
+        });
+        let channel = Channel { file, live };
+        self.channels.insert(topic.to_owned(), channel);
+        Ok(channel)
     }
 
-    fn write(&mut self, channel_id: u16, time: u64, data: &[u8]) -> io::Result<()> {
+    fn write(&mut self, channel: Channel, time: u64, data: &[u8]) -> io::Result<()> {
         let Some(writer) = &mut self.writer else { return Ok(()) };
-        let sequence = self.sequence;
+        let (channel_id, sequence) = (channel.file, self.sequence);
         let header = MessageHeader { channel_id, sequence, log_time: time, publish_time: time };
         self.sequence = self.sequence.wrapping_add(1);
+        if let (Some(live), Some(channel)) = (&self.live, channel.live) {
+            live.publish(channel, time, data);
+        }
         writer.write_to_known_channel(&header, data).map_err(to_io)
     }
 
@@ -218,20 +288,21 @@ impl<const D: usize> Observer<D> for MessageFile {
 impl MessageFile {
     fn step<const D: usize>(&mut self, snapshot: &Snapshot<'_, D>) -> io::Result<()> {
         self.time = snapshot.time;
-        if !self.channels.contains_key(SCENE) {
+        let is_first = !self.channels.contains_key(SCENE);
+        if is_first {
             let title = format!("start: {}", self.title);
             self.log(Severity::Info, &title)?;
-            let scene = foxglove::scene(&self.bodies, snapshot.bodies, self.geometry, self.time);
-            self.send(SCENE, Kind::Scene, &scene)?;
+            let all = scene(&self.bodies, snapshot, Shown::All);
+            self.send(SCENE, Kind::Scene, &all)?;
+        }
+        if self.groups.is_empty() {
+            self.groups = Group::all(snapshot.names);
+            let radii = self.bodies.iter().map(|body| body.shape.reach());
+            self.longest_arrow = ARROW * radii.fold(0.0, f64::max);
         }
         if self.schedule.is_due(snapshot.step, snapshot.time, snapshot.is_last) {
-            self.send("/step", Kind::Step, &foxglove::step(snapshot))?;
-            let transforms = foxglove::transforms(snapshot.bodies, self.time);
-            self.send("/tf", Kind::Transforms, &transforms)?;
-            for report in snapshot.bodies {
-                let message = foxglove::body(report, snapshot.step, self.time);
-                self.send(&format!("/body/{}", report.name), Kind::Body, &message)?;
-            }
+            self.row(snapshot)?;
+            self.draw(snapshot, is_first)?;
         }
         if snapshot.is_last {
             self.log(Severity::Info, "end")?;
@@ -242,6 +313,48 @@ impl MessageFile {
             Some(writer) if is_due => writer.flush().map_err(to_io),
             _ => Ok(()),
         }
+    }
+}
+
+impl MessageFile {
+    /// What belongs to a row of the series.
+    fn row<const D: usize>(&mut self, snapshot: &Snapshot<'_, D>) -> io::Result<()> {
+        self.send("/step", Kind::Step, &foxglove::step(snapshot))?;
+        self.send_quantities(snapshot.values)?;
+        let transforms = foxglove::transforms(snapshot.bodies, self.time);
+        self.send("/tf", Kind::Transforms, &transforms)?;
+        for report in snapshot.bodies {
+            let message = foxglove::body(report, snapshot.step, self.time);
+            self.send(&format!("/body/{}", report.name), Kind::Body, &message)?;
+        }
+        Ok(())
+    }
+
+    /// What is drawn besides: bodies that deform, walls that have moved, arms and forces.
+    fn draw<const D: usize>(
+        &mut self,
+        snapshot: &Snapshot<'_, D>,
+        is_first: bool,
+    ) -> io::Result<()> {
+        let time = self.time;
+        if self.deforms && !is_first {
+            let changed = scene(&self.bodies, snapshot, Shown::Deforming);
+            self.send(SCENE, Kind::Scene, &changed)?;
+        }
+        let place = WallBox::of(snapshot.mesh);
+        if let Some(place) = place.filter(|new| self.walls.is_none_or(|old| new.differs(&old))) {
+            self.walls = Some(place);
+            let drawn = walls(snapshot.mesh, snapshot.case.geometry, &place, time);
+            self.send(WALLS, Kind::Scene, &drawn)?;
+        }
+        if !self.arms.is_empty() {
+            self.send(ARMS, Kind::Scene, &arms(&self.arms, snapshot.bodies, time))?;
+        }
+        if !snapshot.bodies.is_empty() {
+            let drawn = forces(snapshot.bodies, self.longest_arrow, time);
+            self.send(FORCES, Kind::Scene, &drawn)?;
+        }
+        Ok(())
     }
 }
 

@@ -19,21 +19,28 @@ mod atomic;
 mod checkpoint_list;
 mod checkpoints;
 mod csv;
+mod drawing;
 mod fields;
 mod foxglove;
 mod history;
 mod kept;
 mod legs;
+mod live;
+mod live_client;
+mod live_hub;
 mod log;
 mod mcap;
 mod messages;
+mod primitives;
 mod process;
 mod progress;
 mod provenance;
+mod quantities;
 mod removal;
 mod restarts;
 mod run_directory;
 mod run_lock;
+mod scene;
 mod schedule;
 mod solids;
 mod state_file;
@@ -55,6 +62,7 @@ pub use fields::FieldFiles;
 pub use history::History;
 pub use kept::read_outcome;
 pub use legs::LegFile;
+pub use live::LiveServer;
 pub use log::start_log;
 pub use mcap::MessageFile;
 pub use progress::Progress;
@@ -70,8 +78,16 @@ pub use status::{RunState, Status, StatusFile};
 pub use tally::Tally;
 pub use write_times::WriteTimes;
 
-/// All observers of a run in `directory`, which goes on after a `history` if there is one; with
-/// `quiet`, without progress on the terminal. What states take to write is told in `times`.
+/// What is shown of a run while it is under way.
+#[derive(Debug, Default)]
+pub struct Shown {
+    /// Whether there is no progress on the terminal.
+    pub quiet: bool,
+    /// Whom viewers connect to.
+    pub live: Option<LiveServer>,
+}
+
+/// All observers of a run in `directory`, which goes on after a `history` if there is one. What states take to write is told in `times`.
 ///
 /// Make them before the mesh is generated: `status.json` shows the run from then on, and they are
 /// notified if the simulation cannot be built.
@@ -82,7 +98,7 @@ pub fn observers<const D: usize>(
     model: &Model,
     directory: &RunDirectory,
     history: Option<&History>,
-    quiet: bool,
+    shown: Shown,
     times: &WriteTimes,
 ) -> std::io::Result<Vec<Box<dyn Observer<D>>>>
 where
@@ -92,14 +108,14 @@ where
     let checkpoints = CheckpointFiles::create(directory.path(), case, history, times.clone())?;
     let mut everyone: Vec<Box<dyn Observer<D>>> = vec![
         Box::new(SeriesFile::create(directory.path(), case, history)?),
-        Box::new(MessageFile::create(directory, model, history)?),
+        Box::new(MessageFile::create(directory, model, history, shown.live)?),
         Box::new(FieldFiles::new(directory, case, history)),
         // After those whose rows and messages belong to a state
         Box::new(checkpoints),
         Box::new(LegFile::new(directory, history)),
     ];
-    if !quiet {
-        everyone.push(Box::new(Progress::new(case)));
+    if !shown.quiet {
+        everyone.push(Box::new(Progress::new(model)));
     }
     // The status comes last: when it says `finished`, all other files are complete.
     everyone.push(Box::new(StatusFile::create(directory.path(), case, history, times.clone())?));

@@ -6,11 +6,14 @@ use std::time::{Duration, Instant};
 use indicatif::{HumanDuration, ProgressBar, ProgressStyle};
 
 use super::terminal::{LINE_INTERVAL, TERMINAL};
-use crate::case::{Case, TimeSettings};
+use crate::case::{Model, TimeSettings, significant};
 use crate::simulation::{LastState, Observer, RunError, Snapshot};
 
 /// Parts of a full bar.
 const FULL: u64 = 10_000;
+
+/// Columns below which there is no space for a bar beside the numbers.
+const NARROW: usize = 90;
 
 /// Shows how far a run is.
 #[derive(Debug)]
@@ -21,6 +24,8 @@ pub struct Progress {
     end: Option<f64>,
     /// Time at which this process began (s), once known.
     start: Option<f64>,
+    /// Beginning of the names of the quantities of the first swimmer.
+    swimmer: Option<String>,
     started: Instant,
     last_line: Option<Instant>,
 }
@@ -28,16 +33,20 @@ pub struct Progress {
 impl Progress {
     /// Shows from now on that something happens.
     #[must_use]
-    pub fn new(case: &Case) -> Self {
-        let end = match &case.time {
+    pub fn new(model: &Model) -> Self {
+        let end = match &model.case.time {
             TimeSettings::Steady(_) => None,
             TimeSettings::Unsteady(settings) => Some(settings.end),
         };
         let bar = TERMINAL.is_terminal().then(|| {
             let (bar, template) = match end {
                 // How many iterations a steady solution takes is not known before.
-                None => (ProgressBar::new_spinner(), "{spinner} {elapsed}  {msg}"),
-                Some(_) => (ProgressBar::new(FULL), "{bar:24} {percent:>3}%  {msg}"),
+                None => (ProgressBar::new_spinner(), "{spinner} {elapsed}  {wide_msg}"),
+                // What does not fit into the line is cut off
+                Some(_) if TERMINAL.width() < NARROW => {
+                    (ProgressBar::new(FULL), "{percent:>3}%  {wide_msg}")
+                }
+                Some(_) => (ProgressBar::new(FULL), "{bar:24} {percent:>3}%  {wide_msg}"),
             };
             let style = ProgressStyle::with_template(template)
                 .unwrap_or_else(|_| ProgressStyle::default_bar());
@@ -48,7 +57,8 @@ impl Progress {
         if bar.is_none() {
             TERMINAL.show_lines();
         }
-        Self { bar, end, start: None, started: Instant::now(), last_line: None }
+        let swimmer = model.swimmers.first().map(|swimmer| format!("{}.velocity.", swimmer.name));
+        Self { bar, end, start: None, swimmer, started: Instant::now(), last_line: None }
     }
 
     /// One line on the step, with the time left at the pace so far.
@@ -60,10 +70,8 @@ impl Progress {
                 snapshot.n_dofs
             );
         };
-        let mut line = format!(
-            "step {}  t {:.4}/{end}  dt {:.3e}  iterations {iterations}",
-            snapshot.step, snapshot.time, snapshot.time_step
-        );
+        let mut line = format!("step {}  t {:.4}/{end}", snapshot.step, snapshot.time);
+        line += &self.speed_and_gap(snapshot);
         // A run that resumed has not made what was before
         let start = self.start.unwrap_or(0.0);
         let done = (snapshot.time - start) / (end - start);
@@ -71,7 +79,29 @@ impl Progress {
             let left = self.started.elapsed().mul_f64(((1.0 - done) / done).clamp(0.0, 1e9));
             line += &format!("  {:#} left", HumanDuration(left));
         }
-        line
+        line + &format!("  dt {:.3e}  iterations {iterations}", snapshot.time_step)
+    }
+
+    /// How fast the first swimmer is, and the smallest gap, where there are such quantities.
+    fn speed_and_gap<const D: usize>(&self, snapshot: &Snapshot<'_, D>) -> String {
+        let named = || snapshot.names.iter().zip(snapshot.values);
+        let mut text = String::new();
+        if let Some(begin) = &self.swimmer {
+            let is_component = |name: &str| {
+                name.strip_prefix(begin.as_str())
+                    .is_some_and(|axis| ["x", "y", "z"].contains(&axis))
+            };
+            let components = named().filter(|(name, _)| is_component(name)).map(|(_, value)| value);
+            let speed = components.map(|component| component * component).sum::<f64>().sqrt();
+            if named().any(|(name, _)| is_component(name)) && speed.is_finite() {
+                text += &format!("  speed {}", significant(speed));
+            }
+        }
+        let gap = named().find(|(name, _)| *name == "flow.minimum_gap").map(|(_, gap)| *gap);
+        if let Some(gap) = gap.filter(|gap| gap.is_finite()) {
+            text += &format!("  gap {}", significant(gap));
+        }
+        text
     }
 
     fn stop(&mut self) {

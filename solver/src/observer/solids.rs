@@ -2,7 +2,8 @@
 
 use alewife_mesh::spatial::{Centreline, Part, Shape};
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
-use serde_json::{Value, json};
+
+use super::primitives::{Colour, Placement, Solid, Xyz, Xyzw};
 
 /// Cylinders by which a turn of a helix is drawn.
 const PIECES_OF_TURN: f64 = 24.0;
@@ -11,9 +12,9 @@ const PIECES_OF_TURN: f64 = 24.0;
 #[derive(Debug, Default)]
 pub struct Solids {
     /// Ellipsoids.
-    pub spheres: Vec<Value>,
+    pub spheres: Vec<Solid>,
     /// Cylinders, or cones without tips.
-    pub cylinders: Vec<Value>,
+    pub cylinders: Vec<Solid>,
 }
 
 impl Solids {
@@ -107,37 +108,23 @@ fn points(centreline: &Centreline) -> Vec<Vector3<f64>> {
 }
 
 /// A primitive in its frame, with the radii of a cylinder at its bottom and its top over its semi-axes.
-fn solid(pose: &Isometry3<f64>, semi_axes: [f64; 3], [bottom, top]: [f64; 2]) -> Value {
-    let size = 2.0 * Vector3::from(semi_axes);
-    json!({
-        "pose": {
-            "position": vector(&pose.translation.vector),
-            "orientation": quaternion(&pose.rotation),
+fn solid(pose: &Isometry3<f64>, semi_axes: [f64; 3], [bottom, top]: [f64; 2]) -> Solid {
+    Solid {
+        pose: Placement {
+            position: Xyz::of(&pose.translation.vector),
+            orientation: Xyzw::of(&pose.rotation),
         },
-        "size": vector(&size),
-        "bottom_scale": bottom,
-        "top_scale": top,
-        "color": body_colour(),
-    })
-}
-
-/// A vector as viewers know it.
-pub fn vector(vector: &Vector3<f64>) -> Value {
-    json!({"x": vector.x, "y": vector.y, "z": vector.z})
-}
-
-/// A rotation as viewers know it.
-pub fn quaternion(rotation: &UnitQuaternion<f64>) -> Value {
-    json!({"x": rotation.i, "y": rotation.j, "z": rotation.k, "w": rotation.w})
-}
-
-/// The colour of bodies.
-pub fn body_colour() -> Value {
-    json!({"r": 0.25, "g": 0.27, "b": 0.30, "a": 1.0})
+        size: Xyz::of(&(2.0 * Vector3::from(semi_axes))),
+        bottom_scale: bottom,
+        top_scale: top,
+        color: Colour::BODY,
+    }
 }
 
 #[cfg(test)]
 mod tests {
+    use serde_json::Value;
+
     use super::*;
 
     #[test]
@@ -148,10 +135,11 @@ mod tests {
         let mut solids = Solids::default();
         solids.parts(&Isometry3::translation(1.0, 0.0, 0.0), &[part]);
         assert_eq!((solids.spheres.len(), solids.cylinders.len()), (2, 48));
-        let end = &solids.spheres[1]["pose"]["position"];
+        let end = serde_json::to_value(solids.spheres[1].pose.position).unwrap();
         assert_eq!(end["x"].as_f64(), Some(3.0));
         // Bottom and top of a cylinder are on the curve
         for (nth, cylinder) in solids.cylinders.iter().enumerate() {
+            let cylinder = serde_json::to_value(cylinder).unwrap();
             let part = |of: &Value, key: &str| of[key].as_f64().unwrap();
             let [position, turn] = ["position", "orientation"].map(|key| &cylinder["pose"][key]);
             let turn = UnitQuaternion::from_quaternion(nalgebra::Quaternion::new(

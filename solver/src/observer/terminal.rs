@@ -36,6 +36,12 @@ impl Terminal {
         self.is_terminal
     }
 
+    /// Its columns; 80 if it does not tell.
+    pub fn width(&self) -> usize {
+        let size = rustix::termios::tcgetwinsize(io::stderr());
+        size.map(|size| usize::from(size.ws_col)).ok().filter(|columns| *columns > 0).unwrap_or(80)
+    }
+
     /// Shows a bar, and the notes beside it.
     pub fn show(&self, bar: ProgressBar) -> ProgressBar {
         let bar = self.bars.add(bar);

@@ -130,7 +130,8 @@ fn everyone_at(
     directory: &RunDirectory,
     history: Option<&History>,
 ) -> Vec<Box<dyn Observer<2>>> {
-    observers(model, directory, history, true, &WriteTimes::default()).unwrap()
+    let shown = Shown { quiet: true, live: None };
+    observers(model, directory, history, shown, &WriteTimes::default()).unwrap()
 }
 
 /// The files below `path`, sorted.
@@ -305,7 +306,16 @@ fn messages_tell_every_step_of_every_body() {
     assert!(is_whole);
     let mut count = BTreeMap::<&str, usize>::new();
     all.iter().for_each(|message| *count.entry(&message.topic).or_default() += 1);
-    let expected = [("/body/swimmer", 41), ("/log", 2), ("/scene", 1), ("/step", 41), ("/tf", 41)];
+    let expected = [
+        ("/body/swimmer", 41),
+        ("/forces", 41),
+        ("/log", 2),
+        ("/quantities/swimmer", 41),
+        ("/scene", 1),
+        ("/step", 41),
+        ("/tf", 41),
+        ("/walls", 1),
+    ];
     assert_eq!(count, expected.into());
 
     let last = all.iter().rfind(|message| message.topic == "/body/swimmer").unwrap();

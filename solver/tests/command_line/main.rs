@@ -5,6 +5,8 @@ mod continuing;
 mod estimates;
 mod faults;
 mod kills;
+mod live;
+mod plotting;
 mod skin;
 mod stopping;
 mod sweep_kills;

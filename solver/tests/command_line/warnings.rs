@@ -171,3 +171,46 @@ fn a_run_that_is_cut_short_leaves_references_uncomputed() {
     let (said, _, is_compared) = run(&["--no-references"]);
     assert!(!said.contains("COMPUTED") && said.contains("links.x") && !is_compared, "{said}");
 }
+
+/// Two discs pressed together, without contact.
+const PRESSED: &str = r#"
+title = "two discs pressed together"
+geometry = "planar"
+fluid = { model = "stokes", viscosity = 1.0 }
+domain.box = { min = [-4.0, -4.0], max = [4.0, 4.0] }
+boundary = { left = "no-slip", right = "no-slip", bottom = "no-slip", top = "no-slip" }
+mesh = { size = 1.5, surface = 0.3, growth = 0.5, gap_layers = 1 }
+time.unsteady = { step = 0.02, end = 3.0 }
+[[body]]
+name = "one"
+shape = { disc = { radius = 0.5 } }
+center = [-0.8, 0.0]
+motion = "free"
+force = [10.0, 0.0]
+[[body]]
+name = "other"
+shape = { disc = { radius = 0.5 } }
+center = [0.8, 0.0]
+motion = "free"
+force = [-10.0, 0.0]
+"#;
+
+#[test]
+fn contact_is_proposed_where_bodies_stay_near_each_other_without_it() {
+    let directory = tempfile::tempdir().unwrap();
+    let told = |text: &str, more: &[&str]| {
+        std::fs::write(directory.path().join("discs.toml"), text).unwrap();
+        let command = ["run", "discs.toml", "--overwrite", "--threads", "1"];
+        let output = alewife(directory.path(), &[&command[..], more].concat());
+        let error = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(0), "{error}");
+        let count = error.matches("if they may meet, [contact]").count();
+        assert!(count == 0 || error.contains("`one` and `other` are"), "{error}");
+        count
+    };
+    assert_eq!(told(PRESSED, &[]), 1);
+    // Not while they are on their way, and not with contact
+    assert_eq!(told(PRESSED, &["--set", "time.unsteady.end=0.2"]), 0);
+    let contact = "contact.barrier = { range = 0.1, stiffness = 200.0 }\n[[body]]";
+    assert_eq!(told(&PRESSED.replacen("[[body]]", contact, 1), &[]), 0);
+}

@@ -103,6 +103,17 @@ pub(super) struct Run<'a, const D: usize> {
     pub rejections: usize,
 }
 
+/// How near bodies have come without contact.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Nearness {
+    /// Largest minimum gap so far (m).
+    pub largest_gap: f64,
+    /// Number of meshes when they came near, while they are.
+    pub since_mesh: Option<usize>,
+    /// Whether contact was proposed.
+    pub is_told: bool,
+}
+
 /// What a run has warned of; each is told once.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Warned {
@@ -110,6 +121,8 @@ pub(super) struct Warned {
     pub of_cfl: bool,
     /// A gap far below the range of contact.
     pub of_gap: bool,
+    /// Bodies that stay near each other without contact.
+    pub nearness: Nearness,
     /// Bodies that leave through an open side.
     pub left: Vec<usize>,
 }
@@ -303,6 +316,7 @@ impl<const D: usize> Run<'_, D> {
         let is_wanted = wanted.count() > 0;
         series.rows.push(measured.values);
         self.check_soundness(&measured.flow)?;
+        self.propose_contact();
         if is_wanted { self.show_state() } else { Ok(()) }
     }
 

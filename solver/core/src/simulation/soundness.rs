@@ -14,6 +14,11 @@ const BLOWN_UP: f64 = 1e3;
 /// Gap over the range of contact below which its force is too weak for what presses bodies together.
 const PRESSED: f64 = 0.01;
 
+/// Gap over the largest one so far below which bodies are near each other.
+const NEAR: f64 = 0.1;
+/// Meshes while bodies are near each other from which contact is proposed.
+const MANY_MESHES: usize = 4;
+
 /// CFL number up to which extrapolated convection was found to agree with Newton's method
 /// (docs/method.md, section 6).
 const LARGEST_CFL: f64 = 5.0;
@@ -64,6 +69,41 @@ impl<const D: usize> Run<'_, D> {
             );
         }
         Ok(())
+    }
+}
+
+impl<const D: usize> Run<'_, D> {
+    /// Proposes contact where bodies that could give way have come near each other without it, and stay there
+    /// at the cost of one mesh after the other.
+    pub(super) fn propose_contact(&mut self) {
+        let Simulation { problem, state, moving_mesh: Some(moving), law: None, .. } =
+            &self.simulation
+        else {
+            return;
+        };
+        let Some(minimum) = state.contact.minimum_gap else { return };
+        let nearness = &mut self.warned.nearness;
+        nearness.largest_gap = nearness.largest_gap.max(minimum.gap);
+        if minimum.gap >= NEAR * nearness.largest_gap {
+            nearness.since_mesh = None;
+            return;
+        }
+        let since = *nearness.since_mesh.get_or_insert(state.remeshes);
+        if nearness.is_told || state.remeshes < since + MANY_MESHES || !problem.gives_way() {
+            return;
+        }
+        nearness.is_told = true;
+        let (step, time, gap) = (state.step, state.time, minimum.gap);
+        let gaps = moving.gaps();
+        let names = [gaps.body_name(minimum.body), gaps.partner_name(minimum.partner)];
+        tracing::warn!(
+            "step {step} (t = {time}): `{}` and `{}` are {gap:.2e} apart, and {} meshes were made since \
+             they came near: if they may meet, [contact], such as contact.barrier, keeps bodies apart from \
+             each other and from walls, with longer steps and fewer meshes",
+            names[0],
+            names[1],
+            state.remeshes - since
+        );
     }
 }
 

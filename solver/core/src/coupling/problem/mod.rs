@@ -60,6 +60,15 @@ impl<const D: usize> Problem<D> {
         }
     }
 
+    /// Whether some body is free, or hangs on a joint that is.
+    #[must_use]
+    pub fn gives_way(&self) -> bool {
+        self.bodies.iter().any(|body| {
+            body.drives.iter().any(|drive| matches!(drive, Drive::Free))
+                || body.joint.as_ref().is_some_and(Joint::is_free)
+        })
+    }
+
     /// Whether no boundary fixes the level of the pressure.
     #[must_use]
     pub fn is_enclosed(&self) -> bool {

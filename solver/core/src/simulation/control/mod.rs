@@ -7,7 +7,6 @@ mod trial;
 
 use super::advance::Simulation;
 use super::error::{RunError, StepError};
-use crate::coupling::{Drive, Joint, RigidBody};
 
 /// Part of a step by which a discontinuity may be off and still be at its end.
 const NEAR: f64 = 1e-7;
@@ -28,13 +27,8 @@ fn step_size_underflow<const D: usize>(
         let names = [gaps.body_name(minimum.body), gaps.partner_name(minimum.partner)];
         format!("; nearest are `{}` and `{}`, {:.3e} apart", names[0], names[1], minimum.gap)
     });
-    let is_free = |body: &RigidBody| {
-        body.drives.iter().any(|drive| matches!(drive, Drive::Free))
-            || body.joint.as_ref().is_some_and(Joint::is_free)
-    };
-    let gives_way = problem.bodies.iter().any(is_free);
     let hint = match (&nearest, &simulation.law) {
-        (Some(_), None) if gives_way => {
+        (Some(_), None) if problem.gives_way() => {
             "; [contact] keeps bodies apart from each other and from walls"
         }
         _ => "",
