@@ -1,0 +1,25 @@
+"""Cases of alewife set, run and read from Python; the program does the work.
+
+>>> import alewife
+>>> case = alewife.load("squirmer-alone").set("mesh.scale", 2)
+>>> run = case.run()
+>>> round(run.quantities["squirmer.velocity.x"], 2)
+1.0
+"""
+
+from alewife.case import Case, load
+from alewife.program import AlewifeError, BadCaseError, SolverError, StoppedError, find_program
+from alewife.run import CaseRun
+from alewife.sweep import sweep
+
+__all__ = [
+    "AlewifeError",
+    "BadCaseError",
+    "Case",
+    "CaseRun",
+    "SolverError",
+    "StoppedError",
+    "find_program",
+    "load",
+    "sweep",
+]
