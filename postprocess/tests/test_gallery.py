@@ -1,5 +1,6 @@
 """Small pictures of many runs."""
 
+from io import BytesIO
 from pathlib import Path
 
 import numpy as np
@@ -17,12 +18,18 @@ def drawn(cells: int) -> Figure:
     return figure
 
 
-@pytest.mark.parametrize("cells", [1, 100])
-def test_a_small_picture_has_its_width_and_a_bounded_size(cells: int, tmp_path: Path) -> None:
-    content = gallery.small_png(drawn(cells))
-    (tmp_path / "a.png").write_bytes(content)
+def width(content: bytes) -> int:
+    return Image.open(BytesIO(content)).width
+
+
+def test_a_plain_picture_has_the_full_width() -> None:
+    assert width(gallery.small_png(drawn(1))) == gallery.WIDTHS[0]
+
+
+def test_a_picture_full_of_detail_is_made_smaller() -> None:
+    content = gallery.small_png(drawn(100))
     assert len(content) <= gallery.LARGEST_FILE
-    assert Image.open(tmp_path / "a.png").width == gallery.WIDTH
+    assert width(content) < gallery.WIDTHS[0]
 
 
 def test_a_run_that_cannot_be_drawn_is_named_and_leaves_no_file(tmp_path: Path) -> None:

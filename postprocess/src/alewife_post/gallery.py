@@ -13,12 +13,14 @@ from PIL import Image
 from alewife_post import figure, space, style
 from alewife_post.read import Run, open_run
 
-WIDTH = 640
-"""Pixels: two of them side by side on a page."""
+WIDTHS = (640, 560, 480, 400, 320)
+"""Pixels, two of them side by side on a page; the first that makes a small enough file is taken."""
 LARGEST_FILE = 60_000
 """Bytes: a page of a hundred pictures stays below 10 MB, with room to spare."""
-COLOURS = (256, 128, 64, 48, 32, 24, 16)
-"""Fewer colours make smaller files; the first number that is small enough is taken."""
+COLOURS = 256
+"""As many as a palette has: with fewer of them a smooth field falls into bands."""
+REFINEMENTS = 3
+"""Passes of k-means over the palette; further ones change no shade that can be seen."""
 
 
 def gallery(runs: Path, out: Path) -> Iterator[tuple[str, Exception | None]]:
@@ -43,15 +45,16 @@ def default_picture(run: Run) -> Figure:
 
 
 def small_png(drawn: Figure) -> bytes:
-    """A PNG of `WIDTH` pixels and at most `LARGEST_FILE` bytes."""
+    """A PNG of at most `WIDTHS[0]` pixels from left to right and `LARGEST_FILE` bytes."""
     large = BytesIO()
     drawn.savefig(large, format="png", dpi=style.DPI, bbox_inches="tight", pad_inches=0.08)
     image = Image.open(large).convert("RGB")
-    height = round(image.height * WIDTH / image.width)
-    image = image.resize((WIDTH, height), Image.Resampling.LANCZOS)
-    for colours in COLOURS:
+    for width in WIDTHS:
+        size = (width, max(1, round(image.height * width / image.width)))
+        resized = image.resize(size, Image.Resampling.LANCZOS)
+        palette = resized.quantize(COLOURS, kmeans=REFINEMENTS, dither=Image.Dither.NONE)
         small = BytesIO()
-        image.quantize(colours, dither=Image.Dither.NONE).save(small, format="png", optimize=True)
+        palette.save(small, format="png", optimize=True)
         if small.tell() <= LARGEST_FILE:
             return small.getvalue()
     raise ValueError(f"the picture takes {small.tell()} bytes, more than {LARGEST_FILE}")
