@@ -8,7 +8,7 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
-from alewife_post import figure, film, movie, space, style
+from alewife_post import figure, film, gallery, movie, space, style
 from alewife_post.read import Run, open_run
 
 FAILURES = (OSError, KeyError, ValueError)
@@ -31,8 +31,17 @@ def main(arguments: list[str] | None = None) -> int:
         )
         add(command)
         command.set_defaults(write=run)
+    summary = (_write_gallery.__doc__ or "").removesuffix(".")
+    command = commands.add_parser("gallery", help=summary, description=_write_gallery.__doc__)
+    command.add_argument("out", type=Path, metavar="OUT", help="directory of the pictures")
+    command.add_argument(
+        "--from", type=Path, default=Path("runs"), dest="runs", metavar="DIR", help="%(default)s"
+    )
+    command.set_defaults(write=None)
     options = parser.parse_args(arguments)
     try:
+        if options.write is None:
+            return _write_gallery(options)
         options.write(open_run(options.run), options)
     except FAILURES as error:
         # A KeyError shows its message in quotes; errors of the system have theirs in no argument.
@@ -105,6 +114,16 @@ def _picture(run: Run, options: argparse.Namespace) -> Figure:
 
 
 CAMERA = (-50.0, 20.0)
+
+
+def _write_gallery(options: argparse.Namespace) -> int:
+    """A small picture of each run in a directory."""
+    failures = 0
+    for name, failure in gallery.gallery(options.runs, options.out):
+        if failure is not None:
+            failures += 1
+            print(f"alewife-post: {name}: {failure}", file=sys.stderr)
+    return int(failures > 0)
 
 
 # ---- Films ---------------------------------------------------------------------------------------
