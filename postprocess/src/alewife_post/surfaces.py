@@ -88,7 +88,7 @@ def boundary_faces(field: Field) -> Array:
 def on_sides(run: Run, field: Field, faces: Array) -> Array | None:
     """Which faces `(n, 6)` lie on a side of the domain; None where its sides are not known.
 
-    A face is as near as a thousandth of its own size: a body at a wall has faces as small as the gap,
+    One within a thousandth of its own size is: a body at a wall has faces as small as the gap,
     whatever the size of the domain.
     """
     nodes = field.nodes
