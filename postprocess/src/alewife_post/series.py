@@ -146,9 +146,7 @@ def energy_figure(run: Run, *, window: Span | None = None, is_whole: bool = Fals
 # ---- Ways ----------------------------------------------------------------------------------------
 
 
-def trajectory_figure(
-    run: Run, names: Iterable[str] = (), *, window: Span | None = None
-) -> Figure:
+def trajectory_figure(run: Run, names: Iterable[str] = (), *, window: Span | None = None) -> Figure:
     """Ways of the centres of bodies and swimmers, from a dot to a ring."""
     style.use()
     movers = tracks(run.series)
@@ -271,31 +269,41 @@ def finish(
     is_whole: bool = False,
 ) -> None:
     """Limits that show what matters, and marks where something lies beyond them."""
-    axes.margins(x=0.01)
-    axes.spines[["top", "right"]].set_visible(False)
+    tidy(axes)
     values = [value for one in known for value in (one.value - one.half, one.value + one.half)]
     limits = None if is_whole else robust_limits(curves, values)
-    if limits is None:
-        return
+    if limits is not None:
+        cut(axes, curves, limits)
+
+
+def tidy(axes: Axes) -> None:
+    """A frame without its upper and right side, and little room beside the curves."""
+    axes.margins(x=0.01)
+    axes.spines[["top", "right"]].set_visible(False)
+
+
+def cut(axes: Axes, curves: list[tuple[Array, Array]], limits: Span) -> None:
+    """Cut off what lies beyond limits, and say how far it goes."""
     axes.set_ylim(*limits)
-    for side, low, height in ((0, True, 0.0), (1, False, 1.0)):
-        extreme = [
-            (time[at], values[at])
-            for time, values in curves
-            for at in [int(np.nanargmin(values) if low else np.nanargmax(values))]
-        ]
-        at, value = min(extreme, key=lambda one: one[1] if low else -one[1])
-        if (value < limits[side]) if low else (value > limits[side]):
-            axes.annotate(
-                f"{'v' if low else '^'} to {value:.3g} at t = {at:.3g}, cut off",
-                (at, height),
-                xycoords=("data", "axes fraction"),
-                xytext=(4, 3 if low else -3),
-                textcoords="offset points",
-                va="bottom" if low else "top",
-                fontsize=7.0,
-                color=style.EDGE,
-            )
+    for is_low in (True, False):
+        extremes = []
+        for time, values in curves:
+            if np.isfinite(values).any():
+                at = int(np.nanargmin(values) if is_low else np.nanargmax(values))
+                extremes.append((float(values[at]), float(time[at])))
+        value, at = min(extremes) if is_low else max(extremes)
+        if limits[0] <= value <= limits[1]:
+            continue
+        axes.annotate(
+            f"{'v' if is_low else '^'} to {value:.3g} at t = {at:.3g}, cut off",
+            (at, 0.0 if is_low else 1.0),
+            xycoords=("data", "axes fraction"),
+            xytext=(4, 3 if is_low else -3),
+            textcoords="offset points",
+            va="bottom" if is_low else "top",
+            fontsize=7.0,
+            color=style.EDGE,
+        )
 
 
 def robust_limits(curves: list[tuple[Array, Array]], others: list[float]) -> Span | None:
