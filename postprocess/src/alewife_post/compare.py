@@ -1,4 +1,4 @@
-"""Several runs, the points of a sweep, or published curves on the same axes, and their differences."""
+"""Runs, points of a sweep and published curves on the same axes, and their differences."""
 
 from __future__ import annotations
 

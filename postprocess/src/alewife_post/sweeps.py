@@ -96,7 +96,7 @@ def chosen_key(sweep: Sweep, against: str | None) -> str:
         key: [values[nth] for values, _ in sweep.points] for nth, key in enumerate(sweep.swept)
     }
     numeric = {
-        key: {value for value in column}
+        key: set(column)
         for key, column in columns.items()
         if all(isinstance(value, int | float) for value in column)
     }
