@@ -7,11 +7,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from conftest import CAN_RENDER, TIMES, ring, write_vtu
-from PIL import Image
-
 from alewife_post import Run, cli, film, movie, open_run, style
 from alewife_post.page import Page, fitting
+from conftest import CAN_RENDER, TIMES, ring, write_vtu
+from PIL import Image
 
 imageio_ffmpeg = pytest.importorskip("imageio_ffmpeg")
 

@@ -23,6 +23,8 @@ SQUEEZED = 3.0
 """Outliers are cut off where they would make the axis so many times as long."""
 MOST_PANELS = 5
 """Panels drawn where no quantity is asked for."""
+DEFECT = "_defect"
+"""Ending of quantities that say how well equations are solved: drawn if asked for."""
 MANY = 6
 """Curves from which on they are told apart by a colour map."""
 
@@ -75,6 +77,7 @@ def suggested(run: Run) -> list[str]:
         reference.quantity
         for reference in evidence.references(run.case)
         if all(part in series for part in reference.quantity.split(asked.MINUS))
+        and not reference.quantity.endswith(DEFECT)
     ]
     found = list(dict.fromkeys(of_references))
     if not found:
@@ -83,7 +86,8 @@ def suggested(run: Run) -> list[str]:
             name for name in moving if any(np.ptp(_finite(one)) > 0 for one in _of(series, name))
         ]
         found += [name for name in ("drag_coefficient", "lift_coefficient") if _has(series, name)]
-    return (found or [name for name in series if name != "time"])[:MOST_PANELS]
+    others = (name for name in series if name != "time")
+    return (found or [name for name in others if not name.endswith(DEFECT)])[:MOST_PANELS]
 
 
 def _has(series: Mapping[str, Array], name: str) -> bool:
@@ -279,6 +283,7 @@ def finish(
 def tidy(axes: Axes) -> None:
     """A frame without its upper and right side, and little room beside the curves."""
     axes.margins(x=0.01)
+    axes.ticklabel_format(axis="y", useOffset=False)
     axes.spines[["top", "right"]].set_visible(False)
 
 
