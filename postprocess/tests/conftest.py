@@ -10,8 +10,9 @@ from pathlib import Path
 import matplotlib
 import numpy as np
 import pytest
-from alewife_post import Run, open_run, scene
 from mcap.writer import CompressionType, Writer
+
+from alewife_post import Run, open_run, scene
 
 matplotlib.use("Agg")
 # Before anything loads VTK.

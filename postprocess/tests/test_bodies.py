@@ -7,9 +7,10 @@ from typing import Any
 
 import numpy as np
 import pytest
+from conftest import ring, velocity
+
 from alewife_post import Run, bodies, periodic, planes
 from alewife_post.read import BodyHistory, Field, Shape, Solid
-from conftest import ring, velocity
 
 STILL = np.array([0.0, 0.0, 0.0, 1.0])
 QUARTER = np.array([0.0, 0.0, np.sin(np.pi / 4), np.cos(np.pi / 4)])

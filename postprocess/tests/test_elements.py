@@ -1,6 +1,7 @@
 """Quadratic triangles are drawn as what they are."""
 
 import numpy as np
+
 from alewife_post import Run
 from alewife_post.elements import (
     edge_curves,

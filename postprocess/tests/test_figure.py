@@ -5,13 +5,14 @@ from pathlib import Path
 import matplotlib.image
 import numpy as np
 import pytest
+from conftest import CAN_RENDER
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+
 from alewife_post import Run, cli, figure, style
 from alewife_post.drawing import boundary_loops
 from alewife_post.elements import smooth_outline
 from alewife_post.read import Field
-from conftest import CAN_RENDER
-from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.figure import Figure
 
 VTK = pytest.param(
     "vtk", marks=pytest.mark.skipif(not CAN_RENDER, reason="VTK can have no window here")

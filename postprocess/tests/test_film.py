@@ -7,10 +7,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from alewife_post import Run, cli, film, movie, open_run, style
-from alewife_post.page import Page, fitting
 from conftest import CAN_RENDER, TIMES, ring, write_vtu
 from PIL import Image
+
+from alewife_post import Run, cli, film, movie, open_run, style
+from alewife_post.page import Page, fitting
 
 imageio_ffmpeg = pytest.importorskip("imageio_ffmpeg")
 

@@ -13,8 +13,9 @@ from pathlib import Path
 import jsonschema
 import numpy as np
 import pytest
-from alewife_post import open_run
 from mcap.reader import make_reader
+
+from alewife_post import open_run
 
 PUBLISHED = {
     f"foxglove.{path.stem}": json.loads(path.read_text())

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+
 from alewife_post import quantities
 
 TIME = np.cumsum(np.full(2000, 0.01)) ** 1.01

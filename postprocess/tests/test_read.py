@@ -5,8 +5,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from alewife_post import Run, open_run
 from conftest import TIMES, ring, velocity
+
+from alewife_post import Run, open_run
 
 
 def test_series_keep_every_bit(planar_run: Run) -> None:

@@ -6,12 +6,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from conftest import CAN_RENDER, EDGES, block
+from matplotlib.figure import Figure
+
 from alewife_post import Run, open_run, space, surfaces
 from alewife_post.cli import picture
 from alewife_post.planes import straight
 from alewife_post.read import QUADRATIC_TETRAHEDRON, Field
-from conftest import CAN_RENDER, EDGES, block
-from matplotlib.figure import Figure
 
 CASE = """
 title = "A block in a box"
@@ -189,6 +190,7 @@ def test_the_camera_chooses_what_is_seen(run: Run) -> None:
 
 def test_fields_of_other_cells_are_refused(tmp_path: Path) -> None:
     import pyvista
+
     from alewife_post.read import read_field
 
     path = tmp_path / "tetra.vtu"
@@ -269,6 +271,7 @@ def test_faces_of_the_boundary_close_it_and_look_outwards(run: Run) -> None:
 
 def test_a_missing_quantity_is_named_with_those_there_are(tmp_path: Path) -> None:
     import pyvista
+
     from alewife_post.read import read_field
 
     nodes, cells = block()

@@ -7,11 +7,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from conftest import CAN_RENDER, block
+from test_film import colour_at, frames_of
+
 from alewife_post import Run, camera, cli, film, open_run, planes, stage, style
 from alewife_post.cast import Cast, _cone
 from alewife_post.read import QUADRATIC_TETRAHEDRON
-from conftest import CAN_RENDER, block
-from test_film import colour_at, frames_of
 
 NEEDS_WINDOW = pytest.mark.skipif(not CAN_RENDER, reason="VTK can have no window here")
 SMALL = ["--size", "320x240"]
