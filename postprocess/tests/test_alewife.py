@@ -7,9 +7,10 @@ import sys
 import time
 from pathlib import Path
 
-import alewife
 import numpy as np
 import pytest
+
+import alewife
 from alewife.case import to_toml
 from alewife.program import call
 

@@ -44,12 +44,12 @@ def add_plot(parser: argparse.ArgumentParser) -> None:
 def write_plot(options: argparse.Namespace) -> None:
     """Quantities of a run over time with the references of its case, its paths or its energy."""
     run = open_run(options.run)
-    from alewife_post import series
+    from alewife_post import series, trajectories
 
     names = [*options.names, *options.quantity]
     window = options.window and tuple(options.window)
     if options.trajectories:
-        kind, drawn = "trajectories", series.trajectory_figure(run, names, window=window)
+        kind, drawn = "trajectories", trajectories.trajectory_figure(run, names, window=window)
     elif options.energy:
         if names:
             raise ValueError("--energy has quantities of its own: name none")

@@ -202,9 +202,6 @@ def entries(
     return found
 
 
-MARKERS = "os^Dv"
-
-
 def compare_figure(
     runs: list[Named],
     curves: list[Curve],
@@ -224,10 +221,11 @@ def compare_figure(
         for nth, entry in enumerate(found):
             if entry.is_ours:
                 label = entry.label if len(runs) > 1 else "computed"
-                series.draw(axes, entry.time, entry.values, colour=colours[nth], label=label)
+                curve = (entry.time, entry.values)
+                series.draw(axes, curve, colour=colours[nth], label=label, rank=nth)
             else:
                 axes.plot(
-                    entry.time, entry.values, MARKERS[others % len(MARKERS)], ms=3.2, mew=0.8,
+                    entry.time, entry.values, series.MARKERS[others % len(series.MARKERS)], ms=3.2, mew=0.8,
                     color=style.REFERENCE, mfc="none", label=entry.label,
                 )  # fmt: skip
                 others += 1

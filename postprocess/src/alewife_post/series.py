@@ -1,4 +1,4 @@
-"""Figures over time: quantities with their references, energetics, ways of bodies."""
+"""Figures over time: quantities with their references, energetics."""
 
 from __future__ import annotations
 
@@ -26,6 +26,14 @@ MOST_PANELS = 5
 DEFECT = "_defect"
 """Ending of quantities that say how well equations are solved: drawn if asked for."""
 MANY = 6
+DASHES: tuple[Any, ...] = ("-", (0, (5, 3)), (0, (2, 2)), (0, (6, 2, 1, 2)))
+"""Lines of curves in turn, so that one under another is seen."""
+FEW = 10
+"""Values below which each has a dot."""
+MARKERS = "os^Dv"
+"""Marks of the values of different sources."""
+WIDEST = 78
+"""Letters of a label."""
 """Curves from which on they are told apart by a colour map."""
 
 
@@ -52,9 +60,9 @@ def series_figure(
     for axes, lines in zip(rows, panels, strict=True):
         colours = line_colours(len(lines))
         curves = [(time[shown], line.values[shown]) for line in lines]
-        for line, colour, curve in zip(lines, colours, curves, strict=True):
+        for rank, (line, curve) in enumerate(zip(lines, curves, strict=True)):
             label = asked.owner(line.name) if len(lines) > 1 else None
-            draw(axes, *curve, colour=colour, label=label)
+            draw(axes, curve, colour=colours[rank], label=label, rank=rank)
         known = [
             (reference, colour)
             for line, colour in zip(lines, colours, strict=True)
@@ -138,64 +146,14 @@ def energy_figure(run: Run, *, window: Span | None = None, is_whole: bool = Fals
     for axes, (title, names) in zip(rows, panels, strict=True):
         colours = line_colours(len(names))
         curves = [(time[shown], run.series[name][shown]) for name in names]
-        for name, colour, curve in zip(names, colours, curves, strict=True):
-            draw(axes, *curve, colour=colour, label=name.replace("_", " "))
+        for rank, (name, curve) in enumerate(zip(names, curves, strict=True)):
+            label = name.replace("_", " ")
+            draw(axes, curve, colour=colours[rank], label=label, rank=rank)
         finish(axes, curves, [], is_whole=is_whole)
         axes.set_ylabel(title.replace(", ", ",\n"))
         legend(axes)
     rows[-1].set_xlabel(time_label(run))
     return figure
-
-
-# ---- Ways ----------------------------------------------------------------------------------------
-
-
-def trajectory_figure(run: Run, names: Iterable[str] = (), *, window: Span | None = None) -> Figure:
-    """Ways of the centres of bodies and swimmers, from a dot to a ring."""
-    style.use()
-    movers = tracks(run.series)
-    wanted = list(names) or list(movers)
-    for name in wanted:
-        if name not in movers:
-            raise KeyError(asked.unknown("body or swimmer", name, movers))
-    if not wanted:
-        raise ValueError(f"{run.path} has no bodies")
-    shown = within(run.series["time"], window)
-    planes = ((0, 1), (0, 2)) if run.is_spatial else ((0, 1),)
-    figure = Figure(figsize=(6.4, 4.2 * len(planes)), layout="constrained")
-    colours = dict(zip(wanted, line_colours(len(wanted)), strict=True))
-    units = run.case.get("units", "")
-    for axes, plane in zip(figure.subplots(len(planes), squeeze=False)[:, 0], planes, strict=True):
-        for name in wanted:
-            x, y = (movers[name][shown, axis] for axis in plane)
-            axes.plot(x, y, color=colours[name], lw=1.2, label=name)
-            axes.plot(x[:1], y[:1], "o", color=colours[name], ms=4)
-            axes.plot(x[-1:], y[-1:], "o", color=colours[name], ms=6, mfc="white")
-        axes.set_aspect("equal", "datalim")
-        axes.margins(0.08)
-        axis_names = ("x", "r" if run.is_axisymmetric else "y", "z")
-        axes.set_xlabel(style.length_label(axis_names[plane[0]], units))
-        axes.set_ylabel(style.length_label(axis_names[plane[1]], units))
-        axes.spines[["top", "right"]].set_visible(False)
-    time = run.series["time"][shown]
-    figure.suptitle(
-        f"{run.case['title']}: ways from t = {time[0]:.4g} (dot) to {time[-1]:.4g} (ring)",
-        fontsize=style.PARAMETERS["axes.titlesize"],
-        wrap=True,
-    )
-    if len(wanted) > 1:
-        legend(figure.axes[0])
-    return figure
-
-
-def tracks(series: Mapping[str, Array]) -> dict[str, Array]:
-    """Centres of all bodies and swimmers over time, `(n_rows, 3)`."""
-    owners = dict.fromkeys(asked.owner(name) for name in series if asked.ending(name) == "x")
-    none = np.zeros(len(series["time"]))
-    return {
-        name: np.stack([series.get(f"{name}.{axis}", none) for axis in "xyz"], axis=1)
-        for name in owners
-    }
 
 
 # ---- In common -----------------------------------------------------------------------------------
@@ -229,10 +187,20 @@ def line_colours(n: int) -> list[Any]:
     return list(matplotlib.colormaps["viridis"](np.linspace(0.0, 0.9, n)))
 
 
-def draw(axes: Axes, time: Array, values: Array, *, colour: object, label: str | None) -> None:
-    """One curve; a dot if it is one value."""
-    marker = "o" if len(time) < 2 else ""
-    axes.plot(time, values, color=colour, lw=1.1, marker=marker, label=label)
+def draw(
+    axes: Axes, curve: tuple[Array, Array], *, colour: object, label: str | None, rank: int = 0
+) -> None:
+    """One curve, dashed over others of lower rank; with dots if it has few values."""
+    is_sparse = np.isfinite(curve[1]).sum() < FEW
+    axes.plot(
+        *curve,
+        color=colour,
+        lw=1.1,
+        ls=DASHES[rank % len(DASHES)],
+        marker="o" if is_sparse else "",
+        ms=3.5,
+        label=label,
+    )
 
 
 def panel_label(names: list[str]) -> str:
@@ -349,17 +317,16 @@ def draw_references(
     """The interval each reference allows, over the stretch of time it speaks of."""
     given = evidence.window(case)
     ends = axes.get_xlim()
-    seen: set[str] = set()
+    seen: list[str] = []
     for reference, curve_colour in known:
         colour = style.REFERENCE if is_alone else curve_colour
         value, half = reference.value, reference.half
-        label = f"{reference.word}: {reference.source.split(';')[0]}"
-        if len(label) > 78:
-            label = label[:75] + "..."
+        label = shortened(f"{reference.word}: {reference.source.split(';')[0]}")
         if reference.statistic == "at":
             shown = None if label in seen else label
+            marker = MARKERS[list(dict.fromkeys([*seen, label])).index(label) % len(MARKERS)]
             axes.errorbar(
-                [reference.at], [value], [half], fmt="o", ms=3.5, color=colour, capsize=2,
+                [reference.at], [value], [half], fmt=marker, ms=3.5, color=colour, capsize=2,
                 lw=0.8, label=shown,
             )  # fmt: skip
         else:
@@ -370,5 +337,12 @@ def draw_references(
             )
             shown = f"{label}: {value:.4g} ± {half:.2g}"
             axes.plot([start, end], [value, value], color=colour, lw=0.8, ls="--", label=shown)
-        seen.add(label)
+        seen.append(label)
     axes.set_xlim(*ends)
+
+
+def shortened(label: str) -> str:
+    """A label without the words it has no room for."""
+    if len(label) <= WIDEST:
+        return label
+    return label[: WIDEST - 3].rpartition(" ")[0].rstrip(",;:(") + " ..."

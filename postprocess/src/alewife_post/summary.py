@@ -90,6 +90,7 @@ def _shown(run: Run) -> list[str]:
         one.quantity
         for one in evidence.references(run.case)
         if all(part in series for part in one.quantity.split(asked.MINUS))
+        and not one.quantity.endswith("_defect")
     ]
     if of_references:
         return list(dict.fromkeys(of_references))

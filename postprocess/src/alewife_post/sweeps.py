@@ -81,6 +81,7 @@ def sweep_figure(
             x, y = np.array(sorted((row[key], row[name]) for row in family), dtype=float).T
             axes.plot(x, y, "o-", ms=3.5, lw=1.0, color=colour, label=text or None)
         axes.set_ylabel(series.panel_label([name]))
+        axes.ticklabel_format(axis="y", useOffset=False)
         axes.spines[["top", "right"]].set_visible(False)
         series.legend(axes)
     at = np.array([row[key] for row in rows], dtype=float)
