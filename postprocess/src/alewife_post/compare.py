@@ -225,8 +225,8 @@ def compare_figure(
                 series.draw(axes, curve, colour=colours[nth], label=label, rank=nth)
             else:
                 axes.plot(
-                    entry.time, entry.values, series.MARKERS[others % len(series.MARKERS)], ms=3.2, mew=0.8,
-                    color=style.REFERENCE, mfc="none", label=entry.label,
+                    entry.time, entry.values, series.MARKERS[others % len(series.MARKERS)],
+                    ms=3.2, mew=0.8, color=style.REFERENCE, mfc="none", label=entry.label,
                 )  # fmt: skip
                 others += 1
         ours = [(entry.time, entry.values) for entry in found if entry.is_ours]

@@ -36,7 +36,8 @@ class Curve:
     @property
     def label(self) -> str:
         """For a legend."""
-        return f"{self.source} ({evidence.KINDS.get(self.kind, self.kind)})"
+        kind = evidence.KINDS.get(self.kind, self.kind)
+        return f"{self.source} ({kind}{f', {self.variant}' if self.variant else ''})"
 
 
 def read_curve(path: Path) -> Curve:

@@ -326,8 +326,8 @@ def draw_references(
             shown = None if label in seen else label
             marker = MARKERS[list(dict.fromkeys([*seen, label])).index(label) % len(MARKERS)]
             axes.errorbar(
-                [reference.at], [value], [half], fmt=marker, ms=3.5, color=colour, capsize=2,
-                lw=0.8, label=shown,
+                [reference.at], [value], [half], fmt=marker, ms=3.5, mfc="none",
+                color=colour, capsize=2, lw=0.8, label=shown,
             )  # fmt: skip
         else:
             start, end = given or ends
