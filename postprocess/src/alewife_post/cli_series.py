@@ -174,6 +174,8 @@ def save(drawn: Figure, out: Path) -> None:
 
     if out.suffix.lower() in FILMS:
         raise ValueError(f"{out} is a film by its name: that is `alewife-post film`")
+    if not out.parent.is_dir():
+        raise FileNotFoundError(f"there is no directory {out.parent} to write {out.name} into")
     half = out.with_name(f".{out.stem}.part{out.suffix}")
     try:
         drawn.savefig(half, dpi=style.DPI, bbox_inches="tight", pad_inches=0.08)
