@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -280,3 +281,22 @@ def test_a_missing_quantity_is_named_with_those_there_are(tmp_path: Path) -> Non
     grid.save(tmp_path / "part.vtu")
     with pytest.raises(ValueError, match="no velocity and no vorticity at nodes; it has pressure"):
         read_field(tmp_path / "part.vtu")
+
+
+def test_faces_at_a_wall_of_a_huge_domain_that_travels_are_told_from_a_body_beside_it() -> None:
+    # A ball of radius 1e5 around a body that has moved by 3 along x, and two faces of size 0.1: one
+    # on the wall, one a hundredth away from it
+    case = {"domain": {"sphere": {"radius": 1e5}}, "frame": "one", "body": []}
+    centers = np.array([[0.0, 0.0, 0.0], [3.0, 0.0, 0.0]])
+    turns = np.array([[0.0, 0.0, 0.0, 1.0]] * 2)
+    history = SimpleNamespace(time=np.array([0.0, 1.0]), center=centers, rotation=turns)
+    run = SimpleNamespace(case=case, bodies={"one": history})
+    around = np.array([[0, 0], [0.1, 0], [0, 0.1], [0.05, 0], [0.05, 0.05], [0, 0.05]]) * 1e-5
+    wall = np.column_stack([np.ones(6), around])
+    wall *= 1e5 / np.linalg.norm(wall, axis=1, keepdims=True)
+    nodes = np.vstack([wall, wall * (1 - 1e-7)]) + np.array([3.0, 0.0, 0.0])
+    field = SimpleNamespace(nodes=nodes, time=1.0)
+    faces = np.arange(12).reshape(2, 6)
+    assert list(surfaces.on_sides(run, field, faces)) == [True, False]
+    field.time = 0.0
+    assert list(surfaces.on_sides(run, field, faces)) == [False, False]

@@ -10,11 +10,13 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!("cargo::rerun-if-changed=build.rs");
     println!("cargo::rerun-if-changed={}", cases.display());
 
+    if !cases.is_dir() {
+        // Else the program would have no shipped case
+        return Err(format!("{} is missing: a part of the sources", cases.display()).into());
+    }
     let mut folders: Vec<PathBuf> = Vec::new();
-    if cases.is_dir() {
-        for entry in fs::read_dir(&cases)? {
-            folders.push(entry?.path());
-        }
+    for entry in fs::read_dir(&cases)? {
+        folders.push(entry?.path());
     }
     folders.sort();
 

@@ -73,7 +73,7 @@ class Case:
 
 
 def load(name: str | Path) -> Case:
-    """Load a case: the name of a shipped one (`three-sphere`), a variant (`NAME/VARIANT`), or a file.
+    """Load a case: the name of a shipped one (`three-sphere`), a `NAME/VARIANT`, or a file.
 
     BadCaseError if there is none or if it is wrong.
     """

@@ -84,7 +84,11 @@ def call(*arguments: str | Path, progress: bool = False) -> str:
 
 def _error(messages: str, code: int, command: list[str]) -> AlewifeError:
     text = messages.strip() or f"{' '.join(command)} ended with code {code}"
-    for kind, codes in ((BadCaseError, _BAD_CASE), (SolverError, _SOLVER), (StoppedError, _STOPPED)):
+    for kind, codes in (
+        (BadCaseError, _BAD_CASE),
+        (SolverError, _SOLVER),
+        (StoppedError, _STOPPED),
+    ):
         if code in codes:
             return kind(text, code)
     return AlewifeError(text, code)

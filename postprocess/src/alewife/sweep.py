@@ -59,7 +59,10 @@ def _table(path: Path) -> pandas.DataFrame | dict[str, np.ndarray]:
     except ImportError:
         with path.open(newline="") as file:
             names, *rows = list(csv.reader(file))
-        return {name: _column(values) for name, values in zip(names, zip(*rows, strict=True), strict=True)}
+        return {
+            name: _column(values)
+            for name, values in zip(names, zip(*rows, strict=True), strict=True)
+        }
     return pandas.read_csv(path)
 
 

@@ -14,8 +14,8 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 FAILURES = (OSError, KeyError, ValueError, ImportError)
-ENDINGS = {"matplotlib": "pictures", "pyvista": "pictures", "vtk": "pictures", "pandas": "table"}
-"""Extras that have a package; `film` has what is not named."""
+PACKAGES = ("matplotlib", "PIL", "pyvista", "vtk", "vtkmodules")
+"""What draws."""
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -30,6 +30,7 @@ def main(arguments: list[str] | None = None) -> int:
             ("plot", cli_series.add_plot, cli_series.write_plot),
             ("compare", cli_series.add_compare, cli_series.write_comparison),
             ("inspect", cli_series.add_inspect, cli_series.write_summary),
+            ("gallery", _add_gallery, _write_gallery),
             ("series", cli_series.add_plot, cli_series.write_plot),
         ):
             doc = run.__doc__ if name != "series" else "`plot` by its older name."
@@ -40,18 +41,17 @@ def main(arguments: list[str] | None = None) -> int:
                 add(command)
                 command.set_defaults(write=run)
         options = parser.parse_args(arguments)
-        options.write(options)
+        return options.write(options) or 0
     except FAILURES as error:
         print(f"alewife-post: {message(error)}", file=sys.stderr)
         return 2
-    return 0
 
 
 def message(error: BaseException) -> str:
     """One line for a reader."""
     if isinstance(error, ModuleNotFoundError):
         package = (error.name or str(error)).partition(".")[0]
-        extra = ENDINGS.get(package, "film")
+        extra = "pictures" if package in PACKAGES else {"pandas": "table"}.get(package, "film")
         return f"the package {package} is not installed: pip install 'alewife[{extra}]'"
     # A KeyError shows its message in quotes; errors of the system have theirs in no argument.
     is_plain = isinstance(error, KeyError) and error.args
@@ -125,6 +125,25 @@ def _picture(run: Run, options: argparse.Namespace) -> Figure:
 
 
 CAMERA = (-50.0, 20.0)
+
+
+def _add_gallery(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("out", type=Path, metavar="OUT", help="directory of the pictures")
+    parser.add_argument(
+        "--from", type=Path, default=Path("runs"), dest="runs", metavar="DIR", help="%(default)s"
+    )
+
+
+def _write_gallery(options: argparse.Namespace) -> int:
+    """A small picture of each run in a directory."""
+    from alewife_post import gallery
+
+    failures = 0
+    for name, failure in gallery.gallery(options.runs, options.out):
+        if failure is not None:
+            failures += 1
+            print(f"alewife-post: {name}: {failure}", file=sys.stderr)
+    return int(failures > 0)
 
 
 # ---- Films ---------------------------------------------------------------------------------------

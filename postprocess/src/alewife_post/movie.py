@@ -9,7 +9,7 @@ import numpy as np
 
 Array = np.ndarray
 ENDINGS = (".mp4", ".gif")
-MISSING = "films in MP4 need imageio-ffmpeg: pip install 'alewife-post[film]', or write a .gif"
+MISSING = "films in MP4 need imageio-ffmpeg: pip install 'alewife[film]', or write a .gif"
 
 
 def check(out: Path) -> None:

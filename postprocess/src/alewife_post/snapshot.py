@@ -22,6 +22,8 @@ Painter = Literal["auto", "vtk", "matplotlib"]
 
 SMALL_BODY = 0.1
 """A body smaller than this part of the domain is looked at from near."""
+LONGEST_STRIP = 8.0
+"""A domain longer than this many widths is shown near its bodies only: whole, it is a line."""
 NEAR_SWIMMER = 0.5
 """Space left around swimmers over what they take themselves."""
 
@@ -175,6 +177,8 @@ def default_view(run: Run, whole: View, times: Array) -> View:
         reach = 3.0 * largest + 0.25 * (extent - 2 * largest)
     elif bodies.swims(run):
         reach = NEAR_SWIMMER * extent
+    elif (high - low).max() > LONGEST_STRIP * (high - low).min():
+        reach = 1.5 * (high - low).min()
     else:
         return whole
     if run.is_axisymmetric and low[1] < 0.0:

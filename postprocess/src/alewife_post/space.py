@@ -299,12 +299,11 @@ def _surroundings(run: Run, field: Field, plane: Plane) -> View:
         (x0, y0), (x1, y1) = places.min(axis=0), places.max(axis=0)
         return (x0, x1, y0, y1)
     low, high = places.min(axis=0), places.max(axis=0)
-    extent = np.ptp(field.nodes, axis=0).max()
-    sides = (
-        np.abs(surfaces.distances_to_sides(run.case, field.nodes)) < surfaces.ON_SIDE * extent
-    ).any(axis=1)
-    boundary = np.unique(surfaces.boundary_faces(field)[:, :3])
-    on_bodies = places[boundary[~sides[boundary]]]
+    faces = surfaces.boundary_faces(field)
+    is_side = surfaces.on_sides(run, field, faces)
+    if is_side is not None:
+        faces = faces[~is_side]
+    on_bodies = places[np.unique(faces[:, :3])]
     if len(on_bodies):
         own_low, own_high = on_bodies.min(axis=0), on_bodies.max(axis=0)
         largest = max([0.0, *(2 * bodies.radius(run, name) for name in run.bodies)])

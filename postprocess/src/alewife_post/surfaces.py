@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from alewife_post.bodies import poses
 from alewife_post.periodic import is_joined, periods
 from alewife_post.quantities import speed
 from alewife_post.read import QUADRATIC_TRIANGLE, Field, Run
@@ -16,22 +17,21 @@ FACES = np.array([[0, 1, 2, 4, 5, 6], [0, 1, 3, 4, 8, 7], [0, 2, 3, 6, 9, 7], [1
 """Nodes of each face of a tetrahedron: vertices, then those between them."""
 OPPOSITE = np.array([3, 2, 1, 0])
 """The vertex that a face has not."""
-ON_SIDE = 1e-5
-"""Distance from a side over the size of the domain below which a node is on it."""
+ON_SIDE = 1e-3
+"""Distance from a side over the size of a face below which the face is on it."""
 SUBDIVISION = 3
 
 
 def bodies_surface(run: Run, field: Field, quantity: str):  # noqa: ANN201  (loads VTK)
     """The surface of the fluid without the sides of the domain, with nodal `values`."""
     faces = boundary_faces(field)
-    sides = distances_to_sides(run.case, field.nodes)
-    if sides.shape[1] > 0:
-        is_side = np.abs(sides) < ON_SIDE * np.ptp(field.nodes, axis=0).max()
+    is_side = on_sides(run, field, faces)
+    if is_side is not None:
         lengths = periods(run.case)
         if lengths.any():
             # Where the mesh is cut open
-            is_side = np.column_stack([is_side, is_joined(field.nodes, lengths)])
-        kept = _surface(field, quantity, faces[~is_side[faces].all(axis=1).any(axis=1)])
+            is_side |= is_joined(field.nodes, lengths)[faces].all(axis=1)
+        kept = _surface(field, quantity, faces[~is_side])
     else:
         whole = _surface(field, quantity, faces).connectivity("all")
         cells = whole.faces.reshape(-1, 4)[:, 1:]
@@ -83,6 +83,26 @@ def boundary_faces(field: Field) -> Array:
     is_inwards = np.einsum("ij,ij->i", np.cross(b - a, c - a), inner - a) > 0
     faces[is_inwards] = faces[is_inwards][:, [0, 2, 1, 5, 4, 3]]
     return faces
+
+
+def on_sides(run: Run, field: Field, faces: Array) -> Array | None:
+    """Which faces `(n, 6)` lie on a side of the domain; None where its sides are not known.
+
+    One within a thousandth of its own size is: a body at a wall has faces as small as the gap,
+    whatever the size of the domain.
+    """
+    nodes = field.nodes
+    frame = run.case.get("frame")
+    if isinstance(frame, str) and frame in run.bodies:
+        # The domain travels with a body: its sides are where they were, seen from there
+        start, now = (poses(run, time)[frame] for time in (0.0, field.time))
+        nodes = (nodes - now[0]) @ now[1] @ start[1].T + start[0]
+    distances = distances_to_sides(run.case, nodes)
+    if distances.shape[1] == 0:
+        return None
+    size = np.ptp(field.nodes[faces], axis=1).max(axis=1)
+    near = np.abs(distances[faces]) < ON_SIDE * size[:, None, None]
+    return near.all(axis=1).any(axis=1)
 
 
 def distances_to_sides(case: dict[str, Any], nodes: Array) -> Array:

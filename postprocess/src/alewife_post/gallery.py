@@ -1,0 +1,66 @@
+"""Small pictures of many runs, one PNG each, for pages that show them side by side."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from io import BytesIO
+from pathlib import Path
+
+from matplotlib.figure import Figure
+from PIL import Image
+
+from alewife_post import figure, space, style
+from alewife_post.read import Run, open_run
+
+WIDTHS = (640, 560, 480, 400, 320)
+"""Pixels, two of them side by side on a page; the first that makes a small enough file is taken."""
+LARGEST_FILE = 60_000
+"""Bytes: a page of a hundred pictures stays below 10 MB, with room to spare."""
+COLOURS = 256
+"""As many as a palette has: with fewer of them a smooth field falls into bands."""
+REFINEMENTS = 3
+"""Passes of k-means over the palette; further ones change no shade that can be seen."""
+
+
+def gallery(runs: Path, out: Path) -> Iterator[tuple[str, Exception | None]]:
+    """Write `out/NAME.png` for each run `runs/NAME`; yields names, and what went wrong."""
+    found = sorted(path.parent for path in runs.glob("*/case.toml"))
+    if not found:
+        raise ValueError(f"{runs} holds no directories of runs")
+    out.mkdir(parents=True, exist_ok=True)
+    for path in found:
+        failure = None
+        try:
+            _write_whole(out / f"{path.name}.png", small_png(default_picture(open_run(path))))
+        # One run that cannot be drawn keeps none of the others from it.
+        except (OSError, KeyError, ValueError) as error:
+            failure = error
+        yield path.name, failure
+
+
+def default_picture(run: Run) -> Figure:
+    """The picture of a run that `alewife-post picture` makes without options."""
+    return space.slice_picture(run, "speed") if run.is_spatial else figure.picture(run, "speed")
+
+
+def small_png(drawn: Figure) -> bytes:
+    """A PNG of at most `WIDTHS[0]` pixels from left to right and `LARGEST_FILE` bytes."""
+    large = BytesIO()
+    drawn.savefig(large, format="png", dpi=style.DPI, bbox_inches="tight", pad_inches=0.08)
+    image = Image.open(large).convert("RGB")
+    for width in WIDTHS:
+        size = (width, max(1, round(image.height * width / image.width)))
+        resized = image.resize(size, Image.Resampling.LANCZOS)
+        palette = resized.quantize(COLOURS, kmeans=REFINEMENTS, dither=Image.Dither.NONE)
+        small = BytesIO()
+        palette.save(small, format="png", optimize=True)
+        if small.tell() <= LARGEST_FILE:
+            return small.getvalue()
+    raise ValueError(f"the picture takes {small.tell()} bytes, more than {LARGEST_FILE}")
+
+
+def _write_whole(path: Path, content: bytes) -> None:
+    unfinished = path.with_name(f".unfinished-{path.name}")
+    unfinished.write_bytes(content)
+    os.replace(unfinished, path)  # noqa: PTH105  (atomic)
