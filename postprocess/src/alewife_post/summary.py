@@ -10,7 +10,7 @@ import numpy as np
 from alewife_post import asked, evidence, quantities
 from alewife_post.read import Run
 
-MOST_VALUES = 12
+MOST_VALUES = 16
 """Quantities shown where the case has references for none."""
 LEFT_OUT = ("angle", "acceleration", "surface_force", "surface_torque", "moment_coefficient")
 """Quantities of bodies that say little at a glance, with their components."""
@@ -103,7 +103,9 @@ def _shown(run: Run) -> list[str]:
         and np.isfinite(values).any()
         and (len(values) == 1 or np.nanmax(values) > np.nanmin(values))
     ]
-    return own[:MOST_VALUES]
+    # The same quantity of all bodies before the next one.
+    endings = list(dict.fromkeys(asked.ending(name) for name in own))
+    return sorted(own, key=lambda name: endings.index(asked.ending(name)))[:MOST_VALUES]
 
 
 def _value(series: dict[str, Any], name: str, start: float, end: float) -> dict[str, Any]:
