@@ -48,6 +48,13 @@ def test_a_transient_at_the_start_is_cut_off_and_nothing_else() -> None:
     assert series.robust_limits([(time, steady + 100 * (time < 0.005))], [90.0]) is None
 
 
+def test_a_reference_is_drawn_where_its_window_is_reached(planar_run: Run) -> None:
+    for window, n_lines in (((0.0, 1.5), 1), ((0.0, 3.0), 2)):
+        (axes,) = series.series_figure(planar_run, ["disc.speed"], window=window).axes
+        assert len(axes.lines) == n_lines
+        assert (axes.get_legend() is None) == (n_lines == 1)
+
+
 def run_of(tmp_path: Path, columns: dict[str, np.ndarray]) -> Run:
     """A run with other rows."""
     write_run(tmp_path / "run", is_axisymmetric=False)

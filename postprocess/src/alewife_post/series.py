@@ -32,6 +32,8 @@ FEW = 10
 """Values below which each has a dot."""
 MARKERS = "os^Dv"
 """Marks of the values of different sources."""
+LETTERS = 13
+"""Letters of a legend to the inch, less its margins."""
 WIDEST = 78
 """Letters of a label."""
 """Curves from which on they are told apart by a colour map."""
@@ -229,7 +231,7 @@ def legend(axes: Axes) -> None:
             loc="lower right",
             bbox_to_anchor=(1.0, 1.0),
             borderaxespad=0.0,
-            ncols=max(1, min(n, 90 // (widest + 8))),
+            ncols=max(1, min(n, round(LETTERS * axes.figure.get_figwidth()) // (widest + 8))),
         )
 
 
@@ -331,6 +333,9 @@ def draw_references(
             )  # fmt: skip
         else:
             start, end = given or ends
+            if start > ends[1] or end < ends[0]:
+                # Not reached yet, or not in the window drawn.
+                continue
             label = f"{reference.statistic}, {label}"
             axes.fill_between(
                 [start, end], value - half, value + half, color=colour, alpha=0.2, lw=0
