@@ -9,7 +9,7 @@ from conftest import CAN_RENDER
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from alewife_post import Run, cli, figure, style
+from alewife_post import Run, cli, figure, series, style
 from alewife_post.drawing import boundary_loops
 from alewife_post.elements import smooth_outline
 from alewife_post.read import Field
@@ -90,7 +90,7 @@ def test_a_frame_that_moves_with_a_body_loses_its_velocity(planar_run: Run) -> N
     assert drawn.axes[1].get_ylabel() == "speed (m/s) relative to disc"
 
 
-def test_a_frame_of_an_unknown_body_is_answered_with_the_known_ones(planar_run: Run) -> None:
+def test_a_frame_of_an_unknown_body_is_answered_with_the_nearest_ones(planar_run: Run) -> None:
     with pytest.raises(KeyError, match="no body swimmer; bodies of this run: disc"):
         figure.picture(planar_run, frame="swimmer", painter="matplotlib")
 
@@ -160,11 +160,11 @@ def test_a_body_that_the_view_cuts_keeps_its_colour(planar_run: Run) -> None:
 
 
 def test_a_series_shows_the_interval_of_a_reference(planar_run: Run, tmp_path: Path) -> None:
-    drawn = figure.series_figure(planar_run, ["disc.speed"])
+    drawn = series.series_figure(planar_run, ["disc.speed"])
     (axes,) = drawn.axes
     (text,) = axes.get_legend().get_texts()
     # value 0.5 times per 2.0, within a tenth
-    assert text.get_text() == "max, literature: 1 ± 0.1 (nobody2000)"
+    assert text.get_text() == "max, published: nobody2000: 1 ± 0.1"
     (band,) = axes.collections
     corners = band.get_paths()[0].vertices
     np.testing.assert_allclose([corners.min(axis=0), corners.max(axis=0)], [[2, 0.9], [4, 1.1]])
@@ -172,11 +172,11 @@ def test_a_series_shows_the_interval_of_a_reference(planar_run: Run, tmp_path: P
     assert cli.series([*arguments, "--quantity", "disc.speed", "--window", "1", "3"]) == 0
 
 
-def test_an_unknown_quantity_is_answered_with_the_known_ones(
+def test_an_unknown_quantity_is_answered_with_the_nearest_ones(
     planar_run: Run, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert cli.series([str(planar_run.path), "--out", "no.png", "--quantity", "speed"]) == 1
-    assert "there are time, disc.speed" in capsys.readouterr().err
+    assert cli.series([str(planar_run.path), "--out", "no.png", "--quantity", "spede"]) == 2
+    assert "nearest: disc.speed" in capsys.readouterr().err
 
 
 def test_a_smooth_outline_passes_its_points_and_stays_near_a_circle() -> None:

@@ -249,7 +249,7 @@ def test_what_cannot_be_filmed_is_answered_with_what_can(
     def answer(path: Path, *more: str) -> str:
         capsys.readouterr()
         arguments = ["film", str(path), "--out", str(tmp_path / "film.mp4"), "--size", "240x180"]
-        assert cli.main([*arguments, *more]) == 1
+        assert cli.main([*arguments, *more]) == 2
         return capsys.readouterr().err
 
     assert "bodies can be shown: --quantity bodies" in answer(bare, "--quantity", "pressure")
@@ -287,7 +287,7 @@ def test_a_picture_is_no_film(
     planar_run: Run, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     arguments = ["picture", str(planar_run.path), "--out", str(tmp_path / "film.mp4")]
-    assert cli.main([*arguments, "--painter", "matplotlib", "--lines", "none"]) == 1
+    assert cli.main([*arguments, "--painter", "matplotlib", "--lines", "none"]) == 2
     assert "alewife-post film" in capsys.readouterr().err
 
 

@@ -12,7 +12,7 @@ def test_missing_packages_are_one_line_with_the_remedy(
 ) -> None:
     assert pictures.missing() is None
     monkeypatch.setattr(pictures, "NEEDED", ("matplotlib", "no_such_package"))
-    assert pictures.main(["picture", "run"]) == 1
+    assert pictures.main(["picture", "run"]) == 2
     said = capsys.readouterr().err
     assert said.count("\n") == 1
     assert "needs no_such_package: pip install 'alewife[pictures]' (835 MB" in said

@@ -171,7 +171,7 @@ def test_a_picture_is_written_by_the_command(run: Run, tmp_path: Path) -> None:
     out = tmp_path / "slice.png"
     assert picture([str(run.path), "--out", str(out), "--slice", "z=0.5"]) == 0
     assert out.stat().st_size > 10_000
-    assert picture([str(run.path), "--out", str(out), "--slice", "z=9"]) == 1
+    assert picture([str(run.path), "--out", str(out), "--slice", "z=9"]) == 2
 
 
 @pytest.mark.skipif(not CAN_RENDER, reason="VTK has no window here")

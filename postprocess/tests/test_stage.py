@@ -146,7 +146,7 @@ def test_surfaces_have_the_pressure_on_them(run: Run) -> None:
 def test_what_is_not_in_space_is_refused(run: Run, capsys: pytest.CaptureFixture[str]) -> None:
     def answer(*more: str) -> str:
         out = str(run.path / "film.mp4")
-        assert cli.main(["film", str(run.path), "--out", out, *SMALL, *more]) == 1
+        assert cli.main(["film", str(run.path), "--out", out, *SMALL, *more]) == 2
         return capsys.readouterr().err
 
     assert "in the plane" in answer("--view", "0", "1", "0", "1")

@@ -22,11 +22,13 @@ def missing() -> str | None:
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Pictures, films and series of runs."""
+    """Pictures, films, curves and summaries of runs."""
+    arguments = sys.argv[1:] if arguments is None else arguments
     reason = missing()
-    if reason:
+    # A summary is text.
+    if reason and arguments[:1] != ["inspect"]:
         print(f"alewife-post: {reason}", file=sys.stderr)
-        return 1
+        return 2
     from alewife_post import cli
 
     return cli.main(arguments)
@@ -43,8 +45,8 @@ def film() -> int:
 
 
 def series() -> int:
-    """`alewife-post series` in one word."""
-    return main(["series", *sys.argv[1:]])
+    """`alewife-post plot` by its older name."""
+    return main(["plot", *sys.argv[1:]])
 
 
 if __name__ == "__main__":

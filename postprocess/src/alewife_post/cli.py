@@ -1,54 +1,61 @@
-"""The command `alewife-post`, with `picture`, `film` and `series`, and its older names."""
+"""The command `alewife-post` and its older names; its commands `picture` and `film`."""
 
 from __future__ import annotations
 
 import argparse
 import sys
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from matplotlib.figure import Figure
-
-from alewife_post import figure, film, gallery, movie, space, style
+from alewife_post import cli_series
 from alewife_post.read import Run, open_run
 
-FAILURES = (OSError, KeyError, ValueError)
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+FAILURES = (OSError, KeyError, ValueError, ImportError)
+PACKAGES = ("matplotlib", "PIL", "pyvista", "vtk", "vtkmodules")
+"""What draws."""
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Pictures, films and series of runs of alewife."""
+    """Pictures, films, curves and summaries of runs of alewife."""
+    arguments = sys.argv[1:] if arguments is None else arguments
     parser = argparse.ArgumentParser("alewife-post", description=main.__doc__)
     commands = parser.add_subparsers(metavar="COMMAND", required=True)
-    for name, add, run in (
-        ("picture", _add_picture, _write_picture),
-        ("film", _add_film, _write_film),
-        ("series", _add_series, _write_series),
-    ):
-        summary = (run.__doc__ or "").removesuffix(".")
-        command = commands.add_parser(name, help=summary, description=run.__doc__)
-        command.add_argument("run", type=Path, help="run directory")
-        command.add_argument(
-            "--out", type=Path, required=True, help="file; its ending says the format"
-        )
-        add(command)
-        command.set_defaults(write=run)
-    summary = (_write_gallery.__doc__ or "").removesuffix(".")
-    command = commands.add_parser("gallery", help=summary, description=_write_gallery.__doc__)
-    command.add_argument("out", type=Path, metavar="OUT", help="directory of the pictures")
-    command.add_argument(
-        "--from", type=Path, default=Path("runs"), dest="runs", metavar="DIR", help="%(default)s"
-    )
-    command.set_defaults(write=None)
-    options = parser.parse_args(arguments)
     try:
-        if options.write is None:
-            return _write_gallery(options)
-        options.write(open_run(options.run), options)
+        for name, add, run in (
+            ("picture", _add_picture, _write_picture),
+            ("film", _add_film, _write_film),
+            ("plot", cli_series.add_plot, cli_series.write_plot),
+            ("compare", cli_series.add_compare, cli_series.write_comparison),
+            ("inspect", cli_series.add_inspect, cli_series.write_summary),
+            ("gallery", _add_gallery, _write_gallery),
+            ("series", cli_series.add_plot, cli_series.write_plot),
+        ):
+            doc = run.__doc__ if name != "series" else "`plot` by its older name."
+            summary = (doc or "").removesuffix(".").replace("`", "")
+            command = commands.add_parser(name, help=summary, description=doc)
+            if arguments[:1] == [name]:
+                # What the others need may not be installed.
+                add(command)
+                command.set_defaults(write=run)
+        options = parser.parse_args(arguments)
+        return options.write(options) or 0
     except FAILURES as error:
-        # A KeyError shows its message in quotes; errors of the system have theirs in no argument.
-        is_plain = isinstance(error, KeyError) and error.args
-        print(f"alewife-post: {error.args[0] if is_plain else error}", file=sys.stderr)
-        return 1
-    return 0
+        print(f"alewife-post: {message(error)}", file=sys.stderr)
+        return 2
+
+
+def message(error: BaseException) -> str:
+    """One line for a reader."""
+    if isinstance(error, ModuleNotFoundError):
+        package = (error.name or str(error)).partition(".")[0]
+        extra = "pictures" if package in PACKAGES else {"pandas": "table"}.get(package, "film")
+        return f"the package {package} is not installed: pip install 'alewife[{extra}]'"
+    # A KeyError shows its message in quotes; errors of the system have theirs in no argument.
+    is_plain = isinstance(error, KeyError) and error.args
+    return " ".join(str(error.args[0] if is_plain else error).split())
 
 
 def picture(arguments: list[str] | None = None) -> int:
@@ -57,8 +64,8 @@ def picture(arguments: list[str] | None = None) -> int:
 
 
 def series(arguments: list[str] | None = None) -> int:
-    """`alewife-post series` by its older name."""
-    return main(["series", *(sys.argv[1:] if arguments is None else arguments)])
+    """`alewife-post plot` by its older name."""
+    return main(["plot", *(sys.argv[1:] if arguments is None else arguments)])
 
 
 def film_command(arguments: list[str] | None = None) -> int:
@@ -70,6 +77,9 @@ def film_command(arguments: list[str] | None = None) -> int:
 
 
 def _add_picture(parser: argparse.ArgumentParser) -> None:
+    from alewife_post import figure
+
+    _add_run(parser)
     _add_look(parser, figure.QUANTITIES)
     parser.add_argument("--time", type=float, help="time of the frame; the last one if absent")
     parser.add_argument("--frame", metavar="BODY", help="subtract the velocity of this body")
@@ -78,13 +88,14 @@ def _add_picture(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def _write_picture(run: Run, options: argparse.Namespace) -> None:
+def _write_picture(options: argparse.Namespace) -> None:
     """One picture of a run."""
-    drawn = _picture(run, options)
-    _save(drawn, options.out)
+    cli_series.save(_picture(open_run(options.run), options), options.out)
 
 
 def _picture(run: Run, options: argparse.Namespace) -> Figure:
+    from alewife_post import figure, space
+
     view = options.view and tuple(options.view)
     if not run.is_spatial:
         _refuse_in_the_plane(options)
@@ -116,8 +127,17 @@ def _picture(run: Run, options: argparse.Namespace) -> Figure:
 CAMERA = (-50.0, 20.0)
 
 
+def _add_gallery(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("out", type=Path, metavar="OUT", help="directory of the pictures")
+    parser.add_argument(
+        "--from", type=Path, default=Path("runs"), dest="runs", metavar="DIR", help="%(default)s"
+    )
+
+
 def _write_gallery(options: argparse.Namespace) -> int:
     """A small picture of each run in a directory."""
+    from alewife_post import gallery
+
     failures = 0
     for name, failure in gallery.gallery(options.runs, options.out):
         if failure is not None:
@@ -130,6 +150,9 @@ def _write_gallery(options: argparse.Namespace) -> int:
 
 
 def _add_film(parser: argparse.ArgumentParser) -> None:
+    from alewife_post import film
+
+    _add_run(parser)
     _add_look(parser, film.QUANTITIES)
     parser.add_argument(
         "--follow",
@@ -166,8 +189,11 @@ def _size(text: str) -> tuple[int, int]:
     return int(width), int(height)
 
 
-def _write_film(run: Run, options: argparse.Namespace) -> None:
+def _write_film(options: argparse.Namespace) -> None:
     """A film of a run, finished or under way: MP4 or GIF."""
+    from alewife_post import film
+
+    run = open_run(options.run)
     if run.is_spatial:
         for name, is_given in (
             ("--view", options.view is not None),
@@ -197,21 +223,12 @@ def _write_film(run: Run, options: argparse.Namespace) -> None:
     film.film(run, options.out, request)
 
 
-# ---- Series --------------------------------------------------------------------------------------
-
-
-def _add_series(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--quantity", action="append", required=True, help="may be given again")
-    parser.add_argument("--window", type=float, nargs=2, metavar=("START", "END"))
-
-
-def _write_series(run: Run, options: argparse.Namespace) -> None:
-    """Quantities over time, with the references of the case."""
-    window = options.window and tuple(options.window)
-    _save(figure.series_figure(run, options.quantity, window=window), options.out)
-
-
 # ---- In common -----------------------------------------------------------------------------------
+
+
+def _add_run(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("run", type=Path, help="run directory")
+    parser.add_argument("--out", type=Path, required=True, help="file; its ending says the format")
 
 
 def _add_look(parser: argparse.ArgumentParser, quantities: tuple[str, ...]) -> None:
@@ -248,9 +265,3 @@ def _refuse_in_the_plane(options: argparse.Namespace) -> None:
         raise ValueError("--surface and --slice are for runs in space")
     if options.camera:
         raise ValueError("--camera is for runs in space")
-
-
-def _save(drawn: Figure, out: Path) -> None:
-    if out.suffix.lower() in movie.ENDINGS:
-        raise ValueError(f"{out} is a film by its name: that is `alewife-post film`")
-    drawn.savefig(out, dpi=style.DPI, bbox_inches="tight", pad_inches=0.08)

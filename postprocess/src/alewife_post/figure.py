@@ -1,9 +1,9 @@
-"""The figures: a snapshot with its axes and colour bar; time series with references."""
+"""The figure of a snapshot, with its axes and colour bar."""
 
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any, Literal
+from typing import Literal
 
 import matplotlib
 import numpy as np
@@ -154,58 +154,3 @@ def colour_bar(
         pad=0.03,
         extend=extend,
     )
-
-
-def series_figure(
-    run: Run, names: list[str], *, window: tuple[float, float] | None = None
-) -> Figure:
-    """Quantities over time, one panel each, with the references of the case as bands."""
-    style.use()
-    missing = [name for name in names if name not in run.series]
-    if missing:
-        raise KeyError(f"no column {', '.join(missing)}; there are {', '.join(run.series)}")
-    time = run.series["time"]
-    figure = Figure(figsize=(6.4, 0.7 + 1.9 * len(names)), layout="constrained")
-    panels = figure.subplots(len(names), 1, sharex=True, squeeze=False)[:, 0]
-    for index, (axes, name) in enumerate(zip(panels, names, strict=True)):
-        colour = style.SERIES[index % len(style.SERIES)]
-        shown = np.ones(len(time), dtype=bool)
-        if window is not None:
-            shown = (time >= window[0]) & (time <= window[1])
-        marker = "o" if shown.sum() < 2 else ""
-        axes.plot(time[shown], run.series[name][shown], color=colour, lw=1.0, marker=marker)
-        draw_references(axes, run.case, name)
-        axes.set_ylabel(name.replace(".", "\n", 1).replace("_", " "))
-        axes.margins(x=0.01)
-        axes.spines[["top", "right"]].set_visible(False)
-    figure.suptitle(run.case["title"], fontsize=style.PARAMETERS["axes.titlesize"])
-    _, unit = style.units_of(run.case.get("units", ""))
-    panels[-1].set_xlabel(f"t ({unit})" if unit else "t")
-    return figure
-
-
-def draw_references(axes: Axes, case: dict[str, Any], name: str) -> None:
-    """The interval each reference allows, over the stretch of time it speaks of."""
-    same_unit = {"final", "max", "min", "mean", "at"}
-    window = case.get("statistics", {}).get("window")
-    drawn = False
-    for reference in case.get("reference", []):
-        statistic = reference.get("statistic", "final")
-        is_of_it = reference["quantity"] == name and "minus" not in reference
-        if not is_of_it or statistic not in same_unit:
-            continue
-        scale = reference.get("per", 1.0)
-        value = scale * reference["value"]
-        half = abs(scale * reference.get("absolute", 0.0))
-        half = half or abs(value) * reference.get("relative", 0.0)
-        start, end = window or axes.get_xlim()
-        kind = reference.get("kind", "reference")
-        label = f"{statistic}, {kind}: {value:.4g} ± {half:.2g} ({reference['source']})"
-        axes.fill_between(
-            [start, end], value - half, value + half, color=style.REFERENCE, alpha=0.25, lw=0
-        )
-        axes.plot([start, end], [value, value], color=style.REFERENCE, lw=0.8, ls="--", label=label)
-        drawn = True
-    if drawn:
-        # Above the panel, where no curve can be.
-        axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), borderaxespad=0.0)

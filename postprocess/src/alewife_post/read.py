@@ -24,6 +24,8 @@ Array = np.ndarray
 
 QUADRATIC_TRIANGLE = 22
 QUADRATIC_TETRAHEDRON = 24
+WRITTEN = (".alewife-run", "status.json", "provenance.json", "series.csv", "run.mcap", "fields.pvd")
+"""Files of which a run has one at least, and a case none."""
 
 
 @dataclass(frozen=True)
@@ -225,8 +227,24 @@ def open_run(path: str | Path) -> Run:
     """Open a run directory, finished or not."""
     path = Path(path)
     if not (path / "case.toml").is_file():
-        raise FileNotFoundError(f"{path} is not a run: it has no case.toml")
+        raise FileNotFoundError(_is_no_run(path))
+    if not any((path / name).exists() for name in WRITTEN):
+        raise FileNotFoundError(
+            f"{path} is a case, not a run of it: alewife run {path} --out DIRECTORY makes one"
+        )
     return Run(path)
+
+
+def _is_no_run(path: Path) -> str:
+    if not path.exists():
+        return f"{path} does not exist"
+    if path.is_file():
+        return f"{path} is a file: name the directory of a run"
+    if (path / "sweep.json").is_file():
+        return f"{path} is a sweep: compare it, or name one of its points, such as points/0001"
+    inside = sorted(one.name for one in path.iterdir() if (one / "case.toml").is_file())
+    hint = f"; there is {inside[0]} inside" if inside else ""
+    return f"{path} is not a run: it has no case.toml{hint}"
 
 
 def read_field(path: str | Path) -> Field:

@@ -1,0 +1,72 @@
+"""Runs for pandas and pyvista: tables of comparisons, sweeps and references, fields as grids."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from alewife_post import evidence
+from alewife_post.read import QUADRATIC_TETRAHEDRON, QUADRATIC_TRIANGLE, Field, Run
+
+if TYPE_CHECKING:
+    import pandas
+    import pyvista
+
+
+def series_table(run: Run) -> pandas.DataFrame:
+    """The series of a run, indexed by time."""
+    return run.to_dataframe()
+
+
+def reference_table(run: Run) -> pandas.DataFrame:
+    """What came of each reference of the case, one row each; without rows before its end."""
+    import pandas
+
+    return pandas.DataFrame(evidence.comparisons(run))
+
+
+def comparison_table(paths: Iterable[str | Path], names: Iterable[str] = ()) -> pandas.DataFrame:
+    """Statistics of runs and published curves, and how far each is from the first run."""
+    import pandas
+
+    from alewife_post import compare
+
+    runs, sweeps, curves = compare.open_all([Path(path) for path in paths])
+    if sweeps or not runs:
+        raise ValueError("runs and curves are wanted; of a sweep take sweep_table")
+    chosen = compare.chosen_names(runs, curves, list(names))
+    return pandas.DataFrame(compare.differences(runs, curves, chosen))
+
+
+def sweep_table(
+    path: str | Path, names: Iterable[str] = (), statistic: str = "final"
+) -> pandas.DataFrame:
+    """One row a point of a sweep: what it sets, and a statistic of each quantity."""
+    import pandas
+
+    from alewife_post import compare, sweeps
+
+    sweep = compare.open_sweep(path)
+    rows = sweeps.table(sweep, sweeps.chosen_names(sweep, list(names)), statistic)
+    return pandas.DataFrame(rows).set_index("point")
+
+
+def grid(field: Field) -> pyvista.UnstructuredGrid:
+    """A field as a grid of quadratic cells with its values at nodes, for filters of VTK."""
+    import pyvista
+
+    n_dimensions = field.nodes.shape[1]
+    points = np.zeros((len(field.nodes), 3))
+    points[:, :n_dimensions] = field.nodes
+    kind = QUADRATIC_TRIANGLE if n_dimensions == 2 else QUADRATIC_TETRAHEDRON
+    made = pyvista.UnstructuredGrid({kind: field.cells}, points)
+    velocity = np.zeros_like(points)
+    velocity[:, :n_dimensions] = field.velocity
+    made.point_data["velocity"] = velocity
+    made.point_data["pressure"] = field.pressure
+    made.point_data["vorticity"] = field.vorticity
+    made.field_data["TimeValue"] = [field.time]
+    return made
