@@ -97,6 +97,21 @@ def test_a_gif_goes_round_and_leaves_white_white(tmp_path: Path) -> None:
     assert np.abs(shown[20:].astype(int) - light[0][20:]).max() <= 12
 
 
+def test_a_gif_has_colours_its_first_frame_lacks(tmp_path: Path) -> None:
+    # A frame of blues and yellows only, as of a speed; then the way of a body
+    blues = np.linspace(0, 255, 96).astype(np.uint8)
+    first = np.stack([np.tile(blues, (64, 1))] * 2 + [np.full((64, 96), 110, np.uint8)], axis=2)
+    second = first.copy()
+    second[30:34] = style.rgb(style.TRAIL)
+    out = tmp_path / "film.gif"
+    movie.write(out, iter([first, second]), 10.0)
+    shown = Image.open(out)
+    shown.seek(1)
+    image = np.asarray(shown.convert("RGB"))
+    assert colour_at(image[30:34], style.TRAIL, 12).all()
+    assert np.abs(image[:28].astype(int) - first[:28]).max() <= 12
+
+
 def test_a_film_that_fails_leaves_nothing_behind(tmp_path: Path) -> None:
     def images():  # noqa: ANN202
         yield moving_square(1)[0]

@@ -7,6 +7,8 @@ from pathlib import Path
 
 import numpy as np
 
+from alewife_post import style
+
 Array = np.ndarray
 ENDINGS = (".mp4", ".gif")
 MISSING = "films in MP4 need imageio-ffmpeg: pip install 'alewife[film]', or write a .gif"
@@ -68,15 +70,21 @@ def _write_mp4(out: Path, images: Iterator[Array], fps: float) -> int:
     return n
 
 
+LATER = (style.TRAIL, style.ARROW, style.ROD, style.BODY, *style.SERIES)
+"""Colours a film may need though its first frame has none of them."""
+
+
 def _write_gif(out: Path, images: Iterator[Array], fps: float) -> int:
     from PIL import Image
 
     first = Image.fromarray(next(images))
     # Colours of the first frame for all: those of each frame would flicker.
-    palette = first.quantize(255, method=Image.Quantize.MEDIANCUT)
+    n_own = 255 - len(LATER)
+    palette = first.quantize(n_own, method=Image.Quantize.MEDIANCUT)
     # White stays white: what is nearest in a palette is found roughly.
-    table = np.array(palette.getpalette(), dtype=int).reshape(-1, 3)
+    table = np.array(palette.getpalette(), dtype=int).reshape(-1, 3)[:n_own]
     table[(table >= 244).all(axis=1)] = 255
+    table = np.vstack([table, [style.rgb(colour) for colour in LATER]])
     palette = Image.new("P", (1, 1))
     palette.putpalette(table.ravel().tolist())
     n = 1
