@@ -173,11 +173,7 @@ def chosen_names(runs: list[Named], curves: list[Curve], names: list[str]) -> li
         return list(dict.fromkeys(found))
     if curves:
         return list(dict.fromkeys(curve.quantity for curve in curves))
-    own = [
-        name
-        for name in series.suggested(runs[0].run)
-        if all(part in one.run.series for one in runs for part in name.split(asked.MINUS))
-    ]
+    own = series.in_common([one.run for one in runs])
     if not own:
         raise ValueError("these runs have no quantity in common")
     return own

@@ -100,6 +100,23 @@ def suggested(run: Run) -> list[str]:
     return (found or [name for name in others if not name.endswith(DEFECT)])[:MOST_PANELS]
 
 
+def in_common(runs: list[Run]) -> list[str]:
+    """Columns to draw where none is asked for, one a panel, of those that all runs have.
+
+    Of several bodies the first ones: what is suggested may be an ending that each of them has.
+    """
+    first = runs[0].series
+    names = dict.fromkeys(
+        line.name for asked_for in suggested(runs[0]) for line in asked.lines(first, asked_for)
+    )
+    found = [
+        name
+        for name in names
+        if all(part in run.series for run in runs for part in name.split(asked.MINUS))
+    ]
+    return found[:MOST_PANELS]
+
+
 def _has(series: Mapping[str, Array], name: str) -> bool:
     return any(column.endswith(f".{name}") for column in series)
 

@@ -47,7 +47,7 @@ def chosen_names(sweep: Sweep, names: list[str]) -> list[str]:
     """Quantities to show, which every point has."""
     first = sweep.points[0][1]
     found = [line.name for name in names for line in asked.lines(first.series, name)]
-    return list(dict.fromkeys(found)) or series.suggested(first)
+    return list(dict.fromkeys(found)) or series.in_common([run for _, run in sweep.points])
 
 
 def table(sweep: Sweep, names: list[str], statistic: str = "final") -> list[Row]:
