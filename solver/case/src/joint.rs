@@ -6,12 +6,12 @@ use serde::{Deserialize, Serialize};
 
 use super::stroke::Stroke;
 
-/// `[[joint]]`: the child hangs on the parent; bodies and joints make trees.
+/// `[[joint]]`: the child is joined to the parent; bodies and joints make trees.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Joint {
-    /// Name of the body it hangs on.
+    /// Name of the body it is joined to.
     pub parent: String,
     /// Name of the body that hangs.
     pub child: String,
