@@ -13,7 +13,7 @@ use super::stroke::Stroke;
 pub struct Joint {
     /// Name of the body it is joined to.
     pub parent: String,
-    /// Name of the body that hangs.
+    /// Name of the body that is joined to it.
     pub child: String,
     /// Where the joint is on the parent, in its frame (m); its origin if absent.
     #[serde(default)]
