@@ -107,7 +107,9 @@ def main() -> None:
     if sys.argv[1:2] == ["supports"]:
         return
     _, book = json.load(sys.stdin)
-    pages = [item["Chapter"] for item in book["items"] if isinstance(item, dict) and "Chapter" in item]
+    pages = [
+        item["Chapter"] for item in book["items"] if isinstance(item, dict) and "Chapter" in item
+    ]
     for page in pages:
         path = page["path"]
         if path == "contributing.md":
