@@ -21,10 +21,10 @@ pub struct SwimmerSpec {
     /// Position (m) of the root body, to which all others are joined; the origin if absent.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub center: Vec<f64>,
-    /// Rotation of that body in space; none if absent.
+    /// Rotation of the root body in space; none if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub orientation: Option<Orientation>,
-    /// Rotation of that body, counter-clockwise (rad).
+    /// Rotation of the root body, counter-clockwise (rad).
     #[serde(default, deserialize_with = "super::angle::deserialize")]
     #[cfg_attr(test, schemars(with = "super::angle::Angle"))]
     pub angle: f64,
