@@ -1,6 +1,7 @@
 //! The pages agree with the program: keys, quantities, examples, names, files, and the table of cases.
 
 mod cluster;
+mod generated;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;

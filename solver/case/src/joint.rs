@@ -6,14 +6,14 @@ use serde::{Deserialize, Serialize};
 
 use super::stroke::Stroke;
 
-/// `[[joint]]`: the child hangs on the parent; bodies and joints make trees.
+/// `[[joint]]`: the child is joined to the parent; bodies and joints make trees.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Joint {
-    /// Name of the body it hangs on.
+    /// Name of the body it is joined to.
     pub parent: String,
-    /// Name of the body that hangs.
+    /// Name of the body that is joined to it.
     pub child: String,
     /// Where the joint is on the parent, in its frame (m); its origin if absent.
     #[serde(default)]

@@ -18,20 +18,20 @@ pub struct SwimmerSpec {
     pub name: String,
     /// What it is made of.
     pub kind: SwimmerKind,
-    /// Position (m) of the body all others hang on; the origin if absent.
+    /// Position (m) of the root body, to which all others are joined; the origin if absent.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub center: Vec<f64>,
-    /// Rotation of that body in space; none if absent.
+    /// Rotation of the root body in space; none if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub orientation: Option<Orientation>,
-    /// Rotation of that body, counter-clockwise (rad).
+    /// Rotation of the root body, counter-clockwise (rad).
     #[serde(default, deserialize_with = "super::angle::deserialize")]
     #[cfg_attr(test, schemars(with = "super::angle::Angle"))]
     pub angle: f64,
     /// Density (kg/m3); that of the fluid if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub density: Option<f64>,
-    /// How the body all others hang on moves.
+    /// How the root body moves.
     #[serde(default = "free")]
     pub motion: Motion,
     /// Cell size on its surfaces (m); that of `[mesh]` if absent.
@@ -63,7 +63,7 @@ pub enum SwimmerKind {
         gait: Option<GaitSpec>,
     },
     /// Spheres (axisymmetric) or discs (planar) in a line along x, on arms whose lengths are given;
-    /// all hang on the middle one.
+    /// all are joined to the middle one.
     LinkedSpheres {
         /// Radii (m), from left to right.
         radii: Vec<f64>,
@@ -94,7 +94,7 @@ pub enum SwimmerKind {
         along: Vec<[f64; 3]>,
     },
     /// Slender links one after the other, with pivots between them (planar, spatial); the first one is
-    /// in front, towards +x, and all hang on the middle one. In three dimensions they bend about the
+    /// in front, towards +x, and all are joined to the middle one. In three dimensions they bend about the
     /// z axis of the middle one unless `axis` of a hinge says otherwise.
     Chain {
         /// Links from the front: semi-axes of an ellipse, in three dimensions of a spheroid (m), along

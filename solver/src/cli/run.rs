@@ -48,7 +48,7 @@ pub struct Options {
     /// Threads; by default those the batch system or the machine grants
     #[arg(long, short, value_name = "N")]
     threads: Option<usize>,
-    /// Go on from the state of another run, or of this one with other settings: the directory of a run,
+    /// Continue from the state of another run, or of this one with other settings: the directory of a run,
     /// or one of its checkpoints/*.state or failure/last.state
     #[arg(long, value_name = "STATE")]
     resume: Option<PathBuf>,

@@ -1,0 +1,119 @@
+"""What the pages tell to type works, and what they link to is there.
+
+Blocks of `sh` of a page run one after the other in a new folder. A comment `<!-- file: NAME -->`
+before a block writes it to that file, `<!-- from: PATH -->` copies a file of the repository, and
+`<!-- not run: REASON -->` leaves a block out.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+TUTORIALS = ROOT / "docs" / "tutorials"
+PAGES = ["docs/start.md", *(f"docs/tutorials/{p.name}" for p in sorted(TUTORIALS.glob("*.md")))]
+STEP = re.compile(
+    r"<!-- (?P<mark>file|from|not run): (?P<value>.+?) -->\n"
+    r"|^```(?P<language>\w+)\n(?P<code>.*?)^```",
+    re.DOTALL | re.MULTILINE,
+)
+LINK = re.compile(r"\]\(([^)\s]+)\)")
+FENCED = re.compile(r"^```.*?^```", re.DOTALL | re.MULTILINE)
+
+
+def program() -> Path:
+    """The program, beside whose name `alewife` is looked up."""
+    given = os.environ.get("ALEWIFE_BIN")
+    return Path(given) if given else ROOT / "target" / "release" / "alewife"
+
+
+def follow(text: str, folder: Path) -> int:
+    """Does what a page tells, and counts the blocks that ran."""
+    commands = [str(program().parent), str(Path(sys.executable).parent)]
+    environment = os.environ | {
+        "PATH": os.pathsep.join([*commands, os.environ["PATH"]]),
+        "MPLBACKEND": "agg",
+    }
+    file, is_left_out, count = None, False, 0
+    for step in STEP.finditer(text):
+        mark, value, code = step["mark"], step["value"], step["code"]
+        if mark == "file":
+            file = value
+        elif mark == "from":
+            shutil.copy(ROOT / value, folder)
+        elif mark == "not run":
+            is_left_out = True
+        elif file is not None:
+            (folder / file).write_text(code, encoding="utf-8")
+            shipped = TUTORIALS / file
+            assert shipped.read_text(encoding="utf-8") == code, f"{file} is not as on its page"
+            file = None
+        elif step["language"] == "sh":
+            if not is_left_out:
+                script = ["bash", "-euo", "pipefail", "-c", code]
+                done = subprocess.run(
+                    script, cwd=folder, env=environment, capture_output=True, text=True
+                )
+                assert done.returncode == 0, f"{code}\n{done.stdout}{done.stderr}"
+                count += 1
+            is_left_out = False
+    return count
+
+
+@pytest.mark.skipif(not program().is_file(), reason="the program is not built")
+@pytest.mark.parametrize("page", PAGES)
+def test_the_commands_of_a_page_run(page: str, tmp_path: Path) -> None:
+    assert follow((ROOT / page).read_text(encoding="utf-8"), tmp_path) > 0
+
+
+def test_a_command_that_fails_is_found(tmp_path: Path) -> None:
+    page = "```sh\nfalse\n```\n"
+    with pytest.raises(AssertionError):
+        follow(page, tmp_path)
+    assert follow(f"<!-- not run: it fails -->\n{page}", tmp_path) == 0
+
+
+def anchors(page: Path) -> set[str]:
+    """The anchors of a page: its headings as GitHub and mdBook name them, and `id`s."""
+    text = page.read_text(encoding="utf-8")
+    found = set(re.findall(r'id="([^"]+)"', text))
+    for heading in re.findall(r"^#+ (.*)$", FENCED.sub("", text), re.MULTILINE):
+        words = re.sub(r"[^\w\- ]", "", heading.lower())
+        found.add(words.strip().replace(" ", "-"))
+    return found
+
+
+def broken_links(page: Path) -> list[str]:
+    """Relative links of a page that lead nowhere."""
+    text = re.sub(r"`[^`\n]*`", "", FENCED.sub("", page.read_text(encoding="utf-8")))
+    broken = []
+    for target in LINK.findall(text):
+        if re.match(r"[a-z]+:", target):
+            continue
+        path, _, anchor = target.partition("#")
+        to = (page.parent / path).resolve() if path else page
+        is_there = to.exists() and (not anchor or to.suffix != ".md" or anchor in anchors(to))
+        if not is_there:
+            broken.append(f"{page.relative_to(ROOT)}: {target}")
+    return broken
+
+
+def test_relative_links_lead_somewhere() -> None:
+    pages = [*sorted((ROOT / "docs").rglob("*.md")), ROOT / "README.md"]
+    assert len(pages) > 15
+    broken = [link for page in pages for link in broken_links(page)]
+    assert not broken, "\n".join(broken)
+
+
+def test_a_broken_link_is_found(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sys.modules[__name__], "ROOT", tmp_path)
+    page = tmp_path / "page.md"
+    page.write_text("# A `b` c\n[x](#a-b-c) [y](#d) [z](no.md)\n", encoding="utf-8")
+    assert broken_links(page) == ["page.md: #d", "page.md: no.md"]

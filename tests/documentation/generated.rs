@@ -1,0 +1,181 @@
+//! The pages that are made of the cases and of the schema are up to date.
+
+use std::fmt::Write;
+use std::fs;
+
+use alewife_core::case::{Case, schema};
+use serde_json::Value;
+
+use super::{case_names, root, text};
+
+/// Compares a page with what it should be, or writes it where `ALEWIFE_UPDATE` is set.
+fn up_to_date(page: &str, wanted: &str) {
+    if std::env::var_os("ALEWIFE_UPDATE").is_some() {
+        fs::write(root().join(page), wanted).expect("the page can be written");
+        return;
+    }
+    let found = fs::read_to_string(root().join(page)).unwrap_or_default();
+    assert!(
+        found == wanted,
+        "{page} is not up to date; to write it again:\n\
+         ALEWIFE_UPDATE=1 cargo test --release -p tests --test documentation generated"
+    );
+}
+
+/// The first sentence of a paragraph, on one line.
+fn first_sentence(paragraph: &str) -> String {
+    let words: Vec<&str> = paragraph.split_whitespace().collect();
+    let ends = |word: &&str| word.ends_with(['.', ':']) && word.len() > 2;
+    let n_words = words.iter().position(ends).map_or(words.len(), |last| last + 1);
+    words[..n_words].join(" ").trim_end_matches(':').trim_end_matches('.').to_owned() + "."
+}
+
+#[test]
+fn a_sentence_ends_at_its_first_full_stop() {
+    assert_eq!(first_sentence("A disc\nfalls 0.5 radii. It\nturns."), "A disc falls 0.5 radii.");
+    assert_eq!(first_sentence("Two kinds: one"), "Two kinds.");
+    assert_eq!(first_sentence("No stop"), "No stop.");
+}
+
+#[test]
+fn the_gallery_shows_every_case() {
+    let mut page = String::from(
+        "# Gallery\n\nAll shipped cases. `alewife show NAME` tells more of one, `alewife show NAME --source > my.toml`\n\
+         starts a file of your own from it; [cases](../cases/README.md) lists what each is compared with.\n",
+    );
+    for name in case_names() {
+        let path = root().join("cases").join(&name).display().to_string();
+        let file = Case::read(&path, &[]).unwrap_or_else(|error| panic!("{name}\n{error}"));
+        let case = file.case();
+        write!(page, "\n## {name}\n\n**{}.** ", case.title).unwrap();
+        writeln!(page, "{}", first_sentence(&case.description)).unwrap();
+        // A case whose values are all of its variants is run by one of them.
+        let variant = match case.variant.first() {
+            Some(variant) if case.reference.is_empty() => format!("/{}", variant.name),
+            _ => String::new(),
+        };
+        writeln!(page, "\n```text\nalewife run {name}{variant}\n```").unwrap();
+        let picture = format!("pictures/{name}.png");
+        if root().join("docs").join(&picture).is_file() {
+            writeln!(page, "\n![{}]({picture})", case.title).unwrap();
+        }
+        writeln!(page, "\n[More](../cases/{name}/README.md)").unwrap();
+    }
+    up_to_date("docs/gallery.md", &page);
+}
+
+/// The words of a type of the schema, a link where it has a section of its own.
+fn type_of(value: &Value) -> String {
+    if let Some(target) = value["$ref"].as_str() {
+        let name = target.rsplit('/').next().unwrap_or(target);
+        return format!("[{name}](#{})", name.to_lowercase());
+    }
+    for key in ["anyOf", "oneOf"] {
+        if let Some(choices) = value[key].as_array() {
+            let mut kinds: Vec<String> = choices.iter().map(type_of).collect();
+            kinds.retain(|kind| kind != "null" && !kind.is_empty());
+            kinds.dedup();
+            return kinds.join(" or ");
+        }
+    }
+    let word = |word: &Value| format!("`{}`", word.to_string().replace('|', "\\|"));
+    if let Some(words) = value["enum"].as_array() {
+        return words.iter().map(word).collect::<Vec<_>>().join(", ");
+    }
+    if !value["const"].is_null() {
+        return word(&value["const"]);
+    }
+    let kind = |kind: &str| match kind {
+        "array" => match type_of(&value["items"]) {
+            items if items.is_empty() => "list".to_owned(),
+            items => format!("list of {items}"),
+        },
+        "object" => "table".to_owned(),
+        "string" => "text".to_owned(),
+        "integer" => "whole number".to_owned(),
+        "boolean" => "true or false".to_owned(),
+        kind => kind.to_owned(),
+    };
+    match &value["type"] {
+        Value::String(name) => kind(name),
+        Value::Array(names) => {
+            let names = names.iter().filter_map(Value::as_str).filter(|name| *name != "null");
+            names.map(kind).collect::<Vec<_>>().join(" or ")
+        }
+        _ => String::new(),
+    }
+}
+
+/// A description on one line, as a cell of a table.
+fn told(value: &Value) -> String {
+    let description = value["description"].as_str().unwrap_or_default();
+    description.split_whitespace().collect::<Vec<_>>().join(" ").replace('|', "\\|")
+}
+
+/// Adds the rows of a table's keys, and those of the tables within it.
+fn add_keys(rows: &mut String, above: &str, table: &Value) {
+    let needed: Vec<&str> =
+        table["required"].as_array().into_iter().flatten().filter_map(Value::as_str).collect();
+    for (key, value) in table["properties"].as_object().into_iter().flatten() {
+        let default = match &value["default"] {
+            _ if needed.contains(&key.as_str()) => "needed".to_owned(),
+            Value::Null => String::new(),
+            Value::Object(_) => "table".to_owned(),
+            default => format!("`{default}`").replace('|', "\\|"),
+        };
+        let row =
+            format!("| `{above}{key}` | {} | {default} | {} |\n", type_of(value), told(value));
+        *rows += &row.replace("|  |", "| |").replace("|  |", "| |");
+        add_keys(rows, &format!("{above}{key}."), value);
+    }
+}
+
+/// Writes one section: a type of the schema with its keys, or with the choices it has.
+fn add_section(page: &mut String, title: &str, value: &Value) {
+    writeln!(page, "\n## {title}\n\n{}", told(value)).unwrap();
+    let head = "\n| Key | Type | Default | Meaning |\n|---|---|---|---|\n";
+    let mut rows = String::new();
+    add_keys(&mut rows, "", value);
+    let choices = value["oneOf"].as_array().or_else(|| value["anyOf"].as_array());
+    for choice in choices.into_iter().flatten() {
+        let is_word = choice["properties"].is_null();
+        match type_of(choice) {
+            kind if is_word && !kind.is_empty() => {
+                let meaning = told(choice);
+                let row = format!("| | {kind} | | {meaning} |\n");
+                rows += &row.replace("|  |", "| |");
+            }
+            _ => {
+                for (key, inner) in choice["properties"].as_object().into_iter().flatten() {
+                    let row = format!("| `{key}` | {} | | {} |\n", type_of(inner), told(choice));
+                    rows += &row.replace("|  |", "| |");
+                    add_keys(&mut rows, &format!("{key}."), inner);
+                }
+            }
+        }
+    }
+    if rows.is_empty() {
+        writeln!(page, "\nType: {}.", type_of(value)).unwrap();
+    } else {
+        *page += head;
+        *page += &rows;
+    }
+}
+
+#[test]
+fn the_page_of_keys_is_that_of_the_schema() {
+    let schema: Value = serde_json::from_str(schema()).unwrap();
+    let mut page = String::from(
+        "# All keys\n\nEvery key of a case file, from the schema (`alewife schema`). Explanations and examples are in\n\
+         [case files](case-file.md). Often looked for: [`[[body]]`](#body), [`[[swimmer]]`](#swimmerspec),\n\
+         [`[[joint]]`](#joint), [strokes](#stroke), [`boundary`](#boundarycondition), [`mesh`](#meshsettings),\n\
+         [`time`](#timesettings).\n",
+    );
+    add_section(&mut page, "Top", &schema);
+    let types = schema["$defs"].as_object().unwrap();
+    assert!(types.len() > 50, "{} types", types.len());
+    for (name, value) in types {
+        add_section(&mut page, name, value);
+    }
+    up_to_date("docs/keys.md", &page);
+}
