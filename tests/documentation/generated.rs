@@ -6,7 +6,7 @@ use std::fs;
 use alewife_core::case::{Case, schema};
 use serde_json::Value;
 
-use super::{case_names, root, text};
+use super::{case_names, root};
 
 /// Compares a page with what it should be, or writes it where `ALEWIFE_UPDATE` is set.
 fn up_to_date(page: &str, wanted: &str) {
