@@ -6,7 +6,7 @@ use std::fs;
 use alewife_core::case::{Case, schema};
 use serde_json::Value;
 
-use super::{case_names, root, text};
+use super::{case_names, root};
 
 /// Compares a page with what it should be, or writes it where `ALEWIFE_UPDATE` is set.
 fn up_to_date(page: &str, wanted: &str) {
@@ -40,8 +40,10 @@ fn a_sentence_ends_at_its_first_full_stop() {
 #[test]
 fn the_gallery_shows_every_case() {
     let mut page = String::from(
-        "# Gallery\n\nAll shipped cases. `alewife show NAME` tells more of one, `alewife show NAME --source > my.toml`\n\
-         starts a file of your own from it; [cases](../cases/README.md) lists what each is compared with.\n",
+        "# Gallery\n\nAll shipped cases. `alewife show NAME` tells more of one, \
+         `alewife show NAME --source > my.toml`\n\
+         starts a file of your own from it; [cases](../cases/README.md) lists what each is \
+         compared with.\n",
     );
     for name in case_names() {
         let path = root().join("cases").join(&name).display().to_string();
@@ -166,10 +168,11 @@ fn add_section(page: &mut String, title: &str, value: &Value) {
 fn the_page_of_keys_is_that_of_the_schema() {
     let schema: Value = serde_json::from_str(schema()).unwrap();
     let mut page = String::from(
-        "# All keys\n\nEvery key of a case file, from the schema (`alewife schema`). Explanations and examples are in\n\
-         [case files](case-file.md). Often looked for: [`[[body]]`](#body), [`[[swimmer]]`](#swimmerspec),\n\
-         [`[[joint]]`](#joint), [strokes](#stroke), [`boundary`](#boundarycondition), [`mesh`](#meshsettings),\n\
-         [`time`](#timesettings).\n",
+        "# All keys\n\nEvery key of a case file, from the schema (`alewife schema`). \
+         Explanations and examples are in\n[case files](case-file.md). Often looked for: \
+         [`[[body]]`](#body), [`[[swimmer]]`](#swimmerspec),\n\
+         [`[[joint]]`](#joint), [strokes](#stroke), [`boundary`](#boundarycondition), \
+         [`mesh`](#meshsettings),\n[`time`](#timesettings).\n",
     );
     add_section(&mut page, "Top", &schema);
     let types = schema["$defs"].as_object().unwrap();
