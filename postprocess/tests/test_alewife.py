@@ -125,7 +125,9 @@ def test_the_program_is_found_or_missed(monkeypatch: pytest.MonkeyPatch, tmp_pat
 @pytest.mark.skipif(os.name == "nt", reason="signals of Unix")
 def test_an_interrupted_run_leaves_its_state_and_continues(tmp_path: Path) -> None:
     text = (
-        "import alewife; alewife.load('added-mass').set('time.unsteady.end', 1e3)"
+        # In the background of a shell Ctrl-C is ignored, and would be here, too
+        "import alewife, signal; signal.signal(signal.SIGINT, signal.default_int_handler); "
+        "alewife.load('added-mass').set('time.unsteady.end', 1e3)"
         f".run({str(tmp_path / 'r')!r}, threads=1)"
     )
     process = subprocess.Popen(
