@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
+from alewife_post.evidence import comparisons
 from alewife_post.read import Run
 
 
@@ -27,10 +27,7 @@ class CaseRun(Run):
     @cached_property
     def references(self) -> list[dict[str, Any]]:
         """What was computed beside each reference of the case, with its verdict."""
-        path = self.path / "comparison.json"
-        if not path.exists():
-            return []
-        return json.loads(path.read_text())["comparisons"]
+        return comparisons(self)
 
 
 def open_case_run(path: Path, kept: TemporaryDirectory[str] | None = None) -> CaseRun:

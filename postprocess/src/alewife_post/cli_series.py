@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from alewife_post.read import open_run
+from alewife_post.whole import replacing
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -176,12 +177,8 @@ def save(drawn: Figure, out: Path) -> None:
         raise ValueError(f"{out} is a film by its name: that is `alewife-post film`")
     if not out.parent.is_dir():
         raise FileNotFoundError(f"there is no directory {out.parent} to write {out.name} into")
-    half = out.with_name(f".{out.stem}.part{out.suffix}")
-    try:
-        drawn.savefig(half, dpi=style.DPI, bbox_inches="tight", pad_inches=0.08)
-        half.replace(out)
-    finally:
-        half.unlink(missing_ok=True)
+    with replacing(out) as unfinished:
+        drawn.savefig(unfinished, dpi=style.DPI, bbox_inches="tight", pad_inches=0.08)
 
 
 def plain(value: object) -> object:

@@ -21,7 +21,10 @@ KINDS = {
     "property": "condition",
     "regression": "own earlier run",
 }
-"""What a reader is told of each kind of reference."""
+"""Words for each kind of reference."""
+
+DEFECT = "_defect"
+"""Ending of quantities that say how well equations are solved: shown if asked for."""
 
 SAME_UNIT = {"final", "max", "min", "mean", "at", "rms"}
 """Statistics that have the unit of their quantity, and so a place in its panel."""
@@ -72,6 +75,18 @@ def references(case: dict[str, Any]) -> list[Reference]:
             )
         )
     return found
+
+
+def compared(run: Run) -> list[str]:
+    """Quantities of the run that have a reference, but for defects, which ought to be zero."""
+    found = (reference.quantity for reference in references(run.case))
+    return list(
+        dict.fromkeys(
+            name
+            for name in found
+            if all(part in run.series for part in name.split(MINUS)) and not name.endswith(DEFECT)
+        )
+    )
 
 
 def comparisons(run: Run) -> list[dict[str, Any]]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterator
 from io import BytesIO
 from pathlib import Path
@@ -12,6 +11,7 @@ from PIL import Image
 
 from alewife_post import figure, space, style
 from alewife_post.read import Run, open_run
+from alewife_post.whole import replacing
 
 WIDTHS = (640, 560, 480, 400, 320)
 """Pixels, two of them side by side on a page; the first that makes a small enough file is taken."""
@@ -32,7 +32,9 @@ def gallery(runs: Path, out: Path) -> Iterator[tuple[str, Exception | None]]:
     for path in found:
         failure = None
         try:
-            _write_whole(out / f"{path.name}.png", small_png(default_picture(open_run(path))))
+            content = small_png(default_picture(open_run(path)))
+            with replacing(out / f"{path.name}.png") as unfinished:
+                unfinished.write_bytes(content)
         # One run that cannot be drawn keeps none of the others from it.
         except (OSError, KeyError, ValueError) as error:
             failure = error
@@ -58,9 +60,3 @@ def small_png(drawn: Figure) -> bytes:
         if small.tell() <= LARGEST_FILE:
             return small.getvalue()
     raise ValueError(f"the picture takes {small.tell()} bytes, more than {LARGEST_FILE}")
-
-
-def _write_whole(path: Path, content: bytes) -> None:
-    unfinished = path.with_name(f".unfinished-{path.name}")
-    unfinished.write_bytes(content)
-    os.replace(unfinished, path)  # noqa: PTH105  (atomic)

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from alewife_post import style
+from alewife_post.whole import replacing
 
 Array = np.ndarray
 ENDINGS = (".mp4", ".gif")
@@ -32,16 +33,10 @@ def write(out: Path, images: Iterable[Array], fps: float) -> int:
 
     The film appears under its name when it is whole.
     """
-    unfinished = out.with_name(f".unfinished-{out.name}")
-    try:
+    with replacing(out) as unfinished:
         if out.suffix.lower() == ".mp4":
-            n = _write_mp4(unfinished, iter(images), fps)
-        else:
-            n = _write_gif(unfinished, iter(images), fps)
-        unfinished.replace(out)
-    finally:
-        unfinished.unlink(missing_ok=True)
-    return n
+            return _write_mp4(unfinished, iter(images), fps)
+        return _write_gif(unfinished, iter(images), fps)
 
 
 def _write_mp4(out: Path, images: Iterator[Array], fps: float) -> int:

@@ -23,8 +23,6 @@ SQUEEZED = 3.0
 """Outliers are cut off where they would make the axis so many times as long."""
 MOST_PANELS = 5
 """Panels drawn where no quantity is asked for."""
-DEFECT = "_defect"
-"""Ending of quantities that say how well equations are solved: drawn if asked for."""
 MANY = 6
 DASHES: tuple[Any, ...] = ("-", (0, (5, 3)), (0, (2, 2)), (0, (6, 2, 1, 2)))
 """Lines of curves in turn, so that one under another is seen."""
@@ -83,13 +81,7 @@ def series_figure(
 def suggested(run: Run) -> list[str]:
     """Quantities to draw where none is asked for: those with references, else what moves."""
     series = run.series
-    of_references = [
-        reference.quantity
-        for reference in evidence.references(run.case)
-        if all(part in series for part in reference.quantity.split(asked.MINUS))
-        and not reference.quantity.endswith(DEFECT)
-    ]
-    found = list(dict.fromkeys(of_references))
+    found = evidence.compared(run)
     if not found:
         moving = [name for name in ("velocity.x", "velocity.y") if _has(series, name)]
         found = [
@@ -97,7 +89,7 @@ def suggested(run: Run) -> list[str]:
         ]
         found += [name for name in ("drag_coefficient", "lift_coefficient") if _has(series, name)]
     others = (name for name in series if name != "time")
-    return (found or [name for name in others if not name.endswith(DEFECT)])[:MOST_PANELS]
+    return (found or [name for name in others if not name.endswith(evidence.DEFECT)])[:MOST_PANELS]
 
 
 def in_common(runs: list[Run]) -> list[str]:

@@ -86,19 +86,14 @@ def _program(run: Run) -> dict[str, Any]:
 def _shown(run: Run) -> list[str]:
     """Quantities with a reference, else those of bodies and swimmers that vary."""
     series = run.series
-    of_references = [
-        one.quantity
-        for one in evidence.references(run.case)
-        if all(part in series for part in one.quantity.split(asked.MINUS))
-        and not one.quantity.endswith("_defect")
-    ]
+    of_references = evidence.compared(run)
     if of_references:
-        return list(dict.fromkeys(of_references))
+        return of_references
     own = [
         name
         for name, values in series.items()
         if name != "time"
-        and not name.endswith("_defect")
+        and not name.endswith(evidence.DEFECT)
         and asked.ending(name).split(".")[0] not in LEFT_OUT
         and np.isfinite(values).any()
         and (len(values) == 1 or np.nanmax(values) > np.nanmin(values))

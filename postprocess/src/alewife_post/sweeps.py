@@ -26,8 +26,7 @@ def value_of(run: Run, name: str, statistic: str = "final") -> float:
         return float(values[-1])
     window = evidence.window(run.case)
     if window is not None:
-        inside = (time >= window[0]) & (time <= window[1])
-        time, values = time[inside], values[inside]
+        time, values = quantities.within(time, values, *window)
     kept = np.isfinite(values)
     time, values = time[kept], values[kept]
     if len(values) == 0:

@@ -8,9 +8,8 @@ use clap::Args;
 use super::exit::{Exit, Failure};
 use super::style::say;
 use crate::case::{several_nearest, significant};
+use crate::observer::columns_of;
 
-/// Columns where there is no terminal to tell.
-const USUAL_WIDTH: usize = 80;
 /// Fewest and most columns of the curve.
 const WIDTHS: [usize; 2] = [4, 400];
 /// Dots of a character of Braille: across, and along.
@@ -41,7 +40,7 @@ pub struct Options {
 /// Draws quantities.
 pub fn plot(options: &Options) -> Result<Exit, Failure> {
     let table = Table::read(&options.run)?;
-    let width = options.width.map(usize::from).or_else(terminal_width).unwrap_or(USUAL_WIDTH);
+    let width = options.width.map_or_else(|| columns_of(io::stdout()), usize::from);
     let columns: Vec<usize> =
         options.quantities.iter().map(|name| table.column(name)).collect::<Result<_, _>>()?;
     for (nth, column) in columns.into_iter().enumerate() {
@@ -61,12 +60,6 @@ pub fn plot(options: &Options) -> Result<Exit, Failure> {
         }
     }
     Ok(Exit::Done)
-}
-
-/// Columns of the terminal that standard output is.
-fn terminal_width() -> Option<usize> {
-    let size = rustix::termios::tcgetwinsize(io::stdout()).ok()?;
-    (size.ws_col > 0).then(|| usize::from(size.ws_col))
 }
 
 /// The series of a run.

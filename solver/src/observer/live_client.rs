@@ -72,9 +72,9 @@ struct Connection<'a> {
     socket: WebSocket<TcpStream>,
     shared: &'a Shared,
     client: usize,
-    /// Channels the client has been told of.
+    /// Number of channels that the client knows.
     n_known: usize,
-    /// Simulated time it has been told (ns).
+    /// Latest simulated time that was sent to it (ns).
     time: Option<u64>,
 }
 

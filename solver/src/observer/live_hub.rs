@@ -73,7 +73,7 @@ pub struct Shared {
 /// What a client is to be told next.
 #[derive(Debug, Default)]
 pub struct News {
-    /// Channels it has not been told of, with their numbers.
+    /// Channels that it does not know yet, with their numbers.
     pub channels: Vec<(usize, LiveChannel)>,
     /// Messages with the subscriptions they are for.
     pub messages: Vec<(u32, LiveMessage)>,

@@ -205,22 +205,20 @@ impl MessageFile {
     }
 
     fn send_quantities(&mut self, values: &[f64]) -> io::Result<()> {
-        for nth in 0..self.groups.len() {
-            let group = &self.groups[nth];
-            let (topic, data) = (group.topic.clone(), group.message(values)?);
-            let schema = Schema {
-                id: 0,
-                name: group.schema_name.clone(),
-                encoding: "jsonschema".to_owned(),
-                data: Cow::Owned(match self.channels.contains_key(&topic) {
-                    true => Vec::new(),
-                    false => serde_json::to_vec(&group.schema)?,
-                }),
-            };
-            let channel = self.channel(&topic, || Ok(schema))?;
-            self.write(channel, nanoseconds(self.time), &data)?;
-        }
-        Ok(())
+        let groups = std::mem::take(&mut self.groups);
+        let sent = groups.iter().try_for_each(|group| {
+            let channel = self.channel(&group.topic, || {
+                Ok(Schema {
+                    id: 0,
+                    name: group.schema_name.clone(),
+                    encoding: "jsonschema".to_owned(),
+                    data: Cow::Owned(serde_json::to_vec(&group.schema)?),
+                })
+            })?;
+            self.write(channel, nanoseconds(self.time), &group.message(values)?)
+        });
+        self.groups = groups;
+        sent
     }
 
     /// The channel of a topic, made with its schema when it is first asked for.

@@ -76,6 +76,7 @@ pub use run_lock::{LockError, RunLock};
 pub use state_file::read_state;
 pub use status::{RunState, Status, StatusFile};
 pub use tally::Tally;
+pub use terminal::columns_of;
 pub use write_times::WriteTimes;
 
 /// What is shown of a run while it is under way.

@@ -134,12 +134,11 @@ impl StatusFile {
         let path = directory.join("status.json");
         let cpu_before = cpu_seconds();
         let mut file = Self { path, status, times, started: now, cpu_before, written: now };
-        let text = file.text()?;
-        write_atomic(&file.path, &text)?;
+        file.write(write_atomic)?;
         Ok(file)
     }
 
-    fn text(&mut self) -> io::Result<Vec<u8>> {
+    fn write(&mut self, how: fn(&Path, &[u8]) -> io::Result<()>) -> io::Result<()> {
         self.written = Instant::now();
         let wall = self.written.duration_since(self.started).as_secs_f64();
         self.status.wall_seconds.insert("total".to_owned(), wall);
@@ -150,7 +149,7 @@ impl StatusFile {
         self.status.updated_at = process::now();
         let mut text = serde_json::to_vec_pretty(&self.status)?;
         text.push(b'\n');
-        Ok(text)
+        how(&self.path, &text)
     }
 }
 
@@ -164,19 +163,14 @@ impl<const D: usize> Observer<D> for StatusFile {
             self.status.steps = self.status.steps.map(|_| snapshot.step);
         }
         let is_due = snapshot.is_last || snapshot.step == 0 || self.written.elapsed() >= INTERVAL;
-        if !is_due {
-            return Ok(());
-        }
-        let text = self.text()?;
-        write_whole(&self.path, &text)
+        if is_due { self.write(write_whole) } else { Ok(()) }
     }
 
     fn on_end(&mut self, timing: &Timing) -> io::Result<()> {
         by_stage(&mut self.status, timing);
         // The last state is on the disk now, too
         self.status.state = RunState::Finished;
-        let text = self.text()?;
-        write_atomic(&self.path, &text)
+        self.write(write_atomic)
     }
 
     fn on_failure(&mut self, error: &RunError, _last: Option<&LastState<'_, D>>) -> io::Result<()> {
@@ -187,8 +181,7 @@ impl<const D: usize> Observer<D> for StatusFile {
         self.status.is_interrupted =
             matches!(error, RunError::Stopped { .. } | RunError::Output(_));
         self.status.reason = Some(error.to_string());
-        let text = self.text()?;
-        write_atomic(&self.path, &text)
+        self.write(write_atomic)
     }
 }
 

@@ -30,6 +30,12 @@ pub struct Terminal {
     is_terminal: bool,
 }
 
+/// Columns of the terminal that a stream is; 80 if it is none, or does not tell.
+pub fn columns_of(stream: impl std::os::fd::AsFd) -> usize {
+    let size = rustix::termios::tcgetwinsize(stream);
+    size.map(|size| usize::from(size.ws_col)).ok().filter(|columns| *columns > 0).unwrap_or(80)
+}
+
 impl Terminal {
     /// Whether stderr is a terminal.
     pub fn is_terminal(&self) -> bool {
@@ -38,8 +44,7 @@ impl Terminal {
 
     /// Its columns; 80 if it does not tell.
     pub fn width(&self) -> usize {
-        let size = rustix::termios::tcgetwinsize(io::stderr());
-        size.map(|size| usize::from(size.ws_col)).ok().filter(|columns| *columns > 0).unwrap_or(80)
+        columns_of(io::stderr())
     }
 
     /// Shows a bar, and the notes beside it.
