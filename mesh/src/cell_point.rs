@@ -12,6 +12,9 @@ pub struct CellPoint<const D: usize> {
     pub position: Point<D>,
 }
 
+/// Newton's step (reference coordinates) after which only rounding is left.
+const CONVERGED: f64 = 1e-9;
+
 /// Solution of Σ x_k column_k = right, by Cramer's rule.
 pub fn solve<const D: usize>(columns: &[Point<D>; D], right: Point<D>, det: f64) -> [f64; D] {
     std::array::from_fn(|k| {
@@ -37,12 +40,13 @@ pub fn invert_quadratic<const D: usize>(
             return None;
         }
         let step = solve(&map.columns, point - map.position, det);
-        let length = step.iter().fold(0.0_f64, |length, x| length.hypot(*x));
+        let length = step.iter().map(|x| x * x).sum::<f64>().sqrt();
         let damping = (0.5 / length).min(1.0);
         for (x, step) in at.iter_mut().zip(step) {
             *x += damping * step;
         }
-        if length < 1e-15 {
+        // The next step has the size of the square of this one
+        if length < CONVERGED {
             break;
         }
     }

@@ -20,6 +20,13 @@ const STRAIGHT: u32 = u32::MAX;
 /// Newton's method has found a point when it misses by this part of the cell's size at most.
 const FOUND: f64 = 1e-10;
 
+/// Points outside are sought first within this part of the mean size of the cells: points on an exact curve
+/// are not farther from the quadratic one.
+const SHORT: f64 = 0.05;
+
+/// The shape functions of the middles of edges sum to this at most: 2 - 2 sum(l^2) with coordinates l.
+const MIDDLES: f64 = 1.5;
+
 /// Barycentric coordinates of a point inside may be negative by this, so that no point falls
 /// between two cells.
 const ROUNDING: f64 = 1e-12;
@@ -35,6 +42,15 @@ pub struct Located<const D: usize> {
     pub distance: f64,
 }
 
+/// How far a curved cell may be beyond a face of the straight one with the same vertices.
+#[derive(Debug, Clone, Copy)]
+struct Face {
+    /// Height of the opposite vertex (m), zero where the straight cell is turned inside out.
+    height: f64,
+    /// Part of the height by which the cell may be beyond.
+    beyond: f64,
+}
+
 /// Finds cells; keeps its own copy of the geometry, so the mesh may move on.
 #[derive(Debug, Clone)]
 pub struct Locator<const D: usize> {
@@ -43,11 +59,15 @@ pub struct Locator<const D: usize> {
     boxes: Vec<Bounds<D>>,
     /// Positions of the vertices of all cells, D + 1 for each (m).
     vertices: Vec<Point<D>>,
+    /// Faces of the straight cells, opposite to each vertex, D + 1 for each cell.
+    faces: Vec<Face>,
     /// Where the nodes of each curved cell start in `quadratic`; [`STRAIGHT`] for the others.
     curved: Vec<u32>,
     /// Positions of the nodes of the curved cells (m).
     quadratic: Vec<Point<D>>,
     tolerance: f64,
+    /// Distance within which points outside are sought first (m).
+    short: f64,
 }
 
 impl<const D: usize> Locator<D> {
@@ -58,6 +78,8 @@ impl<const D: usize> Locator<D> {
         let mut vertices = Vec::with_capacity((D + 1) * mesh.n_cells());
         let mut curved = vec![STRAIGHT; mesh.n_cells()];
         let mut quadratic = Vec::new();
+        let mut faces = Vec::with_capacity((D + 1) * mesh.n_cells());
+        let mut size = 0.0;
         for cell in mesh.cell_ids() {
             let nodes = mesh.cell_nodes(cell);
             let mut bounds = Bounds::around(&nodes[..=D]);
@@ -72,11 +94,14 @@ impl<const D: usize> Locator<D> {
                 curved[cell] = index_u32(quadratic.len());
                 quadratic.extend_from_slice(&nodes);
             }
+            push_faces(&nodes, mesh.curved[cell], &mut faces);
+            size += (bounds.max - bounds.min).max();
             boxes.push(bounds);
         }
         let tree = BoxTree::new(&boxes);
         let tolerance = TOLERANCE * tree.extent();
-        Self { tree, boxes, vertices, curved, quadratic, tolerance }
+        let short = SHORT * size / boxes.len().max(1) as f64;
+        Self { tree, boxes, vertices, faces, curved, quadratic, tolerance, short }
     }
 
     /// The cell that holds a point (m), and the reference coordinates there; `None` outside.
@@ -108,15 +133,23 @@ impl<const D: usize> Locator<D> {
         if let Some(found) = inside.find(|found| found.distance == 0.0) {
             return Some(found);
         }
-        let images = shifts.iter().map(|shift| point + shift);
-        let promising = images.clone().min_by(|a, b| {
-            let [a, b] = [a, b].map(|image| self.tree.squared_distance(image));
-            a.total_cmp(&b)
-        })?;
-        let reach = self.nearest(promising)?.distance + self.tolerance;
+        // A long search begun at the wrong image goes through many cells
+        self.nearest_of(point, shifts, self.short)
+            .or_else(|| self.nearest_of(point, shifts, f64::INFINITY))
+    }
+
+    /// The nearest of the images within reach (m).
+    fn nearest_of(
+        &self,
+        point: Point<D>,
+        shifts: &[Point<D>],
+        mut reach: f64,
+    ) -> Option<Located<D>> {
         let mut best: Option<Located<D>> = None;
-        for found in images.filter_map(|image| self.search(image, reach)) {
+        for shift in shifts {
+            let Some(found) = self.search(point + shift, reach) else { continue };
             if best.is_none_or(|best| found.distance < best.distance) {
+                reach = found.distance + self.tolerance;
                 best = Some(found);
             }
         }
@@ -131,7 +164,7 @@ impl<const D: usize> Locator<D> {
             if self.boxes[cell].squared_distance(&point) > bound * bound {
                 return false;
             }
-            let found = self.locate_in(CellId::new(cell), point);
+            let Some(found) = self.locate_in(CellId::new(cell), point, bound) else { return false };
             if found.distance <= *reach && best.is_none_or(|b| found.distance < b.distance) {
                 best = Some(found);
                 *reach = found.distance;
@@ -141,11 +174,14 @@ impl<const D: usize> Locator<D> {
         best
     }
 
-    /// Where a point is with respect to one cell.
-    fn locate_in(&self, cell: CellId, point: Point<D>) -> Located<D> {
+    /// Where a point is with respect to one cell, unless that is farther than a bound (m).
+    fn locate_in(&self, cell: CellId, point: Point<D>, bound: f64) -> Option<Located<D>> {
         let vertices = &self.vertices[(D + 1) * cell.index()..(D + 1) * (cell.index() + 1)];
         let columns: [Point<D>; D] = std::array::from_fn(|k| vertices[k + 1] - vertices[0]);
         let straight = solve(&columns, point - vertices[0], determinant(&columns));
+        if self.is_beyond(cell, straight, bound) {
+            return None;
+        }
         let start = self.curved[cell];
         let nodes = (start != STRAIGHT)
             .then(|| &self.quadratic[start as usize..start as usize + Simplex::<D>::N_NODES]);
@@ -158,7 +194,7 @@ impl<const D: usize> Locator<D> {
         let is_inside = reference.iter().all(|x| *x >= -ROUNDING)
             && reference.iter().sum::<f64>() <= 1.0 + ROUNDING;
         if found.is_some() && is_inside {
-            return Located { cell, reference, distance: 0.0 };
+            return Some(Located { cell, reference, distance: 0.0 });
         }
         let nearest = match nodes {
             Some(nodes) => nearest_in_quadratic(nodes, point, reference, &columns),
@@ -170,7 +206,51 @@ impl<const D: usize> Locator<D> {
             }
         };
         let reference = if found.is_some() { reference } else { nearest.reference };
-        Located { cell, reference, distance: (point - nearest.position).norm() }
+        Some(Located { cell, reference, distance: (point - nearest.position).norm() })
+    }
+
+    /// Whether a point is beyond a face of a cell by more than a bound (m), by its coordinates in the straight
+    /// cell.
+    fn is_beyond(&self, cell: CellId, straight: [f64; D], bound: f64) -> bool {
+        let first = 1.0 - straight.iter().sum::<f64>();
+        let faces = &self.faces[(D + 1) * cell.index()..(D + 1) * (cell.index() + 1)];
+        let coordinates = std::iter::once(first).chain(straight);
+        coordinates.zip(faces).any(|(l, face)| (-l - face.beyond) * face.height > bound)
+    }
+}
+
+/// Adds the faces of a cell.
+///
+/// A quadratic map is the straight one and the offsets of the middles of its edges times their shape functions.
+fn push_faces<const D: usize>(nodes: &[Point<D>], is_curved: bool, faces: &mut Vec<Face>) {
+    let columns: [Point<D>; D] = std::array::from_fn(|k| nodes[k + 1] - nodes[0]);
+    let determinant = determinant(&columns);
+    // Rates of the barycentric coordinates along a vector
+    let rates = |vector: Point<D>| {
+        let others = solve(&columns, vector, determinant);
+        std::iter::once(-others.iter().sum::<f64>()).chain(others)
+    };
+    let first = faces.len();
+    faces.resize(first + D + 1, Face { height: 0.0, beyond: 0.0 });
+    let faces = &mut faces[first..];
+    if determinant <= 0.0 {
+        return;
+    }
+    for axis in 0..D {
+        let unit = Point::from_fn(|row, _| if row == axis { 1.0 } else { 0.0 });
+        faces.iter_mut().zip(rates(unit)).for_each(|(face, rate)| face.height += rate * rate);
+    }
+    faces.iter_mut().for_each(|face| face.height = face.height.sqrt().recip());
+    if !is_curved {
+        return;
+    }
+    for (edge, &[i, j]) in Simplex::<D>::EDGES.iter().enumerate() {
+        for middle in &nodes[Simplex::<D>::edge_nodes(edge)] {
+            let offset = middle - (nodes[i] + nodes[j]) * 0.5;
+            for (face, rate) in faces.iter_mut().zip(rates(offset)) {
+                face.beyond = face.beyond.max(MIDDLES * rate.abs());
+            }
+        }
     }
 }
 

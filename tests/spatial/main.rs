@@ -1,5 +1,6 @@
 //! Fluid and a free body in three dimensions, on meshes of a few tetrahedra.
 
+mod contact;
 mod deforming;
 mod falling;
 mod gaps;

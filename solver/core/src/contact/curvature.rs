@@ -46,6 +46,16 @@ impl Curvatures {
         }
     }
 
+    /// Mean of the curvatures of the gap (1/m): near it, the gap grows like half of it times the square of the
+    /// distance, averaged over directions.
+    #[must_use]
+    pub fn of_gap(&self) -> f64 {
+        match self {
+            Self::Curves([first, second]) => first + second,
+            Self::Surfaces([first, second]) => 0.5 * (first + second).trace(),
+        }
+    }
+
     /// Derivative of the gradient (n, l_a x n, -n, -l_b x n) by displacements of both bodies, zero
     /// where the surfaces are parallel.
     pub(super) fn gradient_derivative(

@@ -11,6 +11,7 @@ mod curvature;
 mod direction;
 mod encounter;
 mod error;
+mod estimate;
 mod gaps;
 mod implicit;
 mod law;
@@ -25,6 +26,7 @@ mod unknowns;
 
 pub use curvature::Curvatures;
 pub use error::ContactError;
+pub use estimate::MobilityEstimate;
 pub use gaps::{Gaps, MinimumGap};
 pub use implicit::{ContactSolution, ContactStep};
 pub use law::{Law, LawKind};

@@ -271,20 +271,20 @@ impl LinearSystem {
         Ok(())
     }
 
-    /// Solves with a set-up for the matrix, in place.
+    /// Solves with a set-up for the matrix, in place. Iterations end as in [`Self::solve_correction`].
     pub(super) fn solve(
         &mut self,
         rhs: &mut [f64],
+        reduction: Option<f64>,
         timing: &mut Timing,
     ) -> Result<(), LinearError> {
         match &mut self.method {
             Method::Direct { matrix, solver, .. } => {
                 let solver = analysed(solver, matrix, &self.unknowns, timing);
-                set_up_and(|solver| solver.solve(matrix, rhs), solver, matrix, timing)?;
+                solved(solver, matrix, rhs, reduction, timing)?;
             }
             Method::Iterative { matrix, solver, .. } => {
-                let solve = |solver: &mut IterativeSolver| solver.solve(matrix, rhs);
-                set_up_and(solve, prepared(solver), matrix, timing)?;
+                solved(prepared(solver), matrix, rhs, reduction, timing)?;
             }
         }
         Ok(())
@@ -334,11 +334,22 @@ fn corrected<S: LinearSolver>(
     if timing.measure(Stage::Solve, by_earlier)? {
         return Ok(None);
     }
+    solved(solver, matrix, rhs, reduction, timing).map(Some)
+}
+
+/// Solves by a set-up for this matrix, in place.
+fn solved<S: LinearSolver>(
+    solver: &mut S,
+    matrix: &S::Matrix,
+    rhs: &mut [f64],
+    reduction: Option<f64>,
+    timing: &mut Timing,
+) -> Result<Accuracy, LinearError> {
     let solve = |solver: &mut S| match reduction {
         Some(reduction) => solver.solve_to(matrix, rhs, reduction),
         None => solver.solve(matrix, rhs),
     };
-    set_up_and(solve, solver, matrix, timing).map(Some)
+    set_up_and(solve, solver, matrix, timing)
 }
 
 /// The direct solver, made for the pattern of a matrix if there is none.

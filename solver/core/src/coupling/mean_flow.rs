@@ -146,7 +146,7 @@ impl MeanFlowResponse {
             let mut answer = integral.clone();
             match earlier.get(nth).filter(|earlier| earlier.len() == answer.len()) {
                 Some(typical) => linear.solve_correction(typical, &mut answer, None, timing)?,
-                None => linear.solve(&mut answer, timing)?,
+                None => linear.solve(&mut answer, None, timing)?,
             }
             self.answers.push(answer);
             self.integrals.push(integral);

@@ -40,34 +40,40 @@ impl<const D: usize> FluidSystem<D> {
         bodies: &[LoadedBody],
         timing: &mut Timing,
     ) -> Result<DMatrix<f64>, SolveError> {
-        let modes = self.modes;
-        let layout = self.layout;
+        let rows = self.rows_of(constraints, bodies);
+        let Masters { unknowns, weights } = Masters::of(&rows);
+        let inverse = self.linear.inverse_of(&unknowns, timing)?;
+        // Velocities by loads on the masters, one column each
+        let inverse = DMatrix::from_column_slice(unknowns.len(), unknowns.len(), &inverse);
+        let mobility = &weights * inverse * weights.transpose();
+        Ok(self.at_mean_velocity(mobility, &rows))
+    }
+
+    /// How the velocities of some bodies follow from the unknowns they depend on: n m rows for n bodies with m
+    /// motions, a column for each unknown; zero rows as in [`Self::mobility`].
+    #[must_use]
+    pub fn free_motions(
+        &self,
+        constraints: &AffineConstraints,
+        bodies: &[LoadedBody],
+    ) -> DMatrix<f64> {
+        Masters::of(&self.rows_of(constraints, bodies)).weights
+    }
+
+    /// What each motion of some bodies is made of, nothing where it does not count.
+    fn rows_of<'a>(
+        &self,
+        constraints: &'a AffineConstraints,
+        bodies: &[LoadedBody],
+    ) -> Vec<&'a [Term<u32>]> {
+        let (modes, layout) = (self.modes, &self.layout);
         let counts_all = !self.is_iterative();
-        let row = |loaded: &LoadedBody, (position, mode): (usize, Mode)| -> &[Term<u32>] {
+        let row = |loaded: &LoadedBody, (position, mode): (usize, Mode)| -> &'a [Term<u32>] {
             let counts = counts_all || loaded.turns || !mode.is_rotation();
             if counts { constraints.row(layout.rigid(loaded.body, position)) } else { &[] }
         };
-        let rows: Vec<&[Term<u32>]> = bodies
-            .iter()
-            .flat_map(|loaded| modes.iter().enumerate().map(move |mode| row(loaded, mode)))
-            .collect();
-        let mut masters: Vec<usize> =
-            rows.iter().flat_map(|row| row.iter().map(|term| term.unknown as usize)).collect();
-        masters.sort_unstable();
-        masters.dedup();
-        let inverse = self.linear.inverse_of(&masters, timing)?;
-        // Velocities by loads on the masters, one column each
-        let inverse = DMatrix::from_column_slice(masters.len(), masters.len(), &inverse);
-        let mut weights: DMatrix<f64> = DMatrix::zeros(rows.len(), masters.len());
-        for (at, row) in rows.iter().enumerate() {
-            for term in *row {
-                if let Ok(column) = masters.binary_search(&(term.unknown as usize)) {
-                    weights[(at, column)] += term.weight;
-                }
-            }
-        }
-        let mobility = &weights * inverse * weights.transpose();
-        Ok(self.at_mean_velocity(mobility, &rows))
+        let of_body = |loaded| modes.iter().enumerate().map(move |mode| row(loaded, mode));
+        bodies.iter().flat_map(of_body).collect()
     }
 
     /// A mobility at constant mean velocity: loads change the pressure gradient where that is given. By
@@ -97,7 +103,8 @@ impl<const D: usize> FluidSystem<D> {
     }
 
     /// Adds to a solution what further loads (N, N m) on some bodies change, with the matrix last
-    /// assembled.
+    /// assembled. Where the solution takes iterations, these leave `reduction` of the loads, by default as much as
+    /// those of the flow.
     ///
     /// # Errors
     /// When the matrix is singular.
@@ -105,6 +112,7 @@ impl<const D: usize> FluidSystem<D> {
         &mut self,
         constraints: &AffineConstraints,
         loads: &[BodyLoad],
+        reduction: Option<f64>,
         solution: &mut Solution<D>,
         timing: &mut Timing,
     ) -> Result<(), SolveError> {
@@ -116,7 +124,7 @@ impl<const D: usize> FluidSystem<D> {
                 }
             }
         }
-        self.linear.solve(&mut change, timing)?;
+        self.linear.solve(&mut change, reduction, timing)?;
         let mut pressure_gradient = solution.pressure_gradient;
         if !self.response.is_empty() {
             // Loads leave a given mean velocity as it is
@@ -131,5 +139,31 @@ impl<const D: usize> FluidSystem<D> {
         let next = Solution { pressure_gradient, ..next };
         *solution = self.centered(next, &mean);
         Ok(())
+    }
+}
+
+/// The unknowns that some motions depend on.
+struct Masters {
+    /// Ascending.
+    unknowns: Vec<usize>,
+    /// The motions by them, a row each.
+    weights: DMatrix<f64>,
+}
+
+impl Masters {
+    fn of(rows: &[&[Term<u32>]]) -> Self {
+        let mut unknowns: Vec<usize> =
+            rows.iter().flat_map(|row| row.iter().map(|term| term.unknown as usize)).collect();
+        unknowns.sort_unstable();
+        unknowns.dedup();
+        let mut weights: DMatrix<f64> = DMatrix::zeros(rows.len(), unknowns.len());
+        for (at, row) in rows.iter().enumerate() {
+            for term in *row {
+                if let Ok(column) = unknowns.binary_search(&(term.unknown as usize)) {
+                    weights[(at, column)] += term.weight;
+                }
+            }
+        }
+        Self { unknowns, weights }
     }
 }

@@ -142,7 +142,7 @@ impl<const D: usize> DivergenceFreeProjection<D> {
         if free.iter().all(|value| *value == 0.0) {
             return Ok(velocity.to_vec());
         }
-        self.linear.solve(&mut free, &mut Timing::default())?;
+        self.linear.solve(&mut free, None, &mut Timing::default())?;
         let correction = self.constraints.expand(&free);
         let corrected = self.layout.nodes().zip(velocity).map(|(node, velocity)| {
             velocity + Point::<D>::from_fn(|axis, _| correction[self.layout.velocity(node, axis)])

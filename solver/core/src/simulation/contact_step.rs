@@ -1,7 +1,8 @@
 //! Contact forces of one pass: found for the gaps at the end of the step, and added to the flow.
 
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 
+use super::contact_estimate::Bodies;
 use super::error::StepError;
 use super::newton::{Flow, flow_residual};
 use super::pass::PassEquations;
@@ -10,12 +11,21 @@ use super::state::State;
 use super::stepper::TimeStepper;
 use super::workspace::Workspace;
 use super::{RunError, Stage};
-use crate::body::{Pose, Twist};
-use crate::contact::{ContactLoads, ContactSolution, ContactStep, Gaps, Law};
-use crate::coupling::{BodyLoad, LoadedBody, SolveError};
+use crate::body::{Mode, Pose, RigidVector, Twist};
+use crate::contact::{ContactLoads, ContactSolution, ContactStep, Gaps, Law, MobilityEstimate};
+use crate::coupling::{BodyLoad, LoadedBody};
 
 /// Contact is looked for where bodies may get to with this times their displacement.
 const CONTACT_MARGIN: f64 = 2.0;
+
+/// Error of a pose by the error of the mobility over the smallest gap, or the range, that is small enough.
+const SMALL: f64 = 1e-6;
+/// Most loads from which the mobility is learnt.
+const MOST_LOADS: usize = 16;
+/// Least accurate solution for a load.
+const LEAST_REDUCTION: f64 = 1e-2;
+/// Part of the largest load to which solutions for all others are accurate.
+const ACCURACY: f64 = 1e-8;
 
 /// What contact needs to know of a pass.
 pub(super) struct PassContact<'a, const D: usize> {
@@ -23,6 +33,14 @@ pub(super) struct PassContact<'a, const D: usize> {
     pub state: &'a State<D>,
     pub gaps: Option<&'a dyn Gaps>,
     pub equations: &'a PassEquations<'a, D>,
+}
+
+/// Bodies that may be in contact, and the law.
+struct Candidates<'a> {
+    gaps: &'a dyn Gaps,
+    law: &'a Law,
+    /// Ascending.
+    bodies: Vec<usize>,
 }
 
 impl<const D: usize> PassContact<'_, D> {
@@ -37,19 +55,148 @@ impl<const D: usize> PassContact<'_, D> {
     ) -> Result<ContactLoads, StepError> {
         let none = ContactLoads::none(self.state.poses.len());
         let (Some(law), Some(gaps)) = (self.stepper.contact, self.gaps) else { return Ok(none) };
-        let candidates = self.candidate_bodies(gaps, law, &flow.solution.twists);
-        if candidates.is_empty() {
+        let bodies = self.candidate_bodies(gaps, law, &flow.solution.twists);
+        if bodies.is_empty() {
             return Ok(none);
         }
-        let Workspace { system, timing, .. } = &mut *work;
+        let candidates = Candidates { gaps, law, bodies };
+        let mut applied = none;
+        if !work.system.is_iterative()
+            || !self.learn_mobility(&candidates, work, flow, &mut applied)?
+        {
+            let mobility = self.mobility(&candidates, work)?;
+            let next = self.solve(&candidates, flow, &applied, &mobility)?.loads;
+            self.replace(work, flow, &mut applied, next, None)?;
+        }
+        update_residual(work, self.equations, flow);
+        Ok(applied)
+    }
+
+    /// Replaces loads in a flow by those that contact has there, by a mobility that is learnt on the way:
+    /// each solution for the loads tells more of it. Whether that led to the loads at the gaps.
+    fn learn_mobility(
+        &self,
+        candidates: &Candidates<'_>,
+        work: &mut Workspace<D>,
+        flow: &mut Flow<D>,
+        applied: &mut ContactLoads,
+    ) -> Result<bool, StepError> {
+        let Candidates { gaps, law, bodies } = candidates;
+        let loaded = loaded_bodies(*gaps, bodies);
+        let motions = work.system.free_motions(&self.equations.pass.constraints, &loaded);
+        let estimated = Bodies {
+            gaps: *gaps,
+            law,
+            bodies,
+            motions,
+            equations: &self.equations.pass.bodies,
+            viscosity: self.stepper.problem.viscosity,
+        };
+        let mut estimate = estimated.estimate(&self.seen_poses());
+        let mut largest = 0.0f64;
+        for attempt in 0..MOST_LOADS {
+            let Ok(found) = self.solve(candidates, flow, applied, estimate.matrix()) else {
+                return Ok(false);
+            };
+            let change = self.rows(bodies, |body| {
+                found.loads.wrenches[body].to_vector() - applied.wrenches[body].to_vector()
+            });
+            let size = estimate.size(&change);
+            if size == 0.0 {
+                *applied = found.loads;
+                return Ok(true);
+            }
+            largest = largest.max(size);
+            let before = self.velocities(bodies, flow);
+            let reduction = (ACCURACY * largest / size).min(LEAST_REDUCTION);
+            self.replace(work, flow, applied, found.loads, Some(reduction))?;
+            let now = self.velocities(bodies, flow);
+            estimate.learn(&change, &(&now - before));
+            let expected = self.rows(bodies, |body| {
+                let index = bodies.binary_search(&body).unwrap_or_default();
+                found.velocities[index].to_vector()
+            });
+            let off = self.displacement(candidates, &(now - expected), &estimate);
+            let gap = applied.minimum_gap.map_or(law.range(), |least| least.gap.min(law.range()));
+            tracing::debug!(attempt, size, off, gap, bodies = bodies.len(), "contact");
+            if off <= SMALL * gap {
+                return Ok(true);
+            }
+        }
+        Ok(false)
+    }
+
+    /// The mobility of bodies.
+    fn mobility(
+        &self,
+        candidates: &Candidates<'_>,
+        work: &mut Workspace<D>,
+    ) -> Result<DMatrix<f64>, StepError> {
+        let Workspace { system, timing, .. } = work;
         let step = &self.equations.history.step;
-        let fail = |error: SolveError| RunError::from_solve(error, step.number, step.time);
         let constraints = &self.equations.pass.constraints;
-        let loaded = loaded_bodies(gaps, &candidates);
-        let mobility = system.mobility(constraints, &loaded, timing).map_err(fail)?;
-        let loads = self.solve(gaps, law, &candidates, &flow.solution.twists, &mobility)?.loads;
-        add_to_flow(work, self.equations, &loads, &candidates, flow)?;
-        Ok(loads)
+        let loaded = loaded_bodies(candidates.gaps, &candidates.bodies);
+        let mobility = system.mobility(constraints, &loaded, timing);
+        Ok(mobility.map_err(|error| RunError::from_solve(error, step.number, step.time))?)
+    }
+
+    /// Replaces loads of contact in a flow by others.
+    fn replace(
+        &self,
+        work: &mut Workspace<D>,
+        flow: &mut Flow<D>,
+        applied: &mut ContactLoads,
+        next: ContactLoads,
+        reduction: Option<f64>,
+    ) -> Result<(), StepError> {
+        let changes: Vec<BodyLoad> = applied
+            .wrenches
+            .iter()
+            .zip(&next.wrenches)
+            .enumerate()
+            .map(|(body, (old, new))| BodyLoad { body, load: new.to_vector() - old.to_vector() })
+            .filter(|on_body| on_body.load.iter().any(|part| *part != 0.0))
+            .collect();
+        *applied = next;
+        add_loads(work, self.equations, &changes, reduction, flow)
+    }
+
+    /// Numbers of bodies by their motions.
+    fn rows(&self, bodies: &[usize], of_body: impl Fn(usize) -> RigidVector) -> DVector<f64> {
+        let modes = self.stepper.problem.modes();
+        let of_body = |&body: &usize| {
+            let numbers = of_body(body);
+            modes.iter().map(move |mode| numbers[mode]).collect::<Vec<f64>>()
+        };
+        DVector::from_vec(bodies.iter().flat_map(of_body).collect())
+    }
+
+    fn velocities(&self, bodies: &[usize], flow: &Flow<D>) -> DVector<f64> {
+        self.rows(bodies, |body| flow.solution.twists[body].to_vector())
+    }
+
+    /// Largest displacement (m) of a point of a body in the step by velocities, in motions that count.
+    fn displacement(
+        &self,
+        candidates: &Candidates<'_>,
+        velocity: &DVector<f64>,
+        estimate: &MobilityEstimate,
+    ) -> f64 {
+        let modes = self.stepper.problem.modes();
+        let coefficient = 1.0 / self.equations.history.step.bdf.next;
+        let of_row = |(row, velocity): (usize, &f64)| {
+            let body = candidates.bodies[row / modes.len()];
+            let is_rotation = modes.iter().nth(row % modes.len()).is_some_and(Mode::is_rotation);
+            let length = if is_rotation { candidates.gaps.reach(body) } else { 1.0 };
+            let counts = estimate.matrix()[(row, row)] != 0.0;
+            if counts { (velocity * length * coefficient).abs() } else { 0.0 }
+        };
+        velocity.iter().enumerate().map(of_row).fold(0.0, f64::max)
+    }
+
+    /// Poses of the pass, as seen.
+    fn seen_poses(&self) -> Vec<Pose> {
+        self.seen(&self.equations.pass.poses)
     }
 
     /// Poses as seen from where the frame is in this pass: its way is no part of the unknowns.
@@ -66,18 +213,30 @@ impl<const D: usize> PassContact<'_, D> {
         gaps.candidate_bodies(&from, &to, CONTACT_MARGIN, law.range())
     }
 
-    /// The contact forces for velocities found without them.
+    /// The contact forces for a flow that has some of them already.
     fn solve(
         &self,
-        gaps: &dyn Gaps,
-        law: &Law,
-        bodies: &[usize],
-        twists: &[Twist],
+        candidates: &Candidates<'_>,
+        flow: &Flow<D>,
+        applied: &ContactLoads,
         mobility: &DMatrix<f64>,
     ) -> Result<ContactSolution, StepError> {
+        let Candidates { gaps, law, bodies } = candidates;
         let (state, bdf) = (self.state, &self.equations.history.step.bdf);
         let poses = &self.equations.pass.poses;
-        let free_velocities: Vec<Twist> = bodies.iter().map(|&body| twists[body]).collect();
+        let modes = self.stepper.problem.modes();
+        let pushed = mobility * self.rows(bodies, |body| applied.wrenches[body].to_vector());
+        let free_velocities: Vec<Twist> = bodies
+            .iter()
+            .enumerate()
+            .map(|(index, &body)| {
+                let mut velocity = flow.solution.twists[body].to_vector();
+                for (position, mode) in modes.iter().enumerate() {
+                    velocity[mode] -= pushed[modes.len() * index + position];
+                }
+                Twist::from_vector(&velocity)
+            })
+            .collect();
         let predicted_velocities: Vec<Twist> = bodies
             .iter()
             .map(|&body| {
@@ -85,13 +244,13 @@ impl<const D: usize> PassContact<'_, D> {
             })
             .collect();
         let step = ContactStep {
-            gaps,
+            gaps: *gaps,
             law,
-            modes: self.stepper.problem.modes(),
+            modes,
             bodies,
             free_velocities: &free_velocities,
             mobility,
-            predicted: &self.seen(poses),
+            predicted: &self.seen_poses(),
             predicted_velocities: &predicted_velocities,
             coefficient: 1.0 / bdf.next,
             start: &self.seen(&state.poses),
@@ -117,17 +276,41 @@ pub(super) fn add_to_flow<const D: usize>(
     bodies: &[usize],
     flow: &mut Flow<D>,
 ) -> Result<(), StepError> {
-    let Workspace { system, mesh, timing } = work;
     let on_body = |&body: &usize| BodyLoad { body, load: loads.wrenches[body].to_vector() };
     let on_bodies: Vec<BodyLoad> = bodies.iter().map(on_body).collect();
     if on_bodies.iter().any(|on_body| on_body.load.iter().any(|part| *part != 0.0)) {
-        let step = &equations.history.step;
-        system
-            .apply_body_loads(&equations.pass.constraints, &on_bodies, &mut flow.solution, timing)
-            .map_err(|error| RunError::from_solve(error, step.number, step.time))?;
+        add_loads(work, equations, &on_bodies, None, flow)?;
     }
+    update_residual(work, equations, flow);
+    Ok(())
+}
+
+/// Adds what loads on some bodies change in a flow.
+fn add_loads<const D: usize>(
+    work: &mut Workspace<D>,
+    equations: &PassEquations<'_, D>,
+    loads: &[BodyLoad],
+    reduction: Option<f64>,
+    flow: &mut Flow<D>,
+) -> Result<(), StepError> {
+    if loads.is_empty() {
+        return Ok(());
+    }
+    let Workspace { system, timing, .. } = work;
+    let step = &equations.history.step;
+    system
+        .apply_body_loads(&equations.pass.constraints, loads, reduction, &mut flow.solution, timing)
+        .map_err(|error| RunError::from_solve(error, step.number, step.time))?;
+    Ok(())
+}
+
+fn update_residual<const D: usize>(
+    work: &mut Workspace<D>,
+    equations: &PassEquations<'_, D>,
+    flow: &mut Flow<D>,
+) {
+    let Workspace { system, mesh, timing } = work;
     let at = equations.pass.at(equations.problem, mesh);
     flow.residual =
         timing.measure(Stage::Loads, || flow_residual(system, &at, equations, &flow.solution));
-    Ok(())
 }

@@ -3,6 +3,7 @@
 mod advance;
 mod build;
 mod case_mesh;
+mod contact_estimate;
 mod contact_step;
 mod control;
 mod cycle_error;

@@ -1,0 +1,171 @@
+//! `MobilityEstimate`: a mobility of bodies learnt from what loads did to them.
+//!
+//! Within a step velocities change linearly with loads. Where each answer to a load takes the solution of
+//! a large system, contact starts from an estimate B of the mobility and corrects it by all loads S whose
+//! answers Y are known, so that M S = Y (a secant method for several secants, @fang2009):
+//!
+//! M = B + (Y - B S) (S^T B S)^-1 S^T B.
+//!
+//! Bodies fall into clusters that are near each other. Each cluster learns by itself from loads that act on
+//! all of them at once: what they do to each other over a distance is small, and is no part of M. So the
+//! number of solutions does not grow with the number of bodies.
+
+use nalgebra::{DMatrix, DVector};
+
+/// Part of the largest singular value of the loads below which one is a combination of the others.
+const DEPENDENT: f64 = 1e-8;
+
+/// The mobility of some bodies as far as it is known.
+#[derive(Debug, Clone)]
+pub struct MobilityEstimate {
+    /// Before anything was learnt, symmetric.
+    base: DMatrix<f64>,
+    matrix: DMatrix<f64>,
+    /// Rows of bodies that are near each other.
+    clusters: Vec<Vec<usize>>,
+    loads: Vec<DVector<f64>>,
+    answers: Vec<DVector<f64>>,
+}
+
+impl MobilityEstimate {
+    /// Starts from a symmetric positive semidefinite matrix (velocity per load), n x n, whose rows fall into
+    /// clusters; rows of zeros stay so.
+    #[must_use]
+    pub fn new(base: DMatrix<f64>, clusters: Vec<Vec<usize>>) -> Self {
+        let matrix = base.clone();
+        Self { base, matrix, clusters, loads: Vec::new(), answers: Vec::new() }
+    }
+
+    /// The mobility, n x n.
+    #[must_use]
+    pub fn matrix(&self) -> &DMatrix<f64> {
+        &self.matrix
+    }
+
+    /// Square root of the power of a load at the velocities that the first estimate gives it.
+    #[must_use]
+    pub fn size(&self, load: &DVector<f64>) -> f64 {
+        load.dot(&(&self.base * load)).max(0.0).sqrt()
+    }
+
+    /// Takes note of the velocities by which bodies answered a load.
+    pub fn learn(&mut self, load: &DVector<f64>, answer: &DVector<f64>) {
+        self.loads.push(load.clone());
+        self.answers.push(answer.clone());
+        for rows in &self.clusters {
+            let base = self.base.select_rows(rows).select_columns(rows);
+            let [loads, answers] = [&self.loads, &self.answers].map(|vectors| {
+                let columns: Vec<_> =
+                    vectors.iter().map(|vector| vector.select_rows(rows)).collect();
+                DMatrix::from_columns(&columns)
+            });
+            let Some(block) = corrected(&base, loads, answers) else { continue };
+            for (i, &row) in rows.iter().enumerate() {
+                for (j, &column) in rows.iter().enumerate() {
+                    self.matrix[(row, column)] = block[(i, j)];
+                }
+            }
+        }
+    }
+}
+
+/// The mobility of a cluster by loads and answers, one column each; none where no load acts on it.
+fn corrected(
+    base: &DMatrix<f64>,
+    mut loads: DMatrix<f64>,
+    mut answers: DMatrix<f64>,
+) -> Option<DMatrix<f64>> {
+    // Later loads are smaller by orders of magnitude, and known as well relative to their size
+    for (mut load, mut answer) in loads.column_iter_mut().zip(answers.column_iter_mut()) {
+        let size = load.dot(&(base * &load)).max(0.0).sqrt();
+        if size > 0.0 {
+            load /= size;
+            answer /= size;
+        } else {
+            load.fill(0.0);
+            answer.fill(0.0);
+        }
+    }
+    let by_base = base * &loads;
+    let products = loads.transpose() * &by_base;
+    let decomposed = products.svd(true, true);
+    let largest = decomposed.singular_values.max();
+    if largest == 0.0 {
+        return None;
+    }
+    let inverse = decomposed.pseudo_inverse(DEPENDENT * largest).ok()?;
+    // Rows of motions that are not free stay zero
+    for (row, of_base) in base.row_iter().enumerate() {
+        if of_base.iter().all(|entry| *entry == 0.0) {
+            answers.row_mut(row).fill(0.0);
+        }
+    }
+    Some(base + (answers - &by_base) * inverse * by_base.transpose())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Drag of two bodies in three motions with a film between them, and its inverse.
+    fn mobility(film: f64) -> DMatrix<f64> {
+        let mut resistance = DMatrix::identity(6, 6);
+        let along = DVector::from_column_slice(&[0.8, 0.6, 0.0, -0.8, -0.6, 0.0]);
+        resistance += film * &along * along.transpose();
+        resistance.try_inverse().unwrap()
+    }
+
+    #[test]
+    fn answers_that_are_known_are_exact() {
+        let exact = mobility(30.0);
+        let mut estimate = MobilityEstimate::new(mobility(3.0), vec![(0..6).collect()]);
+        let loads = [[1.0, 0.2, 0.0, -1.0, 0.0, 0.3], [1.0, 0.2001, 0.0, -1.0, 1e-4, 0.3]];
+        let loads = loads.map(|load| DVector::from_column_slice(&load));
+        for load in &loads {
+            estimate.learn(load, &(&exact * load));
+        }
+        for load in &loads {
+            let difference = estimate.matrix() * load - &exact * load;
+            assert!(difference.amax() < 1e-10, "{difference}");
+        }
+    }
+
+    #[test]
+    fn all_loads_in_all_motions_give_the_mobility() {
+        let exact = mobility(30.0);
+        let mut estimate = MobilityEstimate::new(DMatrix::identity(6, 6), vec![(0..6).collect()]);
+        for motion in 0..6 {
+            let load = exact.column(motion).into_owned();
+            estimate.learn(&load, &(&exact * &load));
+        }
+        assert!((estimate.matrix() - exact).amax() < 1e-10);
+    }
+
+    #[test]
+    fn clusters_learn_at_once_and_apart() {
+        let [first, second] = [mobility(10.0), mobility(50.0)];
+        let mut both = DMatrix::zeros(12, 12);
+        both.view_mut((0, 0), (6, 6)).copy_from(&first);
+        both.view_mut((6, 6), (6, 6)).copy_from(&second);
+        let clusters = vec![(0..6).collect(), (6..12).collect()];
+        let mut estimate = MobilityEstimate::new(DMatrix::identity(12, 12), clusters);
+        let load = DVector::from_fn(12, |row, _| 1.0 + row as f64);
+        estimate.learn(&load, &(&both * &load));
+        for half in [0, 6] {
+            let mut part = DVector::zeros(12);
+            part.rows_mut(half, 6).copy_from(&load.rows(half, 6));
+            assert!((estimate.matrix() * &part - &both * &part).amax() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn motions_that_are_not_free_stay_so() {
+        let mut base = DMatrix::identity(3, 3);
+        base[(2, 2)] = 0.0;
+        let mut estimate = MobilityEstimate::new(base, vec![vec![0, 1, 2]]);
+        let load = DVector::from_column_slice(&[1.0, 1.0, 0.0]);
+        estimate.learn(&load, &DVector::from_column_slice(&[2.0, 3.0, 4.0]));
+        assert_eq!(estimate.matrix().row(2).amax(), 0.0);
+        assert_eq!(estimate.matrix().column(2).amax(), 0.0);
+    }
+}

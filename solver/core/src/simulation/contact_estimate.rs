@@ -1,0 +1,132 @@
+//! A first estimate of how bodies in contact answer to loads: inertia, drag, and the films between them.
+//!
+//! It has to be of the right size only: what it lacks is learnt from the first loads. Each body has
+//! the drag of a sphere in an unbounded fluid, 6 pi mu R and 8 pi mu R^3 with its reach R, and a film of the
+//! thickness g between surfaces with the mean relative curvature 1 / r resists their approach by
+//! 6 pi mu r^2 / g, the leading term of lubrication between spheres (@kim1991).
+
+use std::f64::consts::PI;
+
+use nalgebra::{DMatrix, DVector};
+
+use crate::body::{Pose, RigidVector};
+use crate::contact::{ContactPair, Gaps, Law, MobilityEstimate, Partner};
+use crate::coupling::RigidBodyEquations;
+
+/// Part of the range below which films are taken for as thick as that.
+const THINNEST: f64 = 0.05;
+/// Bodies within this times the range are in one cluster.
+const NEAR: f64 = 2.0;
+/// Part of the largest singular value below which motions depend on each other.
+const DEPENDENT: f64 = 1e-10;
+
+/// The bodies of an estimate.
+pub(super) struct Bodies<'a> {
+    pub gaps: &'a dyn Gaps,
+    pub law: &'a Law,
+    /// Their numbers, ascending.
+    pub bodies: &'a [usize],
+    /// Their motions by the unknowns they depend on, a row each.
+    pub motions: DMatrix<f64>,
+    /// Newton's and Euler's equations of all bodies.
+    pub equations: &'a RigidBodyEquations,
+    /// Dynamic viscosity (Pa s).
+    pub viscosity: f64,
+}
+
+impl Bodies<'_> {
+    /// The estimate with all bodies in these poses.
+    pub fn estimate(&self, poses: &[Pose]) -> MobilityEstimate {
+        let pairs = self.gaps.pairs(poses, NEAR * self.law.range());
+        let resistance = self.resistance(&pairs);
+        let of_unknowns = self.motions.transpose() * resistance * &self.motions;
+        let base = &self.motions * inverse(&of_unknowns) * self.motions.transpose();
+        let base = 0.5 * (&base + base.transpose());
+        MobilityEstimate::new(base, self.clusters(&pairs))
+    }
+
+    fn resistance(&self, pairs: &[ContactPair]) -> DMatrix<f64> {
+        let Self { equations, viscosity, .. } = self;
+        let modes = self.gaps.modes();
+        let n = modes.len() * self.bodies.len();
+        let mut resistance = DMatrix::zeros(n, n);
+        for (index, &body) in self.bodies.iter().enumerate() {
+            let equation = &equations.bodies[body];
+            let reach = self.gaps.reach(body);
+            let drags = [6.0 * PI * viscosity * reach, 8.0 * PI * viscosity * reach.powi(3)];
+            let first = modes.len() * index;
+            for (i, row) in modes.iter().enumerate() {
+                for (j, column) in modes.iter().enumerate() {
+                    let inertia = equation.inertia[(row.index(), column.index())];
+                    resistance[(first + i, first + j)] = equations.rate * inertia;
+                }
+                let drag = drags[usize::from(row.is_rotation())];
+                resistance[(first + i, first + i)] += equation.resistance[row] + drag;
+            }
+        }
+        for pair in pairs.iter().filter(|pair| pair.curvatures.of_gap() > 0.0) {
+            let gap = pair.gap.max(THINNEST * self.law.range());
+            let film = 6.0 * PI * viscosity / (pair.curvatures.of_gap().powi(2) * gap);
+            let gradient = self.gradient(pair);
+            resistance += film * &gradient * gradient.transpose();
+        }
+        resistance
+    }
+
+    /// Derivative of a gap by the motions of the bodies.
+    fn gradient(&self, pair: &ContactPair) -> DVector<f64> {
+        let modes = self.gaps.modes();
+        let mut gradient = DVector::zeros(modes.len() * self.bodies.len());
+        let mut add = |body: usize, of_body: &RigidVector| {
+            let Ok(index) = self.bodies.binary_search(&body) else { return };
+            for (position, mode) in modes.iter().enumerate() {
+                gradient[modes.len() * index + position] += of_body[mode];
+            }
+        };
+        let [on_body, on_partner] = pair.gradient();
+        add(pair.body, &on_body);
+        if let Partner::Body(other) = pair.partner {
+            add(other, &on_partner);
+        }
+        gradient
+    }
+
+    /// Rows of bodies that are near each other, or depend on the same unknowns.
+    fn clusters(&self, pairs: &[ContactPair]) -> Vec<Vec<usize>> {
+        let m = self.gaps.modes().len();
+        let mut labels: Vec<usize> = (0..self.bodies.len()).collect();
+        let mut join = |one: usize, other: usize| {
+            let (kept, lost) = (labels[one], labels[other]);
+            labels.iter_mut().filter(|label| **label == lost).for_each(|label| *label = kept);
+        };
+        let index = |body: usize| self.bodies.binary_search(&body).ok();
+        for pair in pairs {
+            let Partner::Body(other) = pair.partner else { continue };
+            if let (Some(one), Some(other)) = (index(pair.body), index(other)) {
+                join(one, other);
+            }
+        }
+        for unknown in self.motions.column_iter() {
+            let rows = unknown.iter().enumerate().filter(|(_, weight)| **weight != 0.0);
+            let bodies: Vec<usize> = rows.map(|(row, _)| row / m).collect();
+            bodies.windows(2).for_each(|two| join(two[0], two[1]));
+        }
+        let of_label = |label: usize| -> Vec<usize> {
+            let bodies = labels.iter().enumerate().filter(|(_, own)| **own == label);
+            bodies.flat_map(|(index, _)| m * index..m * (index + 1)).collect()
+        };
+        (0..labels.len()).map(of_label).filter(|rows| !rows.is_empty()).collect()
+    }
+}
+
+/// The inverse of a symmetric positive matrix, zero for combinations of motions that do nothing.
+fn inverse(matrix: &DMatrix<f64>) -> DMatrix<f64> {
+    if matrix.is_empty() {
+        return matrix.clone();
+    }
+    let scales = DVector::from_fn(matrix.nrows(), |row, _| matrix[(row, row)].sqrt().recip());
+    let scales = DMatrix::from_diagonal(&scales);
+    let scaled = &scales * matrix * &scales;
+    let inverse = scaled.pseudo_inverse(DEPENDENT).expect("the threshold is not negative");
+    &scales * inverse * &scales
+}
