@@ -91,6 +91,49 @@ fn a_run_warns_of_the_error_of_a_stroke() {
     assert_eq!(swim("rk3", 10).1, None);
 }
 
+/// Three spheres whose arms shorten and lengthen together, with times of rest between.
+const RECIPROCAL: &str = r#"
+title = "a stroke to and fro"
+geometry = "axisymmetric"
+fluid = { model = "stokes", viscosity = 1.0 }
+domain.cylinder = { x = [-20.0, 20.0], radius = 10.0 }
+boundary = { left = "no-slip", right = "no-slip", wall = "no-slip" }
+mesh = { size = 2.5, surface = 0.3, growth = 0.3 }
+time.unsteady = { step = 0.1, end = 4.0 }
+[[swimmer]]
+name = "swimmer"
+[swimmer.kind.linked-spheres]
+radii = [1.0, 1.0, 1.0]
+[[swimmer.kind.linked-spheres.arms]]
+legs = { period = 4.0, knots = [[0.0, 7.0], [1.0, 4.0], [2.0, 4.0], [3.0, 7.0]] }
+[[swimmer.kind.linked-spheres.arms]]
+legs = { period = 4.0, knots = [[0.0, 7.0], [1.0, 4.0], [2.0, 4.0], [3.0, 7.0]] }
+"#;
+
+/// Where all rest, velocities are rounding: nothing may be measured by them.
+#[test]
+fn swimmers_that_rest_and_go_nowhere_need_no_warning() {
+    let directory = tempfile::tempdir().unwrap();
+    std::fs::write(directory.path().join("arms.toml"), RECIPROCAL).unwrap();
+    for (scheme, steps) in [
+        ("rk3", "time.unsteady.step=0.1"),
+        ("bdf2", "time.unsteady.step=0.1"),
+        ("rk3", "time.unsteady.adaptive={ tolerance = 1e-4 }"),
+    ] {
+        let scheme = format!("time.unsteady.scheme=\"{scheme}\"");
+        let command = ["run", "arms.toml", "-v", "--overwrite", "--threads", "1"];
+        let output = alewife(
+            directory.path(),
+            &[&command[..], &["--set", &scheme, "--set", steps]].concat(),
+        );
+        let told = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(0), "{told}");
+        assert!(!told.contains("WARN"), "{told}");
+        let is_adaptive = steps.contains("adaptive");
+        assert_eq!(told.contains("`swimmer` goes nowhere in a cycle"), !is_adaptive, "{told}");
+    }
+}
+
 #[test]
 fn contact_too_weak_for_its_bodies_is_told_and_another_strength_proposed() {
     let directory = tempfile::tempdir().unwrap();

@@ -19,6 +19,9 @@ use crate::body::{Pose, RigidVector, Twist, rate_of_displacement};
 use crate::contact::ContactLoads;
 use crate::coupling::{PropulsionPower, Solution, SurfaceLoads};
 
+/// Displacement over the distance from the origin that is rounding.
+const ROUNDING: f64 = 1e-12;
+
 /// A stage after the first.
 struct Stage {
     /// Its time as a part of the step.
@@ -182,7 +185,9 @@ impl<const D: usize> TimeStepper<'_, D> {
         guess: &Solution<D>,
     ) -> Result<InstantaneousFlow<D>, StepError> {
         self.check_stop(state)?;
-        let history = StepHistory::instantaneous(self.problem, poses, at.time, at.rates_at)?;
+        let number = state.step + 1;
+        let history =
+            StepHistory::instantaneous(self.problem, number, poses, at.time, at.rates_at)?;
         let gaps = self.path.gaps(&history.shapes);
         let seen = state.in_own_frame(self.problem, poses);
         let contact = StageContact::new(self.contact, gaps.as_deref(), &seen)?;
@@ -250,7 +255,9 @@ impl<const D: usize> TimeStepper<'_, D> {
         let errors: Vec<RigidVector> = (0..poses.len())
             .map(|body| rates.iter().zip(ERROR).map(|(rate, weight)| rate[body] * weight).sum())
             .collect();
-        let (mut error, mut scale) = (0.0f64, 0.0f64);
+        // Bodies that rest have velocities of rounding, whose errors are as large as they are
+        let farthest = poses.iter().map(|pose| pose.center.amax()).fold(0.0, f64::max);
+        let (mut error, mut scale) = (0.0f64, ROUNDING * farthest / size);
         for (body, of_body) in errors.iter().enumerate() {
             for mode in self.problem.modes().iter() {
                 let length = self.path.length_of(body, mode);

@@ -98,20 +98,21 @@ impl<const D: usize> StepHistory<D> {
         })
     }
 
-    /// That of an instantaneous flow of bodies at poses, without inertia: bodies have their shapes at a
-    /// time (s), and rates of gaits and boundary values are those at another one.
+    /// That of an instantaneous flow of bodies at poses in a step of a number, without inertia: bodies have their
+    /// shapes at a time (s), and rates of gaits and boundary values are those at another one.
     ///
     /// # Errors
     /// When a gait gives its body no shape.
     pub fn instantaneous(
         problem: &Problem<D>,
+        number: usize,
         poses: &[Pose],
         time: f64,
         rates_at: f64,
     ) -> Result<Self, StepError> {
         Ok(Self {
             // Without density its coefficients multiply nothing
-            step: Step { number: 0, time, bdf: Bdf::first_order(1.0) },
+            step: Step { number, time, bdf: Bdf::first_order(1.0) },
             shapes: BodyShapes::at(&problem.bodies, time)?,
             before_jump: Some(BodyShapes::at(&problem.bodies, rates_at)?),
             derivative: Vec::new(),

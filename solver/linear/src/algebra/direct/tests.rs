@@ -47,6 +47,20 @@ fn a_solution_has_a_residual_at_rounding() {
     assert!(solver.solve(&matrix, &mut rhs(300)).unwrap().residual < 1e-15);
 }
 
+/// Numbers that small have no sixteen digits, and no residual is small beside them.
+#[test]
+fn next_to_nothing_gives_nothing() {
+    let (matrix, unknowns) = chain(300);
+    let mut solver = DirectSolver::new(matrix.pattern(), &unknowns);
+    solver.set_up(&matrix).unwrap();
+    for size in [1e-240, 1e-260, 1e-300, 1e-315, 0.0] {
+        let mut x: Vec<f64> = rhs(300).iter().map(|value| size * value).collect();
+        let accuracy = solver.solve(&matrix, &mut x).unwrap();
+        assert!(accuracy.residual < 1e-15, "{size} {accuracy:?}");
+        assert_eq!(x.iter().all(|value| *value == 0.0), size < 1e-250);
+    }
+}
+
 #[test]
 fn earlier_factors_give_the_solution_of_the_changed_matrix() {
     let n = 300;
