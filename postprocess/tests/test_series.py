@@ -159,7 +159,10 @@ def test_what_cannot_be_drawn_is_one_line_and_code_two(
 @pytest.mark.parametrize(
     ("module", "remedy"),
     [
-        ("matplotlib.figure", "matplotlib is not installed: pip install 'alewife[pictures]' (835 MB"),
+        (
+            "matplotlib.figure",
+            "matplotlib is not installed: pip install 'alewife[pictures]' (835 MB",
+        ),
         ("imageio_ffmpeg", "imageio_ffmpeg is not installed: pip install 'alewife[film]' (903 MB"),
         ("pandas", "pandas is not installed: pip install 'alewife[table]'"),
         ("mcap.reader", "mcap is not installed: pip install alewife"),

@@ -9,7 +9,7 @@ use super::exit::{Exit, Failure};
 use super::read::{CheckedCase, read_and_check};
 use super::signal::SignalWatch;
 use super::style::{Ink, complain, on_stdout, say};
-use super::{engine, results, threads};
+use super::{complete, engine, results, threads};
 use crate::case::{Cadence, Case, CaseFile, Numbers, Statistics, library};
 use crate::observer::{Earlier, RunDirectory, RunState, Shown, Start, Status, read_outcome};
 use crate::simulation::{RunError, RunSummary};
@@ -32,6 +32,7 @@ nothing to compare with, and 75 if a signal stopped it: the cases done so far ar
 that is known to be outside, for a reason that its reference gives, fails once it is within.")]
 pub struct Options {
     /// Which cases, with all their variants; all shipped ones if absent
+    #[arg(add = complete::case())]
     cases: Vec<String>,
     /// Only those marked `quick = true`
     #[arg(long)]

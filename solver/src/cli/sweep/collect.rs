@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use clap::Args;
+use clap::{Args, ValueHint};
 
 use crate::case::SweepQuantity;
 use crate::cli::exit::{Exit, Failure};
@@ -22,7 +22,7 @@ the verdict, then unknowns and CPU seconds. Statistics are final (the default), 
 range.")]
 pub struct Options {
     /// Directory of the sweep
-    #[arg(value_name = "DIR")]
+    #[arg(value_name = "DIR", value_hint = ValueHint::DirPath)]
     directory: PathBuf,
     /// File of the table; `sweep.csv` in the directory of the sweep if absent
     #[arg(long, short, value_name = "FILE")]
