@@ -108,7 +108,7 @@ enum Command {
     Run(run::Options),
     /// Draw quantities of a run over time, as text
     Plot(plot::Options),
-    /// Tell how far a run is
+    /// Show how far a run is
     Status(status::Options),
     /// Run a case at many points: with several values of some of its keys
     Sweep(sweep::Options),

@@ -10,8 +10,8 @@ use crate::case::{CaseFile, Diagnostic, Severity};
 /// Keys set on the command line.
 #[derive(Debug, Clone, Args)]
 pub struct Settings {
-    /// Set a key of the case, such as mesh.scale=0.5 or body.0.gait.squirmer.modes.1=3; repeat at
-    /// will
+    /// Set a key of the case, such as mesh.scale=0.5 or body.0.gait.squirmer.modes.1=3; may be
+    /// repeated
     #[arg(long = "set", value_name = "KEY=VALUE", add = complete::key())]
     pub set: Vec<String>,
 }

@@ -79,7 +79,7 @@ pub struct Options {
     /// No progress on the terminal
     #[arg(long, short)]
     quiet: bool,
-    /// Tell more on the terminal; repeat for details
+    /// Print more on the terminal; repeat for details
     #[arg(long, short, action = clap::ArgAction::Count)]
     verbose: u8,
 }

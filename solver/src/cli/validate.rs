@@ -115,7 +115,7 @@ struct Member {
     file: CaseFile,
 }
 
-/// The members of all these cases, each of them read and checked.
+/// The cases and variants of all these, each of them read and checked.
 ///
 /// # Errors
 /// With all that is wrong in any of them.
@@ -153,7 +153,7 @@ fn members_of(name: &str, only_quick: bool) -> Result<Vec<String>, Failure> {
     Ok(members)
 }
 
-/// What all members are validated with.
+/// What all of them are validated with.
 struct Work<'a> {
     options: &'a Options,
     n_threads: usize,

@@ -28,7 +28,7 @@ pub struct Options {
     #[arg(long, short, value_name = "FILE")]
     out: Option<PathBuf>,
     /// A quantity besides those of references, with a statistic in front if wanted; instead of
-    /// sweep.quantities of the case. Repeat at will
+    /// sweep.quantities of the case. May be repeated
     #[arg(long = "quantity", value_name = "NAME")]
     quantities: Vec<String>,
 }

@@ -15,7 +15,7 @@ pub struct Swept {
     #[arg(add = complete::case())]
     pub case: String,
     /// Sweep a key: KEY=FROM:TO:N, KEY=FROM:TO:N:log or KEY=A,B,C; or set it once for all points:
-    /// KEY=VALUE. Repeat at will
+    /// KEY=VALUE. May be repeated
     #[arg(long = "set", value_name = "KEY=VALUES", add = complete::key())]
     pub set: Vec<String>,
 }
