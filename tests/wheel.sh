@@ -71,7 +71,9 @@ PYTHON
     cmp "$1/share/man/man1/alewife-run.1" "$root/postprocess/commands/data/share/man/man1/alewife-run.1"
     local said code=0
     said=$("$bin/alewife-post" picture nowhere --out a.png 2>&1) || code=$?
-    [ $code = 2 ] && [ "$(wc -l <<<"$said")" = 1 ]
+    echo "alewife-post: code $code, $said"
+    [ $code = 2 ]
+    [ "$(wc -l <<<"$said")" = 1 ]
     grep -q "matplotlib is not installed: pip install 'alewife\[pictures\]'" <<<"$said"
 }
 
