@@ -1,14 +1,20 @@
 """What the pages tell to type works, and what they link to is there.
 
-Blocks of `sh` of a page run one after the other in a new folder. A comment `<!-- file: NAME -->`
-before a block writes it to that file, `<!-- from: PATH -->` copies a file of the repository, and
-`<!-- not run: REASON -->` leaves a block out.
+Blocks of `sh` of a page run one after the other in a new folder, and so do blocks of `python`. A
+comment `<!-- file: NAME -->` before a block writes it to that file, `<!-- from: PATH -->` copies a
+file of the repository, and `<!-- not run: REASON -->` leaves a block out.
+
+`cargo run --release -- ...` is not a build here: a command `cargo` that comes first on the path
+runs the program that is built already.
+
+Rows with a verdict in a block of `text` are rows the block before it has printed.
 """
 
 from __future__ import annotations
 
 import os
 import re
+import shlex
 import shutil
 import subprocess
 import sys
@@ -18,7 +24,11 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 TUTORIALS = ROOT / "docs" / "tutorials"
-PAGES = ["docs/start.md", *(f"docs/tutorials/{p.name}" for p in sorted(TUTORIALS.glob("*.md")))]
+PAGES = [
+    "README.md",
+    "docs/start.md",
+    *(f"docs/tutorials/{p.name}" for p in sorted(TUTORIALS.glob("*.md"))),
+]
 STEP = re.compile(
     r"<!-- (?P<mark>file|from|not run): (?P<value>.+?) -->\n"
     r"|^```(?P<language>\w+)\n(?P<code>.*?)^```",
@@ -34,14 +44,59 @@ def program() -> Path:
     return Path(given) if given else ROOT / "target" / "release" / "alewife"
 
 
-def follow(text: str, folder: Path) -> int:
-    """Does what a page tells, and counts the blocks that ran."""
-    commands = [str(program().parent), str(Path(sys.executable).parent)]
-    environment = os.environ | {
+CARGO = """#!/bin/sh
+if [ "$1 $2 $3" != "run --release --" ]; then
+    echo "cargo $*: pages are tested with the program that is built" >&2
+    exit 2
+fi
+shift 3
+exec {program} "$@"
+"""
+SCRIPTS = {"sh": ["bash", "-euo", "pipefail", "-c"], "python": [sys.executable, "-c"]}
+VERDICTS = ("within", "outside", "OUTSIDE")
+ROUNDING = 1e-10
+"""Smaller numbers, and their differences, are rounding errors: another one on each machine."""
+
+
+def without_rounding(row: str) -> list[str]:
+    """The words of a row of the table, the words of rounding errors replaced."""
+    words = row.split()
+    kept = []
+    for word in words:
+        try:
+            is_rounding = 0.0 < abs(float(word)) < ROUNDING
+        except ValueError:
+            is_rounding = False
+        kept.append("~0" if is_rounding else word)
+    return kept
+
+
+def not_printed(shown: str, printed: str) -> list[str]:
+    """Rows with a verdict that a page shows, and its command has not printed."""
+    there = [without_rounding(row) for row in printed.splitlines()]
+    rows = [row for row in shown.splitlines() if row.split()[-1:] and row.split()[-1] in VERDICTS]
+    return [row for row in rows if without_rounding(row) not in there]
+
+
+def surroundings(tools: Path) -> dict[str, str]:
+    """The variables commands run with: our own `cargo` first, then the program, then Python."""
+    tools.mkdir()
+    cargo = tools / "cargo"
+    cargo.write_text(CARGO.format(program=shlex.quote(str(program().resolve()))), encoding="utf-8")
+    cargo.chmod(0o755)
+    commands = [str(tools), str(program().parent), str(Path(sys.executable).parent)]
+    return os.environ | {
         "PATH": os.pathsep.join([*commands, os.environ["PATH"]]),
+        "ALEWIFE_BIN": str(program().resolve()),
         "MPLBACKEND": "agg",
     }
-    file, is_left_out, count = None, False, 0
+
+
+def follow(text: str, folder: Path) -> int:
+    """Does what a page tells, and counts the blocks that ran."""
+    folder.mkdir(exist_ok=True)
+    environment = surroundings(folder / "tools")
+    file, is_left_out, count, printed = None, False, 0, ""
     for step in STEP.finditer(text):
         mark, value, code = step["mark"], step["value"], step["code"]
         if mark == "file":
@@ -55,15 +110,18 @@ def follow(text: str, folder: Path) -> int:
             shipped = TUTORIALS / file
             assert shipped.read_text(encoding="utf-8") == code, f"{file} is not as on its page"
             file = None
-        elif step["language"] == "sh":
+        elif step["language"] in SCRIPTS:
             if not is_left_out:
-                script = ["bash", "-euo", "pipefail", "-c", code]
+                script = [*SCRIPTS[step["language"]], code]
                 done = subprocess.run(
                     script, cwd=folder, env=environment, capture_output=True, text=True
                 )
                 assert done.returncode == 0, f"{code}\n{done.stdout}{done.stderr}"
-                count += 1
+                count, printed = count + 1, done.stdout
             is_left_out = False
+        elif step["language"] == "text":
+            missing = not_printed(code, printed)
+            assert not missing, "\n".join(["not printed:", *missing, "but:", printed])
     return count
 
 
@@ -77,7 +135,21 @@ def test_a_command_that_fails_is_found(tmp_path: Path) -> None:
     page = "```sh\nfalse\n```\n"
     with pytest.raises(AssertionError):
         follow(page, tmp_path)
-    assert follow(f"<!-- not run: it fails -->\n{page}", tmp_path) == 0
+    assert follow(f"<!-- not run: it fails -->\n{page}", tmp_path / "other") == 0
+
+
+def test_a_build_is_not_made(tmp_path: Path) -> None:
+    with pytest.raises(AssertionError, match="pages are tested with the program"):
+        follow("```sh\ncargo build --release\n```\n", tmp_path)
+
+
+def test_a_row_that_is_not_printed_is_found() -> None:
+    printed = "case-a  flow.defect  5.9e-15  0  property  +5.9e-15  6.7e-5  within\n"
+    assert (
+        not_printed("case-a flow.defect -1.2e-16 0 property -1.2e-16 6.7e-5 within", printed) == []
+    )
+    row = "case-a flow.defect -1.2e-16 0 property -1.2e-16 6.8e-5 within"
+    assert not_printed(f"a line\n\n{row}\n", printed) == [row]
 
 
 def anchors(page: Path) -> set[str]:

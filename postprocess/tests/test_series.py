@@ -156,8 +156,18 @@ def test_what_cannot_be_drawn_is_one_line_and_code_two(
     assert sorted(path.name for path in tmp_path.iterdir()) == ["case", "sweep"]
 
 
-def test_a_missing_package_is_named() -> None:
-    error = ModuleNotFoundError("No module named 'matplotlib.figure'", name="matplotlib.figure")
-    assert cli.message(error) == (
-        "the package matplotlib is not installed: pip install 'alewife[pictures]'"
-    )
+@pytest.mark.parametrize(
+    ("module", "remedy"),
+    [
+        (
+            "matplotlib.figure",
+            "matplotlib is not installed: pip install 'alewife[pictures]' (835 MB",
+        ),
+        ("imageio_ffmpeg", "imageio_ffmpeg is not installed: pip install 'alewife[film]' (903 MB"),
+        ("pandas", "pandas is not installed: pip install 'alewife[table]'"),
+        ("mcap.reader", "mcap is not installed: pip install alewife"),
+    ],
+)
+def test_a_missing_package_is_named_with_what_brings_it(module: str, remedy: str) -> None:
+    error = ModuleNotFoundError(f"No module named {module!r}", name=module)
+    assert cli.message(error).startswith(f"the package {remedy}")

@@ -189,6 +189,13 @@ def test_the_camera_chooses_what_is_seen(run: Run) -> None:
     assert corner.shape[1] > 1.3 * corner.shape[0]
 
 
+@pytest.mark.skipif(not CAN_RENDER, reason="VTK has no window here")
+def test_a_steady_flow_has_no_time_in_its_title(run: Run) -> None:
+    assert space.surface_picture(run).axes[0].get_title() == "A block in a box"
+    sliced = space.slice_picture(run, plane="y=0.5").axes[0].get_title()
+    assert sliced.startswith("A block in a box, ") and "0.5" in sliced and "t =" not in sliced
+
+
 def test_fields_of_other_cells_are_refused(tmp_path: Path) -> None:
     import pyvista
 

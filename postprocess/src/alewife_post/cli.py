@@ -14,8 +14,14 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 FAILURES = (OSError, KeyError, ValueError, ImportError)
-PACKAGES = ("matplotlib", "PIL", "pyvista", "vtk", "vtkmodules")
-"""What draws."""
+EXTRAS = {
+    "pictures": ("matplotlib", "PIL", "pyvista", "vtk", "vtkmodules"),
+    "film": ("imageio_ffmpeg",),
+    "table": ("pandas",),
+}
+"""The packages of each extra of `alewife`."""
+SIZES = {"pictures": "835 MB, most of it VTK", "film": "903 MB, most of it VTK"}
+"""What the larger extras take on the disk."""
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -51,8 +57,10 @@ def message(error: BaseException) -> str:
     """One line for a reader."""
     if isinstance(error, ModuleNotFoundError):
         package = (error.name or str(error)).partition(".")[0]
-        extra = "pictures" if package in PACKAGES else {"pandas": "table"}.get(package, "film")
-        return f"the package {package} is not installed: pip install 'alewife[{extra}]'"
+        extra = next((extra for extra, of in EXTRAS.items() if package in of), None)
+        remedy = f"'alewife[{extra}]'" if extra else "alewife"
+        size = f" ({SIZES[extra]})" if extra in SIZES else ""
+        return f"the package {package} is not installed: pip install {remedy}{size}"
     # A KeyError shows its message in quotes; errors of the system have theirs in no argument.
     is_plain = isinstance(error, KeyError) and error.args
     return " ".join(str(error.args[0] if is_plain else error).split())

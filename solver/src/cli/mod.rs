@@ -1,6 +1,7 @@
 //! The command line: commands, their output, and the exit codes.
 
 mod check;
+mod complete;
 mod continuation;
 mod cost;
 mod engine;
@@ -8,6 +9,7 @@ mod exit;
 mod facts;
 mod library;
 mod live;
+mod manual;
 mod mesh;
 mod panic;
 mod plot;
@@ -26,7 +28,7 @@ mod wall_limit;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use clap::{CommandFactory, Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand, ValueHint};
 use clap_complete::Shell;
 
 use exit::{Exit, Failure};
@@ -70,6 +72,7 @@ enum Command {
     /// Show what a case is about: physics, derived numbers, references, variants
     Show {
         /// Which case
+        #[arg(add = complete::case())]
         case: String,
         /// The text of the case file instead, to start a case of your own from
         #[arg(long)]
@@ -78,7 +81,7 @@ enum Command {
     /// Read cases, mesh them, and estimate their cost; nothing is solved
     Check {
         /// Which cases
-        #[arg(required = true)]
+        #[arg(required = true, add = complete::case())]
         cases: Vec<String>,
         #[command(flatten)]
         settings: Settings,
@@ -89,6 +92,7 @@ enum Command {
     /// Make the mesh of a case, write it as VTU or for Gmsh, and report its quality
     Mesh {
         /// Which case
+        #[arg(add = complete::case())]
         case: String,
         #[command(flatten)]
         settings: Settings,
@@ -104,7 +108,7 @@ enum Command {
     Run(run::Options),
     /// Draw quantities of a run over time, as text
     Plot(plot::Options),
-    /// Tell how far a run is
+    /// Show how far a run is
     Status(status::Options),
     /// Run a case at many points: with several values of some of its keys
     Sweep(sweep::Options),
@@ -115,18 +119,27 @@ enum Command {
     /// Editors complete and check case files with it: write it to a file and put
     /// `#:schema ./alewife.schema.json` in the first line of the case.
     Schema,
-    /// Print completions for a shell
+    /// Print what a shell needs to complete commands, options, cases, keys and quantities
     ///
-    /// For bash: alewife completions bash > ~/.local/share/bash-completion/completions/alewife
+    /// For bash, in ~/.bashrc: source <(alewife completions bash)
     Completions {
         /// Which shell
         shell: Shell,
+    },
+    /// Write the pages of the manual, for `man alewife` and `man alewife-run`
+    ///
+    /// For this user: alewife manual ~/.local/share/man/man1
+    Manual {
+        /// Where to write them
+        #[arg(value_name = "DIR", value_hint = ValueHint::DirPath)]
+        directory: PathBuf,
     },
 }
 
 /// Does what the command line says.
 #[must_use]
 pub fn run() -> ExitCode {
+    complete::answer::<CommandLine>();
     let command_line = CommandLine::parse();
     match dispatch(command_line.command) {
         Ok(exit) => match style::stdout_error() {
@@ -164,11 +177,7 @@ fn dispatch(command: Command) -> Result<Exit, Failure> {
             say(crate::case::schema().trim_end());
             Ok(Exit::Done)
         }
-        Command::Completions { shell } => {
-            let mut text = Vec::new();
-            clap_complete::generate(shell, &mut CommandLine::command(), "alewife", &mut text);
-            say(String::from_utf8_lossy(&text).trim_end());
-            Ok(Exit::Done)
-        }
+        Command::Completions { shell } => complete::completions(shell, &CommandLine::command()),
+        Command::Manual { directory } => manual::manual(&directory, CommandLine::command()),
     }
 }

@@ -1,14 +1,16 @@
 //! `plot`: quantities of a run over time, drawn as text.
 
-use std::io;
+use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 
-use clap::Args;
+use clap::{Args, ValueHint};
 
+use super::complete;
 use super::exit::{Exit, Failure};
 use super::style::say;
 use crate::case::{several_nearest, significant};
-use crate::observer::columns_of;
+use crate::observer::{columns_of, read_series};
+use crate::simulation::Series;
 
 /// Fewest and most columns of the curve.
 const WIDTHS: [usize; 2] = [4, 400];
@@ -25,9 +27,10 @@ Examples:
   alewife plot runs/fish fish.velocity.x fish.power --height 8")]
 pub struct Options {
     /// Directory of a run, finished or under way
+    #[arg(value_hint = ValueHint::DirPath)]
     run: PathBuf,
     /// Columns of its series.csv
-    #[arg(required = true, value_name = "QUANTITY")]
+    #[arg(required = true, value_name = "QUANTITY", add = complete::quantity())]
     quantities: Vec<String>,
     /// Rows of each curve
     #[arg(long, default_value_t = 12, value_parser = clap::value_parser!(u16).range(2..=200))]
@@ -39,16 +42,23 @@ pub struct Options {
 
 /// Draws quantities.
 pub fn plot(options: &Options) -> Result<Exit, Failure> {
-    let table = Table::read(&options.run)?;
+    let series = read_series(&options.run).map_err(|error| match error.kind() {
+        ErrorKind::NotFound | ErrorKind::NotADirectory => {
+            Failure::new(Exit::NoInput, format!("{error}; give the directory of a run"))
+        }
+        _ => error.into(),
+    })?;
     let width = options.width.map_or_else(|| columns_of(io::stdout()), usize::from);
-    let columns: Vec<usize> =
-        options.quantities.iter().map(|name| table.column(name)).collect::<Result<_, _>>()?;
-    for (nth, column) in columns.into_iter().enumerate() {
+    let columns: Vec<Vec<f64>> = options
+        .quantities
+        .iter()
+        .map(|name| column(&series, name, &options.run))
+        .collect::<Result<_, _>>()?;
+    for (nth, (name, values)) in options.quantities.iter().zip(columns).enumerate() {
         if nth > 0 {
             say("");
         }
-        let name = &table.names[column];
-        let points = table.rows.iter().map(|row| [row[0], row[column]]);
+        let points = series.times.iter().zip(values).map(|(&time, value)| [time, value]);
         let points: Vec<[f64; 2]> = points.filter(|p| p.iter().all(|x| x.is_finite())).collect();
         say(name);
         match points.last() {
@@ -62,47 +72,21 @@ pub fn plot(options: &Options) -> Result<Exit, Failure> {
     Ok(Exit::Done)
 }
 
-/// The series of a run.
-struct Table {
-    path: PathBuf,
-    names: Vec<String>,
-    rows: Vec<Vec<f64>>,
-}
-
-impl Table {
-    /// All whole rows so far.
-    fn read(run: &Path) -> Result<Self, Failure> {
-        let path = run.join("series.csv");
-        let text = std::fs::read_to_string(&path).map_err(|error| {
-            let reason = format!("{}: {error}; give the directory of a run", path.display());
-            Failure::new(Exit::NoInput, reason)
-        })?;
-        // A row without its end is one that is being written
-        let whole = text.rfind('\n').map_or("", |end| &text[..end]);
-        let mut lines = whole.lines();
-        let names: Vec<String> =
-            lines.next().unwrap_or_default().split(',').map(str::to_owned).collect();
-        let rows: Vec<Vec<f64>> = lines
-            .filter_map(|line| line.split(',').map(|text| text.parse().ok()).collect())
-            .filter(|row: &Vec<f64>| row.len() == names.len())
-            .collect();
-        Ok(Self { path, names, rows })
+/// The column of a name, or the nearest names there are.
+fn column(series: &Series, name: &str, run: &Path) -> Result<Vec<f64>, Failure> {
+    if let Some(values) = series.column(name) {
+        return Ok(values);
     }
-
-    fn column(&self, name: &str) -> Result<usize, Failure> {
-        if let Some(found) = self.names.iter().position(|own| own == name) {
-            return Ok(found);
-        }
-        let path = self.path.display();
-        let known: Vec<&str> = self.names.iter().map(String::as_str).collect();
-        let nearest: Vec<String> =
-            several_nearest(name, &known).iter().map(|found| format!("`{found}`")).collect();
-        let reason = match nearest.is_empty() {
-            true => format!("{path} has no column `{name}`; it has {}", self.names.join(", ")),
-            false => format!("{path} has no column `{name}`; nearest are {}", nearest.join(", ")),
-        };
-        Err(Failure::new(Exit::Usage, reason))
-    }
+    let run = run.display();
+    let known: Vec<&str> = series.names.iter().map(String::as_str).collect();
+    let nearest: Vec<String> =
+        several_nearest(name, &known).iter().map(|found| format!("`{found}`")).collect();
+    let what = match (known.is_empty(), nearest.is_empty()) {
+        (true, _) => "nothing is written yet".to_owned(),
+        (false, true) => format!("it has {}", known.join(", ")),
+        (false, false) => format!("nearest are {}", nearest.join(", ")),
+    };
+    Err(Failure::new(Exit::Usage, format!("the series of {run} has no column `{name}`; {what}")))
 }
 
 /// A curve with its axes, in lines of so many columns and rows.

@@ -2,6 +2,7 @@
 
 use clap::Args;
 
+use super::complete;
 use super::exit::Failure;
 use super::style::{self, complain};
 use crate::case::{CaseFile, Diagnostic, Severity};
@@ -9,9 +10,9 @@ use crate::case::{CaseFile, Diagnostic, Severity};
 /// Keys set on the command line.
 #[derive(Debug, Clone, Args)]
 pub struct Settings {
-    /// Set a key of the case, such as mesh.scale=0.5 or body.0.gait.squirmer.modes.1=3; repeat at
-    /// will
-    #[arg(long = "set", value_name = "KEY=VALUE")]
+    /// Set a key of the case, such as mesh.scale=0.5 or body.0.gait.squirmer.modes.1=3; may be
+    /// repeated
+    #[arg(long = "set", value_name = "KEY=VALUE", add = complete::key())]
     pub set: Vec<String>,
 }
 

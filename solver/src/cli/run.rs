@@ -4,7 +4,7 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use clap::Args;
+use clap::{Args, ValueHint};
 
 use super::continuation::{Beginning, beginning, n_requeued};
 use super::engine::{Resumed, RunInto};
@@ -14,7 +14,7 @@ use super::results::{print_comparisons, tell_cell_numbers, tell_last_values};
 use super::signal::SignalWatch;
 use super::style::{complain, say};
 use super::wall_limit::WallLimit;
-use super::{engine, live, threads};
+use super::{complete, engine, live, threads};
 use crate::case::{Case, CaseFile, TimeSettings};
 use crate::observer::{
     COMPARISON_FILE, Earlier, FAILURE_STATE, History, Point, RunDirectory, Shown, Start,
@@ -39,11 +39,12 @@ fields.pvd, checkpoints/, status.json, log.jsonl, provenance.json and comparison
 made in it stops the run after its step, a file CHECKPOINT has it write its state.")]
 pub struct Options {
     /// Which case
+    #[arg(add = complete::case())]
     case: String,
     #[command(flatten)]
     settings: Settings,
     /// Directory of the run; `runs/<case>` if absent
-    #[arg(long, short, value_name = "DIR")]
+    #[arg(long, short, value_name = "DIR", value_hint = ValueHint::DirPath)]
     out: Option<PathBuf>,
     /// Threads; by default those the batch system or the machine grants
     #[arg(long, short, value_name = "N")]
@@ -78,7 +79,7 @@ pub struct Options {
     /// No progress on the terminal
     #[arg(long, short)]
     quiet: bool,
-    /// Tell more on the terminal; repeat for details
+    /// Print more on the terminal; repeat for details
     #[arg(long, short, action = clap::ArgAction::Count)]
     verbose: u8,
 }

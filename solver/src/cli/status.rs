@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 
-use clap::Args;
+use clap::{Args, ValueHint};
 use serde_json::json;
 
 use super::exit::{Exit, Failure};
@@ -17,7 +17,7 @@ const SILENCE: Duration = Duration::from_secs(120);
 #[derive(Debug, Args)]
 pub struct Options {
     /// Directories of runs
-    #[arg(required = true, value_name = "DIR")]
+    #[arg(required = true, value_name = "DIR", value_hint = ValueHint::DirPath)]
     directories: Vec<PathBuf>,
     /// As JSON
     #[arg(long)]

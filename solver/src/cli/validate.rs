@@ -9,7 +9,7 @@ use super::exit::{Exit, Failure};
 use super::read::{CheckedCase, read_and_check};
 use super::signal::SignalWatch;
 use super::style::{Ink, complain, on_stdout, say};
-use super::{engine, results, threads};
+use super::{complete, engine, results, threads};
 use crate::case::{Cadence, Case, CaseFile, Numbers, Statistics, library};
 use crate::observer::{Earlier, RunDirectory, RunState, Shown, Start, Status, read_outcome};
 use crate::simulation::{RunError, RunSummary};
@@ -32,6 +32,7 @@ nothing to compare with, and 75 if a signal stopped it: the cases done so far ar
 that is known to be outside, for a reason that its reference gives, fails once it is within.")]
 pub struct Options {
     /// Which cases, with all their variants; all shipped ones if absent
+    #[arg(add = complete::case())]
     cases: Vec<String>,
     /// Only those marked `quick = true`
     #[arg(long)]
@@ -114,7 +115,7 @@ struct Member {
     file: CaseFile,
 }
 
-/// The members of all these cases, each of them read and checked.
+/// The cases and variants of all these, each of them read and checked.
 ///
 /// # Errors
 /// With all that is wrong in any of them.
@@ -152,7 +153,7 @@ fn members_of(name: &str, only_quick: bool) -> Result<Vec<String>, Failure> {
     Ok(members)
 }
 
-/// What all members are validated with.
+/// What all of them are validated with.
 struct Work<'a> {
     options: &'a Options,
     n_threads: usize,

@@ -12,6 +12,7 @@ use std::time::{Duration, Instant};
 use super::atomic::{AtPath, write_whole};
 use super::history::History;
 use super::schedule::Schedule;
+use super::series_rows::SERIES_FILE;
 use crate::case::Case;
 use crate::simulation::{LastState, Observer, RunError, SavedState, Snapshot};
 
@@ -38,7 +39,7 @@ impl SeriesFile {
     /// # Errors
     /// When it cannot be made.
     pub fn create(directory: &Path, case: &Case, history: Option<&History>) -> io::Result<Self> {
-        let path = directory.join("series.csv");
+        let path = directory.join(SERIES_FILE);
         let mut text = String::new();
         if let Some(History { series, .. }) = history
             && !series.names.is_empty()

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use super::atomic::AtPath;
 use super::restarts::Restarts;
+use super::series_rows::read_series;
 use crate::simulation::Series;
 
 /// One field file.
@@ -42,12 +43,9 @@ impl History {
     /// # Errors
     /// When its files cannot be read, or are damaged.
     pub fn read(directory: &Path, step: usize, time: f64) -> io::Result<Self> {
-        let text = read_text(&directory.join("series.csv"))?;
-        // A row without its end is one that was being written
-        let whole = text.rfind('\n').map_or("", |end| &text[..=end]);
-        let mut series = match whole {
-            "" => Series::default(),
-            whole => series_of(&directory.join("series.csv"), whole)?,
+        let mut series = match read_series(directory) {
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Series::default(),
+            read => read?,
         };
         let n_rows = series.times.partition_point(|&then| then <= time);
         series.times.truncate(n_rows);
@@ -84,33 +82,6 @@ fn frame(line: &str) -> Option<Frame> {
     Some(Frame { time: value("timestep")?.parse().ok()?, file: value("file")?.to_owned() })
 }
 
-/// The series in the text of a file.
-///
-/// # Errors
-/// When a line is damaged, with the file and its number.
-pub(super) fn series_of(path: &Path, text: &str) -> io::Result<Series> {
-    read_series(text).map_err(|line| io::Error::other(format!("line {line} is damaged"))).at(path)
-}
-
-/// The series in a text; the number of the first bad line otherwise.
-fn read_series(text: &str) -> Result<Series, usize> {
-    let mut lines = text.lines();
-    let header = lines.next().ok_or(1_usize)?;
-    let names: Vec<String> = header.split(',').skip(1).map(str::to_owned).collect();
-    let mut series = Series { names, ..Series::default() };
-    for (index, line) in lines.enumerate() {
-        let numbers: Result<Vec<f64>, _> = line.split(',').map(str::parse).collect();
-        match numbers.as_deref() {
-            Ok([time, values @ ..]) if values.len() == series.names.len() => {
-                series.times.push(*time);
-                series.rows.push(values.to_vec());
-            }
-            _ => return Err(index + 2),
-        }
-    }
-    Ok(series)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -134,17 +105,6 @@ mod tests {
         assert_eq!(history.frames, [Frame { time: 0.0, file: "fields/000000.vtu".to_owned() }]);
         write("series.csv", "time,a\n0.0,1.0,2.0\n");
         let told = History::read(place.path(), 1, 0.1).unwrap_err().to_string();
-        assert!(told.ends_with("series.csv: line 2 is damaged"), "{told}");
-    }
-
-    #[test]
-    fn a_series_is_read_as_it_was_written() {
-        let series = read_series("time,a.x,b.y\n0.0,1.5,NaN\n0.1,-2e-5,inf\n").unwrap();
-        assert_eq!(series.names, ["a.x", "b.y"]);
-        assert_eq!(series.times, [0.0, 0.1]);
-        assert_eq!(series.column("a.x"), Some(vec![1.5, -2e-5]));
-        assert!(series.rows[0][1].is_nan() && series.rows[1][1] == f64::INFINITY);
-        assert_eq!(read_series("time,a.x\n0.0,1.0\n0.1\n"), Err(3));
-        assert_eq!(read_series("time,a.x\n0.0,one\n"), Err(2));
+        assert!(told.contains("series.csv: line 2 is damaged"), "{told}");
     }
 }

@@ -4,7 +4,7 @@ use std::io;
 use std::path::Path;
 
 use super::atomic::AtPath;
-use super::history::series_of;
+use super::series_rows::{SERIES_FILE, series_of};
 use super::status::{RunState, Status};
 use crate::simulation::{RunSummary, Stage, Timing};
 
@@ -25,7 +25,7 @@ pub fn read_outcome(directory: &Path) -> io::Result<RunSummary> {
         timing.cpu[stage as usize] = of(&status.cpu_seconds);
         timing.wall[stage as usize] = of(&status.wall_seconds);
     }
-    let path = directory.join("series.csv");
+    let path = directory.join(SERIES_FILE);
     let series = series_of(&path, &std::fs::read_to_string(&path).at(&path)?)?;
     Ok(RunSummary { series, timing, n_dofs: status.dofs, steps: status.step })
 }

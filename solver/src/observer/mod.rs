@@ -42,6 +42,7 @@ mod run_directory;
 mod run_lock;
 mod scene;
 mod schedule;
+mod series_rows;
 mod solids;
 mod state_file;
 mod status;
@@ -73,6 +74,7 @@ pub use run_directory::{
     Start, run_of_state,
 };
 pub use run_lock::{LockError, RunLock};
+pub use series_rows::read_series;
 pub use state_file::read_state;
 pub use status::{RunState, Status, StatusFile};
 pub use tally::Tally;

@@ -7,6 +7,7 @@ mod faults;
 mod kills;
 mod live;
 mod plotting;
+mod shell;
 mod skin;
 mod stopping;
 mod sweep_kills;
@@ -228,9 +229,8 @@ fn the_schema_knows_every_key_of_the_shipped_cases() {
 }
 
 #[test]
-fn completions_are_printed_and_colours_are_not() {
+fn colours_are_for_terminals() {
     let directory = tempfile::tempdir().unwrap();
-    assert!(done(directory.path(), &["completions", "bash"]).contains("validate"));
     assert!(!done(directory.path(), &["show", "squirmer-alone"]).contains('\x1b'));
 }
 

@@ -19,4 +19,10 @@ fn series_are_drawn_as_text_and_a_wrong_name_is_told_the_nearest() {
     assert!(wrong.status.code() == Some(2) && stderr.contains("nearest are `a.speed`"), "{stderr}");
     let nowhere = alewife(directory.path(), &["plot", "nowhere", "a.speed"]);
     assert_eq!(nowhere.status.code(), Some(66));
+    // A row of other values than the header names is no row that is being written
+    std::fs::write(run.join("series.csv"), "time,a.speed\n0,1\n1\n2,3\n").unwrap();
+    let damaged = alewife(directory.path(), &["plot", "run", "a.speed"]);
+    let stderr = String::from_utf8_lossy(&damaged.stderr);
+    assert_eq!(damaged.status.code(), Some(74), "{stderr}");
+    assert!(stderr.contains("line 3 is damaged: 1 values, where the header names 2"), "{stderr}");
 }

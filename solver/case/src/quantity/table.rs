@@ -222,7 +222,7 @@ quantities! {
              energy balance; NaN while there is too little work to tell";
         MomentumDefect: "momentum_defect", "1", ClosedSides,
             "Impulse of the forces less the change of momentum, summed over the fluid and each free \
-             body without joint or spring, over the momentum turned over by sides and bodies since the \
+             body without joint or spring, over the momentum exchanged by sides and bodies since the \
              twentieth row: the error of the balance of momentum; NaN while that is too little to tell";
         PressureGradientX: "pressure_gradient.x", "Pa/m", MeanFlow,
             "Mean pressure gradient along x, given or what brings a mean velocity about";

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 /// whose force is in no record, or in the first two with both signs.
 const IMPULSE_RECORDS: usize = 2;
 
-/// Fraction of what has been turned over that a step may add for a balance to mean something.
+/// Fraction of what has been exchanged that a step may add for a balance to mean something.
 pub(super) const LARGEST_PART: f64 = 0.1;
 
 /// The turnover that means something, over the largest kinetic energy so far.

@@ -9,7 +9,7 @@ use super::energy::LARGEST_PART;
 /// t^-1/2, which is not resolved by a few steps, and leaves 1e-2 of all momentum.
 const START_RECORDS: usize = 20;
 
-/// Momentum turned over that is rounding, over the largest there could be at the kinetic energy so far.
+/// Momentum exchanged that is rounding, over the largest there could be at the kinetic energy so far.
 const NEGLIGIBLE: f64 = 1e-6;
 
 /// A part of the system: what momentum it has, and the force on it.
@@ -30,7 +30,7 @@ pub struct MomentumRecord {
     pub fluid: Part,
     /// The bodies, along directions in which they are free, with all forces.
     pub bodies: Vec<Part>,
-    /// Rate at which momentum is turned over (N).
+    /// Rate at which momentum is exchanged (N).
     pub exchange: f64,
     /// The largest momentum of the fluid at its kinetic energy (kg m/s).
     pub scale: f64,
@@ -51,14 +51,14 @@ pub struct MomentumBalance {
     records: usize,
     /// Impulses less the change of momentum so far, of fluid and bodies (N s).
     defects: Vec<Vector3<f64>>,
-    /// Momentum that was turned over so far (N s).
+    /// Momentum that was exchanged so far (N s).
     turnover: f64,
     /// The largest of all scales so far (kg m/s).
     scale: f64,
 }
 
 impl MomentumBalance {
-    /// Adds a record; the sum of the defects of fluid and bodies over what has been turned over.
+    /// Adds a record; the sum of the defects of fluid and bodies over what has been exchanged.
     ///
     /// Not a number while that is too little.
     pub fn add(&mut self, now: MomentumRecord) -> f64 {

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use clap::Args;
+use clap::{Args, ValueHint};
 
 use crate::case::SweepQuantity;
 use crate::cli::exit::{Exit, Failure};
@@ -22,13 +22,13 @@ the verdict, then unknowns and CPU seconds. Statistics are final (the default), 
 range.")]
 pub struct Options {
     /// Directory of the sweep
-    #[arg(value_name = "DIR")]
+    #[arg(value_name = "DIR", value_hint = ValueHint::DirPath)]
     directory: PathBuf,
     /// File of the table; `sweep.csv` in the directory of the sweep if absent
     #[arg(long, short, value_name = "FILE")]
     out: Option<PathBuf>,
     /// A quantity besides those of references, with a statistic in front if wanted; instead of
-    /// sweep.quantities of the case. Repeat at will
+    /// sweep.quantities of the case. May be repeated
     #[arg(long = "quantity", value_name = "NAME")]
     quantities: Vec<String>,
 }

@@ -43,7 +43,7 @@ enum SweepCommand {
     Expand(expand::Options),
     /// Run the points of a sweep, several at once, or those that are missing
     Run(run_options::Options),
-    /// Tell how many points are done, and list the others
+    /// Show how many points are done, and list the others
     Status(status::Options),
     /// Write one table of all points
     Collect(collect::Options),

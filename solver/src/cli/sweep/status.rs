@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use clap::Args;
+use clap::{Args, ValueHint};
 use serde_json::{Map, Value, json};
 
 use super::many::failure_line;
@@ -14,7 +14,7 @@ use crate::sweep::{PointState, Stand, SweepDirectory, stand};
 #[derive(Debug, Args)]
 pub struct Options {
     /// Directory of the sweep
-    #[arg(value_name = "DIR")]
+    #[arg(value_name = "DIR", value_hint = ValueHint::DirPath)]
     directory: PathBuf,
     /// As JSON, all points
     #[arg(long)]

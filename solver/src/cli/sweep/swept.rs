@@ -5,16 +5,18 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use crate::case::Sweep;
+use crate::cli::complete;
 use crate::cli::exit::Failure;
 
 /// A case, and which of its keys take which values.
 #[derive(Debug, Clone, Args)]
 pub struct Swept {
     /// Which case
+    #[arg(add = complete::case())]
     pub case: String,
     /// Sweep a key: KEY=FROM:TO:N, KEY=FROM:TO:N:log or KEY=A,B,C; or set it once for all points:
-    /// KEY=VALUE. Repeat at will
-    #[arg(long = "set", value_name = "KEY=VALUES")]
+    /// KEY=VALUE. May be repeated
+    #[arg(long = "set", value_name = "KEY=VALUES", add = complete::key())]
     pub set: Vec<String>,
 }
 

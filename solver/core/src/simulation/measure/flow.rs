@@ -23,7 +23,7 @@ pub(in crate::simulation) struct FlowMeasurement {
     mass_defect: f64,
     /// Defect of the energy balance over the work; not a number where sides do work, too.
     pub energy_defect: f64,
-    /// Defect of the balance of momentum over what is turned over; not a number where sides are open.
+    /// Defect of the balance of momentum over what is exchanged; not a number where sides are open.
     pub momentum_defect: f64,
     /// Area or volume (m2, m3).
     volume: f64,
