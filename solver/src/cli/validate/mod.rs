@@ -1,21 +1,25 @@
-//! `validate`: shipped cases against their references, as a table or as JSON, with an exit code.
+//! `validate`: shipped cases against their references, as a table, as JSON or as a page, with an exit code.
 
-use std::path::{Path, PathBuf};
+mod kept;
+mod members;
+mod report;
+mod work;
+
+use std::path::PathBuf;
 
 use clap::Args;
 
-use super::engine::RunInto;
 use super::exit::{Exit, Failure};
-use super::read::{CheckedCase, read_and_check};
 use super::signal::SignalWatch;
 use super::style::{Ink, complain, on_stdout, say};
-use super::{engine, results, threads};
-use crate::case::{Cadence, Case, CaseFile, Numbers, Statistics, library};
-use crate::observer::{Earlier, RunDirectory, RunState, Shown, Start, Status, read_outcome};
-use crate::simulation::{RunError, RunSummary};
+use super::{results, threads};
+use crate::case::library;
 use crate::validation::{
-    Comparison, compare, comparison_page, comparisons_to_json, count_table, not_computed, summary,
+    CaseReport, Comparison, ReportPage, comparisons_to_json, count_table, summary,
 };
+use members::{Member, all_members};
+use report::{ReportFile, case_report};
+use work::{Place, Work};
 
 /// What `validate` is asked for.
 #[derive(Debug, Args)]
@@ -24,8 +28,12 @@ Examples:
   alewife validate --quick
   alewife validate squirmer-alone dfg-2d-1
   alewife validate --json > validation.json
-  alewife validate three-sphere --out runs      keep the runs; later, with other references,
-  alewife validate three-sphere --from runs     compare them again
+  alewife validate three-sphere --out kept      keep the runs; what is there is not run again
+  alewife validate three-sphere --from kept     compare them again with other references
+  alewife validate --out kept --uncertainty --report
+
+A run that is kept is not made again by the same program for the same case, so that a long validation can be
+stopped and called again; with --report its page has a section a case, written as soon as the case is done.
 
 The exit code is 20 if a value is outside its tolerance or could not be computed, 65 if there is
 nothing to compare with, and 75 if a signal stopped it: the cases done so far are printed then. A value
@@ -42,9 +50,27 @@ pub struct Options {
     /// Print a page of Markdown instead of a table
     #[arg(long, conflicts_with = "json")]
     markdown: bool,
-    /// Keep the runs, each in a directory of its own in this one
+    /// Write a page with a section a case, those of other cases as they were; docs/validation.md of the
+    /// project here or above if no file is named
+    #[arg(
+        long,
+        value_name = "FILE",
+        num_args = 0..=1,
+        require_equals = true,
+        default_missing_value = "",
+        conflicts_with = "quick"
+    )]
+    report: Option<PathBuf>,
+    /// Run each case with longer cells and steps, too, and tell what mesh and step leave in its values: half
+    /// as long again
+    #[arg(long)]
+    uncertainty: bool,
+    /// Keep the runs, each in a directory of its own in this one, and take those that are there
     #[arg(long, short, value_name = "DIR")]
     out: Option<PathBuf>,
+    /// Take runs that are kept in --out from other versions of the program, too
+    #[arg(long, requires = "out")]
+    any_program: bool,
     /// Compare runs that were kept there by --out, as long as nothing but references has changed
     #[arg(long, value_name = "DIR", conflicts_with = "out")]
     from: Option<PathBuf>,
@@ -69,159 +95,121 @@ pub fn validate(options: &Options) -> Result<Exit, Failure> {
         let nothing = format!("{names}: there is no {quick}reference to compare with");
         return Err(Failure::new(Exit::BadCase, nothing));
     }
-    let work = Work { options, n_threads, watch: SignalWatch::start()? };
-    let mut comparisons: Vec<Comparison> = Vec::new();
-    let mut stopped = None;
-    for (index, Member { name: member, file }) in members.iter().enumerate() {
-        complain(&format!("[{}/{}] {member}", index + 1, members.len()));
-        match work.validate(file) {
-            Ok(rows) => comparisons.extend(rows),
-            Err(failure) if failure.exit == Exit::Stopped => {
-                let n = members.len();
-                stopped = Some(format!("stopped by a signal in {member}; {index} of {n} are done"));
-                break;
-            }
-            Err(failure) => return Err(failure),
-        }
+    let file = options.report.as_deref().map(ReportFile::open).transpose()?;
+    let work = options.work(n_threads)?;
+    let Made { reports, end } = Validation { work, file }.make(&members);
+    match end {
+        Some(failure) if failure.exit != Exit::Stopped => return Err(failure),
+        _ => print(&reports, options),
     }
-    print(&comparisons, options);
-    match stopped {
-        Some(reason) => Err(Failure::new(Exit::Stopped, reason)),
-        None if comparisons.iter().any(|row| row.verdict.is_failure()) => {
-            Ok(Exit::OutsideTolerance)
-        }
+    let is_failure = |row: &Comparison| row.verdict.is_failure();
+    match end {
+        Some(failure) => Err(failure),
+        None if values(&reports).iter().any(is_failure) => Ok(Exit::OutsideTolerance),
         None => Ok(Exit::Done),
     }
 }
 
-/// Prints comparisons in the form that was asked for.
-fn print(comparisons: &[Comparison], options: &Options) {
-    let is_good = !comparisons.iter().any(|row| row.verdict.is_failure());
-    if options.json {
-        say(&format!("{:#}", comparisons_to_json(comparisons)));
-    } else if options.markdown {
-        say(comparison_page(comparisons).trim_end());
-    } else {
-        say(&format!("{}\n", count_table(comparisons).join("\n")));
-        results::print_comparisons(comparisons);
-        say(&on_stdout(if is_good { Ink::Green } else { Ink::Red }, &summary(comparisons)));
-    }
-}
-
-/// A case or a variant that is to be validated.
-struct Member {
-    name: String,
-    file: CaseFile,
-}
-
-/// The members of all these cases, each of them read and checked.
-///
-/// # Errors
-/// With all that is wrong in any of them.
-fn all_members(names: &[String], only_quick: bool) -> Result<Vec<Member>, Failure> {
-    let (mut members, mut failures) = (Vec::new(), Vec::new());
-    for name in names {
-        match members_of(name, only_quick) {
-            Ok(found) => {
-                for name in found {
-                    match read_and_check(&name, &[]) {
-                        Ok(CheckedCase { file, .. }) => members.push(Member { name, file }),
-                        Err(failure) => failures.push(failure.of(&name)),
-                    }
-                }
-            }
-            Err(failure) => failures.push(failure.of(name)),
-        }
-    }
-    Failure::all(failures).map_or(Ok(members), Err)
-}
-
-/// The case and its variants that have something to be compared with.
-fn members_of(name: &str, only_quick: bool) -> Result<Vec<String>, Failure> {
-    let file = Case::read(name, &[])?;
-    let mut members = Vec::new();
-    if !file.case().reference.is_empty() && (file.case().quick || !only_quick) {
-        members.push(name.to_owned());
-    }
-    for variant in &file.case().variant {
-        let has_reference = !(variant.reference.is_empty() && file.case().reference.is_empty());
-        if has_reference && (variant.quick || !only_quick) {
-            members.push(format!("{name}/{}", variant.name));
-        }
-    }
-    Ok(members)
-}
-
-/// What all members are validated with.
-struct Work<'a> {
-    options: &'a Options,
-    n_threads: usize,
-    watch: SignalWatch,
-}
-
-impl Work<'_> {
-    /// Runs one case, or reads its run; a run that fails is a row of the table, not the end of the
-    /// validation.
-    fn validate(&self, file: &CaseFile) -> Result<Vec<Comparison>, Failure> {
-        let name = file.full_name();
-        let of_run = name.replace('/', "-");
-        let watch = self.watch.clone();
-        let outcome = match (&self.options.out, &self.options.from) {
-            (Some(out), _) => {
-                let place = out.join(of_run);
-                // A validation that was stopped runs the case it stopped in again
-                let is_finished =
-                    Status::read(&place).is_ok_and(|status| status.state == RunState::Finished);
-                let earlier = if is_finished { Earlier::Keep } else { Earlier::Replace };
-                let start = Start::with_threads(self.n_threads);
-                let directory = RunDirectory::create(&place, file.case(), start, earlier)?;
-                let shown = Shown { quiet: true, live: None };
-                let run = RunInto { directory: &directory, shown, watch, limit: None };
-                engine::simulate_afresh(&file.model, run)
-            }
-            (None, Some(from)) => Ok(kept(&from.join(of_run), file.case())?),
-            (None, None) => engine::simulate(&file.model, watch),
+impl Options {
+    fn work(&self, n_threads: usize) -> Result<Work, Failure> {
+        let place = match (&self.out, &self.from) {
+            (Some(out), _) => Place::Kept { out: out.clone(), by_any_program: self.any_program },
+            (None, Some(from)) => Place::Read(from.clone()),
+            (None, None) => Place::Memory,
         };
-        Ok(match outcome {
-            Ok(outcome) => compare(&name, file.case(), &outcome),
-            // Asked to stop: that is no verdict
-            Err(error @ RunError::Stopped { .. }) => return Err(error.into()),
-            Err(error) => not_computed(&name, file.case(), &error.to_string()),
+        Ok(Work {
+            place,
+            with_sizes: self.uncertainty || self.report.is_some(),
+            with_companions: self.uncertainty,
+            n_threads,
+            watch: SignalWatch::start()?,
         })
     }
 }
 
-/// A run that was kept, of the same case, its references aside.
-fn kept(directory: &Path, case: &Case) -> Result<RunSummary, Failure> {
-    let refuse = |exit, reason: String| {
-        Failure::new(exit, format!("--from: {}: {reason}", directory.display()))
-    };
-    let path = directory.join("case.toml");
-    if let Err(error) = std::fs::metadata(&path) {
-        return Err(refuse(Exit::NoInput, format!("its case.toml: {error}")));
-    }
-    let was = Case::read(&path.display().to_string(), &[])?.model.case;
-    if computed(&was) != computed(case) {
-        let reason = "the case has changed since, not only its references; run it again";
-        return Err(refuse(Exit::BadCase, reason.to_owned()));
-    }
-    if !matches!(case.output.series, Cadence::Steps(1)) {
-        let reason = "its series.csv does not have every step (output.series)";
-        return Err(refuse(Exit::BadCase, reason.to_owned()));
-    }
-    read_outcome(directory).map_err(|error| refuse(Exit::NoInput, error.to_string()))
+/// A validation under way.
+struct Validation {
+    work: Work,
+    file: Option<ReportFile>,
 }
 
-/// What decides the numbers of a run: a case without words and references.
-fn computed(case: &Case) -> Case {
-    Case {
-        title: String::new(),
-        description: String::new(),
-        numbers: Numbers::default(),
-        statistics: Statistics::default(),
-        reference: Vec::new(),
-        variant: Vec::new(),
-        quick: false,
-        ..case.clone()
+/// What a validation came to.
+#[derive(Default)]
+struct Made {
+    /// What is known of the cases that are done, the last of them in part if it ended early.
+    reports: Vec<CaseReport>,
+    /// Why it ended early.
+    end: Option<Failure>,
+}
+
+impl Validation {
+    fn make(&self, members: &[Member]) -> Made {
+        let mut made = Made::default();
+        let mut n_before = 0;
+        for of_case in members.chunk_by(|one, other| one.file.name == other.file.name) {
+            let mut case = case_report(&of_case[0].file);
+            let end = self.make_case(of_case, [n_before, members.len()], &mut case);
+            n_before += of_case.len();
+            match end {
+                // A page is made of what there is
+                Err(failure) if self.file.is_some() && self.work.only_reads(&failure) => {
+                    complain(&failure.message);
+                    complain(&format!("{}: its section stays as it is", case.name));
+                }
+                Err(failure) => {
+                    made.reports.push(case);
+                    made.end = Some(failure);
+                    return made;
+                }
+                Ok(()) => made.reports.push(case),
+            }
+        }
+        made
+    }
+
+    /// The members of one case, of which so many of all were made before.
+    fn make_case(
+        &self,
+        members: &[Member],
+        [n_before, n]: [usize; 2],
+        case: &mut CaseReport,
+    ) -> Result<(), Failure> {
+        for (index, member) in members.iter().enumerate() {
+            let n_done = n_before + index;
+            complain(&format!("[{}/{n}] {}", n_done + 1, member.name));
+            let report = self.work.validate(member).map_err(|failure| match failure.exit {
+                Exit::Stopped => {
+                    let name = &member.name;
+                    let reason = format!("stopped by a signal in {name}; {n_done} of {n} are done");
+                    Failure::new(Exit::Stopped, reason)
+                }
+                _ => failure,
+            })?;
+            case.members.push(report);
+        }
+        self.file.as_ref().map_or(Ok(()), |file| file.write(case))
+    }
+}
+
+/// All values of cases.
+fn values(reports: &[CaseReport]) -> Vec<Comparison> {
+    let members = reports.iter().flat_map(|case| &case.members);
+    members.flat_map(|member| member.comparisons.clone()).collect()
+}
+
+/// Prints values in the form that was asked for.
+fn print(reports: &[CaseReport], options: &Options) {
+    let comparisons = values(reports);
+    let is_good = !comparisons.iter().any(|row| row.verdict.is_failure());
+    if options.json {
+        say(&format!("{:#}", comparisons_to_json(&comparisons)));
+    } else if options.markdown {
+        let mut page = ReportPage::default();
+        reports.iter().for_each(|case| page.set(case));
+        say(page.text().trim_end());
+    } else {
+        say(&format!("{}\n", count_table(&comparisons).join("\n")));
+        results::print_comparisons(&comparisons);
+        say(&on_stdout(if is_good { Ink::Green } else { Ink::Red }, &summary(&comparisons)));
     }
 }
