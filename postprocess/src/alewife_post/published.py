@@ -1,4 +1,4 @@
-"""Pictures of cases beside what others have published: curves on curves, and values by their differences."""
+"""Cases beside what others have published: curves on curves, and values by their differences."""
 
 from __future__ import annotations
 
@@ -90,10 +90,16 @@ def members_of(folder: Path, runs: Path) -> list[tuple[str | None, Run]]:
     """The runs of a case and of its variants that were made, each with the name of its variant."""
     case = tomllib.loads((folder / "case.toml").read_text())
     variants = [None, *(variant["name"] for variant in case.get("variant", []))]
-    places = {one: runs / (folder.name if one is None else f"{folder.name}-{one}") for one in variants}
-    found = [(one, open_run(path)) for one, path in places.items() if (path / "series.csv").is_file()]
+    places = {
+        one: runs / (folder.name if one is None else f"{folder.name}-{one}") for one in variants
+    }
+    found = [
+        (one, open_run(path)) for one, path in places.items() if (path / "series.csv").is_file()
+    ]
     if not found:
-        raise ValueError(f"{runs} holds no run of {folder.name}: alewife validate {folder.name} --out")
+        raise ValueError(
+            f"{runs} holds no run of {folder.name}: alewife validate {folder.name} --out"
+        )
     return found
 
 
@@ -137,11 +143,13 @@ def label_of(variant: str | None, one: dict[str, Any]) -> str:
     statistic = "" if one["statistic"] == "final" else f" ({one['statistic']})"
     at = "" if one["at"] is None else f" at {one['at']:g}"
     source = one["source"].split(",")[0]
-    return f"{f'{variant}: ' if variant else ''}{quantity}{statistic}{at}\n{series.shortened(source)}"
+    return (
+        f"{f'{variant}: ' if variant else ''}{quantity}{statistic}{at}\n{series.shortened(source)}"
+    )
 
 
 def values_figure(run: Run, values: list[Value]) -> Figure:
-    """Each published value as a row: accepted and own uncertainty around it, and the computed one."""
+    """Each published value as a row: what is accepted, its own uncertainty, the computed one."""
     if not values:
         raise ValueError(f"{run.path} has no comparison.json with a published value")
     style.use()
@@ -149,7 +157,7 @@ def values_figure(run: Run, values: list[Value]) -> Figure:
     axes = figure.subplots()
     rows = np.arange(len(values))
     axes.barh(
-        rows, [2 * value.tolerance for value in values], left=[-value.tolerance for value in values],
+        rows, [2 * one.tolerance for one in values], left=[-one.tolerance for one in values],
         height=0.62, color=style.FLUID, label="tolerance",
     )  # fmt: skip
     axes.errorbar(

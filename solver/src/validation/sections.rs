@@ -83,15 +83,23 @@ impl ReportPage {
         self.sections.insert(case.name.clone(), own);
     }
 
-    /// The page as a text.
+    /// The page as a text, which names those of some cases that have no section.
     #[must_use]
-    pub fn text(&self) -> String {
+    pub fn text(&self, cases: &[&str]) -> String {
         let all: Vec<Judged> =
             self.sections.values().flat_map(|section| judged_in(&section.text)).collect();
         let mut page = format!(
             "{TITLE}\n{HEAD}\n\n{}.\n\n{TOLERANCES}\n\n{UNCERTAINTIES}\n\n",
             summary_of(&all)
         );
+        let absent: Vec<String> = cases
+            .iter()
+            .filter(|name| !self.sections.contains_key(**name))
+            .map(|name| format!("`{name}`"))
+            .collect();
+        if !absent.is_empty() {
+            page += &format!("Not on this page yet: {}.\n\n", absent.join(", "));
+        }
         if let Some(coverage) = self.coverage() {
             page += &format!("{coverage}\n\n");
         }
@@ -191,16 +199,19 @@ mod tests {
         let mut page = ReportPage::default();
         page.set(&report("b", [1.0, 1.0]));
         page.set(&report("a", [1.0, 2.0]));
-        let text = page.text();
+        let text = page.text(&[]);
         assert!(text.contains("3 of 4 values within their tolerance"), "{text}");
         assert!(text.find("## a\n").unwrap() < text.find("## b\n").unwrap());
         assert!(text.contains("\n**T.** A case.\n\n![T](pictures/a.png)\n\nRuns by alewife 0.\n"));
         let mut again = ReportPage::read(&text).unwrap();
         assert_eq!(again, page);
-        assert_eq!(again.text(), text);
+        assert_eq!(again.text(&[]), text);
+        let told = again.text(&["a", "c", "d"]);
+        assert!(told.contains("\nNot on this page yet: `c`, `d`.\n"), "{told}");
+        assert_eq!(ReportPage::read(&told).unwrap(), page);
         again.set(&report("a", [1.0, 1.0]));
-        assert!(again.text().contains("4 of 4 values within their tolerance"));
-        assert!(again.text().ends_with(text.split("## b\n").nth(1).unwrap()));
+        assert!(again.text(&[]).contains("4 of 4 values within their tolerance"));
+        assert!(again.text(&[]).ends_with(text.split("## b\n").nth(1).unwrap()));
     }
 
     #[test]
@@ -211,13 +222,13 @@ mod tests {
         *value = judge("a/v", &value.reference, value.computed.clone(), 1, 0.0);
         let mut page = ReportPage::default();
         page.set(&case);
-        let page = ReportPage::read(&page.text()).unwrap().text();
+        let page = ReportPage::read(&page.text(&[])).unwrap().text(&[]);
         assert!(page.contains("1 of 2 values within their tolerance, 1 outside for a known"));
         let line = page.lines().find(|line| line.starts_with("- `a/v`, ")).unwrap();
         assert!(line.ends_with(": it is hard."), "{line}");
         let mut page = ReportPage::read(&page).unwrap();
         page.set(&report("a", [1.0, 1.0]));
-        assert!(!page.text().contains("it is hard"));
+        assert!(!page.text(&[]).contains("it is hard"));
     }
 
     #[test]
@@ -236,10 +247,10 @@ mod tests {
         let mut page = ReportPage::default();
         page.set(&case);
         let told = "Of 2 values whose exact value is known, 1 differ from it by less";
-        assert!(page.text().contains(told), "{}", page.text());
+        assert!(page.text(&[]).contains(told), "{}", page.text(&[]));
         case.members[0].comparisons[0].numerical = Some(Err("no | period".to_owned()));
         page.set(&case);
         let reason = "No uncertainty: v, cylinder.drag_coefficient: no \\| period.";
-        assert!(page.text().contains(reason), "{}", page.text());
+        assert!(page.text(&[]).contains(reason), "{}", page.text(&[]));
     }
 }

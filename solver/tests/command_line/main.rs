@@ -11,6 +11,7 @@ mod skin;
 mod stopping;
 mod sweep_kills;
 mod sweeps;
+mod validating;
 mod warnings;
 
 use std::path::Path;

@@ -206,7 +206,7 @@ fn print(reports: &[CaseReport], options: &Options) {
     } else if options.markdown {
         let mut page = ReportPage::default();
         reports.iter().for_each(|case| page.set(case));
-        say(page.text().trim_end());
+        say(page.text(&[]).trim_end());
     } else {
         say(&format!("{}\n", count_table(&comparisons).join("\n")));
         results::print_comparisons(&comparisons);

@@ -4,7 +4,7 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use super::super::exit::{Exit, Failure};
-use crate::case::CaseFile;
+use crate::case::{CaseFile, library};
 use crate::observer::write_atomic;
 use crate::validation::{CaseReport, Links, ReportPage};
 
@@ -56,7 +56,11 @@ impl ReportFile {
     pub fn write(&self, case: &CaseReport) -> Result<(), Failure> {
         let mut page = self.read()?;
         page.set(&CaseReport { links: self.links(&case.name), ..case.clone() });
-        write_atomic(&self.path, page.text().as_bytes())?;
+        // That of the project is about all shipped cases
+        let is_of_project = self.path.ends_with(DEFAULT);
+        let shipped: Vec<&str> = library::list().iter().map(|case| case.name).collect();
+        let cases = if is_of_project { &shipped[..] } else { &[] };
+        write_atomic(&self.path, page.text(cases).as_bytes())?;
         Ok(())
     }
 
