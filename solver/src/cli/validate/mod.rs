@@ -57,10 +57,9 @@ pub struct Options {
         value_name = "FILE",
         num_args = 0..=1,
         require_equals = true,
-        default_missing_value = "",
         conflicts_with = "quick"
     )]
-    report: Option<PathBuf>,
+    report: Option<Option<PathBuf>>,
     /// Run each case with longer cells and steps, too, and tell what mesh and step leave in its values: half
     /// as long again
     #[arg(long)]
@@ -95,7 +94,7 @@ pub fn validate(options: &Options) -> Result<Exit, Failure> {
         let nothing = format!("{names}: there is no {quick}reference to compare with");
         return Err(Failure::new(Exit::BadCase, nothing));
     }
-    let file = options.report.as_deref().map(ReportFile::open).transpose()?;
+    let file = options.report.as_ref().map(|path| ReportFile::open(path.as_deref())).transpose()?;
     let work = options.work(n_threads)?;
     let Made { reports, end } = Validation { work, file }.make(&members);
     match end {

@@ -17,12 +17,12 @@ pub struct ReportFile {
 }
 
 impl ReportFile {
-    /// The file at a path, or that of the project if the path is empty; it need not be there yet.
+    /// The file at a path, which need not be there yet, or that of the project.
     ///
     /// # Errors
     /// When there is another file, or no place for it, so that this is known before anything is run.
-    pub fn open(path: &Path) -> Result<Self, Failure> {
-        let path = if path.as_os_str().is_empty() { of_project()? } else { path.to_owned() };
+    pub fn open(path: Option<&Path>) -> Result<Self, Failure> {
+        let path = path.map_or_else(of_project, |path| Ok(path.to_owned()))?;
         let file = Self { path };
         file.read()?;
         if !file.directory().is_dir() {
