@@ -180,7 +180,8 @@ mod tests {
         let case = Case::parse("c", text, &[]).unwrap().model.case;
         let judged = |(index, factor): (usize, f64)| {
             let reference: &Reference = &case.reference[index];
-            judge(name, reference, Ok(factor * reference.value), 1, 0.0)
+            let computed = Ok(factor * reference.value);
+            judge(&format!("{name}/v"), reference, computed, 1, 0.0)
         };
         let member = MemberReport {
             name: format!("{name}/v"),
