@@ -9,14 +9,16 @@ use std::process::Command;
 fn main() {
     let root = Path::new("..");
     println!("cargo::rerun-if-env-changed=ALEWIFE_GIT");
-    if root.join(".git/logs/HEAD").is_file() {
-        println!("cargo::rerun-if-changed=../.git/logs/HEAD");
-    }
     let output = |program: &str, arguments: &[&str]| {
         let output = Command::new(program).args(arguments).current_dir(root).output().ok()?;
         let text = String::from_utf8(output.stdout).ok()?;
         (output.status.success()).then(|| text.trim().to_owned())
     };
+    // In a second working tree `.git` is a file that says where the log is
+    let log = output("git", &["rev-parse", "--git-path", "logs/HEAD"]).map(|log| root.join(log));
+    if let Some(log) = log.filter(|log| log.is_file()) {
+        println!("cargo::rerun-if-changed={}", log.display());
+    }
     let git = env::var("ALEWIFE_GIT")
         .ok()
         .or_else(|| output("git", &["describe", "--always", "--dirty", "--tags"]));

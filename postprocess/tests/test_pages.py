@@ -22,6 +22,8 @@ from pathlib import Path
 
 import pytest
 
+from alewife_post import published
+
 ROOT = Path(__file__).resolve().parents[2]
 TUTORIALS = ROOT / "docs" / "tutorials"
 PAGES = [
@@ -34,6 +36,12 @@ STEP = re.compile(
     r"|^```(?P<language>\w+)\n(?P<code>.*?)^```",
     re.DOTALL | re.MULTILINE,
 )
+CASE_PAGES = sorted((ROOT / "cases").glob("*/README.md"))
+PICTURE = re.compile(r"^ *!\[[^\]]+\]\(([^)\s]+)\)$", re.MULTILINE)
+NEAR_THE_TOP = 6
+"""Lines of a case page within which its picture is."""
+LARGEST_DOCS = 10_000_000
+"""Bytes of all pictures of the documentation."""
 LINK = re.compile(r"\]\(([^)\s]+)\)")
 FENCED = re.compile(r"^```.*?^```", re.DOTALL | re.MULTILINE)
 
@@ -178,8 +186,8 @@ def broken_links(page: Path) -> list[str]:
 
 
 def test_relative_links_lead_somewhere() -> None:
-    pages = [*sorted((ROOT / "docs").rglob("*.md")), ROOT / "README.md"]
-    assert len(pages) > 15
+    pages = [*sorted((ROOT / "docs").rglob("*.md")), ROOT / "README.md", *CASE_PAGES]
+    assert len(pages) > 100
     broken = [link for page in pages for link in broken_links(page)]
     assert not broken, "\n".join(broken)
 
@@ -189,3 +197,33 @@ def test_a_broken_link_is_found(tmp_path: Path, monkeypatch: pytest.MonkeyPatch)
     page = tmp_path / "page.md"
     page.write_text("# A `b` c\n[x](#a-b-c) [y](#d) [z](no.md)\n", encoding="utf-8")
     assert broken_links(page) == ["page.md: #d", "page.md: no.md"]
+
+
+def shown(page: Path, lines: int | None = None) -> list[Path]:
+    """The pictures of a page, or of its first lines."""
+    text = "\n".join(page.read_text(encoding="utf-8").splitlines()[:lines])
+    return [(page.parent / target).resolve() for target in PICTURE.findall(text)]
+
+
+def test_every_case_page_has_its_picture_near_the_top() -> None:
+    pictures = ROOT / "docs" / "pictures"
+    for page in CASE_PAGES:
+        assert pictures / f"{page.parent.name}.png" in shown(page, NEAR_THE_TOP), page.parent.name
+
+
+def test_every_case_page_shows_what_is_published_beside_the_computed() -> None:
+    curves = ROOT / "docs" / "pictures" / "curves"
+    cases = [page.parent for page in CASE_PAGES if published.is_published(page.parent)]
+    assert len(cases) > 10
+    missing = [
+        case.name for case in cases if curves / f"{case.name}.png" not in shown(case / "README.md")
+    ]
+    assert not missing, missing
+
+
+def test_pictures_are_used_and_small() -> None:
+    pages = [*(ROOT / "docs").rglob("*.md"), *CASE_PAGES, ROOT / "README.md"]
+    text = "\n".join(page.read_text(encoding="utf-8") for page in pages)
+    files = [path for path in (ROOT / "docs" / "pictures").rglob("*") if path.is_file()]
+    assert sum(path.stat().st_size for path in files) < LARGEST_DOCS
+    assert not [path.name for path in files if path.name not in text]

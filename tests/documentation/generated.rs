@@ -22,21 +22,6 @@ fn up_to_date(page: &str, wanted: &str) {
     );
 }
 
-/// The first sentence of a paragraph, on one line.
-fn first_sentence(paragraph: &str) -> String {
-    let words: Vec<&str> = paragraph.split_whitespace().collect();
-    let ends = |word: &&str| word.ends_with(['.', ':']) && word.len() > 2;
-    let n_words = words.iter().position(ends).map_or(words.len(), |last| last + 1);
-    words[..n_words].join(" ").trim_end_matches(':').trim_end_matches('.').to_owned() + "."
-}
-
-#[test]
-fn a_sentence_ends_at_its_first_full_stop() {
-    assert_eq!(first_sentence("A disc\nfalls 0.5 radii. It\nturns."), "A disc falls 0.5 radii.");
-    assert_eq!(first_sentence("Two kinds: one"), "Two kinds.");
-    assert_eq!(first_sentence("No stop"), "No stop.");
-}
-
 #[test]
 fn the_gallery_shows_every_case() {
     let mut page = String::from(
@@ -50,7 +35,7 @@ fn the_gallery_shows_every_case() {
         let file = Case::read(&path, &[]).unwrap_or_else(|error| panic!("{name}\n{error}"));
         let case = file.case();
         write!(page, "\n## {name}\n\n**{}.** ", case.title).unwrap();
-        writeln!(page, "{}", first_sentence(&case.description)).unwrap();
+        writeln!(page, "{}", case.gist()).unwrap();
         // A case whose values are all of its variants is run by one of them.
         let variant = match case.variant.first() {
             Some(variant) if case.reference.is_empty() => format!("/{}", variant.name),

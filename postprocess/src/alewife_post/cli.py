@@ -140,14 +140,24 @@ def _add_gallery(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--from", type=Path, default=Path("runs"), dest="runs", metavar="DIR", help="%(default)s"
     )
+    parser.add_argument(
+        "--published",
+        type=Path,
+        metavar="CASES",
+        help="of each case in this directory with published curves or values: its runs beside them",
+    )
 
 
 def _write_gallery(options: argparse.Namespace) -> int:
-    """A small picture of each run in a directory."""
-    from alewife_post import gallery
+    """A small picture of each run in a directory, or of each case beside what is published."""
+    from alewife_post import gallery, published
 
     failures = 0
-    for name, failure in gallery.gallery(options.runs, options.out):
+    if options.published is None:
+        drawn = gallery.gallery(options.runs, options.out)
+    else:
+        drawn = published.pictures(options.published, options.runs, options.out)
+    for name, failure in drawn:
         if failure is not None:
             failures += 1
             print(f"alewife-post: {name}: {failure}", file=sys.stderr)

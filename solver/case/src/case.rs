@@ -80,6 +80,34 @@ pub struct Case {
     pub variant: Vec<Variant>,
 }
 
+impl Case {
+    /// The first sentence of the description: what the set-up is.
+    #[must_use]
+    pub fn gist(&self) -> String {
+        first_sentence(&self.description)
+    }
+}
+
+fn first_sentence(paragraph: &str) -> String {
+    let words: Vec<&str> = paragraph.split_whitespace().collect();
+    let ends = |word: &&str| word.ends_with(['.', ':']) && word.len() > 2;
+    let n_words = words.iter().position(ends).map_or(words.len(), |last| last + 1);
+    words[..n_words].join(" ").trim_end_matches(':').trim_end_matches('.').to_owned() + "."
+}
+
 fn dimensionless() -> String {
     "dimensionless".to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::first_sentence;
+
+    #[test]
+    fn a_sentence_ends_at_its_first_full_stop() {
+        let said = first_sentence("A disc\nfalls 0.5 radii. It\nturns.");
+        assert_eq!(said, "A disc falls 0.5 radii.");
+        assert_eq!(first_sentence("Two kinds: one"), "Two kinds.");
+        assert_eq!(first_sentence("No stop"), "No stop.");
+    }
 }

@@ -67,11 +67,11 @@ pub use live::LiveServer;
 pub use log::start_log;
 pub use mcap::MessageFile;
 pub use progress::Progress;
-pub use provenance::{Leg, Point, Provenance};
+pub use provenance::{Leg, Origin, Point, Provenance, executable};
 pub use restarts::Restarts;
 pub use run_directory::{
-    COMPARISON_FILE, Earlier, FAILURE_FOLDER, FAILURE_STATE, RunDirectory, RunDirectoryError, STOP,
-    Start, run_of_state,
+    COMPARISON_FILE, Earlier, FAILURE_FOLDER, FAILURE_STATE, MESH_SIZE_FILE, RunDirectory,
+    RunDirectoryError, STOP, Start, run_of_state,
 };
 pub use run_lock::{LockError, RunLock};
 pub use series_rows::read_series;

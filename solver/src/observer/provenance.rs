@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::io;
 use std::path::Path;
+use std::sync::OnceLock;
 
 use serde::{Deserialize, Serialize};
 
@@ -45,6 +46,9 @@ pub struct Origin {
     pub alewife: String,
     /// `git describe` of its source, if it was built in a checkout.
     pub git: Option<String>,
+    /// Checksum of the program's file: equal for equal programs.
+    #[serde(default)]
+    pub executable: Option<String>,
     /// Compiler it was built with, if the build recorded it.
     pub rustc: Option<String>,
     /// Target triple, or architecture and system if the build did not record it.
@@ -103,13 +107,14 @@ impl Origin {
         Self {
             alewife: env!("CARGO_PKG_VERSION").to_owned(),
             git: option_env!("ALEWIFE_GIT").filter(|text| !text.is_empty()).map(str::to_owned),
+            executable: executable().map(str::to_owned),
             rustc: option_env!("ALEWIFE_RUSTC").filter(|text| !text.is_empty()).map(str::to_owned),
             target,
             argv: std::env::args_os().map(|word| word.to_string_lossy().into_owned()).collect(),
             host: process::host_name(),
             slurm: slurm.map(|(name, value)| (name.to_owned(), value)).collect(),
             started_at: process::now(),
-            case_hash: format!("crc32:{:08x}", crc32fast::hash(case_text.as_bytes())),
+            case_hash: checksum(case_text.as_bytes()),
             threads,
             cores: std::thread::available_parallelism().map_or(1, std::num::NonZero::get),
         }
@@ -133,12 +138,29 @@ impl Origin {
             ("threads".to_owned(), self.threads.to_string()),
             ("cores".to_owned(), self.cores.to_string()),
         ]);
-        for (name, value) in [("git", &self.git), ("rustc", &self.rustc), ("host", &self.host)] {
+        let if_known = [
+            ("git", &self.git),
+            ("executable", &self.executable),
+            ("rustc", &self.rustc),
+            ("host", &self.host),
+        ];
+        for (name, value) in if_known {
             pairs.extend(value.iter().map(|value| (name.to_owned(), value.clone())));
         }
         pairs.extend(self.slurm.iter().map(|(name, value)| (name.clone(), value.clone())));
         pairs
     }
+}
+
+/// Checksum of the file of this program, if it can be read.
+pub fn executable() -> Option<&'static str> {
+    static CHECKSUM: OnceLock<Option<String>> = OnceLock::new();
+    let read = || Some(checksum(&std::fs::read(std::env::current_exe().ok()?).ok()?));
+    CHECKSUM.get_or_init(read).as_deref()
+}
+
+fn checksum(bytes: &[u8]) -> String {
+    format!("crc32:{:08x}", crc32fast::hash(bytes))
 }
 
 impl Provenance {

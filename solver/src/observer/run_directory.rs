@@ -21,7 +21,7 @@ const MARKER_FILE: &str = ".alewife-run";
 const MARKER: &str = "This directory holds a run of alewife; another run may replace its files.\n";
 
 /// Files of a run. Only these, and those of its folders, are ever removed.
-const FILES: [&str; 11] = [
+const FILES: [&str; 12] = [
     "case.toml",
     MESH_FILE,
     "provenance.json",
@@ -31,6 +31,7 @@ const FILES: [&str; 11] = [
     "run.mcap",
     "fields.pvd",
     COMPARISON_FILE,
+    MESH_SIZE_FILE,
     REQUEST,
     STOP,
 ];
@@ -40,6 +41,9 @@ const FOLDERS: [&str; 3] = ["fields", FAILURE_FOLDER, checkpoint_list::FOLDER];
 
 /// The comparison of a run with the references of its case.
 pub const COMPARISON_FILE: &str = "comparison.json";
+
+/// Cells and shortest edge of the mesh a run began with; only runs of a validation have it.
+pub const MESH_SIZE_FILE: &str = "mesh.json";
 
 /// A file of this name in the directory of a run stops it after its step; it is removed then.
 pub const STOP: &str = "STOP";

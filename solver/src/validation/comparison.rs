@@ -62,6 +62,8 @@ pub struct Comparison {
     pub dofs: usize,
     /// CPU seconds of the run.
     pub cpu_seconds: f64,
+    /// What mesh and step leave in the computed value, or why that is not known; nothing if nobody asked.
+    pub numerical: Option<Result<f64, String>>,
 }
 
 /// Compares a run with all references of its case.
@@ -122,6 +124,7 @@ pub(super) fn judge(
         verdict,
         dofs,
         cpu_seconds,
+        numerical: None,
     }
 }
 
@@ -145,6 +148,16 @@ impl Comparison {
         })
     }
 
+    /// What mesh and step leave in the computed value, relative to the reference if the tolerance is.
+    #[must_use]
+    pub fn numerical_share(&self) -> Option<f64> {
+        let uncertainty = *self.numerical.as_ref()?.as_ref().ok()?;
+        Some(match self.reference.relative {
+            Some(_) => uncertainty / self.reference.value.abs(),
+            None => uncertainty,
+        })
+    }
+
     /// The comparison as an object: numbers as numbers, `null` where there is none.
     #[must_use]
     pub fn to_json(&self) -> Value {
@@ -161,6 +174,7 @@ impl Comparison {
             "kind": self.reference.kind.name(),
             "date": self.reference.date,
             "uncertainty": self.reference.uncertainty,
+            "numerical_uncertainty": self.numerical_share(),
             "difference": self.difference(),
             "tolerance": self.reference.relative.or(self.reference.absolute),
             "is_relative": self.reference.relative.is_some(),

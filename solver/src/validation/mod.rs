@@ -2,9 +2,15 @@
 
 mod comparison;
 mod morison;
+mod page;
 mod report;
+mod sections;
 mod statistic;
+mod uncertainty;
 
 pub use comparison::{Comparison, Verdict, compare, not_computed};
-pub use report::{comparison_page, comparison_table, comparisons_to_json, count_table, summary};
+pub use page::{CaseReport, Companion, Links, MemberReport};
+pub use report::{comparison_table, comparisons_to_json, count_table, summary};
+pub use sections::ReportPage;
 pub use statistic::{StatisticError, measured_value};
+pub use uncertainty::{MeshSize, Refinement, RunSize, coarser_settings, set_uncertainties};

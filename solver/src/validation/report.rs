@@ -1,21 +1,27 @@
-//! Tables of comparisons: computed, reference, kind, difference, verdict; with counts by kind.
+//! Comparisons for the terminal and as JSON: computed, reference, kind, difference, verdict; counts by kind.
 
 use serde_json::{Map, Value, json};
 
 use super::comparison::{Comparison, Verdict};
 use crate::case::{ReferenceKind, significant};
 
-/// The rule the tolerances of the shipped cases follow, for the page.
-const RULE: &str = "\
-A tolerance is at most five times the difference that the shipped mesh and step leave, or the own
-uncertainty of the reference where that is larger. Where the difference is small by chance, it is the
-size of the differences of the same quantity in the case; a value that is zero but for rounding has a
-tolerance far above rounding and far below anything that matters.";
+/// The kind of a reference and what a comparison with it came to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Judged {
+    pub kind: ReferenceKind,
+    pub verdict: Verdict,
+}
+
+/// Those of comparisons.
+pub(super) fn judged(comparisons: &[Comparison]) -> Vec<Judged> {
+    let of = |row: &Comparison| Judged { kind: row.reference.kind, verdict: row.verdict };
+    comparisons.iter().map(of).collect()
+}
 
 /// How many comparisons of one kind came to which verdict.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-struct Count {
-    kind: ReferenceKind,
+pub(super) struct Count {
+    pub kind: ReferenceKind,
     /// In the order of `Verdict::ALL`.
     of_verdict: [usize; Verdict::ALL.len()],
 }
@@ -27,13 +33,11 @@ impl Count {
 }
 
 /// Counts of the kinds that occur.
-fn counts(comparisons: &[Comparison]) -> Vec<Count> {
+pub(super) fn counts(all: &[Judged]) -> Vec<Count> {
     let count = |kind| Count {
         kind,
-        of_verdict: Verdict::ALL.map(|verdict| {
-            let is_it = |row: &&Comparison| row.reference.kind == kind && row.verdict == verdict;
-            comparisons.iter().filter(is_it).count()
-        }),
+        of_verdict: Verdict::ALL
+            .map(|verdict| all.iter().filter(|one| **one == Judged { kind, verdict }).count()),
     };
     ReferenceKind::ALL.map(count).into_iter().filter(|count| count.total() > 0).collect()
 }
@@ -42,16 +46,16 @@ fn counts(comparisons: &[Comparison]) -> Vec<Count> {
 #[must_use]
 pub fn count_table(comparisons: &[Comparison]) -> Vec<String> {
     let mut rows = vec![count_header()];
-    rows.extend(counts(comparisons).iter().map(count_cells));
+    rows.extend(counts(&judged(comparisons)).iter().map(count_cells));
     aligned(&rows, &[1, 2, 3, 4, 5, 6])
 }
 
-fn count_header() -> Vec<String> {
+pub(super) fn count_header() -> Vec<String> {
     let verdicts = Verdict::ALL.iter().map(|verdict| verdict.name().to_lowercase());
     ["kind".to_owned(), "values".to_owned()].into_iter().chain(verdicts).collect()
 }
 
-fn count_cells(count: &Count) -> Vec<String> {
+pub(super) fn count_cells(count: &Count) -> Vec<String> {
     let numbers = count.of_verdict.iter().map(ToString::to_string);
     [count.kind.name().to_owned(), count.total().to_string()].into_iter().chain(numbers).collect()
 }
@@ -59,17 +63,22 @@ fn count_cells(count: &Count) -> Vec<String> {
 /// How many values are within their tolerance, and how many are known not to be.
 #[must_use]
 pub fn summary(comparisons: &[Comparison]) -> String {
-    let number = |verdict| comparisons.iter().filter(|row| row.verdict == verdict).count();
+    summary_of(&judged(comparisons))
+}
+
+pub(super) fn summary_of(all: &[Judged]) -> String {
+    let number = |verdict| all.iter().filter(|one| one.verdict == verdict).count();
     let known = match number(Verdict::KnownOutside) {
         0 => String::new(),
         n => format!(", {n} outside for a known reason"),
     };
-    let (n_within, n) = (number(Verdict::Within), comparisons.len());
+    let (n_within, n) = (number(Verdict::Within), all.len());
     format!("{n_within} of {n} values within their tolerance{known}")
 }
 
 impl Comparison {
-    fn cells(&self) -> [String; 8] {
+    /// Case, quantity, computed, reference, kind, difference, tolerance and verdict.
+    pub(super) fn cells(&self) -> [String; 8] {
         let tolerance = self.reference.relative.or(self.reference.absolute).unwrap_or(0.0);
         [
             self.case.clone(),
@@ -86,7 +95,7 @@ impl Comparison {
     }
 
     /// A difference from the reference, in per cent where its tolerance is relative.
-    fn share(&self, value: f64) -> String {
+    pub(super) fn share(&self, value: f64) -> String {
         if self.reference.relative.is_some() {
             format!("{}%", two_digits(100.0 * value))
         } else {
@@ -96,7 +105,7 @@ impl Comparison {
 }
 
 /// A number with two digits, in the shorter notation.
-fn two_digits(value: f64) -> String {
+pub(super) fn two_digits(value: f64) -> String {
     let size = value.abs();
     if value == 0.0 {
         "0".to_owned()
@@ -117,109 +126,9 @@ pub fn comparisons_to_json(comparisons: &[Comparison]) -> Value {
         let all = [("values".to_owned(), Value::from(count.total()))].into_iter().chain(numbers);
         (count.kind.name().to_owned(), Value::Object(all.collect()))
     };
-    let counts: Map<String, Value> = counts(comparisons).iter().map(of_kind).collect();
+    let counts: Map<String, Value> = counts(&judged(comparisons)).iter().map(of_kind).collect();
     let rows: Vec<Value> = comparisons.iter().map(Comparison::to_json).collect();
     json!({ "counts": counts, "comparisons": rows })
-}
-
-/// The comparisons as a page of Markdown: counts by kind, then a table a case, with sources, notes
-/// and reasons.
-#[must_use]
-pub fn comparison_page(comparisons: &[Comparison]) -> String {
-    let mut page = format!(
-        "# Validation\n\nWritten by `alewife validate --markdown` of version {}; not edited by \
-         hand. {}.\n\n{RULE}\n\n",
-        env!("CARGO_PKG_VERSION"),
-        summary(comparisons)
-    );
-    let mut header = count_header();
-    header.insert(1, "what it is".to_owned());
-    page += &markdown_row(&header);
-    page += &markdown_row(&vec!["---".to_owned(); header.len()]);
-    for count in counts(comparisons) {
-        let mut cells = count_cells(&count);
-        cells.insert(1, count.kind.meaning().to_owned());
-        page += &markdown_row(&cells);
-    }
-    page += &known_outside(comparisons);
-    let case_of = |row: &Comparison| row.case.split('/').next().unwrap_or_default().to_owned();
-    for rows in comparisons.chunk_by(|one, other| case_of(one) == case_of(other)) {
-        page += &format!("\n## {}\n\n{}", case_of(&rows[0]), case_table(rows));
-    }
-    page
-}
-
-/// The values that are known to be outside, as a list with the reason of each.
-fn known_outside(comparisons: &[Comparison]) -> String {
-    let mut page = String::new();
-    for row in comparisons.iter().filter(|row| row.verdict == Verdict::KnownOutside) {
-        if page.is_empty() {
-            page += "\nOutside for a known reason:\n\n";
-        }
-        let [case, quantity, computed, reference, _, difference, tolerance, _] = row.cells();
-        let reason = row.reference.outside.as_deref().unwrap_or_default();
-        page += &format!(
-            "- `{case}`, {quantity}: {computed} for {reference} ({difference}, tolerance \
-             {tolerance}): {reason}.\n"
-        );
-    }
-    page
-}
-
-fn markdown_row(cells: &[String]) -> String {
-    format!("| {} |\n", cells.join(" | "))
-}
-
-/// The table of one case, with its sources and the reasons of values outside.
-fn case_table(rows: &[Comparison]) -> String {
-    let mut page = "| variant | quantity | computed | reference | kind | uncertainty | difference \
-                    | tolerance | verdict | unknowns | CPU (s) |\n\
-                    |---|---|---|---|---|---|---|---|---|---|---|\n"
-        .to_owned();
-    for row in rows {
-        let [case, quantity, computed, reference, kind, difference, tolerance, verdict] =
-            row.cells();
-        let variant = case.split_once('/').map_or("", |(_, variant)| variant).to_owned();
-        let uncertainty = row.reference.uncertainty.map_or("-".to_owned(), |own| row.share(own));
-        page += &markdown_row(&[
-            variant,
-            quantity,
-            computed,
-            reference,
-            kind,
-            uncertainty,
-            difference,
-            tolerance,
-            verdict,
-            row.dofs.to_string(),
-            format!("{:.2}", row.cpu_seconds),
-        ]);
-    }
-    let sources = each_once(rows.iter().map(|row| {
-        let date = row.reference.date.as_ref().map_or(String::new(), |date| format!(", {date}"));
-        let note = row.reference.note.as_ref().map_or(String::new(), |note| format!(" ({note})"));
-        format!("{}{date}{note}", row.reference.source)
-    }));
-    page += "\nSources:\n\n";
-    for source in sources {
-        page += &format!("- {source}\n");
-    }
-    let reasons = each_once(rows.iter().filter_map(|row| row.reference.outside.clone()));
-    for reason in reasons {
-        page += &format!("\nOutside, known: {reason}.\n");
-    }
-    page
-}
-
-/// Lines in their order, each the first time only.
-fn each_once(lines: impl Iterator<Item = String>) -> Vec<String> {
-    let mut listed = Vec::new();
-    for line in lines {
-        if !listed.contains(&line) {
-            listed.push(line);
-        }
-    }
-    listed
 }
 
 /// The table, its header first, one line a comparison in their order.
@@ -332,12 +241,6 @@ mod tests {
         assert!(table[1].contains("-0.50%") && table[1].contains("1.0%"), "{}", table[1]);
         assert!(table[2].ends_with("NOT COMPUTED"), "{}", table[2]);
         assert_eq!(table[0].find("verdict"), table[1].find("within"));
-        let page = comparison_page(&rows);
-        assert!(page.contains("1 of 2 values") && page.contains("## long-name"), "{page}");
-        assert!(
-            page.contains("| variant | body.force.x (max) | -2.01 | -2 | literature"),
-            "{page}"
-        );
         let json = &comparisons_to_json(&rows)["comparisons"];
         assert_eq!(json[0]["computed"], -2.01);
         assert_eq!(json[1]["reason"], "it diverged");
@@ -360,7 +263,6 @@ mod tests {
         let table = count_table(&rows);
         assert_eq!(table.len(), 3);
         assert!(table[1].starts_with("literature") && table[2].starts_with("regression"));
-        assert!(!comparison_page(&rows).to_lowercase().contains("| published |"));
     }
 
     #[test]
@@ -374,12 +276,6 @@ mod tests {
         assert_eq!(row(Err("it diverged".to_owned())).verdict, Verdict::NotComputed);
         let failures = Verdict::ALL.map(Verdict::is_failure);
         assert_eq!(failures, [false, false, true, true, true]);
-        let page = comparison_page(&[row(Ok(-2.5))]);
-        assert!(page.contains("1 outside for a known reason"), "{page}");
-        assert!(page.contains("OUTSIDE, known"), "{page}");
-        let listed =
-            "- `c`, body.force.x (max): -2.5 for -2 (-25%, tolerance 1.0%): they sum up less.";
-        assert!(page.contains(listed) && page.find(listed) < page.find("## c"), "{page}");
-        assert!(page.contains("\nSources:\n\n- somebody\n"), "{page}");
+        assert!(summary(&[row(Ok(-2.5))]).ends_with("1 outside for a known reason"));
     }
 }

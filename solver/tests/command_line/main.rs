@@ -12,6 +12,7 @@ mod skin;
 mod stopping;
 mod sweep_kills;
 mod sweeps;
+mod validating;
 mod warnings;
 
 use std::path::Path;

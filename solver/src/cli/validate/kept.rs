@@ -1,0 +1,138 @@
+//! Runs that a validation keeps: which of them stand for a run that is asked for.
+
+use std::io::ErrorKind;
+use std::path::Path;
+
+use super::super::engine;
+use super::super::exit::{Exit, Failure};
+use crate::case::{Cadence, Case, CaseError, Model, Numbers, Statistics};
+use crate::observer::{
+    MESH_SIZE_FILE, Provenance, RunState, Status, executable, read_outcome, write_atomic,
+};
+use crate::simulation::{Dimension, RunSummary, Solve};
+use crate::validation::MeshSize;
+
+/// What is in the directory of a run that is wanted.
+pub enum Found {
+    /// Nothing that is worth to be kept, or what an earlier validation left of another case or program.
+    Replaceable,
+    /// A run of somebody else.
+    Other,
+    /// The run, as it came to its end.
+    Finished,
+    /// The run, and why it failed.
+    Failed(String),
+}
+
+/// Looks for a run of a case, by this program unless any will do.
+pub fn find(directory: &Path, case: &Case, by_any_program: bool) -> Found {
+    let Ok(status) = Status::read(directory) else { return Found::Replaceable };
+    let is_same = by_any_program || is_by_this_program(directory);
+    let is_it = is_same && run_case(directory).is_ok_and(|was| computed(&was) == computed(case));
+    match (status.state, is_it) {
+        (RunState::Finished, true) => Found::Finished,
+        (RunState::Failed, true) if !status.is_interrupted => {
+            Found::Failed(status.reason.unwrap_or_else(|| "it failed".to_owned()))
+        }
+        // Only a validation measures the mesh of its runs
+        (RunState::Finished, false) if !directory.join(MESH_SIZE_FILE).is_file() => Found::Other,
+        _ => Found::Replaceable,
+    }
+}
+
+fn is_by_this_program(directory: &Path) -> bool {
+    let Ok(provenance) = Provenance::read(directory) else { return false };
+    let this = executable();
+    this.is_some() && provenance.legs.iter().all(|leg| leg.origin.executable.as_deref() == this)
+}
+
+/// Why a run that was kept cannot stand for another one.
+#[derive(Debug)]
+pub struct Refusal {
+    exit: Exit,
+    /// In words.
+    pub reason: String,
+}
+
+impl From<Refusal> for Failure {
+    fn from(refusal: Refusal) -> Self {
+        Self::new(refusal.exit, refusal.reason)
+    }
+}
+
+/// A run that was kept, of the same case, its references aside.
+pub fn read(directory: &Path, case: &Case) -> Result<RunSummary, Refusal> {
+    let refuse = |exit, reason: &str| {
+        let reason = format!("{}: {reason}", directory.display());
+        Refusal { exit, reason }
+    };
+    if let Err(error) = std::fs::metadata(directory.join("case.toml")) {
+        return Err(refuse(Exit::NoInput, &format!("its case.toml: {error}")));
+    }
+    let was = run_case(directory)
+        .map_err(|error| refuse(Exit::BadCase, &format!("its case.toml: {error}")))?;
+    if computed(&was) != computed(case) {
+        let reason = "the case has changed since, not only its references; run it again";
+        return Err(refuse(Exit::BadCase, reason));
+    }
+    if !matches!(case.output.series, Cadence::Steps(1)) {
+        let reason = "its series.csv does not have every step (output.series)";
+        return Err(refuse(Exit::BadCase, reason));
+    }
+    read_outcome(directory).map_err(|error| refuse(Exit::NoInput, &error.to_string()))
+}
+
+/// The case in the directory of a run.
+fn run_case(directory: &Path) -> Result<Case, CaseError> {
+    Ok(Case::read(&directory.join("case.toml").display().to_string(), &[])?.model.case)
+}
+
+/// What decides the numbers of a run: a case without words and references.
+fn computed(case: &Case) -> Case {
+    Case {
+        title: String::new(),
+        description: String::new(),
+        numbers: Numbers::default(),
+        statistics: Statistics::default(),
+        reference: Vec::new(),
+        variant: Vec::new(),
+        quick: false,
+        ..case.clone()
+    }
+}
+
+/// The size of the mesh a case begins with, kept in the directory of its run if there is one.
+pub fn mesh_size(model: &Model, directory: Option<&Path>) -> Result<MeshSize, Failure> {
+    let Some(path) = directory.map(|directory| directory.join(MESH_SIZE_FILE)) else {
+        return measured(model);
+    };
+    let unusable =
+        |reason: String| Failure::new(Exit::InputOutput, format!("{}: {reason}", path.display()));
+    match std::fs::read(&path) {
+        Ok(text) => serde_json::from_slice(&text).map_err(|error| unusable(error.to_string())),
+        Err(error) if error.kind() == ErrorKind::NotFound => {
+            let size = measured(model)?;
+            let mut text =
+                serde_json::to_vec(&size).map_err(|error| unusable(error.to_string()))?;
+            text.push(b'\n');
+            write_atomic(&path, &text)?;
+            Ok(size)
+        }
+        Err(error) => Err(unusable(error.to_string())),
+    }
+}
+
+fn measured(model: &Model) -> Result<MeshSize, Failure> {
+    match model.case.geometry.dimensions() {
+        2 => measured_in::<2>(model),
+        _ => measured_in::<3>(model),
+    }
+}
+
+fn measured_in<const D: usize>(model: &Model) -> Result<MeshSize, Failure>
+where
+    Dimension<D>: Solve<D>,
+{
+    let quality = Dimension::<D>::quality(&engine::build_mesh::<D>(model)?);
+    Ok(MeshSize { cells: quality.n_cells, shortest_edge: quality.shortest_edge })
+}

@@ -1,0 +1,51 @@
+//! Which runs are compared: the cases and variants that have references.
+
+use super::super::exit::Failure;
+use super::super::read::{CheckedCase, read_and_check};
+use crate::case::{Case, CaseFile};
+
+/// A case or a variant that is to be validated.
+pub struct Member {
+    /// Its name as it was asked for.
+    pub name: String,
+    /// The case.
+    pub file: CaseFile,
+}
+
+/// The members of all these cases, each of them read and checked.
+///
+/// # Errors
+/// With all that is wrong in any of them.
+pub fn all_members(names: &[String], only_quick: bool) -> Result<Vec<Member>, Failure> {
+    let (mut members, mut failures) = (Vec::new(), Vec::new());
+    for name in names {
+        match members_of(name, only_quick) {
+            Ok(found) => {
+                for name in found {
+                    match read_and_check(&name, &[]) {
+                        Ok(CheckedCase { file, .. }) => members.push(Member { name, file }),
+                        Err(failure) => failures.push(failure.of(&name)),
+                    }
+                }
+            }
+            Err(failure) => failures.push(failure.of(name)),
+        }
+    }
+    Failure::all(failures).map_or(Ok(members), Err)
+}
+
+/// The case and its variants that have something to be compared with.
+fn members_of(name: &str, only_quick: bool) -> Result<Vec<String>, Failure> {
+    let file = Case::read(name, &[])?;
+    let mut members = Vec::new();
+    if !file.case().reference.is_empty() && (file.case().quick || !only_quick) {
+        members.push(name.to_owned());
+    }
+    for variant in &file.case().variant {
+        let has_reference = !(variant.reference.is_empty() && file.case().reference.is_empty());
+        if has_reference && (variant.quick || !only_quick) {
+            members.push(format!("{name}/{}", variant.name));
+        }
+    }
+    Ok(members)
+}

@@ -1,0 +1,215 @@
+//! `validate`: shipped cases against their references, as a table, as JSON or as a page, with an exit code.
+
+mod kept;
+mod members;
+mod report;
+mod work;
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::exit::{Exit, Failure};
+use super::signal::SignalWatch;
+use super::style::{Ink, complain, on_stdout, say};
+use super::{complete, results, threads};
+use crate::case::library;
+use crate::validation::{
+    CaseReport, Comparison, ReportPage, comparisons_to_json, count_table, summary,
+};
+use members::{Member, all_members};
+use report::{ReportFile, case_report};
+use work::{Place, Work};
+
+/// What `validate` is asked for.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  alewife validate --quick
+  alewife validate squirmer-alone dfg-2d-1
+  alewife validate --json > validation.json
+  alewife validate three-sphere --out kept      keep the runs; what is there is not run again
+  alewife validate three-sphere --from kept     compare them again with other references
+  alewife validate --out kept --uncertainty --report
+
+A run that is kept is not made again by the same program for the same case, so that a long validation can be
+stopped and called again; with --report its page has a section a case, written as soon as the case is done.
+
+The exit code is 20 if a value is outside its tolerance or could not be computed, 65 if there is
+nothing to compare with, and 75 if a signal stopped it: the cases done so far are printed then. A value
+that is known to be outside, for a reason that its reference gives, fails once it is within.")]
+pub struct Options {
+    /// Which cases, with all their variants; all shipped ones if absent
+    #[arg(add = complete::case())]
+    cases: Vec<String>,
+    /// Only those marked `quick = true`
+    #[arg(long)]
+    quick: bool,
+    /// Print JSON instead of a table
+    #[arg(long)]
+    json: bool,
+    /// Print a page of Markdown instead of a table
+    #[arg(long, conflicts_with = "json")]
+    markdown: bool,
+    /// Write a page with a section a case, those of other cases as they were; docs/validation.md of the
+    /// project here or above if no file is named
+    #[arg(
+        long,
+        value_name = "FILE",
+        num_args = 0..=1,
+        require_equals = true,
+        conflicts_with = "quick"
+    )]
+    report: Option<Option<PathBuf>>,
+    /// Run each case with longer cells and steps, too, and tell what mesh and step leave in its values: half
+    /// as long again
+    #[arg(long)]
+    uncertainty: bool,
+    /// Keep the runs, each in a directory of its own in this one, and take those that are there
+    #[arg(long, short, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Take runs that are kept in --out from other versions of the program, too
+    #[arg(long, requires = "out")]
+    any_program: bool,
+    /// Compare runs that were kept there by --out, as long as nothing but references has changed
+    #[arg(long, value_name = "DIR", conflicts_with = "out")]
+    from: Option<PathBuf>,
+    /// Threads; by default those the batch system or the machine grants
+    #[arg(long, short, value_name = "N")]
+    threads: Option<usize>,
+}
+
+/// Runs cases and compares them with their references.
+pub fn validate(options: &Options) -> Result<Exit, Failure> {
+    let names = if options.cases.is_empty() {
+        library::list().iter().map(|case| case.name.to_owned()).collect()
+    } else {
+        options.cases.clone()
+    };
+    let members = all_members(&names, options.quick)?;
+    let n_threads = threads::start(options.threads)?;
+
+    if members.is_empty() {
+        let names = names.join(", ");
+        let quick = if options.quick { "quick " } else { "" };
+        let nothing = format!("{names}: there is no {quick}reference to compare with");
+        return Err(Failure::new(Exit::BadCase, nothing));
+    }
+    let file = options.report.as_ref().map(|path| ReportFile::open(path.as_deref())).transpose()?;
+    let work = options.work(n_threads)?;
+    let Made { reports, end } = Validation { work, file }.make(&members);
+    match end {
+        Some(failure) if failure.exit != Exit::Stopped => return Err(failure),
+        _ => print(&reports, options),
+    }
+    let is_failure = |row: &Comparison| row.verdict.is_failure();
+    match end {
+        Some(failure) => Err(failure),
+        None if values(&reports).iter().any(is_failure) => Ok(Exit::OutsideTolerance),
+        None => Ok(Exit::Done),
+    }
+}
+
+impl Options {
+    fn work(&self, n_threads: usize) -> Result<Work, Failure> {
+        let place = match (&self.out, &self.from) {
+            (Some(out), _) => Place::Kept { out: out.clone(), by_any_program: self.any_program },
+            (None, Some(from)) => Place::Read(from.clone()),
+            (None, None) => Place::Memory,
+        };
+        Ok(Work {
+            place,
+            with_sizes: self.uncertainty || self.report.is_some(),
+            with_companions: self.uncertainty,
+            n_threads,
+            watch: SignalWatch::start()?,
+        })
+    }
+}
+
+/// A validation under way.
+struct Validation {
+    work: Work,
+    file: Option<ReportFile>,
+}
+
+/// What a validation came to.
+#[derive(Default)]
+struct Made {
+    /// What is known of the cases that are done, the last of them in part if it ended early.
+    reports: Vec<CaseReport>,
+    /// Why it ended early.
+    end: Option<Failure>,
+}
+
+impl Validation {
+    fn make(&self, members: &[Member]) -> Made {
+        let mut made = Made::default();
+        let mut n_before = 0;
+        for of_case in members.chunk_by(|one, other| one.file.name == other.file.name) {
+            let mut case = case_report(&of_case[0].file);
+            let end = self.make_case(of_case, [n_before, members.len()], &mut case);
+            n_before += of_case.len();
+            match end {
+                // A page is made of what there is
+                Err(failure) if self.file.is_some() && self.work.only_reads(&failure) => {
+                    complain(&failure.message);
+                    complain(&format!("{}: its section stays as it is", case.name));
+                }
+                Err(failure) => {
+                    made.reports.push(case);
+                    made.end = Some(failure);
+                    return made;
+                }
+                Ok(()) => made.reports.push(case),
+            }
+        }
+        made
+    }
+
+    /// The members of one case, of which so many of all were made before.
+    fn make_case(
+        &self,
+        members: &[Member],
+        [n_before, n]: [usize; 2],
+        case: &mut CaseReport,
+    ) -> Result<(), Failure> {
+        for (index, member) in members.iter().enumerate() {
+            let n_done = n_before + index;
+            complain(&format!("[{}/{n}] {}", n_done + 1, member.name));
+            let report = self.work.validate(member).map_err(|failure| match failure.exit {
+                Exit::Stopped => {
+                    let name = &member.name;
+                    let reason = format!("stopped by a signal in {name}; {n_done} of {n} are done");
+                    Failure::new(Exit::Stopped, reason)
+                }
+                _ => failure,
+            })?;
+            case.members.push(report);
+        }
+        self.file.as_ref().map_or(Ok(()), |file| file.write(case))
+    }
+}
+
+/// All values of cases.
+fn values(reports: &[CaseReport]) -> Vec<Comparison> {
+    let members = reports.iter().flat_map(|case| &case.members);
+    members.flat_map(|member| member.comparisons.clone()).collect()
+}
+
+/// Prints values in the form that was asked for.
+fn print(reports: &[CaseReport], options: &Options) {
+    let comparisons = values(reports);
+    let is_good = !comparisons.iter().any(|row| row.verdict.is_failure());
+    if options.json {
+        say(&format!("{:#}", comparisons_to_json(&comparisons)));
+    } else if options.markdown {
+        let mut page = ReportPage::default();
+        reports.iter().for_each(|case| page.set(case));
+        say(page.text(&[]).trim_end());
+    } else {
+        say(&format!("{}\n", count_table(&comparisons).join("\n")));
+        results::print_comparisons(&comparisons);
+        say(&on_stdout(if is_good { Ink::Green } else { Ink::Red }, &summary(&comparisons)));
+    }
+}

@@ -1,0 +1,257 @@
+//! The page of a validation: counts by kind, then a section a case; those of other cases stay as they were.
+
+use std::collections::BTreeMap;
+
+use super::comparison::Verdict;
+use super::page::{CaseReport, Coverage, known_outside, row, section};
+use super::report::{Judged, count_cells, count_header, counts, summary_of};
+use crate::case::ReferenceKind;
+
+/// How the page begins, by which it is known.
+const TITLE: &str = "# Validation\n";
+
+/// What is between sections.
+const HEADING: &str = "\n## ";
+
+/// How the line of a value that is outside begins, up to its case.
+const OUTSIDE: &str = "- `";
+
+const HEAD: &str = "\
+Written by `alewife validate --report`, not edited by hand. A section is replaced when its case is
+validated again; each says which program made its runs and when.";
+
+/// The rule the tolerances of the shipped cases follow.
+const TOLERANCES: &str = "\
+A *tolerance* is at most five times the difference that the shipped mesh and step leave, or the own
+uncertainty of the reference where that is larger (± reference). Where the difference is small by
+chance, it is the size of the differences of the same quantity in the case; a value that is zero but
+for rounding has a tolerance far above rounding and far below anything that matters.";
+
+/// The rule of `uncertainty.rs`.
+const UNCERTAINTIES: &str = "\
+The *numerical* uncertainty (± numerical) is what mesh and step leave in a computed value, by the rule
+of Roache: 3 |f - g| / (r^p - 1), where g is the value of a companion with cells and steps r times as
+long, p the order and 3 the factor of safety where the order is not observed. The companion has
+`mesh.scale` and the step times the square root of 2; r is what its numbers of cells and steps come
+to, the smaller one. p is 2, or 1 with steps by backward Euler: Taylor-Hood elements on smooth flow
+do better, and then the uncertainty is too large. Where the value has no companion, or the companion
+failed or is hardly coarser, there is a dash.";
+
+/// A page under way.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct ReportPage {
+    sections: BTreeMap<String, Section>,
+}
+
+#[derive(Debug, Clone, Default, PartialEq)]
+struct Section {
+    /// All below its heading.
+    text: String,
+    /// Lines of its values that are known to be outside.
+    outside: Vec<String>,
+}
+
+impl ReportPage {
+    /// The page in a text.
+    ///
+    /// # Errors
+    /// When it is another one.
+    pub fn read(text: &str) -> Result<Self, &'static str> {
+        if !text.starts_with(TITLE) {
+            return Err("it does not begin as the page of a validation does");
+        }
+        let mut parts = text.split(HEADING);
+        let head = parts.next().unwrap_or_default();
+        let mut sections = BTreeMap::new();
+        for part in parts {
+            let (name, text) = part.split_once('\n').unwrap_or((part, ""));
+            let of_case = |line: &&str| {
+                let case =
+                    line.strip_prefix(OUTSIDE).and_then(|rest| rest.split(['/', '`']).next());
+                case == Some(name)
+            };
+            let outside = head.lines().filter(of_case).map(str::to_owned).collect();
+            let text = text.trim().to_owned() + "\n";
+            sections.insert(name.to_owned(), Section { text, outside });
+        }
+        Ok(Self { sections })
+    }
+
+    /// Replaces the section of a case, or adds it.
+    pub fn set(&mut self, case: &CaseReport) {
+        let own = Section { text: section(case), outside: known_outside(case) };
+        self.sections.insert(case.name.clone(), own);
+    }
+
+    /// The page as a text, which names those of some cases that have no section.
+    #[must_use]
+    pub fn text(&self, cases: &[&str]) -> String {
+        let all: Vec<Judged> =
+            self.sections.values().flat_map(|section| judged_in(&section.text)).collect();
+        let mut page = format!(
+            "{TITLE}\n{HEAD}\n\n{}.\n\n{TOLERANCES}\n\n{UNCERTAINTIES}\n\n",
+            summary_of(&all)
+        );
+        let absent: Vec<String> = cases
+            .iter()
+            .filter(|name| !self.sections.contains_key(**name))
+            .map(|name| format!("`{name}`"))
+            .collect();
+        if !absent.is_empty() {
+            page += &format!("Not on this page yet: {}.\n\n", absent.join(", "));
+        }
+        if let Some(coverage) = self.coverage() {
+            page += &format!("{coverage}\n\n");
+        }
+        let mut header = count_header();
+        header.insert(1, "what it is".to_owned());
+        page += &row(&header);
+        page += &row(&vec!["---".to_owned(); header.len()]);
+        for count in counts(&all) {
+            let mut cells = count_cells(&count);
+            cells.insert(1, count.kind.meaning().to_owned());
+            page += &row(&cells);
+        }
+        let outside: Vec<&String> =
+            self.sections.values().flat_map(|section| &section.outside).collect();
+        if !outside.is_empty() {
+            page += "\nOutside for a known reason:\n\n";
+        }
+        for line in outside {
+            page += &format!("{line}\n");
+        }
+        for (name, Section { text, .. }) in &self.sections {
+            page += &format!("{HEADING}{name}\n\n{text}");
+        }
+        page
+    }
+
+    /// A sentence on how good the rule of the uncertainties is, where exact values tell.
+    fn coverage(&self) -> Option<String> {
+        let lines = self.sections.values().flat_map(|section| section.text.lines());
+        let total = lines.filter_map(Coverage::read).fold(Coverage::default(), |sum, one| {
+            Coverage { n: sum.n + one.n, of: sum.of + one.of }
+        });
+        (total.of > 0).then(|| {
+            format!(
+                "Of {} values whose exact value is known, {} differ from it by less than this \
+                 uncertainty.",
+                total.of, total.n
+            )
+        })
+    }
+}
+
+/// Kinds and verdicts in the tables of a section.
+fn judged_in(text: &str) -> Vec<Judged> {
+    let mut columns: Option<[usize; 2]> = None;
+    let mut all = Vec::new();
+    for line in text.lines() {
+        let Some(inner) = line.strip_prefix("| ").and_then(|rest| rest.strip_suffix(" |")) else {
+            if !line.starts_with('|') {
+                columns = None;
+            }
+            continue;
+        };
+        let cells: Vec<&str> = inner.split(" | ").collect();
+        let Some([kind, verdict]) = columns else {
+            let of = |name: &str| cells.iter().position(|cell| *cell == name);
+            columns = of("kind").zip(of("verdict")).map(<[usize; 2]>::from);
+            continue;
+        };
+        let cell = |column: usize| cells.get(column).copied().unwrap_or_default();
+        let kind = ReferenceKind::ALL.into_iter().find(|one| one.name() == cell(kind));
+        let verdict = Verdict::ALL.into_iter().find(|one| one.name() == cell(verdict));
+        all.extend(kind.zip(verdict).map(|(kind, verdict)| Judged { kind, verdict }));
+    }
+    all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::{Case, Reference, library};
+    use crate::validation::comparison::judge;
+    use crate::validation::page::{Links, MemberReport};
+
+    /// The section of a case whose computed values are its references times these factors.
+    fn report(name: &str, factors: [f64; 2]) -> CaseReport {
+        let text = library::find("dfg-2d-1").unwrap().text;
+        let case = Case::parse("c", text, &[]).unwrap().model.case;
+        let judged = |(index, factor): (usize, f64)| {
+            let reference: &Reference = &case.reference[index];
+            let computed = Ok(factor * reference.value);
+            judge(&format!("{name}/v"), reference, computed, 1, 0.0)
+        };
+        let member = MemberReport {
+            name: format!("{name}/v"),
+            size: None,
+            companion: None,
+            comparisons: factors.into_iter().enumerate().map(judged).collect(),
+            made_by: "alewife 0".to_owned(),
+        };
+        let links = Links { page: None, pictures: vec!["pictures/a.png".to_owned()] };
+        let [title, gist] = ["T", "A case."].map(str::to_owned);
+        CaseReport { name: name.to_owned(), title, gist, links, members: vec![member] }
+    }
+
+    #[test]
+    fn sections_of_other_cases_stay_and_are_counted() {
+        let mut page = ReportPage::default();
+        page.set(&report("b", [1.0, 1.0]));
+        page.set(&report("a", [1.0, 2.0]));
+        let text = page.text(&[]);
+        assert!(text.contains("3 of 4 values within their tolerance"), "{text}");
+        assert!(text.find("## a\n").unwrap() < text.find("## b\n").unwrap());
+        assert!(text.contains("\n**T.** A case.\n\n![T](pictures/a.png)\n\nRuns by alewife 0.\n"));
+        let mut again = ReportPage::read(&text).unwrap();
+        assert_eq!(again, page);
+        assert_eq!(again.text(&[]), text);
+        let told = again.text(&["a", "c", "d"]);
+        assert!(told.contains("\nNot on this page yet: `c`, `d`.\n"), "{told}");
+        assert_eq!(ReportPage::read(&told).unwrap(), page);
+        again.set(&report("a", [1.0, 1.0]));
+        assert!(again.text(&[]).contains("4 of 4 values within their tolerance"));
+        assert!(again.text(&[]).ends_with(text.split("## b\n").nth(1).unwrap()));
+    }
+
+    #[test]
+    fn a_value_known_to_be_outside_is_listed_as_long_as_its_section_stays() {
+        let mut case = report("a", [2.0, 1.0]);
+        let value = &mut case.members[0].comparisons[0];
+        value.reference.outside = Some("it is hard".to_owned());
+        *value = judge("a/v", &value.reference, value.computed.clone(), 1, 0.0);
+        let mut page = ReportPage::default();
+        page.set(&case);
+        let page = ReportPage::read(&page.text(&[])).unwrap().text(&[]);
+        assert!(page.contains("1 of 2 values within their tolerance, 1 outside for a known"));
+        let line = page.lines().find(|line| line.starts_with("- `a/v`, ")).unwrap();
+        assert!(line.ends_with(": it is hard."), "{line}");
+        let mut page = ReportPage::read(&page).unwrap();
+        page.set(&report("a", [1.0, 1.0]));
+        assert!(!page.text(&[]).contains("it is hard"));
+    }
+
+    #[test]
+    fn another_page_is_refused() {
+        assert!(ReportPage::read("# Thesis\n\n## a\n").is_err());
+        assert!(ReportPage::read("").is_err());
+    }
+
+    #[test]
+    fn the_uncertainty_is_held_against_exact_values() {
+        let mut case = report("a", [1.001, 1.01]);
+        for value in &mut case.members[0].comparisons {
+            value.reference.kind = ReferenceKind::Exact;
+            value.numerical = Some(Ok(0.002 * value.reference.value.abs()));
+        }
+        let mut page = ReportPage::default();
+        page.set(&case);
+        let told = "Of 2 values whose exact value is known, 1 differ from it by less";
+        assert!(page.text(&[]).contains(told), "{}", page.text(&[]));
+        case.members[0].comparisons[0].numerical = Some(Err("no | period".to_owned()));
+        page.set(&case);
+        let reason = "No uncertainty: v, cylinder.drag_coefficient: no \\| period.";
+        assert!(page.text(&[]).contains(reason), "{}", page.text(&[]));
+    }
+}

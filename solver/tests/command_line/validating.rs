@@ -1,0 +1,177 @@
+//! A validation that is kept: what is run again and what is not, its companions, and its page.
+
+use std::path::Path;
+
+use serde_json::Value;
+
+use super::{alewife, done};
+
+const RUN: &str = "kept/c-radius-2";
+const COMPANION: &str = "kept/c-radius-2+coarser";
+
+/// A case of several variants in a directory, with its text changed.
+fn case(directory: &Path, from: &str, to: &str) {
+    let text = done(directory, &["show", "sphere-in-shell", "--source"]);
+    assert!(from.is_empty() || text.contains(from));
+    std::fs::write(directory.join("c.toml"), text.replace(from, to)).unwrap();
+}
+
+fn validated(directory: &Path, more: &[&str]) -> Value {
+    let mut arguments = vec!["validate", "c.toml", "--json", "--threads", "1"];
+    arguments.extend(more);
+    serde_json::from_str(&done(directory, &arguments)).unwrap()
+}
+
+fn read(path: &Path) -> Value {
+    serde_json::from_slice(&std::fs::read(path).unwrap()).unwrap()
+}
+
+/// The row of the variant whose runs are looked at.
+fn row(json: &Value) -> &Value {
+    let rows = json["comparisons"].as_array().unwrap();
+    rows.iter().find(|row| row["case"] == "c/radius-2").unwrap()
+}
+
+#[test]
+fn the_page_has_what_mesh_leaves_by_the_two_runs_that_are_kept() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    case(here, "", "");
+    let json = validated(here, &["--out", "kept", "--uncertainty", "--report=page.md"]);
+    // The same by the files
+    let force = |run: &str| -> f64 {
+        let text = std::fs::read_to_string(here.join(run).join("series.csv")).unwrap();
+        let mut lines = text.lines().map(|line| line.split(','));
+        let column = lines.next().unwrap().position(|name| name == "sphere.force.x").unwrap();
+        lines.next().unwrap().nth(column).unwrap().parse().unwrap()
+    };
+    let cells = |run: &str| read(&here.join(run).join("mesh.json"))["cells"].as_f64().unwrap();
+    let squared_ratio = cells(RUN) / cells(COMPANION);
+    assert!((1.7..2.3).contains(&squared_ratio), "{squared_ratio}");
+    let per = -6.0 * std::f64::consts::PI * row(&json)["reference"].as_f64().unwrap();
+    let own = 3.0 * ((force(RUN) - force(COMPANION)) / per).abs() / (squared_ratio - 1.0);
+    let told = row(&json)["numerical_uncertainty"].as_f64().unwrap();
+    assert!((told / own - 1.0).abs() < 1e-9, "{told} {own}");
+    assert!(row(&json)["difference"].as_f64().unwrap().abs() < told);
+    assert_eq!(row(&read(&here.join(RUN).join("comparison.json"))), row(&json));
+
+    let page = std::fs::read_to_string(here.join("page.md")).unwrap();
+    assert!(page.contains("\n## c\n\n**A sphere moving at the centre of"), "{page}");
+    assert!(page.contains("5 of 5 values within their tolerance"), "{page}");
+    assert!(page.contains(&format!("| radius-2 | {} | ", cells(RUN))), "{page}");
+    assert!(page.contains(&format!("| {} cells; ratio", cells(COMPANION))), "{page}");
+    assert!(!page.contains("| sphere.force.x | 7.29434 | - |"), "{page}");
+    let from = validated(here, &["--from", "kept", "--uncertainty"]);
+    assert_eq!(row(&from)["numerical_uncertainty"].as_f64(), Some(told));
+}
+
+#[test]
+fn what_is_kept_is_run_again_only_where_the_case_or_the_program_has_changed() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    case(here, "", "");
+    let json = validated(here, &["--out", "kept"]);
+    // A mark that a new run would remove
+    let mark = |run: &str| here.join(run).join("STOP");
+    let is_kept = |more: &[&str]| {
+        std::fs::write(mark(RUN), "").unwrap();
+        let json = validated(here, &[&["--out", "kept"], more].concat());
+        (mark(RUN).is_file(), json)
+    };
+    assert_eq!(is_kept(&[]), (true, json));
+    case(here, "value = 7.294", "value = 7.394");
+    let output = alewife(here, &["validate", "c.toml", "--out", "kept", "--threads", "1"]);
+    assert_eq!(output.status.code(), Some(20));
+    assert!(mark(RUN).is_file(), "only a reference has changed");
+    case(here, "surface = 0.08 ", "surface = 0.079 ");
+    // Nothing tells that these runs are those of a validation
+    let output = alewife(here, &["validate", "c.toml", "--out", "kept", "--threads", "1"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("holds a finished run"));
+    case(here, "", "");
+    done(here, &["validate", "c.toml", "--out", "kept", "--report=page.md", "--threads", "1"]);
+    case(here, "surface = 0.08 ", "surface = 0.079 ");
+    assert!(!is_kept(&[]).0, "the case has changed");
+    assert!(is_kept(&[]).0);
+
+    let provenance = here.join(RUN).join("provenance.json");
+    let text = std::fs::read_to_string(&provenance).unwrap();
+    let executable = read(&provenance)["executable"].as_str().unwrap().to_owned();
+    std::fs::write(&provenance, text.replace(&executable, "crc32:00000000")).unwrap();
+    assert!(is_kept(&["--any-program"]).0);
+    assert!(!is_kept(&[]).0, "another program made it");
+}
+
+#[test]
+fn a_companion_that_cannot_be_is_told_and_the_value_stays() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let mesh = concat!(env!("CARGO_MANIFEST_DIR"), "/../mesh/tests/msh/data/square-1-text.msh");
+    std::fs::copy(mesh, here.join("a.msh")).unwrap();
+    let case = "title = 't'
+description = 'A channel: water flows.'
+geometry = 'planar'
+fluid = { model = 'stokes', viscosity = 1.0 }
+domain.mesh.file = 'a.msh'
+boundary = { inlet = { parabolic = { peak = 1.0 } }, outlet = 'do-nothing', wall = 'no-slip' }
+mesh.size = 0.5
+time.steady = {}
+[[probe]]
+name = 'a'
+point = [0.5, 0.5]
+minus = [1.5, 0.5]
+[[reference]]
+quantity = 'a.pressure'
+value = 8.0
+relative = 1e-9
+kind = 'exact'
+source = 'Poiseuille flow'
+";
+    std::fs::write(here.join("c.toml"), case).unwrap();
+    let json = validated(here, &["--uncertainty", "--report=page.md"]);
+    assert!(json["comparisons"][0]["numerical_uncertainty"].is_null());
+    assert_eq!(json["comparisons"][0]["verdict"], "within");
+    let page = std::fs::read_to_string(here.join("page.md")).unwrap();
+    assert!(page.contains("its cells are only 1.00 times as long"), "{page}");
+    assert!(page.contains("**t.** A channel.\n"), "{page}");
+    assert!(page.contains("|  | a.pressure | 8 | - | 8 | exact | - | "), "{page}");
+}
+
+#[test]
+fn a_page_takes_what_runs_there_are_and_no_other_file() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    case(here, "", "");
+    std::fs::copy(here.join("c.toml"), here.join("d.toml")).unwrap();
+    validated(here, &["--out", "kept"]);
+    let both = ["validate", "c.toml", "d.toml", "--from", "kept", "--threads", "1"];
+    let output = alewife(here, &[&both[..], &["--report=page.md"]].concat());
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(0), "{told}");
+    assert!(told.contains("d: its section stays as it is"), "{told}");
+    let page = std::fs::read_to_string(here.join("page.md")).unwrap();
+    assert!(page.contains("\n## c\n") && !page.contains("\n## d\n"), "{page}");
+    assert_eq!(alewife(here, &both).status.code(), Some(66));
+
+    std::fs::write(here.join("thesis.md"), "# Thesis\n").unwrap();
+    for (option, code, reason) in [
+        ("--report=thesis.md", 2, "thesis.md: it does not begin as the page of a validation"),
+        ("--report=absent/page.md", 66, "there is no such directory"),
+        ("--report", 66, "there is no docs/validation.md here or above; write --report=FILE"),
+    ] {
+        let output = alewife(here, &[&both[..], &[option]].concat());
+        let told = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(code), "{option}: {told}");
+        assert!(told.contains(reason), "{option}: {told}");
+    }
+    assert_eq!(std::fs::read_to_string(here.join("thesis.md")).unwrap(), "# Thesis\n");
+    // That of the project is found from below
+    std::fs::create_dir_all(here.join("docs/deep")).unwrap();
+    std::fs::copy(here.join("page.md"), here.join("docs/validation.md")).unwrap();
+    let kept = here.join("kept").display().to_string();
+    let deep = here.join("docs/deep");
+    std::fs::copy(here.join("c.toml"), deep.join("c.toml")).unwrap();
+    done(&deep, &["validate", "c.toml", "--from", &kept, "--uncertainty", "--report"]);
+    let page = std::fs::read_to_string(here.join("docs/validation.md")).unwrap();
+    assert!(page.contains("its case.toml: No such file"), "{page}");
+}
