@@ -30,16 +30,14 @@ DIMENSIONS = (
     (r"velocity\.[xyz]|speed|cycle\.speed", "speed"),
     (r"(body_)?angular_velocity(\.[xyz])?", "turn"),
     (r"acceleration\.[xyz]", "acceleration"),
-    (
-        r"(surface_|contact_)?force\.[xyz]|joint\.force|thrust|drag|cycle\.cost_of_transport",
-        "force",
-    ),
+    (r"(surface_|contact_)?force\.[xyz]|joint\.force|thrust|drag", "force"),
+    (r"cycle\.cost_of_transport", "force"),
     (r"(surface_|contact_)?torque(\.[xyz])?|joint\.torque", "torque"),
     (r"((shape|expended|cycle|joint)[._])?power|dissipation", "power"),
     (r"pressure", "pressure"),
     (r"vorticity(\.[xyz])?", "rate"),
 )
-"""What quantities are by the end of their names, after that of a body, of a probe or of the flow."""
+"""What quantities are by their names, after that of a body, of a probe or of the flow."""
 
 
 @dataclass(frozen=True)
@@ -93,9 +91,9 @@ def _power(own: Units, *, is_planar: bool) -> str:
 
 
 def unit_of_quantity(name: str, case: dict[str, Any]) -> str | None:
-    """The unit of a column of the series, or of the end of its name."""
+    """The unit of a column of the series."""
     for pattern, dimension in DIMENSIONS:
-        if re.fullmatch(rf"(.+\.)?({pattern})", name):
+        if re.fullmatch(rf"[^.]+\.({pattern})", name):
             is_planar = case.get("geometry") == "planar"
             return unit_of(dimension, case.get("units", ""), is_planar=is_planar)
     return None
