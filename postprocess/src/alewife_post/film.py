@@ -267,6 +267,7 @@ def _planar_images(run: Run, moments: list[Moment], request: Request) -> Iterato
     if look is not None:
         look = replace(look, width=page.pixels[0])
     _label(page, run, request)
+    drawing.draw_scale_bar(page.axes, tuple(view), units)
     for nth, moment in enumerate(moments):
         page.clear()
         _paint_moment(page.axes, run, moment, seen(nth), (request, look))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from dataclasses import dataclass
 
 import matplotlib
@@ -32,6 +33,9 @@ SOLID = {"ambient": 0.35, "diffuse": 0.7, "specular": 0.15}
 DPI = 200
 LARGEST = (7.2, 5.2)
 """Largest width and height of the axes of a picture (inches)."""
+
+LETTERS = 13.5
+"""Letters of a title to the inch, wide ones among them."""
 
 PARAMETERS = {
     "font.family": "sans-serif",
@@ -90,6 +94,11 @@ def time_text(time: float, units: Given) -> str:
     """A time, for a title."""
     unit = units_of(units).time
     return f"t = {time:.4g} {unit}" if unit else f"t = {time:.4g}"
+
+
+def fitted(text: str, inches: float) -> str:
+    """A title in as many lines as it needs on a picture so wide."""
+    return "\n".join(textwrap.wrap(text, max(24, int(LETTERS * inches))))
 
 
 def rgb(colour: str) -> Array:
