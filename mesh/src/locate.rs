@@ -20,8 +20,7 @@ const STRAIGHT: u32 = u32::MAX;
 /// Newton's method has found a point when it misses by this part of the cell's size at most.
 const FOUND: f64 = 1e-10;
 
-/// Points outside are sought first within this part of the mean size of the cells: points on an exact curve
-/// are not farther from the quadratic one.
+/// Part of the mean size of cells within which points on an exact curve are from the quadratic one.
 const SHORT: f64 = 0.05;
 
 /// The shape functions of the middles of edges sum to this at most: 2 - 2 sum(l^2) with coordinates l.

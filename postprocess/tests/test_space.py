@@ -262,6 +262,20 @@ def test_a_periodic_domain_goes_on_beyond_its_mesh(run: Run) -> None:
     assert found.point_data["values"][inner] == pytest.approx((x + 2 * y - z)[inner], abs=1e-5)
 
 
+def test_bodies_are_whole_wherever_a_view_reaches_beyond_a_periodic_box(run: Run) -> None:
+    other, _ = cut_open_elsewhere(run)
+    here = space.sections(other, run.field(), straight(2, 1.4))
+    region = (np.array([-1.9, 0.0, 0.0]), np.array([4.9, 3.0, 3.0]))
+    found = space.sections(other, run.field(), straight(2, 1.4), region)
+    assert len(here) == 1
+    middles = sorted(float(curve[:, 0].min() + curve[:, 0].max()) / 2 for curve in found)
+    assert middles == pytest.approx([-1.5, 1.5, 4.5])
+    # A slice that reaches there has no hole without its body
+    view = (-1.9, 4.9, 0.5, 2.5)
+    drawn = space.slice_picture(other, "pressure", plane="z=1.4", view=view, lines="none")
+    assert len(drawn.axes[0].patches) == 3
+
+
 def test_faces_of_the_boundary_close_it_and_look_outwards(run: Run) -> None:
     field = run.field()
     faces = surfaces.boundary_faces(field)

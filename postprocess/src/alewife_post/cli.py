@@ -195,7 +195,7 @@ def _add_film(parser: argparse.ArgumentParser) -> None:
         "--lines",
         choices=("streamlines", "arrows", "none"),
         default="none",
-        help="in the plane; streamlines begin elsewhere in each frame",
+        help="in the plane",
     )
     parser.add_argument("--no-trails", action="store_true", help="leave out the ways of centres")
 

@@ -232,7 +232,7 @@ def compare_figure(
             if limits is not None:
                 series.cut(axes, ours, limits)
         series.tidy(axes)
-        axes.set_ylabel(series.panel_label([name]))
+        axes.set_ylabel(series.panel_label([name], runs[0].run.case))
         series.legend(axes)
     rows[-1].set_xlabel(series.time_label(runs[0].run))
     return figure

@@ -10,12 +10,14 @@ from matplotlib.collections import LineCollection
 from matplotlib.patches import Ellipse, FancyArrow, Polygon, Rectangle
 from matplotlib.transforms import Affine2D
 from matplotlib.tri import LinearTriInterpolator, Triangulation
+from mpl_toolkits.axes_grid1.anchored_artists import AnchoredSizeBar
 
 from alewife_post import style
 from alewife_post.bodies import Heading, Pose, rotation_matrix
 from alewife_post.elements import edge_curves, edges, quarters, refine, subdivide
 from alewife_post.periodic import is_joined, periods
 from alewife_post.read import Field, Shape
+from alewife_post.units import Given, units_of
 
 Array = np.ndarray
 View = tuple[float, float, float, float]
@@ -200,6 +202,28 @@ def _on_grid(flow: list[Field], view: View, n: int) -> tuple[Array, Array, Array
         is_here = ~np.ma.getmaskarray(values)
         found[is_here] = values[is_here]
     return x, y, found
+
+
+def draw_scale_bar(axes: Axes, view: View, units: Given) -> None:
+    """A round length in a corner, where the axes have no marks or the case names its unit."""
+    if units_of(units).length is None and axes.axison:
+        return
+    width, height = view[1] - view[0], view[3] - view[2]
+    length = style.round_length(0.2 * width)
+    bar = AnchoredSizeBar(
+        axes.transData,
+        length,
+        style.length_text(length, units),
+        loc="lower right",
+        pad=0.35,
+        borderpad=0.4,
+        sep=3.0,
+        size_vertical=0.004 * max(width, height),
+        color=style.BOUNDARY,
+    )
+    bar.patch.set(facecolor="white", alpha=0.8, lw=0)
+    bar.set_zorder(20)
+    axes.add_artist(bar)
 
 
 def draw_rod(axes: Axes, points: Array, zorder: float = 4.5) -> None:

@@ -42,6 +42,24 @@ def subdivide(cells: Array, level: int) -> tuple[Array, Array]:
     return triangles, shape_functions(np.array(steps) / level)
 
 
+def shared_points(cells: Array, level: int) -> Array:
+    """A number for each point of `subdivide`, `(n_points,)`, that all its cells agree on."""
+    steps = np.array([(i, j) for j in range(level + 1) for i in range(level + 1 - j)])
+    n_nodes = int(cells.max()) + 1
+    # Points inside of cells are those of nobody else.
+    own = n_nodes * (level + 1) + np.arange(len(cells) * len(steps)).reshape(-1, len(steps))
+    along = np.stack([steps[:, 0], steps[:, 1], level - steps[:, 1]])
+    on_edge = np.stack([steps[:, 1] == 0, steps.sum(axis=1) == level, steps[:, 0] == 0])
+    for (start, end, middle), place, here in zip(EDGES, along, on_edge, strict=True):
+        is_forward = (cells[:, start] < cells[:, end])[:, None]
+        # Counted from the end with the smaller number, whichever cell looks
+        counted = np.where(is_forward, place[here], level - place[here])
+        own[:, here] = cells[:, middle][:, None] * (level + 1) + counted
+    for vertex, step in enumerate([(0, 0), (level, 0), (0, level)]):
+        own[:, (steps == step).all(axis=1)] = cells[:, vertex][:, None] * (level + 1)
+    return own.ravel()
+
+
 def refine(values: Array, cells: Array, weights: Array) -> Array:
     """Nodal values, `(n_nodes, ...)`, at the points of `subdivide`, `(n_points, ...)`."""
     fine = np.einsum("pi,ci...->cp...", weights, values[cells])

@@ -13,7 +13,7 @@ from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from alewife_post import bodies, style
+from alewife_post import bodies, drawing, streamlines, style
 from alewife_post.elements import mirrored, shares
 from alewife_post.periodic import joined
 from alewife_post.read import Run
@@ -81,10 +81,14 @@ def picture(
     is_mirrored = run.is_axisymmetric and mirror
     look = Look(quantity, colour_map, limits, lines, painter, IMAGE_WIDTH, is_mirrored=is_mirrored)
     paint_bodies(axes, run, view, field.time, field=whole)
-    paint(axes, flow, view, look)
+    drawn = None
+    if lines == "streamlines":
+        drawn = streamlines.streamlines(run, field, view, mirror=mirror)
+    paint(axes, flow, view, look, drawn)
 
     axes.set_xlim(view[0], view[1])
     axes.set_ylim(view[2], view[3])
+    drawing.draw_scale_bar(axes, view, units)
     axes.set_xlabel(style.length_label("x", units))
     axes.set_ylabel(style.length_label("r" if run.is_axisymmetric else "y", units))
     # A flat picture has room for few marks on its short side.
@@ -94,7 +98,7 @@ def picture(
         )
     is_unsteady = "unsteady" in run.case["time"]
     moment = f", {style.time_text(field.time, units)}" if is_unsteady else ""
-    axes.set_title(run.case["title"] + moment)
+    axes.set_title(style.fitted(run.case["title"] + moment, width))
     if values is not None:
         colour_bar(axes, values, colour_map, limits).set_label(
             style.label(quantity, units) + ("" if frame is None else f" relative to {frame}")

@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.ticker import FixedFormatter, FixedLocator, MaxNLocator
 
-from alewife_post import bodies, drawing, movie, style
+from alewife_post import bodies, drawing, movie, streamlines, style
 from alewife_post.elements import mirrored, shares
 from alewife_post.page import SIZE, Page
 from alewife_post.periodic import joined
@@ -267,6 +267,7 @@ def _planar_images(run: Run, moments: list[Moment], request: Request) -> Iterato
     if look is not None:
         look = replace(look, width=page.pixels[0])
     _label(page, run, request)
+    drawing.draw_scale_bar(page.axes, tuple(view), units)
     for nth, moment in enumerate(moments):
         page.clear()
         _paint_moment(page.axes, run, moment, seen(nth), (request, look))
@@ -296,7 +297,10 @@ def _paint_moment(
     if field is None:
         drawing.draw_domain(axes, run.case, view)
     else:
-        paint(axes, prepared(run, field, view, mirror=request.mirror), view, look)
+        lines = None
+        if look.lines == "streamlines":
+            lines = streamlines.streamlines(run, field, view, mirror=request.mirror)
+        paint(axes, prepared(run, field, view, mirror=request.mirror), view, look, lines)
 
 
 def _planar_view(run: Run, moments: list[Moment], request: Request, moved: Array) -> View:

@@ -111,8 +111,8 @@ def render_surface(
     camera: tuple[float, float],
     colour_map: str,
     limits: style.Limits,
-) -> Array:
-    """An image of a surface coloured by its `values`, cut to what it shows.
+) -> tuple[Array, float]:
+    """An image of a surface coloured by its `values`, cut to what it shows, and a pixel's size.
 
     `shown` is the surface and a list of others, each with a colour of its own.
     """
@@ -138,11 +138,12 @@ def render_surface(
     plotter.reset_camera()
     plotter.enable_anti_aliasing("ssaa")
     image = np.asarray(plotter.screenshot(transparent_background=True, return_img=True))
+    pixel = 2.0 * plotter.camera.parallel_scale / image.shape[0]
     plotter.close()
     rows, columns = np.nonzero(image[..., 3])
-    if len(rows) == 0:
-        return image
-    return image[rows.min() : rows.max() + 1, columns.min() : columns.max() + 1]
+    if len(rows):
+        image = image[rows.min() : rows.max() + 1, columns.min() : columns.max() + 1]
+    return image, float(pixel)
 
 
 def direction(camera: tuple[float, float]) -> tuple[Array, Array]:

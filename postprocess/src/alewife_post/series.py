@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 
 from alewife_post import asked, evidence, style
 from alewife_post.read import Run
+from alewife_post.units import unit_of_quantity, units_of
 
 Array = np.ndarray
 Span = tuple[float, float]
@@ -71,7 +72,7 @@ def series_figure(
         ]
         finish(axes, curves, [one for one, _ in known], is_whole=is_whole)
         draw_references(axes, run.case, known, is_alone=len(lines) == 1)
-        axes.set_ylabel(panel_label([line.name for line in lines]))
+        axes.set_ylabel(panel_label([line.name for line in lines], run.case))
         if len(lines) > 1 or known:
             legend(axes)
     rows[-1].set_xlabel(time_label(run))
@@ -161,7 +162,7 @@ def energy_figure(run: Run, *, window: Span | None = None, is_whole: bool = Fals
             label = name.replace("_", " ")
             draw(axes, curve, colour=colours[rank], label=label, rank=rank)
         finish(axes, curves, [], is_whole=is_whole)
-        axes.set_ylabel(title.replace(", ", ",\n"))
+        axes.set_ylabel(title.replace(", ", ",\n") + _common_unit(names, run.case))
         legend(axes)
     rows[-1].set_xlabel(time_label(run))
     return figure
@@ -214,8 +215,20 @@ def draw(
     )
 
 
-def panel_label(names: list[str]) -> str:
-    """What a panel shows: a name on two lines, or what its curves have in common."""
+def panel_label(names: list[str], case: dict[str, Any]) -> str:
+    """What a panel shows, and its unit: a name on two lines, or what its curves have in common."""
+    return _shown_name(names) + _common_unit(names, case)
+
+
+def _common_unit(names: list[str], case: dict[str, Any]) -> str:
+    """The unit in brackets, if all curves have the same one."""
+    parts = [part for name in names for part in name.split(asked.MINUS)]
+    known = {unit_of_quantity(part, case) for part in parts}
+    unit = known.pop() if len(known) == 1 else None
+    return f" ({unit})" if unit else ""
+
+
+def _shown_name(names: list[str]) -> str:
     if len(names) == 1:
         parts = names[0].split(asked.MINUS)
         if len(parts) == 2:
@@ -227,7 +240,7 @@ def panel_label(names: list[str]) -> str:
 
 def time_label(run: Run) -> str:
     """Label of the axis of time."""
-    _, unit = style.units_of(run.case.get("units", ""))
+    unit = units_of(run.case.get("units", "")).time
     return f"t ({unit})" if unit else "t"
 
 

@@ -9,11 +9,12 @@ from typing import Literal
 import numpy as np
 from matplotlib.axes import Axes
 
-from alewife_post import bodies, drawing, scene, style
+from alewife_post import bodies, drawing, scene, streamlines, style
 from alewife_post.elements import inside, mirrored
 from alewife_post.periodic import domain_low, images, joined, periods, tiles, trail
 from alewife_post.quantities import speed
 from alewife_post.read import Field, Run
+from alewife_post.streamlines import Streamlines
 
 Array = np.ndarray
 View = tuple[float, float, float, float]
@@ -64,8 +65,10 @@ def prepared(run: Run, field: Field, view: View, *, mirror: bool) -> list[Field]
     return [tile for tile in found if len(tile.cells)] or found[:1]
 
 
-def paint(axes: Axes, flow: list[Field], view: View, look: Look) -> None:
-    """Paint a flow that is `prepared`."""
+def paint(
+    axes: Axes, flow: list[Field], view: View, look: Look, lines: Streamlines | None = None
+) -> None:
+    """Paint a flow that is `prepared`, with streamlines if they are known already."""
     field = joined(flow)
     values = None if look.quantity == "mesh" else nodal_values(field, look.quantity)
     if look.painter == "vtk":
@@ -80,7 +83,9 @@ def paint(axes: Axes, flow: list[Field], view: View, look: Look) -> None:
     else:
         drawing.draw_values(axes, field, values, look.colour_map, look.limits)
     colour = style.STREAMLINE if look.quantity == "speed" else style.STREAMLINE_ON_LIGHT
-    if look.lines == "streamlines":
+    if lines is not None:
+        streamlines.draw(axes, lines, view, colour)
+    elif look.lines == "streamlines":
         drawing.draw_streamlines(axes, flow, view, colour, is_mirrored=look.is_mirrored)
     elif look.lines == "arrows":
         drawing.draw_arrows(axes, flow, view, colour)

@@ -94,15 +94,17 @@ def slice_picture(
         )
     elif lines == "arrows":
         _draw_arrows(axes, x, y, velocity, quantity)
-    for section in sections(run, field, cut):
+    region = _region(cut, view)
+    for section in sections(run, field, cut, region):
         axes.fill(*cut.coordinates(section).T, color=style.BODY, zorder=3)
-    _draw_motion(axes, run, cut, field.time)
+    _draw_motion(axes, run, cut, field.time, region)
     units = run.case.get("units", "")
     axes.set_xlim(view[0], view[1])
     axes.set_ylim(view[2], view[3])
+    drawing.draw_scale_bar(axes, view, units)
     axes.set_xlabel(style.length_label(cut.names[0], units))
     axes.set_ylabel(style.length_label(cut.names[1], units))
-    axes.set_title(f"{_title(run, field)}, {cut.text}", wrap=True)
+    axes.set_title(style.fitted(f"{_title(run, field)}, {cut.text}", size[0]))
     bar = colour_bar(axes, values.compressed(), colour_map, limits)
     bar.set_label(style.label(quantity, units) + (f" relative to {frame}" if frame else ""))
     return figure
@@ -129,7 +131,16 @@ def _draw_arrows(axes: Axes, x: Array, y: Array, velocity: Array, quantity: str)
     )
 
 
-def _draw_motion(axes: Axes, run: Run, plane: Plane, time: float) -> None:
+def _region(plane: Plane, view: View) -> tuple[Array, Array]:
+    """Lowest and highest corner in space of what a view of a plane shows."""
+    x0, x1, y0, y1 = view
+    corners = plane.points(np.array([[x0, y0], [x1, y0], [x0, y1], [x1, y1]]))
+    return corners.min(axis=0), corners.max(axis=0)
+
+
+def _draw_motion(
+    axes: Axes, run: Run, plane: Plane, time: float, region: tuple[Array, Array]
+) -> None:
     """Rods and headings that lie in a plane, or near it over the size of bodies."""
     placed = bodies.poses(run, time)
     size = max([0.0, *(bodies.radius(run, name) for name in placed)])
@@ -138,13 +149,20 @@ def _draw_motion(axes: Axes, run: Run, plane: Plane, time: float) -> None:
         return bool(np.abs((points - plane.origin) @ plane.normal).max() < 0.5 * size)
 
     for points in bodies.rods(run, placed, time):
-        if is_near(points):
-            drawing.draw_rod(axes, plane.coordinates(points), zorder=2.5)
+        for shift in _shifts(run, points, region):
+            if is_near(points + shift):
+                drawing.draw_rod(axes, plane.coordinates(points + shift), zorder=2.5)
     for arrow in bodies.headings(run, placed):
-        if is_near(np.array([arrow.start, arrow.start + arrow.vector])):
-            start = plane.coordinates(arrow.start[None])[0]
-            vector = plane.across @ arrow.vector
-            drawing.draw_heading(axes, bodies.Heading(start, vector, arrow.is_inside))
+        ends = np.array([arrow.start, arrow.start + arrow.vector])
+        for shift in _shifts(run, ends, region):
+            if is_near(ends + shift):
+                start = plane.coordinates(ends[:1] + shift)[0]
+                vector = plane.across @ arrow.vector
+                drawing.draw_heading(axes, bodies.Heading(start, vector, arrow.is_inside))
+
+
+def _shifts(run: Run, points: Array, region: tuple[Array, Array]) -> Array:
+    return images(run.case, points.min(axis=0), points.max(axis=0), region)
 
 
 def surface_picture(
@@ -166,14 +184,16 @@ def surface_picture(
     sized = surface.compute_cell_sizes(length=False, volume=False)
     values = np.asarray(sized.point_data_to_cell_data().cell_data["values"])
     colour_map, limits = style.colours(quantity, values, np.asarray(sized.cell_data["Area"]))
-    image = scene.render_surface(
+    image, pixel = scene.render_surface(
         (surface, motion(run, field.time)), IMAGE_SIZE, camera, colour_map, limits
     )
     figure = Figure(figsize=(7.2, 5.0), layout="compressed")
     axes = figure.add_subplot()
-    axes.imshow(image)
+    extent = (0.0, pixel * image.shape[1], 0.0, pixel * image.shape[0])
+    axes.imshow(image, extent=extent)
     axes.set_axis_off()
-    axes.set_title(_title(run, field), wrap=True)
+    drawing.draw_scale_bar(axes, extent, run.case.get("units", ""))
+    axes.set_title(style.fitted(_title(run, field), 6.0))
     bar = colour_bar(axes, values, colour_map, limits, is_beside=True)
     bar.set_label(style.label(quantity, run.case.get("units", "")))
     return figure
@@ -245,15 +265,20 @@ def sample(
     return {"values": values, "velocity": velocity}
 
 
-def sections(run: Run, field: Field, plane: Plane) -> list[Array]:
-    """Curves `(n, 3)` in which a plane cuts the bodies."""
+def sections(
+    run: Run, field: Field, plane: Plane, region: tuple[Array, Array] | None = None
+) -> list[Array]:
+    """Curves `(n, 3)` in which a plane cuts the bodies, and their images in a region.
+
+    Of a periodic domain the region is all of the domain if it is absent.
+    """
     try:
         surface = surfaces.bodies_surface(run, field, "pressure")
     except ValueError:
         return []
     points = np.asarray(surface.points)
     mesh = (points.min(axis=0), points.max(axis=0))
-    region = _box(run.case, field)
+    region = region or _box(run.case, field)
     return [
         curve + shift
         for shift in images(run.case, *mesh, region)

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-import re
+import textwrap
 from dataclasses import dataclass
 
 import matplotlib
 import numpy as np
 from matplotlib.colors import Colormap, ListedColormap
+
+from alewife_post.units import Given, unit_of, units_of
 
 Array = np.ndarray
 Limits = tuple[float, float]
@@ -31,6 +33,9 @@ SOLID = {"ambient": 0.35, "diffuse": 0.7, "specular": 0.15}
 DPI = 200
 LARGEST = (7.2, 5.2)
 """Largest width and height of the axes of a picture (inches)."""
+
+LETTERS = 13.5
+"""Letters of a title to the inch, wide ones among them."""
 
 PARAMETERS = {
     "font.family": "sans-serif",
@@ -73,50 +78,27 @@ def use() -> None:
     matplotlib.rcParams.update(PARAMETERS)
 
 
-WORDS = {
-    "SI": ("m", "s"),
-    "cm g s": ("cm", "s"),
-    "mm mg s": ("mm", "s"),
-    "micrometres": ("µm", None),
-    "millimetres": ("mm", None),
-    "centimetres": ("cm", None),
-    "metres": ("m", None),
-    "seconds": (None, "s"),
-    "minutes": (None, "min"),
-}
-"""Units of length and time by what a case may say of its units."""
-
-
-def units_of(text: str) -> tuple[str | None, str | None]:
-    """Units of length and time that a case names, each only if it does."""
-    length, time = None, None
-    for words, (own_length, own_time) in WORDS.items():
-        if re.search(rf"(?<!\w){re.escape(words)}(?!\w)", text, re.IGNORECASE):
-            length, time = length or own_length, time or own_time
-    return length, time
-
-
-def label(quantity: str, units: str) -> str:
+def label(quantity: str, units: Given) -> str:
     """Label of a colour bar, with the unit if it is known."""
-    length, time = units_of(units)
-    unit = {
-        "speed": f"{length}/{time}" if length and time else None,
-        "vorticity": f"1/{time}" if time else None,
-        "pressure": "Pa" if units.upper() == "SI" else None,
-    }[quantity]
+    unit = unit_of({"vorticity": "rate"}.get(quantity, quantity), units)
     return f"{LOOKS[quantity].label} ({unit})" if unit else LOOKS[quantity].label
 
 
-def length_label(name: str, units: str) -> str:
+def length_label(name: str, units: Given) -> str:
     """Label of a coordinate axis."""
-    unit, _ = units_of(units)
+    unit = units_of(units).length
     return f"{name} ({unit})" if unit else name
 
 
-def time_text(time: float, units: str) -> str:
+def time_text(time: float, units: Given) -> str:
     """A time, for a title."""
-    _, unit = units_of(units)
+    unit = units_of(units).time
     return f"t = {time:.4g} {unit}" if unit else f"t = {time:.4g}"
+
+
+def fitted(text: str, inches: float) -> str:
+    """A title in as many lines as it needs on a picture so wide."""
+    return "\n".join(textwrap.wrap(text, max(24, int(LETTERS * inches))))
 
 
 def rgb(colour: str) -> Array:
@@ -130,9 +112,9 @@ def round_length(length: float) -> float:
     return float(ten * max(step for step in (1.0, 2.0, 5.0) if step * ten <= length * (1 + 1e-9)))
 
 
-def length_text(length: float, units: str) -> str:
+def length_text(length: float, units: Given) -> str:
     """A length with its unit, if it is known."""
-    unit, _ = units_of(units)
+    unit = units_of(units).length
     return f"{length:g} {unit}" if unit else f"{length:g}"
 
 

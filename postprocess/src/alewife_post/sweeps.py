@@ -79,7 +79,7 @@ def sweep_figure(
         for (text, family), colour in zip(families.items(), colours, strict=True):
             x, y = np.array(sorted((row[key], row[name]) for row in family), dtype=float).T
             axes.plot(x, y, "o-", ms=3.5, lw=1.0, color=colour, label=text or None)
-        axes.set_ylabel(series.panel_label([name]))
+        axes.set_ylabel(series.panel_label([name], sweep.points[0][1].case))
         axes.ticklabel_format(axis="y", useOffset=False)
         axes.spines[["top", "right"]].set_visible(False)
         series.legend(axes)

@@ -56,7 +56,8 @@ def trajectory_figure(
         axes.spines[["top", "right"]].set_visible(False)
     time = run.series["time"][shown]
     figure.suptitle(
-        f"{run.case['title']}\npaths from t = {time[0]:.4g} (dot) to {time[-1]:.4g} (ring)",
+        f"{run.case['title']}\npaths from {style.time_text(time[0], units)} (dot) to "
+        f"{time[-1]:.4g} (ring)",
         fontsize=style.PARAMETERS["axes.titlesize"],
         wrap=True,
     )

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::{
     Body, BoundaryCondition, ContactSpec, DomainSpec, Fluid, Geometry, Joint, MeanFlowSpec,
     MeshSettings, Numbers, Output, Probe, Reference, Scales, Statistics, SwimmerSpec, TimeSettings,
-    Variant,
+    Units, Variant,
 };
 
 /// A problem to solve: what one case file declares, after `extends`, variants and `--set`.
@@ -22,9 +22,9 @@ pub struct Case {
     pub description: String,
     /// Planar, or axisymmetric (x along the axis, y the distance from it).
     pub geometry: Geometry,
-    /// The consistent units of all numbers: `dimensionless`, `SI`, `cm g s`, ...
-    #[serde(default = "dimensionless")]
-    pub units: String,
+    /// The consistent units of all numbers: a text, as `SI`, or labels: `{ length = "um", time = "s" }`.
+    #[serde(default)]
+    pub units: Units,
     /// Name of the body the frame of reference travels with; the laboratory frame if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub frame: Option<String>,
@@ -93,10 +93,6 @@ fn first_sentence(paragraph: &str) -> String {
     let ends = |word: &&str| word.ends_with(['.', ':']) && word.len() > 2;
     let n_words = words.iter().position(ends).map_or(words.len(), |last| last + 1);
     words[..n_words].join(" ").trim_end_matches(':').trim_end_matches('.').to_owned() + "."
-}
-
-fn dimensionless() -> String {
-    "dimensionless".to_owned()
 }
 
 #[cfg(test)]

@@ -54,6 +54,7 @@ mod swimmer;
 mod time;
 mod tree;
 mod type_error;
+mod units;
 mod variants;
 mod wall_time;
 
@@ -101,4 +102,5 @@ pub use stroke::{Stroke, smooth_ramp};
 pub use sweep::{Sweep, SweepPoint, SweepQuantity};
 pub use swimmer::{Copies, Pivot, Skin, SwimmerKind, SwimmerSpec};
 pub use time::{Adaptive, Convection, Initial, Scheme, Steady, TimeSettings, Unsteady, Until};
+pub use units::{UnitLabels, Units};
 pub use wall_time::WallTime;

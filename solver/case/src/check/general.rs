@@ -2,7 +2,8 @@
 
 use super::{Findings, given_mesh};
 use crate::type_error::suggestion;
-use crate::{DomainSpec, Geometry};
+use crate::units::defect;
+use crate::{DomainSpec, Geometry, Units};
 
 pub fn check(findings: &mut Findings<'_>) {
     let case = findings.case();
@@ -26,8 +27,34 @@ pub fn check(findings: &mut Findings<'_>) {
             &format!("{wanted} domains: {domains}"),
         );
     }
+    check_units(findings);
     check_domain(findings);
     check_frame(findings);
+}
+
+/// Units are words that can stand behind a number.
+fn check_units(findings: &mut Findings<'_>) {
+    let Units::Labels(labels) = &findings.case().units else { return };
+    let help = "write a short word such as \"um\", \"mm\", \"s\", \"ms\" or \"pN\"";
+    if labels.each().iter().all(|(_, unit)| unit.is_none()) {
+        findings.error(
+            "units",
+            "`units` names no unit".to_owned(),
+            "write a text, such as \"SI\", or labels: { length = \"um\", time = \"s\", force = \"pN\" }",
+        );
+    }
+    for (key, unit) in labels.each() {
+        let key = format!("units.{key}");
+        match unit {
+            Some("") => findings.error(&key, format!("`{key}` is empty"), help),
+            Some(unit) => {
+                if let Some(defect) = defect(unit) {
+                    findings.error(&key, format!("`{key}` is \"{unit}\", which {defect}"), help);
+                }
+            }
+            None => {}
+        }
+    }
 }
 
 /// The domain has an inside.
