@@ -36,13 +36,24 @@ pub struct UnitLabels {
     pub force: Option<String>,
 }
 
+/// A label as it may be given.
+#[derive(Debug, Clone, Copy)]
+pub struct UnitLabel<'a> {
+    /// Its key.
+    pub key: &'static str,
+    /// The unit, if it is given.
+    pub unit: Option<&'a str>,
+}
+
 impl UnitLabels {
-    /// All labels there may be, with their keys.
-    pub fn each(&self) -> [(&'static str, Option<&str>); 3] {
+    /// All labels there may be.
+    pub fn each(&self) -> [UnitLabel<'_>; 3] {
+        let Self { length, time, force } = self;
+        let label = |key, unit| UnitLabel { key, unit };
         [
-            ("length", self.length.as_deref()),
-            ("time", self.time.as_deref()),
-            ("force", self.force.as_deref()),
+            label("length", length.as_deref()),
+            label("time", time.as_deref()),
+            label("force", force.as_deref()),
         ]
     }
 }
@@ -58,8 +69,8 @@ impl fmt::Display for Units {
         match self {
             Self::Words(text) => formatter.write_str(text),
             Self::Labels(labels) => {
-                let given = labels.each().into_iter().filter_map(|(key, unit)| Some((key, unit?)));
-                let parts: Vec<_> = given.map(|(key, unit)| format!("{key} {unit}")).collect();
+                let told = |label: UnitLabel<'_>| Some(format!("{} {}", label.key, label.unit?));
+                let parts: Vec<_> = labels.each().into_iter().filter_map(told).collect();
                 formatter.write_str(&parts.join(", "))
             }
         }

@@ -22,7 +22,8 @@ pub fn facts(file: &CaseFile) -> String {
         let _ = writeln!(text, "  {what:<10} {}", printable(&value));
     };
     line("file", file.file.clone());
-    let units = format!("{}, units: {}", geometry_name(case.geometry), one_line(&case.units.to_string()));
+    let units =
+        format!("{}, units: {}", geometry_name(case.geometry), one_line(&case.units.to_string()));
     line("geometry", units);
     line("fluid", fluid(case));
     line("domain", domain(case));

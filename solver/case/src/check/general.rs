@@ -2,7 +2,7 @@
 
 use super::{Findings, given_mesh};
 use crate::type_error::suggestion;
-use crate::units::defect;
+use crate::units::{UnitLabel, defect};
 use crate::{DomainSpec, Geometry, Units};
 
 pub fn check(findings: &mut Findings<'_>) {
@@ -36,14 +36,14 @@ pub fn check(findings: &mut Findings<'_>) {
 fn check_units(findings: &mut Findings<'_>) {
     let Units::Labels(labels) = &findings.case().units else { return };
     let help = "write a short word such as \"um\", \"mm\", \"s\", \"ms\" or \"pN\"";
-    if labels.each().iter().all(|(_, unit)| unit.is_none()) {
+    if labels.each().iter().all(|label| label.unit.is_none()) {
         findings.error(
             "units",
             "`units` names no unit".to_owned(),
             "write a text, such as \"SI\", or labels: { length = \"um\", time = \"s\", force = \"pN\" }",
         );
     }
-    for (key, unit) in labels.each() {
+    for UnitLabel { key, unit } in labels.each() {
         let key = format!("units.{key}");
         match unit {
             Some("") => findings.error(&key, format!("`{key}` is empty"), help),
