@@ -25,8 +25,13 @@ fn measured() -> Vec<Measured> {
             case = name.trim();
         }
         let cells: Vec<&str> = line.split('|').map(str::trim).collect();
-        let seconds = cells.len().checked_sub(2).and_then(|last| cells[last].parse::<f64>().ok());
-        let (Some(seconds), 13) = (seconds, cells.len()) else { continue };
+        // Of a table of runs, or of values in a section of an earlier form
+        let column = match cells.len() {
+            9 => 6,
+            13 => 11,
+            _ => continue,
+        };
+        let Ok(seconds) = cells[column].parse::<f64>() else { continue };
         let variant = cells[1];
         let separator = if variant.is_empty() { "" } else { "/" };
         let member = format!("{case}{separator}{variant}");
