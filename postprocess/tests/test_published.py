@@ -92,6 +92,28 @@ def test_a_value_is_shown_by_its_difference_in_per_cent(tmp_path: Path) -> None:
         assert published.values_of(None, open_run(run)) == []
 
 
+@pytest.mark.parametrize(
+    ("source", "short"),
+    [
+        ("Somebody and Else 1998, figure 10", "Somebody and Else 1998"),
+        ("One, Two and Three 2002, Journal 14", "One et al. 2002"),
+        ("Code, finest level; benchmark of Others 1996", "Code, finest level"),
+        ("One 2002; Two 2012", "One 2002"),
+        ("the same: another one", "the same"),
+        ("a" * 30 + " " + "b" * 30, "a" * 30 + " ..."),
+    ],
+)
+def test_a_source_is_told_in_short(source: str, short: str) -> None:
+    assert published.who(source) == short
+
+
+def test_an_axis_shows_all_but_long_bars(tmp_path: Path) -> None:
+    run = write(tmp_path / "fall", 10.0)
+    compared(run, numerical_uncertainty=5.0)
+    figure = published.values_figure(open_run(run), published.values_of(None, open_run(run)))
+    np.testing.assert_allclose(figure.axes[0].get_xlim(), (-13.0, 13.0))
+
+
 def test_all_cases_are_drawn_and_those_without_a_run_are_named(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

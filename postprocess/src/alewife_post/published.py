@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import tomllib
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
@@ -11,7 +12,7 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from alewife_post import compare, curves, evidence, gallery, series, style
+from alewife_post import compare, curves, evidence, gallery, style
 from alewife_post.compare import Named
 from alewife_post.curves import Curve
 from alewife_post.read import Run, open_run
@@ -23,6 +24,13 @@ BEYOND = 1.1
 """A picture ends where this many times the time of the last published point is over."""
 FEWEST_POINTS = 3
 """Values of one quantity over time that are shown as points of a curve."""
+DATED = re.compile(r"[^;:]*?\b(?:19|20)\d\d\b")
+"""A source up to its year."""
+LONGEST = 44
+"""Letters of a source beside a row."""
+AROUND = 1.3
+"""An axis ends this many times as far out as differences, tolerances and published uncertainties;
+what mesh and step leave may go on beyond it."""
 
 
 @dataclass(frozen=True)
@@ -138,14 +146,21 @@ def values_of(variant: str | None, run: Run) -> list[Value]:
 
 
 def label_of(variant: str | None, one: dict[str, Any]) -> str:
-    """Variant, quantity and statistic, on two lines if it is long."""
+    """Variant, quantity and statistic, and below them who published it."""
     quantity = one["quantity"] + (f" - {one['minus']}" if one["minus"] else "")
     statistic = "" if one["statistic"] == "final" else f" ({one['statistic']})"
     at = "" if one["at"] is None else f" at {one['at']:g}"
-    source = one["source"].split(",")[0]
-    return (
-        f"{f'{variant}: ' if variant else ''}{quantity}{statistic}{at}\n{series.shortened(source)}"
-    )
+    return f"{f'{variant}: ' if variant else ''}{quantity}{statistic}{at}\n{who(one['source'])}"
+
+
+def who(source: str) -> str:
+    """The beginning of a source: names and year, or its first clause."""
+    found = DATED.match(source)
+    clause = found[0] if found else re.split("[;:]", source)[0]
+    names = clause.split(", ")
+    if found and len(names) > 1:
+        clause = f"{names[0]} et al. {clause[-4:]}"
+    return clause if len(clause) <= LONGEST else clause[:LONGEST].rpartition(" ")[0] + " ..."
 
 
 def values_figure(run: Run, values: list[Value]) -> Figure:
@@ -171,6 +186,8 @@ def values_figure(run: Run, values: list[Value]) -> Figure:
     )  # fmt: skip
     axes.set_yticks(rows, [value.label for value in values])
     axes.invert_yaxis()
+    far = max(max(abs(one.difference), one.uncertainty, one.tolerance) for one in values)
+    axes.set_xlim(-AROUND * far, AROUND * far)
     axes.set_xlabel("difference from the published value (%)")
     axes.spines[["top", "right", "left"]].set_visible(False)
     figure.suptitle(run.case["title"], fontsize=style.PARAMETERS["axes.titlesize"])
