@@ -122,7 +122,7 @@ fn computed(case: &Case) -> Case {
         reference: Vec::new(),
         variant: Vec::new(),
         quick: false,
-        output: Output { series: EVERY_STEP, ..case.output.clone() },
+        output: Output { series: EVERY_STEP, ..case.output },
         ..case.clone()
     }
 }
