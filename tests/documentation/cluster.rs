@@ -13,7 +13,7 @@ fn the_scripts_on_the_page_are_the_files() {
     let shown: Vec<&str> = shown.iter().map(|(_, block)| block.as_str()).collect();
     assert_eq!(shown, [text("docs/cluster/slurm.sh"), text("docs/cluster/pbs.sh")]);
     let scripts = ["docs/cluster/slurm.sh", "docs/cluster/pbs.sh", "docs/cluster/static.sh"];
-    for script in scripts.into_iter().chain(["tests/slurm.sh"]) {
+    for script in scripts.into_iter().chain(["tests/slurm.sh", "tests/container.sh"]) {
         let parsed = Command::new("bash").arg("-n").arg(root().join(script)).status().unwrap();
         assert!(parsed.success(), "{script}");
     }
