@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 Array = np.ndarray
 
-IN_SPACE = ("speed", "pressure", "vorticity", "bodies", "iso")
+IN_SPACE = ("speed", "pressure", "vorticity", "bodies")
 FINER = 2
 """Pixels of a still image over those of a film, from left to right."""
 SLICE_OPACITY = 0.8
@@ -46,8 +46,10 @@ def still(run: Run, moment: Moment, request: Request) -> Figure:
 
 
 def _check(request: Request) -> None:
-    if request.quantity not in IN_SPACE:
+    if request.iso is None and request.quantity not in IN_SPACE:
         raise ValueError(f"{request.quantity} is not filmed in space: {', '.join(IN_SPACE)}")
+    if request.iso is not None:
+        isosurfaces.parsed(request.iso)
     if not scene.can_render():
         raise ValueError("VTK can have no window here: install libosmesa6")
 
