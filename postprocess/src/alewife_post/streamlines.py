@@ -33,6 +33,8 @@ ALIKE = 0.02
 """Levels that differ from symmetric ones by less than this part of their range are symmetric."""
 CLOSEST = 1e-3
 """Two levels are so far apart at least, over the range of them all."""
+NEAR_AXIS = 0.01
+"""Levels as near to that of the axis, over the range of them all, are left out."""
 ARROW_SPACING = 0.45
 """Way along a line between arrow heads, over the shorter side of the view."""
 SHORTEST = 0.06
@@ -71,6 +73,9 @@ def streamlines(run: Run, field: Field, view: View, *, mirror: bool) -> Streamli
     half = (x0, x1, max(y0, 0.0), max(-y0, y1)) if is_mirrored else view
     shown = [Piece.of(tile, psi) for tile, psi in _tiles(run.case, field, found.values, half)]
     levels = chosen_levels(shown, half, _number(view))
+    if is_axisymmetric and len(levels):
+        # Psi grows as the square of the distance from the axis: its lines there shake
+        levels = levels[np.abs(levels) > NEAR_AXIS * np.ptp(levels)]
     lines = [line for piece in shown for line in piece.contours(levels)]
     if is_mirrored:
         lines += [line * [1.0, -1.0] for line in lines]
