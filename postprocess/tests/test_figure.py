@@ -8,8 +8,9 @@ import pytest
 from conftest import CAN_RENDER
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from mpl_toolkits.axes_grid1.anchored_artists import AnchoredSizeBar
 
-from alewife_post import Run, cli, figure, series, style
+from alewife_post import Run, cli, drawing, figure, series, style
 from alewife_post.drawing import boundary_loops
 from alewife_post.elements import smooth_outline
 from alewife_post.read import Field
@@ -244,3 +245,33 @@ def test_labels_have_units_where_they_are_known() -> None:
     assert style.length_label("x", "dimensionless") == "x"
     assert style.time_text(0.25, "mm mg s") == "t = 0.25 s"
     assert style.length_text(0.5, "SI") == "0.5 m"
+
+
+def test_titles_have_as_many_lines_as_they_need_and_times_stay_in_one_piece() -> None:
+    assert style.fitted("A disc, t = 0.5 s", 5.0) == "A disc, t = 0.5 s"
+    long = "Two discs, one above the other: drafting and kissing, t = 0.2032 s, z = 0.5"
+    lines = style.fitted(long, 3.0).splitlines()
+    assert len(lines) == 2
+    assert max(map(len, lines)) <= 3.0 * style.LETTERS
+    assert " ".join(lines) == long
+    assert any("t = 0.2032 s" in line for line in lines)
+
+
+def test_a_scale_bar_lies_where_no_body_is_and_only_with_a_unit(planar_run: Run) -> None:
+    view = (0.0, 4.0, 0.0, 2.0)
+    axes = Figure().add_subplot()
+    drawing.draw_scale_bar(axes, view, "dimensionless")
+    assert not axes.artists
+    for body in ([3.8, 0.2, 0.0], [1.0, 1.0, 0.0]):
+        drawing.draw_scale_bar(axes, view, "SI", [np.array(body)])
+    codes = [bar.loc for bar in axes.artists]
+    right, left = AnchoredSizeBar.codes["lower right"], AnchoredSizeBar.codes["lower left"]
+    assert codes == [left, right]
+    drawn = figure.picture(planar_run, lines="none", painter="matplotlib")
+    (bar,) = drawn.axes[0].artists
+    # A fifth of four metres, rounded down
+    assert bar.txt_label.get_text() == "0.5 m"
+    painted(drawn)
+    width = bar.size_bar.get_window_extent(drawn.canvas.get_renderer()).width
+    ends = drawn.axes[0].transData.transform([(0.0, 0.0), (0.5, 0.0)])
+    assert width == pytest.approx(ends[1, 0] - ends[0, 0], rel=0.02)

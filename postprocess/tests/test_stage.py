@@ -3,16 +3,29 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
+import matplotlib.image
 import numpy as np
 import pytest
 from conftest import CAN_RENDER, block
 from test_film import colour_at, frames_of
 
-from alewife_post import Run, camera, cli, film, open_run, planes, stage, style
+from alewife_post import (
+    Run,
+    camera,
+    cli,
+    film,
+    isosurfaces,
+    open_run,
+    planes,
+    space,
+    stage,
+    style,
+)
 from alewife_post.cast import Cast, _cone
-from alewife_post.read import QUADRATIC_TETRAHEDRON
+from alewife_post.read import QUADRATIC_TETRAHEDRON, Field
 
 NEEDS_WINDOW = pytest.mark.skipif(not CAN_RENDER, reason="VTK can have no window here")
 SMALL = ["--size", "320x240"]
@@ -241,3 +254,109 @@ def test_shapes_come_from_the_messages(run: Run) -> None:
     ((solid,),) = [shape.solids for shape in run.shapes["ball"]]
     assert solid.kind == "ellipsoid"
     assert solid.size.tolist() == [1.0, 1.0, 1.0]
+
+
+# ---- Surfaces of equal vorticity, and stills -----------------------------------------------------
+
+
+def growing(run: Run, axis: int) -> Field:
+    """The first field with a vorticity that grows along an axis."""
+    field = run.field(0.0)
+    return replace(field, vorticity=field.nodes[:, [axis]] * [0.0, 0.6, 0.8])
+
+
+def test_a_surface_of_equal_vorticity_is_where_it_has_that_value(run: Run) -> None:
+    whole = np.array([[0.0, 0.0, 0.0], [3.0, 3.0, 3.0]])
+    field = growing(run, 0)
+    for level, area in ((0.4, 9.0), (1.4, 8.0)):
+        found = isosurfaces.isosurface(run.case, field, "vorticity", level, whole)
+        assert found.area == pytest.approx(area, rel=1e-5)
+        np.testing.assert_allclose(np.asarray(found.points)[:, 0], level, atol=1e-5)
+    half = np.array([[0.0, 0.0, 0.0], [3.0, 1.5, 3.0]])
+    found = isosurfaces.isosurface(run.case, field, "vorticity", 0.4, half)
+    assert found.area == pytest.approx(4.5, rel=1e-5)
+    beyond = isosurfaces.isosurface(run.case, field, "vorticity", 9.0, whole)
+    assert beyond.n_cells == 0
+
+
+def test_a_surface_goes_on_beyond_a_periodic_mesh(run: Run) -> None:
+    case = {**run.case, "boundary": {"left": {"periodic": "right"}}}
+    field = growing(run, 2)
+    moved = replace(field, nodes=field.nodes + np.array([1.0, 0.0, 0.0]))
+    whole = np.array([[0.0, 0.0, 0.0], [3.0, 3.0, 3.0]])
+    found = isosurfaces.isosurface(case, moved, "vorticity", 0.4, whole)
+    assert found.area == pytest.approx(9.0, rel=1e-5)
+    points = np.asarray(found.points)
+    assert (points[:, 0].min(), points[:, 0].max()) == pytest.approx((0.0, 3.0))
+
+
+def test_half_of_all_vorticity_lies_beyond_the_level(run: Run) -> None:
+    # Without the block, of x from 0 to 3 half lies beyond the root of 4.5
+    field = growing(run, 0)
+    box = np.array([[0.0, 0.0, 0.0], [3.0, 1.0, 3.0]])
+    found = isosurfaces.samples(field, "vorticity", box)
+    assert found[1].sum() == pytest.approx(9.0)
+    # Its samples are the corners of cells, a unit apart
+    assert isosurfaces.level_of([found]) == pytest.approx(4.5**0.5, abs=0.15)
+    with pytest.raises(ValueError, match="zero all over"):
+        isosurfaces.level_of([(np.zeros(3), np.ones(3))])
+
+
+@pytest.mark.parametrize("text", ["pressure", "vorticity=0", "vorticity=-1", "vorticity=a", "=2"])
+def test_what_is_no_surface_is_refused(text: str) -> None:
+    with pytest.raises(ValueError, match=r"vorticity=2\.5"):
+        isosurfaces.parsed(text)
+    assert isosurfaces.parsed(" speed = 2e-1") == ("speed", 0.2)
+    assert isosurfaces.parsed("vorticity") == ("vorticity", None)
+
+
+@NEEDS_WINDOW
+def test_stills_show_a_surface_and_go_with_who_is_followed(
+    run: Run, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def still(*more: str) -> np.ndarray:
+        out = tmp_path / "still.png"
+        assert cli.main(["picture", str(run.path), "--out", str(out), *more]) == 0
+        return np.round(255 * matplotlib.image.imread(out)[..., :3])
+
+    # The speed is 1 + y^2
+    blue = np.array(style.rgb(style.ISO), dtype=int)
+    shown = still("--iso", "speed=3", "--camera", "0", "0")
+    is_blue = (shown[..., 2] - shown[..., 0] > 0.3 * (blue[2] - blue[0])) & (
+        shown.sum(axis=2) < 740
+    )
+    assert is_blue.sum() > 500
+    columns = []
+    for time in ("0", "0.8"):
+        picture = still(
+            "--follow",
+            "ball",
+            "--surface",
+            "--time",
+            time,
+            "--camera",
+            "-90",
+            "0",
+            "--quantity",
+            "speed",
+        )
+        dark = picture.sum(axis=2)[200:-300, 200:-500] < 700
+        columns.append(np.flatnonzero(dark.any(axis=0)).mean())
+    # The block stands still, and goes to the left as seen from the ball
+    assert columns[1] < columns[0] - 50
+    out = str(tmp_path / "still.png")
+    assert cli.main(["picture", str(run.path), "--out", out, "--follow", "nobody"]) == 2
+    assert "no body or swimmer nobody to follow; there are ball" in capsys.readouterr().err
+    assert cli.main(["picture", str(run.path), "--out", out, "--iso", "pressure"]) == 2
+
+
+def test_bodies_that_cross_a_periodic_side_have_their_arrows_with_them(run: Run) -> None:
+    other = Run(run.path)
+    case = {**run.case, "boundary": {"left": {"periodic": "right"}}}
+    body = {**case["body"][0], "gait": {"squirmer": {"modes": [1.0]}}}
+    other.__dict__["case"] = {**case, "body": [body]}
+    history = other.bodies["ball"]
+    far = replace(history, center=history.center + np.array([30.0, 0.0, 0.0]))
+    other.__dict__["_bodies_and_shapes"] = ({"ball": far}, other.shapes)
+    ((arrow, _),) = space.motion(other, 0.0)
+    assert np.asarray(arrow.points)[:, 0].min() == pytest.approx(1.5, abs=1e-3)

@@ -166,6 +166,23 @@ def groups(run: Run) -> dict[str, list[str]]:
     return found | {name: [name] for name in names if name not in grouped}
 
 
+def followed(run: Run, name: str) -> list[str]:
+    """Bodies of the swimmer, or the body, that a view goes with."""
+    known = groups(run)
+    if name in known:
+        return known[name]
+    if name in run.bodies:
+        return [name]
+    there = ", ".join(dict.fromkeys([*known, *run.bodies])) or "none"
+    raise KeyError(f"no body or swimmer {name} to follow; there are {there}")
+
+
+def middle(run: Run, name: str, time: float) -> Array:
+    """The middle `(3,)` of what is followed at a time."""
+    placed = poses(run, time)
+    return np.mean([placed[member][0] for member in followed(run, name)], axis=0)
+
+
 def _copies(swimmer: dict[str, Any], names: list[str]) -> list[str]:
     name = swimmer["name"]
     if "copies" not in swimmer:

@@ -140,6 +140,12 @@ def camera(direction: tuple[Array, Array], corners: Array, aspect: float) -> Cam
     return Camera(towards, right, up, middle, float(scale))
 
 
+def beyond(run: Run) -> Array:
+    """How far bodies that cross its sides reach out of a periodic domain, `(3,)`."""
+    largest = max([0.0, *(bodies.radius(run, name) for name in run.bodies)])
+    return np.where(periods(run.case) > 0, largest, 0.0)
+
+
 def corners_of(box: Array) -> Array:
     """All corners `(8, 3)` of a box `(2, 3)`."""
     return np.array([[box[i, 0], box[j, 1], box[k, 2]] for i, j, k in np.ndindex(2, 2, 2)])

@@ -113,10 +113,13 @@ def _picture(run: Run, options: argparse.Namespace) -> Figure:
             time=options.time,
             view=view,
             frame=options.frame,
+            follow=options.follow,
             lines=options.lines,
             mirror=not options.half,
             painter=options.painter,
         )
+    if options.iso or (options.follow and not options.slice):
+        return _still(run, options)
     if options.surface:
         quantity = options.quantity or "pressure"
         camera = tuple(options.camera or CAMERA)
@@ -130,6 +133,36 @@ def _picture(run: Run, options: argparse.Namespace) -> Figure:
         frame=options.frame,
         lines=options.lines or "streamlines",
     )
+
+
+def _still(run: Run, options: argparse.Namespace) -> Figure:
+    """A run in space as one frame of its film."""
+    from alewife_post import film, stage, style
+
+    field = min(run.fields, key=lambda one: abs(one.time - _time(run, options)), default=None)
+    if field is None:
+        raise FileNotFoundError(f"{run.path} has no field files: see output.fields of its case")
+    style.use()
+    request = film.Request(
+        quantity=_filmed(options),
+        follow=options.follow,
+        is_asked=True,
+        trails=False,
+        surface=options.surface,
+        iso=options.iso,
+        camera=options.camera and tuple(options.camera),
+    )
+    return stage.still(run, film.Moment(field.time, field.path), request)
+
+
+def _filmed(options: argparse.Namespace) -> str:
+    if options.iso:
+        return "iso"
+    return options.quantity or ("pressure" if options.surface else "speed")
+
+
+def _time(run: Run, options: argparse.Namespace) -> float:
+    return run.fields[-1].time if options.time is None and run.fields else options.time or 0.0
 
 
 CAMERA = (-50.0, 20.0)
@@ -172,11 +205,6 @@ def _add_film(parser: argparse.ArgumentParser) -> None:
 
     _add_run(parser)
     _add_look(parser, film.QUANTITIES)
-    parser.add_argument(
-        "--follow",
-        metavar="NAME",
-        help="body or swimmer the view moves with; `none` to leave the frame of the run",
-    )
     parser.add_argument(
         "--window", type=float, nargs=2, metavar=("START", "END"), help="first and last time"
     )
@@ -236,6 +264,7 @@ def _write_film(options: argparse.Namespace) -> None:
         painter=options.painter,
         plane=options.slice,
         surface=options.surface,
+        iso=options.iso,
         camera=options.camera and tuple(options.camera),
     )
     film.film(run, options.out, request)
@@ -268,6 +297,16 @@ def _add_look(parser: argparse.ArgumentParser, quantities: tuple[str, ...]) -> N
         help="plane of a run in space, such as z=0.5; through the bodies if absent",
     )
     only_one.add_argument("--surface", action="store_true", help="the bodies of a run in space")
+    only_one.add_argument(
+        "--iso",
+        metavar="QUANTITY",
+        help="in space the surface of equal vorticity, or of a value: vorticity=2.5",
+    )
+    parser.add_argument(
+        "--follow",
+        metavar="NAME",
+        help="body or swimmer the view goes with; of films `none` leaves the frame of the run",
+    )
     parser.add_argument(
         "--camera",
         type=float,
@@ -279,7 +318,7 @@ def _add_look(parser: argparse.ArgumentParser, quantities: tuple[str, ...]) -> N
 
 
 def _refuse_in_the_plane(options: argparse.Namespace) -> None:
-    if options.surface or options.slice:
-        raise ValueError("--surface and --slice are for runs in space")
+    if options.surface or options.slice or options.iso:
+        raise ValueError("--surface, --slice and --iso are for runs in space")
     if options.camera:
         raise ValueError("--camera is for runs in space")

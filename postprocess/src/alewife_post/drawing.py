@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -21,6 +22,9 @@ from alewife_post.units import Given, units_of
 
 Array = np.ndarray
 View = tuple[float, float, float, float]
+
+EMPTY = 0.35
+"""A corner without a body in this part of a view is as good as any other."""
 
 
 def draw_values(
@@ -204,8 +208,11 @@ def _on_grid(flow: list[Field], view: View, n: int) -> tuple[Array, Array, Array
     return x, y, found
 
 
-def draw_scale_bar(axes: Axes, view: View, units: Given) -> None:
-    """A round length in a corner, where the axes have no marks or the case names its unit."""
+def draw_scale_bar(axes: Axes, view: View, units: Given, bodies: Sequence[Array] = ()) -> None:
+    """A round length, where the axes have no marks or the case names its unit.
+
+    It lies in the corner from which the centres of `bodies` are farthest.
+    """
     if units_of(units).length is None and axes.axison:
         return
     width, height = view[1] - view[0], view[3] - view[2]
@@ -214,7 +221,7 @@ def draw_scale_bar(axes: Axes, view: View, units: Given) -> None:
         axes.transData,
         length,
         style.length_text(length, units),
-        loc="lower right",
+        loc=_empty_corner(view, bodies),
         pad=0.35,
         borderpad=0.4,
         sep=3.0,
@@ -224,6 +231,22 @@ def draw_scale_bar(axes: Axes, view: View, units: Given) -> None:
     bar.patch.set(facecolor="white", alpha=0.8, lw=0)
     bar.set_zorder(20)
     axes.add_artist(bar)
+
+
+def _empty_corner(view: View, bodies: Sequence[Array]) -> str:
+    x0, x1, y0, y1 = view
+    corners = {"lower right": (x1, y0), "lower left": (x0, y0), "upper right": (x1, y1)}
+    if len(bodies) == 0:
+        return "lower right"
+    size = np.array([x1 - x0, y1 - y0])
+    places = np.array([body[:2] for body in bodies])
+
+    def nearest(corner: str) -> float:
+        away = np.abs((places - corners[corner]) / size).max(axis=1).min()
+        # The first corner unless there is a body in it
+        return min(float(away), EMPTY)
+
+    return max(corners, key=nearest)
 
 
 def draw_rod(axes: Axes, points: Array, zorder: float = 4.5) -> None:

@@ -16,13 +16,14 @@ from matplotlib.ticker import MaxNLocator
 from alewife_post import bodies, drawing, streamlines, style
 from alewife_post.elements import mirrored, shares
 from alewife_post.periodic import joined
-from alewife_post.read import Run
+from alewife_post.read import Field, Run
 from alewife_post.snapshot import (
     Lines,
     Look,
     Painter,
     chosen_painter,
     default_view,
+    followed_view,
     nodal_values,
     paint,
     paint_bodies,
@@ -45,6 +46,7 @@ def picture(
     time: float | None = None,
     view: View | None = None,
     frame: str | None = None,
+    follow: str | None = None,
     lines: Lines | None = None,
     mirror: bool = True,
     painter: Painter = "auto",
@@ -52,6 +54,7 @@ def picture(
     """A picture of one quantity at the frame nearest to `time`, or at the last one.
 
     `view` is x0, x1, y0, y1; without it, all of the domain, or the bodies if they are small in it.
+    With a body or swimmer to `follow` it is relative to that, or what is around it.
     `frame` names a body whose velocity is subtracted. Speed has streamlines unless `lines` says
     otherwise. An axisymmetric run is shown on both sides of its axis unless `mirror` is false.
     """
@@ -62,7 +65,7 @@ def picture(
     if frame is not None:
         velocity = velocity - body_velocity(run, frame, field.time)
     field = replace(field, velocity=velocity)
-    view = view or default_view(run, whole_view(run, field, mirror=mirror), np.array([field.time]))
+    view = _seen(run, field, view, follow, mirror=mirror)
     whole = mirrored(field) if run.is_axisymmetric and mirror else field
     flow = prepared(run, field, view, mirror=mirror)
     shown = joined(flow)
@@ -88,7 +91,8 @@ def picture(
 
     axes.set_xlim(view[0], view[1])
     axes.set_ylim(view[2], view[3])
-    drawing.draw_scale_bar(axes, view, units)
+    placed = [center for center, _ in bodies.poses(run, field.time).values()]
+    drawing.draw_scale_bar(axes, view, units, placed)
     axes.set_xlabel(style.length_label("x", units))
     axes.set_ylabel(style.length_label("r" if run.is_axisymmetric else "y", units))
     # A flat picture has room for few marks on its short side.
@@ -104,6 +108,17 @@ def picture(
             style.label(quantity, units) + ("" if frame is None else f" relative to {frame}")
         )
     return figure
+
+
+def _seen(run: Run, field: Field, view: View | None, follow: str | None, *, mirror: bool) -> View:
+    whole = whole_view(run, field, mirror=mirror)
+    if follow is None:
+        return view or default_view(run, whole, np.array([field.time]))
+    x, y, _ = bodies.middle(run, follow, field.time)
+    if run.is_axisymmetric:
+        y = 0.0
+    x0, x1, y0, y1 = view or followed_view(run, follow, field.time, whole)
+    return x0 + x, x1 + x, y0 + y, y1 + y
 
 
 def body_velocity(run: Run, name: str, time: float) -> Array:

@@ -22,6 +22,7 @@ from alewife_post.snapshot import (
     View,
     chosen_painter,
     default_view,
+    followed_view,
     nodal_values,
     paint,
     paint_bodies,
@@ -35,8 +36,6 @@ QUANTITIES = ("speed", "pressure", "vorticity", "mesh", "bodies")
 FEW_FIELDS = 5
 """Runs with fewer field files are shown by their bodies alone, if they move."""
 MOST_FRAMES = 300
-FOLLOWED = 4.0
-"""Half the height of a view over the reach of the body it follows."""
 SAMPLES = 20_000
 """Values kept of each frame for the limits of colours."""
 
@@ -68,6 +67,8 @@ class Request:
     """In space: plane of a slice, as `z=0.5`."""
     surface: bool = False
     """In space: pressure, or another quantity, on the bodies, and no slice."""
+    iso: str | None = None
+    """In space: surface of equal `vorticity`, or `vorticity=2.5`, and no slice."""
     camera: tuple[float, float] | None = None
     """In space: degrees about z and above the horizon."""
 
@@ -117,6 +118,8 @@ def chosen_quantity(run: Run, request: Request, tell: Callable[[str], None]) -> 
     """The quantity asked for, if the run has it, or the one that suits the run."""
     n = len(run.fields)
     has_motion = any(len(history.time) > 1 for history in run.bodies.values())
+    if request.iso is not None and n:
+        return "iso"
     if request.quantity is None:
         if request.surface and n:
             return "pressure"
@@ -151,14 +154,11 @@ def _followed(run: Run, request: Request) -> str | None:
     follow = request.follow
     if follow == "none":
         return None
-    groups = bodies.groups(run)
     if follow is None:
         frame = run.case.get("frame")
         name = frame if isinstance(frame, str) else None
-        return name if name in groups or name in run.bodies else None
-    if follow not in groups and follow not in run.bodies:
-        known = ", ".join(dict.fromkeys([*groups, *run.bodies])) or "none"
-        raise KeyError(f"no body or swimmer {follow} to follow; there are {known}")
+        return name if name in bodies.groups(run) or name in run.bodies else None
+    bodies.followed(run, follow)
     return follow
 
 
@@ -195,9 +195,7 @@ def offsets(run: Run, follow: str | None, moments: list[Moment]) -> Array:
     """Where the view moves to at each frame, `(n, 3)`: the middle of what is followed."""
     if follow is None:
         return np.zeros((len(moments), 3))
-    members = bodies.groups(run).get(follow, [follow])
-    places = [bodies.poses(run, moment.time) for moment in moments]
-    return np.array([np.mean([at[name][0] for name in members], axis=0) for at in places])
+    return np.array([bodies.middle(run, follow, moment.time) for moment in moments])
 
 
 def time_stamp(run: Run, time: float) -> str:
@@ -267,7 +265,13 @@ def _planar_images(run: Run, moments: list[Moment], request: Request) -> Iterato
     if look is not None:
         look = replace(look, width=page.pixels[0])
     _label(page, run, request)
-    drawing.draw_scale_bar(page.axes, tuple(view), units)
+    step = max(1, len(moments) // 20)
+    placed = [
+        center[:2] - moved[nth]
+        for nth in range(0, len(moments), step)
+        for center, _ in bodies.poses(run, moments[nth].time).values()
+    ]
+    drawing.draw_scale_bar(page.axes, tuple(view), units, placed)
     for nth, moment in enumerate(moments):
         page.clear()
         _paint_moment(page.axes, run, moment, seen(nth), (request, look))
@@ -319,21 +323,10 @@ def _planar_view(run: Run, moments: list[Moment], request: Request, moved: Array
     if request.follow is None:
         return default_view(run, whole, times)
     if request.is_asked:
-        return _followed_view(run, moments, request, np.array(whole))
+        return followed_view(run, request.follow, moments[0].time, whole)
     # The view goes with the frame of the run: all bodies as they are around it at first.
     first = default_view(run, whole, times[:1])
     return tuple(np.array(first) - np.repeat(moved[0], 2))
-
-
-def _followed_view(run: Run, moments: list[Moment], request: Request, whole: Array) -> View:
-    """The surroundings of a body, no larger than the domain."""
-    members = bodies.groups(run).get(request.follow, [request.follow])
-    placed = bodies.poses(run, moments[0].time)
-    corners = np.array([bodies.corners(run, name, placed[name]) for name in members])[..., :2]
-    middle = np.mean([placed[name][0][:2] for name in members], axis=0)
-    around = max(np.abs(corners - middle).max(), 1e-300)
-    reach = np.minimum(FOLLOWED * around * np.array([1.33, 1.0]), 0.5 * (whole[1::2] - whole[::2]))
-    return (-reach[0], reach[0], -reach[1], reach[1])
 
 
 def _label(page: Page, run: Run, request: Request) -> None:

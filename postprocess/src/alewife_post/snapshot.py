@@ -25,6 +25,8 @@ SMALL_BODY = 0.1
 """A body smaller than this part of the domain is looked at from near."""
 LONGEST_STRIP = 8.0
 """A domain longer than this many widths is shown near its bodies only: whole, it is a line."""
+FOLLOWED = 4.0
+"""Half the height of a view over the reach of the body it follows."""
 NEAR_SWIMMER = 0.5
 """Space left around swimmers over what they take themselves."""
 
@@ -192,3 +194,15 @@ def default_view(run: Run, whole: View, times: Array) -> View:
     if np.prod(near[1] - near[0]) > 0.7 * np.prod(high - low):
         return whole
     return float(near[0][0]), float(near[1][0]), float(near[0][1]), float(near[1][1])
+
+
+def followed_view(run: Run, name: str, time: float, whole: View) -> View:
+    """The surroundings of a body or swimmer, relative to it, no larger than the domain."""
+    members = bodies.followed(run, name)
+    placed = bodies.poses(run, time)
+    corners = np.array([bodies.corners(run, member, placed[member]) for member in members])
+    middle = bodies.middle(run, name, time)
+    around = max(np.abs(corners - middle)[..., :2].max(), 1e-300)
+    half = 0.5 * (np.array(whole[1::2]) - np.array(whole[::2]))
+    x, y = np.minimum(FOLLOWED * around * np.array([1.33, 1.0]), half)
+    return float(-x), float(x), float(-y), float(y)

@@ -101,7 +101,8 @@ def slice_picture(
     units = run.case.get("units", "")
     axes.set_xlim(view[0], view[1])
     axes.set_ylim(view[2], view[3])
-    drawing.draw_scale_bar(axes, view, units)
+    centers = np.array([center for center, _ in bodies.poses(run, field.time).values()])
+    drawing.draw_scale_bar(axes, view, units, cut.coordinates(centers.reshape(-1, 3)))
     axes.set_xlabel(style.length_label(cut.names[0], units))
     axes.set_ylabel(style.length_label(cut.names[1], units))
     axes.set_title(style.fitted(f"{_title(run, field)}, {cut.text}", size[0]))
@@ -215,20 +216,27 @@ def motion(run: Run, time: float) -> list[tuple[Any, str]]:
             ),
             style.ROD,
         )
-        for points in bodies.rods(run, placed, time)
+        for rod in bodies.rods(run, placed, time)
+        for points in _inside(run, rod)
     ]
     for arrow in bodies.headings(run, placed):
         length = float(np.linalg.norm(arrow.vector))
-        mesh = pyvista.Arrow(
-            start=arrow.start,
-            direction=arrow.vector / length,
-            scale=length,
-            tip_length=0.4,
-            tip_radius=0.18,
-            shaft_radius=0.07,
-        )
-        found.append((mesh, style.ARROW))
+        for (start,) in _inside(run, arrow.start[None]):
+            mesh = pyvista.Arrow(
+                start=start,
+                direction=arrow.vector / length,
+                scale=length,
+                tip_length=0.4,
+                tip_radius=0.18,
+                shaft_radius=0.07,
+            )
+            found.append((mesh, style.ARROW))
     return found
+
+
+def _inside(run: Run, points: Array) -> list[Array]:
+    """Points `(n, 3)` where a periodic domain shows them, of any other domain where they are."""
+    return [points + shift for shift in _shifts(run, points, domain_box(run.case))]
 
 
 def sample(

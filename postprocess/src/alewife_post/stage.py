@@ -9,45 +9,71 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from alewife_post import camera as view
-from alewife_post import planes, scene, space, style, surfaces
+from alewife_post import isosurfaces, planes, scene, space, style, surfaces
 from alewife_post.cast import Cast
 from alewife_post.film import Moment, Request, field_at, limits_of, offsets, thinned, time_stamp
 from alewife_post.page import Page
 from alewife_post.periodic import domain_box, periods
 from alewife_post.periodic import images as images_of
 from alewife_post.read import Field, Run
+from alewife_post.units import unit_of
 
 if TYPE_CHECKING:
     import pyvista
+    from matplotlib.figure import Figure
 
 Array = np.ndarray
 
 IN_SPACE = ("speed", "pressure", "vorticity", "bodies")
+FINER = 2
+"""Pixels of a still image over those of a film, from left to right."""
 SLICE_OPACITY = 0.8
 
 
 def images(run: Run, moments: list[Moment], request: Request) -> Iterator[Array]:
     """One image a moment."""
-    if request.quantity not in IN_SPACE:
+    _check(request)
+    pages = zip(_pages(run, moments, request, 1), moments, strict=True)
+    return (page.image(time_stamp(run, moment.time)) for page, moment in pages)
+
+
+def still(run: Run, moment: Moment, request: Request) -> Figure:
+    """The same as a figure, its image finer."""
+    _check(request)
+    page = next(_pages(run, [moment], request, FINER))
+    page.stamp.set_text(time_stamp(run, moment.time))
+    return page.figure
+
+
+def _check(request: Request) -> None:
+    if request.iso is None and request.quantity not in IN_SPACE:
         raise ValueError(f"{request.quantity} is not filmed in space: {', '.join(IN_SPACE)}")
+    if request.iso is not None:
+        isosurfaces.parsed(request.iso)
     if not scene.can_render():
         raise ValueError("VTK can have no window here: install libosmesa6")
-    return _images(run, moments, request)
 
 
-def _images(run: Run, moments: list[Moment], request: Request) -> Iterator[Array]:
+def _pages(run: Run, moments: list[Moment], request: Request, finer: int) -> Iterator[Page]:
     import pyvista
 
     moved = offsets(run, request.follow, moments)
     seen = view.seen(run, moments, request, moved)
     cut, cuts = None, None
-    if request.quantity != "bodies" and not request.surface:
+    if request.quantity not in ("bodies", "iso") and not request.surface:
         cut = _cut(run, moments, request, seen, moved)
         cuts = [cut.at(offset) for offset in moved]
-    parts = _flow(run, moments, request, cuts)
+    title = run.case["title"]
     units = run.case.get("units", "")
+    if request.quantity == "iso":
+        parts, said = _isosurfaces(run, moments, request, seen.box, moved)
+        title = f"{title}: {said}"
+    else:
+        parts = _flow(run, moments, request, cuts)
     bar, look = None, {}
-    if parts is not None:
+    if request.quantity == "iso":
+        look = {"color": style.ISO, "opacity": style.ISO_OPACITY, "smooth_shading": True}
+    elif parts is not None:
         colour_map, limits = limits_of(
             request.quantity, [thinned(*_samples(part)) for part in parts if part.n_cells]
         )
@@ -55,14 +81,15 @@ def _images(run: Run, moments: list[Moment], request: Request) -> Iterator[Array
         alpha = 1.0 if request.surface else SLICE_OPACITY
         bar = (colour_map, limits, every, style.label(request.quantity, units), alpha)
         look = {"scalars": "values", "cmap": colour_map, "clim": limits, "show_scalar_bar": False}
-    page = Page(request.size, run.case["title"], None, bar)
-    corners = view.corners_of(seen.box)
+    page = Page(request.size, title, None, bar)
+    corners = view.corners_of(seen.box + np.outer([-1.0, 1.0], view.beyond(run)))
     if cut is not None and not seen.is_whole:
         corners = np.concatenate([cut.corners(), seen.points])
     direction = view.direction(run, request, cut and cut.plane)
     camera = view.camera(direction, corners, page.pixels[0] / page.pixels[1])
     view.legend(page, camera, units)
-    plotter = pyvista.Plotter(off_screen=True, window_size=page.pixels)
+    size = [finer * side for side in page.pixels]
+    plotter = pyvista.Plotter(off_screen=True, window_size=size)
     plotter.set_background("white")
     plotter.enable_anti_aliasing("ssaa")
     walls = _walls(run, moments, is_whole=seen.is_whole)
@@ -74,17 +101,22 @@ def _images(run: Run, moments: list[Moment], request: Request) -> Iterator[Array
                 plotter.add_mesh(wall, render=False, **wall_look)
             if parts is not None and request.surface:
                 plotter.add_mesh(_smooth(parts[nth]), render=False, **look, **style.SOLID)
+            elif request.quantity == "iso":
+                if parts[nth].n_cells:
+                    plotter.add_mesh(parts[nth], render=False, **look, **style.SOLID)
             elif parts is not None and parts[nth].n_cells:
                 plotter.add_mesh(
                     parts[nth], render=False, lighting=False, opacity=SLICE_OPACITY, **look
                 )
-            cast.play(plotter, moment, request, is_plain=parts is not None)
+            is_plain = parts is not None and request.quantity != "iso"
+            cast.play(plotter, moment, request, is_plain=is_plain)
             camera.applied(plotter, moved[nth])
             plotter.render()
             image = plotter.screenshot(return_img=True)
             page.clear_images()
-            page.axes.imshow(image, extent=(0, 1, 0, 1), aspect="auto", interpolation="nearest")
-            yield page.image(time_stamp(run, moment.time))
+            how = "nearest" if finer == 1 else "antialiased"
+            page.axes.imshow(image, extent=(0, 1, 0, 1), aspect="auto", interpolation=how)
+            yield page
     finally:
         plotter.close()
 
@@ -152,6 +184,29 @@ def _flow(
     if not any(part.n_cells for part in found):
         raise ValueError(f"the slice {cuts[0].plane.text} meets no fluid that is seen")
     return found
+
+
+def _isosurfaces(
+    run: Run, moments: list[Moment], request: Request, box: Array, moved: Array
+) -> tuple[list[pyvista.PolyData], str]:
+    """Surfaces of one value in all frames, and what they are."""
+    quantity, level = isosurfaces.parsed(request.iso)
+    fields = [field_at(moment) for moment in moments]
+    if level is None:
+        level = isosurfaces.level_of(
+            [
+                thinned(*isosurfaces.samples(field, quantity, box + offset))
+                for field, offset in zip(fields, moved, strict=True)
+            ]
+        )
+    found = [
+        isosurfaces.isosurface(run.case, field, quantity, level, box + offset)
+        for field, offset in zip(fields, moved, strict=True)
+    ]
+    if not any(part.n_cells for part in found):
+        raise ValueError(f"no surface of {quantity} {level:g} is in view")
+    unit = unit_of({"vorticity": "rate"}.get(quantity, quantity), run.case.get("units", ""))
+    return found, f"{quantity} {level:.3g}" + (f" {unit}" if unit else "")
 
 
 def whole_slice(case: dict[str, Any], field: Field, cut: Cut, quantity: str) -> pyvista.PolyData:

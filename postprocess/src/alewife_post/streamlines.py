@@ -33,6 +33,8 @@ ALIKE = 0.02
 """Levels that differ from symmetric ones by less than this part of their range are symmetric."""
 CLOSEST = 1e-3
 """Two levels are so far apart at least, over the range of them all."""
+NEAR_AXIS = 0.01
+"""Levels as near to that of the axis, over the range of them all, are left out."""
 ARROW_SPACING = 0.45
 """Way along a line between arrow heads, over the shorter side of the view."""
 SHORTEST = 0.06
@@ -41,8 +43,8 @@ HEAD = 0.014
 """Length of an arrow head over the longer side of the view."""
 APART = 3.5
 """Lengths of arrow heads between one and the next."""
-SAME = 0.05
-"""Images of each other are that equally far from the middle, over the distance of heads."""
+SAME = 0.3
+"""Images of each other are so near when folded, over the least distance of heads."""
 
 
 @dataclass(frozen=True)
@@ -71,6 +73,9 @@ def streamlines(run: Run, field: Field, view: View, *, mirror: bool) -> Streamli
     half = (x0, x1, max(y0, 0.0), max(-y0, y1)) if is_mirrored else view
     shown = [Piece.of(tile, psi) for tile, psi in _tiles(run.case, field, found.values, half)]
     levels = chosen_levels(shown, half, _number(view))
+    if is_axisymmetric and len(levels):
+        # Psi grows as the square of the distance from the axis: its lines there shake
+        levels = levels[np.abs(levels) > NEAR_AXIS * np.ptp(levels)]
     lines = [line for piece in shown for line in piece.contours(levels)]
     if is_mirrored:
         lines += [line * [1.0, -1.0] for line in lines]
@@ -253,15 +258,17 @@ def with_heads(lines: list[Array], view: View) -> Streamlines:
 def _apart(heads: Array, middle: Array, least: float) -> Array:
     """Numbers of heads that are not near one another, those in the middle first.
 
-    Images of each other are equally far from the middle: they stay or go together.
+    Images of each other in the lines through the middle stay or go together.
     """
-    from_middle = np.linalg.norm(heads - middle, axis=1)
-    order = np.argsort(from_middle)
-    parted = np.diff(from_middle[order]) > SAME * least
+    folded = np.abs(heads - middle)
     kept = np.zeros(0, dtype=int)
-    for own in np.split(order, np.flatnonzero(parted) + 1):
+    left = np.argsort(np.linalg.norm(folded, axis=1))
+    while len(left):
+        is_image = np.linalg.norm(folded[left] - folded[left[0]], axis=1) < SAME * least
+        own, left = left[is_image], left[~is_image]
         away = np.linalg.norm(heads[own][:, None] - heads[kept][None], axis=2)
-        kept = np.append(kept, own[(away > least).all(axis=1)])
+        if (away > least).all():
+            kept = np.append(kept, own)
     return kept
 
 

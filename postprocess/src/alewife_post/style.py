@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import textwrap
 from dataclasses import dataclass
 
@@ -26,6 +27,10 @@ ROD = "#7b8794"
 TRAIL = "#f28e2b"
 ARROW = "#e4572e"
 ARROW_IN_BODY = "#ffffff"
+
+ISO = "#4f8fc9"
+ISO_OPACITY = 0.4
+"""A surface in the fluid, through which bodies are seen."""
 
 SOLID = {"ambient": 0.35, "diffuse": 0.7, "specular": 0.15}
 """How surfaces in space take light."""
@@ -98,7 +103,12 @@ def time_text(time: float, units: Given) -> str:
 
 def fitted(text: str, inches: float) -> str:
     """A title in as many lines as it needs on a picture so wide."""
-    return "\n".join(textwrap.wrap(text, max(24, int(LETTERS * inches))))
+    # Only at plain spaces: a time stays in one piece.
+    kept = re.sub(
+        r"t = [^\s,]+( [^\s,]+(?=,|$))?", lambda found: found[0].replace(" ", "\u00a0"), text
+    )
+    lines = textwrap.wrap(kept, max(24, int(LETTERS * inches)))
+    return "\n".join(lines).replace("\u00a0", " ")
 
 
 def rgb(colour: str) -> Array:

@@ -1,0 +1,99 @@
+"""Surfaces of equal vorticity in space, and the value that tells most of it."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from alewife_post import space, style, surfaces
+from alewife_post.periodic import domain_box, images, periods
+from alewife_post.read import Field
+
+if TYPE_CHECKING:
+    import pyvista
+
+Array = np.ndarray
+
+QUANTITIES = ("vorticity", "speed")
+WITHIN = 50.0
+"""Per cent of a quantity, by volume and over what is in view, that lies within its surface."""
+
+
+def parsed(text: str) -> tuple[str, float | None]:
+    """A quantity, and its value if it is asked for, written as `vorticity` or `vorticity=2.5`."""
+    found = re.fullmatch(r"\s*(\w+)\s*(?:=\s*([-+0-9.eE]+)\s*)?", text)
+    if found and found[1] in QUANTITIES:
+        try:
+            value = None if found[2] is None else float(found[2])
+        except ValueError:
+            value = 0.0
+        if value is None or value > 0.0:
+            return found[1], value
+    raise ValueError(
+        f"{text} has no surface: write {' or '.join(QUANTITIES)}, or with a positive value, "
+        "such as vorticity=2.5"
+    )
+
+
+def samples(field: Field, quantity: str, box: Array) -> tuple[Array, Array]:
+    """Values at the corners of cells in a box `(2, 3)`, and the volumes they hold."""
+    corners = field.nodes[field.cells[:, :4]]
+    middle = corners.mean(axis=1)
+    seen = ((middle >= box[0]) & (middle <= box[1])).all(axis=1)
+    volume = np.abs(np.linalg.det(corners[seen][:, 1:] - corners[seen][:, :1])) / 6.0
+    values = surfaces.nodal_values(field, quantity)[field.cells[seen][:, :4]]
+    return values.ravel(), np.repeat(volume / 4.0, 4)
+
+
+def level_of(found: list[tuple[Array, Array]]) -> float:
+    """The value beyond which half of a quantity lies in some fields together."""
+    values = np.concatenate([values for values, _ in found])
+    share = np.concatenate([share for _, share in found])
+    if not (values * share).any():
+        raise ValueError("it is zero all over what is in view: there is no surface to show")
+    return style.percentile(values, values * share, 100.0 - WITHIN)
+
+
+def isosurface(
+    case: dict[str, Any], field: Field, quantity: str, level: float, box: Array
+) -> pyvista.PolyData:
+    """The surface on which a quantity has a value, within a box `(2, 3)`, smooth to look at.
+
+    That of a periodic domain goes on beyond the mesh.
+    """
+    import pyvista
+
+    if not periods(case).any():
+        return _part(field, quantity, level, box)
+    low, high = domain_box(case)
+    found = []
+    for shift in images(case, field.nodes.min(axis=0), field.nodes.max(axis=0), (low, high)):
+        part = _part(field, quantity, level, np.array([low, high]) - shift)
+        if part.n_cells:
+            found.append(part.translate(shift))
+    return pyvista.merge(found) if found else pyvista.PolyData()
+
+
+def _part(field: Field, quantity: str, level: float, box: Array) -> pyvista.PolyData:
+    import pyvista
+
+    values = surfaces.nodal_values(field, quantity)
+    own, places = values[field.cells], field.nodes[field.cells]
+    near = (own.min(axis=1) <= level) & (own.max(axis=1) >= level)
+    near &= (places.max(axis=1) >= box[0]).all(axis=1) & (places.min(axis=1) <= box[1]).all(axis=1)
+    if not near.any():
+        return pyvista.PolyData()
+    pieces = field.cells[near][:, space.PIECES].reshape(-1, 4)
+    grid = pyvista.UnstructuredGrid({space.TETRAHEDRON: pieces}, field.nodes)
+    grid.point_data["values"] = values
+    found = grid.contour([level], scalars="values")
+    for axis in range(3):
+        for end, sign in ((box[0], -1.0), (box[1], 1.0)):
+            if found.n_cells:
+                origin = np.where(np.arange(3) == axis, end, 0.0)
+                found = found.clip(normal=sign * np.eye(3)[axis], origin=origin)
+    if found.n_cells == 0:
+        return pyvista.PolyData()
+    return found.compute_normals(split_vertices=False)
