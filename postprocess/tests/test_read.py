@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 from conftest import TIMES, ring, velocity
 
-from alewife_post import Run, open_run
+from alewife_post import Run, cli, open_run
+from alewife_post.read import read_field
 
 
 def test_series_keep_every_bit(planar_run: Run) -> None:
@@ -77,6 +78,66 @@ def test_a_run_without_fields_says_so(planar_run: Run, tmp_path: Path) -> None:
     (tmp_path / "run/fields.pvd").unlink()
     with pytest.raises(FileNotFoundError, match=r"output\.fields"):
         open_run(tmp_path / "run").field()
+
+
+@pytest.mark.parametrize("part", [0.0, 0.3, 0.98])
+def test_a_field_that_was_cut_short_is_one_line(
+    planar_run: Run,
+    tmp_path: Path,
+    part: float,
+    capfd: pytest.CaptureFixture[str],
+    recwarn: pytest.WarningsRecorder,
+) -> None:
+    shutil.copytree(planar_run.path, tmp_path / "run")
+    file = tmp_path / "run/fields/000040.vtu"
+    content = file.read_bytes()
+    file.write_bytes(content[: round(part * len(content))])
+    assert cli.main(["picture", str(tmp_path / "run"), "--out", str(tmp_path / "x.png")]) == 2
+    told = capfd.readouterr()
+    assert told.out == ""
+    assert told.err.count("\n") == 1
+    assert "000040.vtu is not whole" in told.err
+    assert len(recwarn) == 0
+    assert not (tmp_path / "x.png").exists()
+
+
+def test_a_field_that_is_damaged_within_is_one_line(
+    planar_run: Run, tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "damaged.vtu"
+    content = planar_run.fields[0].path.read_text()
+    for damaged in (
+        content.replace('<Piece NumberOfPoints="', '<Piece NumberOfPoints="9'),
+        content.replace("</Points>", ""),
+        "</VTKFile>",
+    ):
+        file.write_text(damaged)
+        with pytest.raises(ValueError, match=r"damaged\.vtu is damaged"):
+            read_field(file)
+    told = capfd.readouterr()
+    assert told.out + told.err == ""
+
+
+@pytest.mark.parametrize("time", [-0.1, 4.01, 100.0])
+def test_a_time_out_of_a_run_is_told_with_its_end(
+    planar_run: Run, tmp_path: Path, time: float, capsys: pytest.CaptureFixture[str]
+) -> None:
+    out = tmp_path / "x.png"
+    command = ["picture", str(planar_run.path), "--out", str(out), "--time"]
+    assert cli.main([*command, str(time)]) == 2
+    said = capsys.readouterr().err
+    assert "the fields begin at t = 0 and end at t = 4" in said
+    assert not out.exists()
+
+
+def test_a_time_between_two_fields_is_that_of_the_nearest(
+    planar_run: Run, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    out = tmp_path / "x.png"
+    command = ["picture", str(planar_run.path), "--out", str(out), "--time"]
+    for time in ("0.0", "3.2", "4.000000001"):
+        assert cli.main([*command, time]) == 0
+        assert capsys.readouterr().out == f"wrote {out}\n"
 
 
 def test_a_computed_run_reads(computed_run: Run) -> None:

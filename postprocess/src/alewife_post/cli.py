@@ -98,7 +98,10 @@ def _add_picture(parser: argparse.ArgumentParser) -> None:
 
 def _write_picture(options: argparse.Namespace) -> None:
     """One picture of a run."""
-    cli_series.save(_picture(open_run(options.run), options), options.out)
+    run = open_run(options.run)
+    if options.time is not None:
+        run.check_time(options.time)
+    cli_series.save(_picture(run, options), options.out)
 
 
 def _picture(run: Run, options: argparse.Namespace) -> Figure:

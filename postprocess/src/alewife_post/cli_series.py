@@ -164,13 +164,11 @@ def _add_common(parser: argparse.ArgumentParser, usual: str) -> None:
 
 
 def _finish(drawn: Figure, out: Path | None, usual: str, *, is_quiet: bool = False) -> None:
-    save(drawn, out or Path(usual))
-    if out is None and not is_quiet:
-        print(f"wrote {usual}")
+    save(drawn, out or Path(usual), is_quiet=is_quiet)
 
 
-def save(drawn: Figure, out: Path) -> None:
-    """Write a figure, whole or not at all."""
+def save(drawn: Figure, out: Path, *, is_quiet: bool = False) -> None:
+    """Write a figure, whole or not at all, and say so."""
     from alewife_post import style
 
     if out.suffix.lower() in FILMS:
@@ -179,6 +177,8 @@ def save(drawn: Figure, out: Path) -> None:
         raise FileNotFoundError(f"there is no directory {out.parent} to write {out.name} into")
     with replacing(out) as unfinished:
         drawn.savefig(unfinished, dpi=style.DPI, bbox_inches="tight", pad_inches=0.08)
+    if not is_quiet:
+        print(f"wrote {out}")
 
 
 def plain(value: object) -> object:

@@ -19,11 +19,16 @@ from mcap.reader import NonSeekingReader
 
 if TYPE_CHECKING:
     import pandas
+    import pyvista
 
 Array = np.ndarray
 
 QUADRATIC_TRIANGLE = 22
 QUADRATIC_TETRAHEDRON = 24
+END_OF_FIELDS = b"</VTKFile>"
+"""The last word of a field file."""
+ROUNDING = 1e-9
+"""Times that differ by this part are the same: one was read from a text."""
 WRITTEN = (".alewife-run", "status.json", "provenance.json", "series.csv", "run.mcap", "fields.pvd")
 """Files of which a run has one at least, and a case none."""
 
@@ -212,6 +217,21 @@ class Run:
             return read_field(self.fields[-1].path)
         return read_field(min(self.fields, key=lambda frame: abs(frame.time - time)).path)
 
+    def check_time(self, time: float) -> None:
+        """ValueError where no field can be meant: before the first one, or after the last one."""
+        times = [frame.time for frame in self.fields]
+        if not times:
+            return
+        first, last = times[0], times[-1]
+        slack = ROUNDING * max(abs(first), abs(last))
+        if first - slack <= time <= last + slack:
+            return
+        if len(times) == 1:
+            known = f"the only field is at t = {last:.6g} (output.fields of the case asks for more)"
+        else:
+            known = f"the fields begin at t = {first:.6g} and end at t = {last:.6g}"
+        raise ValueError(f"t = {time:.6g} is not in {self.path}: {known}")
+
     @property
     def is_axisymmetric(self) -> bool:
         """Whether x is an axis of revolution and y the distance from it."""
@@ -249,10 +269,7 @@ def _is_no_run(path: Path) -> str:
 
 def read_field(path: str | Path) -> Field:
     """Read one field file."""
-    # VTK takes seconds to load, and series need none of it.
-    import pyvista
-
-    grid = pyvista.read(path)
+    grid = _read_grid(Path(path))
     by_type = grid.cells_dict
     dimensions = {QUADRATIC_TRIANGLE: 2, QUADRATIC_TETRAHEDRON: 3}
     if len(by_type) != 1 or set(by_type) - set(dimensions):
@@ -276,6 +293,29 @@ def read_field(path: str | Path) -> Field:
         pressure=np.array(grid.point_data["pressure"], dtype=float),
         vorticity=np.array(grid.point_data["vorticity"], dtype=float),
     )
+
+
+def _read_grid(path: Path) -> pyvista.UnstructuredGrid:
+    """What VTK reads from a file; ValueError in place of VTK's own messages where it is damaged."""
+    # VTK takes seconds to load, and series need none of it.
+    import pyvista
+    from vtkmodules.vtkCommonCore import vtkObject
+
+    with path.open("rb") as file:
+        file.seek(max(0, path.stat().st_size - len(END_OF_FIELDS) - 8))
+        if not file.read().rstrip().endswith(END_OF_FIELDS):
+            raise ValueError(f"{path} is not whole: it does not end with {END_OF_FIELDS.decode()}")
+    is_shown = vtkObject.GetGlobalWarningDisplay()
+    vtkObject.SetGlobalWarningDisplay(0)
+    try:
+        reader = pyvista.get_reader(path)
+        grid = reader.read()
+        error = reader.reader.GetErrorCode()
+    finally:
+        vtkObject.SetGlobalWarningDisplay(is_shown)
+    if error or not isinstance(grid, pyvista.UnstructuredGrid) or not grid.n_cells:
+        raise ValueError(f"{path} is damaged: VTK cannot read a mesh from it")
+    return grid
 
 
 def _shape(entity: dict[str, Any], time: float) -> Shape:
