@@ -154,9 +154,6 @@ impl Work {
                     Found::Failed(reason) => Err(reason),
                     _ => match kept::read(&directory, case) {
                         // Without a companion a value has no uncertainty, without its run no value
-                        Err(_) if which == Which::Companion && !directory.is_dir() => {
-                            Err("not run".to_owned())
-                        }
                         Err(refusal) if which == Which::Companion => Err(refusal.reason),
                         read => Ok(read?),
                     },
@@ -184,12 +181,11 @@ impl Work {
         earlier: Earlier,
     ) -> Result<Result<RunSummary, String>, Failure> {
         let start = Start::with_threads(self.n_threads);
-        let model = kept::with_every_step(&file.model);
-        let directory = RunDirectory::create(place, &model.case, start, earlier)?;
+        let directory = RunDirectory::create(place, file.case(), start, earlier)?;
         let shown = Shown { quiet: true, live: None };
         let watch = self.watch.clone();
         let run = RunInto { directory: &directory, shown, watch, limit: None };
-        unless_stopped(engine::simulate_afresh(&model, run))
+        unless_stopped(engine::simulate_afresh(&file.model, run))
     }
 }
 
