@@ -34,10 +34,14 @@ pub fn find(directory: &Path, case: &Case, by_any_program: bool) -> Found {
         (RunState::Failed, true) if !status.is_interrupted => {
             Found::Failed(status.reason.unwrap_or_else(|| "it failed".to_owned()))
         }
-        // Only a validation measures the mesh of its runs
-        (RunState::Finished, false) if !directory.join(MESH_SIZE_FILE).is_file() => Found::Other,
+        (RunState::Finished, false) if !is_of_validation(directory) => Found::Other,
         _ => Found::Replaceable,
     }
+}
+
+/// Whether a run is known to be that of a validation: nothing else measures the meshes of runs.
+pub fn is_of_validation(directory: &Path) -> bool {
+    directory.join(MESH_SIZE_FILE).is_file()
 }
 
 fn is_by_this_program(directory: &Path) -> bool {

@@ -165,7 +165,14 @@ impl Work {
                 let summary = match kept::find(&directory, case, *by_any_program) {
                     Found::Finished => Ok(kept::read(&directory, case)?),
                     Found::Failed(reason) => Err(reason),
-                    Found::Replaceable => self.run(file, &directory, Earlier::Replace)?,
+                    Found::Replaceable => {
+                        let is_of_validation = kept::is_of_validation(&directory);
+                        let summary = self.run(file, &directory, Earlier::Replace)?;
+                        if is_of_validation {
+                            kept::mesh_size(&file.model, Some(&directory))?;
+                        }
+                        summary
+                    }
                     Found::Other => self.run(file, &directory, Earlier::Keep)?,
                 };
                 (Some(directory), summary)
