@@ -346,4 +346,5 @@ def test_bodies_are_where_the_mesh_has_them_if_no_message_tells(
         is_body = colour_at(image, style.BODY, 12)
         columns = np.flatnonzero(is_body.sum(axis=0) > 100)
         first = np.flatnonzero(colour_at(shown[0], style.BODY, 12).sum(axis=0) > 100)
-        assert abs(columns.mean() - first.mean()) < 1.0
+        # Columns at the rim count or not by the compression; messages have it tens of pixels away.
+        assert abs(columns.mean() - first.mean()) < 2.0

@@ -210,6 +210,22 @@ def test_the_camera_has_all_in_view_and_no_more(angles: tuple[float, float]) -> 
         assert used.max() == pytest.approx(1 / 1.04)
 
 
+def test_a_body_that_only_the_mesh_knows_is_in_view(run: Run) -> None:
+    other = Run(run.path)
+    other.__dict__["case"] = {
+        **run.case,
+        "body": [{"name": "ball", "center": [1.5, 1.5, 1.5]}],
+        "domain": {"sphere": {"radius": 100.0}},
+    }
+    other.__dict__["_bodies_and_shapes"] = (run.bodies, {})
+    moments = [film.Moment(frame.time, frame.path) for frame in run.fields]
+    request = film.Request(quantity="pressure", surface=True)
+    # Faces of the box of 3 are no sides of this domain
+    seen = camera.seen(other, moments, request, np.zeros((6, 3)))
+    assert (seen.box[0] <= 0.0).all()
+    assert (seen.box[1] >= 3.0).all()
+
+
 def test_gravity_points_down(run: Run) -> None:
     for gravity in ([0.0, -9.81, 0.0], [0.0, 0.0, -1.0], [0.0, 0.0, 2.0], [1.0, 1.0, 0.0]):
         run.__dict__["case"] = run.case | {"fluid": {"gravity": gravity}}

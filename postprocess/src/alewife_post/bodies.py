@@ -132,6 +132,16 @@ def surroundings(run: Run, times: Array) -> tuple[Array, Array] | None:
     return (low, high) if np.isfinite(low).all() else None
 
 
+def landmarks(run: Run, time: float) -> Array:
+    """Centre and corners of each body at a time, `(n, 3)`: where a picture has something."""
+    found = [
+        point
+        for name, pose in poses(run, time).items()
+        for point in (pose[0], *corners(run, name, pose))
+    ]
+    return np.array(found).reshape(-1, 3)
+
+
 def radius(run: Run, name: str) -> float:
     """Largest distance of a surface from the centre of a body, at the start."""
     seen = shape(run, name, 0.0)

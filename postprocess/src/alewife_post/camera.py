@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from alewife_post import bodies, planes, scene, style
+from alewife_post import bodies, planes, scene, style, surfaces
 from alewife_post.film import Moment, Request
 from alewife_post.page import Page
 from alewife_post.periodic import domain_box, periods
-from alewife_post.read import Run
+from alewife_post.read import Run, read_field
 
 if TYPE_CHECKING:
     import pyvista
@@ -78,7 +78,7 @@ def seen(run: Run, moments: list[Moment], request: Request, moved: Array) -> See
     for nth in range(0, len(moments), step):
         for name, pose in bodies.poses(run, moments[nth].time).items():
             if request.follow is None or name in members:
-                corners.append(np.array(bodies.corners(run, name, pose)) - moved[nth])
+                corners.append(_corners(run, (name, pose), moments[nth]) - moved[nth])
     if not corners or periods(run.case).any():
         return Seen(domain, np.zeros((0, 3)), True, 0.0)
     found = np.array(corners)
@@ -95,6 +95,16 @@ def seen(run: Run, moments: list[Moment], request: Request, moved: Array) -> See
     if request.follow is None:
         box = np.array([np.maximum(box[0], domain[0]), np.minimum(box[1], domain[1])])
     return Seen(box, found.reshape(-1, 3), False, float(margin))
+
+
+def _corners(run: Run, body: tuple[str, bodies.Pose], moment: Moment) -> Array:
+    """Lowest and highest corner `(2, 3)` of a body; of one that only the mesh knows, of all."""
+    found = np.array(bodies.corners(run, *body))
+    if np.ptp(found, axis=0).max() > 0.0 or moment.path is None:
+        return found
+    surface = surfaces.bodies_surface(run, read_field(moment.path), "speed")
+    points = np.asarray(surface.points)
+    return np.array([points.min(axis=0), points.max(axis=0)])
 
 
 def direction(run: Run, request: Request, plane: planes.Plane | None) -> tuple[Array, Array]:

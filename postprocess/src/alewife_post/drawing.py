@@ -23,8 +23,8 @@ from alewife_post.units import Given, units_of
 Array = np.ndarray
 View = tuple[float, float, float, float]
 
-EMPTY = 0.35
-"""A corner without a body in this part of a view is as good as any other."""
+EMPTY = 0.3
+"""Corners that are so far from all bodies, over the longer side of a view, are equally good."""
 
 
 def draw_values(
@@ -208,10 +208,10 @@ def _on_grid(flow: list[Field], view: View, n: int) -> tuple[Array, Array, Array
     return x, y, found
 
 
-def draw_scale_bar(axes: Axes, view: View, units: Given, bodies: Sequence[Array] = ()) -> None:
+def draw_scale_bar(axes: Axes, view: View, units: Given, taken: Sequence[Array] = ()) -> None:
     """A round length, where the axes have no marks or the case names its unit.
 
-    It lies in the corner from which the centres of `bodies` are farthest.
+    It lies in a corner that is far from places `(n, 2)` that are taken.
     """
     if units_of(units).length is None and axes.axison:
         return
@@ -221,7 +221,7 @@ def draw_scale_bar(axes: Axes, view: View, units: Given, bodies: Sequence[Array]
         axes.transData,
         length,
         style.length_text(length, units),
-        loc=_empty_corner(view, bodies),
+        loc=_empty_corner(view, taken),
         pad=0.35,
         borderpad=0.4,
         sep=3.0,
@@ -233,16 +233,16 @@ def draw_scale_bar(axes: Axes, view: View, units: Given, bodies: Sequence[Array]
     axes.add_artist(bar)
 
 
-def _empty_corner(view: View, bodies: Sequence[Array]) -> str:
+def _empty_corner(view: View, taken: Sequence[Array]) -> str:
     x0, x1, y0, y1 = view
     corners = {"lower right": (x1, y0), "lower left": (x0, y0), "upper right": (x1, y1)}
-    if len(bodies) == 0:
+    if len(taken) == 0:
         return "lower right"
-    size = np.array([x1 - x0, y1 - y0])
-    places = np.array([body[:2] for body in bodies])
+    size = max(x1 - x0, y1 - y0)
+    places = np.array([place[:2] for place in taken])
 
     def nearest(corner: str) -> float:
-        away = np.abs((places - corners[corner]) / size).max(axis=1).min()
+        away = np.linalg.norm(places - corners[corner], axis=1).min() / size
         # The first corner unless there is a body in it
         return min(float(away), EMPTY)
 

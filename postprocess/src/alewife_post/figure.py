@@ -91,8 +91,7 @@ def picture(
 
     axes.set_xlim(view[0], view[1])
     axes.set_ylim(view[2], view[3])
-    placed = [center for center, _ in bodies.poses(run, field.time).values()]
-    drawing.draw_scale_bar(axes, view, units, placed)
+    drawing.draw_scale_bar(axes, view, units, bodies.landmarks(run, field.time)[:, :2])
     axes.set_xlabel(style.length_label("x", units))
     axes.set_ylabel(style.length_label("r" if run.is_axisymmetric else "y", units))
     # A flat picture has room for few marks on its short side.

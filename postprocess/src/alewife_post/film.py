@@ -105,8 +105,8 @@ def film(run: Run, out: Path, request: Request, tell: Callable[[str], None] = pr
         images = _planar_images(run, moments, request)
     n = movie.write(out, images, fps)
     tell(
-        f"{out}: {n} frames of {quantity}, t = {moments[0].time:.4g} to {moments[-1].time:.4g}, "
-        f"{fps:g} a second"
+        f"{out}: {n} frames of {request.iso or quantity}, "
+        f"t = {moments[0].time:.4g} to {moments[-1].time:.4g}, {fps:g} a second"
     )
     return n
 
@@ -267,11 +267,10 @@ def _planar_images(run: Run, moments: list[Moment], request: Request) -> Iterato
     _label(page, run, request)
     step = max(1, len(moments) // 20)
     placed = [
-        center[:2] - moved[nth]
+        bodies.landmarks(run, moments[nth].time)[:, :2] - moved[nth]
         for nth in range(0, len(moments), step)
-        for center, _ in bodies.poses(run, moments[nth].time).values()
     ]
-    drawing.draw_scale_bar(page.axes, tuple(view), units, placed)
+    drawing.draw_scale_bar(page.axes, tuple(view), units, np.concatenate(placed))
     for nth, moment in enumerate(moments):
         page.clear()
         _paint_moment(page.axes, run, moment, seen(nth), (request, look))

@@ -25,7 +25,7 @@ def fitting(aspect: float | None, has_bar: bool) -> tuple[int, int]:
     if not aspect:
         return SIZE
     left, right, bottom, top = MARGINS
-    beside, below = ((0.0, 0.6) if aspect > WIDE else (0.85, 0.0)) if has_bar else (0.0, 0.0)
+    beside, below = ((0.0, 0.6) if aspect > WIDE else (1.0, 0.0)) if has_bar else (0.0, 0.0)
     room = np.array([left + right + beside, bottom + top + below])
     across = min(SIZE[0] / DPI - room[0], (SIZE[1] / DPI - room[1]) * aspect)
     inches = np.array([across, across / aspect]) + room
@@ -45,7 +45,7 @@ class Page:
         self.canvas = FigureCanvasAgg(self.figure)
         left, right, bottom, top = MARGINS if aspect else (0.05, 0.05, 0.05, MARGINS[3])
         is_wide = bool(aspect) and aspect > WIDE
-        room = np.zeros(2) if bar is None else np.array([0.0, 0.6] if is_wide else [0.85, 0.0])
+        room = np.zeros(2) if bar is None else np.array([0.0, 0.6] if is_wide else [1.0, 0.0])
         box = np.array([left, bottom + room[1], width - left - right - room[0], 0.0])
         box[3] = height - top - box[1]
         if aspect:
