@@ -1,6 +1,6 @@
 """Makes first-look.ipynb: runs its cells and keeps what they print and draw.
 
-Needs `pip install '.[film,table]' nbclient ipykernel` in a clone:   python docs/notebooks/make.py
+Needs `pip install '.[all]' nbclient ipykernel` in a clone:   python docs/notebooks/make.py
 """
 
 from pathlib import Path
@@ -12,7 +12,12 @@ from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook
 CELLS = [
     "# A first look at alewife from Python\n\nA case is loaded, set, run and drawn; the program "
     "`alewife` does the work.",
-    "%matplotlib inline\nimport alewife\nfrom alewife_post import figure\n\n"
+    "%matplotlib inline\nfrom importlib.util import find_spec\n\n"
+    'needed = ["alewife", "matplotlib", "pandas", "pyvista"]\n'
+    "missing = [name for name in needed if find_spec(name) is None]\n"
+    "if missing:\n"
+    "    raise ImportError(f\"no {', '.join(missing)} here: pip install '.[all]' in a clone of alewife\")\n\n"
+    "import alewife\nfrom alewife_post import figure\n\n"
     'case = alewife.load("three-sphere")\nrun = case.run()\n'
     'run.status["state"], run.status["dofs"]',
     "What was computed beside what is known of the answer:",

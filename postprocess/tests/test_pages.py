@@ -2,7 +2,8 @@
 
 Blocks of `sh` of a page run one after the other in a new folder, and so do blocks of `python`. A
 comment `<!-- file: NAME -->` before a block writes it to that file, `<!-- from: PATH -->` copies a
-file of the repository, and `<!-- not run: REASON -->` leaves a block out.
+file of the repository, and `<!-- not run: REASON -->` leaves a block out. `<!-- add to: NAME -->`
+adds a block to a file. In the end files are those of their names in the folder of tutorials.
 
 `cargo run --release -- ...` is not a build here: a command `cargo` that comes first on the path
 runs the program that is built already.
@@ -32,7 +33,7 @@ PAGES = [
     *(f"docs/tutorials/{p.name}" for p in sorted(TUTORIALS.glob("*.md"))),
 ]
 STEP = re.compile(
-    r"<!-- (?P<mark>file|from|not run): (?P<value>.+?) -->\n"
+    r"<!-- (?P<mark>file|add to|from|not run): (?P<value>.+?) -->\n"
     r"|^```(?P<language>\w+)\n(?P<code>.*?)^```",
     re.DOTALL | re.MULTILINE,
 )
@@ -105,19 +106,25 @@ def follow(text: str, folder: Path) -> int:
     folder.mkdir(exist_ok=True)
     environment = surroundings(folder / "tools")
     file, is_left_out, count, printed = None, False, 0, ""
+    added, written = None, {}
     for step in STEP.finditer(text):
         mark, value, code = step["mark"], step["value"], step["code"]
         if mark == "file":
             file = value
+        elif mark == "add to":
+            added = value
         elif mark == "from":
             shutil.copy(ROOT / value, folder)
         elif mark == "not run":
             is_left_out = True
         elif file is not None:
+            written[file] = code
             (folder / file).write_text(code, encoding="utf-8")
-            shipped = TUTORIALS / file
-            assert shipped.read_text(encoding="utf-8") == code, f"{file} is not as on its page"
             file = None
+        elif added is not None:
+            written[added] += code
+            (folder / added).write_text(written[added], encoding="utf-8")
+            added = None
         elif step["language"] in SCRIPTS:
             if not is_left_out:
                 script = [*SCRIPTS[step["language"]], code]
@@ -130,6 +137,9 @@ def follow(text: str, folder: Path) -> int:
         elif step["language"] == "text":
             missing = not_printed(code, printed)
             assert not missing, "\n".join(["not printed:", *missing, "but:", printed])
+    for name, content in written.items():
+        shipped = TUTORIALS / name
+        assert shipped.read_text(encoding="utf-8") == content, f"{name} is not as on its page"
     return count
 
 
