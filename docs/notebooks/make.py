@@ -16,7 +16,8 @@ CELLS = [
     'needed = ["alewife", "matplotlib", "pandas", "pyvista"]\n'
     "missing = [name for name in needed if find_spec(name) is None]\n"
     "if missing:\n"
-    "    raise ImportError(f\"no {', '.join(missing)} here: pip install '.[all]' in a clone of alewife\")\n\n"
+    "    remedy = \"pip install '.[all]' in a clone of alewife\"\n"
+    "    raise ImportError(f\"no {', '.join(missing)} here: {remedy}\")\n\n"
     "import alewife\nfrom alewife_post import figure\n\n"
     'case = alewife.load("three-sphere")\nrun = case.run()\n'
     'run.status["state"], run.status["dofs"]',

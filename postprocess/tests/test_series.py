@@ -156,6 +156,19 @@ def test_what_cannot_be_drawn_is_one_line_and_code_two(
     assert sorted(path.name for path in tmp_path.iterdir()) == ["case", "sweep"]
 
 
+def test_quantities_may_stand_behind_options(planar_run: Run, tmp_path: Path) -> None:
+    out = tmp_path / "way.png"
+    command = ["plot", str(planar_run.path), "--whole", "--out", str(out)]
+    assert cli.main([*command, "disc.speed"]) == 0
+    assert out.is_file()
+    # A name that is none is refused as before, and so are options that are not known
+    assert cli.main([*command, "disk.speed"]) == 2
+    for unknown in (["--wholly"], ["disc.speed", "--wholly"]):
+        with pytest.raises(SystemExit) as ended:
+            cli.main([*command, *unknown])
+        assert ended.value.code == 2
+
+
 @pytest.mark.parametrize(
     ("module", "remedy"),
     [

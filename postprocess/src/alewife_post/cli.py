@@ -46,7 +46,12 @@ def main(arguments: list[str] | None = None) -> int:
                 # What the others need may not be installed.
                 add(command)
                 command.set_defaults(write=run)
-        options = parser.parse_args(arguments)
+        options, behind = parser.parse_known_args(arguments)
+        if behind and (not hasattr(options, "names") or any(one.startswith("-") for one in behind)):
+            parser.error(f"unrecognized arguments: {' '.join(behind)}")
+        if behind:
+            # Quantities may stand behind options, which argparse alone does not know.
+            options.names += behind
         return options.write(options) or 0
     except FAILURES as error:
         print(f"alewife-post: {message(error)}", file=sys.stderr)
