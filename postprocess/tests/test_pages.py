@@ -8,7 +8,8 @@ adds a block to a file. In the end files are those of their names in the folder 
 `cargo run --release -- ...` is not a build here: a command `cargo` that comes first on the path
 runs the program that is built already.
 
-Rows with a verdict in a block of `text` are rows the block before it has printed.
+Rows with a verdict in a block of `text`, and unknowns and steps of a run, are as the block before
+it has printed them.
 """
 
 from __future__ import annotations
@@ -62,6 +63,7 @@ shift 3
 exec {program} "$@"
 """
 SCRIPTS = {"sh": ["bash", "-euo", "pipefail", "-c"], "python": [sys.executable, "-c"]}
+COST = re.compile(r"\d+ unknowns, \d+ steps(?=,)")
 VERDICTS = ("within", "outside", "OUTSIDE")
 ROUNDING = 1e-10
 """Smaller numbers, and their differences, are rounding errors: another one on each machine."""
@@ -81,10 +83,11 @@ def without_rounding(row: str) -> list[str]:
 
 
 def not_printed(shown: str, printed: str) -> list[str]:
-    """Rows with a verdict that a page shows, and its command has not printed."""
+    """What a page shows of verdicts, unknowns and steps, and its command has not printed."""
     there = [without_rounding(row) for row in printed.splitlines()]
     rows = [row for row in shown.splitlines() if row.split()[-1:] and row.split()[-1] in VERDICTS]
-    return [row for row in rows if without_rounding(row) not in there]
+    costs = [cost for cost in COST.findall(shown) if cost not in printed]
+    return [row for row in rows if without_rounding(row) not in there] + costs
 
 
 def surroundings(tools: Path) -> dict[str, str]:
@@ -168,6 +171,10 @@ def test_a_row_that_is_not_printed_is_found() -> None:
     )
     row = "case-a flow.defect -1.2e-16 0 property -1.2e-16 6.8e-5 within"
     assert not_printed(f"a line\n\n{row}\n", printed) == [row]
+    printed = "8887 unknowns, 40 steps, 1.73 s of CPU time; written to runs/a\n"
+    assert not_printed("8887 unknowns, 40 steps, 1.97 s of CPU time, ...\n", printed) == []
+    other = "8887 unknowns, 41 steps"
+    assert not_printed(f"{other}, 1.97 s of CPU time, ...\n", printed) == [other]
 
 
 def anchors(page: Path) -> set[str]:
