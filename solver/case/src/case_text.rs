@@ -58,7 +58,8 @@ pub fn locate(argument: &str) -> Result<Located, CaseError> {
         return read_file(Path::new(argument)).map(without_variant);
     }
     let Some((case, variant)) = argument.rsplit_once('/') else {
-        return Err(no_such_case(argument));
+        let is_directory = Path::new(argument).is_dir();
+        return Err(if is_directory { no_case_in(argument) } else { no_such_case(argument) });
     };
     let text = if is_path(case) {
         read_file(Path::new(case))?
@@ -66,10 +67,20 @@ pub fn locate(argument: &str) -> Result<Located, CaseError> {
         shipped_text(shipped)
     } else if Path::new(case).join("case.toml").is_file() {
         read_file(&Path::new(case).join("case.toml"))?
+    } else if Path::new(argument).is_dir() {
+        return Err(no_case_in(argument));
     } else {
         return Err(no_such_case(case));
     };
     Ok(Located { text, variant: Some(variant.to_owned()) })
+}
+
+/// There is no case in a directory.
+fn no_case_in(directory: &str) -> CaseError {
+    CaseError::NotFound {
+        what: format!("the directory {directory} holds no case.toml"),
+        help: "give the path of a case file, or a name from `alewife list`".to_owned(),
+    }
 }
 
 /// There is no case of that name.
@@ -165,7 +176,19 @@ pub fn read_text(path: &Path) -> Result<String, CaseError> {
                 at + 1,
                 bytes[at]
             ),
-            "save it as UTF-8 in your editor, or convert it: iconv -f latin1 -t utf-8",
+            &format!(
+                "save it as UTF-8 in your editor, or convert it: iconv -f {} -t utf-8",
+                encoding(bytes)
+            ),
         )
     })
+}
+
+/// The encoding that bytes which are not UTF-8 are most likely in, as `iconv` calls it.
+fn encoding(bytes: &[u8]) -> &'static str {
+    match bytes {
+        // By the byte order mark
+        [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => "utf-16",
+        _ => "latin1",
+    }
 }

@@ -83,9 +83,22 @@ impl<'de> de::Deserializer<'de> for &TomlNode {
         .map_err(|error| error.at(&self.origin))
     }
 
+    fn deserialize_struct<V: Visitor<'de>>(
+        self,
+        _name: &'static str,
+        _keys: &'static [&'static str],
+        visitor: V,
+    ) -> Result<V::Value, TypeError> {
+        // Which would be taken as its values in the order of its keys
+        if matches!(self.value, TomlValue::Array(_)) {
+            return Err(no_table().at(&self.origin));
+        }
+        self.deserialize_any(visitor)
+    }
+
     forward_to_deserialize_any! {
         bool i8 i16 i32 i64 i128 u8 u16 u32 u64 u128 f32 f64 char str string bytes byte_buf unit
-        unit_struct seq tuple tuple_struct map struct identifier ignored_any
+        unit_struct seq tuple tuple_struct map identifier ignored_any
     }
 }
 
@@ -96,6 +109,11 @@ fn no_date(date: &str) -> TypeError {
         format!("it is the date {date}"),
         "no key of a case takes a date: put text in quotes".to_owned(),
     ))
+}
+
+fn no_table() -> TypeError {
+    let (found, wanted) = ("an array".to_owned(), "a table".to_owned());
+    TypeError::new(Mismatch::WrongType { found, wanted })
 }
 
 fn too_long(length: usize, wanted: usize) -> TypeError {

@@ -12,49 +12,6 @@ use super::{Body, FishShape, GaitSpec, Geometry, Lock, Motion, ShapeSpec};
 const DIRECTIONS: u32 = 90;
 
 impl ShapeSpec {
-    /// Name in the case file.
-    #[must_use]
-    pub fn name(&self) -> &'static str {
-        match self {
-            Self::Disc { .. } => "disc",
-            Self::Ellipse { .. } => "ellipse",
-            Self::Spline { .. } => "spline",
-            Self::Fish(_) => "fish",
-            Self::Flagellate(_) => "flagellate",
-            Self::Tube(_) => "tube",
-            Self::Sphere { .. } => "sphere",
-            Self::Spheroid { .. } => "spheroid",
-            Self::Ellipsoid { .. } => "ellipsoid",
-            Self::Capsule { .. } => "capsule",
-            Self::Cylinder { .. } => "cylinder",
-            Self::Helix(_) => "helix",
-            Self::Curve(_) => "curve",
-            Self::Revolved { .. } => "revolved",
-            Self::Union(_) => "union",
-        }
-    }
-
-    /// Geometries in which the shape can stand.
-    #[must_use]
-    pub fn geometries(&self) -> &'static [Geometry] {
-        match self {
-            Self::Disc { .. } | Self::Ellipse { .. } | Self::Spline { .. } | Self::Tube(_) => {
-                &[Geometry::Planar]
-            }
-            Self::Fish(_) | Self::Flagellate(_) => &[Geometry::Planar, Geometry::Spatial],
-            Self::Sphere { .. } | Self::Spheroid { .. } => {
-                &[Geometry::Axisymmetric, Geometry::Spatial]
-            }
-            Self::Ellipsoid { .. }
-            | Self::Capsule { .. }
-            | Self::Cylinder { .. }
-            | Self::Helix(_)
-            | Self::Curve(_)
-            | Self::Revolved { .. }
-            | Self::Union(_) => &[Geometry::Spatial],
-        }
-    }
-
     /// Half width along the midline of a slender body; `None` for other shapes, and for
     /// lengths that make no body.
     #[must_use]

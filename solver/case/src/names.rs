@@ -1,5 +1,8 @@
 //! Names in a case: what may be one, of a body as of a variant.
 
+/// The table that says what a sweep varies; it is no part of the case itself.
+pub const SWEEP: &str = "sweep";
+
 /// Most characters of a name.
 pub const LONGEST_NAME: usize = 64;
 

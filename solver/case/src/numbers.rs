@@ -55,7 +55,10 @@ pub fn derived_numbers(model: &Model) -> Vec<DerivedNumber> {
     for swimmer in &model.swimmers {
         numbers_of_swimmer(&mut table, model, swimmer);
     }
-    table.0.extend(gaps(model));
+    table.0.extend(match model.case.geometry {
+        Geometry::Spatial => gaps::<3>(model),
+        Geometry::Planar | Geometry::Axisymmetric => gaps::<2>(model),
+    });
     if let (Some(contact), Some(value)) = (&model.case.contact, model.proposed_contact()) {
         let name = match contact {
             ContactSpec::Barrier { .. } => "contact: stiffness for half the range",
@@ -179,11 +182,6 @@ fn extent(model: &Model, bodies: &[usize]) -> f64 {
     most
 }
 
-/// Distance of the centres of two discs (m).
-fn distance(one: &Ball<2>, other: &Ball<2>) -> f64 {
-    (other.center.x - one.center.x).hypot(other.center.y - one.center.y)
-}
-
 /// A gap between two bodies.
 struct Gap {
     bodies: [usize; 2],
@@ -192,16 +190,18 @@ struct Gap {
 }
 
 /// The smallest gaps between bodies, ascending.
-fn gaps(model: &Model) -> Vec<DerivedNumber> {
+fn gaps<const D: usize>(model: &Model) -> Vec<DerivedNumber> {
     let mut circles = Vec::with_capacity(model.bodies.len());
     for (index, body) in model.bodies.iter().enumerate() {
-        if let &[x, y] = body.center.as_slice() {
-            let circle = Ball { center: Point::<2>::new(x, y), radius: body.shape.reach() };
-            circles.push((index, circle));
+        if body.center.len() == D {
+            let center = Point::<D>::from_fn(|axis, _| body.center[axis]);
+            circles.push((index, Ball { center, radius: body.shape.reach() }));
         }
     }
-    let [min, max] = model.case.extent().in_plane();
-    let mut grid = BallGrid::<2>::new(min.into(), max.into(), circles.len());
+    let extent = model.case.extent();
+    let [min, max] =
+        [extent.min, extent.max].map(|corner| Point::<D>::from_fn(|axis, _| corner[axis]));
+    let mut grid = BallGrid::<D>::new(min, max, circles.len());
     for (nth, (_, circle)) in circles.iter().enumerate() {
         grid.insert(nth, circle);
     }
@@ -217,7 +217,7 @@ fn gaps(model: &Model) -> Vec<DerivedNumber> {
             near.sort_unstable();
             near.dedup();
             for (other_index, other) in near.into_iter().map(|other| &circles[other]) {
-                let gap = distance(circle, other) - circle.radius - other.radius;
+                let gap = (other.center - circle.center).norm() - circle.radius - other.radius;
                 let own = gap / circle.radius.min(other.radius);
                 if own <= ratio || ratio.is_infinite() {
                     found.push(Gap { bodies: [*index, *other_index], ratio: own });
@@ -230,9 +230,10 @@ fn gaps(model: &Model) -> Vec<DerivedNumber> {
     }
     found.sort_by(|one, other| one.ratio.total_cmp(&other.ratio));
     found.truncate(MOST_GAPS);
+    let round = if D == 3 { "spheres" } else { "circles" };
     let number = |gap: Gap| {
         let [first, second] = gap.bodies.map(|body| &model.bodies[body].name);
-        let formula = "gap of surrounding circles / smaller radius".to_owned();
+        let formula = format!("gap of surrounding {round} / smaller radius");
         DerivedNumber { name: format!("gap {first} - {second}"), value: gap.ratio, formula }
     };
     found.into_iter().map(number).collect()
@@ -269,6 +270,12 @@ pub fn significant(value: f64) -> String {
     }
 }
 
+/// A number without the rounding of its last digits: 0.6 of 0.6000000000000001.
+#[must_use]
+pub fn rounded(value: f64) -> f64 {
+    format!("{value:.11e}").parse().unwrap_or(value)
+}
+
 /// Words for a geometry.
 #[must_use]
 pub fn geometry_name(geometry: Geometry) -> &'static str {
@@ -301,7 +308,27 @@ time = { steady = {} }
             );
         }
         let file = crate::Case::parse("t.toml", &text, &[]).unwrap();
-        gaps(&file.model).into_iter().map(|gap| (gap.name, gap.value)).collect()
+        gaps::<2>(&file.model).into_iter().map(|gap| (gap.name, gap.value)).collect()
+    }
+
+    #[test]
+    fn gaps_are_those_in_space_too() {
+        let text = "
+title = 't'
+geometry = 'spatial'
+fluid = { model = 'stokes', viscosity = 1.0 }
+domain.box = { min = [-5.0, -5.0, -5.0], max = [5.0, 5.0, 5.0] }
+boundary = { left = 'no-slip', right = 'no-slip', bottom = 'no-slip', top = 'no-slip', back = 'no-slip', front = 'no-slip' }
+mesh = { size = 1.0 }
+time = { steady = {} }
+body = [
+    { name = 'a', shape.sphere.radius = 1.0, center = [0.0, 0.0, -1.5], motion = 'held' },
+    { name = 'b', shape.sphere.radius = 0.5, center = [0.0, 0.0, 1.5], motion = 'held' },
+]
+";
+        let model = Case::parse("a.toml", text, &[]).unwrap().model;
+        let table = number_table(&model);
+        assert!(table.contains("gap a - b  3") && table.contains("surrounding spheres"), "{table}");
     }
 
     #[test]

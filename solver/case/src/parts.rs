@@ -54,7 +54,7 @@ impl Attachment {
 /// # Errors
 /// When the numbers of radii, arms, gaits or joints do not fit together.
 pub fn parts(key: &str, kind: &SwimmerKind, geometry: Geometry) -> Result<Vec<Part>, CaseError> {
-    let fits = |what: &str, found: usize, wanted: usize| {
+    let fits = |what: &str, found: usize, wanted: usize, of: &str| {
         if found == wanted {
             return Ok(());
         }
@@ -65,7 +65,7 @@ pub fn parts(key: &str, kind: &SwimmerKind, geometry: Geometry) -> Result<Vec<Pa
             verb(found),
             verb(wanted)
         );
-        Err(CaseError::at(&format!("{key}.kind"), message, "give one for each"))
+        Err(CaseError::at(&format!("{key}.kind"), message, &format!("give one for each {of}")))
     };
     match kind {
         SwimmerKind::Body { shape, gait } => Ok(vec![Part {
@@ -75,19 +75,20 @@ pub fn parts(key: &str, kind: &SwimmerKind, geometry: Geometry) -> Result<Vec<Pa
             attachment: None,
         }]),
         SwimmerKind::LinkedSpheres { radii, arms, gaits } => {
-            fits("arms", arms.len(), radii.len().saturating_sub(1))?;
+            let between = "pair of neighbours in `radii`";
+            fits("arms", arms.len(), radii.len().saturating_sub(1), between)?;
             if !gaits.is_empty() {
-                fits("gaits", gaits.len(), radii.len())?;
+                fits("gaits", gaits.len(), radii.len(), "of `radii`")?;
             }
             Ok(linked_spheres(radii, arms, gaits, geometry))
         }
         SwimmerKind::Star { radius, radii, arms, directions, along } => {
-            fits("arms", arms.len(), radii.len())?;
+            fits("arms", arms.len(), radii.len(), "of `radii`")?;
             if !directions.is_empty() {
-                fits("directions", directions.len(), radii.len())?;
+                fits("directions", directions.len(), radii.len(), "of `radii`")?;
             }
             if !along.is_empty() {
-                fits("directions along", along.len(), radii.len())?;
+                fits("directions along", along.len(), radii.len(), "of `radii`")?;
             }
             let arm = |nth: usize| Direction {
                 angle: directions.get(nth).copied(),
@@ -96,7 +97,8 @@ pub fn parts(key: &str, kind: &SwimmerKind, geometry: Geometry) -> Result<Vec<Pa
             Ok(star(*radius, radii, arms, &arm, geometry))
         }
         SwimmerKind::Chain { links, gap, joints, skin } => {
-            fits("joints", joints.len(), links.len().saturating_sub(1))?;
+            let between = "pair of neighbours in `links`";
+            fits("joints", joints.len(), links.len().saturating_sub(1), between)?;
             let Some(skin) = skin else { return chain(key, links, *gap, joints, geometry) };
             let layout = Layout::new(links, *gap)
                 .map_err(|NoOutline { link, error }| no_outline(key, link, &error))?;

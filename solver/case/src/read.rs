@@ -8,27 +8,19 @@
 
 use std::sync::Arc;
 
-use serde::Deserialize;
-
 use super::case_text::{CaseText, Located, locate, no_such_case, read_file, shipped_text, stem};
 use super::diagnostic::{CaseError, Diagnostic, Severity};
-use super::nearest::nearest;
+use super::names::SWEEP;
 use super::region::opposite;
-use super::source::{Location, Origin, Source};
+use super::source::{Location, Source};
 use super::sweep::spec;
 use super::tree::{self, Found, TomlNode, TomlValue, TreeError};
-use super::type_error::{Mismatch, TypeError};
+use super::typing::typed;
 use super::variants::{apply_variant, check_names, variant_names};
 use super::{BoundaryCondition, Case, Model, ShapeSpec, library, read_mesh, setting, stroke_file};
 
 /// Keys of a file that those who extend it do not inherit.
 const OWN_KEYS: [&str; 4] = ["reference", "variant", "quick", SWEEP];
-
-/// The table that says what a sweep varies; it is no part of the case itself.
-pub(super) const SWEEP: &str = "sweep";
-
-/// Most diagnostics listed at once.
-const MOST_DIAGNOSTICS: usize = 20;
 
 /// A case and where everything in it is written.
 #[derive(Debug, Clone)]
@@ -268,6 +260,12 @@ fn extended(text: &CaseText) -> Result<TomlNode, CaseError> {
         CaseError::NotFound { what, help } => refused(format!("`extends`: {what}"), &help),
         other => other,
     })?;
+    if is_same_file(&parent.source.name, &text.source.name) {
+        return Err(refused(
+            format!("{} extends itself", text.source.name),
+            "give another file, or the name of a shipped case",
+        ));
+    }
     let mut base = tree::parse(&parent.source).map_err(wrong)?;
     if let Some(entries) = base.table_mut() {
         if let Some(second) = entries.get("extends") {
@@ -284,6 +282,11 @@ fn extended(text: &CaseText) -> Result<TomlNode, CaseError> {
     }
     base.merge(root);
     Ok(base)
+}
+
+fn is_same_file(one: &str, other: &str) -> bool {
+    let [one, other] = [one, other].map(std::fs::canonicalize);
+    one.is_ok_and(|one| other.is_ok_and(|other| one == other))
 }
 
 /// A side whose partner is periodic is periodic, too, and need not say so.
@@ -310,52 +313,4 @@ fn complete_cylinders(case: &mut Case) {
             *length = lengths[axis.index()];
         }
     }
-}
-
-/// Types a tree; unknown keys are noted and taken as meant, so that all of them are found at once.
-fn typed(root: &TomlNode) -> Result<Case, CaseError> {
-    let mut root = root.clone();
-    let mut diagnostics: Vec<Diagnostic> = Vec::new();
-    loop {
-        let error = match Case::deserialize(&root) {
-            Ok(case) if diagnostics.is_empty() => return Ok(case),
-            Ok(_) => return Err(CaseError::Wrong(diagnostics)),
-            Err(error) => error,
-        };
-        let path = error.path();
-        let inside =
-            |key: &str| if path.is_empty() { key.to_owned() } else { format!("{path}.{key}") };
-        match error.mismatch() {
-            Mismatch::UnknownKey { key, accepted } => {
-                diagnostics.push(diagnostic(&error, inside(key)));
-                let is_replaced = replace_key(&mut root, &path, key, nearest(key, accepted));
-                if is_replaced && diagnostics.len() < MOST_DIAGNOSTICS {
-                    continue;
-                }
-            }
-            Mismatch::MissingKey(key) => diagnostics.push(diagnostic(&error, inside(key))),
-            _ => diagnostics.push(diagnostic(&error, path)),
-        }
-        return Err(CaseError::Wrong(diagnostics));
-    }
-}
-
-fn diagnostic(error: &TypeError, key: String) -> Diagnostic {
-    Diagnostic {
-        severity: Severity::Error,
-        key,
-        message: error.message(),
-        help: error.help(),
-        location: error.origin().map(Origin::location),
-    }
-}
-
-/// Gives a key of the table at a path the name that was meant, or takes it out.
-fn replace_key(root: &mut TomlNode, path: &str, key: &str, meant: Option<&str>) -> bool {
-    let Some(entries) = root.find_mut(path).and_then(TomlNode::table_mut) else { return false };
-    let Some(node) = entries.remove(key) else { return false };
-    if let Some(meant) = meant {
-        entries.entry(meant.to_owned()).or_insert(node);
-    }
-    true
 }

@@ -151,7 +151,15 @@ impl CsvTable {
             [] => {
                 let names: Vec<&str> = self.header.iter().collect();
                 let message = format!("`{key}`: {file} has no column `{name}`");
-                refused(message, suggestion(name, &names))
+                let is_one = |separator: char| names.len() == 1 && names[0].contains(separator);
+                match [';', '\t'].into_iter().find(|separator| is_one(*separator)) {
+                    Some(separator) => refused(
+                        format!("`{key}`: {file} has its columns between {separator:?}"),
+                        "separate columns by commas, and write numbers with a decimal point"
+                            .to_owned(),
+                    ),
+                    None => refused(message, suggestion(name, &names)),
+                }
             }
             _ => {
                 let message = format!("`{key}`: {file} has {} columns `{name}`", found.len());

@@ -9,6 +9,7 @@ use std::sync::Arc;
 use toml::de::{DeTable, DeValue};
 
 use super::source::{Origin, Source};
+use super::toml_help::toml_help;
 
 /// Tables that hold exactly one of several alternatives.
 ///
@@ -91,14 +92,9 @@ pub fn parse(source: &Arc<Source>) -> Result<TomlNode, TreeError> {
     let table = DeTable::parse(&source.text).map_err(|error| {
         let span = error.span().unwrap_or(0..0);
         TreeError {
-            origin: Origin { source: Arc::clone(source), span },
+            origin: Origin { source: Arc::clone(source), span: span.clone() },
             message: format!("this is not TOML: {}", error.message()),
-            help: if error.message().contains("duplicate key") {
-                "it is given above already: keep one of the two".to_owned()
-            } else {
-                "strings stand in quotes, arrays in [ ], tables in { } or under a [header]"
-                    .to_owned()
-            },
+            help: toml_help(&source.text, span, error.message()),
         }
     })?;
     let start = Origin { source: Arc::clone(source), span: 0..0 };
@@ -233,10 +229,27 @@ impl TomlNode {
         Some(here)
     }
 
+    /// A value that is written nowhere.
+    pub fn at_no_place(value: TomlValue) -> Self {
+        let (name, text) = (String::new(), String::new());
+        let source = Arc::new(Source { name, directory: None, text });
+        let origin = Origin { source, span: 0..0 };
+        Self { key: origin.clone(), origin, value }
+    }
+
     /// Whether it is a table written within a line, in braces.
     pub fn is_inline(&self) -> bool {
+        self.table().is_some() && self.begins_with('{')
+    }
+
+    /// Whether it is a table below a header in brackets.
+    pub fn is_under_header(&self) -> bool {
+        self.table().is_some() && self.begins_with('[')
+    }
+
+    fn begins_with(&self, c: char) -> bool {
         let Origin { source, span } = &self.origin;
-        self.table().is_some() && source.text[span.start.min(source.text.len())..].starts_with('{')
+        source.text[span.start.min(source.text.len())..].starts_with(c)
     }
 
     /// Puts a value at a dotted path; tables on the way that are not there yet are made.

@@ -5,6 +5,7 @@ use std::fmt::{self, Display};
 
 use serde::de::{self, Expected, Unexpected};
 
+use super::meant::{Meant, meant};
 use super::nearest::nearest;
 use super::reference::ReferenceKind;
 use super::source::Origin;
@@ -72,6 +73,11 @@ impl TypeError {
     /// What is wrong.
     pub fn mismatch(&self) -> &Mismatch {
         &self.0.mismatch
+    }
+
+    /// The same, taken out.
+    pub fn into_mismatch(self) -> Mismatch {
+        self.0.mismatch
     }
 
     /// Where it is.
@@ -148,14 +154,11 @@ fn array_example(found: &str, wanted: &str) -> String {
     }
 }
 
-/// What has become of a key that is told in another way now, or is told so elsewhere.
+/// How a key is called here that formulae, other programs or earlier versions call otherwise.
 fn renamed(key: &str, accepted: &[String]) -> Option<String> {
-    let (new, how) = match key {
-        "frequency" => ("period", "the inverse of the frequency"),
-        "start_phase" => ("phase", "a part of the period"),
-        _ => return None,
-    };
-    accepted.iter().any(|word| word == new).then(|| format!("write `{new} = ...`, {how}"))
+    let Meant { word, how } = meant(key, accepted)?;
+    let how = if how.is_empty() { String::new() } else { format!(", {how}") };
+    Some(format!("write `{word} = ...`{how}"))
 }
 
 /// Most words a suggestion lists.
@@ -173,9 +176,11 @@ pub fn suggestion<S: AsRef<str>>(found: &str, accepted: &[S]) -> String {
     if more > 0 {
         list += &format!(" and {more} more");
     }
-    match nearest(found, accepted) {
-        Some(word) => format!("did you mean `{word}`? accepted: {list}"),
-        None => format!("accepted: {list}"),
+    let how = |how: &str| if how.is_empty() { String::new() } else { format!(" ({how})") };
+    match (meant(found, accepted), nearest(found, accepted)) {
+        (Some(it), _) => format!("did you mean `{}`{}? accepted: {list}", it.word, how(it.how)),
+        (None, Some(word)) => format!("did you mean `{word}`? accepted: {list}"),
+        (None, None) => format!("accepted: {list}"),
     }
 }
 

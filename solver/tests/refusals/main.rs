@@ -3,6 +3,7 @@
 
 mod bodies;
 mod domain;
+mod keys;
 mod reading;
 mod references;
 mod space;

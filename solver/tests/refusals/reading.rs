@@ -82,7 +82,8 @@ fn a_missing_radius_is_named_with_its_table() {
 
 #[test]
 fn text_that_is_not_toml_is_pointed_at() {
-    refused("size = 0.1", "size = 0,1", &["this is not TOML", "wrong.toml:26:"]);
+    let wanted = ["this is not TOML", "wrong.toml:26:", "numbers have a decimal point: 0.1"];
+    refused("size = 0.1", "size = 0,1", &wanted);
 }
 
 #[test]
@@ -199,6 +200,11 @@ fn what_is_no_file_of_text_is_refused_at_once() {
         &said,
         &["wrong.toml is not text in UTF-8: byte 12 (in line 1) is 0xE9", "save"],
     );
+    assert!(said.stderr.contains("iconv -f latin1 -t utf-8"), "{}", said.stderr);
+    let words = RIGHT.encode_utf16().flat_map(u16::to_le_bytes);
+    let said =
+        check_bytes("wrong.toml", &[0xff, 0xfe].into_iter().chain(words).collect::<Vec<_>>());
+    assert_refused(&said, &["byte 1 (in line 1) is 0xFF", "iconv -f utf-16 -t utf-8"]);
     let long = vec![b'#'; 16_000_001];
     assert_refused(
         &check_bytes("long.toml", &long),

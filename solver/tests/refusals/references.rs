@@ -25,8 +25,7 @@ fn an_unknown_quantity_is_refused_with_the_nearest_one() {
             "there is no quantity `disc.drag_coeficient`",
             "wrong.toml:44:12",
             "did you mean `disc.drag_coefficient`?",
-            "drop.pressure",
-            "flow.dissipation",
+            "`disc` has x, y, angle, velocity.x",
         ],
     );
 }

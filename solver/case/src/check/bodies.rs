@@ -1,13 +1,13 @@
 //! Problems of `[[body]]`: names, shapes, motions, and gaits that do not fit.
 
-use std::collections::HashSet;
+use std::collections::HashMap;
 use std::f64::consts::PI;
 
 use super::Findings;
 use super::boundary::check_factor;
 use super::{gait, solid, spring};
 use crate::names::{LONGEST_NAME, is_word};
-use crate::{Body, GaitSpec, Geometry, Lock, Motion, ShapeSpec};
+use crate::{Body, GaitSpec, Geometry, Lock, Motion, ShapeSpec, SwimmerKind};
 
 /// Largest difference between a heading and the axis that is taken for rounding (rad).
 const HEADING_ROUNDING: f64 = 1e-3;
@@ -20,16 +20,22 @@ const RESERVED: [&str; 2] = ["flow", "time"];
 
 pub fn check(findings: &mut Findings<'_>) {
     let case = findings.case();
-    let mut taken: HashSet<&str> = HashSet::new();
+    let mut taken: HashMap<&str, usize> = HashMap::new();
     for (index, body) in findings.model().bodies.iter().enumerate() {
         let key = format!("body.{index}");
         // Names of bodies that are made follow from that of their swimmer
         if findings.model().swimmer_of_body(index).is_none() {
             check_word(findings, &format!("{key}.name"), &body.name);
         }
-        check_name(findings, &format!("{key}.name"), &body.name, &taken);
-        taken.insert(&body.name);
-        check_shape(findings, &format!("{key}.shape"), &body.shape);
+        match (findings.model().swimmer_of_body(index), taken.get(body.name.as_str())) {
+            (Some(swimmer), Some(other)) => name_of_swimmer(findings, *other, swimmer),
+            (_, other) => check_name(findings, &format!("{key}.name"), &body.name, other.is_some()),
+        }
+        taken.entry(&body.name).or_insert(index);
+        // Radii of swimmers are looked at where they are written
+        if !has_radii_of_swimmer(findings, index) {
+            check_shape(findings, &format!("{key}.shape"), &body.shape);
+        }
         let has_place = findings.vector(&format!("{key}.center"), &body.center);
         if let Some(density) = body.density {
             findings.not_negative(&format!("{key}.density"), density);
@@ -50,9 +56,36 @@ pub fn check(findings: &mut Findings<'_>) {
     }
     for (index, probe) in case.probe.iter().enumerate() {
         check_word(findings, &format!("probe.{index}.name"), &probe.name);
-        check_name(findings, &format!("probe.{index}.name"), &probe.name, &taken);
-        taken.insert(&probe.name);
+        let is_taken = taken.contains_key(probe.name.as_str());
+        check_name(findings, &format!("probe.{index}.name"), &probe.name, is_taken);
+        taken.insert(&probe.name, usize::MAX);
     }
+}
+
+/// Whether the shape of a body is a radius of the swimmer it is made for.
+fn has_radii_of_swimmer(findings: &Findings<'_>, body: usize) -> bool {
+    let swimmer = findings.model().swimmer_of_body(body);
+    let kind = swimmer.map(|swimmer| &findings.case().swimmer[swimmer].kind);
+    matches!(kind, Some(SwimmerKind::LinkedSpheres { .. } | SwimmerKind::Star { .. }))
+}
+
+/// A body has the name of one that is made for a swimmer.
+fn name_of_swimmer(findings: &mut Findings<'_>, body: usize, swimmer: usize) {
+    let model = findings.model();
+    let mut of_swimmer = (0..model.bodies.len())
+        .filter(|body| model.swimmer_of_body(*body) == Some(swimmer))
+        .map(|body| model.bodies[body].name.as_str());
+    let (first, last) = (of_swimmer.clone().next(), of_swimmer.next_back());
+    let [first, last] = [first, last].map(Option::unwrap_or_default);
+    let (own, name) = (&findings.case().swimmer[swimmer].name, &model.bodies[body].name);
+    findings.error(
+        &format!("body.{body}.name"),
+        format!(
+            "the name \"{name}\" is that of a body of the swimmer \"{own}\", which has \"{first}\" to \
+             \"{last}\""
+        ),
+        "give the body another name",
+    );
 }
 
 /// A name is one word, and no novel.
@@ -75,9 +108,9 @@ pub(super) fn check_word(findings: &mut Findings<'_>, key: &str, name: &str) {
 }
 
 /// A name means one thing.
-fn check_name(findings: &mut Findings<'_>, key: &str, name: &str, taken: &HashSet<&str>) {
+fn check_name(findings: &mut Findings<'_>, key: &str, name: &str, is_taken: bool) {
     let sides = findings.case().sides();
-    if taken.contains(name) {
+    if is_taken {
         findings.error(
             key,
             format!("the name \"{name}\" is taken by a body or probe above"),
@@ -97,14 +130,7 @@ fn check_name(findings: &mut Findings<'_>, key: &str, name: &str, taken: &HashSe
 pub(super) fn check_shape(findings: &mut Findings<'_>, key: &str, shape: &ShapeSpec) {
     let case = findings.case();
     let geometry = case.geometry.name();
-    let allowed = match case.geometry {
-        Geometry::Planar => "disc, ellipse, spline, fish, flagellate",
-        Geometry::Axisymmetric => "sphere, spheroid",
-        Geometry::Spatial => {
-            "sphere, spheroid, ellipsoid, capsule, cylinder, helix, curve, revolved, union, fish, \
-             flagellate"
-        }
-    };
+    let allowed = ShapeSpec::names_in(case.geometry).join(", ");
     let name = shape.name();
     if !shape.geometries().contains(&case.geometry) {
         findings.error(

@@ -70,8 +70,9 @@ pub fn check(findings: &mut Findings<'_>) {
     }
     let layers = mesh.gap_layers / scale;
     if layers > MOST_LAYERS {
+        let is_of_scale = mesh.gap_layers <= MOST_LAYERS;
         findings.error(
-            "mesh.gap_layers",
+            if is_of_scale { "mesh.scale" } else { "mesh.gap_layers" },
             format!("gaps would get {layers} layers of cells, and {MOST_LAYERS} are the most"),
             "4 are usual; with mesh.scale their number is gap_layers / scale",
         );

@@ -2,10 +2,14 @@
 
 use super::Findings;
 use crate::numbers::{density_ratio, reynolds, significant};
-use crate::{FlowModel, Geometry};
+use crate::{Case, FlowModel, Geometry, Model};
 
 /// Largest relative difference between a declared number and the derived one.
 const AGREEMENT: f64 = 1e-6;
+
+/// Cell Reynolds number of the finest cells above which no layer at a surface is resolved; shipped cases have 20 at
+/// most.
+const UNRESOLVED: f64 = 1e3;
 
 pub fn check(findings: &mut Findings<'_>) {
     let case = findings.case();
@@ -43,6 +47,42 @@ pub fn check(findings: &mut Findings<'_>) {
         }
     }
     declared_numbers(findings);
+    resolution(findings);
+}
+
+/// Warns of a flow that is far too fast, or a fluid far too thin, for the finest cells there are.
+fn resolution(findings: &mut Findings<'_>) {
+    let Some(Crossing { speed, reynolds }) = finest_crossing(findings.model()) else { return };
+    if reynolds > UNRESOLVED {
+        findings.warning(
+            "fluid.viscosity",
+            format!(
+                "with the speed {} the cell Reynolds number of the finest cells is {reynolds:.1e}: the \
+                 mesh does not resolve such a flow, and the run will not be right, if it ends at all",
+                significant(speed)
+            ),
+            "take a larger viscosity, smaller cells, or units in which they fit",
+        );
+    }
+}
+
+/// What the finest cells meet.
+struct Crossing {
+    /// The speed that can be expected (m/s).
+    speed: f64,
+    /// Cell Reynolds number.
+    reynolds: f64,
+}
+
+/// The flow over the finest cells that are asked for; none without convection.
+fn finest_crossing(model: &Model) -> Option<Crossing> {
+    let Case { fluid, mesh, .. } = &model.case;
+    let speed = model.expected_speed().filter(|_| fluid.model == FlowModel::NavierStokes)?;
+    let sizes = mesh.surface.into_iter().chain(mesh.sides.values().copied());
+    let sizes = sizes.chain(mesh.boxes.iter().map(|refined| refined.size));
+    let sizes = sizes.chain(model.bodies.iter().filter_map(|body| body.size));
+    let size = mesh.scale * sizes.fold(mesh.size, f64::min);
+    Some(Crossing { speed, reynolds: fluid.density * speed * size / fluid.viscosity })
 }
 
 /// `[numbers]` against what follows from the rest of the case.
@@ -84,5 +124,40 @@ fn declared_numbers(findings: &mut Findings<'_>) {
             ),
             (None, _) => {}
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{check, library};
+
+    fn warnings(name: &str, settings: &[&str]) -> Vec<String> {
+        let settings: Vec<String> = settings.iter().map(|one| (*one).to_owned()).collect();
+        let found = check(&Case::read(name, &settings).unwrap());
+        let cells = found.into_iter().filter(|one| one.message.contains("cell Reynolds"));
+        cells.map(|one| one.message).collect()
+    }
+
+    #[test]
+    fn a_mesh_that_cannot_resolve_the_flow_is_warned_of() {
+        let of = |name: &str| {
+            let crossing = finest_crossing(&Case::read(name, &[]).unwrap().model);
+            crossing.map_or(0.0, |crossing| crossing.reynolds)
+        };
+        let mut most = 0.0f64;
+        for case in library::list() {
+            most = most.max(of(case.name));
+            for variant in Case::read(case.name, &[]).unwrap().variants {
+                most = most.max(of(&format!("{}/{variant}", case.name)));
+            }
+        }
+        println!("cell Reynolds numbers of shipped cases: up to {most}");
+        assert!(most > 1.0 && most < 0.2 * UNRESOLVED, "{most}");
+        assert_eq!(warnings("lid-driven-cavity", &[]), [""; 0]);
+        let thin = ["fluid.viscosity=1e-9", "numbers={}", "reference=[]", "variant=[]"];
+        let found = warnings("lid-driven-cavity", &thin);
+        assert_eq!(found.len(), 1, "{found:?}");
+        assert!(found[0].starts_with("with the speed 1 the cell Reynolds number"), "{found:?}");
     }
 }

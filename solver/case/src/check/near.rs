@@ -6,6 +6,7 @@ use super::Findings;
 use super::strokes::{Tree, cycle_of};
 use super::swing::swing;
 use crate::balls::{Ball, BallGrid};
+use crate::numbers::significant;
 use crate::{Body, BoundaryCondition, Lock, Model, Motion, TimeSettings};
 
 /// Gap over the thickness of the thinner body below which a step or two may close it.
@@ -23,7 +24,10 @@ pub fn check(findings: &mut Findings<'_>) {
     if !is_unsteady || model.case.contact.is_some() || !model.mesh_moves() {
         return;
     }
-    let Some(nearest) = Surroundings::new(model).nearest() else { return };
+    let Some(nearest) = Surroundings::new(model).nearest() else {
+        squirmers_ahead(findings);
+        return;
+    };
     let Near { body, other, gap, thickness } = nearest;
     let of = |body: usize| format!("\"{}\"", model.bodies[body].name);
     let other = match other {
@@ -41,6 +45,33 @@ pub fn check(findings: &mut Findings<'_>) {
         ),
         &format!(
             "if they may meet, add contact.barrier = {{ range = {:.1e}, stiffness = ... }}: without \
+             [contact] steps and cells shrink with the gap",
+            range.min(0.5 * thickness)
+        ),
+    );
+}
+
+/// Warns of a squirmer that heads for a side or another body and gets there before the end.
+fn squirmers_ahead(findings: &mut Findings<'_>) {
+    let model = findings.model();
+    let TimeSettings::Unsteady(time) = &model.case.time else { return };
+    let Some(met) = model.first_meeting_of_squirmers().filter(|met| met.time < time.end) else {
+        return;
+    };
+    let other = if met.is_at_side { "a side of the domain" } else { "another body" };
+    let thickness = model.bodies[met.body].shape.half_width();
+    let range = model.bodies[met.body].size.or(model.case.mesh.surface).unwrap_or(0.1 * thickness);
+    findings.warning(
+        &format!("body.{}.gait", met.body),
+        format!(
+            "\"{}\" heads for {other}: straight on, at its speed in free fluid, it is there at t = {}, \
+             before the end at {}, and nothing keeps them apart",
+            model.bodies[met.body].name,
+            significant(met.time),
+            time.end
+        ),
+        &format!(
+            "add contact.barrier = {{ range = {:.1e}, stiffness = ... }}, or end before: without \
              [contact] steps and cells shrink with the gap",
             range.min(0.5 * thickness)
         ),

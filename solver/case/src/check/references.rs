@@ -1,6 +1,9 @@
 //! Problems of `[[reference]]` and `[statistics]`: quantities, statistics and tolerances.
 
+use std::collections::HashSet;
+
 use super::Findings;
+use crate::nearest::nearest;
 use crate::quantity::{When, conditions_of, known_quantities, renamed};
 use crate::type_error::suggestion;
 use crate::{Geometry, Reference, ReferenceKind, Statistic, TimeSettings};
@@ -152,9 +155,34 @@ fn check_quantity(findings: &mut Findings<'_>, key: &str, quantity: &str, known:
          [[swimmer]]"
             .to_owned()
     } else {
-        suggestion(quantity, known)
+        known_help(quantity, known)
     };
     findings.error(key, format!("there is no quantity `{quantity}`"), &help);
+}
+
+/// What is known of the owner a quantity names, or the owners there are: not all quantities of a case.
+fn known_help(quantity: &str, known: &[String]) -> String {
+    let (owner, name) = quantity.split_once('.').unwrap_or((quantity, ""));
+    let begin = format!("{owner}.");
+    let own: Vec<&str> = known.iter().filter_map(|one| one.strip_prefix(begin.as_str())).collect();
+    if own.is_empty() {
+        let mut seen = HashSet::new();
+        let owners = known.iter().filter_map(|one| one.split('.').next());
+        let owners: Vec<&str> = owners.filter(|owner| seen.insert(*owner)).collect();
+        let help = suggestion(owner, &owners);
+        return match nearest(quantity, known) {
+            Some(near) => {
+                format!("did you mean `{near}`? owners of quantities: {}", owners.join(", "))
+            }
+            None => help.replace("accepted:", "owners of quantities:"),
+        };
+    }
+    // The last step of a longer name is what is remembered of it
+    let end = format!(".{name}");
+    let meant = own.iter().find(|one| !name.is_empty() && one.ends_with(&end));
+    let near = meant.copied().or_else(|| nearest(name, &own));
+    let near = near.map_or(String::new(), |near| format!("did you mean `{owner}.{near}`? "));
+    format!("{near}`{owner}` has {}", own.join(", "))
 }
 
 fn check_tolerance(findings: &mut Findings<'_>, key: &str, reference: &Reference) {

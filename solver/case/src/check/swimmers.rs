@@ -63,6 +63,8 @@ fn place(findings: &mut Findings<'_>, key: &str, swimmer: &SwimmerSpec) {
 fn parts(findings: &mut Findings<'_>, key: &str, swimmer: &SwimmerSpec) {
     match &swimmer.kind {
         SwimmerKind::Star { arms, radius, radii, along, .. } => {
+            findings.positive(&format!("{key}.kind.star.radius"), *radius);
+            positive_radii(findings, &format!("{key}.kind.star.radii"), radii);
             not_on_an_axis(findings, key, "star");
             arms_in_space(findings, key, along);
             if radii.is_empty() {
@@ -99,6 +101,7 @@ fn parts(findings: &mut Findings<'_>, key: &str, swimmer: &SwimmerSpec) {
             }
         }
         SwimmerKind::LinkedSpheres { arms, radii, .. } => {
+            positive_radii(findings, &format!("{key}.kind.linked-spheres.radii"), radii);
             if radii.len() < 2 {
                 findings.error(
                     &format!("{key}.kind.linked-spheres.radii"),
@@ -114,6 +117,12 @@ fn parts(findings: &mut Findings<'_>, key: &str, swimmer: &SwimmerSpec) {
         }
         SwimmerKind::Bodies(names) => group(findings, key, swimmer, names),
         SwimmerKind::Body { .. } => {}
+    }
+}
+
+fn positive_radii(findings: &mut Findings<'_>, key: &str, radii: &[f64]) {
+    for (nth, radius) in radii.iter().enumerate() {
+        findings.positive(&format!("{key}.{nth}"), *radius);
     }
 }
 
