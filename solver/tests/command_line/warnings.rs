@@ -257,3 +257,35 @@ fn contact_is_proposed_where_bodies_stay_near_each_other_without_it() {
     let contact = "contact.barrier = { range = 0.1, stiffness = 200.0 }\n[[body]]";
     assert_eq!(told(&PRESSED.replacen("[[body]]", contact, 1), &[]), 0);
 }
+
+/// A squirmer in a fluid a billion times thinner than its cells resolve.
+const THIN: &str = r#"
+title = "a fluid too thin"
+geometry = "planar"
+fluid = { model = "navier-stokes", viscosity = 1e-6, density = 1000.0 }
+domain.box = { min = [-2.0, -2.0], max = [2.0, 2.0] }
+boundary = { left = "no-slip", right = "no-slip", bottom = "no-slip", top = "no-slip" }
+mesh = { size = 0.4, surface = 0.125 }
+time.unsteady = { step = 0.05, end = 40.0 }
+[[body]]
+name = "one"
+shape.disc.radius = 0.5
+center = [0.0, 0.0]
+motion = "free"
+gait.squirmer = { modes = [2.0, 6.0], heading = "30 deg" }
+"#;
+
+#[test]
+fn a_flow_that_no_mesh_resolves_is_warned_of_and_ends_with_what_is_wrong() {
+    let directory = tempfile::tempdir().unwrap();
+    std::fs::write(directory.path().join("thin.toml"), THIN).unwrap();
+    let checked = alewife(directory.path(), &["check", "--no-mesh", "thin.toml"]);
+    let warned = String::from_utf8_lossy(&checked.stderr);
+    assert!(warned.contains("the cell Reynolds number of the finest cells is 1.0e9"), "{warned}");
+    let output = alewife(directory.path(), &["run", "thin.toml", "--threads", "1", "--quiet"]);
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(10), "{told}");
+    let last = told.lines().last().unwrap_or_default();
+    assert!(last.contains("the flow has blown up") || last.contains("far too many"), "{told}");
+    assert!(!last.contains("[contact]"), "{told}");
+}

@@ -5,6 +5,7 @@ use thiserror::Error;
 
 use super::resume::ResumeError;
 use super::scene::RemeshError;
+use crate::case::rounded;
 use crate::contact::ContactError;
 use crate::coupling::{ShapeError, SolveError, coordinates};
 use crate::motion::MotionError;
@@ -65,13 +66,18 @@ impl From<MotionError> for StepError {
     }
 }
 
+/// Where in a run something happened.
+pub(super) fn at(step: usize, time: f64) -> String {
+    format!("step {step} (t = {})", rounded(time))
+}
+
 /// Every way a run can stop before its end.
 #[derive(Debug, Error)]
 pub enum RunError {
     /// Newton's method did not converge.
     #[error(
         "{}: Newton's method stopped at residual {residual:.3e} after {iterations} iteration{}; {}",
-        if *step == 0 { "steady flow".to_owned() } else { format!("step {step} (t = {time})") },
+        if *step == 0 { "steady flow".to_owned() } else { at(*step, *time) },
         if *iterations == 1 { "" } else { "s" },
         if *step == 0 {
             "refine the mesh, raise time.steady.max_iterations, or lower the Reynolds number: \
@@ -92,8 +98,9 @@ pub enum RunError {
     },
     /// A velocity or pressure is no longer a number.
     #[error(
-        "step {step} (t = {time}): the solution is not finite near {}; \
+        "{}: the solution is not finite near {}; \
          lower time.unsteady.step or refine the mesh there",
+        at(*step, *time),
         coordinates(.near)
     )]
     NotFinite {
@@ -106,10 +113,11 @@ pub enum RunError {
     },
     /// The fluid is far faster than what drives it.
     #[error(
-        "step {step} (t = {time}): the flow has blown up: on average it is {times:.0} times as fast as \
+        "{}: the flow has blown up: on average it is {times:.0} times as fast as \
          the fastest boundary ever was, most near {}; CFL number {cfl:.3e}, cell Reynolds number \
          {cell_reynolds:.3e}; look at failure/flow.vtu, and start again with a finer mesh there, a \
          shorter time.unsteady.step, or time.unsteady.convection = \"newton\"",
+        at(*step, *time),
         coordinates(.near)
     )]
     BlownUp {
@@ -127,7 +135,7 @@ pub enum RunError {
         near: Vec<f64>,
     },
     /// The linear system is singular.
-    #[error("step {step} (t = {time}): the linear system cannot be solved: {reason}")]
+    #[error("{}: the linear system cannot be solved: {reason}", at(*step, *time))]
     Singular {
         /// Step.
         step: usize,
@@ -170,8 +178,9 @@ pub enum RunError {
     Unsupported(String),
     /// No shorter step helps.
     #[error(
-        "step {step} (t = {time}): {reason}, with steps down to {smallest:.3e}; \
-         the last state is in failure/: look at its flow there, and resume from it with --resume"
+        "{}: {reason}, with steps down to {smallest:.3e}{advice}; \
+         the last state is in failure/: look at its flow there, and resume from it with --resume",
+        at(*step, *time)
     )]
     StepSizeUnderflow {
         /// Step.
@@ -182,9 +191,11 @@ pub enum RunError {
         smallest: f64,
         /// What went wrong in it.
         reason: String,
+        /// What else is known, and what may help, behind semicolons.
+        advice: String,
     },
     /// Remeshing failed.
-    #[error("step {step} (t = {time}): remeshing failed: {reason}")]
+    #[error("{}: remeshing failed: {reason}", at(*step, *time))]
     Remesh {
         /// Step.
         step: usize,
@@ -198,7 +209,7 @@ pub enum RunError {
     #[error(transparent)]
     Shape(#[from] ShapeError),
     /// Contact cannot be solved for.
-    #[error("step {step} (t = {time}): {reason}")]
+    #[error("{}: {reason}", at(*step, *time))]
     Contact {
         /// Step.
         step: usize,
@@ -223,9 +234,9 @@ pub enum RunError {
     #[error(
         "stopped by a signal {}",
         if *step == 0 && *time == 0.0 {
-            "before the first step, in a steady flow".to_owned()
+            "before the first flow was found".to_owned()
         } else {
-            format!("at step {step} (t = {time})")
+            format!("at {}", at(*step, *time))
         }
     )]
     Stopped {
@@ -280,7 +291,13 @@ mod tests {
     }
 
     #[test]
-    fn a_steady_flow_that_is_stopped_has_no_step() {
+    fn times_are_told_without_the_rounding_of_their_last_digits() {
+        let told = RunError::Stopped { step: 6, time: 0.6000000000000001 }.to_string();
+        assert_eq!(told, "stopped by a signal at step 6 (t = 0.6)");
+    }
+
+    #[test]
+    fn a_flow_at_the_start_that_is_stopped_has_no_step() {
         let told = |step, time| RunError::Stopped { step, time }.to_string();
         assert!(!told(0, 0.0).contains("step 0"), "{}", told(0, 0.0));
         assert!(told(3, 0.5).contains("step 3 (t = 0.5)"), "{}", told(3, 0.5));

@@ -22,6 +22,7 @@ mod momentum;
 mod moving_mesh;
 mod new_level;
 mod newton;
+mod pace;
 mod pass;
 mod planar;
 mod predict;

@@ -6,9 +6,11 @@ use super::advance::{CellCrossing, Simulation};
 use super::case_mesh::{CaseMesh, Dimension};
 use super::cycle_error::OtherSteps;
 use super::measure::Measure;
+use super::pace::Pace;
 use super::prepare::{Prepared, prepare};
 use super::resume::SavedState;
 use super::snapshot::{LastState, Observer, Snapshot};
+
 use super::steady::{SteadyFlow, SteadyTask, solve_steady};
 use super::{RunError, Series, Stage, StopRequest, Timing};
 use crate::case::{Case, Initial, Model, Steady, TimeSettings, Unsteady};
@@ -66,6 +68,7 @@ where
         simulation,
         measure,
         warned: Warned::default(),
+        pace: Pace::default(),
         other_steps: None,
         is_trial: false,
         rejections: 0,
@@ -93,6 +96,8 @@ pub(super) struct Run<'a, const D: usize> {
     series: Series,
     pub simulation: Simulation<D>,
     measure: Measure<D>,
+    /// How fast its flow is.
+    pub pace: Pace,
     /// What it has warned of.
     pub warned: Warned,
     /// What the error of the first cycle is told by, until it is.

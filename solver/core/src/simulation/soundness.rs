@@ -2,7 +2,9 @@
 
 use super::RunError;
 use super::advance::Simulation;
+use super::error::at;
 use super::measure::FlowMeasurement;
+use super::pace::Pace;
 use super::run::Run;
 use crate::case::Convection;
 use crate::coupling::Side;
@@ -37,6 +39,9 @@ impl<const D: usize> Run<'_, D> {
         let (step, time, cfl) = (state.step, state.time, flow.cfl());
         let ratio = flow.energy_ratio(problem.density, state.boundary_speed);
         let is_driven = state.boundary_speed > 0.0 && problem.body_force.is_none();
+        if problem.has_inertia && is_driven {
+            self.pace = Pace { times: ratio.sqrt(), cell_reynolds: flow.cell_reynolds() };
+        }
         if problem.has_inertia && is_driven && ratio > BLOWN_UP {
             let times = ratio.sqrt();
             let cell_reynolds = flow.cell_reynolds();
@@ -51,9 +56,10 @@ impl<const D: usize> Run<'_, D> {
             self.warned.of_gap = true;
             let (gap, name) = (minimum.gap, &problem.bodies[minimum.body].name);
             tracing::warn!(
-                "step {step} (t = {time}): the smallest gap, at `{name}`, is {gap:.2e}, less than a \
+                "{}: the smallest gap, at `{name}`, is {gap:.2e}, less than a \
                  hundredth of the range of contact: a larger stiffness (a smaller epsilon) keeps \
-                 bodies at about half the range; `check` proposes one"
+                 bodies at about half the range; `check` proposes one",
+                at(step, time)
             );
         }
         let is_extrapolated = scheme.convection == Convection::Extrapolated;
@@ -61,11 +67,12 @@ impl<const D: usize> Run<'_, D> {
             self.warned.of_cfl = true;
             let shorter = state.last_step * LARGEST_CFL / cfl;
             tracing::warn!(
-                "step {step} (t = {time}): CFL number {cfl:.1}; extrapolated convection was shown to \
+                "{}: CFL number {cfl:.1}; extrapolated convection was shown to \
                  hold up to {LARGEST_CFL}, and what comes of more may be wrong by any amount: stop the \
                  run, and start again with steps of {shorter:.1e} or less (time.unsteady.step, or \
                  time.unsteady.adaptive.cfl), larger cells where the flow is fast, or \
-                 time.unsteady.convection = \"newton\""
+                 time.unsteady.convection = \"newton\"",
+                at(step, time)
             );
         }
         Ok(())
@@ -97,9 +104,10 @@ impl<const D: usize> Run<'_, D> {
         let gaps = moving.gaps();
         let names = [gaps.body_name(minimum.body), gaps.partner_name(minimum.partner)];
         tracing::warn!(
-            "step {step} (t = {time}): `{}` and `{}` are {gap:.2e} apart, and {} meshes were made since \
+            "{}: `{}` and `{}` are {gap:.2e} apart, and {} meshes were made since \
              they came near: if they may meet, [contact], such as contact.barrier, keeps bodies apart from \
              each other and from walls, with longer steps and fewer meshes",
+            at(step, time),
             names[0],
             names[1],
             state.remeshes - since
@@ -115,6 +123,12 @@ impl<const D: usize> Simulation<D> {
         let facets = state.mesh.facets.iter().filter(|facet| moves(&problem.sides[facet.boundary]));
         let nodes = facets.flat_map(|facet| state.mesh.facet_nodes(facet));
         nodes.map(|node| state.now.velocity[node].norm()).fold(0.0, f64::max)
+    }
+
+    /// Largest speed of the fluid over that of a boundary so far (1).
+    pub(super) fn fastest(&self) -> f64 {
+        let speeds = self.state.now.velocity.iter().map(|velocity| velocity.norm());
+        speeds.fold(0.0, f64::max) / self.state.boundary_speed
     }
 
     /// Where the fluid is fastest (m).

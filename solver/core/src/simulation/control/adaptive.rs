@@ -139,7 +139,7 @@ impl<const D: usize> Run<'_, D> {
             match self.simulation.try_step(size, adaptive.tolerance)? {
                 Attempt::Made(report) => return Ok(Made { report, size, is_shortened }),
                 Attempt::Rejected(error) if size <= floor => {
-                    return Err(step_size_underflow(&self.simulation, size, &error));
+                    return Err(step_size_underflow(self, size, &error));
                 }
                 Attempt::Rejected(StepError::LocalErrorTooLarge { error, .. }) => {
                     size *= step_size_factor(error / adaptive.tolerance).min(0.7);

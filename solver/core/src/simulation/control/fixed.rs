@@ -92,7 +92,7 @@ impl<const D: usize> Run<'_, D> {
                     self.simulation.state.pieces.clone_from(&to_do);
                 }
                 Attempt::Rejected(error) if size <= smallest => {
-                    return Err(step_size_underflow(&self.simulation, size, &error));
+                    return Err(step_size_underflow(self, size, &error));
                 }
                 Attempt::Rejected(_) => {
                     self.rejections += 1;

@@ -7,6 +7,7 @@ mod trial;
 
 use super::advance::Simulation;
 use super::error::{RunError, StepError};
+use super::run::Run;
 
 /// Part of a step by which a discontinuity may be off and still be at its end.
 const NEAR: f64 = 1e-7;
@@ -16,23 +17,28 @@ const SMALLEST_PART: f64 = 1.0 / 1024.0;
 
 /// No smaller step helps.
 fn step_size_underflow<const D: usize>(
-    simulation: &Simulation<D>,
+    run: &Run<'_, D>,
     smallest: f64,
     error: &StepError,
 ) -> RunError {
-    let Simulation { problem, state, moving_mesh, .. } = simulation;
-    let (step, time) = (state.step + 1, state.time);
+    let Simulation { problem, state, moving_mesh, law, .. } = &run.simulation;
+    let (step, time, reason) = (state.step + 1, state.time, error.to_string());
+    if let Some(trouble) = run.pace.trouble(run.simulation.fastest()) {
+        let advice = format!("; {trouble}");
+        return RunError::StepSizeUnderflow { step, time, smallest, reason, advice };
+    }
     let nearest = moving_mesh.as_ref().zip(state.contact.minimum_gap).map(|(moving, minimum)| {
         let gaps = moving.gaps();
         let names = [gaps.body_name(minimum.body), gaps.partner_name(minimum.partner)];
-        format!("; nearest are `{}` and `{}`, {:.3e} apart", names[0], names[1], minimum.gap)
+        let hint = match law {
+            None if problem.gives_way() => {
+                ": [contact] keeps bodies apart from each other and from walls"
+            }
+            _ => "",
+        };
+        let gap = minimum.gap;
+        format!("; nearest are `{}` and `{}`, {gap:.3e} apart{hint}", names[0], names[1])
     });
-    let hint = match (&nearest, &simulation.law) {
-        (Some(_), None) if problem.gives_way() => {
-            "; [contact] keeps bodies apart from each other and from walls"
-        }
-        _ => "",
-    };
-    let reason = format!("{error}{}{hint}", nearest.unwrap_or_default());
-    RunError::StepSizeUnderflow { step, time, smallest, reason }
+    let advice = nearest.unwrap_or_default();
+    RunError::StepSizeUnderflow { step, time, smallest, reason, advice }
 }
