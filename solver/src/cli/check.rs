@@ -11,6 +11,7 @@ use super::facts::{count, facts, one_line};
 use super::read::{CheckedCase, read_and_check};
 use super::style::{self, Ink, on_stdout, say};
 use super::sweep::check_points;
+use super::too_large;
 use crate::case::{
     Cadence, CaseFile, Diagnostic, FlowModel, Model, Precision, Sweep, TimeSettings,
     known_quantities, number_table, printable, significant,
@@ -57,8 +58,8 @@ fn check_one(argument: &str, settings: &[String], has_mesh: bool) -> Result<(), 
     say(text.trim_end());
     if has_mesh {
         match file.case().geometry.dimensions() {
-            2 => tell_of_mesh::<2>(&file.model)?,
-            _ => tell_of_mesh::<3>(&file.model)?,
+            2 => tell_of_mesh::<2>(&file)?,
+            _ => tell_of_mesh::<3>(&file)?,
         }
     }
     if !warnings.is_empty() {
@@ -73,12 +74,12 @@ fn check_one(argument: &str, settings: &[String], has_mesh: bool) -> Result<(), 
 }
 
 /// Prints the mesh of a case, and what follows from it.
-fn tell_of_mesh<const D: usize>(model: &Model) -> Result<(), Failure>
+fn tell_of_mesh<const D: usize>(file: &CaseFile) -> Result<(), Failure>
 where
     Dimension<D>: Solve<D>,
 {
-    let before = cpu_seconds();
-    let mesh = engine::build_mesh::<D>(model)?;
+    let (before, model) = (cpu_seconds(), &file.model);
+    let mesh = engine::build_mesh::<D>(model).map_err(|error| too_large::failure(file, error))?;
     let seconds = cpu_seconds() - before;
     say(&format!("\n{}", on_stdout(Ink::Bold, "mesh")));
     let quality = Dimension::<D>::quality(&mesh);

@@ -65,7 +65,7 @@ pub fn beginning<const D: usize>(
         check_progress(out, n_requeued())?;
         return Ok(Beginning::AtStart);
     }
-    check_same(out, file.case())?;
+    check_same::<D>(out, file.case())?;
     if is_over {
         return Ok(Beginning::IsDone);
     }
@@ -116,7 +116,7 @@ fn check_progress(out: &Path, n_requeued: usize) -> Result<(), Failure> {
 }
 
 /// Whether a directory holds a run of this very case.
-fn check_same(out: &Path, case: &Case) -> Result<(), Failure> {
+fn check_same<const D: usize>(out: &Path, case: &Case) -> Result<(), Failure> {
     let path = out.join("case.toml");
     let earlier = std::fs::read_to_string(&path)
         .map_err(|error| error.to_string())
@@ -140,12 +140,20 @@ fn check_same(out: &Path, case: &Case) -> Result<(), Failure> {
     let lines: String = differ.iter().take(MOST_LISTED).map(line).collect();
     let more = differ.len().saturating_sub(MOST_LISTED);
     let more = if more > 0 { format!("\n  and {more} more keys") } else { String::new() };
+    // A change of the problem itself would be refused there
+    let goes_on = latest_checkpoint::<D>(out)
+        .is_ok_and(|found| found.is_some_and(|found| found.state.check_case(case).is_ok()));
     let out = out.display();
+    let resume = if goes_on {
+        format!(", --overwrite it, or --resume {out} to go on from its state with these settings")
+    } else {
+        ", or --overwrite it".to_owned()
+    };
     Err(Failure::new(
-        Exit::BadCase,
+        Exit::Usage,
         format!(
             "{out} holds a run of another case; what differs:{lines}{more}\ngive another directory \
-             with --out, --overwrite it, or --resume {out} to go on from its state with these settings"
+             with --out{resume}"
         ),
     ))
 }

@@ -108,7 +108,9 @@ pub fn exit_of(error: &RunError) -> Exit {
 
 impl From<RunError> for Failure {
     fn from(error: RunError) -> Self {
-        Self::new(exit_of(&error), error.to_string())
+        let (exit, message) = (exit_of(&error), error.to_string());
+        // Who stops a run makes no error
+        if exit == Exit::Stopped { Self { exit, message } } else { Self::new(exit, message) }
     }
 }
 
@@ -117,6 +119,7 @@ impl From<RunDirectoryError> for Failure {
         let exit = match error {
             RunDirectoryError::Finished { .. }
             | RunDirectoryError::Resumable { .. }
+            | RunDirectoryError::NotADirectory { .. }
             | RunDirectoryError::NotARun { .. } => Exit::Usage,
             _ => Exit::InputOutput,
         };

@@ -8,7 +8,8 @@ use super::engine;
 use super::exit::{Exit, Failure};
 use super::read::read_case;
 use super::style::say;
-use crate::case::Model;
+use super::too_large;
+use crate::case::CaseFile;
 use crate::observer::write_atomic;
 use crate::simulation::{Dimension, Solve};
 
@@ -39,20 +40,21 @@ pub fn mesh(argument: &str, settings: &[String], target: Target) -> Result<Exit,
         }
     };
     match file.case().geometry.dimensions() {
-        2 => write::<2>(&file.model, &path, encoding),
-        _ => write::<3>(&file.model, &path, encoding),
+        2 => write::<2>(&file, &path, encoding),
+        _ => write::<3>(&file, &path, encoding),
     }
 }
 
 fn write<const D: usize>(
-    model: &Model,
+    file: &CaseFile,
     path: &Path,
     encoding: Option<Encoding>,
 ) -> Result<Exit, Failure>
 where
     Dimension<D>: Solve<D>,
 {
-    let mesh = engine::build_mesh::<D>(model)?;
+    let mesh = engine::build_mesh::<D>(&file.model);
+    let mesh = mesh.map_err(|error| too_large::failure(file, error))?;
     let failed = |error: std::io::Error| {
         Failure::new(Exit::InputOutput, format!("cannot write {}: {error}", path.display()))
     };

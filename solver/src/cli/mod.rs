@@ -22,6 +22,7 @@ mod stop_file;
 mod style;
 mod sweep;
 mod threads;
+mod too_large;
 mod validate;
 mod wall_limit;
 

@@ -14,8 +14,8 @@ use super::results::{print_comparisons, tell_cell_numbers, tell_last_values};
 use super::signal::SignalWatch;
 use super::style::{complain, say};
 use super::wall_limit::WallLimit;
-use super::{complete, engine, live, threads};
-use crate::case::{Case, CaseFile, TimeSettings};
+use super::{complete, engine, live, threads, too_large};
+use crate::case::{Case, CaseFile, TimeSettings, rounded};
 use crate::observer::{
     COMPARISON_FILE, Earlier, FAILURE_STATE, History, Point, RunDirectory, Shown, Start,
     checkpoints, read_state, run_of_state, write_atomic,
@@ -177,7 +177,7 @@ where
     let outcome =
         engine::simulate_into(&file.model, resumed.as_ref(), run).map_err(|error| match error {
             RunError::Stopped { .. } => stopped(&error, &out),
-            other => other.into(),
+            other => too_large::failure(file, other),
         })?;
     let comparisons =
         if options.no_references { Vec::new() } else { compare(&name, file.case(), &outcome) };
@@ -194,15 +194,23 @@ where
         let steps = outcome.steps - resumed.as_ref().map_or(0, |resumed| resumed.state.step);
         format!(", {:.3} s of it a step, {remeshes} remeshings", seconds / steps.max(1) as f64)
     });
+    let steps = n_steps(file, outcome.steps);
     say(&format!(
-        "{} unknowns, {} steps, {seconds:.2} s of CPU time, {wall:.2} s on the clock{moving}; \
+        "{} unknowns,{steps} {seconds:.2} s of CPU time, {wall:.2} s on the clock{moving}; \
          written to {}",
         outcome.n_dofs,
-        outcome.steps,
         out.display()
     ));
     tell_cell_numbers(&outcome);
     Ok(Exit::Done)
+}
+
+/// How many steps a run has made; nothing of a steady solution, which has none.
+fn n_steps(file: &CaseFile, steps: usize) -> String {
+    match file.case().time {
+        TimeSettings::Steady(_) => String::new(),
+        TimeSettings::Unsteady(_) => format!(" {steps} steps,"),
+    }
 }
 
 /// What a run begins with: a state that is asked for, or one in its directory.
@@ -223,6 +231,7 @@ fn tell_of_resuming<const D: usize>(resumed: &Resumed<D>, quiet: bool) {
     let (step, time, from) = (resumed.state.step, resumed.state.time, resumed.from.display());
     tracing::info!(step, time, from = %from, "resumed");
     if !quiet {
+        let time = rounded(time);
         complain(&format!("continues at step {step}, t {time}, from {from}"));
     }
 }
@@ -269,7 +278,8 @@ fn stopped(error: &RunError, out: &Path) -> Failure {
     } else {
         "it left no state to resume from".to_owned()
     };
-    Failure::new(Exit::Stopped, format!("{error}; {remedy}"))
+    // Who stops a run makes no error
+    Failure { exit: Exit::Stopped, message: format!("{error}; {remedy}") }
 }
 
 /// How the program was called: from here that works again.

@@ -8,9 +8,11 @@ use serde_json::json;
 
 use super::exit::{Exit, Failure};
 use super::style::say;
-use crate::observer::{Leg, Provenance, RunState, Status, checkpoints};
+use crate::case::significant;
+use crate::observer::{Leg, Provenance, RunLock, RunState, Status, checkpoints};
 
-/// A running process writes its status every second; one that has not for this long was killed.
+/// A running process writes its status every second; one on another computer that has not for this long was
+/// killed.
 const SILENCE: Duration = Duration::from_secs(120);
 
 /// What `status` is asked for.
@@ -58,6 +60,8 @@ pub fn status(options: &Options) -> Result<Exit, Failure> {
 
 fn progress(directory: &Path) -> Result<Progress, Failure> {
     let path = directory.join("status.json");
+    // Asked for first: a run that ends meanwhile says so in its status before it gives its lock free
+    let is_left = RunLock::is_left(directory);
     let status = Status::read(directory).map_err(|error| {
         let reason = format!("{}: {error}; give the directory of a run", path.display());
         Failure::new(Exit::NoInput, reason)
@@ -79,7 +83,7 @@ fn progress(directory: &Path) -> Result<Progress, Failure> {
     Ok(Progress {
         part,
         left: left.filter(|_| is_running),
-        is_killed: is_running && age.is_some_and(|age| age > SILENCE),
+        is_killed: is_running && (is_left || age.is_some_and(|age| age > SILENCE)),
         checkpoint: checkpoints(directory)?.into_iter().next(),
         legs: Provenance::read(directory).map(|provenance| provenance.legs).unwrap_or_default(),
         status,
@@ -114,13 +118,22 @@ impl Progress {
         let Status { step, steps, time, end, reason, .. } = &self.status;
         let of = |end: Option<String>| end.map_or(String::new(), |end| format!(" of {end}"));
         let part = self.part.map_or(String::new(), |part| format!(", {:.0} %", 100.0 * part));
-        say(&format!(
-            "{}: {}, step {step}{}, t {time}{}{part}",
-            directory.display(),
-            self.state(),
-            of(steps.map(|steps| steps.to_string())),
-            of(end.map(|end| end.to_string())),
-        ));
+        let place = match end {
+            None => "a steady solution".to_owned(),
+            Some(end) => format!(
+                "step {step}{}, t {} of {}{part}",
+                of(steps.map(|steps| steps.to_string())),
+                significant(*time),
+                significant(*end),
+            ),
+        };
+        say(&format!("{}: {}, {place}", directory.display(), self.state()));
+        if self.is_killed {
+            say(match &self.checkpoint {
+                Some(_) => "  its process was killed: run it again to continue",
+                None => "  its process was killed: run it again, from its start",
+            });
+        }
         if let Some(left) = self.left.filter(|_| !self.is_killed) {
             say(&format!("  about {} left", clock(left)));
         }

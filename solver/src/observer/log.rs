@@ -15,6 +15,7 @@ use tracing_subscriber::util::SubscriberInitExt;
 
 use super::atomic::AtPath;
 use super::terminal::{AboveBars, TERMINAL};
+use crate::case::significant;
 
 /// The file JSON lines go to just now. One process has one log, but may make several runs.
 static FILE: Mutex<Option<File>> = Mutex::new(None);
@@ -119,7 +120,7 @@ impl Visit for Words {
     }
 
     fn record_f64(&mut self, field: &Field, value: f64) {
-        let _ = write!(self.fields, "  {} {value:.3e}", field.name());
+        let _ = write!(self.fields, "  {} {}", field.name(), significant(value));
     }
 
     fn record_str(&mut self, field: &Field, value: &str) {

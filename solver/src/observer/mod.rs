@@ -39,6 +39,7 @@ mod quantities;
 mod removal;
 mod restarts;
 mod run_directory;
+mod run_directory_error;
 mod run_lock;
 mod scene;
 mod schedule;
@@ -70,9 +71,10 @@ pub use progress::Progress;
 pub use provenance::{Leg, Origin, Point, Provenance, executable};
 pub use restarts::Restarts;
 pub use run_directory::{
-    COMPARISON_FILE, Earlier, FAILURE_FOLDER, FAILURE_STATE, MESH_SIZE_FILE, RunDirectory,
-    RunDirectoryError, STOP, Start, run_of_state,
+    COMPARISON_FILE, Earlier, FAILURE_FOLDER, FAILURE_STATE, MESH_SIZE_FILE, RunDirectory, STOP,
+    Start, run_of_state,
 };
+pub use run_directory_error::RunDirectoryError;
 pub use run_lock::{LockError, RunLock};
 pub use series_rows::read_series;
 pub use state_file::read_state;

@@ -79,7 +79,10 @@ impl Progress {
             let left = self.started.elapsed().mul_f64(((1.0 - done) / done).clamp(0.0, 1e9));
             line += &format!("  {:#} left", HumanDuration(left));
         }
-        line + &format!("  dt {:.3e}  iterations {iterations}", snapshot.time_step)
+        if snapshot.time_step > 0.0 {
+            line += &format!("  dt {}", significant(snapshot.time_step));
+        }
+        line + &format!("  iterations {iterations}")
     }
 
     /// How fast the first swimmer is, and the smallest gap, where there are such quantities.

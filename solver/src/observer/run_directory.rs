@@ -4,13 +4,12 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use thiserror::Error;
-
 use super::atomic::{AtPath, UNFINISHED, write_whole};
 use super::checkpoint_list::{self, REQUEST, checkpoints};
 use super::provenance::{Origin, Point, Provenance};
 use super::removal::{names_in, remove_if_empty, remove_if_there};
-use super::run_lock::{LockError, RunLock};
+use super::run_directory_error::RunDirectoryError;
+use super::run_lock::RunLock;
 use super::status::{RunState, Status};
 use crate::case::{Case, MeshFile};
 
@@ -90,43 +89,6 @@ impl Start {
     }
 }
 
-/// Why a run may not use a directory.
-#[derive(Debug, Error)]
-pub enum RunDirectoryError {
-    /// It holds a run that came to its end.
-    #[error("{path} holds a finished run; give another directory with --out, or --overwrite it")]
-    Finished {
-        /// The directory.
-        path: PathBuf,
-    },
-    /// Another process runs in it, or there is no telling.
-    #[error(transparent)]
-    Lock(#[from] LockError),
-    /// It holds a run that can be resumed.
-    #[error(
-        "{path} holds a run that failed and can be resumed with other settings; give --resume {state}, \
-         another directory with --out, or --overwrite it"
-    )]
-    Resumable {
-        /// The directory.
-        path: PathBuf,
-        /// The state it left.
-        state: PathBuf,
-    },
-    /// It holds files that are not those of a run.
-    #[error("{path} is not empty and holds no run of alewife; give another directory with --out")]
-    NotARun {
-        /// The directory.
-        path: PathBuf,
-    },
-    /// The case cannot be written as TOML.
-    #[error("the case cannot be written to case.toml: {0}")]
-    Case(#[from] toml::ser::Error),
-    /// The file system refused.
-    #[error(transparent)]
-    Io(#[from] io::Error),
-}
-
 /// The directory of one run, locked for this process as long as the value lives.
 #[derive(Debug)]
 pub struct RunDirectory {
@@ -148,7 +110,11 @@ impl RunDirectory {
         start: Start,
         earlier: Earlier,
     ) -> Result<Self, RunDirectoryError> {
-        fs::create_dir_all(path).at(path)?;
+        if path.exists() && !path.is_dir() {
+            return Err(RunDirectoryError::NotADirectory { path: path.to_owned() });
+        }
+        fs::create_dir_all(path)
+            .map_err(|source| RunDirectoryError::NotMade { path: path.to_owned(), source })?;
         if !is_a_run(path) {
             if fs::read_dir(path).at(path)?.next().is_some() {
                 return Err(RunDirectoryError::NotARun { path: path.to_owned() });
@@ -306,6 +272,18 @@ mod tests {
 
     fn create(path: &Path, earlier: Earlier) -> Result<RunDirectory, RunDirectoryError> {
         RunDirectory::create(path, &case(), Start::with_threads(1), earlier)
+    }
+
+    #[test]
+    fn a_directory_that_cannot_be_made_says_why_and_what_helps() {
+        let place = tempfile::tempdir().unwrap();
+        let file = place.path().join("a");
+        fs::write(&file, "").unwrap();
+        let told = |path: &Path| create(path, Earlier::Keep).unwrap_err().to_string();
+        assert!(told(&file).contains("is a file, and a run takes a directory"), "{}", told(&file));
+        let below = file.join("b");
+        let below = told(&below);
+        assert!(below.contains("cannot be made") && below.contains("--out"), "{below}");
     }
 
     fn put(path: &Path, files: &[&str]) {

@@ -69,6 +69,18 @@ impl RunLock {
         }
     }
 
+    /// Whether the process of this computer that held a directory last has ended. It is not told of another
+    /// computer: its locks need not be seen here.
+    #[must_use]
+    pub fn is_left(directory: &Path) -> bool {
+        let Ok(mut file) = File::open(directory.join(FILE)) else { return false };
+        let mut holder = String::new();
+        let is_read = Read::by_ref(&mut file).take(LONGEST).read_to_string(&mut holder).is_ok();
+        let host = process::host_name().map(|host| format!(" on {host}"));
+        let was_here = host.is_some_and(|host| is_read && holder.trim().ends_with(&host));
+        was_here && file.try_lock_shared().is_ok()
+    }
+
     /// Whether a process has a directory just now; it is not told where the system has no locks.
     #[must_use]
     pub fn is_held(directory: &Path) -> bool {
@@ -92,13 +104,15 @@ mod tests {
         let place = tempfile::tempdir().unwrap();
         std::fs::write(place.path().join(FILE), "process 1 on a computer that was switched off\n")
             .unwrap();
+        assert!(!RunLock::is_left(place.path()), "it may run on that computer");
         let first = RunLock::take(place.path()).unwrap();
         let told = RunLock::take(place.path()).unwrap_err().to_string();
-        assert!(RunLock::is_held(place.path()));
+        assert!(RunLock::is_held(place.path()) && !RunLock::is_left(place.path()));
         let first_is = format!("process {}", std::process::id());
         assert!(told.contains(&first_is) && !told.contains("switched off"), "{told}");
         drop(first);
         assert!(!RunLock::is_held(place.path()));
+        assert_eq!(RunLock::is_left(place.path()), process::host_name().is_some());
         RunLock::take(place.path()).unwrap();
     }
 }

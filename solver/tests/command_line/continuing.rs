@@ -92,16 +92,23 @@ fn files_in_its_directory_stop_a_run_and_have_it_write_its_state() {
     std::fs::write(&request, "").unwrap();
     wait_for(|| checkpoints(directory).len() == 1);
     assert!(!request.exists());
+    let status = || {
+        let status = alewife(directory, &["status", "fall"]);
+        String::from_utf8_lossy(&status.stdout).into_owned()
+    };
+    assert!(status().contains("fall: running, step "), "{}", status());
     run.kill().unwrap();
     run.wait().unwrap();
+    // At once: its status is a second old at most
+    let said = status();
+    assert!(said.contains("fall: killed, step ") && said.contains("run it again to"), "{said}");
     stopped(directory);
     assert_eq!(checkpoints(directory).len(), 2);
     assert!(!directory.join("fall/STOP").exists());
     let log = std::fs::read_to_string(directory.join("fall/log.jsonl")).unwrap();
     assert!(log.contains("\"resumed\""), "the second run continued the first");
 
-    let status = alewife(directory, &["status", "fall"]);
-    let said = String::from_utf8_lossy(&status.stdout).into_owned();
+    let said = status();
     assert!(said.contains("fall: stopped, step ") && said.contains("latest checkpoint"), "{said}");
     let status = alewife(directory, &["status", "--json", "fall"]);
     let all: serde_json::Value = serde_json::from_slice(&status.stdout).unwrap();

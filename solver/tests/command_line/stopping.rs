@@ -114,9 +114,16 @@ fn a_run_that_resumes_in_its_directory_goes_on_with_its_series() {
     };
     // The state is not lost by a run of another case
     let refused = with(arguments("fall"), &["--set", &end, "--set", "fluid.viscosity=2.5"]);
-    assert_eq!(refused.status.code(), Some(65));
+    assert_eq!(refused.status.code(), Some(2));
     let told = String::from_utf8_lossy(&refused.stderr);
     assert!(told.contains("fluid.viscosity: ") && told.contains(" there, 2.5 here"), "{told}");
+    // What is advised would be accepted
+    assert!(told.contains("--overwrite") && !told.contains("--resume"), "{told}");
+    let step = ["--set", &end, "--set", "time.unsteady.step=0.002"];
+    let refused = with(arguments("fall"), &step);
+    assert_eq!(refused.status.code(), Some(2));
+    let told = String::from_utf8_lossy(&refused.stderr);
+    assert!(told.contains("or --resume fall to go on from its state"), "{told}");
     assert_eq!(read("fall/series.csv"), before);
 
     // The directory of a run stands for its state

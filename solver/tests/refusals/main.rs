@@ -3,6 +3,7 @@
 
 mod bodies;
 mod domain;
+mod hints;
 mod keys;
 mod reading;
 mod references;

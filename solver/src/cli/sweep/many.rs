@@ -242,10 +242,11 @@ fn tell_end(directory: &SweepDirectory, score: &Score, n: usize, elapsed: Durati
         n => format!(", {n} failed"),
     };
     let path = directory.path().display();
+    let place = if finished > 0 { "written to" } else { "in" };
     let elapsed = elapsed.as_secs_f64();
     say(&format!(
         "{finished} of {n} points finished{failed}; {elapsed:.1} s for {seconds:.1} s of CPU time; \
-         written to {path}"
+         {place} {path}"
     ));
     for FailedPoint { index, failure } in score.failed.iter().take(MOST_LISTED) {
         say(&failure_line(directory, *index, failure));

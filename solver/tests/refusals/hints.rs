@@ -1,0 +1,153 @@
+//! Messages name what stands in the file, and what helps there: swimmers, quantities, paths.
+
+use super::{RIGHT, Said, alewife, assert_accepted, assert_refused, check};
+
+/// Three discs in a row that swim in a box, and a disc beside them.
+const ROW: &str = r#"
+title = "a row"
+geometry = "planar"
+fluid = { model = "stokes", viscosity = 1.0 }
+domain.box = { min = [-5.0, -5.0], max = [5.0, 5.0] }
+boundary = { left = "no-slip", right = "no-slip", bottom = "no-slip", top = "no-slip" }
+mesh = { size = 0.5, surface = 0.1 }
+time.unsteady = { step = 0.1, end = 1.0 }
+
+[[body]]
+name = "rock"
+shape.disc.radius = 0.3
+center = [-3.0, -3.0]
+motion = "held"
+
+[[swimmer]]
+name = "tri"
+center = [0.0, 3.0]
+[swimmer.kind.linked-spheres]
+radii = [0.2, 0.2, 0.2]
+arms = [{ sine = { mean = 1.0, amplitude = 0.1, period = 1.0 } }, { constant = 1.0 }]
+"#;
+
+#[track_caller]
+fn refused_row(from: &str, to: &str, wanted: &[&str]) {
+    assert!(ROW.contains(from), "`{from}` is not in the right case");
+    assert_refused(&check(&ROW.replacen(from, to, 1), &[]), wanted);
+}
+
+#[test]
+fn what_is_wrong_with_a_swimmer_is_told_by_its_own_keys() {
+    assert_accepted(&check(ROW, &[]));
+    refused_row(
+        "radii = [0.2, 0.2, 0.2]",
+        "radii = [0.2, -0.8, 0.2]",
+        &[
+            "`swimmer.0.kind.linked-spheres.radii.1` is -0.8, but must be positive",
+            "--> wrong.toml:20:15",
+        ],
+    );
+    refused_row(
+        "name = \"rock\"",
+        "name = \"tri-1\"",
+        &[
+            "\"tri-1\" is that of a body of the swimmer \"tri\", which has \"tri-1\" to \"tri-3\"",
+            "--> wrong.toml:11:8",
+            "give the body another name",
+        ],
+    );
+    refused_row(
+        "radii = [0.2, 0.2, 0.2]",
+        "radii = [0.2, 0.2, 0.2, 0.2]",
+        &["2 arms are given, and 3 are wanted", "one for each pair of neighbours in `radii`"],
+    );
+    let star = "[swimmer.kind.star]\nradius = 0.3\nradii = [0.2, -0.1]";
+    let arms = "arms = [{ constant = 1.0 }, { constant = 1.0 }]";
+    let (head, _) = ROW.split_once("[swimmer.kind").unwrap();
+    let said = check(&format!("{head}{star}\n{arms}"), &[]);
+    assert_refused(&said, &["`swimmer.0.kind.star.radii.1` is -0.1", "wrong.toml:21:15"]);
+}
+
+#[test]
+fn a_scale_that_asks_for_too_much_is_pointed_at() {
+    let said = check(ROW, &["--set", "mesh.scale=0.01"]);
+    assert_refused(&said, &["--> --set:1:12"]);
+    assert!(!said.stderr.contains("wrong.toml:"), "{}", said.stderr);
+}
+
+#[test]
+fn of_quantities_those_of_the_same_owner_are_named() {
+    let compared = |quantity: &str| {
+        let lines = "value = 1.0\nrelative = 0.1\nkind = \"literature\"\nsource = \"a paper\"\n";
+        check(&format!("{ROW}[[reference]]\nquantity = \"{quantity}\"\n{lines}"), &[])
+    };
+    let said = compared("tri.speed");
+    assert_refused(&said, &["did you mean `tri.cycle.speed`? `tri` has x, y, angle"]);
+    assert!(!said.stderr.contains("rock.force.x"), "{}", said.stderr);
+    let said = compared("sphere.force.x");
+    assert_refused(&said, &["owners of quantities: rock, tri-1, tri-2, tri-3, tri, flow\n"]);
+}
+
+#[test]
+fn columns_between_semicolons_are_told() {
+    let directory = tempfile::tempdir().unwrap();
+    std::fs::write(directory.path().join("a.csv"), "t;x\n0.0;1.0\n1.0;1.1\n").unwrap();
+    let file = "{ file = { path = \"a.csv\", time = \"t\", column = \"x\" } }";
+    let text = ROW.replace("{ constant = 1.0 }", file);
+    std::fs::write(directory.path().join("row.toml"), text).unwrap();
+    let said = alewife(directory.path(), &["check", "--no-mesh", "row.toml"]);
+    assert_refused(&said, &["has its columns between ';'", "separate columns by commas"]);
+}
+
+#[test]
+fn paths_that_lead_to_no_case_or_no_run_say_so() {
+    let directory = tempfile::tempdir().unwrap();
+    let run = |arguments: &[&str]| -> Said { alewife(directory.path(), arguments) };
+    std::fs::create_dir(directory.path().join("empty")).unwrap();
+    let absolute = directory.path().join("empty").display().to_string();
+    for path in ["empty", &absolute] {
+        let said = run(&["check", path]);
+        assert_eq!(said.code, 66);
+        let wanted = format!("the directory {path} holds no case.toml");
+        assert!(said.stderr.contains(&wanted), "{}", said.stderr);
+    }
+    std::fs::write(directory.path().join("self.toml"), "extends = \"./self.toml\"\n").unwrap();
+    let said = run(&["check", "self.toml"]);
+    assert_refused(&said, &["self.toml extends itself", "--> self.toml:1:11"]);
+
+    std::fs::write(directory.path().join("right.toml"), RIGHT).unwrap();
+    let said = run(&["run", "right.toml", "--out", "self.toml"]);
+    assert_eq!(said.code, 2, "{}", said.stderr);
+    assert!(said.stderr.contains("self.toml is a file, and a run takes a dir"), "{}", said.stderr);
+    let said = run(&["run", "right.toml", "--out", "self.toml/below"]);
+    assert_eq!(said.code, 74, "{}", said.stderr);
+    assert!(said.stderr.contains("cannot be made"), "{}", said.stderr);
+    assert!(said.stderr.contains("give one you may write to with --out"), "{}", said.stderr);
+}
+
+/// A squirmer above a wall, 0.5 away from it, with a speed of 1 along its heading.
+fn above_a_wall(heading: &str, end: &str) -> String {
+    let (head, _) = ROW.split_once("[[body]]").unwrap();
+    let squirmer = format!(
+        "[[body]]\nname = \"one\"\nshape.disc.radius = 1.0\ncenter = [0.0, -3.5]\nmotion = \"free\"\n\
+         gait.squirmer = {{ modes = [2.0], heading = \"{heading} deg\" }}\n"
+    );
+    format!("{}{squirmer}", head.replace("end = 1.0", &format!("end = {end}")))
+}
+
+#[test]
+fn a_squirmer_on_its_way_to_a_wall_is_warned_of() {
+    let warned = |text: &str, more: &[&str]| {
+        let said = check(text, more);
+        assert_accepted(&said);
+        said.stderr
+    };
+    let told = warned(&above_a_wall("-90", "6.0"), &[]);
+    assert!(told.contains("\"one\" heads for a side of the domain"), "{told}");
+    assert!(told.contains("there at t = 0.5, before the end at 6"), "{told}");
+    let contact = "contact.barrier={ range = 0.1, stiffness = 10.0 }";
+    for (text, more) in [
+        // It does not come that far, goes the other way, or is kept away
+        (above_a_wall("-90", "0.4"), vec![]),
+        (above_a_wall("90", "6.0"), vec![]),
+        (above_a_wall("-90", "6.0"), vec!["--set", contact]),
+    ] {
+        assert!(!warned(&text, &more).contains("heads for"), "{more:?}: {text}");
+    }
+}
