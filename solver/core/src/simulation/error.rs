@@ -178,8 +178,7 @@ pub enum RunError {
     Unsupported(String),
     /// No shorter step helps.
     #[error(
-        "{}: {reason}, with steps down to {smallest:.3e}{advice}; \
-         the last state is in failure/: look at its flow there, and resume from it with --resume",
+        "{}: {reason}, with steps down to {smallest:.3e}{advice}",
         at(*step, *time)
     )]
     StepSizeUnderflow {

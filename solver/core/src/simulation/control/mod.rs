@@ -24,7 +24,7 @@ fn step_size_underflow<const D: usize>(
     let Simulation { problem, state, moving_mesh, law, .. } = &run.simulation;
     let (step, time, reason) = (state.step + 1, state.time, error.to_string());
     if let Some(trouble) = run.pace.trouble(run.simulation.fastest()) {
-        let advice = format!("; {trouble}");
+        let advice = format!("; {trouble}; the last flow is in failure/");
         return RunError::StepSizeUnderflow { step, time, smallest, reason, advice };
     }
     let nearest = moving_mesh.as_ref().zip(state.contact.minimum_gap).map(|(moving, minimum)| {
@@ -39,6 +39,7 @@ fn step_size_underflow<const D: usize>(
         let gap = minimum.gap;
         format!("; nearest are `{}` and `{}`, {gap:.3e} apart{hint}", names[0], names[1])
     });
-    let advice = nearest.unwrap_or_default();
+    let advice = nearest.unwrap_or_default()
+        + "; the last state is in failure/: look at its flow there, and resume from it with --resume";
     RunError::StepSizeUnderflow { step, time, smallest, reason, advice }
 }
