@@ -97,11 +97,6 @@ impl<const D: usize> BoxTree<D> {
         self.nodes.first().map_or(0.0, |root| (root.bounds.max - root.bounds.min).max())
     }
 
-    /// Square of the distance from a point to the box around all (m²), infinite without boxes.
-    pub fn squared_distance(&self, point: &Point<D>) -> f64 {
-        self.nodes.first().map_or(f64::INFINITY, |root| root.bounds.squared_distance(point))
-    }
-
     fn gap(&self, node: u32, point: &Point<D>) -> f64 {
         self.nodes[node as usize].bounds.squared_distance(point)
     }

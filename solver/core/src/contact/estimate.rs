@@ -48,10 +48,21 @@ impl MobilityEstimate {
         load.dot(&(&self.base * load)).max(0.0).sqrt()
     }
 
+    /// Velocities in motions that are free, zero in all others.
+    #[must_use]
+    pub fn free_part(&self, mut velocities: DVector<f64>) -> DVector<f64> {
+        for (row, velocity) in velocities.iter_mut().enumerate() {
+            if self.base[(row, row)] == 0.0 {
+                *velocity = 0.0;
+            }
+        }
+        velocities
+    }
+
     /// Takes note of the velocities by which bodies answered a load.
-    pub fn learn(&mut self, load: &DVector<f64>, answer: &DVector<f64>) {
-        self.loads.push(load.clone());
-        self.answers.push(answer.clone());
+    pub fn learn(&mut self, load: DVector<f64>, answer: DVector<f64>) {
+        self.loads.push(load);
+        self.answers.push(self.free_part(answer));
         for rows in &self.clusters {
             let base = self.base.select_rows(rows).select_columns(rows);
             let [loads, answers] = [&self.loads, &self.answers].map(|vectors| {
@@ -94,12 +105,6 @@ fn corrected(
         return None;
     }
     let inverse = decomposed.pseudo_inverse(DEPENDENT * largest).ok()?;
-    // Rows of motions that are not free stay zero
-    for (row, of_base) in base.row_iter().enumerate() {
-        if of_base.iter().all(|entry| *entry == 0.0) {
-            answers.row_mut(row).fill(0.0);
-        }
-    }
     Some(base + (answers - &by_base) * inverse * by_base.transpose())
 }
 
@@ -122,7 +127,7 @@ mod tests {
         let loads = [[1.0, 0.2, 0.0, -1.0, 0.0, 0.3], [1.0, 0.21, 0.0, -1.0, 0.01, 0.3]];
         let loads = loads.map(|load| DVector::from_column_slice(&load));
         for load in &loads {
-            estimate.learn(load, &(&exact * load));
+            estimate.learn(load.clone(), &exact * load);
         }
         for load in &loads {
             let difference = estimate.matrix() * load - &exact * load;
@@ -140,7 +145,7 @@ mod tests {
         for off in [0.0, 1e-7] {
             let load = DVector::from_column_slice(&[1.0, 0.2 + off, 0.0, -1.0, 0.0, 0.3]);
             let error = DVector::from_element(6, off);
-            estimate.learn(&load, &(&exact * &load + error));
+            estimate.learn(load.clone(), &exact * &load + error);
             learnt.push(estimate.matrix().clone());
         }
         assert!((&learnt[1] - &learnt[0]).amax() < 1e-6);
@@ -152,7 +157,7 @@ mod tests {
         let mut estimate = MobilityEstimate::new(DMatrix::identity(6, 6), vec![(0..6).collect()]);
         for motion in 0..6 {
             let load = exact.column(motion).into_owned();
-            estimate.learn(&load, &(&exact * &load));
+            estimate.learn(load.clone(), &exact * &load);
         }
         assert!((estimate.matrix() - exact).amax() < 1e-10);
     }
@@ -166,7 +171,7 @@ mod tests {
         let clusters = vec![(0..6).collect(), (6..12).collect()];
         let mut estimate = MobilityEstimate::new(DMatrix::identity(12, 12), clusters);
         let load = DVector::from_fn(12, |row, _| 1.0 + row as f64);
-        estimate.learn(&load, &(&both * &load));
+        estimate.learn(load.clone(), &both * &load);
         for half in [0, 6] {
             let mut part = DVector::zeros(12);
             part.rows_mut(half, 6).copy_from(&load.rows(half, 6));
@@ -180,7 +185,7 @@ mod tests {
         base[(2, 2)] = 0.0;
         let mut estimate = MobilityEstimate::new(base, vec![vec![0, 1, 2]]);
         let load = DVector::from_column_slice(&[1.0, 1.0, 0.0]);
-        estimate.learn(&load, &DVector::from_column_slice(&[2.0, 3.0, 4.0]));
+        estimate.learn(load, DVector::from_column_slice(&[2.0, 3.0, 4.0]));
         assert_eq!(estimate.matrix().row(2).amax(), 0.0);
         assert_eq!(estimate.matrix().column(2).amax(), 0.0);
     }

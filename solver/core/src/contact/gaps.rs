@@ -2,8 +2,10 @@
 
 use std::fmt::Debug;
 
+use nalgebra::DVector;
+
 use super::{ContactPair, Partner};
-use crate::body::{Modes, Pose};
+use crate::body::{Mode, Modes, Pose};
 
 /// The smallest of all gaps.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -52,6 +54,27 @@ pub trait Gaps: Debug + Send + Sync {
     /// The fraction, at most 1, of the displacements between poses within which no body can get to
     /// the far side of another.
     fn max_step_fraction(&self, from: &[Pose], to: &[Pose]) -> f64;
+
+    /// Length by which a component of a motion of a body counts as a displacement: the reach (m) for
+    /// rotations, one for translations.
+    fn length(&self, body: usize, mode: Mode) -> f64 {
+        if mode.is_rotation() { self.reach(body) } else { 1.0 }
+    }
+
+    /// Largest component of the displacements (m, rad) of some bodies, as that of a point: body by body, and of
+    /// each body motion by motion. Not a number where one of them is not.
+    fn largest_displacement(
+        &self,
+        bodies: &[usize],
+        modes: Modes,
+        displacements: &DVector<f64>,
+    ) -> f64 {
+        let rows = bodies.iter().flat_map(|&body| modes.iter().map(move |mode| (body, mode)));
+        let sizes = rows
+            .zip(displacements)
+            .map(|((body, mode), displacement)| (displacement * self.length(body, mode)).abs());
+        sizes.fold(0.0, |most, one| if one > most || one.is_nan() { one } else { most })
+    }
 
     /// How far a point of a body moves at most between two poses (m).
     fn displacement_bound(&self, body: usize, from: &Pose, to: &Pose) -> f64 {

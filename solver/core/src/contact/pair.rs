@@ -1,6 +1,6 @@
 //! `ContactPair`: a close pair of points, and how its gap changes as the bodies move.
 
-use nalgebra::Vector3;
+use nalgebra::{DVector, Vector3};
 
 use super::Curvatures;
 use super::pair_vector::{PairMatrix, PairVector};
@@ -70,6 +70,25 @@ impl ContactPair {
         let [on_body, on_partner] = self.levers.map(|lever| lever.cross(&normal));
         [join(&normal, &on_body), join(&-normal, &-on_partner)]
             .map(|gradient| self.modes.project(&gradient))
+    }
+
+    /// Derivative of the gap by the motions of some bodies (ascending): body by body, and of each body
+    /// motion by motion.
+    #[must_use]
+    pub fn gradient_by(&self, bodies: &[usize]) -> DVector<f64> {
+        let mut gradient = DVector::zeros(self.modes.len() * bodies.len());
+        let mut add = |body: usize, of_body: &RigidVector| {
+            let Ok(index) = bodies.binary_search(&body) else { return };
+            for (position, mode) in self.modes.iter().enumerate() {
+                gradient[index * self.modes.len() + position] += of_body[mode];
+            }
+        };
+        let [on_body, on_partner] = self.gradient();
+        add(self.body, &on_body);
+        if let Partner::Body(other) = self.partner {
+            add(other, &on_partner);
+        }
+        gradient
     }
 
     /// Both sides of [`Self::gradient`] in one vector.

@@ -142,10 +142,9 @@ impl ContactStep<'_> {
         change
     }
 
-    /// Length by which a component counts as a displacement: the reach (m) for rotations, one for
-    /// translations.
+    /// Length by which a component counts as a displacement.
     pub(super) fn length(&self, index: usize, mode: Mode) -> f64 {
-        if mode.is_rotation() { self.gaps.reach(self.bodies[index]) } else { 1.0 }
+        self.gaps.length(self.bodies[index], mode)
     }
 
     /// Lengths of all rows.
@@ -155,12 +154,7 @@ impl ContactStep<'_> {
 
     /// Largest displacement of a point of a body by a change of velocities (m), by component.
     pub(super) fn size(&self, step: &DVector<f64>) -> f64 {
-        let lengths = self.lengths();
-        let displacements = step
-            .iter()
-            .zip(&lengths)
-            .map(|(change, length)| (change * length * self.coefficient).abs());
-        displacements.fold(0.0, |most, one| if one > most || one.is_nan() { one } else { most })
+        self.coefficient * self.gaps.largest_displacement(self.bodies, self.modes, step)
     }
 }
 

@@ -9,7 +9,7 @@ use std::f64::consts::PI;
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::body::{Pose, RigidVector};
+use crate::body::Pose;
 use crate::contact::{ContactPair, Gaps, Law, MobilityEstimate, Partner};
 use crate::coupling::RigidBodyEquations;
 
@@ -67,28 +67,10 @@ impl Bodies<'_> {
         for pair in pairs.iter().filter(|pair| pair.curvatures.of_gap() > 0.0) {
             let gap = pair.gap.max(THINNEST * self.law.range());
             let film = 6.0 * PI * viscosity / (pair.curvatures.of_gap().powi(2) * gap);
-            let gradient = self.gradient(pair);
+            let gradient = pair.gradient_by(self.bodies);
             resistance += film * &gradient * gradient.transpose();
         }
         resistance
-    }
-
-    /// Derivative of a gap by the motions of the bodies.
-    fn gradient(&self, pair: &ContactPair) -> DVector<f64> {
-        let modes = self.gaps.modes();
-        let mut gradient = DVector::zeros(modes.len() * self.bodies.len());
-        let mut add = |body: usize, of_body: &RigidVector| {
-            let Ok(index) = self.bodies.binary_search(&body) else { return };
-            for (position, mode) in modes.iter().enumerate() {
-                gradient[modes.len() * index + position] += of_body[mode];
-            }
-        };
-        let [on_body, on_partner] = pair.gradient();
-        add(pair.body, &on_body);
-        if let Partner::Body(other) = pair.partner {
-            add(other, &on_partner);
-        }
-        gradient
     }
 
     /// Rows of bodies that are near each other, or depend on the same unknowns.

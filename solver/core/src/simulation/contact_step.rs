@@ -11,8 +11,8 @@ use super::state::State;
 use super::stepper::TimeStepper;
 use super::workspace::Workspace;
 use super::{RunError, Stage};
-use crate::body::{Mode, Pose, RigidVector, Twist};
-use crate::contact::{ContactLoads, ContactSolution, ContactStep, Gaps, Law, MobilityEstimate};
+use crate::body::{Pose, RigidVector, Twist};
+use crate::contact::{ContactLoads, ContactSolution, ContactStep, Gaps, Law};
 use crate::coupling::{BodyLoad, LoadedBody};
 
 /// Contact is looked for where bodies may get to with this times their displacement.
@@ -98,9 +98,7 @@ impl<const D: usize> PassContact<'_, D> {
             let Ok(found) = self.solve(candidates, flow, applied, estimate.matrix()) else {
                 return Ok(false);
             };
-            let change = self.rows(bodies, |body| {
-                found.loads.wrenches[body].to_vector() - applied.wrenches[body].to_vector()
-            });
+            let change = self.loads(bodies, &found.loads) - self.loads(bodies, applied);
             let size = estimate.size(&change);
             if size == 0.0 {
                 *applied = found.loads;
@@ -111,12 +109,11 @@ impl<const D: usize> PassContact<'_, D> {
             let reduction = (ACCURACY * largest / size).min(LEAST_REDUCTION);
             self.replace(work, flow, applied, found.loads, Some(reduction))?;
             let now = self.velocities(bodies, flow);
-            estimate.learn(&change, &(&now - before));
-            let expected = self.rows(bodies, |body| {
-                let index = bodies.binary_search(&body).unwrap_or_default();
-                found.velocities[index].to_vector()
-            });
-            let off = self.displacement(candidates, &(now - expected), &estimate);
+            estimate.learn(change, &now - before);
+            let expected = self.rows(found.velocities.iter().map(Twist::to_vector));
+            let off = estimate.free_part(now - expected) / self.equations.history.step.bdf.next;
+            let modes = self.stepper.problem.modes();
+            let off = gaps.largest_displacement(bodies, modes, &off);
             let gap = applied.minimum_gap.map_or(law.range(), |least| least.gap.min(law.range()));
             tracing::debug!(attempt, size, off, gap, bodies = bodies.len(), "contact");
             if off <= SMALL * gap {
@@ -149,49 +146,24 @@ impl<const D: usize> PassContact<'_, D> {
         next: ContactLoads,
         reduction: Option<f64>,
     ) -> Result<(), StepError> {
-        let changes: Vec<BodyLoad> = applied
-            .wrenches
-            .iter()
-            .zip(&next.wrenches)
-            .enumerate()
-            .map(|(body, (old, new))| BodyLoad { body, load: new.to_vector() - old.to_vector() })
-            .filter(|on_body| on_body.load.iter().any(|part| *part != 0.0))
-            .collect();
+        let changes = body_loads(applied, &next);
         *applied = next;
         add_loads(work, self.equations, &changes, reduction, flow)
     }
 
     /// Numbers of bodies by their motions.
-    fn rows(&self, bodies: &[usize], of_body: impl Fn(usize) -> RigidVector) -> DVector<f64> {
+    fn rows(&self, of_bodies: impl Iterator<Item = RigidVector>) -> DVector<f64> {
         let modes = self.stepper.problem.modes();
-        let of_body = |&body: &usize| {
-            let numbers = of_body(body);
-            modes.iter().map(move |mode| numbers[mode]).collect::<Vec<f64>>()
-        };
-        DVector::from_vec(bodies.iter().flat_map(of_body).collect())
+        let numbers = of_bodies.flat_map(|of_body| modes.iter().map(move |mode| of_body[mode]));
+        DVector::from_vec(numbers.collect())
     }
 
     fn velocities(&self, bodies: &[usize], flow: &Flow<D>) -> DVector<f64> {
-        self.rows(bodies, |body| flow.solution.twists[body].to_vector())
+        self.rows(bodies.iter().map(|&body| flow.solution.twists[body].to_vector()))
     }
 
-    /// Largest displacement (m) of a point of a body in the step by velocities, in motions that count.
-    fn displacement(
-        &self,
-        candidates: &Candidates<'_>,
-        velocity: &DVector<f64>,
-        estimate: &MobilityEstimate,
-    ) -> f64 {
-        let modes = self.stepper.problem.modes();
-        let coefficient = 1.0 / self.equations.history.step.bdf.next;
-        let of_row = |(row, velocity): (usize, &f64)| {
-            let body = candidates.bodies[row / modes.len()];
-            let is_rotation = modes.iter().nth(row % modes.len()).is_some_and(Mode::is_rotation);
-            let length = if is_rotation { candidates.gaps.reach(body) } else { 1.0 };
-            let counts = estimate.matrix()[(row, row)] != 0.0;
-            if counts { (velocity * length * coefficient).abs() } else { 0.0 }
-        };
-        velocity.iter().enumerate().map(of_row).fold(0.0, f64::max)
+    fn loads(&self, bodies: &[usize], loads: &ContactLoads) -> DVector<f64> {
+        self.rows(bodies.iter().map(|&body| loads.wrenches[body].to_vector()))
     }
 
     /// Poses of the pass, as seen.
@@ -225,7 +197,7 @@ impl<const D: usize> PassContact<'_, D> {
         let (state, bdf) = (self.state, &self.equations.history.step.bdf);
         let poses = &self.equations.pass.poses;
         let modes = self.stepper.problem.modes();
-        let pushed = mobility * self.rows(bodies, |body| applied.wrenches[body].to_vector());
+        let pushed = mobility * self.loads(bodies, applied);
         let free_velocities: Vec<Twist> = bodies
             .iter()
             .enumerate()
@@ -265,7 +237,7 @@ pub(super) fn loaded_bodies(gaps: &dyn Gaps, bodies: &[usize]) -> Vec<LoadedBody
     bodies.iter().map(loaded).collect()
 }
 
-/// Adds what loads of contact on some bodies change in a flow found without them, and its residual.
+/// Adds what loads of contact change in a flow found without them, and its residual.
 ///
 /// # Errors
 /// When the linear system cannot be solved.
@@ -273,16 +245,20 @@ pub(super) fn add_to_flow<const D: usize>(
     work: &mut Workspace<D>,
     equations: &PassEquations<'_, D>,
     loads: &ContactLoads,
-    bodies: &[usize],
     flow: &mut Flow<D>,
 ) -> Result<(), StepError> {
-    let on_body = |&body: &usize| BodyLoad { body, load: loads.wrenches[body].to_vector() };
-    let on_bodies: Vec<BodyLoad> = bodies.iter().map(on_body).collect();
-    if on_bodies.iter().any(|on_body| on_body.load.iter().any(|part| *part != 0.0)) {
-        add_loads(work, equations, &on_bodies, None, flow)?;
-    }
+    let none = ContactLoads::none(loads.wrenches.len());
+    add_loads(work, equations, &body_loads(&none, loads), None, flow)?;
     update_residual(work, equations, flow);
     Ok(())
+}
+
+/// What is to be added to some loads of contact to get others.
+fn body_loads(from: &ContactLoads, to: &ContactLoads) -> Vec<BodyLoad> {
+    let pairs = from.wrenches.iter().zip(&to.wrenches).enumerate();
+    let changes =
+        pairs.map(|(body, (old, new))| BodyLoad { body, load: new.to_vector() - old.to_vector() });
+    changes.filter(|on_body| on_body.load.iter().any(|part| *part != 0.0)).collect()
 }
 
 /// Adds what loads on some bodies change in a flow.

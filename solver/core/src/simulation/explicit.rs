@@ -197,7 +197,7 @@ impl<const D: usize> TimeStepper<'_, D> {
         let equations = PassEquations::new(self, &history, &pass);
         let mut flow = self.solve(work, &equations, guess.clone())?;
         if let Some(contact) = &contact {
-            contact.apply(work, self, &equations, at.step, &mut flow)?;
+            contact.apply(work, &equations, at.step, &mut flow)?;
         }
         let loads = self.loads(work, state, &equations, &mut flow);
         Ok(InstantaneousFlow {

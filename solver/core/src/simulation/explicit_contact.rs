@@ -12,9 +12,8 @@ use super::contact_step::{add_to_flow, loaded_bodies};
 use super::error::StepError;
 use super::newton::Flow;
 use super::pass::PassEquations;
-use super::stepper::TimeStepper;
 use super::workspace::Workspace;
-use crate::body::{Pose, RigidVector};
+use crate::body::Pose;
 use crate::contact::{ContactError, ContactLoads, ContactPair, Gaps, Law, Partner};
 use crate::coupling::SolveError;
 
@@ -61,7 +60,6 @@ impl<'a> StageContact<'a> {
     pub fn apply<const D: usize>(
         &self,
         work: &mut Workspace<D>,
-        stepper: &TimeStepper<'_, D>,
         equations: &PassEquations<'_, D>,
         size: f64,
         flow: &mut Flow<D>,
@@ -77,11 +75,11 @@ impl<'a> StageContact<'a> {
         let mobility = system
             .mobility(constraints, &loaded_bodies(self.gaps, &bodies), timing)
             .map_err(fail)?;
-        let rate = self.fastest_decay(&bodies, stepper, &mobility);
+        let rate = self.fastest_decay(&bodies, &mobility);
         if rate * size > LARGEST_DECAY {
             return Err(StepError::StiffContact { size, time_scale: 1.0 / rate });
         }
-        add_to_flow(work, equations, &self.loads, &bodies, flow)
+        add_to_flow(work, equations, &self.loads, flow)
     }
 
     /// The bodies in contact, ascending.
@@ -99,28 +97,10 @@ impl<'a> StageContact<'a> {
     /// The largest rate (1/s) at which contact alone brings the bodies back to where its forces vanish:
     /// the largest eigenvalue of G^T M G, the columns of G being gradients of gaps times the square
     /// roots of their stiffness.
-    fn fastest_decay<const D: usize>(
-        &self,
-        bodies: &[usize],
-        stepper: &TimeStepper<'_, D>,
-        mobility: &DMatrix<f64>,
-    ) -> f64 {
-        let modes = stepper.problem.modes();
+    fn fastest_decay(&self, bodies: &[usize], mobility: &DMatrix<f64>) -> f64 {
         let column = |pair: &ContactPair| {
             let stiffness = -pair.weight * self.law.slope(pair.gap);
-            let [on_body, on_partner] = pair.gradient();
-            let mut column = DVector::zeros(bodies.len() * modes.len());
-            let mut add = |body: usize, gradient: &RigidVector| {
-                let Ok(index) = bodies.binary_search(&body) else { return };
-                for (position, mode) in modes.iter().enumerate() {
-                    column[index * modes.len() + position] += gradient[mode] * stiffness.sqrt();
-                }
-            };
-            add(pair.body, &on_body);
-            if let Partner::Body(other) = pair.partner {
-                add(other, &on_partner);
-            }
-            column
+            pair.gradient_by(bodies) * stiffness.sqrt()
         };
         let columns: Vec<DVector<f64>> = self.pairs.iter().map(column).collect();
         let gradients = DMatrix::from_columns(&columns);

@@ -10,7 +10,6 @@ use super::pace::Pace;
 use super::prepare::{Prepared, prepare};
 use super::resume::SavedState;
 use super::snapshot::{LastState, Observer, Snapshot};
-
 use super::steady::{SteadyFlow, SteadyTask, solve_steady};
 use super::{RunError, Series, Stage, StopRequest, Timing};
 use crate::case::{Case, Initial, Model, Steady, TimeSettings, Unsteady};

@@ -43,8 +43,7 @@ impl<const D: usize> Run<'_, D> {
             self.pace = Pace { times: ratio.sqrt(), cell_reynolds: flow.cell_reynolds() };
         }
         if problem.has_inertia && is_driven && ratio > BLOWN_UP {
-            let times = ratio.sqrt();
-            let cell_reynolds = flow.cell_reynolds();
+            let Pace { times, cell_reynolds } = self.pace;
             let near = self.simulation.fastest_node();
             return Err(RunError::BlownUp { step, time, times, cfl, cell_reynolds, near });
         }
