@@ -4,7 +4,7 @@ use std::path::Path;
 
 use serde_json::Value;
 
-use super::{alewife, done};
+use super::{DISC, FLUID, alewife, done};
 
 const RUN: &str = "kept/c-radius-2";
 const COMPANION: &str = "kept/c-radius-2+coarser";
@@ -102,6 +102,41 @@ fn what_is_kept_is_run_again_only_where_the_case_or_the_program_has_changed() {
     assert!(!is_kept(&[]).0, "another program made it");
 }
 
+/// However few rows its case asks for.
+#[test]
+fn a_run_that_is_kept_has_all_steps_and_is_taken_again() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let reference = "
+[[reference]]
+quantity = 'disc.velocity.y'
+statistic = 'min'
+value = -0.7
+absolute = 1.0
+kind = 'regression'
+date = '2026-11-25'
+source = 'none'
+uncertainty = 0.1
+";
+    let time =
+        "[time.unsteady]\nstep = 0.02\nend = 0.2\n[mesh]\nsize = 0.4\n[output]\nseries = 'end'\n";
+    let text = format!("{FLUID}{DISC}{time}{reference}");
+    std::fs::write(here.join("c.toml"), text).unwrap();
+    let in_memory = validated(here, &[]);
+    let kept = validated(here, &["--out", "kept"]);
+    std::fs::write(here.join("kept/c/STOP"), "").unwrap();
+    let again = validated(here, &["--out", "kept"]);
+    assert!(here.join("kept/c/STOP").is_file());
+    for one in [&kept, &again, &validated(here, &["--from", "kept"])] {
+        assert_eq!(one["comparisons"][0]["computed"], in_memory["comparisons"][0]["computed"]);
+    }
+    // What `run` leaves has one row
+    done(here, &["run", "c.toml", "--out", "runs/c", "--quiet", "--threads", "1"]);
+    let output = alewife(here, &["validate", "c.toml", "--from", "runs", "--threads", "1"]);
+    assert_eq!(output.status.code(), Some(65));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("does not have every step"));
+}
+
 #[test]
 fn a_companion_that_cannot_be_is_told_and_the_value_stays() {
     let directory = tempfile::tempdir().unwrap();
@@ -173,5 +208,6 @@ fn a_page_takes_what_runs_there_are_and_no_other_file() {
     std::fs::copy(here.join("c.toml"), deep.join("c.toml")).unwrap();
     done(&deep, &["validate", "c.toml", "--from", &kept, "--uncertainty", "--report"]);
     let page = std::fs::read_to_string(here.join("docs/validation.md")).unwrap();
-    assert!(page.contains("its case.toml: No such file"), "{page}");
+    assert!(page.contains(" | none: not run |\n"), "{page}");
+    assert!(!page.contains(&kept), "{page}");
 }

@@ -1,16 +1,19 @@
 //! Runs that a validation keeps: which of them stand for a run that is asked for.
 
 use std::io::ErrorKind;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use super::super::engine;
 use super::super::exit::{Exit, Failure};
-use crate::case::{Cadence, Case, CaseError, Model, Numbers, Statistics};
+use crate::case::{Cadence, Case, CaseError, Model, Numbers, Output, Statistics};
 use crate::observer::{
     MESH_SIZE_FILE, Provenance, RunState, Status, executable, read_outcome, write_atomic,
 };
 use crate::simulation::{Dimension, RunSummary, Solve};
 use crate::validation::MeshSize;
+
+/// How often a row of a series is written for a run to be compared.
+const EVERY_STEP: Cadence = Cadence::Steps(1);
 
 /// What is in the directory of a run that is wanted.
 pub enum Found {
@@ -27,8 +30,8 @@ pub enum Found {
 /// Looks for a run of a case, by this program unless any will do.
 pub fn find(directory: &Path, case: &Case, by_any_program: bool) -> Found {
     let Ok(status) = Status::read(directory) else { return Found::Replaceable };
-    let is_same = by_any_program || is_by_this_program(directory);
-    let is_it = is_same && run_case(directory).is_ok_and(|was| computed(&was) == computed(case));
+    let is_it =
+        (by_any_program || is_by_this_program(directory)) && check_case(directory, case).is_ok();
     match (status.state, is_it) {
         (RunState::Finished, true) => Found::Finished,
         (RunState::Failed, true) if !status.is_interrupted => {
@@ -54,36 +57,58 @@ fn is_by_this_program(directory: &Path) -> bool {
 #[derive(Debug)]
 pub struct Refusal {
     exit: Exit,
-    /// In words.
+    directory: PathBuf,
+    /// In words, without the directory.
     pub reason: String,
 }
 
 impl From<Refusal> for Failure {
     fn from(refusal: Refusal) -> Self {
-        Self::new(refusal.exit, refusal.reason)
+        let Refusal { exit, directory, reason } = refusal;
+        Self::new(exit, format!("{}: {reason}", directory.display()))
     }
 }
 
 /// A run that was kept, of the same case, its references aside.
 pub fn read(directory: &Path, case: &Case) -> Result<RunSummary, Refusal> {
+    check_case(directory, case)?;
+    read_outcome(directory).map_err(|error| Refusal {
+        exit: Exit::NoInput,
+        directory: directory.to_owned(),
+        reason: error.to_string(),
+    })
+}
+
+/// Whether a run is of this case, and all that was computed is there.
+fn check_case(directory: &Path, case: &Case) -> Result<(), Refusal> {
     let refuse = |exit, reason: &str| {
-        let reason = format!("{}: {reason}", directory.display());
-        Refusal { exit, reason }
+        let (directory, reason) = (directory.to_owned(), reason.to_owned());
+        Err(Refusal { exit, directory, reason })
     };
     if let Err(error) = std::fs::metadata(directory.join("case.toml")) {
-        return Err(refuse(Exit::NoInput, &format!("its case.toml: {error}")));
+        return refuse(Exit::NoInput, &format!("its case.toml: {error}"));
     }
-    let was = run_case(directory)
-        .map_err(|error| refuse(Exit::BadCase, &format!("its case.toml: {error}")))?;
+    let was = match run_case(directory) {
+        Ok(was) => was,
+        Err(error) => return refuse(Exit::BadCase, &format!("its case.toml: {error}")),
+    };
     if computed(&was) != computed(case) {
         let reason = "the case has changed since, not only its references; run it again";
-        return Err(refuse(Exit::BadCase, reason));
+        return refuse(Exit::BadCase, reason);
     }
-    if !matches!(case.output.series, Cadence::Steps(1)) {
+    if was.output.series != EVERY_STEP {
         let reason = "its series.csv does not have every step (output.series)";
-        return Err(refuse(Exit::BadCase, reason));
+        return refuse(Exit::BadCase, reason);
     }
-    read_outcome(directory).map_err(|error| refuse(Exit::NoInput, &error.to_string()))
+    Ok(())
+}
+
+/// The same case with all that is computed in its series, however little of that it asks for: values are of all
+/// steps.
+pub fn with_every_step(model: &Model) -> Model {
+    let mut model = model.clone();
+    model.case.output.series = EVERY_STEP;
+    model
 }
 
 /// The case in the directory of a run.
@@ -101,6 +126,7 @@ fn computed(case: &Case) -> Case {
         reference: Vec::new(),
         variant: Vec::new(),
         quick: false,
+        output: Output { series: EVERY_STEP, ..case.output },
         ..case.clone()
     }
 }

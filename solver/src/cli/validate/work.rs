@@ -154,6 +154,9 @@ impl Work {
                     Found::Failed(reason) => Err(reason),
                     _ => match kept::read(&directory, case) {
                         // Without a companion a value has no uncertainty, without its run no value
+                        Err(_) if which == Which::Companion && !directory.is_dir() => {
+                            Err("not run".to_owned())
+                        }
                         Err(refusal) if which == Which::Companion => Err(refusal.reason),
                         read => Ok(read?),
                     },
@@ -168,7 +171,7 @@ impl Work {
                     Found::Replaceable => {
                         let is_of_validation = kept::is_of_validation(&directory);
                         let summary = self.run(file, &directory, Earlier::Replace)?;
-                        if is_of_validation {
+                        if is_of_validation && summary.is_ok() {
                             kept::mesh_size(&file.model, Some(&directory))?;
                         }
                         summary
@@ -188,11 +191,12 @@ impl Work {
         earlier: Earlier,
     ) -> Result<Result<RunSummary, String>, Failure> {
         let start = Start::with_threads(self.n_threads);
-        let directory = RunDirectory::create(place, file.case(), start, earlier)?;
+        let model = kept::with_every_step(&file.model);
+        let directory = RunDirectory::create(place, &model.case, start, earlier)?;
         let shown = Shown { quiet: true, live: None };
         let watch = self.watch.clone();
         let run = RunInto { directory: &directory, shown, watch, limit: None };
-        unless_stopped(engine::simulate_afresh(&file.model, run))
+        unless_stopped(engine::simulate_afresh(&model, run))
     }
 }
 
