@@ -1,4 +1,4 @@
-//! `Units`: what the numbers of a case are told in, as a text or as a table of labels.
+//! `Units`: the units of the numbers of a case, as a text or as a table of labels.
 
 use std::fmt;
 
@@ -31,7 +31,7 @@ pub struct UnitLabels {
     /// Unit of times, such as `s`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub time: Option<String>,
-    /// Unit of forces, such as `pN`; in the plane forces are told per unit of length.
+    /// Unit of forces, such as `pN`; in the plane forces are given per unit of length.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub force: Option<String>,
 }

@@ -29,13 +29,11 @@ pub fn manual(directory: &Path, command: Command) -> Result<Exit, Failure> {
     command.build();
     let mut pages = Vec::new();
     collect(&command, &format!("alewife {version}"), &mut pages)?;
-    let failed = |path: &Path, error: &io::Error| {
-        Failure::new(Exit::InputOutput, format!("{}: {error}", path.display()))
-    };
-    fs::create_dir_all(directory).map_err(|error| failed(directory, &error))?;
+    fs::create_dir_all(directory).map_err(|error| {
+        Failure::new(Exit::InputOutput, format!("{}: {error}", directory.display()))
+    })?;
     for page in &pages {
-        let path = directory.join(&page.file);
-        write_atomic(&path, &page.text).map_err(|error| failed(&path, &error))?;
+        write_atomic(&directory.join(&page.file), &page.text)?;
     }
     say(&format!("{} pages in {}", pages.len(), directory.display()));
     Ok(Exit::Done)

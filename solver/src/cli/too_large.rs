@@ -1,7 +1,6 @@
 //! A mesh that does not fit into memory, by the key of the case that asks for it.
 
-use super::exit::{Failure, exit_of};
-use super::style;
+use super::exit::Failure;
 use crate::case::{CaseFile, Diagnostic, Severity};
 use crate::simulation::RunError;
 
@@ -28,7 +27,7 @@ pub fn failure(file: &CaseFile, error: RunError) -> Failure {
         help: format!("the first to look at is `{key}` = {value}"),
         location: file.location(key),
     };
-    Failure { exit: exit_of(&error), message: style::diagnostics(&[diagnostic]) }
+    Failure::wrong(&[diagnostic])
 }
 
 #[cfg(test)]

@@ -56,7 +56,7 @@ mod write_times;
 use crate::case::Model;
 use crate::simulation::{Dimension, Observer, Solve};
 
-pub use atomic::{UNFINISHED, write_atomic};
+pub use atomic::{UNFINISHED, directory_of, write_atomic};
 pub use checkpoint_list::checkpoints;
 pub use checkpoints::{Checkpoint, CheckpointFiles, latest_checkpoint};
 pub use csv::SeriesFile;

@@ -120,11 +120,17 @@ impl Origin {
         }
     }
 
+    /// Name and version of the program.
+    #[must_use]
+    pub fn program(&self) -> String {
+        let git = self.git.as_ref().map_or(String::new(), |git| format!(" ({git})"));
+        format!("alewife {}{git}", self.alewife)
+    }
+
     /// What to look for elsewhere to find what this is of, in a line.
     #[must_use]
     pub fn line(&self) -> String {
-        let git = self.git.as_ref().map_or(String::new(), |git| format!(" ({git})"));
-        format!("alewife {}{git}, case {}", self.alewife, self.case_hash)
+        format!("{}, case {}", self.program(), self.case_hash)
     }
 
     /// The same as pairs of texts, lists joined by blanks.

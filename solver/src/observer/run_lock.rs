@@ -69,8 +69,8 @@ impl RunLock {
         }
     }
 
-    /// Whether the process of this computer that held a directory last has ended. It is not told of another
-    /// computer: its locks need not be seen here.
+    /// Whether the process of this computer that held a directory last has ended; never so for a process of
+    /// another computer, whose locks need not be seen here.
     #[must_use]
     pub fn is_left(directory: &Path) -> bool {
         let Ok(mut file) = File::open(directory.join(FILE)) else { return false };

@@ -148,10 +148,16 @@ impl Comparison {
         })
     }
 
-    /// What mesh and step leave in the computed value, relative to the reference if the tolerance is.
+    /// The numerical uncertainty of the computed value, if it has one.
+    #[must_use]
+    pub fn numerical_uncertainty(&self) -> Option<f64> {
+        self.numerical.as_ref()?.as_ref().ok().copied()
+    }
+
+    /// The same relative to the reference, if the tolerance is.
     #[must_use]
     pub fn numerical_share(&self) -> Option<f64> {
-        let uncertainty = *self.numerical.as_ref()?.as_ref().ok()?;
+        let uncertainty = self.numerical_uncertainty()?;
         Some(match self.reference.relative {
             Some(_) => uncertainty / self.reference.value.abs(),
             None => uncertainty,

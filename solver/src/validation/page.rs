@@ -5,7 +5,7 @@ use super::report::two_digits;
 use super::uncertainty::{Refinement, RunSize};
 use crate::case::{ReferenceKind, significant};
 
-/// What is told of a case.
+/// What the page says of a case.
 #[derive(Debug, Clone)]
 pub struct CaseReport {
     /// Its name, without a variant.
@@ -49,18 +49,19 @@ pub struct MemberReport {
 pub struct Companion {
     /// What it was made with.
     pub size: RunSize,
-    /// How it differs, or why that tells nothing.
+    /// How it differs, or why no uncertainty follows from it.
     pub refinement: Result<Refinement, String>,
 }
 
-impl MemberReport {
-    fn variant(&self) -> &str {
-        self.name.split_once('/').map_or("", |(_, variant)| variant)
-    }
+/// The variant in the name of a case.
+fn variant_of(name: &str) -> &str {
+    name.split_once('/').map_or("", |(_, variant)| variant)
+}
 
+impl MemberReport {
     /// The row of its mesh and its companion.
     fn size_row(&self) -> String {
-        let mut cells = vec![self.variant().to_owned()];
+        let mut cells = vec![variant_of(&self.name).to_owned()];
         match &self.size {
             Some(size) => cells.extend([
                 size.mesh.cells.to_string(),
@@ -124,7 +125,7 @@ pub(super) fn section(case: &CaseReport) -> String {
              |---|---|---|---|---|---|---|---|---|---|\n";
     for member in members {
         for value in &member.comparisons {
-            text += &value_row(member.variant(), value);
+            text += &value_row(variant_of(&member.name), value);
         }
     }
     let values: Vec<&Comparison> = members.iter().flat_map(|member| &member.comparisons).collect();
@@ -157,7 +158,7 @@ fn value_row(variant: &str, value: &Comparison) -> String {
 /// the rule.
 fn coverage(values: &[&Comparison]) -> Option<String> {
     let wrong_by = |value: &Comparison| {
-        let numerical = *value.numerical.as_ref()?.as_ref().ok()?;
+        let numerical = value.numerical_uncertainty()?;
         let is_exact = value.reference.kind == ReferenceKind::Exact;
         let difference = value.computed.as_ref().ok()? - value.reference.value;
         is_exact.then_some(difference.abs() <= numerical)
@@ -205,28 +206,23 @@ fn reasons(members: &[MemberReport]) -> String {
         Some(format!("Outside, known: {}.", value.reference.outside.as_ref()?))
     }));
     let named = |value: &Comparison| {
-        let variant = value.case.split_once('/').map_or("", |(_, variant)| variant);
+        let variant = variant_of(&value.case);
         let between = if variant.is_empty() { "" } else { ", " };
         format!("{variant}{between}{}", value.quantity)
     };
-    for value in values() {
-        let numerical = value.numerical.as_ref().and_then(|numerical| numerical.as_ref().err());
-        if let Err(reason) = &value.computed {
-            lines.push(format!("Not computed: {}: {}.", named(value), in_a_cell(reason)));
-        } else if let Some(reason) = numerical {
-            lines.push(format!("No uncertainty: {}: {}.", named(value), in_a_cell(reason)));
+    for member in members {
+        // What holds of a whole companion is in its row
+        let is_of_all =
+            matches!(member.companion, Some(Err(_) | Ok(Companion { refinement: Err(_), .. })));
+        for value in &member.comparisons {
+            let numerical = value.numerical.as_ref().and_then(|numerical| numerical.as_ref().err());
+            if let Err(reason) = &value.computed {
+                lines.push(format!("Not computed: {}: {}.", named(value), in_a_cell(reason)));
+            } else if let Some(reason) = numerical.filter(|_| !is_of_all) {
+                lines.push(format!("No uncertainty: {}: {}.", named(value), in_a_cell(reason)));
+            }
         }
     }
-    // What holds of a whole companion is in its row
-    let is_of_all = |line: &String| {
-        members.iter().any(|member| match &member.companion {
-            Some(Err(reason) | Ok(Companion { refinement: Err(reason), .. })) => {
-                line.starts_with("No uncertainty") && line.contains(&in_a_cell(reason))
-            }
-            _ => false,
-        })
-    };
-    lines.retain(|line| !is_of_all(line));
     each_once(lines.into_iter()).iter().map(|line| format!("\n{line}\n")).collect()
 }
 
@@ -238,10 +234,8 @@ pub(super) fn known_outside(case: &CaseReport) -> Vec<String> {
         let [case, quantity, computed, reference, _, difference, tolerance, _] = value.cells();
         let reason = value.reference.outside.as_deref().unwrap_or_default();
         let numerical = value
-            .numerical
-            .as_ref()
-            .and_then(|numerical| numerical.as_ref().ok())
-            .map_or(String::new(), |own| format!(" ± {}", two_digits(*own)));
+            .numerical_uncertainty()
+            .map_or(String::new(), |own| format!(" ± {}", two_digits(own)));
         format!(
             "- `{case}`, {quantity}: {computed}{numerical} for {reference} ({difference}, \
              tolerance {tolerance}): {reason}."

@@ -93,7 +93,7 @@ impl Refinement {
         let (steps, order) = match &case.time {
             TimeSettings::Steady(_) => (f64::INFINITY, ORDER),
             TimeSettings::Unsteady(unsteady) => {
-                (quotient(fine.steps, coarse.steps), ORDER.min(order_in_time(unsteady.scheme)))
+                (quotient(fine.steps, coarse.steps), order_in_time(unsteady.scheme))
             }
         };
         let (ratio, what) = if cells <= steps { (cells, "cells") } else { (steps, "steps") };

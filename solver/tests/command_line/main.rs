@@ -177,12 +177,9 @@ fn a_mesh_is_written_with_its_quality() {
 }
 
 /// A run keeps the mesh it was made on; its own case file is enough to run it again.
-#[test]
-fn a_run_in_a_given_mesh_keeps_it() {
-    let directory = tempfile::tempdir().unwrap();
-    let meshes = concat!(env!("CARGO_MANIFEST_DIR"), "/../mesh/tests/msh/data");
-    std::fs::copy(format!("{meshes}/square-1-text.msh"), directory.path().join("a.msh")).unwrap();
-    let case = "title = 't'
+/// A channel in the mesh of a file.
+const GIVEN_MESH: &str = "title = 't'
+description = 'A channel: water flows.'
 geometry = 'planar'
 fluid = { model = 'stokes', viscosity = 1.0 }
 domain.mesh.file = 'a.msh'
@@ -200,7 +197,13 @@ relative = 1e-9
 kind = 'exact'
 source = 'Poiseuille flow'
 ";
-    std::fs::write(directory.path().join("c.toml"), case).unwrap();
+
+#[test]
+fn a_run_in_a_given_mesh_keeps_it() {
+    let directory = tempfile::tempdir().unwrap();
+    let meshes = concat!(env!("CARGO_MANIFEST_DIR"), "/../mesh/tests/msh/data");
+    std::fs::copy(format!("{meshes}/square-1-text.msh"), directory.path().join("a.msh")).unwrap();
+    std::fs::write(directory.path().join("c.toml"), GIVEN_MESH).unwrap();
     let said = done(directory.path(), &["check", "c.toml"]);
     assert!(said.contains("mesh of") && said.contains("in a.msh, of area 2"), "{said}");
     let said = done(directory.path(), &["run", "c.toml", "--out", "r/c"]);

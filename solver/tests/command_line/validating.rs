@@ -4,7 +4,7 @@ use std::path::Path;
 
 use serde_json::Value;
 
-use super::{DISC, FLUID, alewife, done};
+use super::{DISC, FLUID, GIVEN_MESH, alewife, done};
 
 const RUN: &str = "kept/c-radius-2";
 const COMPANION: &str = "kept/c-radius-2+coarser";
@@ -40,10 +40,8 @@ fn the_page_has_what_mesh_leaves_by_the_two_runs_that_are_kept() {
     let json = validated(here, &["--out", "kept", "--uncertainty", "--report=page.md"]);
     // The same by the files
     let force = |run: &str| -> f64 {
-        let text = std::fs::read_to_string(here.join(run).join("series.csv")).unwrap();
-        let mut lines = text.lines().map(|line| line.split(','));
-        let column = lines.next().unwrap().position(|name| name == "sphere.force.x").unwrap();
-        lines.next().unwrap().nth(column).unwrap().parse().unwrap()
+        let series = alewife::observer::read_series(&here.join(run)).unwrap();
+        series.column("sphere.force.x").unwrap()[0]
     };
     let cells = |run: &str| read(&here.join(run).join("mesh.json"))["cells"].as_f64().unwrap();
     let squared_ratio = cells(RUN) / cells(COMPANION);
@@ -143,26 +141,7 @@ fn a_companion_that_cannot_be_is_told_and_the_value_stays() {
     let here = directory.path();
     let mesh = concat!(env!("CARGO_MANIFEST_DIR"), "/../mesh/tests/msh/data/square-1-text.msh");
     std::fs::copy(mesh, here.join("a.msh")).unwrap();
-    let case = "title = 't'
-description = 'A channel: water flows.'
-geometry = 'planar'
-fluid = { model = 'stokes', viscosity = 1.0 }
-domain.mesh.file = 'a.msh'
-boundary = { inlet = { parabolic = { peak = 1.0 } }, outlet = 'do-nothing', wall = 'no-slip' }
-mesh.size = 0.5
-time.steady = {}
-[[probe]]
-name = 'a'
-point = [0.5, 0.5]
-minus = [1.5, 0.5]
-[[reference]]
-quantity = 'a.pressure'
-value = 8.0
-relative = 1e-9
-kind = 'exact'
-source = 'Poiseuille flow'
-";
-    std::fs::write(here.join("c.toml"), case).unwrap();
+    std::fs::write(here.join("c.toml"), GIVEN_MESH).unwrap();
     let json = validated(here, &["--uncertainty", "--report=page.md"]);
     assert!(json["comparisons"][0]["numerical_uncertainty"].is_null());
     assert_eq!(json["comparisons"][0]["verdict"], "within");

@@ -1,6 +1,6 @@
 //! Messages name what stands in the file, and what helps there: swimmers, quantities, paths.
 
-use super::{RIGHT, Said, alewife, assert_accepted, assert_refused, check};
+use super::{RIGHT, Said, alewife, assert_accepted, assert_refused, check, edited_in};
 
 /// Three discs in a row that swim in a box, and a disc beside them.
 const ROW: &str = r#"
@@ -28,8 +28,7 @@ arms = [{ sine = { mean = 1.0, amplitude = 0.1, period = 1.0 } }, { constant = 1
 
 #[track_caller]
 fn refused_row(from: &str, to: &str, wanted: &[&str]) {
-    assert!(ROW.contains(from), "`{from}` is not in the right case");
-    assert_refused(&check(&ROW.replacen(from, to, 1), &[]), wanted);
+    assert_refused(&check(&edited_in(ROW, from, to), &[]), wanted);
 }
 
 #[test]

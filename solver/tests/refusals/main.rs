@@ -100,8 +100,14 @@ fn check(text: &str, arguments: &[&str]) -> Said {
 
 /// The right case with one stretch of it replaced.
 fn edited(from: &str, to: &str) -> String {
-    assert!(RIGHT.contains(from), "`{from}` is not in the right case");
-    RIGHT.replacen(from, to, 1)
+    edited_in(RIGHT, from, to)
+}
+
+/// A right case with one stretch of it replaced.
+#[track_caller]
+fn edited_in(text: &str, from: &str, to: &str) -> String {
+    assert!(text.contains(from), "`{from}` is not in the right case");
+    text.replacen(from, to, 1)
 }
 
 fn without_variant(text: &str) -> &str {

@@ -72,6 +72,11 @@ impl From<Refusal> for Failure {
 /// A run that was kept, of the same case, its references aside.
 pub fn read(directory: &Path, case: &Case) -> Result<RunSummary, Refusal> {
     check_case(directory, case)?;
+    outcome(directory)
+}
+
+/// A run that was found to be finished.
+pub fn outcome(directory: &Path) -> Result<RunSummary, Refusal> {
     read_outcome(directory).map_err(|error| Refusal {
         exit: Exit::NoInput,
         directory: directory.to_owned(),

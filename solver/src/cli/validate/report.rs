@@ -1,11 +1,11 @@
-//! The file of the page of a validation, written anew after each case.
+//! The file of the page of a validation, written again after each case.
 
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use super::super::exit::{Exit, Failure};
 use crate::case::{CaseFile, library};
-use crate::observer::write_atomic;
+use crate::observer::{directory_of, write_atomic};
 use crate::validation::{CaseReport, Links, ReportPage};
 
 /// The page in the project.
@@ -25,30 +25,23 @@ impl ReportFile {
         let path = path.map_or_else(of_project, |path| Ok(path.to_owned()))?;
         let file = Self { path };
         file.read()?;
-        if !file.directory().is_dir() {
-            let reason = "there is no such directory";
-            return Err(Failure::new(
-                Exit::NoInput,
-                format!("--report: {}: {reason}", file.path.display()),
-            ));
+        if !directory_of(&file.path).is_dir() {
+            return Err(file.refused(Exit::NoInput, "there is no such directory"));
         }
         Ok(file)
     }
 
-    fn directory(&self) -> &Path {
-        self.path.parent().filter(|path| !path.as_os_str().is_empty()).unwrap_or(Path::new("."))
+    fn refused(&self, exit: Exit, reason: &str) -> Failure {
+        Failure::new(exit, format!("--report: {}: {reason}", self.path.display()))
     }
 
     fn read(&self) -> Result<ReportPage, Failure> {
-        let refuse = |exit, reason: &str| {
-            Failure::new(exit, format!("--report: {}: {reason}", self.path.display()))
-        };
         match std::fs::read_to_string(&self.path) {
             Ok(text) => ReportPage::read(&text).map_err(|reason| {
-                refuse(Exit::Usage, &format!("{reason}; name another file, or remove it"))
+                self.refused(Exit::Usage, &format!("{reason}; name another file, or remove it"))
             }),
             Err(error) if error.kind() == ErrorKind::NotFound => Ok(ReportPage::default()),
-            Err(error) => Err(refuse(Exit::InputOutput, &error.to_string())),
+            Err(error) => Err(self.refused(Exit::InputOutput, &error.to_string())),
         }
     }
 
@@ -66,7 +59,7 @@ impl ReportFile {
 
     /// What there is of a case, seen from the page.
     fn links(&self, name: &str) -> Links {
-        let is_there = |link: &String| self.directory().join(link).is_file();
+        let is_there = |link: &String| directory_of(&self.path).join(link).is_file();
         let page = Some(format!("../cases/{name}/README.md")).filter(is_there);
         let pictures = [format!("pictures/{name}.png"), format!("pictures/curves/{name}.png")];
         Links { page, pictures: pictures.into_iter().filter(is_there).collect() }
@@ -82,7 +75,7 @@ fn of_project() -> Result<PathBuf, Failure> {
     })
 }
 
-/// What is told of a case before its runs.
+/// What the page says of a case before its runs.
 pub fn case_report(file: &CaseFile) -> CaseReport {
     let case = file.case();
     CaseReport {

@@ -166,7 +166,7 @@ impl Work {
             Place::Kept { out, by_any_program } => {
                 let directory = out.join(name);
                 let summary = match kept::find(&directory, case, *by_any_program) {
-                    Found::Finished => Ok(kept::read(&directory, case)?),
+                    Found::Finished => Ok(kept::outcome(&directory)?),
                     Found::Failed(reason) => Err(reason),
                     Found::Replaceable => {
                         let is_of_validation = kept::is_of_validation(&directory);
@@ -221,9 +221,8 @@ fn readable(name: &str, settings: &[String]) -> Result<CaseFile, String> {
 fn made_by(directory: Option<&Path>, n_threads: usize) -> String {
     let kept = directory.and_then(|directory| Provenance::read(directory).ok());
     let origin = kept.map_or_else(|| Origin::of_this_process("", n_threads), |kept| kept.origin);
-    let git = origin.git.map_or(String::new(), |git| format!(" ({git})"));
-    let day = origin.started_at.get(..10).unwrap_or_default().to_owned();
-    format!("alewife {}{git}, {day}", origin.alewife)
+    let day = origin.started_at.get(..10).unwrap_or_default();
+    format!("{}, {day}", origin.program())
 }
 
 /// What a run came to; to be asked to stop is no result.
