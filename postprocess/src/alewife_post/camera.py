@@ -72,14 +72,16 @@ def seen(run: Run, moments: list[Moment], request: Request, moved: Array) -> See
         nodes = run.field(moments[0].time).nodes
         low, high = nodes.min(axis=0), nodes.max(axis=0)
     domain = np.array([low, high])
-    members = bodies.groups(run).get(request.follow, [request.follow])
+    if periods(run.case).any():
+        return Seen(domain, np.zeros((0, 3)), True, 0.0)
+    members = request.follow and bodies.followed(run, request.follow)
     corners = []
     step = max(1, len(moments) // 60)
     for nth in range(0, len(moments), step):
         for name, pose in bodies.poses(run, moments[nth].time).items():
-            if request.follow is None or name in members:
+            if members is None or name in members:
                 corners.append(_corners(run, (name, pose), moments[nth]) - moved[nth])
-    if not corners or periods(run.case).any():
+    if not corners:
         return Seen(domain, np.zeros((0, 3)), True, 0.0)
     found = np.array(corners)
     box = np.array([found[:, 0].min(axis=0), found[:, 1].max(axis=0)])

@@ -147,14 +147,11 @@ def _still(run: Run, options: argparse.Namespace) -> Figure:
     """A run in space as one frame of its film."""
     from alewife_post import film, stage, style
 
-    field = min(run.fields, key=lambda one: abs(one.time - _time(run, options)), default=None)
-    if field is None:
-        raise FileNotFoundError(f"{run.path} has no field files: see output.fields of its case")
+    field = run.frame(options.time)
     style.use()
     request = film.Request(
         quantity=_filmed(options),
         follow=options.follow,
-        is_asked=True,
         trails=False,
         surface=options.surface,
         iso=options.iso,
@@ -167,10 +164,6 @@ def _filmed(options: argparse.Namespace) -> str:
     if options.iso:
         return "iso"
     return options.quantity or ("pressure" if options.surface else "speed")
-
-
-def _time(run: Run, options: argparse.Namespace) -> float:
-    return run.fields[-1].time if options.time is None and run.fields else options.time or 0.0
 
 
 CAMERA = (-50.0, 20.0)

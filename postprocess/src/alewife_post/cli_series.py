@@ -59,7 +59,7 @@ def write_plot(options: argparse.Namespace) -> None:
     else:
         kind = "series"
         drawn = series.series_figure(run, names, window=window, is_whole=options.whole)
-    _finish(drawn, options.out, f"{run.path.resolve().name}-{kind}.png")
+    save(drawn, options.out or Path(f"{run.path.resolve().name}-{kind}.png"))
 
 
 # ---- Compare -------------------------------------------------------------------------------------
@@ -104,7 +104,7 @@ def write_comparison(options: argparse.Namespace) -> None:
         drawn, rows = _of_curves(sweeps.as_runs(found[0]) if found else runs, curves, options)
     text = json.dumps(plain(rows), indent=2) if options.json else as_text(rows)
     print(text)
-    _finish(drawn, options.out, "comparison.png", is_quiet=options.json)
+    save(drawn, options.out or Path("comparison.png"), is_quiet=options.json)
 
 
 def _of_sweep(sweep: Sweep, options: argparse.Namespace) -> tuple[Figure, list[dict[str, Any]]]:
@@ -161,10 +161,6 @@ def _add_common(parser: argparse.ArgumentParser, usual: str) -> None:
     parser.add_argument(
         "--whole", action="store_true", help="with outliers of a transient at the start, too"
     )
-
-
-def _finish(drawn: Figure, out: Path | None, usual: str, *, is_quiet: bool = False) -> None:
-    save(drawn, out or Path(usual), is_quiet=is_quiet)
 
 
 def save(drawn: Figure, out: Path, *, is_quiet: bool = False) -> None:

@@ -13,7 +13,7 @@ from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from alewife_post import bodies, drawing, streamlines, style
+from alewife_post import bodies, drawing, style
 from alewife_post.elements import mirrored, shares
 from alewife_post.periodic import joined
 from alewife_post.read import Field, Run
@@ -23,6 +23,7 @@ from alewife_post.snapshot import (
     Painter,
     chosen_painter,
     default_view,
+    fitted_lines,
     followed_view,
     nodal_values,
     paint,
@@ -84,10 +85,7 @@ def picture(
     is_mirrored = run.is_axisymmetric and mirror
     look = Look(quantity, colour_map, limits, lines, painter, IMAGE_WIDTH, is_mirrored=is_mirrored)
     paint_bodies(axes, run, view, field.time, field=whole)
-    drawn = None
-    if lines == "streamlines":
-        drawn = streamlines.streamlines(run, field, view, mirror=mirror)
-    paint(axes, flow, view, look, drawn)
+    paint(axes, flow, view, look, fitted_lines(run, field, view, look))
 
     axes.set_xlim(view[0], view[1])
     axes.set_ylim(view[2], view[3])

@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.ticker import FixedFormatter, FixedLocator, MaxNLocator
 
-from alewife_post import bodies, drawing, movie, streamlines, style
+from alewife_post import bodies, drawing, movie, style
 from alewife_post.elements import mirrored, shares
 from alewife_post.page import SIZE, Page
 from alewife_post.periodic import joined
@@ -22,6 +22,7 @@ from alewife_post.snapshot import (
     View,
     chosen_painter,
     default_view,
+    fitted_lines,
     followed_view,
     nodal_values,
     paint,
@@ -300,9 +301,7 @@ def _paint_moment(
     if field is None:
         drawing.draw_domain(axes, run.case, view)
     else:
-        lines = None
-        if look.lines == "streamlines":
-            lines = streamlines.streamlines(run, field, view, mirror=request.mirror)
+        lines = fitted_lines(run, field, view, look)
         paint(axes, prepared(run, field, view, mirror=request.mirror), view, look, lines)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from io import BytesIO
 from pathlib import Path
 
@@ -25,14 +25,24 @@ REFINEMENTS = 3
 
 def gallery(runs: Path, out: Path) -> Iterator[tuple[str, Exception | None]]:
     """Write `out/NAME.png` for each run `runs/NAME`; yields names, and what went wrong."""
-    found = sorted(path.parent for path in runs.glob("*/case.toml"))
+    return pictures(runs, "runs", out, lambda path: default_picture(open_run(path)))
+
+
+def pictures(
+    place: Path, what: str, out: Path, draw: Callable[[Path], Figure | None]
+) -> Iterator[tuple[str, Exception | None]]:
+    """Write `out/NAME.png` for each folder of `place` with a case that `draw` gives a figure of."""
+    found = sorted(path.parent for path in place.glob("*/case.toml"))
     if not found:
-        raise ValueError(f"{runs} holds no directories of runs")
+        raise ValueError(f"{place} holds no directories of {what}")
     out.mkdir(parents=True, exist_ok=True)
     for path in found:
         failure = None
         try:
-            content = small_png(default_picture(open_run(path)))
+            drawn = draw(path)
+            if drawn is None:
+                continue
+            content = small_png(drawn)
             with replacing(out / f"{path.name}.png") as unfinished:
                 unfinished.write_bytes(content)
         # One run that cannot be drawn keeps none of the others from it.

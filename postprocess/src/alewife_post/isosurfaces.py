@@ -65,35 +65,34 @@ def isosurface(
     """
     import pyvista
 
+    surface = _surface(field, quantity, level)
     if not periods(case).any():
-        return _part(field, quantity, level, box)
+        return _clipped(surface, box)
     low, high = domain_box(case)
     found = []
     for shift in images(case, field.nodes.min(axis=0), field.nodes.max(axis=0), (low, high)):
-        part = _part(field, quantity, level, np.array([low, high]) - shift)
+        part = _clipped(surface, np.array([low, high]) - shift)
         if part.n_cells:
             found.append(part.translate(shift))
     return pyvista.merge(found) if found else pyvista.PolyData()
 
 
-def _part(field: Field, quantity: str, level: float, box: Array) -> pyvista.PolyData:
+def _surface(field: Field, quantity: str, level: float) -> pyvista.PolyData:
     import pyvista
 
     values = surfaces.nodal_values(field, quantity)
-    own, places = values[field.cells], field.nodes[field.cells]
+    own = values[field.cells]
     near = (own.min(axis=1) <= level) & (own.max(axis=1) >= level)
-    near &= (places.max(axis=1) >= box[0]).all(axis=1) & (places.min(axis=1) <= box[1]).all(axis=1)
     if not near.any():
         return pyvista.PolyData()
-    pieces = field.cells[near][:, space.PIECES].reshape(-1, 4)
-    grid = pyvista.UnstructuredGrid({space.TETRAHEDRON: pieces}, field.nodes)
-    grid.point_data["values"] = values
-    found = grid.contour([level], scalars="values")
+    return space.pieces(field, near, values).contour([level], scalars="values")
+
+
+def _clipped(found: pyvista.PolyData, box: Array) -> pyvista.PolyData:
+    """The part of a surface in a box."""
     for axis in range(3):
         for end, sign in ((box[0], -1.0), (box[1], 1.0)):
             if found.n_cells:
                 origin = np.where(np.arange(3) == axis, end, 0.0)
                 found = found.clip(normal=sign * np.eye(3)[axis], origin=origin)
-    if found.n_cells == 0:
-        return pyvista.PolyData()
-    return found.compute_normals(split_vertices=False)
+    return found.compute_normals(split_vertices=False) if found.n_cells else found

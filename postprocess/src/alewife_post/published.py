@@ -16,7 +16,6 @@ from alewife_post import compare, curves, evidence, gallery, style
 from alewife_post.compare import Named
 from alewife_post.curves import Curve
 from alewife_post.read import Run, open_run
-from alewife_post.whole import replacing
 
 PUBLISHED = ("measured", "literature")
 """Kinds of references that others have published."""
@@ -54,21 +53,9 @@ def pictures(cases: Path, runs: Path, out: Path) -> Iterator[tuple[str, Exceptio
     Its runs are `runs/NAME` and `runs/NAME-VARIANT`, as `alewife validate --out` names them. Yields
     names, and what went wrong.
     """
-    found = sorted(path.parent for path in cases.glob("*/case.toml"))
-    if not found:
-        raise ValueError(f"{cases} holds no directories of cases")
-    out.mkdir(parents=True, exist_ok=True)
-    for folder in found:
-        failure = None
-        try:
-            if not is_published(folder):
-                continue
-            content = gallery.small_png(picture(folder, runs))
-            with replacing(out / f"{folder.name}.png") as unfinished:
-                unfinished.write_bytes(content)
-        except (OSError, KeyError, ValueError) as error:
-            failure = error
-        yield folder.name, failure
+    return gallery.pictures(
+        cases, "cases", out, lambda folder: picture(folder, runs) if is_published(folder) else None
+    )
 
 
 def is_published(folder: Path) -> bool:

@@ -209,13 +209,17 @@ class Run:
 
     def field(self, time: float | None = None) -> Field:
         """The flow at the frame nearest to `time`, or at the last one."""
+        return read_field(self.frame(time).path)
+
+    def frame(self, time: float | None = None) -> Frame:
+        """The frame nearest to `time`, or the last one."""
         if not self.fields:
             raise FileNotFoundError(
                 f"{self.path} has no field files: see output.fields of its case"
             )
         if time is None:
-            return read_field(self.fields[-1].path)
-        return read_field(min(self.fields, key=lambda frame: abs(frame.time - time)).path)
+            return self.fields[-1]
+        return min(self.fields, key=lambda frame: abs(frame.time - time))
 
     def check_time(self, time: float) -> None:
         """ValueError where no field can be meant: before the first one, or after the last one."""

@@ -93,6 +93,13 @@ def paint(
         drawing.draw_arrows(axes, flow, view, colour)
 
 
+def fitted_lines(run: Run, field: Field, view: View, look: Look) -> Streamlines | None:
+    """Streamlines by the stream function, where a picture is to have them and they can be had."""
+    if look.lines != "streamlines":
+        return None
+    return streamlines.streamlines(run, field, view, mirror=look.is_mirrored)
+
+
 def paint_bodies(
     axes: Axes,
     run: Run,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -14,6 +14,9 @@ from alewife_post.figure import body_velocity, colour_bar
 from alewife_post.periodic import domain_box, images, periods
 from alewife_post.planes import Plane, parsed, through_bodies
 from alewife_post.read import Field, Run
+
+if TYPE_CHECKING:
+    import pyvista
 
 Array = np.ndarray
 View = tuple[float, float, float, float]
@@ -238,6 +241,16 @@ def _inside(run: Run, points: Array) -> list[Array]:
     return [points + shift for shift in _shifts(run, points, domain_box(run.case))]
 
 
+def pieces(field: Field, near: Array, values: Array) -> pyvista.UnstructuredGrid:
+    """Cells that are `near`, as straight pieces with nodal `values`."""
+    import pyvista
+
+    tetrahedra = field.cells[near][:, PIECES].reshape(-1, 4)
+    grid = pyvista.UnstructuredGrid({TETRAHEDRON: tetrahedra}, field.nodes)
+    grid.point_data["values"] = values
+    return grid
+
+
 def sample(
     field: Field, points: Array, quantity: str, case: dict[str, Any] | None = None
 ) -> dict[str, Array]:
@@ -260,9 +273,7 @@ def sample(
         near &= (places.min(axis=1) <= high - shift).all(axis=1)
         if not near.any():
             continue
-        pieces = field.cells[near][:, PIECES].reshape(-1, 4)
-        straight = pyvista.UnstructuredGrid({TETRAHEDRON: pieces}, field.nodes)
-        straight.point_data["values"] = surfaces.nodal_values(field, quantity)
+        straight = pieces(field, near, surfaces.nodal_values(field, quantity))
         straight.point_data["velocity"] = field.velocity
         # Left to itself, VTK takes points for inside that are a part of the whole domain away
         found = pyvista.PolyData(points - shift).sample(straight, tolerance=1e-6 * extent)

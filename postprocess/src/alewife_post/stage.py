@@ -72,7 +72,12 @@ def _pages(run: Run, moments: list[Moment], request: Request, finer: int) -> Ite
         parts = _flow(run, moments, request, cuts)
     bar, look = None, {}
     if request.quantity == "iso":
-        look = {"color": style.ISO, "opacity": style.ISO_OPACITY, "smooth_shading": True}
+        look = {
+            "color": style.ISO,
+            "opacity": style.ISO_OPACITY,
+            "smooth_shading": True,
+            **style.SOLID,
+        }
     elif parts is not None:
         colour_map, limits = limits_of(
             request.quantity, [thinned(*_samples(part)) for part in parts if part.n_cells]
@@ -81,6 +86,7 @@ def _pages(run: Run, moments: list[Moment], request: Request, finer: int) -> Ite
         alpha = 1.0 if request.surface else SLICE_OPACITY
         bar = (colour_map, limits, every, style.label(request.quantity, units), alpha)
         look = {"scalars": "values", "cmap": colour_map, "clim": limits, "show_scalar_bar": False}
+        look |= style.SOLID if request.surface else {"lighting": False, "opacity": alpha}
     page = Page(request.size, title, None, bar)
     corners = view.corners_of(seen.box + np.outer([-1.0, 1.0], view.beyond(run)))
     if cut is not None and not seen.is_whole:
@@ -99,17 +105,10 @@ def _pages(run: Run, moments: list[Moment], request: Request, finer: int) -> Ite
             plotter.clear_actors()
             for wall, wall_look in walls:
                 plotter.add_mesh(wall, render=False, **wall_look)
-            if parts is not None and request.surface:
-                plotter.add_mesh(_smooth(parts[nth]), render=False, **look, **style.SOLID)
-            elif request.quantity == "iso":
-                if parts[nth].n_cells:
-                    plotter.add_mesh(parts[nth], render=False, **look, **style.SOLID)
-            elif parts is not None and parts[nth].n_cells:
-                plotter.add_mesh(
-                    parts[nth], render=False, lighting=False, opacity=SLICE_OPACITY, **look
-                )
-            is_plain = parts is not None and request.quantity != "iso"
-            cast.play(plotter, moment, request, is_plain=is_plain)
+            if parts is not None and parts[nth].n_cells:
+                part = _smooth(parts[nth]) if request.surface else parts[nth]
+                plotter.add_mesh(part, render=False, **look)
+            cast.play(plotter, moment, request, is_plain=bar is not None)
             camera.applied(plotter, moved[nth])
             plotter.render()
             image = plotter.screenshot(return_img=True)
@@ -191,21 +190,25 @@ def _isosurfaces(
 ) -> tuple[list[pyvista.PolyData], str]:
     """Surfaces of one value in all frames, and what they are."""
     quantity, level = isosurfaces.parsed(request.iso)
-    fields = [field_at(moment) for moment in moments]
+
+    # Read again rather than kept: a film has hundreds of them
+    def fields() -> Iterator[tuple[Field, Array]]:
+        return zip((field_at(moment) for moment in moments), moved, strict=True)
+
     if level is None:
         level = isosurfaces.level_of(
             [
                 thinned(*isosurfaces.samples(field, quantity, box + offset))
-                for field, offset in zip(fields, moved, strict=True)
+                for field, offset in fields()
             ]
         )
     found = [
         isosurfaces.isosurface(run.case, field, quantity, level, box + offset)
-        for field, offset in zip(fields, moved, strict=True)
+        for field, offset in fields()
     ]
     if not any(part.n_cells for part in found):
         raise ValueError(f"no surface of {quantity} {level:g} is in view")
-    unit = unit_of({"vorticity": "rate"}.get(quantity, quantity), run.case.get("units", ""))
+    unit = unit_of(quantity, run.case.get("units", ""))
     return found, f"{quantity} {level:.3g}" + (f" {unit}" if unit else "")
 
 
@@ -236,9 +239,7 @@ def slice_of(field: Field, cut: Cut, quantity: str) -> pyvista.PolyData:
     near &= (own.max(axis=1) >= cut.low).all(axis=1) & (own.min(axis=1) <= cut.high).all(axis=1)
     if not near.any():
         return pyvista.PolyData()
-    pieces = field.cells[near][:, space.PIECES].reshape(-1, 4)
-    grid = pyvista.UnstructuredGrid({space.TETRAHEDRON: pieces}, field.nodes)
-    grid.point_data["values"] = surfaces.nodal_values(field, quantity)
+    grid = space.pieces(field, near, surfaces.nodal_values(field, quantity))
     found = grid.slice(normal=plane.normal, origin=plane.origin)
     for along, (low, high) in zip(plane.across, zip(cut.low, cut.high, strict=True), strict=True):
         for end, outwards in ((low, -along), (high, along)):

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from alewife_post.elements import edges
+from alewife_post.elements import edges, shape_functions
 from alewife_post.read import Field
 
 Array = np.ndarray
@@ -109,21 +109,19 @@ def _points() -> tuple[Array, Array]:
     return np.array(points), weights
 
 
-def _derivatives(points: Array) -> tuple[Array, Array]:
-    """Shape functions `(q, 6)` and their derivatives `(q, 6, 2)` at reference points."""
+def _slopes(points: Array) -> Array:
+    """Derivatives `(q, 6, 2)` of shape functions at reference points."""
     x, y = points.T
     z = 1.0 - x - y
-    values = [z * (2 * z - 1), x * (2 * x - 1), y * (2 * y - 1), 4 * z * x, 4 * x * y, 4 * y * z]
     zero = np.zeros_like(x)
     along_x = [1 - 4 * z, 4 * x - 1, zero, 4 * (z - x), 4 * y, -4 * y]
     along_y = [1 - 4 * z, zero, 4 * y - 1, -4 * x, 4 * x, 4 * (z - y)]
-    slopes = np.stack([np.stack(along_x, axis=1), np.stack(along_y, axis=1)], axis=-1)
-    return np.stack(values, axis=1), slopes
+    return np.stack([np.stack(along_x, axis=1), np.stack(along_y, axis=1)], axis=-1)
 
 
 def _assembled(field: Field, *, is_axisymmetric: bool) -> _Assembled:
     points, weights = _points()
-    shapes, slopes = _derivatives(points)
+    shapes, slopes = shape_functions(points), _slopes(points)
     corners, flow = field.nodes[field.cells], field.velocity[field.cells]
     n = len(field.cells)
     matrices, loads, energy = np.zeros((n, 6, 6)), np.zeros((n, 6)), 0.0

@@ -85,7 +85,7 @@ def use() -> None:
 
 def label(quantity: str, units: Given) -> str:
     """Label of a colour bar, with the unit if it is known."""
-    unit = unit_of({"vorticity": "rate"}.get(quantity, quantity), units)
+    unit = unit_of(quantity, units)
     return f"{LOOKS[quantity].label} ({unit})" if unit else LOOKS[quantity].label
 
 

@@ -35,7 +35,7 @@ DIMENSIONS = (
     (r"(surface_|contact_)?torque(\.[xyz])?|joint\.torque", "torque"),
     (r"((shape|expended|cycle|joint)[._])?power|dissipation", "power"),
     (r"pressure", "pressure"),
-    (r"vorticity(\.[xyz])?", "rate"),
+    (r"vorticity(\.[xyz])?", "vorticity"),
 )
 """What quantities are by their names, after that of a body, of a probe or of the flow."""
 
@@ -73,7 +73,7 @@ def unit_of(dimension: str, given: Given, *, is_planar: bool = False) -> str | N
         "angle": ("rad", "rad"),
         "speed": (f"{length}/{time}", length and time),
         "turn": (f"rad/{time}", time),
-        "rate": (f"1/{time}", time),
+        "vorticity": (f"1/{time}", time),
         "acceleration": (f"{length}/{time}²", length and time),
         "force": (f"{force}{per_depth}", force and (length or not is_planar)),
         "torque": (force if is_planar else f"{force} {length}", force and length),
