@@ -10,6 +10,7 @@
 set -euo pipefail
 
 source=$(cd "$(dirname "$0")/.." && pwd)
+. "$source/tests/batch.sh"
 temporary=$(mktemp -d "${TMPDIR:-/tmp}/alewife-container.XXXXXX")
 place=${ALEWIFE_CONTAINER_ROOT:-$temporary}
 storage=(--root "$place/storage" --runroot "$place/run")
@@ -25,15 +26,6 @@ clean_up() {
 }
 trap clean_up EXIT
 trap 'exit 130' INT TERM
-
-failures=0
-
-# NAME, whether it is so, and what was found.
-row() {
-    local verdict=passed
-    [ "$2" = 0 ] || { verdict=FAILED; failures=$((failures + 1)); }
-    printf '%-66s %s  %s\n' "$1" "$verdict" "${3:-}"
-}
 
 # NAME, what was found, and what was to be.
 is() { [ "$2" = "$3" ] && row "$1" 0 "$2" || row "$1" 1 "$2 instead of $3"; }
@@ -133,40 +125,6 @@ stopped_by() {
     podman "${storage[@]}" "$@" "$name" >/dev/null
     podman "${storage[@]}" wait "$name"
     podman "${storage[@]}" rm "$name" >/dev/null
-}
-
-case_file() {
-    cat >"$data/$1.toml" <<CASE
-title = 'a disc that settles on the bottom'
-geometry = 'planar'
-fluid = { model = 'navier-stokes', density = 1.0, viscosity = 0.1, gravity = [0.0, -10.0] }
-domain.box = { min = [-1.0, -1.0], max = [1.0, 1.0] }
-boundary = { left = 'no-slip', right = 'no-slip', bottom = 'no-slip', top = 'no-slip' }
-mesh = { size = 0.1, surface = 0.03 }
-output.checkpoint = { wall = '1 s', keep = 2 }
-output.fields = { time = 0.5 }
-contact.barrier = { range = 0.1, stiffness = 50.0 }
-time.unsteady = { step = 0.005, end = 1.5, adaptive = { tolerance = 5e-3, largest = 0.005 } }
-[[body]]
-name = 'disc'
-shape.disc.radius = 0.2
-center = [0.1, 0.2]
-density = 2.0
-motion = 'free'
-CASE
-}
-
-# Whether two runs left the same bits: series, last state, every field file and their list.
-same_bits() {
-    local one=$1 other=$2 last
-    last=$(cd "$other/checkpoints" && ls | tail -1)
-    cmp "$one/series.csv" "$other/series.csv" && cmp "$one/fields.pvd" "$other/fields.pvd" &&
-        cmp "$one/checkpoints/$last" "$other/checkpoints/$last" && diff -r "$one/fields" "$other/fields"
-}
-
-compare() {
-    local told
-    told=$(same_bits "$2" "$3" 2>&1) && row "$1" 0 || row "$1" 1 "$told"
 }
 
 by_podman() {
@@ -269,7 +227,7 @@ for program in buildah podman runc debootstrap rustup; do
 done
 data=$temporary/data
 mkdir -p "$data" "$place/tmp"
-case_file long
+case_file "$data/long.toml" 1.5 "$accurate"
 chown -R "$user:$user" "$data"
 chmod 711 "$temporary"
 version="alewife $(sed -n 's/^version = "\(.*\)"/\1/p' "$source/Cargo.toml" | head -1)"
@@ -278,5 +236,4 @@ base_images
 docker_image
 by_podman
 by_apptainer
-echo
-if [ $failures = 0 ]; then echo "all passed"; else echo "$failures failed"; exit 1; fi
+tell_failures

@@ -35,6 +35,7 @@ outside() {
     cp "$binary" "$place/job/alewife"
     cp "$here/../docs/cluster/slurm.sh" "$place/job/job.sh"
     cp "$0" "$place/job/test.sh"
+    cp "$here/batch.sh" "$place/job/"
     mkdir -p "$root/job"
     unshare --mount --pid --fork --net --uts --kill-child bash -c "
         set -e
@@ -55,15 +56,6 @@ outside() {
 }
 
 # --- Inside ---------------------------------------------------------------------------------------
-
-failures=0
-
-# NAME, whether it is so, and what was found.
-row() {
-    local verdict=passed
-    [ "$2" = 0 ] || { verdict=FAILED; failures=$((failures + 1)); }
-    printf '%-58s %s  %s\n' "$1" "$verdict" "${3:-}"
-}
 
 begin_slurm() {
     export PATH=/job:/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin
@@ -139,50 +131,16 @@ has_checkpoint() { compgen -G "runs/$1/checkpoints/*.state"; }
 # Submits the job script of the documentation with less of everything.
 submit() { sbatch --parsable --cpus-per-task=1 --mem=500M --time=30 "$@"; }
 
-case_file() {
-    cat >"$1.toml" <<CASE
-title = 'a disc that settles on the bottom'
-geometry = 'planar'
-fluid = { model = 'navier-stokes', density = 1.0, viscosity = 0.1, gravity = [0.0, -10.0] }
-domain.box = { min = [-1.0, -1.0], max = [1.0, 1.0] }
-boundary = { left = 'no-slip', right = 'no-slip', bottom = 'no-slip', top = 'no-slip' }
-mesh = { size = 0.1, surface = 0.03 }
-output.checkpoint = { wall = '2 s', keep = 2 }
-output.fields = { time = 0.5 }
-contact.barrier = { range = 0.1, stiffness = 50.0 }
-time.unsteady = { step = 0.005, end = $2, adaptive = $3 }
-[[body]]
-name = 'disc'
-shape.disc.radius = 0.2
-center = [0.1, 0.2]
-density = 2.0
-motion = 'free'
-CASE
-}
-
-# Whether a run left the bits of an unbroken one: series, last state, every field file and their list.
-same_bits() {
-    local one=runs/$1 other=whole/$2 last
-    last=$(cd "$other/checkpoints" && ls | tail -1)
-    cmp "$one/series.csv" "$other/series.csv" && cmp "$one/fields.pvd" "$other/fields.pvd" &&
-        cmp "$one/checkpoints/$last" "$other/checkpoints/$last" && diff -r "$one/fields" "$other/fields"
-}
-
-compare() {
-    local told
-    told=$(same_bits "$2" "$3" 2>&1) && row "$1: bits of the unbroken run" 0 || row "$1: bits of the unbroken run" 1 "$told"
-}
-
 n_resumed() { grep -c '"resumed"' "runs/$1/log.jsonl" || true; }
 
 inside() {
     cd /job
+    . ./batch.sh
     begin_slurm
     echo "Slurm $(sinfo --version | cut -d' ' -f2), $(alewife --version)"
-    local accurate='{ tolerance = 5e-3, largest = 0.005 }'
-    case_file short 2.0 "$accurate"
-    case_file long "${ALEWIFE_SLURM_END:-60.0}" "$accurate"
-    case_file diverging 2.0 '{ tolerance = 1e-9, smallest = 0.004 }'
+    case_file short.toml 2.0 "$accurate"
+    case_file long.toml "${ALEWIFE_SLURM_END:-60.0}" "$accurate"
+    case_file diverging.toml 2.0 '{ tolerance = 1e-9, smallest = 0.004 }'
     for name in a b d; do cp short.toml $name.toml; done
     for name in preempted killed limited unwarned cancelled; do cp long.toml $name.toml; done
     cp diverging.toml c.toml
@@ -193,9 +151,8 @@ inside() {
     preemption
     the_rest
     wait $whole
-    for name in preempted killed limited unwarned; do compare "$name" $name long; done
-    echo
-    if [ $failures = 0 ]; then echo "all passed"; else echo "$failures failed"; exit 1; fi
+    for name in preempted killed limited unwarned; do compare "$name: bits of the unbroken run" runs/$name whole/long; done
+    tell_failures
 }
 
 array() {
@@ -210,7 +167,7 @@ array() {
     code=$(field "${job}_2" ExitCode)
     [ "$code" = 10:0 ] && row "array: its exit code is that of the program" 0 "$code" ||
         row "array: its exit code is that of the program" 1 "$code"
-    for name in a b d; do compare "array, $name" $name short; done
+    for name in a b d; do compare "array, $name: bits of the unbroken run" runs/$name whole/short; done
 }
 
 array_has_ended() { for index in 0 1 2 3; do has_ended "$1_$index" || return 1; done; }

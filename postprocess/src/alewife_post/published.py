@@ -29,7 +29,7 @@ LONGEST = 44
 """Letters of a source beside a row."""
 AROUND = 1.3
 """An axis ends this many times as far out as differences, tolerances and published uncertainties;
-what mesh and step leave may go on beyond it."""
+the discretisation error may go on beyond it."""
 
 
 @dataclass(frozen=True)
@@ -40,7 +40,7 @@ class Value:
     difference: float
     """Computed over published, less one (per cent)."""
     numerical: float
-    """What mesh and step leave in it (per cent); 0 if that is not known."""
+    """Its discretisation error, estimated (per cent); 0 if that is not known."""
     uncertainty: float
     """That of the published value (per cent); 0 if that is not known."""
     tolerance: float
@@ -169,7 +169,7 @@ def values_figure(run: Run, values: list[Value]) -> Figure:
     axes.errorbar(
         [value.difference for value in values], rows, xerr=[value.numerical for value in values],
         fmt="o", ms=4, color=style.SERIES[0], capsize=2, lw=1.0,
-        label="computed, with what mesh and step leave",
+        label="computed, with its discretisation error",
     )  # fmt: skip
     axes.set_yticks(rows, [value.label for value in values])
     axes.invert_yaxis()

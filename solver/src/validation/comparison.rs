@@ -62,7 +62,7 @@ pub struct Comparison {
     pub dofs: usize,
     /// CPU seconds of the run.
     pub cpu_seconds: f64,
-    /// What mesh and step leave in the computed value, or why that is not known; nothing if nobody asked.
+    /// Discretisation error of the computed value, or why it is not known; nothing if nobody asked.
     pub numerical: Option<Result<f64, String>>,
 }
 

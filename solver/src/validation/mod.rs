@@ -4,13 +4,13 @@ mod comparison;
 mod morison;
 mod page;
 mod report;
-mod sections;
+mod section;
 mod statistic;
 mod uncertainty;
 
 pub use comparison::{Comparison, Verdict, compare, not_computed};
-pub use page::{CaseReport, Companion, Links, MemberReport};
+pub use page::ReportPage;
 pub use report::{comparison_table, comparisons_to_json, count_table, summary};
-pub use sections::ReportPage;
+pub use section::{CaseReport, Companion, Links, MemberReport};
 pub use statistic::{StatisticError, measured_value};
 pub use uncertainty::{MeshSize, Refinement, RunSize, coarser_settings, set_uncertainties};

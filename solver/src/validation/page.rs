@@ -1,256 +1,257 @@
-//! The section of a case on the page of a validation: set-up, meshes, values, sources, disagreements.
+//! The page of a validation: counts by kind, then a section a case; those of other cases stay as they were.
 
-use super::comparison::{Comparison, Verdict};
-use super::report::two_digits;
-use super::uncertainty::{Refinement, RunSize};
-use crate::case::{ReferenceKind, significant};
+use std::collections::BTreeMap;
 
-/// What the page says of a case.
-#[derive(Debug, Clone)]
-pub struct CaseReport {
-    /// Its name, without a variant.
-    pub name: String,
-    /// Its title.
-    pub title: String,
-    /// The sentence that tells its set-up.
-    pub gist: String,
-    /// Its page and pictures.
-    pub links: Links,
-    /// Its runs.
-    pub members: Vec<MemberReport>,
+use super::comparison::Verdict;
+use super::report::{Judged, count_cells, count_header, counts, summary_of};
+use super::section::{CaseReport, Coverage, known_outside, row, section};
+use crate::case::ReferenceKind;
+
+/// How the page begins, by which it is known.
+const TITLE: &str = "# Validation\n";
+
+/// What is between sections.
+const HEADING: &str = "\n## ";
+
+/// How the line of a value that is outside begins, up to its case.
+const OUTSIDE: &str = "- `";
+
+const HEAD: &str = "\
+Written by `alewife validate --report`, not edited by hand. A section is replaced when its case is
+validated again; each says which program made its runs and when.";
+
+/// The rule the tolerances of the shipped cases follow.
+const TOLERANCES: &str = "\
+A *tolerance* is at most five times the discretisation error of the shipped mesh and step, or the own
+uncertainty of the reference where that is larger (± reference). Where the error is small by
+chance, it is the size of the differences of the same quantity in the case; a value that is zero but
+for rounding has a tolerance far above rounding and far below anything that matters.";
+
+/// The rule of `uncertainty.rs`.
+const UNCERTAINTIES: &str = "\
+The *numerical* uncertainty (± numerical) is the discretisation error of a computed value as the rule of
+Roache estimates it: 3 |f - g| / (r^p - 1), where g is the value of a companion with cells and steps r times as
+long, p the order and 3 the factor of safety where the order is not observed. The companion has
+`mesh.scale` and the step times the square root of 2; r is what its numbers of cells and steps come
+to, the smaller one. p is 2, or 1 with steps by backward Euler: Taylor-Hood elements on smooth flow
+do better, and then the uncertainty is too large. Where the value has no companion, or the companion
+failed or is hardly coarser, there is a dash.";
+
+/// A page under way.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct ReportPage {
+    sections: BTreeMap<String, Section>,
 }
 
-/// What the section of a case leads to, as links from the page.
-#[derive(Debug, Clone, Default)]
-pub struct Links {
-    /// The page of the case.
-    pub page: Option<String>,
-    /// Pictures of it.
-    pub pictures: Vec<String>,
+#[derive(Debug, Clone, Default, PartialEq)]
+struct Section {
+    /// All below its heading.
+    text: String,
+    /// Lines of its values that are known to be outside.
+    outside: Vec<String>,
 }
 
-/// One run of a case against its references.
-#[derive(Debug, Clone)]
-pub struct MemberReport {
-    /// Name of the case, with its variant.
-    pub name: String,
-    /// What it was made with, unless it failed or nobody asked.
-    pub size: Option<RunSize>,
-    /// Its companion, or why there is none; nothing if nobody asked.
-    pub companion: Option<Result<Companion, String>>,
-    /// Its values.
-    pub comparisons: Vec<Comparison>,
-    /// Which program made it and when.
-    pub made_by: String,
-}
-
-/// A run with longer cells and steps beside another one.
-#[derive(Debug, Clone)]
-pub struct Companion {
-    /// What it was made with.
-    pub size: RunSize,
-    /// How it differs, or why no uncertainty follows from it.
-    pub refinement: Result<Refinement, String>,
-}
-
-/// The variant in the name of a case.
-fn variant_of(name: &str) -> &str {
-    name.split_once('/').map_or("", |(_, variant)| variant)
-}
-
-impl MemberReport {
-    /// The row of its mesh and its companion.
-    fn size_row(&self) -> String {
-        let mut cells = vec![variant_of(&self.name).to_owned()];
-        match &self.size {
-            Some(size) => cells.extend([
-                size.mesh.cells.to_string(),
-                size.dofs.to_string(),
-                significant(size.mesh.shortest_edge),
-                size.steps.to_string(),
-                format!("{:.2}", size.cpu_seconds),
-            ]),
-            None => cells.extend(["-"; 5].map(str::to_owned)),
+impl ReportPage {
+    /// The page in a text.
+    ///
+    /// # Errors
+    /// When it is another one.
+    pub fn read(text: &str) -> Result<Self, &'static str> {
+        if !text.starts_with(TITLE) {
+            return Err("it does not begin as the page of a validation does");
         }
-        cells.push(match &self.companion {
-            None => "-".to_owned(),
-            Some(Err(reason)) => format!("none: {}", in_a_cell(reason)),
-            Some(Ok(companion)) => companion.in_words(),
+        let mut parts = text.split(HEADING);
+        let head = parts.next().unwrap_or_default();
+        let mut sections = BTreeMap::new();
+        for part in parts {
+            let (name, text) = part.split_once('\n').unwrap_or((part, ""));
+            let of_case = |line: &&str| {
+                let case =
+                    line.strip_prefix(OUTSIDE).and_then(|rest| rest.split(['/', '`']).next());
+                case == Some(name)
+            };
+            let outside = head.lines().filter(of_case).map(str::to_owned).collect();
+            let text = text.trim().to_owned() + "\n";
+            sections.insert(name.to_owned(), Section { text, outside });
+        }
+        Ok(Self { sections })
+    }
+
+    /// Replaces the section of a case, or adds it.
+    pub fn set(&mut self, case: &CaseReport) {
+        let own = Section { text: section(case), outside: known_outside(case) };
+        self.sections.insert(case.name.clone(), own);
+    }
+
+    /// The page as a text, which names those of some cases that have no section.
+    #[must_use]
+    pub fn text(&self, cases: &[&str]) -> String {
+        let all: Vec<Judged> =
+            self.sections.values().flat_map(|section| judged_in(&section.text)).collect();
+        let mut page = format!(
+            "{TITLE}\n{HEAD}\n\n{}.\n\n{TOLERANCES}\n\n{UNCERTAINTIES}\n\n",
+            summary_of(&all)
+        );
+        let absent: Vec<String> = cases
+            .iter()
+            .filter(|name| !self.sections.contains_key(**name))
+            .map(|name| format!("`{name}`"))
+            .collect();
+        if !absent.is_empty() {
+            page += &format!("Not on this page yet: {}.\n\n", absent.join(", "));
+        }
+        if let Some(coverage) = self.coverage() {
+            page += &format!("{coverage}\n\n");
+        }
+        let mut header = count_header();
+        header.insert(1, "what it is".to_owned());
+        page += &row(&header);
+        page += &row(&vec!["---".to_owned(); header.len()]);
+        for count in counts(&all) {
+            let mut cells = count_cells(&count);
+            cells.insert(1, count.kind.meaning().to_owned());
+            page += &row(&cells);
+        }
+        let outside: Vec<&String> =
+            self.sections.values().flat_map(|section| &section.outside).collect();
+        if !outside.is_empty() {
+            page += "\nOutside for a known reason:\n\n";
+        }
+        for line in outside {
+            page += &format!("{line}\n");
+        }
+        for (name, Section { text, .. }) in &self.sections {
+            page += &format!("{HEADING}{name}\n\n{text}");
+        }
+        page
+    }
+
+    /// A sentence on how good the rule of the uncertainties is, where exact values tell.
+    fn coverage(&self) -> Option<String> {
+        let lines = self.sections.values().flat_map(|section| section.text.lines());
+        let total = lines.filter_map(Coverage::read).fold(Coverage::default(), |sum, one| {
+            Coverage { n: sum.n + one.n, of: sum.of + one.of }
         });
-        row(&cells)
+        (total.of > 0).then(|| {
+            format!(
+                "Of {} values whose exact value is known, {} differ from it by less than this \
+                 uncertainty.",
+                total.of, total.n
+            )
+        })
     }
 }
 
-impl Companion {
-    fn in_words(&self) -> String {
-        let (cells, steps) = (self.size.mesh.cells, self.size.steps);
-        let steps = if steps == 0 { String::new() } else { format!(", {steps} steps") };
-        match &self.refinement {
-            Ok(Refinement { ratio, order }) => {
-                format!("{cells} cells{steps}; ratio {ratio:.2}, order {order}")
+/// Kinds and verdicts in the tables of a section.
+fn judged_in(text: &str) -> Vec<Judged> {
+    let mut columns: Option<[usize; 2]> = None;
+    let mut all = Vec::new();
+    for line in text.lines() {
+        let Some(inner) = line.strip_prefix("| ").and_then(|rest| rest.strip_suffix(" |")) else {
+            if !line.starts_with('|') {
+                columns = None;
             }
-            Err(reason) => format!("{cells} cells{steps}; {}", in_a_cell(reason)),
+            continue;
+        };
+        let cells: Vec<&str> = inner.split(" | ").collect();
+        let Some([kind, verdict]) = columns else {
+            let of = |name: &str| cells.iter().position(|cell| *cell == name);
+            columns = of("kind").zip(of("verdict")).map(<[usize; 2]>::from);
+            continue;
+        };
+        let cell = |column: usize| cells.get(column).copied().unwrap_or_default();
+        let kind = ReferenceKind::ALL.into_iter().find(|one| one.name() == cell(kind));
+        let verdict = Verdict::ALL.into_iter().find(|one| one.name() == cell(verdict));
+        all.extend(kind.zip(verdict).map(|(kind, verdict)| Judged { kind, verdict }));
+    }
+    all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::{Case, Reference, library};
+    use crate::validation::comparison::judge;
+    use crate::validation::section::{Links, MemberReport};
+
+    /// The section of a case whose computed values are its references times these factors.
+    fn report(name: &str, factors: [f64; 2]) -> CaseReport {
+        let text = library::find("dfg-2d-1").unwrap().text;
+        let case = Case::parse("c", text, &[]).unwrap().model.case;
+        let judged = |(index, factor): (usize, f64)| {
+            let reference: &Reference = &case.reference[index];
+            let computed = Ok(factor * reference.value);
+            judge(&format!("{name}/v"), reference, computed, 1, 0.0)
+        };
+        let member = MemberReport {
+            name: format!("{name}/v"),
+            size: None,
+            companion: None,
+            comparisons: factors.into_iter().enumerate().map(judged).collect(),
+            made_by: "alewife 0".to_owned(),
+        };
+        let links = Links { page: None, pictures: vec!["pictures/a.png".to_owned()] };
+        let [title, gist] = ["T", "A case."].map(str::to_owned);
+        CaseReport { name: name.to_owned(), title, gist, links, members: vec![member] }
+    }
+
+    #[test]
+    fn sections_of_other_cases_stay_and_are_counted() {
+        let mut page = ReportPage::default();
+        page.set(&report("b", [1.0, 1.0]));
+        page.set(&report("a", [1.0, 2.0]));
+        let text = page.text(&[]);
+        assert!(text.contains("3 of 4 values within their tolerance"), "{text}");
+        assert!(text.find("## a\n").unwrap() < text.find("## b\n").unwrap());
+        assert!(text.contains("\n**T.** A case.\n\n![T](pictures/a.png)\n\nRuns by alewife 0.\n"));
+        let mut again = ReportPage::read(&text).unwrap();
+        assert_eq!(again, page);
+        assert_eq!(again.text(&[]), text);
+        let told = again.text(&["a", "c", "d"]);
+        assert!(told.contains("\nNot on this page yet: `c`, `d`.\n"), "{told}");
+        assert_eq!(ReportPage::read(&told).unwrap(), page);
+        again.set(&report("a", [1.0, 1.0]));
+        assert!(again.text(&[]).contains("4 of 4 values within their tolerance"));
+        assert!(again.text(&[]).ends_with(text.split("## b\n").nth(1).unwrap()));
+    }
+
+    #[test]
+    fn a_value_known_to_be_outside_is_listed_as_long_as_its_section_stays() {
+        let mut case = report("a", [2.0, 1.0]);
+        let value = &mut case.members[0].comparisons[0];
+        value.reference.outside = Some("it is hard".to_owned());
+        *value = judge("a/v", &value.reference, value.computed.clone(), 1, 0.0);
+        let mut page = ReportPage::default();
+        page.set(&case);
+        let page = ReportPage::read(&page.text(&[])).unwrap().text(&[]);
+        assert!(page.contains("1 of 2 values within their tolerance, 1 outside for a known"));
+        let line = page.lines().find(|line| line.starts_with("- `a/v`, ")).unwrap();
+        assert!(line.ends_with(": it is hard."), "{line}");
+        let mut page = ReportPage::read(&page).unwrap();
+        page.set(&report("a", [1.0, 1.0]));
+        assert!(!page.text(&[]).contains("it is hard"));
+    }
+
+    #[test]
+    fn another_page_is_refused() {
+        assert!(ReportPage::read("# Thesis\n\n## a\n").is_err());
+        assert!(ReportPage::read("").is_err());
+    }
+
+    #[test]
+    fn the_uncertainty_is_held_against_exact_values() {
+        let mut case = report("a", [1.001, 1.01]);
+        for value in &mut case.members[0].comparisons {
+            value.reference.kind = ReferenceKind::Exact;
+            value.numerical = Some(Ok(0.002 * value.reference.value.abs()));
         }
+        let mut page = ReportPage::default();
+        page.set(&case);
+        let told = "Of 2 values whose exact value is known, 1 differ from it by less";
+        assert!(page.text(&[]).contains(told), "{}", page.text(&[]));
+        case.members[0].comparisons[0].numerical = Some(Err("no | period".to_owned()));
+        page.set(&case);
+        let reason = "No uncertainty: v, cylinder.drag_coefficient: no \\| period.";
+        assert!(page.text(&[]).contains(reason), "{}", page.text(&[]));
     }
-}
-
-/// A text as it may stand in a table.
-fn in_a_cell(text: &str) -> String {
-    text.split_whitespace().collect::<Vec<_>>().join(" ").replace('|', "\\|")
-}
-
-pub(super) fn row(cells: &[String]) -> String {
-    format!("| {} |\n", cells.join(" | "))
-}
-
-/// The section below its heading.
-pub(super) fn section(case: &CaseReport) -> String {
-    let CaseReport { title, gist, links, members, .. } = case;
-    let more = links.page.as_ref().map_or(String::new(), |page| format!(" [More]({page})."));
-    let mut text = format!("**{title}.** {gist}{more}\n");
-    for picture in &links.pictures {
-        text += &format!("\n![{title}]({picture})\n");
-    }
-    let made_by = each_once(members.iter().map(|member| member.made_by.clone()));
-    text += &format!("\nRuns by {}.\n", made_by.join("; "));
-    if members.iter().any(|member| member.size.is_some()) {
-        text += "\n| variant | cells | unknowns | shortest edge | steps | CPU (s) | companion |\n\
-                 |---|---|---|---|---|---|---|\n";
-        for member in members {
-            text += &member.size_row();
-        }
-    }
-    text += "\n| variant | quantity | computed | ± numerical | reference | kind | ± reference \
-             | difference | tolerance | verdict |\n\
-             |---|---|---|---|---|---|---|---|---|---|\n";
-    for member in members {
-        for value in &member.comparisons {
-            text += &value_row(variant_of(&member.name), value);
-        }
-    }
-    let values: Vec<&Comparison> = members.iter().flat_map(|member| &member.comparisons).collect();
-    text += &coverage(&values).map_or(String::new(), |told| format!("\n{told}\n"));
-    text += &sources(&values);
-    text += &reasons(members);
-    text
-}
-
-fn value_row(variant: &str, value: &Comparison) -> String {
-    let [_, quantity, computed, reference, kind, difference, tolerance, verdict] = value.cells();
-    let numerical = value.numerical_share().map_or("-".to_owned(), |share| value.share(share));
-    let uncertainty = value.reference.uncertainty.map_or("-".to_owned(), |own| value.share(own));
-    let cells = [
-        variant.to_owned(),
-        quantity,
-        computed,
-        numerical,
-        reference,
-        kind,
-        uncertainty,
-        difference,
-        tolerance,
-        verdict,
-    ];
-    row(&cells)
-}
-
-/// How often the numerical uncertainty covers what is wrong with a value, where that is known: a check of
-/// the rule.
-fn coverage(values: &[&Comparison]) -> Option<String> {
-    let wrong_by = |value: &Comparison| {
-        let numerical = value.numerical_uncertainty()?;
-        let is_exact = value.reference.kind == ReferenceKind::Exact;
-        let difference = value.computed.as_ref().ok()? - value.reference.value;
-        is_exact.then_some(difference.abs() <= numerical)
-    };
-    let covered: Vec<bool> = values.iter().filter_map(|value| wrong_by(value)).collect();
-    let n = covered.iter().filter(|is_covered| **is_covered).count();
-    (!covered.is_empty()).then(|| Coverage { n, of: covered.len() }.in_words())
-}
-
-/// How many differences from exact values are within the numerical uncertainty.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub(super) struct Coverage {
-    pub n: usize,
-    pub of: usize,
-}
-
-impl Coverage {
-    const BEFORE: &'static str = "Within the numerical uncertainty of the exact value: ";
-
-    fn in_words(self) -> String {
-        format!("{}{} of {}.", Self::BEFORE, self.n, self.of)
-    }
-
-    /// That of a line of a section.
-    pub fn read(line: &str) -> Option<Self> {
-        let (n, of) = line.strip_prefix(Self::BEFORE)?.strip_suffix('.')?.split_once(" of ")?;
-        Some(Self { n: n.parse().ok()?, of: of.parse().ok()? })
-    }
-}
-
-fn sources(values: &[&Comparison]) -> String {
-    let all = each_once(values.iter().map(|value| {
-        let date = value.reference.date.as_ref().map_or(String::new(), |date| format!(", {date}"));
-        let note = value.reference.note.as_ref().map_or(String::new(), |note| format!(" ({note})"));
-        format!("{}{date}{note}", value.reference.source)
-    }));
-    let list: String = all.iter().map(|source| format!("- {source}\n")).collect();
-    format!("\nSources:\n\n{list}")
-}
-
-/// Why values are outside, were not computed or have no uncertainty.
-fn reasons(members: &[MemberReport]) -> String {
-    let values = || members.iter().flat_map(|member| &member.comparisons);
-    let mut lines = each_once(values().filter_map(|value| {
-        Some(format!("Outside, known: {}.", value.reference.outside.as_ref()?))
-    }));
-    let named = |value: &Comparison| {
-        let variant = variant_of(&value.case);
-        let between = if variant.is_empty() { "" } else { ", " };
-        format!("{variant}{between}{}", value.quantity)
-    };
-    for member in members {
-        // What holds of a whole companion is in its row
-        let is_of_all =
-            matches!(member.companion, Some(Err(_) | Ok(Companion { refinement: Err(_), .. })));
-        for value in &member.comparisons {
-            let numerical = value.numerical.as_ref().and_then(|numerical| numerical.as_ref().err());
-            if let Err(reason) = &value.computed {
-                lines.push(format!("Not computed: {}: {}.", named(value), in_a_cell(reason)));
-            } else if let Some(reason) = numerical.filter(|_| !is_of_all) {
-                lines.push(format!("No uncertainty: {}: {}.", named(value), in_a_cell(reason)));
-            }
-        }
-    }
-    each_once(lines.into_iter()).iter().map(|line| format!("\n{line}\n")).collect()
-}
-
-/// The values that are known to be outside, as lines of a list with the reason of each.
-pub(super) fn known_outside(case: &CaseReport) -> Vec<String> {
-    let values = case.members.iter().flat_map(|member| &member.comparisons);
-    let outside = values.filter(|value| value.verdict == Verdict::KnownOutside);
-    let line = |value: &Comparison| {
-        let [case, quantity, computed, reference, _, difference, tolerance, _] = value.cells();
-        let reason = value.reference.outside.as_deref().unwrap_or_default();
-        let numerical = value
-            .numerical_uncertainty()
-            .map_or(String::new(), |own| format!(" ± {}", two_digits(own)));
-        format!(
-            "- `{case}`, {quantity}: {computed}{numerical} for {reference} ({difference}, \
-             tolerance {tolerance}): {reason}."
-        )
-    };
-    outside.map(line).collect()
-}
-
-/// Lines in their order, each the first time only.
-fn each_once(lines: impl Iterator<Item = String>) -> Vec<String> {
-    let mut listed = Vec::new();
-    for line in lines {
-        if !listed.contains(&line) {
-            listed.push(line);
-        }
-    }
-    listed
 }

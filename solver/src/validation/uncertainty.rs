@@ -15,7 +15,7 @@ const SAFETY: f64 = 3.0;
 /// How much longer the cells and the steps of a companion shall be.
 const COARSER: f64 = std::f64::consts::SQRT_2;
 
-/// A companion whose cells or steps are less longer than that tells nothing.
+/// The ratio of lengths below which the difference of a companion is no estimate.
 const LEAST_RATIO: f64 = 1.1;
 
 /// The order that is taken for granted: velocities and pressures converge faster where flow and boundary are

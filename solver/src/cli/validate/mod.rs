@@ -61,8 +61,8 @@ pub struct Options {
         conflicts_with = "quick"
     )]
     report: Option<Option<PathBuf>>,
-    /// Run each case with longer cells and steps, too, and tell what mesh and step leave in its values: half
-    /// as long again
+    /// Estimate the discretisation error of each value by a second run with longer cells and steps, which
+    /// takes about half as long
     #[arg(long)]
     uncertainty: bool,
     /// Keep the runs, each in a directory of its own in this one, and take those that are there
