@@ -6,6 +6,10 @@ use alewife_mesh::spatial::{Body, BodySurface, Centreline, Domain, Part, Shape, 
 use alewife_mesh::{Mesh, Point, Quality, Sizing, Surface, check_mesh, map_quadratic};
 use nalgebra::{Isometry3, UnitQuaternion};
 use rustix::time::{ClockId, clock_gettime};
+use tail::flagellate;
+
+#[path = "../tests/common/tail.rs"]
+mod tail;
 
 /// A domain with its bodies and the sizes asked for.
 type Case = (Domain, Vec<Body>, Sizing<3>);
@@ -64,7 +68,51 @@ fn cases() -> Vec<(String, Case)> {
         let one = vec![sphere("s", 1.0, 0.0, 0.0, 1.0 + gap)];
         cases.push((format!("wall_{gap}"), (above.clone(), one, sizing(0.2, 0.8))));
     }
+    let channel = Domain::Cylinder { x: [-10.0, 85.0], radius: 7.5 };
+    let graded = |surface, growth, layers, turn| {
+        let sizing = Sizing::graded(surface, growth, 3.0);
+        Sizing { gap_layers: layers, turn, ..sizing }
+    };
+    let stout = graded(0.225, 0.795, 4.0 / 1.5, 0.75);
+    let thin = graded(0.3, 0.6, 2.0, 1.0);
+    for phase in [0.0, 0.3, 0.7] {
+        let stout = (channel.clone(), vec![flagellate([50.0, 0.5], phase)], stout.clone());
+        cases.push((format!("stout_{phase}"), stout));
+        let thin = (channel.clone(), vec![flagellate([50.0, 0.2], phase)], thin.clone());
+        cases.push((format!("tail_{phase}"), thin));
+        let end = Domain::Cylinder { x: [10.0, 45.0], radius: 7.5 };
+        let short = (end, vec![flagellate([12.0, 0.2], phase)], graded(0.3, 0.6, 2.0, 1.0));
+        cases.push((format!("short_{phase}"), short));
+    }
+    cases.push(("many".into(), twenty()));
     cases
+}
+
+/// Twenty spheres in a periodic box, in no order.
+fn twenty() -> Case {
+    let length = 9.427;
+    let domain = Domain::Box {
+        min: Point::<3>::zeros(),
+        max: Point::<3>::repeat(length),
+        periodic: [true; 3],
+        symmetric: [false; 6],
+    };
+    // A sequence of low discrepancy, without those that would overlap
+    let part = |i: u32, k: f64| (f64::from(i) * k).fract() * length;
+    let mut places: Vec<Point<3>> = Vec::new();
+    for i in 0..4000 {
+        let place = Point::<3>::new(part(i, 0.819_173), part(i, 0.671_044), part(i, 0.549_700));
+        let is_free = places.iter().all(|other| {
+            let off = (place - other).map(|x| x - length * (x / length).round());
+            off.norm() > 2.2
+        });
+        if is_free && places.len() < 20 {
+            places.push(place);
+        }
+    }
+    let bodies =
+        places.iter().enumerate().map(|(i, p)| sphere(&format!("s{i}"), 1.0, p.x, p.y, p.z));
+    (domain, bodies.collect(), Sizing { gap_layers: 1.0, ..Sizing::graded(0.5, 0.5, 1.5) })
 }
 
 /// Largest distance of the curved facets of bodies from their surfaces, over the radius of curvature.

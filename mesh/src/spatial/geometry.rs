@@ -106,7 +106,7 @@ impl Geometry {
         self.groups[1..].iter().any(|body| body.last > body.first + 1)
     }
 
-    /// Distance to the nearest surface (m), negative outside the fluid; where it is certain to
+    /// About the distance to the nearest surface (m), negative outside the fluid; where it is certain to
     /// exceed a bound, a value above the bound.
     pub fn clearance(&self, point: Point<3>, bound: f64) -> f64 {
         let mut least = f64::INFINITY;
@@ -119,7 +119,11 @@ impl Geometry {
             }
             for surface in group.first..group.last {
                 if !self.surfaces[surface].is_periodic {
-                    least = least.min(self.gap(surface, point));
+                    let image = self.nearest_image(surface, point);
+                    let surface = &self.surfaces[surface];
+                    if surface.may_be_within(image, bound) {
+                        least = least.min(surface.rough_gap(image));
+                    }
                 }
             }
         }
@@ -128,7 +132,7 @@ impl Geometry {
 
     /// The image of a point (m) that is nearest to a surface.
     #[inline]
-    fn nearest_image(&self, surface: usize, point: Point<3>) -> Point<3> {
+    pub fn nearest_image(&self, surface: usize, point: Point<3>) -> Point<3> {
         if !self.periods.is_any() || surface < self.groups[0].last {
             return point;
         }

@@ -45,7 +45,9 @@ impl Periods {
     pub fn steps(&self, point: Point<3>, beside: Point<3>) -> [i32; 3] {
         #[expect(clippy::cast_possible_truncation, reason = "a few periods at most")]
         std::array::from_fn(|axis| {
-            ((beside[axis] - point[axis]) * self.inverse[axis]).round() as i32
+            let periods = (beside[axis] - point[axis]) * self.inverse[axis];
+            // A call of a function is saved where it is next to it already, as most are
+            if periods.abs() < 0.5 { 0 } else { periods.round() as i32 }
         })
     }
 
@@ -60,7 +62,11 @@ impl Periods {
     #[inline]
     #[must_use]
     pub fn beside(&self, point: Point<3>, beside: Point<3>) -> Point<3> {
-        if self.is_any { point + self.shift(self.steps(point, beside)) } else { point }
+        if !self.is_any {
+            return point;
+        }
+        let steps = self.steps(point, beside);
+        if steps == [0; 3] { point } else { point + self.shift(steps) }
     }
 
     /// The shifts by whole periods to a point itself and to its images around it (m), itself first.

@@ -4,6 +4,7 @@ use super::domain::Domain;
 use super::geometry::{Geometry, Group};
 use super::placement::check_placement;
 use super::shape::Body;
+use super::surface::SizedGap;
 use crate::{Bounds, MeshError, Point, SizeBox, Sizing};
 
 /// Fewest edges of the largest size in a period.
@@ -97,7 +98,9 @@ impl SizeField {
             shifts.iter().map(move |shift| (body, beside - shift))
         });
         for (group, seen) in images {
-            if self.least_distance(group, seen) * least >= size {
+            if self.least_distance(group, seen) * least >= size
+                || !self.may_be_within(group, seen, size / least)
+            {
                 continue;
             }
             let wish = self.wish(group, seen);
@@ -121,6 +124,12 @@ impl SizeField {
     /// A lower bound of the distance of a point to a group (m).
     fn least_distance(&self, group: &Group, point: Point<3>) -> f64 {
         ((point - group.center).norm() - group.reach).max(0.0)
+    }
+
+    /// Whether a group may be nearer to a point (m) than some distance (m).
+    fn may_be_within(&self, group: &Group, point: Point<3>, distance: f64) -> bool {
+        let mut surfaces = self.geometry.surfaces[group.first..group.last].iter();
+        surfaces.any(|surface| surface.may_be_within(point, distance))
     }
 
     /// Distance to the nearest wall but for some sides (m).
@@ -147,16 +156,11 @@ impl SizeField {
     fn wish(&self, group: &Group, point: Point<3>) -> Wish {
         let mut wish = Wish { distance: f64::INFINITY, size: f64::INFINITY };
         for surface in &self.geometry.surfaces[group.first..group.last] {
-            let (gap, own) = if let Some(own) = surface.uniform_size() {
-                (surface.gap(point), own)
-            } else {
-                let foot = surface.foot(point);
-                (foot.gap, surface.size_at(foot.point))
-            };
+            let SizedGap { gap, size } = surface.sized_gap(point);
             if surface.is_solid() {
                 wish.distance = wish.distance.min(gap.abs());
             }
-            wish.size = wish.size.min(own + self.growth * gap.abs());
+            wish.size = wish.size.min(size + self.growth * gap.abs());
             for bend in &surface.bends {
                 wish.size = wish.size.min(bend.size + self.growth * (bend.at - point).norm());
             }

@@ -25,6 +25,8 @@ struct BoundaryEdge {
     other: u32,
     /// Tags of the boundary faces at it.
     tags: [u16; MOST_FACES],
+    /// Their surfaces.
+    surfaces: SurfaceSet,
 }
 
 /// The edges of the boundary, each in the list of its end with the smaller number.
@@ -55,14 +57,20 @@ impl BoundaryEdges {
         let (first, other) = (a.min(b), a.max(b));
         let list = &mut self.0[first as usize];
         let at = list.iter().position(|edge| edge.other == other).unwrap_or_else(|| {
-            list.push(BoundaryEdge { other, tags: [INNER; MOST_FACES] });
+            let surfaces = SurfaceSet::EMPTY;
+            list.push(BoundaryEdge { other, tags: [INNER; MOST_FACES], surfaces });
             list.len() - 1
         });
         if let Some(entry) = list[at].tags.iter_mut().find(|tag| **tag == from) {
             *entry = to;
         }
-        if list[at].tags.iter().all(|tag| *tag == INNER) {
+        let faces = list[at].tags.iter().filter(|tag| **tag != INNER);
+        let surfaces =
+            faces.fold(SurfaceSet::EMPTY, |all, tag| all.with(surface_of(*tag)).unwrap_or(all));
+        if surfaces.is_empty() {
             list.swap_remove(at);
+        } else {
+            list[at].surfaces = surfaces;
         }
     }
 
@@ -70,11 +78,8 @@ impl BoundaryEdges {
     #[inline]
     pub fn surfaces(&self, a: u32, b: u32) -> SurfaceSet {
         let (first, other) = (a.min(b), a.max(b));
-        let Some(edge) = self.0[first as usize].iter().find(|edge| edge.other == other) else {
-            return SurfaceSet::EMPTY;
-        };
-        let faces = edge.tags.iter().filter(|tag| **tag != INNER);
-        faces.fold(SurfaceSet::EMPTY, |all, tag| all.with(surface_of(*tag)).unwrap_or(all))
+        let known = self.0[first as usize].iter().find(|edge| edge.other == other);
+        known.map_or(SurfaceSet::EMPTY, |edge| edge.surfaces)
     }
 }
 

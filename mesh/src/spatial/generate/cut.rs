@@ -179,8 +179,9 @@ impl Cut<'_, '_> {
             if !is_on || (gap < 0.0 && self.would_bridge(point, &neighbours)) {
                 continue;
             }
-            let before = self.improver.least_quality_at(vertex, self.improver.mesh.point(vertex));
-            let after = self.improver.least_quality_at(vertex, point);
+            let here = self.improver.mesh.point(vertex);
+            let before = self.improver.least_quality_at(vertex, here, 0.0);
+            let after = self.improver.least_quality_at(vertex, point, 0.0);
             if after > KEPT_QUALITY.min(0.5 * before) {
                 let size = self.improver.sizes.at(point);
                 self.improver.mesh.move_vertex(vertex, point, size);
@@ -308,8 +309,8 @@ impl Improver<'_> {
                 continue;
             }
             let point = self.project(surfaces, here);
-            let before = self.least_quality_at(vertex, here);
-            if self.least_quality_at(vertex, point) > (0.5 * before).min(0.02) {
+            let before = self.least_quality_at(vertex, here, 0.0);
+            if self.least_quality_at(vertex, point, 0.0) > (0.5 * before).min(0.02) {
                 self.mesh.move_vertex(vertex, point, self.sizes.at(point));
             }
         }

@@ -146,7 +146,12 @@ impl<'a> Improver<'a> {
 
     /// The point on some surfaces near a point (m).
     pub fn project(&self, surfaces: SurfaceSet, point: Point<3>) -> Point<3> {
-        self.projections.of(surfaces, point)
+        self.projections.of(surfaces, point).point
+    }
+
+    /// The unit normal of a surface, into the fluid, where it is nearest to a point (m).
+    pub fn normal_at(&self, surface: u16, point: Point<3>) -> Point<3> {
+        self.projections.of(SurfaceSet::of(surface), point).normal
     }
 
     /// Whether what is on these surfaces stays as it is, being on a given side.
@@ -280,15 +285,15 @@ impl<'a> Improver<'a> {
         corners
     }
 
-    /// The least quality of the cells around a vertex if it were at a point (m); some quality that is
-    /// not positive as soon as one cell has one.
-    pub fn least_quality_at(&self, vertex: u32, point: Point<3>) -> f64 {
+    /// The least quality of the cells around a vertex if it were at a point (m); some quality up to a floor
+    /// as soon as one cell has one.
+    pub fn least_quality_at(&self, vertex: u32, point: Point<3>, floor: f64) -> f64 {
         let mut least = f64::INFINITY;
         for &cell in self.mesh.around(vertex) {
             let vertices = self.mesh.cell(cell);
             let corners = self.corners_with(vertices, vertex, point);
             least = least.min(self.quality_of(vertices, &corners, &Pending::Nothing));
-            if least <= 0.0 {
+            if least <= floor {
                 break;
             }
         }

@@ -38,16 +38,17 @@ pub fn volume_length(p: &[Point<3>; 4]) -> f64 {
 /// Smallest sine of the dihedral angles, with the sign of the volume, one for a regular tetrahedron.
 pub fn least_sine(p: &[Point<3>; 4]) -> f64 {
     let volume = six_volumes(p);
-    let area = |[i, j, k]: [usize; 3]| (p[j] - p[i]).cross(&(p[k] - p[i])).norm();
-    let areas = FACES.map(area);
+    let square = |[i, j, k]: [usize; 3]| (p[j] - p[i]).cross(&(p[k] - p[i])).norm_squared();
+    let squares = FACES.map(square);
     let mut least = f64::INFINITY;
     // At an edge meet the faces opposite the two other vertices
     for (edge, [i, j]) in EDGES.into_iter().enumerate() {
         let [k, l] = EDGES[5 - edge];
-        let sine = volume * (p[i] - p[j]).norm() / (areas[k] * areas[l]).max(f64::MIN_POSITIVE);
-        least = least.min(sine);
+        let areas = (squares[k] * squares[l]).max(f64::MIN_POSITIVE);
+        let ratio = (p[i] - p[j]).norm_squared() / areas;
+        least = least.min(ratio);
     }
-    least / REGULAR_SINE
+    volume * least.sqrt() / REGULAR_SINE
 }
 
 /// Smallest Bezier coefficient of det J over their mean, from vertices and the offsets of the nodes

@@ -1,4 +1,4 @@
-//! `Projections`: the latest projections of middles of edges, so that none is computed twice in a row.
+//! `Projections`: the latest places on surfaces that were looked for, so that none is found twice in a row.
 
 use std::cell::RefCell;
 
@@ -7,13 +7,22 @@ use crate::Point;
 use crate::spatial::geometry::Geometry;
 
 /// Places of the cache, a power of two.
-const PLACES: usize = 1 << 15;
+const PLACES: usize = 1 << 16;
 
 #[derive(Debug, Clone, Copy)]
 struct Entry {
     surfaces: SurfaceSet,
     from: Point<3>,
-    to: Point<3>,
+    to: Projected,
+}
+
+/// A place on one or several surfaces.
+#[derive(Debug, Clone, Copy)]
+pub struct Projected {
+    /// Where (m).
+    pub point: Point<3>,
+    /// Unit normal of a single surface there, into the fluid; zero on several.
+    pub normal: Point<3>,
 }
 
 /// A cache with one place for each hash: a projection is a function of its argument alone, so what
@@ -27,18 +36,28 @@ pub struct Projections<'a> {
 impl<'a> Projections<'a> {
     /// An empty cache of projections onto these surfaces.
     pub fn new(geometry: &'a Geometry) -> Self {
-        let empty = Entry { surfaces: SurfaceSet::EMPTY, from: Point::zeros(), to: Point::zeros() };
+        let to = Projected { point: Point::zeros(), normal: Point::zeros() };
+        let empty = Entry { surfaces: SurfaceSet::EMPTY, from: Point::zeros(), to };
         Self { geometry, entries: RefCell::new(vec![empty; PLACES]) }
     }
 
-    /// The point on some surfaces near a point (m).
-    pub fn of(&self, surfaces: SurfaceSet, point: Point<3>) -> Point<3> {
+    /// The place on some surfaces near a point (m), which stays where it is without surfaces.
+    pub fn of(&self, surfaces: SurfaceSet, point: Point<3>) -> Projected {
+        if surfaces.is_empty() {
+            return Projected { point, normal: Point::zeros() };
+        }
         let place = place_of(&point);
         let entry = self.entries.borrow()[place];
         if entry.surfaces == surfaces && entry.from == point {
             return entry.to;
         }
-        let to = self.geometry.project(surfaces.as_slice(), point);
+        let to = if let [one] = surfaces.as_slice() {
+            let foot = self.geometry.foot(usize::from(*one), point);
+            Projected { point: foot.point, normal: foot.normal }
+        } else {
+            let point = self.geometry.project(surfaces.as_slice(), point);
+            Projected { point, normal: Point::zeros() }
+        };
         self.entries.borrow_mut()[place] = Entry { surfaces, from: point, to };
         to
     }

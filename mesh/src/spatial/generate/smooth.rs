@@ -69,7 +69,7 @@ impl Improver<'_> {
 
     /// Moves a vertex where that raises the worst quality around it by some gain.
     fn try_move(&mut self, vertex: u32, to: Point<3>, quality: &mut f64, gain: f64) -> bool {
-        let moved = self.least_quality_at(vertex, to);
+        let moved = self.least_quality_at(vertex, to, *quality + gain);
         if moved <= *quality + gain || !self.may_be_at(vertex, to) {
             return false;
         }

@@ -46,9 +46,7 @@ impl Improver<'_> {
         if surface.is_flat() {
             return true;
         }
-        let index = usize::from(surface_of(tag));
-        let cosine =
-            |at: Point<3>| (normal.dot(&self.geometry.foot(index, at).normal) / area).abs();
+        let cosine = |at: Point<3>| (normal.dot(&self.normal_at(surface_of(tag), at)) / area).abs();
         corners.iter().all(|corner| cosine(*corner) > LEAST_AT_CORNERS)
             && cosine((a + b + c) / 3.0) > LEAST_IN_MIDDLE
     }
@@ -91,8 +89,7 @@ impl Improver<'_> {
                 let (u, v) = (weights[i], weights[(i + 1) % 3]);
                 point += corners[i] * (u * (2.0 * u - 1.0)) + middles[i] * (4.0 * u * v);
             }
-            let foot = self.geometry.foot(index, point);
-            foot.gap.abs() / surface.radius_of_curvature(foot.point)
+            surface.relative_distance(self.geometry.nearest_image(index, point))
         };
         FACE_POINTS.map(error).into_iter().fold(0.0, f64::max)
     }

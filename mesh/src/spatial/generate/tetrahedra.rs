@@ -234,7 +234,12 @@ impl Tetrahedra {
         vertices: [u32; N],
         beside: Point<3>,
     ) -> [Point<3>; N] {
-        vertices.map(|vertex| self.periods.beside(self.points[vertex as usize], beside))
+        let points = vertices.map(|vertex| self.points[vertex as usize]);
+        if self.periods.is_any() {
+            points.map(|point| self.periods.beside(point, beside))
+        } else {
+            points
+        }
     }
 
     /// Place of a vertex (m).
@@ -284,8 +289,12 @@ impl Tetrahedra {
         let fewest = vertices.iter().min_by_key(|vertex| self.around(**vertex).len())?;
         self.around(*fewest).iter().filter(|cell| **cell != but).find_map(|&cell| {
             let own = self.cell(cell);
-            let has_all = vertices.iter().all(|vertex| own.contains(vertex));
-            let opposite = own.iter().position(|vertex| !vertices.contains(vertex))?;
+            let [a, b, c] = vertices;
+            // Without branches: three of the four are those of the face
+            let is_other =
+                own.map(|vertex| u8::from((vertex != a) & (vertex != b) & (vertex != c)));
+            let has_all = is_other.iter().sum::<u8>() == 1;
+            let opposite = is_other.iter().position(|other| *other == 1)?;
             has_all.then_some(Face { cell, opposite })
         })
     }

@@ -5,6 +5,8 @@ mod ellipsoid;
 mod facets;
 mod patch;
 mod revolved;
+mod ring;
+mod sizes;
 mod slender;
 mod tube;
 
@@ -12,6 +14,7 @@ pub use ellipsoid::Ellipsoid;
 pub use facets::Facets;
 pub use patch::is_bent;
 pub use revolved::Revolved;
+pub use sizes::{Bend, SizedGap};
 pub use slender::Slender;
 pub use tube::Tube;
 
@@ -81,19 +84,6 @@ pub struct SmoothSurface {
     /// Places on it where it bends more than around them, with the edge lengths wanted there.
     pub bends: Vec<Bend>,
 }
-
-/// A place at which a surface bends, with the edge length wanted there.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Bend {
-    /// Where (m).
-    pub at: Point<3>,
-    /// Edge length (m).
-    pub size: f64,
-}
-
-/// Edges are at most as many radii long of the largest ball inside that touches the surface there: with
-/// longer ones the lattice has edges that go through a thin body.
-const EDGES_OF_RADIUS_INSIDE: f64 = 1.5;
 
 /// Places on a surface with varying curvature that are looked at.
 const SAMPLES: usize = 600;
@@ -315,26 +305,6 @@ impl SmoothSurface {
         Foot { point: point - normal * gap, normal, gap }
     }
 
-    /// Edge length wanted on the surface (m) at one of its points.
-    #[must_use]
-    pub fn size_at(&self, on: Point<3>) -> f64 {
-        if let Form::Slender(slender) = &self.form {
-            let parts = [self.turn, EDGES_OF_RADIUS_INSIDE];
-            return self.size.min(slender.smaller_radius(self.to_local(on), parts));
-        }
-        let size = self.size.min(self.turn * self.radius_of_curvature(on));
-        size.min(EDGES_OF_RADIUS_INSIDE * self.radius_inside(on))
-    }
-
-    /// Edge length wanted on it where that is the same everywhere (m).
-    #[must_use]
-    pub fn uniform_size(&self) -> Option<f64> {
-        match &self.form {
-            Form::Ellipsoid(_) | Form::Revolved(_) | Form::Slender(_) => None,
-            _ => Some(self.size_at(self.origin)),
-        }
-    }
-
     /// Whether a plane cuts it, or touches it.
     #[must_use]
     pub fn crosses(&self, plane: &Self) -> bool {
@@ -355,31 +325,6 @@ impl SmoothSurface {
         }
         let far = 2.0 * self.reach();
         directions(n).map(|to| self.foot(self.origin + to * far).point).collect()
-    }
-
-    /// Finds the places where it bends so much that the edge length grows faster from them than by
-    /// this per unit length.
-    pub fn find_bends(&mut self, growth: f64) {
-        if self.uniform_size().is_some() {
-            return;
-        }
-        let axes = (0..3).flat_map(|axis| {
-            let axis: Point<3> = self.rotation.column(axis).into();
-            [axis, -axis]
-        });
-        let far = 2.0 * self.reach();
-        let on = axes.map(|to| self.foot(self.origin + to * far).point).chain(self.places(SAMPLES));
-        let mut all: Vec<Bend> = on.map(|at| Bend { at, size: self.size_at(at) }).collect();
-        all.retain(|bend| bend.size < self.size);
-        all.sort_by(|a, b| a.size.total_cmp(&b.size));
-        let mut bends: Vec<Bend> = Vec::new();
-        for bend in all {
-            let reaches = |known: &Bend| known.size + growth * (known.at - bend.at).norm();
-            if bends.iter().all(|known| reaches(known) > bend.size) {
-                bends.push(bend);
-            }
-        }
-        self.bends = bends;
     }
 }
 

@@ -2,14 +2,12 @@
 
 use std::fmt;
 
-use nalgebra::{Matrix2, SymmetricEigen, Vector2};
+use nalgebra::{Matrix2, Vector2};
 
-use super::Foot;
+use super::ring::{Ring, ring_corners};
+use super::{Foot, SizedGap};
 use crate::spatial::sections::{Section, SectionPoint, Sections, on_section};
 use crate::{Bounds, BoxTree, Point};
-
-/// Angles at which a ring is looked at for the box around it, and for places on the surface.
-const ANGLES: usize = 8;
 
 /// Part of a box by which it is enlarged, as its surface bends out between the places that are looked at.
 const MARGIN: f64 = 0.1;
@@ -22,6 +20,10 @@ const MOST_HALVINGS: usize = 30;
 
 /// Offset along the surface from the nearest point over the lengths involved that is rounding.
 const ROUNDING: f64 = 4e-16;
+
+/// The same over the distance and the width of the section there, where gaps and radii need not be exact: it
+/// makes gaps wrong by half its square.
+const ROUGH: f64 = 1e-4;
 
 /// Change of the squared distance over itself below which rounding decides whether a step helps.
 const FLAT: f64 = 1e-10;
@@ -55,25 +57,6 @@ impl fmt::Debug for Slender {
 impl PartialEq for Slender {
     fn eq(&self, other: &Self) -> bool {
         self.sections == other.sections
-    }
-}
-
-/// A section and its parameter.
-#[derive(Debug, Clone, Copy)]
-struct Ring {
-    along: f64,
-    section: Section,
-    center: Point<3>,
-    /// Radius of a ball about the centre that holds it (m).
-    reach: f64,
-}
-
-impl Ring {
-    fn new(sections: &Sections, along: f64) -> Self {
-        let [section, ..] = sections.at(along);
-        let center = Point::<3>::new(section[0], section[1], 0.0);
-        let reach = section[2].hypot(section[3]).max(section[4].abs());
-        Self { along, section, center, reach }
     }
 }
 
@@ -164,35 +147,80 @@ impl Slender {
     /// The nearest point to a point (m) of its frame, the normal outward.
     #[must_use]
     pub fn foot(&self, of: Point<3>) -> Foot {
-        let local = self.local(self.parameter_of(of));
+        self.foot_at(of, self.parameter_of(of))
+    }
+
+    fn foot_at(&self, of: Point<3>, at: SectionPoint) -> Foot {
+        let local = self.local(at);
         let normal = local.normal();
         Foot { point: local.point, normal, gap: (of - local.point).dot(&normal) }
+    }
+
+    /// Whether a point (m) may be nearer to the surface than some distance (m), or inside: at little cost.
+    #[must_use]
+    pub fn may_be_within(&self, of: Point<3>, distance: f64) -> bool {
+        let mut may_be = false;
+        self.boxes.visit_near(of, distance.max(0.0), |_, _| {
+            may_be = true;
+            true
+        });
+        may_be
+    }
+
+    /// The gap to a point (m), right to a millionth of the width of the section there or of itself.
+    #[must_use]
+    pub fn rough_gap(&self, of: Point<3>) -> f64 {
+        self.foot_at(of, self.rough_parameter_of(of)).gap
+    }
+
+    /// The same with the smaller one of a part of the radius of curvature and of a part of the radius inside
+    /// (m) where the surface is nearest.
+    #[must_use]
+    pub fn rough_sized_gap(&self, of: Point<3>, parts: [f64; 2]) -> SizedGap {
+        let at = self.rough_parameter_of(of);
+        SizedGap { gap: self.foot_at(of, at).gap, size: self.smaller_radius_at(at, parts) }
+    }
+
+    /// Distance of a point (m) near the surface over the smallest radius of curvature there.
+    #[must_use]
+    pub fn relative_distance(&self, of: Point<3>) -> f64 {
+        let at = self.parameter_of(of);
+        self.foot_at(of, at).gap.abs() / self.radius_of_curvature_at(at)
     }
 
     /// Coordinates of the point nearest to a point (m).
     #[must_use]
     pub fn parameter_of(&self, of: Point<3>) -> SectionPoint {
-        let mut nearest = SectionPoint { along: 0.0, around: 0.0 };
-        let mut least = f64::INFINITY;
+        self.descend(&of, self.nearest_on_rings(of), 0.0)
+    }
+
+    fn rough_parameter_of(&self, of: Point<3>) -> SectionPoint {
+        self.descend(&of, self.nearest_on_rings(of), ROUGH)
+    }
+
+    /// The nearest place of all rings.
+    fn nearest_on_rings(&self, of: Point<3>) -> SectionPoint {
+        let (mut nearest, mut least, mut bound) = (0, f64::INFINITY, f64::INFINITY);
         self.boxes.visit_near(of, f64::INFINITY, |index, reach| {
-            let Ring { along, section, center, reach: own } = &self.rings[index];
-            let (off, bound) = (of - center, least + own);
-            if off.norm_squared() > bound * bound {
+            let ring = &self.rings[index];
+            let most = bound + ring.reach;
+            if (of - ring.center).norm_squared() > most * most {
                 return false;
             }
-            let on = OnRing::nearest(section, &of);
-            if on.distance < least {
-                nearest = SectionPoint { along: *along, around: on.around };
-                least = on.distance;
-                *reach = on.distance;
+            let square = ring.squared_distance(&of);
+            if square < least {
+                (nearest, least, bound) = (index, square, square.sqrt());
+                *reach = bound;
             }
             false
         });
-        self.descend(&of, nearest)
+        let ring = &self.rings[nearest];
+        SectionPoint { along: ring.along, around: ring.angle_of(&of) }
     }
 
-    /// The place nearest to a point (m) that Newton's method finds from another place.
-    fn descend(&self, of: &Point<3>, start: SectionPoint) -> SectionPoint {
+    /// The place nearest to a point (m) that Newton's method finds from another place, up to an offset over the
+    /// distance and the width of the section.
+    fn descend(&self, of: &Point<3>, start: SectionPoint, rough: f64) -> SectionPoint {
         let mut at = start;
         let mut local = self.local(at);
         for _ in 0..MOST_STEPS {
@@ -202,7 +230,10 @@ impl Slender {
             let Quadratic { slope, bend, metric } = chart.quadratic(&local, &off);
             let Some(down) = metric.cholesky().map(|metric| metric.solve(&-slope)) else { break };
             let offset = (-slope.dot(&down)).max(0.0).sqrt();
-            if offset <= ROUNDING * (off.norm() + of.norm() + self.reach) {
+            let distance = square.sqrt();
+            if offset <= ROUNDING * (distance + of.norm() + self.reach)
+                || offset <= rough * (distance + local.around.norm())
+            {
                 break;
             }
             let newton = bend.cholesky().map(|bend| bend.solve(&-slope));
@@ -277,8 +308,11 @@ impl Slender {
 
     /// The smaller one of a part of the radius of curvature and of a part of the radius inside (m).
     #[must_use]
-    pub fn smaller_radius(&self, on: Point<3>, [of_curvature, inside]: [f64; 2]) -> f64 {
-        let at = self.parameter_of(on);
+    pub fn smaller_radius(&self, on: Point<3>, parts: [f64; 2]) -> f64 {
+        self.smaller_radius_at(self.parameter_of(on), parts)
+    }
+
+    fn smaller_radius_at(&self, at: SectionPoint, [of_curvature, inside]: [f64; 2]) -> f64 {
         (of_curvature * self.radius_of_curvature_at(at)).min(inside * self.radius_inside_at(at))
     }
 
@@ -291,8 +325,11 @@ impl Slender {
         let Some(root) = metric.cholesky().and_then(|metric| metric.l().try_inverse()) else {
             return self.inner_radius;
         };
-        let curvatures = SymmetricEigen::new(root * (bend - metric) * root.transpose()).eigenvalues;
-        1.0 / curvatures.amax()
+        let curvature = root * (bend - metric) * root.transpose();
+        // Its eigenvalues are the principal curvatures
+        let mean = 0.5 * (curvature[(0, 0)] + curvature[(1, 1)]);
+        let apart = (0.5 * (curvature[(0, 0)] - curvature[(1, 1)])).hypot(curvature[(0, 1)]);
+        1.0 / (mean.abs() + apart)
     }
 
     /// About the radius (m) of the largest ball inside that touches the surface at one of its points: as far
@@ -314,12 +351,6 @@ impl Slender {
         };
         way(width * cos.abs(), side.abs()).min(way(section[4].abs() * sin.abs(), normal.z.abs()))
     }
-}
-
-/// Places around a section.
-fn ring_corners(section: &Section) -> [Point<3>; ANGLES] {
-    let angle = std::f64::consts::TAU / ANGLES as f64;
-    std::array::from_fn(|i| on_section(section, angle * i as f64))
 }
 
 impl Local {
@@ -348,40 +379,5 @@ impl Chart {
         );
         let bend = metric + Matrix2::new(far, mixed, mixed, back);
         Quadratic { slope, bend, metric }
-    }
-}
-
-/// The point of an ellipse in space nearest to another point.
-struct OnRing {
-    around: f64,
-    distance: f64,
-}
-
-impl OnRing {
-    /// By three steps on the evolute, which are good enough to start from.
-    fn nearest(section: &Section, of: &Point<3>) -> Self {
-        let width = section[2].hypot(section[3]);
-        let (dx, dy) = (of.x - section[0], of.y - section[1]);
-        let side = (dx * section[2] + dy * section[3]) / width;
-        let height = section[4].abs();
-        let (x, z) = (side.abs(), of.z.abs());
-        let [mut cos, mut sin] = [std::f64::consts::FRAC_1_SQRT_2; 2];
-        let apart = width * width - height * height;
-        for _ in 0..3 {
-            let [ex, ez] = [apart * cos.powi(3) / width, -apart * sin.powi(3) / height];
-            let radius = (width * cos - ex).hypot(height * sin - ez);
-            let off = (x - ex).hypot(z - ez);
-            if off > 0.0 {
-                cos = (((x - ex) * radius / off + ex) / width).clamp(0.0, 1.0);
-                sin = (((z - ez) * radius / off + ez) / height).clamp(0.0, 1.0);
-            }
-            let norm = cos.hypot(sin);
-            if norm > 0.0 {
-                (cos, sin) = (cos / norm, sin / norm);
-            }
-        }
-        let around = (sin * of.z.signum()).atan2(cos * side.signum());
-        let distance = (on_section(section, around) - of).norm();
-        Self { around, distance }
     }
 }

@@ -1,0 +1,33 @@
+//! A thin tail that is bent by the full amplitude of its wave, in a tube.
+
+use alewife_mesh::spatial::{Domain, generate};
+use alewife_mesh::{Quality, Sizing};
+use flagellate::flagellate;
+
+use super::{SMALLEST_ANGLE, assert_mesh};
+
+#[path = "../common/tail.rs"]
+mod flagellate;
+
+/// A mesh with the sizes of the case `sperm-3d` around its swimmer with a tail of some length (m).
+fn check_tail(length: f64, phase: f64) {
+    let domain = Domain::Cylinder { x: [10.0, 35.0 + length], radius: 7.5 };
+    let sizing = Sizing { gap_layers: 2.0, turn: 1.0, ..Sizing::graded(0.3, 0.6, 3.0) };
+    let bodies = [flagellate([length, 0.2], phase)];
+    let mesh = generate(&domain, &bodies, &sizing);
+    let mesh = mesh.unwrap_or_else(|error| panic!("phase {phase}: {error}"));
+    println!("phase {phase}: {} cells, {:.1}", mesh.n_cells(), Quality::of(&mesh).min_angle);
+    assert_mesh(&mesh, &domain, &bodies, SMALLEST_ANGLE);
+}
+
+#[test]
+fn a_short_thin_tail_is_meshed_at_phases_of_its_beat() {
+    [0.0, 0.3, 0.7].into_iter().for_each(|phase| check_tail(12.0, phase));
+}
+
+/// `cargo test --release -p alewife-mesh --test tetrahedra tail -- --ignored --nocapture`
+#[test]
+#[ignore = "takes some minutes; run after changes of the mesher"]
+fn a_long_thin_tail_is_meshed_at_all_phases_of_its_beat() {
+    (0..8).for_each(|eighth| check_tail(50.0, f64::from(eighth) / 8.0));
+}
