@@ -30,6 +30,18 @@ impl Default for MotionKind {
     }
 }
 
+impl MotionKind {
+    /// The one around bodies that deform in space: with it one mesh follows a thin tail through its beat (measured in
+    /// `tests/spatial/deforming.rs`).
+    ///
+    /// With k = d^-a a displacement decays from an end of radius r as int d^a / (r + d)^2 dd: for a = 1/2 within a
+    /// radius, which is too fast where the end moves by many radii, for a = 2 evenly.
+    #[must_use]
+    pub fn around_deforming_bodies() -> Self {
+        Self::Elastic { poisson: 0.0, stiffening: Stiffening::Distance { exponent: 2.0 } }
+    }
+}
+
 /// How much stiffer cells are that are small or near a body: the factor k of a cell of measure V
 /// with its centre at distance d from what carries the mesh.
 #[derive(Debug, Clone, Copy, PartialEq)]

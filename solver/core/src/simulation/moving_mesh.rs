@@ -49,7 +49,9 @@ impl MotionSettings {
     /// Those of a case and its problem.
     #[must_use]
     pub fn new<const D: usize>(model: &Model, problem: &Problem<D>) -> Self {
+        let deforms_in_space = D == 3 && problem.bodies.iter().any(|body| body.shape.is_some());
         let kind = match model.case.mesh.moving.equation {
+            MeshEquation::Elastic if deforms_in_space => MotionKind::around_deforming_bodies(),
             MeshEquation::Elastic => MotionKind::default(),
             MeshEquation::Harmonic => MotionKind::Harmonic(Stiffening::MasudHughes),
         };
