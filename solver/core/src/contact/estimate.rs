@@ -6,6 +6,9 @@
 //!
 //! M = B + (Y - B S) (S^T B S)^-1 S^T B.
 //!
+//! Where a mobility A of nearly the same bodies has been learnt already, A takes the place of B in the first two
+//! terms.
+//!
 //! Bodies fall into clusters that are near each other. Each cluster learns by itself from loads that act on
 //! all of them at once: what they do to each other over a distance is small, and is no part of M. So the
 //! number of solutions does not grow with the number of bodies.
@@ -18,8 +21,10 @@ const DEPENDENT: f64 = 1e-8;
 /// The mobility of some bodies as far as it is known.
 #[derive(Debug, Clone)]
 pub struct MobilityEstimate {
-    /// Before anything was learnt, symmetric.
+    /// The first estimate, symmetric.
     base: DMatrix<f64>,
+    /// Before anything was learnt from the loads.
+    start: DMatrix<f64>,
     matrix: DMatrix<f64>,
     /// Rows of bodies that are near each other.
     clusters: Vec<Vec<usize>>,
@@ -32,14 +37,26 @@ impl MobilityEstimate {
     /// clusters; rows of zeros stay so.
     #[must_use]
     pub fn new(base: DMatrix<f64>, clusters: Vec<Vec<usize>>) -> Self {
-        let matrix = base.clone();
-        Self { base, matrix, clusters, loads: Vec::new(), answers: Vec::new() }
+        let (start, matrix) = (base.clone(), base.clone());
+        Self { base, start, matrix, clusters, loads: Vec::new(), answers: Vec::new() }
+    }
+
+    /// Starts from a mobility (n x n) that was learnt for nearly the same system, where rows of zeros are the same.
+    #[must_use]
+    pub fn starting_from(self, learnt: DMatrix<f64>) -> Self {
+        Self { start: learnt.clone(), matrix: learnt, ..self }
     }
 
     /// The mobility, n x n.
     #[must_use]
     pub fn matrix(&self) -> &DMatrix<f64> {
         &self.matrix
+    }
+
+    /// The mobility, n x n.
+    #[must_use]
+    pub fn into_matrix(self) -> DMatrix<f64> {
+        self.matrix
     }
 
     /// Square root of the power of a load at the velocities that the first estimate gives it.
@@ -64,13 +81,14 @@ impl MobilityEstimate {
         self.loads.push(load);
         self.answers.push(self.free_part(answer));
         for rows in &self.clusters {
-            let base = self.base.select_rows(rows).select_columns(rows);
+            let [base, start] = [&self.base, &self.start]
+                .map(|matrix| matrix.select_rows(rows).select_columns(rows));
             let [loads, answers] = [&self.loads, &self.answers].map(|vectors| {
                 let columns: Vec<_> =
                     vectors.iter().map(|vector| vector.select_rows(rows)).collect();
                 DMatrix::from_columns(&columns)
             });
-            let Some(block) = corrected(&base, loads, answers) else { continue };
+            let Some(block) = corrected(&base, start, loads, answers) else { continue };
             for (i, &row) in rows.iter().enumerate() {
                 for (j, &column) in rows.iter().enumerate() {
                     self.matrix[(row, column)] = block[(i, j)];
@@ -83,6 +101,7 @@ impl MobilityEstimate {
 /// The mobility of a cluster by loads and answers, one column each; none where no load acts on it.
 fn corrected(
     base: &DMatrix<f64>,
+    start: DMatrix<f64>,
     mut loads: DMatrix<f64>,
     mut answers: DMatrix<f64>,
 ) -> Option<DMatrix<f64>> {
@@ -105,7 +124,8 @@ fn corrected(
         return None;
     }
     let inverse = decomposed.pseudo_inverse(DEPENDENT * largest).ok()?;
-    Some(base + (answers - &by_base) * inverse * by_base.transpose())
+    let missed = answers - &start * &loads;
+    Some(start + missed * inverse * by_base.transpose())
 }
 
 #[cfg(test)]
@@ -160,6 +180,22 @@ mod tests {
             estimate.learn(load.clone(), &exact * &load);
         }
         assert!((estimate.matrix() - exact).amax() < 1e-10);
+    }
+
+    /// What was learnt before stays where nothing new is told of it.
+    #[test]
+    fn what_was_learnt_is_a_start() {
+        let (before, exact) = (mobility(29.0), mobility(30.0));
+        let fresh = || MobilityEstimate::new(mobility(3.0), vec![(0..6).collect()]);
+        let mut estimate = fresh().starting_from(before.clone());
+        assert_eq!(estimate.matrix(), &before);
+        let load = DVector::from_column_slice(&[1.0, 0.2, 0.0, -1.0, 0.0, 0.3]);
+        estimate.learn(load.clone(), &exact * &load);
+        assert!((estimate.matrix() * &load - &exact * &load).amax() < 1e-10);
+        let mut anew = fresh();
+        anew.learn(load.clone(), &exact * &load);
+        let error = |estimate: &MobilityEstimate| (estimate.matrix() - &exact).amax();
+        assert!(error(&estimate) < 0.1 * error(&anew), "{} {}", error(&estimate), error(&anew));
     }
 
     #[test]

@@ -1,8 +1,9 @@
-//! Contact forces of one pass: found for the gaps at the end of the step, and added to the flow.
+//! Contact forces of one pass: found for the gaps at the end of the step, and added to the flow, or corrected there.
 
 use nalgebra::{DMatrix, DVector};
 
 use super::contact_estimate::Bodies;
+use super::contact_known::{KnownContact, Learnt};
 use super::error::StepError;
 use super::newton::{Flow, flow_residual};
 use super::pass::PassEquations;
@@ -11,8 +12,8 @@ use super::state::State;
 use super::stepper::TimeStepper;
 use super::workspace::Workspace;
 use super::{RunError, Stage};
-use crate::body::{Pose, RigidVector, Twist};
-use crate::contact::{ContactLoads, ContactSolution, ContactStep, Gaps, Law};
+use crate::body::{Pose, RigidVector, Twist, Wrench};
+use crate::contact::{ContactLoads, ContactSolution, ContactStep, Gaps, Law, MobilityEstimate};
 use crate::coupling::{BodyLoad, LoadedBody};
 
 /// Contact is looked for where bodies may get to with this times their displacement.
@@ -20,12 +21,14 @@ const CONTACT_MARGIN: f64 = 2.0;
 
 /// Error of a pose by the error of the mobility over the smallest gap, or the range, that is small enough.
 const SMALL: f64 = 1e-6;
+/// The same where the pass is to be repeated with these loads.
+const SMALL_IN_BETWEEN: f64 = 1e-4;
 /// Most loads from which the mobility is learnt.
 const MOST_LOADS: usize = 16;
 /// Least accurate solution for a load.
 const LEAST_REDUCTION: f64 = 1e-2;
-/// Part of the largest load to which solutions for all others are accurate.
-const ACCURACY: f64 = 1e-8;
+/// Part of the largest load to which solutions for all others are accurate: the flow is so to 1e-6 of what changes it.
+const ACCURACY: f64 = 1e-7;
 
 /// What contact needs to know of a pass.
 pub(super) struct PassContact<'a, const D: usize> {
@@ -44,7 +47,8 @@ struct Candidates<'a> {
 }
 
 impl<const D: usize> PassContact<'_, D> {
-    /// Adds contact to a flow found without it; loads of contact on all bodies.
+    /// Replaces loads in a flow, which has those that are known, by those that contact has there. Whether there may be
+    /// any, so that its residual is another one.
     ///
     /// # Errors
     /// When contact forces are not found, or the linear system cannot be solved.
@@ -52,35 +56,89 @@ impl<const D: usize> PassContact<'_, D> {
         &self,
         work: &mut Workspace<D>,
         flow: &mut Flow<D>,
-    ) -> Result<ContactLoads, StepError> {
-        let none = ContactLoads::none(self.state.poses.len());
-        let (Some(law), Some(gaps)) = (self.stepper.contact, self.gaps) else { return Ok(none) };
-        let bodies = self.candidate_bodies(gaps, law, &flow.solution.twists);
+        known: &mut KnownContact,
+    ) -> Result<bool, StepError> {
+        let (Some(law), Some(gaps)) = (self.stepper.contact, self.gaps) else { return Ok(false) };
+        let bodies = self.candidate_bodies(gaps, law, &flow.solution.twists, &known.loads);
         if bodies.is_empty() {
-            return Ok(none);
+            return Ok(false);
         }
         let candidates = Candidates { gaps, law, bodies };
-        let mut applied = none;
-        if !work.system.is_iterative()
-            || !self.learn_mobility(&candidates, work, flow, &mut applied)?
-        {
+        if !work.system.is_iterative() || !self.learn_mobility(&candidates, work, flow, known)? {
             let mobility = self.mobility(&candidates, work)?;
-            let next = self.solve(&candidates, flow, &applied, &mobility)?.loads;
-            self.replace(work, flow, &mut applied, next, None)?;
+            let next = self.solve(&candidates, flow, &known.loads, &mobility)?.loads;
+            self.replace(work, flow, &mut known.loads, next, None)?;
         }
-        update_residual(work, self.equations, flow);
-        Ok(applied)
+        Ok(true)
     }
 
     /// Replaces loads in a flow by those that contact has there, by a mobility that is learnt on the way:
-    /// each solution for the loads tells more of it. Whether that led to the loads at the gaps.
+    /// each solution for the loads tells more of it. Whether that led to the loads at the gaps, or near enough to
+    /// them where the pass is to be repeated.
     fn learn_mobility(
         &self,
         candidates: &Candidates<'_>,
         work: &mut Workspace<D>,
         flow: &mut Flow<D>,
-        applied: &mut ContactLoads,
+        known: &mut KnownContact,
     ) -> Result<bool, StepError> {
+        let Candidates { gaps, law, bodies } = candidates;
+        let mut estimate = self.first_estimate(candidates, work, known);
+        let applied = &mut known.loads;
+        let off_by = |velocities: DVector<f64>, estimate: &MobilityEstimate| {
+            let off = estimate.free_part(velocities) / self.equations.history.step.bdf.next;
+            gaps.largest_displacement(bodies, self.stepper.problem.modes(), &off)
+        };
+        let gap_of = |loads: &ContactLoads| {
+            loads.minimum_gap.map_or(law.range(), |least| least.gap.min(law.range()))
+        };
+        let mut largest = estimate.size(&self.loads(bodies, applied));
+        let mut is_found = false;
+        for attempt in 0..MOST_LOADS {
+            let Ok(found) = self.solve(candidates, flow, applied, estimate.matrix()) else { break };
+            let change = self.loads(bodies, &found.loads) - self.loads(bodies, applied);
+            let size = estimate.size(&change);
+            largest = largest.max(size);
+            let expected = self.rows(found.velocities.iter().map(Twist::to_vector));
+            let before = self.velocities(bodies, flow);
+            let gap = gap_of(&found.loads);
+            let off = off_by(&expected - &before, &estimate) / gap;
+            let are_those = size <= SMALL * largest && off <= SMALL;
+            if are_those || off <= SMALL_IN_BETWEEN && self.is_to_be_repeated(flow) {
+                tracing::debug!(attempt, size, off, gap, "contact as known");
+                applied.minimum_gap = found.loads.minimum_gap;
+                is_found = true;
+                break;
+            }
+            let reduction = (ACCURACY * largest / size).min(LEAST_REDUCTION);
+            self.replace(work, flow, applied, found.loads, Some(reduction))?;
+            let now = self.velocities(bodies, flow);
+            estimate.learn(change, &now - before);
+            let off = off_by(now - expected, &estimate) / gap;
+            tracing::debug!(attempt, size, off, gap, bodies = bodies.len(), "contact");
+            if off <= SMALL || off <= SMALL_IN_BETWEEN && self.is_to_be_repeated(flow) {
+                is_found = true;
+                break;
+            }
+        }
+        known.learnt = Some(Learnt { bodies: bodies.clone(), mobility: estimate.into_matrix() });
+        Ok(is_found)
+    }
+
+    /// Whether bodies get so far from where the flow is solved that the pass is to be repeated there.
+    fn is_to_be_repeated(&self, flow: &Flow<D>) -> bool {
+        let step = &self.equations.history.step;
+        let reached = integrate_poses(self.stepper, self.state, step, &flow.solution.twists);
+        !self.stepper.path.resolves(&self.equations.pass.poses, &reached)
+    }
+
+    /// The mobility before any load has been tried in this pass.
+    fn first_estimate(
+        &self,
+        candidates: &Candidates<'_>,
+        work: &Workspace<D>,
+        known: &mut KnownContact,
+    ) -> MobilityEstimate {
         let Candidates { gaps, law, bodies } = candidates;
         let loaded = loaded_bodies(*gaps, bodies);
         let motions = work.system.free_motions(&self.equations.pass.constraints, &loaded);
@@ -92,35 +150,11 @@ impl<const D: usize> PassContact<'_, D> {
             equations: &self.equations.pass.bodies,
             viscosity: self.stepper.problem.viscosity,
         };
-        let mut estimate = estimated.estimate(&self.seen_poses());
-        let mut largest = 0.0f64;
-        for attempt in 0..MOST_LOADS {
-            let Ok(found) = self.solve(candidates, flow, applied, estimate.matrix()) else {
-                return Ok(false);
-            };
-            let change = self.loads(bodies, &found.loads) - self.loads(bodies, applied);
-            let size = estimate.size(&change);
-            if size == 0.0 {
-                *applied = found.loads;
-                return Ok(true);
-            }
-            largest = largest.max(size);
-            let before = self.velocities(bodies, flow);
-            let reduction = (ACCURACY * largest / size).min(LEAST_REDUCTION);
-            self.replace(work, flow, applied, found.loads, Some(reduction))?;
-            let now = self.velocities(bodies, flow);
-            estimate.learn(change, &now - before);
-            let expected = self.rows(found.velocities.iter().map(Twist::to_vector));
-            let off = estimate.free_part(now - expected) / self.equations.history.step.bdf.next;
-            let modes = self.stepper.problem.modes();
-            let off = gaps.largest_displacement(bodies, modes, &off);
-            let gap = applied.minimum_gap.map_or(law.range(), |least| least.gap.min(law.range()));
-            tracing::debug!(attempt, size, off, gap, bodies = bodies.len(), "contact");
-            if off <= SMALL * gap {
-                return Ok(true);
-            }
+        let estimate = estimated.estimate(&self.seen_poses());
+        match known.learnt.take().filter(|learnt| learnt.bodies == *bodies) {
+            Some(learnt) => estimate.starting_from(learnt.mobility),
+            None => estimate,
         }
-        Ok(false)
     }
 
     /// The mobility of bodies.
@@ -177,12 +211,23 @@ impl<const D: usize> PassContact<'_, D> {
         self.state.in_frame(&origin, poses)
     }
 
-    /// The bodies that may get within the range of something with velocities found without contact.
-    fn candidate_bodies(&self, gaps: &dyn Gaps, law: &Law, twists: &[Twist]) -> Vec<usize> {
+    /// The bodies that may get within the range of something with these velocities, and those with loads.
+    fn candidate_bodies(
+        &self,
+        gaps: &dyn Gaps,
+        law: &Law,
+        twists: &[Twist],
+        loads: &ContactLoads,
+    ) -> Vec<usize> {
         let step = &self.equations.history.step;
         let without = integrate_poses(self.stepper, self.state, step, twists);
         let (from, to) = (self.seen(&self.state.poses), self.seen(&without));
-        gaps.candidate_bodies(&from, &to, CONTACT_MARGIN, law.range())
+        let mut bodies = gaps.candidate_bodies(&from, &to, CONTACT_MARGIN, law.range());
+        let wrenches = loads.wrenches.iter().enumerate();
+        bodies.extend(wrenches.filter(|(_, load)| is_load(load)).map(|(body, _)| body));
+        bodies.sort_unstable();
+        bodies.dedup();
+        bodies
     }
 
     /// The contact forces for a flow that has some of them already.
@@ -261,6 +306,10 @@ fn body_loads(from: &ContactLoads, to: &ContactLoads) -> Vec<BodyLoad> {
     changes.filter(|on_body| on_body.load.iter().any(|part| *part != 0.0)).collect()
 }
 
+fn is_load(wrench: &Wrench) -> bool {
+    wrench.to_vector().iter().any(|part| *part != 0.0)
+}
+
 /// Adds what loads on some bodies change in a flow.
 fn add_loads<const D: usize>(
     work: &mut Workspace<D>,
@@ -280,7 +329,8 @@ fn add_loads<const D: usize>(
     Ok(())
 }
 
-fn update_residual<const D: usize>(
+/// Brings the residual of a flow up to date with the loads that have been added to it.
+pub(super) fn update_residual<const D: usize>(
     work: &mut Workspace<D>,
     equations: &PassEquations<'_, D>,
     flow: &mut Flow<D>,

@@ -195,7 +195,7 @@ impl<const D: usize> TimeStepper<'_, D> {
         let placement = Placement { nodes: nodes.clone(), poses: poses.to_vec() };
         let pass = Pass::new(self, work, state, &history, placement);
         let equations = PassEquations::new(self, &history, &pass);
-        let mut flow = self.solve(work, &equations, guess.clone())?;
+        let mut flow = self.solve(work, &equations, guess.clone(), None)?;
         if let Some(contact) = &contact {
             contact.apply(work, &equations, at.step, &mut flow)?;
         }

@@ -4,6 +4,7 @@ mod advance;
 mod build;
 mod case_mesh;
 mod contact_estimate;
+mod contact_known;
 mod contact_step;
 mod control;
 mod cycle_error;

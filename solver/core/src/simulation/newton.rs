@@ -61,8 +61,11 @@ pub(super) struct Criterion {
 /// What the solution of a linear system by iterations leaves of the residual.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Reduction {
-    /// This part.
-    Fixed(f64),
+    /// A part of what a step changes: of its first residual, which is that of the first pass where this is given.
+    OfStep {
+        /// The first residual of the first pass.
+        first: Option<f64>,
+    },
     /// As much as the tolerance allows: the equations are linear.
     ToTolerance,
     /// What the next step of Newton's method would leave anyway, were the system solved exactly
@@ -86,8 +89,8 @@ const MARGIN: f64 = 0.5;
 const MOST_REDUCTION: f64 = 1e-12;
 
 impl Criterion {
-    /// For the flow of one pass of a step.
-    pub fn of_step(is_linear: bool) -> Self {
+    /// For the flow of one pass of a step whose first pass had this first residual.
+    pub fn of_step(is_linear: bool, first: Option<f64>) -> Self {
         Self {
             tolerance: 1e-10,
             rounding: 1e-7,
@@ -97,7 +100,7 @@ impl Criterion {
             accepts_start: false,
             is_linear,
             divergence: None,
-            reduction: if is_linear { Reduction::Fixed(OF_STEP) } else { Reduction::Inexact },
+            reduction: if is_linear { Reduction::OfStep { first } } else { Reduction::Inexact },
         }
     }
 }
@@ -271,7 +274,12 @@ impl<'a> Progress<'a> {
     fn reduction(&self, relative: f64) -> f64 {
         let enough = MARGIN * self.criterion.tolerance / relative;
         let wanted = match self.criterion.reduction {
-            Reduction::Fixed(part) => return part,
+            Reduction::OfStep { first } => {
+                let scale = self.scale();
+                let grown = first.filter(|first| *first > scale && scale > 0.0);
+                let part = grown.map_or(1.0, |first| first / scale);
+                return (OF_STEP * part).min(FIRST_REDUCTION);
+            }
             Reduction::ToTolerance => enough,
             Reduction::Inexact if self.iterations == 0 => enough.max(FIRST_REDUCTION),
             Reduction::Inexact => enough.max(QUADRATIC * (relative / self.last).powi(2)),

@@ -10,7 +10,8 @@
 //! whole (`frame`); the unknown stays the velocity seen from the laboratory, so that no inertial force
 //! appears.
 
-use super::contact_step::PassContact;
+use super::contact_known::KnownContact;
+use super::contact_step::{PassContact, update_residual};
 use super::error::StepError;
 use super::error_estimate::{local_error, pose_errors};
 use super::fluid_loads::{FluidLoads, SolvedConfiguration};
@@ -48,19 +49,32 @@ impl<const D: usize> TimeStepper<'_, D> {
         let mut apart = state.poses.clone();
         let mut poses = predict_poses(self, state, &step);
         let mut guess = history.extrapolated.clone();
-        let mut iterations = 0;
+        let (mut iterations, mut scale, mut known) = (0, None, None);
         for _ in 0..MAX_PASSES {
             self.check_stop(state)?;
             poses = limit_by_gaps(problem, gaps, state, &apart, poses);
             let nodes = self.path.move_mesh(work, problem, state, &poses, &history.shapes)?;
-            let pass = Pass::new(self, work, state, &history, Placement { nodes, poses });
+            let mut pass = Pass::new(self, work, state, &history, Placement { nodes, poses });
+            let mut contact = match known.take() {
+                Some(known) => known,
+                None if work.system.is_iterative() => {
+                    KnownContact::at_poses(self, state, gaps, &pass.poses)
+                }
+                None => KnownContact::none(problem.bodies.len()),
+            };
+            contact.load(&mut pass.bodies);
             let equations = PassEquations::new(self, &history, &pass);
-            let mut flow = self.solve(work, &equations, guess)?;
+            let mut flow = self.solve(work, &equations, guess, scale)?;
             iterations += flow.iterations;
-            let contact = PassContact { stepper: self, state, gaps, equations: &equations }
-                .apply(work, &mut flow)?;
+            scale = scale.or(Some(flow.scale));
+            let is_other = PassContact { stepper: self, state, gaps, equations: &equations }
+                .apply(work, &mut flow, &mut contact)?;
             let reached = integrate_poses(self, state, &step, &flow.solution.twists);
             if self.path.resolves(&pass.poses, &reached) {
+                let KnownContact { loads: contact, .. } = contact;
+                if is_other {
+                    update_residual(work, &equations, &mut flow);
+                }
                 let loads = self.loads(work, state, &equations, &mut flow);
                 let mut error = local_error(self, state, &step, &flow.solution);
                 if step.bdf.is_second_order() {
@@ -74,21 +88,24 @@ impl<const D: usize> TimeStepper<'_, D> {
                 return Ok(StepResult { level, report });
             }
             (apart, poses, guess) = (pass.poses, reached, flow.solution);
+            known = work.system.is_iterative().then_some(contact);
         }
         Err(StepError::CouplingNotConverged { passes: MAX_PASSES })
     }
 
-    /// The flow on the mesh of a pass, without contact, from a first guess.
+    /// The flow on the mesh of a pass, with the contact that is known of it, from a first guess. `scale` is what residuals
+    /// of the first pass were relative to.
     pub(super) fn solve(
         &self,
         work: &mut Workspace<D>,
         equations: &PassEquations<'_, D>,
         guess: Solution<D>,
+        scale: Option<f64>,
     ) -> Result<Flow<D>, StepError> {
         let Workspace { system, mesh, timing } = work;
         let at = equations.pass.at(self.problem, mesh);
         let start = system.constrained(at.constraints, &guess);
-        let criterion = Criterion::of_step(equations.is_linear());
+        let criterion = Criterion::of_step(equations.is_linear(), scale);
         newton(system, timing, &at, equations, &criterion, start)
             .map_err(|failure| failure.in_step(&equations.history.step).into())
     }

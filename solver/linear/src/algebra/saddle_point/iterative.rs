@@ -79,6 +79,9 @@ struct Direct {
 struct SetUp {
     matrix: u64,
     preconditioner: Preconditioner,
+    /// What the solutions with this matrix have been made of since it was set up or marked: the next ones,
+    /// of other loads on the same bodies, meet the same few slow directions.
+    space: KrylovSpace,
 }
 
 impl IterativeSolver {
@@ -143,6 +146,10 @@ impl IterativeSolver {
     /// Marks what it keeps at present as its memory, which may be asked for later.
     pub fn mark(&mut self) {
         self.marked = Marked { earlier: self.earlier.clone(), is_direct: self.is_direct() };
+        // No part of the memory: whoever recalls that goes on without
+        if let Some(set_up) = &mut self.set_up {
+            set_up.space = KrylovSpace::default();
+        }
         if let Some(direct) = &mut self.direct {
             direct.solver.mark();
         }
@@ -196,7 +203,7 @@ impl IterativeSolver {
         reduction: f64,
         uses_earlier: bool,
     ) -> Result<Iterated, LinearError> {
-        let Some(SetUp { preconditioner, .. }) = &mut self.set_up else {
+        let Some(SetUp { preconditioner, space, .. }) = &mut self.set_up else {
             return Err(LinearError::NotFinite);
         };
         let mut system = Scaled { matrix, preconditioner };
@@ -212,7 +219,7 @@ impl IterativeSolver {
                 (iterate, reached) = (better, norm);
             }
         }
-        let (mut space, mut iterations, start) = (KrylovSpace::default(), 0, reached);
+        let (mut iterations, start) = (0, reached);
         loop {
             if !reached.is_finite() {
                 return Err(LinearError::NotFinite);
@@ -227,7 +234,7 @@ impl IterativeSolver {
                 return Ok(Iterated { iterate, iterations, stalled_at });
             }
             if space.n_directions() >= self.settings.restart {
-                space = KrylovSpace::default();
+                *space = KrylovSpace::default();
             }
             let most = left.min(LONG).min(self.settings.restart - space.n_directions());
             let wanted = (AIM * tolerance / reached).max(CYCLE);
@@ -329,7 +336,8 @@ impl LinearSolver for IterativeSolver {
         }
         let preconditioner = Preconditioner::new(&self.system, &self.weights, matrix);
         tracing::debug!(bytes = preconditioner.n_bytes(), "set up a preconditioner");
-        self.set_up = Some(SetUp { matrix: hash, preconditioner });
+        let space = KrylovSpace::default();
+        self.set_up = Some(SetUp { matrix: hash, preconditioner, space });
         Ok(())
     }
 
