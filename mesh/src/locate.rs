@@ -30,6 +30,9 @@ const MIDDLES: f64 = 1.5;
 /// between two cells.
 const ROUNDING: f64 = 1e-12;
 
+/// Barycentric coordinates of a point that is in no other cell are larger than this.
+const WITHIN: f64 = 1e-6;
+
 /// Where a point is in a mesh.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Located<const D: usize> {
@@ -109,6 +112,19 @@ impl<const D: usize> Locator<D> {
     #[must_use]
     pub fn locate(&self, point: Point<D>) -> Option<Located<D>> {
         self.search(point, self.tolerance)
+    }
+
+    /// The same as [`Self::locate`], sooner where the point is within a cell that is guessed.
+    #[must_use]
+    pub fn locate_from(&self, guess: CellId, point: Point<D>) -> Option<Located<D>> {
+        let is_near = self.boxes[guess.index()].squared_distance(&point) == 0.0;
+        let guessed = is_near.then(|| self.locate_in(guess, point, self.tolerance)).flatten();
+        // On a side, another cell may be the first that is found
+        let is_within = |found: &Located<D>| {
+            let first = 1.0 - found.reference.iter().sum::<f64>();
+            found.distance == 0.0 && found.reference.iter().chain([&first]).all(|l| *l > WITHIN)
+        };
+        guessed.filter(is_within).or_else(|| self.locate(point))
     }
 
     /// The cell nearest to a point (m), however far outside; `None` only for a point that is not

@@ -170,8 +170,12 @@ fn find<const D: usize>(
 ) -> Option<Vec<Source<D>>> {
     let locator = Locator::new(old);
     let images: Vec<Point<D>> = std::iter::once(&Point::zeros()).chain(periods).copied().collect();
-    let find = |point: &Point<D>| {
-        if let Some(found) = locator.locate(*point) {
+    let find = &|point: &Point<D>, guess: Option<CellId>| {
+        let located = match guess {
+            Some(guess) => locator.locate_from(guess, *point),
+            None => locator.locate(*point),
+        };
+        if let Some(found) = located {
             return Some(settle(found.cell, found.reference, Landing::Inside, 0.0));
         }
         let nearest = locator.nearest_image(*point, &images)?;
@@ -180,7 +184,14 @@ fn find<const D: usize>(
     let order = by_proximity(points);
     let found: Option<Vec<(usize, Source<D>)>> = order
         .par_chunks(NODES_PER_TASK)
-        .flat_map_iter(|some| some.iter().map(|&point| Some((point, find(&points[point])?))))
+        .flat_map_iter(|some| {
+            let mut last = None;
+            some.iter().map(move |&point| {
+                let found = find(&points[point], last)?;
+                last = Some(found.cell);
+                Some((point, found))
+            })
+        })
         .collect();
     let mut found = found?;
     found.par_sort_unstable_by_key(|(point, _)| *point);

@@ -95,13 +95,16 @@ struct Takeover<'a, const D: usize> {
     tables: Tables<D>,
     /// None where nothing has inertia: the older velocities are first guesses only.
     projection: Option<DivergenceFreeProjection<D>>,
+    /// Whether the projection is where the first level asks for it.
+    is_placed: bool,
 }
 
 impl<'a, const D: usize> Takeover<'a, D> {
+    /// With the new mesh where the first level has it.
     fn new(problem: &'a Problem<D>, new: &Mesh<D>, moving: &'a MovingMesh<D>) -> Self {
         let projection = problem.has_inertia.then(|| DivergenceFreeProjection::new(problem, new));
         let (boundaries, tables) = (Boundaries::new(new), Tables::new(problem.metric));
-        Self { problem, moving, boundaries, tables, projection }
+        Self { problem, moving, boundaries, tables, projection, is_placed: true }
     }
 
     /// A level on the new mesh.
@@ -131,7 +134,9 @@ impl<'a, const D: usize> Takeover<'a, D> {
             transfer = transfer.with_points(&self.tables, &images).ok_or_else(not_found)?;
             let residual =
                 transfer.missed(&self.tables, &level.solution.velocity, &solution.velocity);
-            projection.move_to(self.problem, level.new);
+            if !std::mem::take(&mut self.is_placed) {
+                projection.move_to(self.problem, level.new);
+            }
             solution.velocity =
                 projection.project_with(level.new, &solution.velocity, &residual)?;
         }
