@@ -293,6 +293,24 @@ mod tests {
         generate(&domain, &[disc], &Sizing::graded(0.02, 0.2, 0.08)).unwrap()
     }
 
+    /// In a guessed cell, on its sides and at its corners, beside it and far away.
+    #[test]
+    fn a_guess_changes_nothing() {
+        let mesh = channel();
+        let locator = Locator::new(&mesh);
+        for cell in mesh.cell_ids() {
+            let nodes = mesh.cell_nodes(cell);
+            for at in [[0.3, 0.3], [0.5, 0.5], [0.0, 0.4], [0.0, 0.0], [-0.1, 0.2], [40.0, 3.0]] {
+                let point = map_quadratic(&nodes, at).position;
+                assert_eq!(
+                    locator.locate_from(cell, point),
+                    locator.locate(point),
+                    "{cell} {at:?}"
+                );
+            }
+        }
+    }
+
     #[test]
     fn the_image_of_a_reference_point_is_found_there() {
         let mesh = channel();
