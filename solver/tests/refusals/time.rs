@@ -45,11 +45,6 @@ fn a_moving_mesh_has_limits_a_new_one_meets() {
     for setting in ["mesh.gap_layers=1", "mesh.scale=4", "mesh.moving.layers=4"] {
         assert_accepted(&check(&text, &["--set", setting]));
     }
-    // Half a layer of the one that a mesh is to have
-    let one = ["--set", "mesh.gap_layers=1", "--set"];
-    assert_accepted(&check(&text, &[&one[..], &["mesh.moving.layers=0.5"]].concat()));
-    let less = check(&text, &[&one[..], &["mesh.moving.layers=0.4"]].concat());
-    assert_refused(&less, &["a gap needs a layer of cells", "write 0.5 or more"]);
     let still = check(RIGHT, &["--set", "mesh.moving.quality=0.3"]);
     assert_accepted(&still);
     assert!(still.stderr.contains("`mesh.moving` has no effect"), "{}", still.stderr);

@@ -168,12 +168,11 @@ fn check_moving(findings: &mut Findings<'_>) {
     }
     // Both as written: the scale of the mesh makes gaps coarser than they were meant to be, which
     // is no reason to refuse them. A mesh with few layers is replaced once it has lost some.
-    let least = (0.5 * gap_layers).min(1.0);
-    if moving.layers < least {
+    if moving.layers < 1.0 {
         findings.error(
             "mesh.moving.layers",
             format!("`mesh.moving.layers` is {}, but a gap needs a layer of cells", moving.layers),
-            &format!("write {least} or more; 2 is usual"),
+            "write 1 or more; 2 is usual",
         );
     } else if moving.layers > gap_layers.max(MODEST_LAYERS) {
         findings.error(
