@@ -7,10 +7,10 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from conftest import CAN_RENDER, EDGES, block
+from conftest import CAN_RENDER, block
 from matplotlib.figure import Figure
 
-from alewife_post import Run, open_run, space, surfaces
+from alewife_post import Run, cuts, open_run, slices, space, surfaces
 from alewife_post.cli import picture
 from alewife_post.planes import straight
 from alewife_post.read import QUADRATIC_TETRAHEDRON, Field
@@ -124,13 +124,32 @@ def test_a_domain_may_have_a_single_side(run: Run) -> None:
     assert surface.area == pytest.approx(54.0 + 6.0, rel=1e-6)
 
 
-def test_pieces_fill_their_tetrahedron() -> None:
-    corners = np.vstack([np.zeros(3), np.eye(3)])
-    nodes = np.vstack([corners, [0.5 * (corners[i] + corners[j]) for i, j in EDGES]])
-    pieces = nodes[space.PIECES]
-    volumes = np.linalg.det(pieces[:, 1:] - pieces[:, :1]) / 6
-    assert (np.abs(volumes) > 0.02).all()
-    assert np.abs(volumes).sum() == pytest.approx(1 / 6)
+def test_a_slice_without_a_window_has_the_same_triangles(run: Run) -> None:
+    view = (0.2, 2.9, 0.1, 2.5)
+    drawn = slices.slice_picture(
+        run, "pressure", view=view, plane="z=1.4", painter="matplotlib", lines="none"
+    )
+    (mesh,) = drawn.axes[0].collections[:1]
+    corners = mesh._triangulation.x, mesh._triangulation.y
+    x, y = (own[mesh._triangulation.triangles] for own in corners)
+    area = 0.5 * np.abs(
+        (x[:, 1] - x[:, 0]) * (y[:, 2] - y[:, 0]) - (x[:, 2] - x[:, 0]) * (y[:, 1] - y[:, 0])
+    )
+    assert area.sum() == pytest.approx(2.7 * 2.4 - 1.0, rel=1e-5)
+    pressure = corners[0] + 2 * corners[1] - 1.4
+    np.testing.assert_allclose(np.asarray(mesh.get_array()), pressure, atol=1e-5)
+    drawn.canvas.draw()
+
+
+def test_the_sides_of_a_domain_are_outlined(run: Run) -> None:
+    plane, region = straight(2, 1.4), (np.zeros(3), np.full(3, 3.0))
+    sides = space.side_sections(run, run.field(), plane, region)
+    length = sum(np.linalg.norm(np.diff(side, axis=0), axis=1).sum() for side in sides)
+    assert length == pytest.approx(12.0, rel=1e-6)
+    # But for where a periodic mesh is cut open
+    other, moved = cut_open_elsewhere(run)
+    sides = space.side_sections(other, moved, plane, region)
+    assert all(np.ptp(side[:, 1]) < 1e-9 for side in sides)
 
 
 def test_a_plane_cuts_the_block_in_a_square(run: Run) -> None:
@@ -151,20 +170,20 @@ def test_nodes_on_round_sides_are_found(domain: str) -> None:
     assert least[0] < 1e-12 < least[1]
 
 
+@pytest.mark.skipif(not CAN_RENDER, reason="VTK has no window here")
 def test_a_slice_is_across_an_axis_within_the_domain(run: Run) -> None:
-    drawn = space.slice_picture(run, plane="y=0.5")
+    drawn = slices.slice_picture(run, plane="y=0.5")
     assert isinstance(drawn, Figure)
     axes = drawn.axes[0]
     assert axes.get_xlabel().startswith("$x$") or "x" in axes.get_xlabel()
     assert "z" in axes.get_ylabel()
-    image = axes.images[0].get_array()
-    assert not np.ma.getmaskarray(image).any()
-    through = space.slice_picture(run, "pressure", view=(0.0, 3.0, 0.0, 3.0)).axes[0].images[0]
+    assert (np.asarray(axes.images[0].get_array())[..., 3] == 255).all()
+    through = slices.slice_picture(run, "pressure", view=(0.0, 3.0, 0.0, 3.0)).axes[0].images[0]
     # The block is a ninth of the plane
-    assert np.ma.getmaskarray(through.get_array()).mean() == pytest.approx(1 / 9, abs=0.01)
+    assert (np.asarray(through.get_array())[..., 3] == 0).mean() == pytest.approx(1 / 9, abs=0.003)
     for plane, reason in [("y=4", "outside"), ("w=0", "not a plane"), ("z", "not a plane")]:
         with pytest.raises(ValueError, match=reason):
-            space.slice_picture(run, plane=plane)
+            slices.slice_picture(run, plane=plane)
 
 
 def test_a_picture_is_written_by_the_command(run: Run, tmp_path: Path) -> None:
@@ -192,7 +211,7 @@ def test_the_camera_chooses_what_is_seen(run: Run) -> None:
 @pytest.mark.skipif(not CAN_RENDER, reason="VTK has no window here")
 def test_a_steady_flow_has_no_time_in_its_title(run: Run) -> None:
     assert space.surface_picture(run).axes[0].get_title() == "A block in a box"
-    sliced = space.slice_picture(run, plane="y=0.5").axes[0].get_title()
+    sliced = slices.slice_picture(run, plane="y=0.5").axes[0].get_title()
     assert sliced.startswith("A block in a box, ") and "0.5" in sliced and "t =" not in sliced
 
 
@@ -244,7 +263,6 @@ def test_where_a_periodic_mesh_is_cut_open_is_no_body(run: Run) -> None:
 
 
 def test_a_periodic_domain_goes_on_beyond_its_mesh(run: Run) -> None:
-    from alewife_post import stage
 
     other, moved = cut_open_elsewhere(run)
     points = np.array([[0.3, 0.4, 0.2], [2.7, 1.1, 0.9], [1.5, 1.5, 1.5]])
@@ -252,8 +270,8 @@ def test_a_periodic_domain_goes_on_beyond_its_mesh(run: Run) -> None:
     there = space.sample(moved, points, "pressure", other.case)
     assert there["values"].mask.tolist() == [False, False, True]
     assert there["values"].data[:2] == pytest.approx(here["values"].data[:2], abs=1e-6)
-    cut = stage.Cut(straight(2, 1.4), np.zeros(2), np.full(2, 3.0), moves=False)
-    found = stage.whole_slice(other.case, moved, cut, "pressure")
+    cut = cuts.Cut(straight(2, 1.4), np.zeros(2), np.full(2, 3.0), moves=False)
+    found = cuts.whole_slice(other.case, moved, cut, "pressure")
     assert found.area == pytest.approx(8.0, rel=1e-5)
     x, y, z = np.asarray(found.points, dtype=float).T
     assert (x.min(), x.max()) == pytest.approx((0.0, 3.0))
@@ -272,7 +290,7 @@ def test_bodies_are_whole_wherever_a_view_reaches_beyond_a_periodic_box(run: Run
     assert middles == pytest.approx([-1.5, 1.5, 4.5])
     # A slice that reaches there has no hole without its body
     view = (-1.9, 4.9, 0.5, 2.5)
-    drawn = space.slice_picture(other, "pressure", plane="z=1.4", view=view, lines="none")
+    drawn = slices.slice_picture(other, "pressure", plane="z=1.4", view=view, lines="none")
     assert len(drawn.axes[0].patches) == 3
 
 

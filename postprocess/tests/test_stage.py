@@ -16,12 +16,12 @@ from alewife_post import (
     Run,
     camera,
     cli,
+    cuts,
     film,
     isosurfaces,
     open_run,
     planes,
     space,
-    stage,
     style,
 )
 from alewife_post.cast import Cast, _cone
@@ -172,13 +172,13 @@ def test_what_is_not_in_space_is_refused(run: Run, capsys: pytest.CaptureFixture
 def test_a_slice_has_the_area_and_the_values_of_the_fluid_in_it(run: Run) -> None:
     field = run.field(0.0)
     plane = planes.straight(2, 1.4)
-    cut = stage.Cut(plane, np.array([-9.0, -9.0]), np.array([9.0, 9.0]), moves=False)
-    found = stage.slice_of(field, cut, "pressure")
+    cut = cuts.Cut(plane, np.array([-9.0, -9.0]), np.array([9.0, 9.0]), moves=False)
+    found = cuts.slice_of(field, cut, "pressure")
     assert found.area == pytest.approx(8.0, rel=1e-5)
     x = np.asarray(found.points)[:, 0]
     assert found.point_data["values"] == pytest.approx(x - 1.5, abs=1e-5)
-    part = stage.Cut(plane, np.array([0.25, 0.5]), np.array([2.0, 0.75]), moves=False)
-    assert stage.slice_of(field, part, "pressure").area == pytest.approx(1.75 * 0.25, rel=1e-5)
+    part = cuts.Cut(plane, np.array([0.25, 0.5]), np.array([2.0, 0.75]), moves=False)
+    assert cuts.slice_of(field, part, "pressure").area == pytest.approx(1.75 * 0.25, rel=1e-5)
     # Where the view has moved, another part of the same plane is seen
     moved = part.at(np.array([0.5, 0.0, 7.0]))
     np.testing.assert_allclose(moved.low, [0.75, 0.5])
@@ -189,8 +189,8 @@ def test_an_oblique_slice_lies_in_its_plane(run: Run) -> None:
     across = np.array([[1.0, 1.0, 0.0], [1.0, -1.0, 1.0]])
     across /= np.linalg.norm(across, axis=1)[:, None]
     plane = planes.Plane(np.array([0.5, 0.5, 0.5]), across, ("a", "b"), "oblique")
-    cut = stage.Cut(plane, np.array([-0.3, -0.2]), np.array([0.3, 0.2]), moves=False)
-    found = stage.slice_of(run.field(0.0), cut, "speed")
+    cut = cuts.Cut(plane, np.array([-0.3, -0.2]), np.array([0.3, 0.2]), moves=False)
+    found = cuts.slice_of(run.field(0.0), cut, "speed")
     assert found.area == pytest.approx(0.6 * 0.4, rel=1e-4)
     away = (np.asarray(found.points) - plane.origin) @ plane.normal
     assert abs(away).max() < 1e-6
@@ -376,3 +376,21 @@ def test_bodies_that_cross_a_periodic_side_have_their_arrows_with_them(run: Run)
     other.__dict__["_bodies_and_shapes"] = ({"ball": far}, other.shapes)
     ((arrow, _),) = space.motion(other, 0.0)
     assert np.asarray(arrow.points)[:, 0].min() == pytest.approx(1.5, abs=1e-3)
+
+
+@pytest.mark.skipif(not CAN_RENDER, reason="VTK has no window here")
+def test_bodies_that_only_the_mesh_knows_are_read_once_a_frame(
+    run: Run, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    read = []
+    real = camera.read_field
+    monkeypatch.setattr(camera, "read_field", lambda path: read.append(path) or real(path))
+    monkeypatch.setattr(camera.bodies, "shape", lambda *_: None)
+    history = run.bodies["ball"]
+    run.bodies.update({f"ball-{nth}": history for nth in range(3)})
+    moments = film.chosen_moments(run, film.Request(quantity="speed"))
+    seen = camera.seen(run, moments, film.Request(quantity="speed"), np.zeros((len(moments), 3)))
+    assert read == [moment.path for moment in moments]
+    # The block from 1 to 2
+    assert seen.points.min(axis=0) == pytest.approx(np.ones(3))
+    assert seen.points.max(axis=0) == pytest.approx(2 * np.ones(3))

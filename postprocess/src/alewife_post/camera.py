@@ -78,9 +78,9 @@ def seen(run: Run, moments: list[Moment], request: Request, moved: Array) -> See
     corners = []
     step = max(1, len(moments) // 60)
     for nth in range(0, len(moments), step):
-        for name, pose in bodies.poses(run, moments[nth].time).items():
-            if members is None or name in members:
-                corners.append(_corners(run, (name, pose), moments[nth]) - moved[nth])
+        placed = bodies.poses(run, moments[nth].time)
+        kept = {name: placed[name] for name in placed if members is None or name in members}
+        corners += [one - moved[nth] for one in _corners(run, kept, moments[nth])]
     if not corners:
         return Seen(domain, np.zeros((0, 3)), True, 0.0)
     found = np.array(corners)
@@ -99,14 +99,15 @@ def seen(run: Run, moments: list[Moment], request: Request, moved: Array) -> See
     return Seen(box, found.reshape(-1, 3), False, float(margin))
 
 
-def _corners(run: Run, body: tuple[str, bodies.Pose], moment: Moment) -> Array:
-    """Lowest and highest corner `(2, 3)` of a body; of one that only the mesh knows, of all."""
-    found = np.array(bodies.corners(run, *body))
-    if np.ptp(found, axis=0).max() > 0.0 or moment.path is None:
+def _corners(run: Run, placed: dict[str, bodies.Pose], moment: Moment) -> list[Array]:
+    """Lowest and highest corner `(2, 3)` of each body; of those only the mesh knows, of all."""
+    found = [np.array(bodies.corners(run, name, pose)) for name, pose in placed.items()]
+    known = [corners for corners in found if np.ptp(corners, axis=0).max() > 0.0]
+    if len(known) == len(found) or moment.path is None:
         return found
     surface = surfaces.bodies_surface(run, read_field(moment.path), "speed")
     points = np.asarray(surface.points)
-    return np.array([points.min(axis=0), points.max(axis=0)])
+    return [*known, np.array([points.min(axis=0), points.max(axis=0)])]
 
 
 def direction(run: Run, request: Request, plane: planes.Plane | None) -> tuple[Array, Array]:

@@ -110,7 +110,7 @@ def _write_picture(options: argparse.Namespace) -> None:
 
 
 def _picture(run: Run, options: argparse.Namespace) -> Figure:
-    from alewife_post import figure, space
+    from alewife_post import figure, slices, space
 
     view = options.view and tuple(options.view)
     if not run.is_spatial:
@@ -132,7 +132,7 @@ def _picture(run: Run, options: argparse.Namespace) -> Figure:
         quantity = options.quantity or "pressure"
         camera = tuple(options.camera or CAMERA)
         return space.surface_picture(run, quantity, time=options.time, camera=camera)
-    return space.slice_picture(
+    return slices.slice_picture(
         run,
         options.quantity or "speed",
         time=options.time,
@@ -140,6 +140,7 @@ def _picture(run: Run, options: argparse.Namespace) -> Figure:
         view=view,
         frame=options.frame,
         lines=options.lines or "streamlines",
+        painter=options.painter,
     )
 
 

@@ -9,7 +9,6 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.patches import Ellipse, FancyArrow, Polygon, Rectangle
-from matplotlib.transforms import Affine2D
 from matplotlib.tri import LinearTriInterpolator, Triangulation
 from mpl_toolkits.axes_grid1.anchored_artists import AnchoredSizeBar
 
@@ -146,45 +145,15 @@ def boundary_loops(field: Field) -> list[Array]:
     return loops
 
 
-def draw_streamlines(
-    axes: Axes, flow: list[Field], view: View, colour: str, *, is_mirrored: bool = False
-) -> None:
-    """Streamlines with arrow heads, evenly spaced over the view.
-
-    A flow that is mirrored about y = 0 has mirrored streamlines.
-    """
-    x0, x1, y0, y1 = view
-    sides = [1.0]
-    if is_mirrored and y0 < 0.0 < y1:
-        y0, y1, sides = 0.0, max(-y0, y1), [1.0, -1.0]
-    x, y, velocity = _on_grid(flow, (x0, x1, y0, y1), 240)
-    if not np.abs(velocity).max() > 0:
-        return
-    extent = np.array([x1 - x0, y1 - y0])
-    for side in sides:
-        axes.streamplot(
-            x,
-            y,
-            velocity[..., 0],
-            velocity[..., 1],
-            density=tuple(1.1 * extent / extent.min() ** 0.5 / extent.max() ** 0.5),
-            color=colour,
-            linewidth=0.6,
-            arrowsize=0.6,
-            zorder=3,
-            transform=Affine2D().scale(1.0, side) + axes.transData,
-        )
-
-
 def draw_arrows(axes: Axes, flow: list[Field], view: View, colour: str) -> None:
     """Arrows on a regular grid, as long as the speed there."""
-    x, y, velocity = _on_grid(flow, view, 28)
+    x, y, velocity = on_grid(flow, view, 28)
     axes.quiver(
         x, y, velocity[..., 0], velocity[..., 1], color=colour, width=0.0018, zorder=3, pivot="mid"
     )
 
 
-def _on_grid(flow: list[Field], view: View, n: int) -> tuple[Array, Array, Array]:
+def on_grid(flow: list[Field], view: View, n: int) -> tuple[Array, Array, Array]:
     """Velocity on a regular grid of at most n points a side, masked outside the fluid.
 
     Returns x `(n_x,)`, y `(n_y,)` and velocity `(n_y, n_x, 2)`.

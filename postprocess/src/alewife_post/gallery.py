@@ -9,7 +9,7 @@ from pathlib import Path
 from matplotlib.figure import Figure
 from PIL import Image
 
-from alewife_post import figure, space, style
+from alewife_post import figure, slices, style
 from alewife_post.read import Run, open_run
 from alewife_post.whole import replacing
 
@@ -53,7 +53,7 @@ def pictures(
 
 def default_picture(run: Run) -> Figure:
     """The picture of a run that `alewife-post picture` makes without options."""
-    return space.slice_picture(run, "speed") if run.is_spatial else figure.picture(run, "speed")
+    return slices.slice_picture(run, "speed") if run.is_spatial else figure.picture(run, "speed")
 
 
 def small_png(drawn: Figure) -> bytes:

@@ -80,8 +80,17 @@ def through_bodies(run: Run, times: Array, middle: Array) -> Plane:
     found = np.array(points)
     for axis in (2, 1, 0):
         if np.ptp(found[:, axis]) <= 2 * THROUGH * size:
-            return straight(axis, float(0.5 * (found[:, axis].min() + found[:, axis].max())))
+            return straight(axis, _plain(0.5 * (found[:, axis].min() + found[:, axis].max()), size))
     return _nearest(found)
+
+
+def _plain(height: float, size: float) -> float:
+    """A height with as few digits as a hundredth of some size has: centres are near it only."""
+    if not size > 0.0:
+        return float(height)
+    step = 10.0 ** np.floor(np.log10(0.01 * size))
+    # Not by a factor of the step, which has rounding of its own; and no minus zero
+    return float(np.round(height, int(-np.log10(step)))) + 0.0
 
 
 def _nearest(points: Array) -> Plane:

@@ -5,11 +5,15 @@ from __future__ import annotations
 import ctypes
 import os
 import sys
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from alewife_post import style
 from alewife_post.read import QUADRATIC_TRIANGLE, Field
+
+if TYPE_CHECKING:
+    import pyvista
 
 Array = np.ndarray
 View = tuple[float, float, float, float]
@@ -62,35 +66,47 @@ def render(
     Its size is a width, and whether it is rendered finer and averaged. It is clear outside the
     fluid. Without nodal `values` `(n_nodes,)` the fluid has one colour.
     """
+    width, is_smooth = size
+    grid = _grid(field)
+    look = {"color": style.FLUID}
+    if values is not None:
+        grid.point_data["values"] = values
+        look = {"scalars": "values", "cmap": colour_map, "clim": limits}
+    # Without subdivision each quadratic triangle would be four flat ones.
+    how = {
+        "nonlinear_subdivision": SUBDIVISION if is_smooth else 2,
+        "algorithm": "dataset_surface",
+        "pass_pointid": False,
+    }
+    shown = [(grid.extract_surface(**how), look)]
+    if show_edges:
+        # Cells must be parted first: edges between two cells are no boundary of the whole.
+        lines = (
+            grid.separate_cells()
+            .extract_surface(**how)
+            .extract_feature_edges(
+                boundary_edges=True,
+                feature_edges=False,
+                manifold_edges=False,
+                non_manifold_edges=False,
+            )
+        )
+        shown.append((lines, {"color": style.EDGE, "line_width": width / 600}))
+    return render_flat(shown, view, size)
+
+
+def render_flat(
+    shown: list[tuple[pyvista.PolyData, dict[str, Any]]], view: View, size: tuple[int, bool]
+) -> Array:
+    """An image of what lies in the plane z = 0, each with its look; likewise."""
     import pyvista
 
     x0, x1, y0, y1 = view
     width, is_smooth = size
     height = max(1, round(width * (y1 - y0) / (x1 - x0)))
-    grid = _grid(field)
     plotter = pyvista.Plotter(off_screen=True, window_size=(width, height))
-    look = {"color": style.FLUID, "lighting": False, "show_scalar_bar": False}
-    if values is not None:
-        grid.point_data["values"] = values
-        look |= {"scalars": "values", "cmap": colour_map, "clim": limits}
-    # Without subdivision each quadratic triangle would be four flat ones.
-    surface = grid.extract_surface(
-        nonlinear_subdivision=SUBDIVISION if is_smooth else 2,
-        algorithm="dataset_surface",
-        pass_pointid=False,
-    )
-    plotter.add_mesh(surface, **look)
-    if show_edges:
-        # Cells must be parted first: edges between two cells are no boundary of the whole.
-        cells = grid.separate_cells().extract_surface(
-            nonlinear_subdivision=SUBDIVISION if is_smooth else 2,
-            algorithm="dataset_surface",
-            pass_pointid=False,
-        )
-        lines = cells.extract_feature_edges(
-            boundary_edges=True, feature_edges=False, manifold_edges=False, non_manifold_edges=False
-        )
-        plotter.add_mesh(lines, color=style.EDGE, line_width=width / 600, lighting=False)
+    for mesh, look in shown:
+        plotter.add_mesh(mesh, lighting=False, show_scalar_bar=False, **look)
     plotter.view_xy()
     camera = plotter.camera
     camera.parallel_projection = True

@@ -9,7 +9,7 @@ from typing import Literal
 import numpy as np
 from matplotlib.axes import Axes
 
-from alewife_post import bodies, drawing, scene, streamlines, style
+from alewife_post import bodies, drawing, scene, streamlines, style, tracing
 from alewife_post.elements import inside, mirrored
 from alewife_post.periodic import domain_low, images, joined, periods, tiles, trail
 from alewife_post.quantities import speed
@@ -88,9 +88,15 @@ def paint(
     if lines is not None:
         streamlines.draw(axes, lines, view, colour)
     elif look.lines == "streamlines":
-        drawing.draw_streamlines(axes, flow, view, colour, is_mirrored=look.is_mirrored)
+        streamlines.draw(axes, _traced(flow, view, is_mirrored=look.is_mirrored), view, colour)
     elif look.lines == "arrows":
         drawing.draw_arrows(axes, flow, view, colour)
+
+
+def _traced(flow: list[Field], view: View, *, is_mirrored: bool) -> Streamlines:
+    grid = tracing.Grid.of(*drawing.on_grid(flow, view, 240))
+    mirror = tracing.Mirror(1, 0.0, 1.0) if is_mirrored and view[2] < 0.0 < view[3] else None
+    return tracing.traced(grid, view, [], mirror)
 
 
 def fitted_lines(run: Run, field: Field, view: View, look: Look) -> Streamlines | None:

@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from alewife_post import camera as view
-from alewife_post import isosurfaces, planes, scene, space, style, surfaces
+from alewife_post import isosurfaces, planes, scene, style, surfaces
 from alewife_post.cast import Cast
+from alewife_post.cuts import Cut, samples, whole_slice
 from alewife_post.film import Moment, Request, field_at, limits_of, offsets, thinned, time_stamp
 from alewife_post.page import Page
-from alewife_post.periodic import domain_box, periods
-from alewife_post.periodic import images as images_of
+from alewife_post.periodic import domain_box
 from alewife_post.read import Field, Run
 from alewife_post.units import unit_of
 
@@ -80,9 +80,9 @@ def _pages(run: Run, moments: list[Moment], request: Request, finer: int) -> Ite
         }
     elif parts is not None:
         colour_map, limits = limits_of(
-            request.quantity, [thinned(*_samples(part)) for part in parts if part.n_cells]
+            request.quantity, [thinned(*samples(part)) for part in parts if part.n_cells]
         )
-        every = np.concatenate([_samples(part)[0] for part in parts if part.n_cells])
+        every = np.concatenate([samples(part)[0] for part in parts if part.n_cells])
         alpha = 1.0 if request.surface else SLICE_OPACITY
         bar = (colour_map, limits, every, style.label(request.quantity, units), alpha)
         look = {"scalars": "values", "cmap": colour_map, "clim": limits, "show_scalar_bar": False}
@@ -121,30 +121,6 @@ def _pages(run: Run, moments: list[Moment], request: Request, finer: int) -> Ite
 
 
 # ---- The flow ------------------------------------------------------------------------------------
-
-
-@dataclass(frozen=True)
-class Cut:
-    """A slice that a film shows, less where the view has moved to."""
-
-    plane: planes.Plane
-    low: Array
-    """Least coordinates in the plane, `(2,)`."""
-    high: Array
-    moves: bool
-    """Whether it goes with the view."""
-
-    def at(self, offset: Array, *, with_view: bool = False) -> Cut:
-        """The same where the view has moved to; all of it `with_view`, even if it stands still."""
-        if self.moves or with_view:
-            return replace(self, plane=replace(self.plane, origin=self.plane.origin + offset))
-        shift = self.plane.across @ offset
-        return replace(self, low=self.low + shift, high=self.high + shift)
-
-    def corners(self) -> Array:
-        """`(4, 3)`."""
-        pairs = [(x, y) for x in (self.low[0], self.high[0]) for y in (self.low[1], self.high[1])]
-        return self.plane.points(np.array(pairs))
 
 
 def _cut(run: Run, moments: list[Moment], request: Request, seen: view.Seen, moved: Array) -> Cut:
@@ -210,50 +186,6 @@ def _isosurfaces(
         raise ValueError(f"no surface of {quantity} {level:g} is in view")
     unit = unit_of(quantity, run.case.get("units", ""))
     return found, f"{quantity} {level:.3g}" + (f" {unit}" if unit else "")
-
-
-def whole_slice(case: dict[str, Any], field: Field, cut: Cut, quantity: str) -> pyvista.PolyData:
-    """A slice that goes on beyond the mesh of a periodic domain."""
-    if not periods(case).any():
-        return slice_of(field, cut, quantity)
-    import pyvista
-
-    mesh = (field.nodes.min(axis=0), field.nodes.max(axis=0))
-    found = []
-    for shift in images_of(case, *mesh, domain_box(case)):
-        part = slice_of(field, cut.at(-shift, with_view=True), quantity)
-        if part.n_cells:
-            found.append(part.translate(shift))
-    return pyvista.merge(found) if found else pyvista.PolyData()
-
-
-def slice_of(field: Field, cut: Cut, quantity: str) -> pyvista.PolyData:
-    """The part of a plane that is cut out, with nodal `values`."""
-    import pyvista
-
-    plane = cut.plane
-    height = (field.nodes - plane.origin) @ plane.normal
-    own = plane.coordinates(field.nodes)[field.cells]
-    heights = height[field.cells]
-    near = (heights.min(axis=1) <= 0) & (heights.max(axis=1) >= 0)
-    near &= (own.max(axis=1) >= cut.low).all(axis=1) & (own.min(axis=1) <= cut.high).all(axis=1)
-    if not near.any():
-        return pyvista.PolyData()
-    grid = space.pieces(field, near, surfaces.nodal_values(field, quantity))
-    found = grid.slice(normal=plane.normal, origin=plane.origin)
-    for along, (low, high) in zip(plane.across, zip(cut.low, cut.high, strict=True), strict=True):
-        for end, outwards in ((low, -along), (high, along)):
-            if found.n_cells:
-                found = found.clip(normal=outwards, origin=plane.origin + end * along)
-    return found
-
-
-def _samples(part: pyvista.PolyData) -> tuple[Array, Array]:
-    """Values at cells of a surface and the areas they hold."""
-    sized = part.compute_cell_sizes(length=False, volume=False)
-    values = sized.point_data_to_cell_data().cell_data["values"]
-    areas = np.asarray(sized.cell_data["Area"])
-    return np.asarray(values), areas + 1e-300
 
 
 # ---- What is seen, and from where ----------------------------------------------------------------

@@ -79,7 +79,7 @@ def streamlines(run: Run, field: Field, view: View, *, mirror: bool) -> Streamli
     lines = [line for piece in shown for line in piece.contours(levels)]
     if is_mirrored:
         lines += [line * [1.0, -1.0] for line in lines]
-    lines = [part for line in lines for part in _within(line, view)]
+    lines = [part for line in lines for part in within(line, view)]
     return with_heads(lines, view)
 
 
@@ -196,7 +196,7 @@ def chosen_levels(shown: list[Piece], view: View, n: int) -> Array:
     return np.array(kept)
 
 
-def _within(line: Array, view: View) -> list[Array]:
+def within(line: Array, view: View) -> list[Array]:
     """The pieces of a line that are in a view, up to its edge."""
     low, high = np.array(view[::2]), np.array(view[1::2])
     seen = ((line >= low) & (line <= high)).all(axis=1)
@@ -213,14 +213,14 @@ def _within(line: Array, view: View) -> list[Array]:
     for start, end in zip(starts, ends, strict=True):
         piece = [line[start : end + 1]]
         if start > 0:
-            piece.insert(0, _at_edge(line[start], line[start - 1], low, high))
+            piece.insert(0, at_edge(line[start], line[start - 1], low, high))
         if end + 1 < len(line):
-            piece.append(_at_edge(line[end], line[end + 1], low, high))
+            piece.append(at_edge(line[end], line[end + 1], low, high))
         pieces.append(np.concatenate(piece))
     return [piece for piece in pieces if len(piece) > 1]
 
 
-def _at_edge(inner: Array, outer: Array, low: Array, high: Array) -> Array:
+def at_edge(inner: Array, outer: Array, low: Array, high: Array) -> Array:
     """Where the way from a point in view to one beyond it meets the edge, `(1, 2)`."""
     step = outer - inner
     room = np.where(step > 0, high - inner, low - inner)

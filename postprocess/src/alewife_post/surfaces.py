@@ -43,6 +43,18 @@ def bodies_surface(run: Run, field: Field, quantity: str):  # noqa: ANN201  (loa
     return kept
 
 
+def sides_surface(run: Run, field: Field):  # noqa: ANN201  (loads VTK)
+    """The sides of the domain, but for those where a periodic mesh is cut open."""
+    faces = boundary_faces(field)
+    is_side = on_sides(run, field, faces)
+    if is_side is None:
+        return outer_surface(field)
+    lengths = periods(run.case)
+    if lengths.any():
+        is_side &= ~is_joined(field.nodes, lengths)[faces].all(axis=1)
+    return _surface(field, "speed", faces[is_side])
+
+
 def _surface(field: Field, quantity: str, faces: Array):  # noqa: ANN202  (loads VTK)
     """Curved faces `(n, 6)` as flat triangles, with nodal `values`."""
     import pyvista
