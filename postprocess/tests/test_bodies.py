@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from conftest import ring, velocity
 
-from alewife_post import Run, bodies, periodic, planes
+from alewife_post import Run, bodies, periodic, planes, ways
 from alewife_post.read import BodyHistory, Field, Shape, Solid
 
 STILL = np.array([0.0, 0.0, 0.0, 1.0])
@@ -92,7 +92,7 @@ def test_a_swimmer_points_along_its_way_from_before_its_front() -> None:
     (arrow,) = bodies.headings(run, bodies.poses(run, 1.0))
     np.testing.assert_allclose(arrow.vector, 1.6 * axis)
     # The front of the first sphere is at 8 + 1
-    assert arrow.start @ axis == pytest.approx(9.4)
+    assert arrow.start @ axis == pytest.approx(9.0)
     # One that came back points nowhere
     for own in run.bodies.values():
         own.center[1] = own.center[0]
@@ -108,6 +108,34 @@ def test_a_squirmer_points_along_its_heading_as_it_is_turned() -> None:
     np.testing.assert_allclose(arrow.vector, [-2.2, 0.0, 0.0], atol=1e-14)
     np.testing.assert_allclose(arrow.start, [4.1, 4.0, 0.0], atol=1e-14)
     assert arrow.is_inside
+
+
+def test_arrows_are_as_long_as_a_view_needs() -> None:
+    before = bodies.Heading(np.array([1.0, 0.0, 0.0]), np.array([0.0, 0.01, 0.0]), False)
+    for extent in (0.1, 50.0):
+        shown = bodies.fitted(before, extent)
+        np.testing.assert_allclose(shown.vector, [0.0, bodies.ARROW * extent, 0.0])
+        np.testing.assert_array_equal(shown.start, before.start)
+    # One in a body keeps its middle, and never grows
+    within = bodies.Heading(np.array([-0.5, 1.0, 0.0]), np.array([1.0, 0.0, 0.0]), True)
+    shown = bodies.fitted(within, 2.0)
+    np.testing.assert_allclose(shown.vector, [2.0 * bodies.LONGEST_INSIDE, 0.0, 0.0])
+    np.testing.assert_allclose(shown.start + 0.5 * shown.vector, [0.0, 1.0, 0.0])
+    np.testing.assert_allclose(bodies.fitted(within, 100.0).vector, within.vector)
+
+
+def test_a_swimmer_leaves_the_way_of_its_middle() -> None:
+    axis = np.array([0.48, 0.6, 0.64])
+    run = linked(axis)
+    ((times, way),) = ways.trails(run)
+    own = [run.bodies[name].center for name in ("s-1", "s-2", "s-3")]
+    np.testing.assert_allclose(way, np.mean(own, axis=0))
+    np.testing.assert_array_equal(times, run.bodies["s-1"].time)
+    # Arms that only go to and fro leave none
+    run.bodies["s-1"].center[1] = run.bodies["s-1"].center[0] + 2.0 * axis
+    run.bodies["s-2"].center[1] = run.bodies["s-2"].center[0] - 2.0 * axis
+    run.bodies["s-3"].center[1] = run.bodies["s-3"].center[0]
+    assert ways.trails(run) == []
 
 
 def test_copies_of_swimmers_are_told_apart_by_number() -> None:
@@ -240,3 +268,10 @@ def test_a_plane_through_an_oblique_swimmer_has_it_along_its_first_coordinate() 
 def test_what_is_no_plane_is_refused(text: str) -> None:
     with pytest.raises(ValueError, match="is not a plane"):
         planes.parsed(text)
+
+
+def test_a_plane_through_bodies_has_a_plain_height() -> None:
+    case = {"body": [{"name": "a", "shape": {"sphere": {"radius": 1.0}}}]}
+    for height, text in ((-2.3e-7, "z = 0"), (1.5412, "z = 1.54")):
+        run = made(case, {"a": history(at([0, 0, height]))}, {})
+        assert planes.through_bodies(run, np.zeros(1), np.zeros(3)).text == text

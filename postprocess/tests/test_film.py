@@ -5,6 +5,7 @@ from __future__ import annotations
 import shutil
 from pathlib import Path
 
+import matplotlib
 import numpy as np
 import pytest
 from conftest import CAN_RENDER, TIMES, ring, write_vtu
@@ -110,6 +111,22 @@ def test_a_gif_has_colours_its_first_frame_lacks(tmp_path: Path) -> None:
     image = np.asarray(shown.convert("RGB"))
     assert colour_at(image[30:34], style.TRAIL, 12).all()
     assert np.abs(image[:28].astype(int) - first[:28]).max() <= 12
+
+
+def test_a_gif_that_begins_at_rest_has_all_shades_of_its_bar(tmp_path: Path) -> None:
+    # One colour and a narrow bar; then all the colours of the bar
+    shades = np.linspace(0, 1, 400)
+    colours = (255 * matplotlib.colormaps["RdBu_r"](shades)[:, :3]).astype(np.uint8)
+    first = np.full((400, 640, 3), colours[200], np.uint8)
+    first[:, -20:-8] = colours[:, None]
+    second = first.copy()
+    second[:, :600] = np.tile(colours[:, None], (1, 600, 1))
+    out = tmp_path / "film.gif"
+    movie.write(out, iter([first, second]), 10.0)
+    shown = Image.open(out)
+    shown.seek(1)
+    image = np.asarray(shown.convert("RGB"))
+    assert np.abs(image.astype(int) - second).max() <= 6
 
 
 def test_a_film_that_fails_leaves_nothing_behind(tmp_path: Path) -> None:

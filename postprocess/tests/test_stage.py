@@ -374,7 +374,7 @@ def test_bodies_that_cross_a_periodic_side_have_their_arrows_with_them(run: Run)
     history = other.bodies["ball"]
     far = replace(history, center=history.center + np.array([30.0, 0.0, 0.0]))
     other.__dict__["_bodies_and_shapes"] = ({"ball": far}, other.shapes)
-    ((arrow, _),) = space.motion(other, 0.0)
+    ((arrow, _),) = space.motion(other, 0.0, 10.0)
     assert np.asarray(arrow.points)[:, 0].min() == pytest.approx(1.5, abs=1e-3)
 
 

@@ -292,3 +292,11 @@ def test_a_contour_goes_on_from_cell_to_cell() -> None:
     assert line[0, 0] == pytest.approx(0.0, abs=1e-12)
     assert line[-1, 0] == pytest.approx(3.0)
     np.testing.assert_allclose(line[:, 1], 0.37, atol=2e-3)
+
+
+def test_of_heads_side_by_side_one_stays() -> None:
+    heads = np.array([[1.0, 1.0], [1.02, 1.0], [-1.0, 1.0], [-1.02, 1.01], [1.0, 1.04], [1.2, 1.0]])
+    kept = streamlines._apart(heads, np.zeros(2), 0.15)
+    away = np.linalg.norm(heads[kept][:, None] - heads[kept][None], axis=2)
+    assert (away + np.eye(len(kept)) > 0.15).all()
+    assert sorted(kept) == [0, 2, 5]

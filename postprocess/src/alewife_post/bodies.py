@@ -18,6 +18,11 @@ Pose = tuple[Array, Array]
 DEFORMING = ("carangiform", "anguilliform", "flagellum", "joints", "pulsating")
 """Gaits by which a body changes its shape."""
 
+ARROW = 0.07
+"""Length of an arrow before a body over the longer side of a view."""
+LONGEST_INSIDE = 0.15
+"""That of one in a body, at most."""
+
 
 def rotation_matrix(quaternion: Array) -> Array:
     """The matrix `(3, 3)` of a quaternion x, y, z, w."""
@@ -288,6 +293,18 @@ class Heading:
     """Whether it lies in a body rather than before it."""
 
 
+def fitted(heading: Heading, extent: float) -> Heading:
+    """The same arrow of a length that is seen, and fills nothing, where so much is in view."""
+    length = float(np.linalg.norm(heading.vector))
+    wanted = ARROW * extent
+    if heading.is_inside:
+        # No longer than the body has room for, about the same place
+        wanted = min(length, LONGEST_INSIDE * extent)
+    vector = heading.vector * (wanted / (length or 1.0))
+    start = heading.start + (0.5 * (heading.vector - vector) if heading.is_inside else 0.0)
+    return Heading(start, vector, heading.is_inside)
+
+
 def headings(run: Run, placed: dict[str, Pose]) -> list[Heading]:
     """Arrows of squirmers, which have a heading, and of swimmers of several bodies.
 
@@ -314,7 +331,7 @@ def headings(run: Run, placed: dict[str, Pose]) -> list[Heading]:
             reach = max(
                 float((placed[name][0] - middle) @ along) + radius(run, name) for name in members
             )
-            found.append(Heading(middle + (reach + 0.4 * size) * along, 1.6 * size * along, False))
+            found.append(Heading(middle + reach * along, 1.6 * size * along, False))
     return found
 
 

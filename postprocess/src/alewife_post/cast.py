@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from alewife_post import bodies, space, style, surfaces
+from alewife_post import bodies, space, style, surfaces, ways
 from alewife_post.film import Moment, Request, group_colours
 from alewife_post.periodic import domain_box, images, trail
 from alewife_post.read import Run, Shape, Solid, read_field
@@ -44,9 +44,18 @@ class Cast:
         return known[1:]
 
     def play(
-        self, plotter: pyvista.Plotter, moment: Moment, request: Request, *, is_plain: bool
+        self,
+        plotter: pyvista.Plotter,
+        moment: Moment,
+        request: Request,
+        extent: float,
+        *,
+        is_plain: bool,
     ) -> None:
-        """Add all that is known of a moment: without a colour of their own if `is_plain`."""
+        """Add all that is known of a moment: without a colour of their own if `is_plain`.
+
+        `extent` is the length that is in view.
+        """
         placed = bodies.poses(self.run, moment.time)
         moved = self._inside(placed)
         if not request.surface or request.quantity == "bodies":
@@ -57,10 +66,10 @@ class Cast:
                 )
             else:
                 self._add_bodies(plotter, moved, moment.time, is_plain=is_plain)
-        for mesh, colour in space.motion(self.run, moment.time):
+        for mesh, colour in space.motion(self.run, moment.time, extent):
             plotter.add_mesh(mesh, color=colour, render=False, **style.SOLID)
         if request.trails:
-            self._add_trails(plotter, placed, moment.time)
+            self._add_trails(plotter, moment.time)
 
     def _needs_mesh(self, names: list[str], time: float) -> bool:
         """Whether a body has a shape that only the mesh knows."""
@@ -106,16 +115,9 @@ class Cast:
             mesh, scalars="colour", rgb=True, smooth_shading=True, render=False, **style.SOLID
         )
 
-    def _add_trails(
-        self, plotter: pyvista.Plotter, placed: dict[str, bodies.Pose], time: float
-    ) -> None:
-        for name in placed:
-            history = self.run.bodies.get(name)
-            least = 0.05 * bodies.radius(self.run, name)
-            if history is None or np.ptp(history.center, axis=0).max() <= least:
-                continue
-            past = history.center[history.time <= time * (1 + 1e-12)]
-            for points in trail(self.run.case, past):
+    def _add_trails(self, plotter: pyvista.Plotter, time: float) -> None:
+        for times, way in ways.trails(self.run):
+            for points in trail(self.run.case, way[times <= time * (1 + 1e-12)]):
                 if len(points) > 1:
                     plotter.add_mesh(_line(points), color=style.TRAIL, line_width=2.5, render=False)
 

@@ -25,10 +25,12 @@ from alewife_post.snapshot import (
     default_view,
     fitted_lines,
     followed_view,
+    kept_inside,
     nodal_values,
     paint,
     paint_bodies,
     prepared,
+    settled,
     whole_view,
 )
 
@@ -61,7 +63,7 @@ def picture(
     """
     painter = chosen_painter(painter)
     style.use()
-    field = run.field(time)
+    field = settled(run, run.field(time))
     velocity = field.velocity
     if frame is not None:
         velocity = velocity - body_velocity(run, frame, field.time)
@@ -114,8 +116,11 @@ def _seen(run: Run, field: Field, view: View | None, follow: str | None, *, mirr
     x, y, _ = bodies.middle(run, follow, field.time)
     if run.is_axisymmetric:
         y = 0.0
-    x0, x1, y0, y1 = view or followed_view(run, follow, field.time, whole)
-    return x0 + x, x1 + x, y0 + y, y1 + y
+    moved = np.array([x, y])
+    if view is None:
+        view = followed_view(run, follow, field.time, whole)
+        moved = moved + kept_inside(run, view, moved, whole)
+    return tuple(np.array(view) + np.repeat(moved, 2))
 
 
 def body_velocity(run: Run, name: str, time: float) -> Array:

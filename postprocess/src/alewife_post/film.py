@@ -24,6 +24,7 @@ from alewife_post.snapshot import (
     default_view,
     fitted_lines,
     followed_view,
+    kept_inside,
     nodal_values,
     paint,
     paint_bodies,
@@ -37,6 +38,8 @@ QUANTITIES = ("speed", "pressure", "vorticity", "mesh", "bodies")
 FEW_FIELDS = 5
 """Runs with fewer field files are shown by their bodies alone, if they move."""
 MOST_FRAMES = 300
+FINER = 2
+"""Pixels of the flow in the plane over those of the page, from left to right."""
 SAMPLES = 20_000
 """Values kept of each frame for the limits of colours."""
 
@@ -241,10 +244,10 @@ def _planar_images(run: Run, moments: list[Moment], request: Request) -> Iterato
     moved = offsets(run, request.follow, moments)[:, :2]
     if run.is_axisymmetric:
         moved[:, 1] = 0.0
-    view = np.array(request.view or _planar_view(run, moments, request, moved))
+    view, back = _planar_views(run, moments, request, moved)
 
     def seen(nth: int) -> View:
-        return tuple(view + np.repeat(moved[nth], 2))
+        return tuple(view + np.repeat(moved[nth] + back[nth], 2))
 
     bar, look = None, None
     if request.quantity != "bodies":
@@ -264,18 +267,19 @@ def _planar_images(run: Run, moments: list[Moment], request: Request) -> Iterato
         )
     page = Page(request.size, run.case["title"], (view[1] - view[0]) / (view[3] - view[2]), bar)
     if look is not None:
-        look = replace(look, width=page.pixels[0])
+        # Finer than the page: edges of the flow are those of bodies.
+        look = replace(look, width=FINER * page.pixels[0])
     _label(page, run, request)
     step = max(1, len(moments) // 20)
     placed = [
-        bodies.landmarks(run, moments[nth].time)[:, :2] - moved[nth]
+        bodies.landmarks(run, moments[nth].time)[:, :2] - moved[nth] - back[nth]
         for nth in range(0, len(moments), step)
     ]
     drawing.draw_scale_bar(page.axes, tuple(view), units, np.concatenate(placed))
     for nth, moment in enumerate(moments):
         page.clear()
         _paint_moment(page.axes, run, moment, seen(nth), (request, look))
-        _place(page.axes, view, moved[nth])
+        _place(page.axes, view + np.repeat(back[nth], 2), moved[nth])
         yield page.image(time_stamp(run, moment.time))
 
 
@@ -305,26 +309,48 @@ def _paint_moment(
         paint(axes, prepared(run, field, view, mirror=request.mirror), view, look, lines)
 
 
-def _planar_view(run: Run, moments: list[Moment], request: Request, moved: Array) -> View:
-    """One view for all frames, relative to what is followed."""
+def _planar_views(
+    run: Run, moments: list[Moment], request: Request, moved: Array
+) -> tuple[Array, Array]:
+    """A view `(4,)` for all frames, relative to what is followed, and how far back each stands.
+
+    The latter `(n, 2)` is zero but where the followed one is near the end of the domain.
+    """
+    back = np.zeros((len(moments), 2))
+    if request.view is not None:
+        return np.array(request.view), back
     times = np.array([moment.time for moment in moments])
-    field = field_at(moments[0])
-    if field is None:
-        whole = drawing.domain_view(run.case)
-        if whole is None:
-            around = bodies.surroundings(run, times)
-            low, high = around[0][:2], around[1][:2]
-            reach = 0.5 * (high - low).max()
-            whole = (low[0] - reach, high[0] + reach, low[1] - reach, high[1] + reach)
-    else:
-        whole = whole_view(run, field, mirror=request.mirror)
+    whole = _whole(run, moments, request)
     if request.follow is None:
-        return default_view(run, whole, times)
+        return np.array(default_view(run, whole, times)), back
     if request.is_asked:
-        return followed_view(run, request.follow, moments[0].time, whole)
-    # The view goes with the frame of the run: all bodies as they are around it at first.
-    first = default_view(run, whole, times[:1])
-    return tuple(np.array(first) - np.repeat(moved[0], 2))
+        view = np.array(followed_view(run, request.follow, moments[0].time, whole))
+    else:
+        # The view goes with the frame of the run: all bodies as they are around it at first.
+        view = np.array(default_view(run, whole, times[:1])) - np.repeat(moved[0], 2)
+    frame = run.case.get("frame")
+    goes = np.zeros((len(moments), 2))
+    if isinstance(frame, str) and (frame in bodies.groups(run) or frame in run.bodies):
+        # The domain travels.
+        goes = offsets(run, frame, moments)[:, :2]
+    for nth, at in enumerate(moved):
+        there = tuple(np.array(whole) + np.repeat(goes[nth] - goes[0], 2))
+        back[nth] = kept_inside(run, tuple(view), at, there)
+    return view, back
+
+
+def _whole(run: Run, moments: list[Moment], request: Request) -> View:
+    """All of the domain at the first frame; of a mesh unread what is around the bodies."""
+    field = field_at(moments[0])
+    if field is not None:
+        return whole_view(run, field, mirror=request.mirror)
+    whole = drawing.domain_view(run.case)
+    if whole is None:
+        around = bodies.surroundings(run, np.array([moment.time for moment in moments]))
+        low, high = around[0][:2], around[1][:2]
+        reach = 0.5 * (high - low).max()
+        whole = (low[0] - reach, high[0] + reach, low[1] - reach, high[1] + reach)
+    return whole
 
 
 def _label(page: Page, run: Run, request: Request) -> None:

@@ -69,13 +69,31 @@ LATER = (style.TRAIL, style.ARROW, style.ROD, style.BODY, *style.SERIES)
 """Colours a film may need though its first frame has none of them."""
 
 
+COMMON = 32
+"""A colour that more pixels have than these weighs no more in a palette."""
+REFINEMENTS = 3
+"""Passes of k-means over a palette."""
+
+
+def _colours_of(image: Array) -> Array:
+    """An image `(1, n, 3)` of the colours of another.
+
+    One that is at rest at first has little but its bar in colours that all later ones are full of.
+    """
+    found, counts = np.unique(image.reshape(-1, 3), axis=0, return_counts=True)
+    return np.repeat(found, np.minimum(counts, COMMON), axis=0)[None]
+
+
 def _write_gif(out: Path, images: Iterator[Array], fps: float) -> int:
     from PIL import Image
 
-    first = Image.fromarray(next(images))
+    start = next(images)
+    first = Image.fromarray(start)
     # Colours of the first frame for all: those of each frame would flicker.
     n_own = 255 - len(LATER)
-    palette = first.quantize(n_own, method=Image.Quantize.MEDIANCUT)
+    palette = Image.fromarray(_colours_of(start)).quantize(
+        n_own, method=Image.Quantize.MEDIANCUT, kmeans=REFINEMENTS
+    )
     # White stays white: what is nearest in a palette is found roughly.
     table = np.array(palette.getpalette(), dtype=int).reshape(-1, 3)[:n_own]
     table[(table >= 244).all(axis=1)] = 255

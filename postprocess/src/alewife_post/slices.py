@@ -17,7 +17,7 @@ from alewife_post.figure import body_velocity, colour_bar
 from alewife_post.periodic import domain_box, periods
 from alewife_post.planes import Plane, parsed, through_bodies
 from alewife_post.read import Field, Run
-from alewife_post.snapshot import Painter, chosen_painter
+from alewife_post.snapshot import Painter, chosen_painter, settled
 
 if TYPE_CHECKING:
     import pyvista
@@ -30,6 +30,8 @@ IMAGE_WIDTH = 1600
 """Pixels of a slice from left to right."""
 POINTS = 300
 """Points on the longer side of a slice at which lines know the velocity."""
+BESIDE = 0.01
+"""Space beyond curved sides over the size of the domain."""
 NEAR = 1.0
 """Space shown around bodies over the diameter of the largest one."""
 
@@ -53,7 +55,7 @@ def slice_picture(
     """
     painter = chosen_painter(painter)
     style.use()
-    field = run.field(time)
+    field = settled(run, run.field(time))
     if frame is not None:
         moved = field.velocity - body_velocity(run, frame, field.time)
         field = replace(field, velocity=moved)
@@ -173,7 +175,9 @@ def _draw_motion(
         for shift in space.shifts(run, points, region):
             if is_near(points + shift):
                 drawing.draw_rod(axes, plane.coordinates(points + shift), zorder=2.5)
-    for arrow in bodies.headings(run, placed):
+    extent = float(np.ptp(plane.coordinates(np.array(region)), axis=0).max())
+    for known in bodies.headings(run, placed):
+        arrow = bodies.fitted(known, extent)
         ends = np.array([arrow.start, arrow.start + arrow.vector])
         for shift in space.shifts(run, ends, region):
             if is_near(ends + shift):
@@ -206,6 +210,10 @@ def _surroundings(run: Run, field: Field, plane: Plane) -> View:
         (x0, y0), (x1, y1) = places.min(axis=0), places.max(axis=0)
         return (x0, x1, y0, y1)
     low, high = places.min(axis=0), places.max(axis=0)
+    if "box" not in run.case["domain"]:
+        # Sides that are not along the edges of the picture have room before these.
+        room = BESIDE * np.ptp(places, axis=0).max()
+        low, high = low - room, high + room
     faces = surfaces.boundary_faces(field)
     is_side = surfaces.on_sides(run, field, faces)
     if is_side is not None:

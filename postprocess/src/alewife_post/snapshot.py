@@ -9,7 +9,7 @@ from typing import Literal
 import numpy as np
 from matplotlib.axes import Axes
 
-from alewife_post import bodies, drawing, scene, streamlines, style, tracing
+from alewife_post import bodies, drawing, scene, streamlines, style, tracing, ways
 from alewife_post.elements import inside, mirrored
 from alewife_post.periodic import domain_low, images, joined, periods, tiles, trail
 from alewife_post.quantities import speed
@@ -27,6 +27,8 @@ LONGEST_STRIP = 8.0
 """A domain longer than this many widths is shown near its bodies only: whole, it is a line."""
 FOLLOWED = 4.0
 """Half the height of a view over the reach of the body it follows."""
+AT_REST = 1e-9
+"""Largest speed over that of the fastest body at any time at which nothing flows any more."""
 NEAR_SWIMMER = 0.5
 """Space left around swimmers over what they take themselves."""
 
@@ -146,23 +148,30 @@ def paint_bodies(
             elif field is None:
                 axes.plot(*pose[0][:2], "o", ms=4.0, color=colour(name), zorder=0)
     if trails:
-        for name, history in run.bodies.items():
-            if np.ptp(history.center, axis=0).max() > 0.05 * bodies.radius(run, name):
-                past = history.center[history.time <= time * (1 + 1e-12)]
-                drawing.draw_trail(
-                    axes,
-                    [
-                        piece + shift
-                        for piece in trail(run.case, past)
-                        for shift in images(run.case, piece.min(axis=0), piece.max(axis=0), region)
-                    ],
-                )
-    for arrow in bodies.headings(run, placed):
+        for times, way in ways.trails(run):
+            drawing.draw_trail(
+                axes,
+                [
+                    piece + shift
+                    for piece in trail(run.case, way[times <= time * (1 + 1e-12)])
+                    for shift in images(run.case, piece.min(axis=0), piece.max(axis=0), region)
+                ],
+            )
+    for known in bodies.headings(run, placed):
+        arrow = bodies.fitted(known, max(view[1] - view[0], view[3] - view[2]))
         for shift in images(run.case, arrow.start, arrow.start, region):
             drawing.draw_heading(axes, replace(arrow, start=arrow.start + shift))
     for points in bodies.rods(run, placed, time):
         for shift in images(run.case, points.min(axis=0), points.max(axis=0), region):
             drawing.draw_rod(axes, points + shift)
+
+
+def settled(run: Run, field: Field) -> Field:
+    """The flow, without what rounding leaves of it where all has come to rest."""
+    largest = speed(field.velocity).max()
+    if largest > AT_REST * ways.fastest(run):
+        return field
+    return replace(field, velocity=0.0 * field.velocity)
 
 
 def nodal_values(field: Field, quantity: str) -> Array:
@@ -219,3 +228,13 @@ def followed_view(run: Run, name: str, time: float, whole: View) -> View:
     half = 0.5 * (np.array(whole[1::2]) - np.array(whole[::2]))
     x, y = np.minimum(FOLLOWED * around * np.array([1.33, 1.0]), half)
     return float(-x), float(x), float(-y), float(y)
+
+
+def kept_inside(run: Run, view: View, moved: Array, whole: View) -> Array:
+    """How far a view that has `moved` `(2,)` stands back `(2,)`, to show nothing but the domain.
+
+    A periodic domain has no end.
+    """
+    low, high = np.array(whole[::2]) - view[::2], np.array(whole[1::2]) - view[1::2]
+    is_free = (periods(run.case)[:2] > 0) | (low > high)
+    return np.where(is_free, 0.0, np.clip(moved, low, np.maximum(low, high)) - moved)

@@ -20,6 +20,8 @@ Array = np.ndarray
 Camera = tuple[float, float]
 
 IMAGE_SIZE = (1600, 1200)
+BELOW = 0.09
+"""Room for the scale of lengths over the longer side of a picture of bodies."""
 
 
 def surface_picture(
@@ -41,15 +43,19 @@ def surface_picture(
     sized = surface.compute_cell_sizes(length=False, volume=False)
     values = np.asarray(sized.point_data_to_cell_data().cell_data["values"])
     colour_map, limits = style.colours(quantity, values, np.asarray(sized.cell_data["Area"]))
+    extent = float(np.ptp(np.asarray(surface.points), axis=0).max())
     image, pixel = scene.render_surface(
-        (surface, motion(run, field.time)), IMAGE_SIZE, camera, colour_map, limits
+        (surface, motion(run, field.time, extent)), IMAGE_SIZE, camera, colour_map, limits
     )
     figure = Figure(figsize=(7.2, 5.0), layout="compressed")
     axes = figure.add_subplot()
-    extent = (0.0, pixel * image.shape[1], 0.0, pixel * image.shape[0])
-    axes.imshow(image, extent=extent)
+    width, height = pixel * image.shape[1], pixel * image.shape[0]
+    axes.imshow(image, extent=(0.0, width, 0.0, height))
     axes.set_axis_off()
-    drawing.draw_scale_bar(axes, extent, run.case.get("units", ""))
+    # The scale lies below, not on what is shown.
+    below = BELOW * max(width, height)
+    axes.set_ylim(-below, height)
+    drawing.draw_scale_bar(axes, (0.0, width, -below, height), run.case.get("units", ""))
     axes.set_title(style.fitted(title(run, field), 6.0))
     bar = colour_bar(axes, values, colour_map, limits, is_beside=True)
     bar.set_label(style.label(quantity, run.case.get("units", "")))
@@ -63,8 +69,8 @@ def title(run: Run, field: Field) -> str:
     return run.case["title"] + (f", {style.time_text(field.time, units)}" if is_unsteady else "")
 
 
-def motion(run: Run, time: float) -> list[tuple[Any, str]]:
-    """What joins bodies and where they swim to, as surfaces with a colour."""
+def motion(run: Run, time: float, extent: float) -> list[tuple[Any, str]]:
+    """What joins bodies and where they swim to, as surfaces with a colour, in a view so long."""
     import pyvista
 
     placed = bodies.poses(run, time)
@@ -82,7 +88,8 @@ def motion(run: Run, time: float) -> list[tuple[Any, str]]:
         for rod in bodies.rods(run, placed, time)
         for points in _inside(run, rod)
     ]
-    for arrow in bodies.headings(run, placed):
+    for known in bodies.headings(run, placed):
+        arrow = bodies.fitted(known, extent)
         length = float(np.linalg.norm(arrow.vector))
         for (start,) in _inside(run, arrow.start[None]):
             mesh = pyvista.Arrow(

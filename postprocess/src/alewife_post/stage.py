@@ -100,6 +100,7 @@ def _pages(run: Run, moments: list[Moment], request: Request, finer: int) -> Ite
     plotter.enable_anti_aliasing("ssaa")
     walls = _walls(run, moments, is_whole=seen.is_whole)
     cast = Cast(run)
+    extent = 2.0 * camera.scale * max(1.0, page.pixels[0] / page.pixels[1])
     try:
         for nth, moment in enumerate(moments):
             plotter.clear_actors()
@@ -108,7 +109,7 @@ def _pages(run: Run, moments: list[Moment], request: Request, finer: int) -> Ite
             if parts is not None and parts[nth].n_cells:
                 part = _smooth(parts[nth]) if request.surface else parts[nth]
                 plotter.add_mesh(part, render=False, **look)
-            cast.play(plotter, moment, request, is_plain=bar is not None)
+            cast.play(plotter, moment, request, extent, is_plain=bar is not None)
             camera.applied(plotter, moved[nth])
             plotter.render()
             image = plotter.screenshot(return_img=True)

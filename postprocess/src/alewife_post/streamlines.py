@@ -266,10 +266,21 @@ def _apart(heads: Array, middle: Array, least: float) -> Array:
     while len(left):
         is_image = np.linalg.norm(folded[left] - folded[left[0]], axis=1) < SAME * least
         own, left = left[is_image], left[~is_image]
+        # Those of lines side by side are no images: one of them stays.
+        own = _thinned(own, heads, SAME * least)
         away = np.linalg.norm(heads[own][:, None] - heads[kept][None], axis=2)
         if (away > least).all():
             kept = np.append(kept, own)
     return kept
+
+
+def _thinned(numbers: Array, heads: Array, least: float) -> Array:
+    """Numbers of heads, less those that are near one before them."""
+    kept: list[int] = []
+    for number in numbers:
+        if all(np.linalg.norm(heads[number] - heads[one]) > least for one in kept):
+            kept.append(number)
+    return np.array(kept, dtype=int)
 
 
 def _places(line: Array, at: Array, middle: Array, spacing: float) -> Array:

@@ -105,7 +105,7 @@ def fitted(text: str, inches: float) -> str:
     """A title in as many lines as it needs on a picture so wide."""
     # Only at plain spaces: a time stays in one piece.
     kept = re.sub(
-        r"t = [^\s,]+( [^\s,]+(?=,|$))?", lambda found: found[0].replace(" ", "\u00a0"), text
+        r"\b[txyz] = [^\s,]+( [^\s,]+(?=,|$))?", lambda found: found[0].replace(" ", "\u00a0"), text
     )
     lines = textwrap.wrap(kept, max(24, int(LETTERS * inches)))
     return "\n".join(lines).replace("\u00a0", " ")
@@ -132,7 +132,7 @@ TAIL = {"speed": 0.1, "pressure": 0.3}
 """Per cent of the area whose values may lie beyond a limit, on each side."""
 
 
-BEYOND = 35.0
+BEYOND = 25.0
 """Per cent of all vorticity, by its magnitude and area, that may lie beyond the limits."""
 
 

@@ -235,7 +235,7 @@ class _Tracer:
         own = np.zeros((0, 2))
         n_most = int(LONGEST * (self.high - self.low).sum() / step)
         # So many steps behind, a line is another one
-        n_behind = int(np.ceil(3.0 * CLOSEST / STEP))
+        n_behind = int(np.ceil(4.0 * CLOSEST / STEP))
         for k in range(n_most):
             after = self._stepped(at, sign * step)
             if after is None:
@@ -255,7 +255,7 @@ class _Tracer:
             if k % n_behind == 0:
                 own = np.array(points[:-n_behind]).reshape(-1, 2)
             # A spiral ends, but a ring may come home
-            if away > CLOSEST * self.spacing and _is_near(after, own, 0.5 * CLOSEST * self.spacing):
+            if away > least and _is_near(after, own, least):
                 break
             points.append(after)
             at = after
