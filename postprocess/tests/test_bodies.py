@@ -115,12 +115,12 @@ def test_arrows_are_as_long_as_a_view_needs() -> None:
     for extent in (0.1, 50.0):
         shown = bodies.fitted(before, extent)
         np.testing.assert_allclose(shown.vector, [0.0, bodies.ARROW * extent, 0.0])
-        np.testing.assert_array_equal(shown.start, before.start)
+        np.testing.assert_allclose(shown.start, before.start + bodies.CLEAR * shown.vector)
     # One in a body keeps its middle, and never grows
     within = bodies.Heading(np.array([-0.5, 1.0, 0.0]), np.array([1.0, 0.0, 0.0]), True)
     shown = bodies.fitted(within, 2.0)
     np.testing.assert_allclose(shown.vector, [2.0 * bodies.LONGEST_INSIDE, 0.0, 0.0])
-    np.testing.assert_allclose(shown.start + 0.5 * shown.vector, [0.0, 1.0, 0.0])
+    np.testing.assert_allclose(shown.start + 0.5 * shown.vector, [0.0, 1.0, 0.0], atol=1e-14)
     np.testing.assert_allclose(bodies.fitted(within, 100.0).vector, within.vector)
 
 

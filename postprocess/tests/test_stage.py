@@ -14,6 +14,7 @@ from test_film import colour_at, frames_of
 
 from alewife_post import (
     Run,
+    bodies,
     camera,
     cli,
     cuts,
@@ -375,7 +376,8 @@ def test_bodies_that_cross_a_periodic_side_have_their_arrows_with_them(run: Run)
     far = replace(history, center=history.center + np.array([30.0, 0.0, 0.0]))
     other.__dict__["_bodies_and_shapes"] = ({"ball": far}, other.shapes)
     ((arrow, _),) = space.motion(other, 0.0, 10.0)
-    assert np.asarray(arrow.points)[:, 0].min() == pytest.approx(1.5, abs=1e-3)
+    start = 1.5 + bodies.CLEAR * bodies.ARROW * 10.0
+    assert np.asarray(arrow.points)[:, 0].min() == pytest.approx(start, abs=1e-3)
 
 
 @pytest.mark.skipif(not CAN_RENDER, reason="VTK has no window here")

@@ -20,6 +20,8 @@ DEFORMING = ("carangiform", "anguilliform", "flagellum", "joints", "pulsating")
 
 ARROW = 0.07
 """Length of an arrow before a body over the longer side of a view."""
+CLEAR = 0.2
+"""Room before it, over its length."""
 LONGEST_INSIDE = 0.15
 """That of one in a body, at most."""
 
@@ -301,7 +303,9 @@ def fitted(heading: Heading, extent: float) -> Heading:
         # No longer than the body has room for, about the same place
         wanted = min(length, LONGEST_INSIDE * extent)
     vector = heading.vector * (wanted / (length or 1.0))
-    start = heading.start + (0.5 * (heading.vector - vector) if heading.is_inside else 0.0)
+    # One before a body is clear of it.
+    shift = 0.5 * (heading.vector - vector) if heading.is_inside else CLEAR * vector
+    start = heading.start + shift
     return Heading(start, vector, heading.is_inside)
 
 
