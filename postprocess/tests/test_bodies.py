@@ -272,6 +272,6 @@ def test_what_is_no_plane_is_refused(text: str) -> None:
 
 def test_a_plane_through_bodies_has_a_plain_height() -> None:
     case = {"body": [{"name": "a", "shape": {"sphere": {"radius": 1.0}}}]}
-    for height, text in ((-2.3e-7, "z = 0"), (1.5412, "z = 1.54")):
+    for height, text in ((-2.3e-7, "z = 0"), (1.54123, "z = 1.54"), (0.1025, "z = 0.1025")):
         run = made(case, {"a": history(at([0, 0, height]))}, {})
         assert planes.through_bodies(run, np.zeros(1), np.zeros(3)).text == text

@@ -203,13 +203,34 @@ def test_a_run_with_few_fields_is_shown_by_its_bodies(planar_run: Run, tmp_path:
 
 def test_who_is_followed_stays_where_it_is(planar_run: Run, tmp_path: Path) -> None:
     out = tmp_path / "film.mp4"
-    request = film.Request(quantity="bodies", follow="disc", size=SMALL, frames=6, trails=False)
+    request = film.Request(
+        quantity="bodies",
+        follow="disc",
+        size=SMALL,
+        frames=6,
+        trails=False,
+        view=(-1.6, 1.6, -1.2, 1.2),
+    )
     film.film(planar_run, out, request, lambda text: None)
     _, shown = frames_of(out)
     places = [np.argwhere(colour_at(image, style.SERIES[0])) for image in shown]
     for place in places[1:]:
         np.testing.assert_allclose(place.min(axis=0), places[0].min(axis=0), atol=1)
         np.testing.assert_allclose(place.max(axis=0), places[0].max(axis=0), atol=1)
+
+
+def test_a_view_that_follows_stops_at_the_end_of_the_domain(growing: Run) -> None:
+    # The disc goes from 0 to 1 along x; a body half as large has a view half as wide
+    request = film.Request(quantity="speed", follow="disc", is_asked=True)
+    moments = film.chosen_moments(growing, request)
+    moved = 3.0 * film.offsets(growing, "disc", moments)[:, :2]
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(film, "followed_view", lambda *_: (-0.8, 0.8, -0.6, 0.6))
+        view, back = film._planar_views(growing, moments, request, moved)
+    ends = view[1] + moved[:, 0] + back[:, 0]
+    assert ends == pytest.approx(np.minimum(0.8 + moved[:, 0], 2.0))
+    assert (back[:3] == 0.0).all()
+    assert back[-1, 0] == pytest.approx(2.0 - 0.8 - 3.0)
 
 
 @pytest.mark.parametrize("quantity", ["speed", "mesh", "vorticity"])

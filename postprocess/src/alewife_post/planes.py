@@ -85,8 +85,8 @@ def through_bodies(run: Run, times: Array, middle: Array) -> Plane:
 
 
 def _plain(height: float, size: float) -> float:
-    """A height with as few digits as a hundredth of some size has: centres are near it only."""
-    if not size > 0.0:
+    """A height of four digits at most, up to a hundredth of some size: centres are near it only."""
+    if not size > 0.0 or float(f"{height:.4g}") == height:
         return float(height)
     step = 10.0 ** np.floor(np.log10(0.01 * size))
     # Not by a factor of the step, which has rounding of its own; and no minus zero

@@ -29,6 +29,8 @@ FOLLOWED = 4.0
 """Half the height of a view over the reach of the body it follows."""
 AT_REST = 1e-9
 """Largest speed over that of the fastest body at any time at which nothing flows any more."""
+ABOVE_TRAILS = 5.7
+"""Where bodies are drawn once more, so that ways end at them."""
 NEAR_SWIMMER = 0.5
 """Space left around swimmers over what they take themselves."""
 
@@ -145,6 +147,8 @@ def paint_bodies(
             if name not in changing:
                 seen = bodies.shape(run, name, time)
                 drawing.draw_shape(axes, seen, pose, colour(name))
+                if trails:
+                    drawing.draw_shape(axes, seen, pose, colour(name), ABOVE_TRAILS)
             elif field is None:
                 axes.plot(*pose[0][:2], "o", ms=4.0, color=colour(name), zorder=0)
     if trails:
