@@ -141,6 +141,11 @@ def test_a_slice_without_a_window_has_the_same_triangles(run: Run) -> None:
     drawn.canvas.draw()
 
 
+def test_a_side_of_the_domain_can_be_looked_at(run: Run) -> None:
+    drawn = slices.slice_picture(run, plane="z=0", painter="matplotlib")
+    assert drawn.axes[0].get_title().endswith("z = 0")
+
+
 def test_the_sides_of_a_domain_are_outlined(run: Run) -> None:
     plane, region = straight(2, 1.4), (np.zeros(3), np.full(3, 3.0))
     sides = space.side_sections(run, run.field(), plane, region)

@@ -73,6 +73,18 @@ def test_a_slice_has_the_curved_sides_of_its_cells(monkeypatch: pytest.MonkeyPat
     assert between_nodes < 0.99 * exact
 
 
+@pytest.mark.parametrize("end", [0.0, 3.0])
+def test_a_plane_that_the_mesh_ends_at_has_its_flow(end: float) -> None:
+    # As where a flow is symmetric, and computed on one side only
+    field = rounded()
+    cut = cuts.Cut(straight(2, end), np.full(2, -1.0), np.full(2, 4.0))
+    inner = cuts.Cut(straight(2, abs(end - 0.01)), np.full(2, -1.0), np.full(2, 4.0))
+    area = cuts.slice_of(field, inner, "pressure").area
+    assert cuts.slice_of(field, cut, "pressure").area == pytest.approx(area, rel=0.01)
+    # Planes inside stay where they are
+    assert cuts.within(inner.plane, field) is inner.plane
+
+
 def test_a_magnitude_is_nowhere_negative() -> None:
     field = rounded()
     # A quadratic through 0, 0 and 1 at the nodes of an edge goes below zero beyond them

@@ -16,6 +16,8 @@ if TYPE_CHECKING:
 
 Array = np.ndarray
 
+JUST = 1e-6
+"""Distance from the end of a mesh over its size."""
 HALVINGS = 2
 """Of the edges of a cell that is cut: a curved side has four times as many straight pieces."""
 
@@ -44,6 +46,17 @@ class Cut:
         return self.plane.points(np.array(pairs))
 
 
+def within(plane: planes.Plane, field: Field) -> planes.Plane:
+    """A plane that a mesh ends at, just inside of it: one in which faces lie cuts no cells."""
+    heights = (field.nodes - plane.origin) @ plane.normal
+    least = JUST * np.ptp(field.nodes, axis=0).max()
+    if abs(heights.min()) < least:
+        return replace(plane, origin=plane.origin + (least + heights.min()) * plane.normal)
+    if abs(heights.max()) < least:
+        return replace(plane, origin=plane.origin - (least - heights.max()) * plane.normal)
+    return plane
+
+
 def whole_slice(
     case: dict[str, Any],
     field: Field,
@@ -69,7 +82,7 @@ def slice_of(field: Field, cut: Cut, quantity: str) -> pyvista.PolyData:
     """The part of a plane that is cut out, in triangles with `values` at their corners."""
     import pyvista
 
-    plane = cut.plane
+    plane = within(cut.plane, field)
     lowest, highest = tetrahedra.bounds((field.nodes - plane.origin) @ plane.normal, field.cells)
     own_low, own_high = tetrahedra.bounds(plane.coordinates(field.nodes), field.cells)
     near = (lowest <= 0) & (highest >= 0)

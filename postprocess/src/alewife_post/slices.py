@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from matplotlib.tri import Triangulation
 
 from alewife_post import bodies, drawing, scene, space, streamlines, style, surfaces, tracing
-from alewife_post.cuts import Cut, samples, whole_slice
+from alewife_post.cuts import Cut, samples, whole_slice, within
 from alewife_post.figure import body_velocity, colour_bar
 from alewife_post.periodic import domain_box, periods
 from alewife_post.planes import Plane, parsed, through_bodies
@@ -59,7 +59,7 @@ def slice_picture(
     if frame is not None:
         moved = field.velocity - body_velocity(run, frame, field.time)
         field = replace(field, velocity=moved)
-    plane_of = _plane(run, plane, field)
+    plane_of = within(_plane(run, plane, field), field)
     view = view or _surroundings(run, field, plane_of)
     region = _region(plane_of, view)
     cut = Cut(plane_of, np.array(view[::2]), np.array(view[1::2]))
@@ -194,7 +194,7 @@ def _plane(run: Run, text: str | None, field: Field) -> Plane:
     plane = parsed(text)
     axis = int(np.argmax(np.abs(plane.normal)))
     low, high = space.shown_box(run.case, field)
-    if not low[axis] < plane.origin[axis] < high[axis]:
+    if not low[axis] <= plane.origin[axis] <= high[axis]:
         reach = f"{low[axis]:.6g} to {high[axis]:.6g}"
         raise ValueError(f"{plane.text} is outside the domain: {reach}")
     return plane
