@@ -136,3 +136,16 @@ def test_lines_end_at_walls_and_not_before() -> None:
     assert np.isnan(grid.at(edge)).all()
     assert np.isfinite(wide.at(edge)).all(axis=1).tolist() == [True, False]
     np.testing.assert_array_equal(np.isfinite(grid.velocity) & ~np.isfinite(wide.velocity), False)
+
+
+def test_lines_do_not_begin_along_walls() -> None:
+    # A narrow channel: all lines are along it, and none lies as near a wall as half a spacing
+    def channel(points: Array) -> Array:
+        inner = np.abs(points[:, 1]) < 0.6
+        return np.column_stack([np.where(inner, 0.36 - points[:, 1] ** 2, 0.0), 0 * points[:, 0]])
+
+    grid = grid_of(channel)
+    spacing = tracing.SPACING * np.sqrt(grid.area)
+    heights = [line[:, 1] for line in tracing.traced(grid, VIEW, []).lines]
+    assert len(heights) >= 4
+    assert max(np.abs(height).max() for height in heights) < 0.6 - 0.4 * spacing

@@ -194,6 +194,10 @@ class _Tracer:
                 # As if half a distance beyond the line there were one that goes along it
                 gap = np.abs(self.places[:, one.axis] - one.at) + 0.5 * spacing
                 self.away = np.minimum(self.away, gap)
+        # Nor along walls: the layer of points next to the fluid.
+        is_wall = np.isfinite(self.grid.velocity[..., 0]) & ~np.isfinite(grid.velocity[..., 0])
+        rows, columns = np.nonzero(is_wall)
+        self._keep_away(np.column_stack([grid.x[columns], grid.y[rows]]), 0.5 * spacing)
         # Nor does a line come near its own image.
         self.beside = [(one.axis, one.at) for one in mirrors if one.sign > 0]
         self.known = np.zeros((0, 2))
@@ -215,10 +219,15 @@ class _Tracer:
                 continue
             found.append(line)
             self.known = np.vstack([self.known, line])
-            for piece in np.array_split(line, max(1, len(line) // 64)):
-                gap = np.linalg.norm(self.places[:, None] - piece[None], axis=2).min(axis=1)
-                self.away = np.minimum(self.away, gap)
+            self._keep_away(line, 0.0)
         return found
+
+    def _keep_away(self, points: Array, room: float) -> None:
+        """Measure how far places are from points `(n, 2)`, which some room is added to."""
+        for piece in np.array_split(points, max(1, len(points) // 64)):
+            if len(piece):
+                gap = np.linalg.norm(self.places[:, None] - piece[None], axis=2).min(axis=1)
+                self.away = np.minimum(self.away, gap + room)
 
     def _line(self, start: Array) -> Array:
         """The line through a place, the way the fluid goes."""
