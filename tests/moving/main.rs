@@ -5,6 +5,7 @@ mod ale;
 mod bodies;
 mod contact;
 mod remesh;
+mod renumbered;
 mod resume;
 mod sheet;
 mod suspension;

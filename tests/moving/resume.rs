@@ -129,7 +129,7 @@ fn no_step_is_lost_where_a_run_is_stopped() {
         }
         let whole = run(&case);
         for (after, spared) in [(0, 0), (0, 1), (0, 4), (0, 9), (1, 1), (4, 1), (4, 2)] {
-            let stopped = stopped_within_a_step(&case, after, spared);
+            let stopped = stopped_within_a_step::<2>(&case, after, spared);
             let rest = resumed(&case, stopped.state.as_ref().expect("it left a state"))
                 .expect("it goes on");
             assert!(rest.series.times.starts_with(&stopped.times));

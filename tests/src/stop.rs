@@ -78,7 +78,14 @@ where
 /// # Panics
 /// When the run fails before.
 #[must_use]
-pub fn stopped_within_a_step(model: &Model, after: usize, spared: usize) -> Stopped<2> {
+pub fn stopped_within_a_step<const D: usize>(
+    model: &Model,
+    after: usize,
+    spared: usize,
+) -> Stopped<D>
+where
+    Dimension<D>: Solve<D>,
+{
     stop(model, None, after, spared)
 }
 

@@ -2,12 +2,15 @@
 
 use alewife_mesh::Mesh;
 
+use super::constrain::BodiesAt;
 use super::linear_system::LinearSystem;
 use super::numbering::free_velocities;
 use super::preconditioning::saddle_point;
-use super::problem::Problem;
+use super::problem::{Drive, Problem};
+use super::shapes::BodyShapes;
 use super::system::{Configuration, FluidSystem};
 use crate::algebra::{AffineConstraints, Term};
+use crate::body::Pose;
 use crate::flow::Assembly;
 
 impl<const D: usize> FluidSystem<D> {
@@ -27,6 +30,9 @@ impl<const D: usize> FluidSystem<D> {
         if is_free == self.numbering.is_free {
             return;
         }
+        // A run that is stopped before its state moves on goes on from the state of the old numbers
+        let before = self.linear.memory();
+        self.kept_memory.get_or_insert(before);
         let sides = problem.do_nothing_sides();
         let (layout, frame) = (self.layout, self.numbering.frame);
         self.assembly = Assembly::new(mesh, layout, constraints, problem.metric, &sides, frame);
@@ -35,6 +41,32 @@ impl<const D: usize> FluidSystem<D> {
         self.linear = LinearSystem::new(&self.assembly, constraints, saddle_point, choice);
         self.n_unknowns = constraints.n_unknowns();
         self.numbering.is_free = is_free;
+    }
+
+    /// Makes the system one as [`Self::new`] numbers it for bodies at these poses: those that are reached may be
+    /// beyond a diagonal that those the flow was solved for have not passed.
+    pub fn fit_to_poses(&mut self, problem: &Problem<D>, mesh: &Mesh<D>, poses: &[Pose]) {
+        if !problem.has_joints() || self.is_numbered_for(problem, poses) {
+            return;
+        }
+        let shapes = BodyShapes::rigid(problem.bodies.len());
+        let constraints = self.constraints(problem, mesh, BodiesAt { poses, shapes: &shapes });
+        self.fit_to(problem, mesh, &constraints);
+    }
+
+    /// Whether the velocities of bodies on joints that are unknowns are those for bodies at these poses.
+    fn is_numbered_for(&self, problem: &Problem<D>, poses: &[Pose]) -> bool {
+        // Which those are depends on poses only
+        let rows = problem.rigid_rows(poses, 0.0);
+        let is_free = self.numbering.is_free.chunks_exact(self.modes.len());
+        let mut bodies = problem.bodies.iter().zip(rows).zip(is_free).enumerate();
+        bodies.all(|(body, ((rigid, rows), is_free))| {
+            let mut modes = self.modes.iter().zip(is_free);
+            modes.all(|(mode, is_free)| {
+                let is_linked = matches!(rigid.drive(mode), Drive::Linked);
+                !is_linked || rows[mode].is(body, mode) == *is_free
+            })
+        })
     }
 
     /// Adds what Newton's and Euler's equations have of the matrix.

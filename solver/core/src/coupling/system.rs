@@ -22,7 +22,7 @@ use super::rigid_equations::RigidBodyEquations;
 use super::shapes::BodyShapes;
 use super::solution::Solution;
 use super::surface_load::SurfaceStress;
-use crate::algebra::{Accuracy, AffineConstraints, SparseMatrix, Unknowns};
+use crate::algebra::{Accuracy, AffineConstraints, SolverMemory, SparseMatrix, Unknowns};
 use crate::body::{Modes, Pose};
 use crate::flow::{Assembly, Convection, FlowTerms, assemble, residual};
 use crate::space::{DofLayout, FacetRule, Tables};
@@ -55,6 +55,8 @@ pub struct FluidSystem<const D: usize> {
     facet_rule: FacetRule<D>,
     pub(super) assembly: Assembly<D>,
     pub(super) linear: LinearSystem,
+    /// What the solver kept when it was marked, if the unknowns have been numbered anew since.
+    pub(super) kept_memory: Option<SolverMemory>,
     pub(super) numbering: Numbering,
     pressure: PressureMean,
     /// The common velocity of fluid and bodies, where nothing holds them.
@@ -107,6 +109,7 @@ impl<const D: usize> FluidSystem<D> {
         Self {
             layout,
             boundaries,
+            kept_memory: None,
             numbering: Numbering { choice, frame, is_free },
             n_unknowns: constraints.n_unknowns(),
             modes,

@@ -140,6 +140,8 @@ impl<const D: usize> Simulation<D> {
             return Err(StepError::LocalErrorTooLarge { error, tolerance });
         }
         state.accept(problem, level);
+        // As a run has it that resumes from this state
+        work.system.fit_to_poses(problem, &work.mesh, &state.in_mesh(&state.poses));
         work.system.mark_solver();
         self.is_fresh = false;
         Ok(report)
