@@ -8,3 +8,4 @@ mod invariance;
 mod joints;
 mod orders;
 mod reciprocity;
+mod trial;

@@ -1,6 +1,7 @@
 //! Fixed steps, halved where they must be.
 
 use super::start::pieces;
+use super::trial::is_pointless;
 use super::{NEAR, SMALLEST_PART, step_size_underflow};
 use crate::case::{Scheme, Unsteady};
 use crate::coupling::SurfaceLoads;
@@ -94,8 +95,12 @@ impl<const D: usize> Run<'_, D> {
                 Attempt::Rejected(error) if size <= smallest => {
                     return Err(step_size_underflow(self, size, &error));
                 }
-                Attempt::Rejected(_) => {
+                Attempt::Rejected(error) => {
                     self.rejections += 1;
+                    // Halves of halves may take longer than the run that is to come
+                    if self.is_trial && is_pointless(self.rejections, settings.n_steps()) {
+                        return Err(step_size_underflow(self, size, &error));
+                    }
                     to_do.extend(halves(piece));
                 }
             }

@@ -12,6 +12,11 @@ use crate::simulation::run::Run;
 /// longer steps.
 const STEPS_PER_REJECTION: usize = 10;
 
+/// Whether so many halved steps of a trial are too many.
+pub(super) fn is_pointless(rejections: usize, steps: usize) -> bool {
+    rejections * STEPS_PER_REJECTION > steps
+}
+
 impl<const D: usize> Run<'_, D>
 where
     Dimension<D>: CaseMesh<D>,
@@ -22,9 +27,10 @@ where
         let TimeSettings::Unsteady(settings) = &model.case.time else { return };
         let Some(settings) = first_cycle(&self.simulation, settings) else { return };
         let with = |ratio: f64| Unsteady { step: ratio * settings.step, ..settings.clone() };
+        tracing::info!("the first cycle is made with steps of another size, to tell its error");
         self.other_steps =
             self.trial(model, &with(2.0), 2.0).or_else(|| self.trial(model, &with(0.5), 0.5));
-        if self.other_steps.is_none() {
+        if self.other_steps.is_none() && self.check_signals(false).is_ok() {
             tracing::warn!(
                 "the error of the distance of a cycle could not be estimated: most steps are halved"
             );
@@ -36,6 +42,7 @@ where
     fn trial(&mut self, model: &Model, settings: &Unsteady, ratio: f64) -> Option<OtherSteps> {
         let mut trial = simulation_on(model, self.simulation.state.mesh.clone()).ok()?;
         trial.work.timing = self.simulation.work.timing;
+        trial.stop.clone_from(&self.simulation.stop);
         std::mem::swap(&mut self.simulation, &mut trial);
         (self.is_trial, self.rejections) = (true, 0);
         let result = with_default(NoSubscriber::new(), || {
@@ -46,7 +53,7 @@ where
         self.simulation.work.timing = trial.work.timing;
         let steps = result.inspect_err(|error| tracing::info!(%error, ratio, "trial")).ok()?;
         let displacements = displacements(&trial);
-        let is_made = self.rejections * STEPS_PER_REJECTION <= steps;
+        let is_made = !is_pointless(self.rejections, steps);
         is_made.then_some(OtherSteps { ratio, end: settings.end, displacements })
     }
 }
