@@ -54,6 +54,7 @@ mod stroke_file;
 mod sweep;
 mod swimmer;
 mod time;
+mod time_function;
 mod toml_help;
 mod tree;
 mod type_error;

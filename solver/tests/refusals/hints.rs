@@ -150,3 +150,36 @@ fn a_squirmer_on_its_way_to_a_wall_is_warned_of() {
         assert!(!warned(&text, &more).contains("heads for"), "{more:?}: {text}");
     }
 }
+
+/// A disc whose motion is given, 7.5 away from the left side, and one that is held 3 to its right.
+fn moved(motion: &str, end: &str) -> String {
+    let (head, _) = ROW.split_once("[[body]]").unwrap();
+    let bodies = format!(
+        "[[body]]\nname = \"one\"\nshape.disc.radius = 0.5\ncenter = [-2.0, 0.0]\n\
+         motion = {{ imposed = {{ {motion} }} }}\n[[body]]\nname = \"two\"\nshape.disc.radius = 0.5\n\
+         center = [2.0, 0.0]\nmotion = \"held\"\n"
+    );
+    let head = head.replace("end = 1.0", &format!("end = {end}"));
+    format!("{head}{bodies}")
+}
+
+#[test]
+fn a_given_motion_that_cannot_be_made_is_refused_with_its_time() {
+    let away = "velocity = [-1.0, 0.0]";
+    let said = check(&moved(away, "20.0"), &[]);
+    assert_refused(&said, &["by its motion \"one\" comes to the boundary", "before the end at 20"]);
+    let towards = check(&moved("velocity = [1.5, 0.0]", "20.0"), &[]);
+    assert_refused(&towards, &["comes to \"two\" at (1.5000, 0.0000) at t = 2,"]);
+    // 0.5 to and fro, and back before it is there
+    for (motion, end) in [
+        (away, "1.0"),
+        ("velocity = [-1.0, 0.0], factor.sine = { period = 3.14 }", "20.0"),
+        ("velocity = [-1.0, 0.0], factor.table = [[0.0, 1.0], [1.0, 1.0], [1.1, 0.0]]", "20.0"),
+    ] {
+        assert_accepted(&check(&moved(motion, end), &[]));
+    }
+    let turning = check(&moved("angular_velocity = 360.0", "1.0"), &[]);
+    assert_accepted(&turning);
+    assert!(turning.stderr.contains("turns by 36 rad in a step"), "{}", turning.stderr);
+    assert!(turning.stderr.contains("write 6.28319"), "{}", turning.stderr);
+}

@@ -13,6 +13,7 @@ mod findings;
 mod fluid;
 mod gait;
 mod general;
+mod given;
 mod given_mesh;
 mod joints;
 mod joints_in_space;
@@ -63,6 +64,9 @@ pub fn check(file: &CaseFile) -> Vec<Diagnostic> {
     }
     if findings.has_no_error() {
         placement::check(&mut findings);
+    }
+    if findings.has_no_error() {
+        given::check(&mut findings);
     }
     let in_plane = file.model.case.geometry != Geometry::Spatial;
     if in_plane && findings.has_no_error() {

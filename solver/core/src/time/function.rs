@@ -47,4 +47,27 @@ mod tests {
         assert_eq!(at(&table, 0.5), 2.0);
         assert_eq!(at(&table, 2.0), 3.0);
     }
+    #[test]
+    fn integrals_are_those_of_the_values() {
+        let table = vec![[0.5, 1.0], [1.0, 3.0], [2.5, -1.0]];
+        for function in [
+            TimeFunction::Ramp { duration: 2.0 },
+            TimeFunction::SmoothRamp { duration: 1.5 },
+            TimeFunction::Sine { mean: 0.3, amplitude: 2.0, period: 1.7, phase: 0.1 },
+            TimeFunction::Table(table.clone()),
+            // Begins before the run
+            TimeFunction::Table(table.iter().map(|[time, value]| [time - 0.75, *value]).collect()),
+        ] {
+            for end in [0.2, 0.7, 1.9, 4.0] {
+                let n = 20_000_i32;
+                let at = |nth: usize| {
+                    factor_at(Some(&function), end * (nth as f64 + 0.5) / f64::from(n))
+                };
+                let sum = (0..n as usize).map(at).sum::<f64>() * end / f64::from(n);
+                let error = (function.integral(end) - sum).abs();
+                // The midpoint rule with a kink: second order
+                assert!(error < 1e-6, "{function:?} until {end}: {error:.1e}");
+            }
+        }
+    }
 }

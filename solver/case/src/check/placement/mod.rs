@@ -75,7 +75,7 @@ fn is_of_place(error: &MeshError) -> bool {
 }
 
 /// What is wrong with where a body is.
-fn message(error: &MeshError) -> String {
+pub(super) fn message(error: &MeshError) -> String {
     match error {
         MeshError::Outside { body, gap, x, y } => outside(body, None, *gap, &[*x, *y]),
         MeshError::BodyMeetsSide { body, side, gap, at } => outside(body, Some(side), *gap, at),
@@ -117,7 +117,7 @@ fn overlap([first, second]: [&str; 2], gap: f64, at: &[f64]) -> String {
 }
 
 /// A place in brackets.
-fn coordinates(at: &[f64]) -> String {
+pub(super) fn coordinates(at: &[f64]) -> String {
     let parts: Vec<String> = at.iter().map(|part| format!("{part:.4}")).collect();
     format!("({})", parts.join(", "))
 }

@@ -1,0 +1,219 @@
+//! Bodies whose motion is given for the whole run: where it leads them out of the domain, or into each other.
+
+use alewife_mesh::{MeshError, Point, check_wrapped_placement, spatial};
+
+use super::Findings;
+use super::placement::{coordinates, message};
+use crate::numbers::significant;
+use crate::{Body, Geometry, Model, Motion, ShapeSpec, TimeFunction, TimeSettings, Unsteady};
+
+/// Times of a run, and of a period, at which bodies are looked at.
+const TIMES: [f64; 2] = [400.0, 64.0];
+
+/// Most times of a run.
+const MOST_TIMES: f64 = 4000.0;
+
+/// Most bodies that are followed.
+const MOST_BODIES: usize = 100;
+
+/// Angle of a turn in one step above which the step is too long for it (rad).
+const MOST_TURNED: f64 = 1.0;
+
+/// Halvings of the time in which something happens.
+const HALVINGS: usize = 30;
+
+/// Reports the first thing that each of these bodies meets.
+pub fn check(findings: &mut Findings<'_>) {
+    let model = findings.model();
+    let TimeSettings::Unsteady(time) = &model.case.time else { return };
+    // With a frame sides travel, and other bodies may end the run before
+    if model.case.frame.is_some() || time.until.is_some() {
+        return;
+    }
+    let bodies: Vec<&Body> = model.bodies.iter().filter(|body| is_known(model, body)).collect();
+    if bodies.len() > MOST_BODIES {
+        return;
+    }
+    for (index, body) in model.bodies.iter().enumerate() {
+        let Motion::Imposed(_) = body.motion else { continue };
+        if !is_known(model, body) || !(body.translates(model.case.geometry) || body.turns()) {
+            continue;
+        }
+        let course = Course { model, time, body, others: &bodies };
+        let Some((when, error)) = course.first_trouble() else { continue };
+        findings.error(
+            &format!("body.{index}.motion"),
+            format!(
+                "by its motion \"{}\" comes to {} at t = {}, before the end at {}",
+                body.name,
+                met(&error),
+                significant(when),
+                time.end,
+            ),
+            "end before, lead it back with motion.imposed.factor, or enlarge the domain: no contact holds a \
+             body whose motion is given",
+        );
+    }
+    if let (None, true) = (&time.adaptive, findings.has_no_error()) {
+        check_turns(findings, time.step);
+    }
+}
+
+/// Warns of a body that turns by more than a step resolves, as one does whose rate is in degrees.
+fn check_turns(findings: &mut Findings<'_>, step: f64) {
+    for (index, body) in findings.model().bodies.iter().enumerate() {
+        let Motion::Imposed(motion) = &body.motion else { continue };
+        let rate = motion.angular_velocity.norm();
+        if rate * step > MOST_TURNED {
+            findings.warning(
+                &format!("body.{index}.motion"),
+                format!(
+                    "\"{}\" turns by {} rad in a step: angular velocities are in radians per time",
+                    body.name,
+                    significant(rate * step)
+                ),
+                &format!(
+                    "for {} degrees per time write {}, else lower time.unsteady.step",
+                    significant(rate),
+                    significant(rate.to_radians())
+                ),
+            );
+        }
+    }
+}
+
+/// What a body comes to.
+fn met(error: &MeshError) -> String {
+    match error {
+        MeshError::Outside { x, y, .. } => format!("the boundary at {}", coordinates(&[*x, *y])),
+        MeshError::BodyMeetsSide { side, at, .. } => {
+            format!("the side `{side}` at {}", coordinates(at))
+        }
+        MeshError::Overlap { first, x, y, .. } => {
+            format!("\"{first}\" at {}", coordinates(&[*x, *y]))
+        }
+        MeshError::BodiesMeet { first, at, .. } => format!("\"{first}\" at {}", coordinates(at)),
+        other => format!("where it cannot be: {}", message(other)),
+    }
+}
+
+/// Whether all places of a body are known beforehand.
+fn is_known(model: &Model, body: &Body) -> bool {
+    // Of other shapes the centre of mass, about which they turn, is not where the centre is
+    let is_ellipse = matches!(body.shape, ShapeSpec::Ellipse { .. });
+    let turns_about_center = is_ellipse && model.case.geometry == Geometry::Planar;
+    match &body.motion {
+        Motion::Free => false,
+        Motion::Held => !body.deforms(),
+        Motion::Imposed(_) => {
+            !body.deforms() && (body.is_round() || turns_about_center || !body.turns())
+        }
+    }
+}
+
+/// A body on its way through a run.
+struct Course<'a> {
+    model: &'a Model,
+    time: &'a Unsteady,
+    body: &'a Body,
+    /// Those that are where their motions say, itself among them.
+    others: &'a [&'a Body],
+}
+
+impl Course<'_> {
+    /// The time (s) at which it is first where it cannot be, and why.
+    fn first_trouble(&self) -> Option<(f64, MeshError)> {
+        let end = self.time.end;
+        let period = match factor(self.body) {
+            Some(TimeFunction::Sine { period, .. }) => *period,
+            _ => end,
+        };
+        let n_times = TIMES[0].max(TIMES[1] * end / period).min(MOST_TIMES).floor();
+        let mut before = 0.0;
+        let mut nth = 0.0;
+        while nth < n_times {
+            nth += 1.0;
+            let after = end * nth / n_times;
+            if self.trouble(after).is_some() {
+                let mut bounds = [before, after];
+                for _ in 0..HALVINGS {
+                    let middle = 0.5 * (bounds[0] + bounds[1]);
+                    bounds[usize::from(self.trouble(middle).is_some())] = middle;
+                }
+                return Some(bounds[1]).zip(self.trouble(bounds[1]));
+            }
+            before = after;
+        }
+        None
+    }
+
+    /// Why it cannot be where it is at a time (s).
+    fn trouble(&self, time: f64) -> Option<MeshError> {
+        let moved = self.at(self.body, time);
+        let outside = if self.is_well_inside(&moved) { None } else { self.refused(&[&moved]) };
+        outside.or_else(|| {
+            let others = self.others.iter().filter(|other| other.name != self.body.name);
+            let mut near = others.map(|other| self.at(other, time)).filter(|other| {
+                let parts = moved.center.iter().zip(&other.center);
+                let apart: f64 = parts.map(|(a, b)| (a - b).powi(2)).sum();
+                apart.sqrt() < moved.shape.reach() + other.shape.reach()
+            });
+            near.find_map(|other| self.refused(&[&other, &moved]))
+        })
+    }
+
+    /// A body where its motion leads it until a time (s); across periodic sides back into the domain.
+    fn at(&self, body: &Body, time: f64) -> Body {
+        let mut moved = body.clone();
+        let Motion::Imposed(motion) = &body.motion else { return moved };
+        let way = integral(motion.factor.as_ref(), time);
+        for (own, part) in moved.center.iter_mut().zip(&motion.velocity) {
+            *own += way * part;
+        }
+        let extent = self.model.case.extent();
+        for axis in (0..moved.center.len()).filter(|axis| self.model.case.periodic_axes()[*axis]) {
+            let (min, period) = (extent.min[axis], extent.lengths()[axis]);
+            moved.center[axis] = min + (moved.center[axis] - min).rem_euclid(period);
+        }
+        moved.angle += way * motion.angular_velocity.z();
+        moved
+    }
+
+    /// Whether the ball around a body is inside the domain.
+    fn is_well_inside(&self, body: &Body) -> bool {
+        let reach = body.shape.reach() * (1.0 + 1e-6);
+        let at = |axis: usize| body.center.get(axis).copied().unwrap_or(0.0);
+        if self.model.case.geometry == Geometry::Spatial {
+            let Some(domain) = self.model.case.domain_in_space() else { return true };
+            let center = Point::<3>::new(at(0), at(1), at(2));
+            let walls = (0..domain.sides().len()).filter(|side| !domain.is_periodic(*side));
+            return walls.map(|side| domain.side_gap(side, center)).all(|gap| gap > reach);
+        }
+        let domain = self.model.case.mesh_domain();
+        domain.clearance(Point::<2>::new(at(0), at(1))) > reach
+    }
+
+    /// Why bodies cannot be where they are.
+    fn refused(&self, bodies: &[&Body]) -> Option<MeshError> {
+        let scale = self.model.case.mesh.scale;
+        if self.model.case.geometry == Geometry::Spatial {
+            let domain = self.model.case.domain_in_space()?;
+            let solids: Option<Vec<spatial::Body>> =
+                bodies.iter().map(|body| body.solid(scale)).collect();
+            return spatial::check_placement(&domain, &solids?).err();
+        }
+        let placed: Vec<_> = bodies.iter().map(|body| body.placed(scale)).collect();
+        check_wrapped_placement(&self.model.case.mesh_domain(), &placed).err()
+    }
+}
+
+/// The factor of a motion in time.
+fn factor(body: &Body) -> Option<&TimeFunction> {
+    let Motion::Imposed(motion) = &body.motion else { return None };
+    motion.factor.as_ref()
+}
+
+/// The integral of a factor from the start (s).
+fn integral(factor: Option<&TimeFunction>, time: f64) -> f64 {
+    factor.map_or(time, |factor| factor.integral(time))
+}
