@@ -86,7 +86,8 @@ def through_bodies(run: Run, times: Array, middle: Array) -> Plane:
 
 def _plain(height: float, size: float) -> float:
     """A height of four digits at most, up to a hundredth of some size: centres are near it only."""
-    if not size > 0.0 or float(f"{height:.4g}") == height:
+    is_plain = abs(height) >= 0.01 * size and float(f"{height:.4g}") == height
+    if is_plain or not size > 0.0:
         return float(height)
     step = 10.0 ** np.floor(np.log10(0.01 * size))
     # Not by a factor of the step, which has rounding of its own; and no minus zero
