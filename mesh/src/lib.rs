@@ -5,6 +5,7 @@
 //! (quadratic) geometry: vertices first, then one node per edge.
 
 mod box_tree;
+mod cell_faces;
 mod cell_point;
 mod check;
 mod curved;

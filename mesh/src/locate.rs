@@ -4,6 +4,7 @@
 //! of a curved one by Newton's method.
 
 use crate::box_tree::{Bounds, BoxTree};
+use crate::cell_faces::{Face, push_faces};
 use crate::cell_point::{
     CellPoint, invert_quadratic, nearest_in_quadratic, nearest_in_simplex, solve,
 };
@@ -23,9 +24,6 @@ const FOUND: f64 = 1e-10;
 /// Part of the mean size of cells within which points on an exact curve are from the quadratic one.
 const SHORT: f64 = 0.05;
 
-/// The shape functions of the middles of edges sum to this at most: 2 - 2 sum(l^2) with coordinates l.
-const MIDDLES: f64 = 1.5;
-
 /// Barycentric coordinates of a point inside may be negative by this, so that no point falls
 /// between two cells.
 const ROUNDING: f64 = 1e-12;
@@ -42,15 +40,6 @@ pub struct Located<const D: usize> {
     pub reference: [f64; D],
     /// Distance from the point to the cell (m), zero inside.
     pub distance: f64,
-}
-
-/// How far a curved cell may be beyond a face of the straight one with the same vertices.
-#[derive(Debug, Clone, Copy)]
-struct Face {
-    /// Height of the opposite vertex (m), zero where the straight cell is turned inside out.
-    height: f64,
-    /// Part of the height by which the cell may be beyond.
-    beyond: f64,
 }
 
 /// Finds cells; keeps its own copy of the geometry, so the mesh may move on.
@@ -231,41 +220,6 @@ impl<const D: usize> Locator<D> {
         let faces = &self.faces[(D + 1) * cell.index()..(D + 1) * (cell.index() + 1)];
         let coordinates = std::iter::once(first).chain(straight);
         coordinates.zip(faces).any(|(l, face)| (-l - face.beyond) * face.height > bound)
-    }
-}
-
-/// Adds the faces of a cell.
-///
-/// A quadratic map is the straight one and the offsets of the middles of its edges times their shape functions.
-fn push_faces<const D: usize>(nodes: &[Point<D>], is_curved: bool, faces: &mut Vec<Face>) {
-    let columns: [Point<D>; D] = std::array::from_fn(|k| nodes[k + 1] - nodes[0]);
-    let determinant = determinant(&columns);
-    // Rates of the barycentric coordinates along a vector
-    let rates = |vector: Point<D>| {
-        let others = solve(&columns, vector, determinant);
-        std::iter::once(-others.iter().sum::<f64>()).chain(others)
-    };
-    let first = faces.len();
-    faces.resize(first + D + 1, Face { height: 0.0, beyond: 0.0 });
-    let faces = &mut faces[first..];
-    if determinant <= 0.0 {
-        return;
-    }
-    for axis in 0..D {
-        let unit = Point::from_fn(|row, _| if row == axis { 1.0 } else { 0.0 });
-        faces.iter_mut().zip(rates(unit)).for_each(|(face, rate)| face.height += rate * rate);
-    }
-    faces.iter_mut().for_each(|face| face.height = face.height.sqrt().recip());
-    if !is_curved {
-        return;
-    }
-    for (edge, &[i, j]) in Simplex::<D>::EDGES.iter().enumerate() {
-        for middle in &nodes[Simplex::<D>::edge_nodes(edge)] {
-            let offset = middle - (nodes[i] + nodes[j]) * 0.5;
-            for (face, rate) in faces.iter_mut().zip(rates(offset)) {
-                face.beyond = face.beyond.max(MIDDLES * rate.abs());
-            }
-        }
     }
 }
 
