@@ -1,11 +1,11 @@
 //! Iterative solution of fluid and bodies: against factors, on finer meshes, on more threads.
 
 use alewife_core::algebra::IterativeSettings;
-use alewife_core::body::{Inertia, Pose, Wrench};
+use alewife_core::body::{Inertia, Mode, Pose, Wrench};
 use alewife_core::case::Steady;
 use alewife_core::coupling::{
-    BodiesAt, BodyShapes, FluidSystem, LoadedBody, Problem, RigidBody, Side, Solution, SolveError,
-    SolverChoice,
+    BodiesAt, BodyShapes, Drive, FluidSystem, LoadedBody, Problem, RigidBody, Side, Solution,
+    SolveError, SolverChoice,
 };
 use alewife_core::simulation::{SteadyFlow, Timing};
 use alewife_core::space::Metric;
@@ -143,6 +143,28 @@ fn iterations_and_factors_give_the_same_flow() {
                     "{setting:?}: {differences:?}"
                 );
             }
+        }
+    }
+}
+
+/// One of the two blocks of their velocities has no unknown.
+#[test]
+fn bodies_that_only_move_or_only_turn_take_no_more_iterations() {
+    let setting = Setting::stokes(6, true);
+    let mesh = setting.box_of.mesh();
+    let alone = IterativeSettings { max_factor_entries: 0, ..IterativeSettings::default() };
+    for rate in [0.0, 2.0] {
+        let iterations = |held: &[Mode]| {
+            let mut problem = setting.problem(&mesh);
+            held.iter().for_each(|&mode| problem.bodies[0].drives[mode.index()] = Drive::Held);
+            let solved = solve_from_rest(&problem, &mesh, rate, SolverChoice::Iterative(alone));
+            solved.expect("the system is solved").iterations
+        };
+        let free = iterations(&[]);
+        for held in [&Mode::ALL[..3], &Mode::ALL[3..], &[Mode::ALL[0], Mode::ALL[4]]] {
+            let with_held = iterations(held);
+            println!("rate {rate}, {held:?} held: {with_held} iterations, {free} of a free body");
+            assert!(with_held <= free + free / 4, "{held:?}: {with_held}, {free}");
         }
     }
 }

@@ -94,16 +94,22 @@ impl RowsOfCells {
     pub fn pattern(&self, numbering: &Numbering) -> BlockPattern {
         let n_rows = numbering.blocks.len();
         let cells = self.rows.inverted(n_rows);
+        // A row without an unknown has a block on the diagonal, too
         let (columns, pressures) = rayon::join(
-            || neighbours(&cells, &self.rows, n_rows),
-            || neighbours(&cells, &self.pressures, numbering.pressures.len()),
+            || neighbours(&cells, &self.rows, n_rows, |row| Some(to_u32(row))),
+            || neighbours(&cells, &self.pressures, numbering.pressures.len(), |_| None),
         );
         BlockPattern { columns, pressures }
     }
 }
 
-/// For each row the items of its cells, of n, each once and in ascending order.
-fn neighbours(cells: &Lists, items: &Lists, n: usize) -> Lists {
+/// For each row the items of its cells, of n, each once and in ascending order; of a row in no cell, what is said.
+fn neighbours(
+    cells: &Lists,
+    items: &Lists,
+    n: usize,
+    of_none: impl Fn(usize) -> Option<u32> + Sync,
+) -> Lists {
     let chunks: Vec<usize> = (0..cells.n()).step_by(CHUNK).collect();
     let parts = chunks.par_iter().map_init(
         || vec![UNSEEN; n],
@@ -117,6 +123,9 @@ fn neighbours(cells: &Lists, items: &Lists, n: usize) -> Lists {
                         last[item as usize] = to_u32(row);
                         near.push(item);
                     }
+                }
+                if near.is_empty() && cells.list(row).is_empty() {
+                    near.extend(of_none(row));
                 }
                 near.sort_unstable();
                 lists.push(near.iter().copied());

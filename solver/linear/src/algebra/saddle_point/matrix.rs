@@ -173,10 +173,22 @@ impl SaddleMatrix {
             if unknowns.iter().all(Option::is_some) {
                 continue;
             }
+            // A body that only turns, or does not, has no unknown in one of its two blocks
+            let other = || self.numbering.paired(row).and_then(|other| self.mean_diagonal(other));
+            let mean = self.mean_diagonal(row).or_else(other).unwrap_or(1.0);
             if let Some(index) = self.velocity.find(row, to_u32(row)) {
-                pad_diagonal(unknowns, &mut self.velocity.blocks_mut()[index]);
+                let block = &mut self.velocity.blocks_mut()[index];
+                (0..B).filter(|&a| unknowns[a].is_none()).for_each(|a| block[a][a] = mean);
             }
         }
+    }
+
+    /// The mean of the diagonal entries of the unknowns in a row of blocks, if it is positive.
+    fn mean_diagonal(&self, row: usize) -> Option<f32> {
+        let unknowns = &self.numbering.blocks[row];
+        let diagonal = self.velocity.diagonal(row);
+        let trace: f32 = (0..B).filter(|&a| unknowns[a].is_some()).map(|a| diagonal[a]).sum();
+        (trace > 0.0).then(|| trace / unknowns.iter().flatten().count() as f32)
     }
 
     /// Overwrites y with A x.
@@ -311,14 +323,4 @@ fn add(leading: &mut f32, rest: &mut f32, value: f64) {
     let sum = whole(*leading, *rest) + value;
     *leading = single(sum);
     *rest = single(sum - f64::from(*leading));
-}
-
-/// Gives components that are no unknowns a diagonal entry.
-fn pad_diagonal(unknowns: &[Option<u32>; B], block: &mut Block<B>) {
-    let free = unknowns.iter().flatten().count().max(1);
-    let trace: f32 = (0..B).filter(|&a| unknowns[a].is_some()).map(|a| block[a][a]).sum();
-    let mean = if trace > 0.0 { trace / free as f32 } else { 1.0 };
-    for a in (0..B).filter(|&a| unknowns[a].is_none()) {
-        block[a][a] = mean;
-    }
 }

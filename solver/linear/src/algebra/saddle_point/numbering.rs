@@ -75,6 +75,11 @@ impl Numbering {
         Self { places, blocks, pressures, n_nodes, n_bodies }
     }
 
+    /// The other block of the body whose block is in a row.
+    pub fn paired(&self, row: usize) -> Option<usize> {
+        (row >= self.n_nodes).then(|| self.n_nodes + ((row - self.n_nodes) ^ 1))
+    }
+
     /// The vector of unknowns with what `of` gives for their places and values.
     pub fn split<T: Copy + Default>(
         &self,
