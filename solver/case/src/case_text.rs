@@ -92,6 +92,10 @@ pub fn no_such_case(name: &str) -> CaseError {
         1 => format!("did you mean `{}`? ", near[0]),
         _ => format!("did you mean one of `{}`? ", near.join("`, `")),
     };
+    let with_ending = format!("{name}.toml");
+    if !name.is_empty() && Path::new(&with_ending).is_file() {
+        help = format!("did you mean the file `{with_ending}`? ");
+    }
     help += "`alewife list` lists the shipped cases; a file of your own ends in .toml";
     CaseError::NotFound { what: format!("there is no case `{name}`"), help }
 }

@@ -128,7 +128,7 @@ pub enum CaseError {
         help: String,
     },
     /// The file is there but cannot be read.
-    #[error("cannot read {path}: {source}")]
+    #[error("cannot read {path}: {source}{}", remedy(source))]
     Unreadable {
         /// The file.
         path: PathBuf,
@@ -138,6 +138,16 @@ pub enum CaseError {
     /// The file is read but wrong.
     #[error("{}", listing(.0))]
     Wrong(Vec<Diagnostic>),
+}
+
+/// What helps where a file cannot be read.
+fn remedy(error: &std::io::Error) -> &'static str {
+    match error.kind() {
+        std::io::ErrorKind::PermissionDenied => {
+            "; you may not read it: give yourself the right (chmod u+r), or copy it as who may"
+        }
+        _ => "",
+    }
 }
 
 impl CaseError {

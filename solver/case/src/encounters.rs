@@ -24,17 +24,6 @@ pub struct Encounter {
     pub closing: f64,
 }
 
-/// A squirmer that meets something, if it goes straight on.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct OnTheWay {
-    /// Which body.
-    pub body: usize,
-    /// When (s).
-    pub time: f64,
-    /// Whether it is a side of the domain.
-    pub is_at_side: bool,
-}
-
 /// Two surfaces that meet.
 struct Meeting {
     /// When (s).
@@ -65,21 +54,6 @@ impl Model {
             (!keeps_away(&self.bodies[body])).then(|| self.encounter(&met))
         };
         (0..paths.len()).filter_map(of_body).collect()
-    }
-
-    /// Which squirmer first meets a side, or another body on its own way, at the speed it has far from
-    /// everything; none of those that are turned back by the flow they make.
-    pub(crate) fn first_meeting_of_squirmers(&self) -> Option<OnTheWay> {
-        let paths: Vec<Path> = (0..self.bodies.len()).map(|body| self.path(body)).collect();
-        let of_body = |body: usize| {
-            let this = &self.bodies[body];
-            let is_squirmer = matches!(this.gait, Some(GaitSpec::Squirmer(_)));
-            let met = self.meeting(&paths, body).filter(|_| is_squirmer && !keeps_away(this))?;
-            let (time, at_wall) = (met.time, self.time_to_wall(&paths[body]));
-            Some(OnTheWay { body, time, is_at_side: at_wall == Some(time) })
-        };
-        let met = (0..paths.len()).filter_map(of_body);
-        met.min_by(|one, other| one.time.total_cmp(&other.time))
     }
 
     /// What a body meets first, going straight on.
@@ -281,7 +255,7 @@ impl Model {
 
 /// Whether a swimmer is turned back by the flow it makes from what it heads for: one that pushes the
 /// fluid away ahead of it (Lauga and Powers 2009).
-fn keeps_away(body: &Body) -> bool {
+pub(super) fn keeps_away(body: &Body) -> bool {
     let Some(GaitSpec::Squirmer(gait)) = &body.gait else { return false };
     gait.modes.first().zip(gait.modes.get(1)).is_some_and(|(first, second)| first * second < 0.0)
 }

@@ -1,5 +1,6 @@
 //! `Case`: the typed contents of a case file; `Model`: what follows from them.
 
+mod ahead;
 mod angle;
 mod axial_vector;
 mod balls;

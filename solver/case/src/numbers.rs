@@ -233,7 +233,8 @@ fn gaps<const D: usize>(model: &Model) -> Vec<DerivedNumber> {
     let round = if D == 3 { "spheres" } else { "circles" };
     let number = |gap: Gap| {
         let [first, second] = gap.bodies.map(|body| &model.bodies[body].name);
-        let formula = format!("gap of surrounding {round} / smaller radius");
+        let overlap = if gap.ratio < 0.0 { ", which overlap: the bodies need not" } else { "" };
+        let formula = format!("gap of surrounding {round} / smaller radius{overlap}");
         DerivedNumber { name: format!("gap {first} - {second}"), value: gap.ratio, formula }
     };
     found.into_iter().map(number).collect()

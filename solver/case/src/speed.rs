@@ -36,6 +36,20 @@ impl Model {
         Some(all.fold(0.0, f64::max)).filter(|speed| *speed > 0.0)
     }
 
+    /// Whether nothing in a case drives anything.
+    #[must_use]
+    pub fn is_at_rest(&self) -> bool {
+        let is_driven = |body: &Body| !body.torque.is_zero() || body.spring.is_some();
+        let is_loose = |joint: &Joint| {
+            matches!(joint.kind, JointKind::Hinge(_) | JointKind::Slider(_) | JointKind::Ball(_))
+        };
+        self.expected_speed().is_none()
+            && self.case.flow.is_none()
+            && !self.case.has_waving_sheet()
+            && !self.bodies.iter().any(is_driven)
+            && !self.joints.iter().any(is_loose)
+    }
+
     /// The order of the rate at which forces change the length of an arm (m/s): by the resistance of its
     /// child; 0 of other joints.
     fn slider_speed(&self, joint: &Joint) -> f64 {
@@ -142,11 +156,17 @@ pub(super) fn weight(case: &Case, body: &Body) -> f64 {
     excess_mass(case, body).abs() * norm(&case.fluid.gravity)
 }
 
-/// The same as a vector.
-pub(super) fn load_vector(case: &Case, body: &Body) -> [f64; 2] {
+/// The same with the force on it, as a vector.
+pub(super) fn load_in_space(case: &Case, body: &Body) -> [f64; 3] {
     let mass = excess_mass(case, body);
     let part = |vector: &[f64], axis: usize| vector.get(axis).copied().unwrap_or(0.0);
-    [0, 1].map(|axis| mass * part(&case.fluid.gravity, axis) + part(&body.force, axis))
+    [0, 1, 2].map(|axis| mass * part(&case.fluid.gravity, axis) + part(&body.force, axis))
+}
+
+/// The same in the plane.
+pub(super) fn load_vector(case: &Case, body: &Body) -> [f64; 2] {
+    let [x, y, _] = load_in_space(case, body);
+    [x, y]
 }
 
 /// The order of the speed of a body under its load: that of slow flow, or less by inertia (m/s).

@@ -24,10 +24,25 @@ pub fn toml_help(text: &str, at: Range<usize>, reason: &str) -> String {
         .or_else(|| decimal_comma(line))
         .or_else(|| value.and_then(with_unit))
         .or_else(|| value.and_then(bare_word))
+        .or_else(|| expression(text, at.start))
         .or_else(|| no_key(line))
         .unwrap_or_else(|| {
             "strings stand in quotes, arrays in [ ], tables in { } or under a [header]".to_owned()
         })
+}
+
+/// Arithmetic where a number stands.
+fn expression(text: &str, at: usize) -> Option<String> {
+    let line = line_at(text, at);
+    let is_part = |c: char| c.is_ascii_digit() || "+-*/.()^e ".contains(c);
+    let values = line.split(['=', ',', '[', ']', '{', '}']).map(str::trim);
+    let found = values.filter(|value| {
+        value.chars().all(is_part)
+            && value.starts_with(|c: char| c.is_ascii_digit() || c == '(')
+            && value.contains(['*', '/', '^'])
+    });
+    let found = found.last()?;
+    Some(format!("`{found}` is not evaluated: write the number itself"))
 }
 
 /// The line that a byte of a text is in; at an end of a line the one that ends there.
@@ -144,6 +159,8 @@ mod tests {
             ("angle = 45 deg", "write an angle with its unit in quotes: \"45 deg\""),
             ("geometry = planar", "text stands in quotes: \"planar\""),
             ("quick = True", "write it in small letters: true"),
+            ("viscosity = 2*0.5", "`2*0.5` is not evaluated: write the number itself"),
+            ("center = [1.0, 1/3]", "`1/3` is not evaluated: write the number itself"),
             (".", "a line is `key = value`, a [header], or a comment behind a #"),
             ("planar", "a line is `key = value`, a [header], or a comment behind a #"),
             ("title = \"b\"", "it is given above already: keep one of the two"),

@@ -128,8 +128,14 @@ impl TypeError {
             Mismatch::WrongType { found, wanted } => {
                 if wanted.starts_with("an array") {
                     array_example(found, wanted)
-                } else if found.starts_with("the string") && wanted.contains("number") {
-                    "write the number without quotes and without its unit".to_owned()
+                } else if wanted.contains("number")
+                    && let Some(text) = found.strip_prefix("the string ")
+                {
+                    number_example(text.trim_matches('"'))
+                } else if found == "an array" && wanted.contains("number") {
+                    "write one number there, without brackets of its own".to_owned()
+                } else if wanted == "true or false" {
+                    "write true or false, without quotes".to_owned()
                 } else {
                     String::new()
                 }
@@ -137,6 +143,18 @@ impl TypeError {
             Mismatch::Other(_, help) => help.clone(),
         }
     }
+}
+
+/// How a number is written instead of a text.
+fn number_example(text: &str) -> String {
+    let is_number = |text: &str| text.trim().parse::<f64>().is_ok();
+    if text.matches(',').count() == 1 && is_number(&text.replace(',', ".")) {
+        return format!("write it with a decimal point: {}", text.replace(',', "."));
+    }
+    if text.contains(':') && text.split(':').take(2).all(is_number) {
+        return "one number; ranges are for `alewife sweep run`".to_owned();
+    }
+    "write the number without quotes and without its unit".to_owned()
 }
 
 /// How an array is written instead of what is there.
@@ -150,6 +168,12 @@ fn array_example(found: &str, wanted: &str) -> String {
             format!("write three numbers in brackets, such as [{number}, 0.0, 0.0]")
         }
         Ok(_) => format!("write numbers in brackets: [x, y], such as [{number}, 0.0]"),
+        Err(_) if wanted == "an array of 4 numbers" => {
+            "write four numbers in brackets, with commas between them: [w, x, y, z]".to_owned()
+        }
+        Err(_) if wanted == "an array of 3 numbers" => {
+            "write three numbers in brackets, with commas between them: [x, y, z]".to_owned()
+        }
         Err(_) => "write values in brackets, with commas between them: [x, y]".to_owned(),
     }
 }

@@ -2,7 +2,7 @@
 
 use super::Findings;
 use crate::numbers::{density_ratio, reynolds, significant};
-use crate::{Case, FlowModel, Geometry, Model};
+use crate::{Case, FlowModel, Geometry, Model, Motion};
 
 /// Largest relative difference between a declared number and the derived one.
 const AGREEMENT: f64 = 1e-6;
@@ -37,6 +37,18 @@ pub fn check(findings: &mut Findings<'_>) {
             "fluid.gravity",
             format!("gravity {:?} is not along the axis", fluid.gravity),
             "in an axisymmetric case write gravity = [g, 0.0]",
+        );
+    }
+    let pulls = fluid.gravity.iter().any(|part| *part != 0.0);
+    let mut bodies = findings.model().bodies.iter();
+    if pulls
+        && fluid.density == 0.0
+        && bodies.any(|body| body.motion == Motion::Free && body.density.unwrap_or(0.0) > 0.0)
+    {
+        findings.warning(
+            "fluid.gravity",
+            "gravity acts, but the fluid has no density: nothing is buoyant".to_owned(),
+            "add `density = ...` to [fluid]; in slow flow (stokes) it is used for buoyancy only",
         );
     }
     if let Some(scales) = &case.scales {

@@ -25,7 +25,16 @@ pub fn check(findings: &mut Findings<'_>) {
         if parents[ends.child].is_some() || ends.parent == ends.child {
             findings.error(
                 &format!("{key}.child"),
-                format!("\"{}\" hangs on two bodies, or on itself", joint.child),
+                if ends.parent == ends.child {
+                    format!("\"{}\" hangs on itself", joint.child)
+                } else {
+                    let above = parents[ends.child].map(|parent| &model.bodies[parent].name);
+                    let above = above.map_or("another body", String::as_str);
+                    format!(
+                        "\"{}\" hangs on \"{}\", and on \"{above}\" already",
+                        joint.child, joint.parent
+                    )
+                },
                 "bodies make trees: a body hangs on one other body at most",
             );
             continue;

@@ -2,8 +2,14 @@
 
 use super::Findings;
 use super::boundary::check_factor;
+use crate::body::LoadFrame;
+use crate::numbers::significant;
 use crate::region::normal_axis;
+use crate::speed::load_in_space;
 use crate::{Body, BoundaryCondition, FlowModel, Lock, MeanFlowSpec, Motion, TimeSettings};
+
+/// Part of all loads that is taken for rounding.
+const ROUNDING: f64 = 1e-9;
 
 const AXES: [&str; 3] = ["x", "y", "z"];
 
@@ -116,6 +122,39 @@ fn check_determined(findings: &mut Findings<'_>, axis: usize) {
             format!("nothing resists the flow along {along}: no wall, and no body that is held"),
             "give mean_velocity instead, hold a body, or put a wall along it",
         ),
+        None if velocity.or(gradient).or(force).is_none() => check_balance(findings, axis),
         _ => {}
+    }
+}
+
+/// Constant loads on free bodies where nothing holds fluid and bodies along a coordinate: they must sum up
+/// to nothing.
+fn check_balance(findings: &mut Findings<'_>, axis: usize) {
+    let (case, model) = (findings.case(), findings.model());
+    let along = AXES[axis];
+    let is_plain = |body: &Body| {
+        body.load_factor.is_none()
+            && body.load_frame == LoadFrame::Laboratory
+            && body.spring.is_none()
+            && body.gait.is_none()
+    };
+    if case.fluid.model != FlowModel::Stokes || !model.bodies.iter().all(is_plain) {
+        return;
+    }
+    let load = |body: &Body| load_in_space(case, body)[axis];
+    let loads: Vec<f64> = model.bodies.iter().map(load).collect();
+    let (sum, size) = (loads.iter().sum::<f64>(), loads.iter().map(|load| load.abs()).sum::<f64>());
+    if sum.abs() > ROUNDING * size {
+        let first = loads.iter().position(|load| *load != 0.0).unwrap_or(0);
+        let key = if model.bodies[first].force.is_empty() { "density" } else { "force" };
+        findings.error(
+            &format!("body.{first}.{key}"),
+            format!(
+                "the loads on the bodies sum up to {} along {along}, where nothing holds fluid and bodies",
+                significant(sum)
+            ),
+            "balance them, hold a body or a side, or add [flow] with mean_velocity: the mean pressure gradient \
+             then balances them",
+        );
     }
 }

@@ -45,6 +45,8 @@ pub fn check(file: &CaseFile) -> Vec<Diagnostic> {
     if !findings.has_no_error() {
         return findings.into_diagnostics();
     }
+    // What follows from degrees that are taken for radians is told after them
+    angles::check(&mut findings, file);
     general::check(&mut findings);
     fluid::check(&mut findings);
     boundary::check(&mut findings);
@@ -58,7 +60,6 @@ pub fn check(file: &CaseFile) -> Vec<Diagnostic> {
     time::check(&mut findings);
     references::check(&mut findings);
     extremes::check(&mut findings, file);
-    angles::check(&mut findings, file);
     if findings.has_no_error() {
         cells::check(&mut findings);
     }
@@ -67,6 +68,10 @@ pub fn check(file: &CaseFile) -> Vec<Diagnostic> {
     }
     if findings.has_no_error() {
         given::check(&mut findings);
+    }
+    // Strokes in space are not followed
+    if file.model.case.geometry == Geometry::Spatial && findings.has_no_error() {
+        near::check_ahead(&mut findings);
     }
     let in_plane = file.model.case.geometry != Geometry::Spatial;
     if in_plane && findings.has_no_error() {

@@ -25,7 +25,7 @@ pub fn check(findings: &mut Findings<'_>) {
         return;
     }
     let Some(nearest) = Surroundings::new(model).nearest() else {
-        squirmers_ahead(findings);
+        check_ahead(findings);
         return;
     };
     let Near { body, other, gap, thickness } = nearest;
@@ -51,22 +51,25 @@ pub fn check(findings: &mut Findings<'_>) {
     );
 }
 
-/// Warns of a squirmer that heads for a side or another body and gets there before the end.
-fn squirmers_ahead(findings: &mut Findings<'_>) {
+/// Warns of a body that swims or is drawn to a side or another body and gets there before the end, in any
+/// geometry.
+pub fn check_ahead(findings: &mut Findings<'_>) {
     let model = findings.model();
     let TimeSettings::Unsteady(time) = &model.case.time else { return };
-    let Some(met) = model.first_meeting_of_squirmers().filter(|met| met.time < time.end) else {
+    if model.case.contact.is_some() || !model.mesh_moves() {
         return;
-    };
+    }
+    let Some(met) = model.first_meeting().filter(|met| met.time < time.end) else { return };
     let other = if met.is_at_side { "a side of the domain" } else { "another body" };
     let thickness = model.bodies[met.body].shape.half_width();
     let range = model.bodies[met.body].size.or(model.case.mesh.surface).unwrap_or(0.1 * thickness);
     findings.warning(
-        &format!("body.{}.gait", met.body),
+        &format!("body.{}.{}", met.body, if met.swims { "gait" } else { "center" }),
         format!(
-            "\"{}\" heads for {other}: straight on, at its speed in free fluid, it is there at t = {}, \
+            "\"{}\" heads for {other}: straight on, at its speed in free fluid, it is there {} t = {}, \
              before the end at {}, and nothing keeps them apart",
             model.bodies[met.body].name,
+            if met.swims { "at" } else { "at the latest about" },
             significant(met.time),
             time.end
         ),

@@ -165,10 +165,21 @@ pub(super) fn check_orientation(findings: &mut Findings<'_>, key: &str, orientat
         Orientation::Quaternion(parts) if (norm(parts) - 1.0).abs() > ROUNDING => findings.error(
             &format!("{key}.quaternion"),
             format!("the quaternion {parts:?} has the length {:.6}", norm(parts)),
-            "write [w, x, y, z] of length 1; without a turn it is [1.0, 0.0, 0.0, 0.0]",
+            &unit_quaternion(parts),
         ),
         Orientation::Quaternion(_) => {}
     }
+}
+
+/// How a quaternion is written that is of no unit length.
+fn unit_quaternion(parts: &[f64; 4]) -> String {
+    let length = norm(parts);
+    if length == 0.0 {
+        return "write [w, x, y, z] of length 1; without a turn it is [1.0, 0.0, 0.0, 0.0]"
+            .to_owned();
+    }
+    let unit = parts.map(|part| format!("{:?}", (part / length * 1e12).round() / 1e12 + 0.0));
+    format!("write [w, x, y, z] of length 1: in this direction [{}]", unit.join(", "))
 }
 
 /// Keys that turn a body out of the plane.

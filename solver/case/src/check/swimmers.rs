@@ -293,7 +293,11 @@ fn short_steps(findings: &mut Findings<'_>) {
     if shortest > 0.0 && unsteady.step * FEWEST_STEPS > shortest {
         findings.warning(
             "time.unsteady.step",
-            format!("a cycle of {shortest} has {:.1} steps only", shortest / unsteady.step),
+            if shortest < unsteady.step {
+                format!("a cycle of {shortest} is shorter than a step of {}", unsteady.step)
+            } else {
+                format!("a cycle of {shortest} has {:.1} steps only", shortest / unsteady.step)
+            },
             "take steps of a tenth of a cycle or less, and compare with half of that",
         );
     }

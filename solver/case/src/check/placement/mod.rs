@@ -87,6 +87,10 @@ pub(super) fn message(error: &MeshError) -> String {
             "body \"{body}\" touches or overlaps its own image one period away, at {}: gap {gap:.3e}",
             coordinates(at)
         ),
+        MeshError::Overlap { first, second, gap, x, y } if first == second => format!(
+            "body \"{first}\" touches or overlaps its own image across a periodic side at {}: gap {gap:.3e}",
+            coordinates(&[*x, *y])
+        ),
         MeshError::Overlap { first, second, gap, x, y } => {
             overlap([first, second], *gap, &[*x, *y])
         }
@@ -118,7 +122,9 @@ fn overlap([first, second]: [&str; 2], gap: f64, at: &[f64]) -> String {
 
 /// A place in brackets.
 pub(super) fn coordinates(at: &[f64]) -> String {
-    let parts: Vec<String> = at.iter().map(|part| format!("{part:.4}")).collect();
+    // No negative zeros
+    let shown = |part: &f64| if part.abs() < 5e-5 { 0.0 } else { *part };
+    let parts: Vec<String> = at.iter().map(|part| format!("{:.4}", shown(part))).collect();
     format!("({})", parts.join(", "))
 }
 
@@ -136,6 +142,9 @@ fn remedy(error: &MeshError) -> &'static str {
         }
         MeshError::BodyMeetsPeriodicSide { .. } => {
             "cylinders without ends do not cross periodic sides: move them, or the box"
+        }
+        MeshError::Overlap { first, second, .. } if first == second => {
+            "make it smaller, turn it, or enlarge the domain along its period"
         }
         MeshError::BodyMeetsImage { .. } => "make it smaller, turn it, or enlarge the domain",
         MeshError::Overlap { .. } | MeshError::BodiesMeet { .. } => {
