@@ -69,7 +69,15 @@ pub fn beginning<const D: usize>(
     if is_over {
         return Ok(Beginning::IsDone);
     }
-    let damaged = |error: std::io::Error| Failure::new(Exit::BadCase, error.to_string());
+    let damaged = |error: std::io::Error| {
+        Failure::new(
+            Exit::BadCase,
+            format!(
+                "{error}, and so is every other checkpoint there; --overwrite the run to start again, or \
+                 --resume the state of another one"
+            ),
+        )
+    };
     let Some(Checkpoint { path, state }) = latest_checkpoint::<D>(out).map_err(damaged)? else {
         return Ok(Beginning::AtStart);
     };
@@ -80,6 +88,7 @@ pub fn beginning<const D: usize>(
         return Ok(Beginning::IsDone);
     }
     let mut history = History::read(out, state.step, state.time)?;
+    history.complete(&state.series(), file.case().output.series);
     history.restarts = status.restarts.next(state.step);
     history.longest_checkpoint = status.longest_checkpoint;
     if history.restarts.count > MOST_RESTARTS {

@@ -106,9 +106,26 @@ pub fn exit_of(error: &RunError) -> Exit {
     }
 }
 
+/// What helps where a file could not be written.
+fn remedy(error: &RunError) -> &'static str {
+    use io::ErrorKind::{FileTooLarge, PermissionDenied, QuotaExceeded, StorageFull};
+    match error {
+        RunError::Output(error) => match error.kind() {
+            StorageFull | QuotaExceeded | FileTooLarge => {
+                "; make space and run it again: it continues from its latest checkpoint, or begins again where \
+                 there is none"
+            }
+            PermissionDenied => "; give yourself the right to write there, and run it again",
+            _ => "",
+        },
+        _ => "",
+    }
+}
+
 impl From<RunError> for Failure {
     fn from(error: RunError) -> Self {
-        let (exit, message) = (exit_of(&error), error.to_string());
+        let exit = exit_of(&error);
+        let message = format!("{error}{}", remedy(&error));
         // Who stops a run makes no error
         if exit == Exit::Stopped { Self { exit, message } } else { Self::new(exit, message) }
     }

@@ -231,6 +231,10 @@ fn angle_in_words(angle: f64) -> String {
 fn joint_line(joint: &Joint) -> String {
     let range = |stroke: &Stroke, number: fn(f64) -> String| match stroke {
         Stroke::Constant(value) => number(*value),
+        // It has no bounds
+        Stroke::Steady { start, rate } => {
+            format!("{}, turning by {} in a time of 1", number(*start), number(*rate))
+        }
         _ => stroke.range().map(number).join(" to "),
     };
     let stroke = |stroke: &Stroke| range(stroke, significant);

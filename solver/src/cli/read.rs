@@ -36,9 +36,24 @@ pub struct CheckedCase {
 /// Reads a case and refuses it if it is wrong; warnings are handed back.
 pub fn read_and_check(argument: &str, settings: &[String]) -> Result<CheckedCase, Failure> {
     let file = crate::case::Case::read(argument, settings)?;
-    let warnings = crate::case::check(&file);
+    let mut warnings = crate::case::check(&file);
     if warnings.iter().any(|one| one.severity == Severity::Error) {
         return Err(Failure::wrong(&warnings));
     }
+    if file.model.is_at_rest() {
+        warnings.push(at_rest());
+    }
     Ok(CheckedCase { file, warnings })
+}
+
+/// Nothing will move.
+fn at_rest() -> Diagnostic {
+    Diagnostic {
+        severity: Severity::Warning,
+        key: String::new(),
+        message: "nothing moves: no side, body, gait, stroke, load or `flow` drives the fluid".to_owned(),
+        help: "give a body a gait, a force or an imposed motion, a side a velocity, or joints a stroke"
+            .to_owned(),
+        location: None,
+    }
 }

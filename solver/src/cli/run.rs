@@ -2,6 +2,7 @@
 
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::Ordering;
 use std::time::Instant;
 
 use clap::{Args, ValueHint};
@@ -20,7 +21,7 @@ use crate::observer::{
     COMPARISON_FILE, Earlier, FAILURE_STATE, History, Point, RunDirectory, Shown, Start,
     checkpoints, read_state, run_of_state, write_atomic,
 };
-use crate::simulation::{Dimension, RunError, SavedState, Solve, cpu_seconds};
+use crate::simulation::{Dimension, RunError, RunSummary, SavedState, Solve, cpu_seconds};
 use crate::validation::{Comparison, compare, comparisons_to_json};
 
 /// What `run` is asked for.
@@ -141,6 +142,7 @@ where
     // From here on, so that no signal ends the process without a word, and no other process writes to what is read
     let watch = SignalWatch::start()?;
     let limit = WallLimit::new(options.max_walltime.as_deref())?;
+    let has_limit_asked = limit.as_ref().map(WallLimit::has_asked);
     let live = options.live.as_deref().map(|address| live::start(address, &name)).transpose()?;
     let lock = RunDirectory::hold(&out)?;
     let resumed: Option<Resumed<D>> = match beginning_of(options, file, &out)? {
@@ -176,7 +178,10 @@ where
     let run = RunInto { directory: &directory, shown, watch, limit };
     let outcome =
         engine::simulate_into(&file.model, resumed.as_ref(), run).map_err(|error| match error {
-            RunError::Stopped { .. } => stopped(&error, &out),
+            RunError::Stopped { step, .. } => {
+                let is_over = has_limit_asked.is_some_and(|asked| asked.load(Ordering::Relaxed));
+                stopped(&error, why_stopped(is_over, step > from.step), &out)
+            }
             other => too_large::failure(file, other),
         })?;
     let comparisons =
@@ -188,10 +193,25 @@ where
     if comparisons.is_empty() {
         tell_last_values(&file.model, &outcome);
     }
-    let (seconds, wall) = (cpu_seconds(), started.elapsed().as_secs_f64());
+    let before = resumed.as_ref().map_or(0, |resumed| resumed.state.step);
+    tell_cost(file, &outcome, Spent { steps_before: before, started }, &out);
+    tell_cell_numbers(&outcome);
+    Ok(Exit::Done)
+}
+
+/// From where on a run has taken time.
+#[derive(Clone, Copy)]
+struct Spent {
+    steps_before: usize,
+    started: Instant,
+}
+
+/// Tells what a run has cost, and where it is.
+fn tell_cost(file: &CaseFile, outcome: &RunSummary, spent: Spent, out: &Path) {
+    let (seconds, wall) = (cpu_seconds(), spent.started.elapsed().as_secs_f64());
     let remeshes = outcome.series.column("flow.remeshes").and_then(|all| all.last().copied());
     let moving = remeshes.map_or_else(String::new, |remeshes| {
-        let steps = outcome.steps - resumed.as_ref().map_or(0, |resumed| resumed.state.step);
+        let steps = outcome.steps - spent.steps_before;
         format!(", {:.3} s of it a step, {remeshes} remeshings", seconds / steps.max(1) as f64)
     });
     let steps = n_steps(file, outcome.steps);
@@ -201,8 +221,6 @@ where
         outcome.n_dofs,
         out.display()
     ));
-    tell_cell_numbers(&outcome);
-    Ok(Exit::Done)
 }
 
 /// How many steps a run has made; nothing of a steady solution, which has none.
@@ -261,8 +279,19 @@ fn is_inside(file: &Path, directory: &Path) -> bool {
     }
 }
 
-/// A run that a signal stopped: what to type to go on.
-fn stopped(error: &RunError, out: &Path) -> Failure {
+/// Why a run was stopped, as far as that is known: whether its time was over, and whether it made a step.
+fn why_stopped(is_over: bool, has_gone_on: bool) -> &'static str {
+    match (is_over, has_gone_on) {
+        (false, _) => "",
+        (true, true) => ", in time for the limit of its time on the clock",
+        (true, false) => {
+            ": the limit of its time on the clock (--max-walltime) has left none for a step and a checkpoint"
+        }
+    }
+}
+
+/// A run that was stopped: why, and what to type to go on.
+fn stopped(error: &RunError, why: &str, out: &Path) -> Failure {
     let mut arguments = std::env::args();
     let mut command = vec![program(&arguments.next().unwrap_or_default())];
     while let Some(argument) = arguments.next() {
@@ -279,7 +308,7 @@ fn stopped(error: &RunError, out: &Path) -> Failure {
         "it left no state to resume from".to_owned()
     };
     // Who stops a run makes no error
-    Failure { exit: Exit::Stopped, message: format!("{error}; {remedy}") }
+    Failure { exit: Exit::Stopped, message: format!("{error}{why}; {remedy}") }
 }
 
 /// How the program was called: from here that works again.

@@ -1,6 +1,7 @@
 //! `WallLimit`: a run that is to end before its time on the clock is over, with a checkpoint.
 
 use std::collections::VecDeque;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant, SystemTime};
 
@@ -26,6 +27,7 @@ pub struct WallLimit {
     end: Instant,
     pace: Arc<Mutex<Pace>>,
     writes: WriteTimes,
+    has_asked: Arc<AtomicBool>,
 }
 
 /// The latest steps of a run.
@@ -67,7 +69,14 @@ impl WallLimit {
         let end = Self::end(asked)?;
         let pace = Pace { latest: VecDeque::new(), last: Instant::now() };
         let pace = Arc::new(Mutex::new(pace));
-        Ok(end.map(|end| Self { end, pace, writes: WriteTimes::default() }))
+        let (writes, has_asked) = (WriteTimes::default(), Arc::default());
+        Ok(end.map(|end| Self { end, pace, writes, has_asked }))
+    }
+
+    /// Whether it has asked for the end of its run, for who looks afterwards.
+    #[must_use]
+    pub fn has_asked(&self) -> Arc<AtomicBool> {
+        Arc::clone(&self.has_asked)
     }
 
     /// When the time that is asked for is over, or else that of the batch job, if there is one.
@@ -111,10 +120,13 @@ impl<const D: usize> Observer<D> for WallLimit {
 
     fn stop_request(&self) -> Option<StopRequest> {
         let (end, pace, writes) = (self.end, Arc::clone(&self.pace), self.writes.clone());
+        let has_asked = self.has_asked();
         Some(Arc::new(move || {
             let now = Instant::now();
             let longest = lock(&pace).longest(now);
-            end.saturating_duration_since(now) <= margin(longest, writes.longest())
+            let is_over = end.saturating_duration_since(now) <= margin(longest, writes.longest());
+            has_asked.fetch_or(is_over, Ordering::Relaxed);
+            is_over
         }))
     }
 }

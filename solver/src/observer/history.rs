@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use super::atomic::AtPath;
 use super::restarts::Restarts;
 use super::series_rows::read_series;
+use crate::case::Cadence;
 use crate::simulation::Series;
 
 /// One field file.
@@ -68,6 +69,28 @@ impl History {
     }
 }
 
+impl History {
+    /// Takes rows that `series.csv` has lost from those of the state, which has all steps.
+    pub fn complete(&mut self, all: &Series, cadence: Cadence) {
+        let written = &self.series;
+        let is_same = written.names.is_empty() || written.names == all.names;
+        let has_lost = match cadence {
+            Cadence::Steps(1) => written.times != all.times,
+            // Whatever the cadence is, the start is written
+            Cadence::Steps(_) | Cadence::Time(_) => written.times.first() != all.times.first(),
+            Cadence::Never | Cadence::End => false,
+        };
+        if is_same && has_lost {
+            tracing::warn!(
+                "series.csv has {} rows up to the checkpoint, which has {}: all of these are written",
+                written.times.len(),
+                all.times.len()
+            );
+            self.series = all.clone();
+        }
+    }
+}
+
 /// The text of a file, empty if there is none.
 fn read_text(path: &Path) -> io::Result<String> {
     match fs::read(path) {
@@ -85,6 +108,30 @@ fn frame(line: &str) -> Option<Frame> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn rows_that_are_lost_are_those_of_the_state() {
+        let series = |times: &[f64]| Series {
+            names: vec!["a".to_owned()],
+            times: times.to_vec(),
+            rows: times.iter().map(|time| vec![10.0 * time]).collect(),
+        };
+        let all = series(&[0.0, 0.1, 0.2]);
+        let completed = |written: Series, cadence| {
+            let mut history = History { series: written, ..History::default() };
+            history.complete(&all, cadence);
+            history.series
+        };
+        assert_eq!(completed(series(&[0.2]), Cadence::Steps(1)), all);
+        assert_eq!(completed(Series::default(), Cadence::Steps(1)), all);
+        assert_eq!(completed(Series::default(), Cadence::Time(0.1)), all);
+        // Those of a cadence are not lost, and other quantities stay
+        let every_other = series(&[0.0, 0.2]);
+        assert_eq!(completed(every_other.clone(), Cadence::Steps(2)), every_other);
+        let other = Series { names: vec!["b".to_owned()], ..every_other };
+        assert_eq!(completed(other.clone(), Cadence::Steps(1)), other);
+        assert_eq!(completed(Series::default(), Cadence::Never), Series::default());
+    }
 
     #[test]
     fn what_was_written_after_the_state_is_left_out() {

@@ -128,6 +128,11 @@ fn a_run_stops_before_its_time_on_the_clock_is_over() {
         let place = tempfile::tempdir().unwrap();
         let output = start(place.path(), &environment, &options).wait_with_output().unwrap();
         assert_eq!(output.status.code(), Some(75), "{}", told(&output));
+        let said = told(&output);
+        assert!(
+            said.contains("limit of its time on the clock") && !said.contains("signal"),
+            "{said}"
+        );
         assert_eq!(checkpoints(place.path()).len(), 1);
     }
     let place = tempfile::tempdir().unwrap();
@@ -157,6 +162,7 @@ fn a_damaged_checkpoint_gives_way_to_the_one_before() {
     let output = continued(directory, &[]);
     assert_eq!(output.status.code(), Some(65), "{}", told(&output));
     assert!(told(&output).contains(".state: this is no state of a run"), "{}", told(&output));
+    assert!(told(&output).contains("--overwrite the run to start again"), "{}", told(&output));
 }
 
 #[test]

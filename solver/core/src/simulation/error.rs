@@ -229,9 +229,9 @@ pub enum RunError {
     /// An observer could not write.
     #[error("output: {0}")]
     Output(#[from] std::io::Error),
-    /// A signal asked the run to stop.
+    /// A signal, a file or a limit of time asked the run to stop.
     #[error(
-        "stopped by a signal {}",
+        "stopped {}",
         if *step == 0 && *time == 0.0 {
             "before the first flow was found".to_owned()
         } else {
@@ -292,7 +292,7 @@ mod tests {
     #[test]
     fn times_are_told_without_the_rounding_of_their_last_digits() {
         let told = RunError::Stopped { step: 6, time: 0.6000000000000001 }.to_string();
-        assert_eq!(told, "stopped by a signal at step 6 (t = 0.6)");
+        assert_eq!(told, "stopped at step 6 (t = 0.6)");
     }
 
     #[test]

@@ -80,8 +80,11 @@ where
         run.notify_of_failure(error);
     }
     let steps = result?;
-    for observer in run.observers.iter_mut() {
-        observer.on_end(run.simulation.timing())?;
+    let timing = *run.simulation.timing();
+    if let Err(error) = run.observers.iter_mut().try_for_each(|observer| observer.on_end(&timing)) {
+        let error = RunError::from(error);
+        run.notify_of_failure(&error);
+        return Err(error);
     }
     let Simulation { work, .. } = run.simulation;
     let n_dofs = work.system.n_unknowns;

@@ -27,10 +27,17 @@ fn step_size_underflow<const D: usize>(
         let advice = format!("; {trouble}; the last flow is in failure/");
         return RunError::StepSizeUnderflow { step, time, smallest, reason, advice };
     }
+    // How far the fastest body would go in the smallest step (m)
+    let leap =
+        smallest * state.now.twists.iter().map(|twist| twist.linear.norm()).fold(0.0, f64::max);
     let nearest = moving_mesh.as_ref().zip(state.contact.minimum_gap).map(|(moving, minimum)| {
         let gaps = moving.gaps();
         let names = [gaps.body_name(minimum.body), gaps.partner_name(minimum.partner)];
         let hint = match law {
+            None if leap > minimum.gap => {
+                ": bodies would pass each other or a wall in a single step, however short: are loads, viscosity \
+                 and time in one system of units?"
+            }
             None if problem.gives_way() => {
                 ": [contact] keeps bodies apart from each other and from walls"
             }

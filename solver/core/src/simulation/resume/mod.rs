@@ -139,7 +139,8 @@ impl<const D: usize> SavedState<D> {
     }
 
     /// The quantities of all steps so far.
-    pub(super) fn series(&self) -> Series {
+    #[must_use]
+    pub fn series(&self) -> Series {
         self.series.series()
     }
 
