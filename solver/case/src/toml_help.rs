@@ -36,12 +36,12 @@ fn expression(text: &str, at: usize) -> Option<String> {
     let line = line_at(text, at);
     let is_part = |c: char| c.is_ascii_digit() || "+-*/.()^e ".contains(c);
     let values = line.split(['=', ',', '[', ']', '{', '}']).map(str::trim);
-    let found = values.filter(|value| {
+    let mut found = values.filter(|value| {
         value.chars().all(is_part)
             && value.starts_with(|c: char| c.is_ascii_digit() || c == '(')
             && value.contains(['*', '/', '^'])
     });
-    let found = found.last()?;
+    let found = found.next_back()?;
     Some(format!("`{found}` is not evaluated: write the number itself"))
 }
 

@@ -40,7 +40,7 @@ pub fn check(findings: &mut Findings<'_>) {
             continue;
         }
         let course = Course { model, time, body, others: &bodies };
-        let Some((when, error)) = course.first_trouble() else { continue };
+        let Some(Trouble { time: when, error }) = course.first_trouble() else { continue };
         findings.error(
             &format!("body.{index}.motion"),
             format!(
@@ -111,6 +111,13 @@ fn is_known(model: &Model, body: &Body) -> bool {
     }
 }
 
+/// A place where a body cannot be.
+struct Trouble {
+    /// When it gets there (s).
+    time: f64,
+    error: MeshError,
+}
+
 /// A body on its way through a run.
 struct Course<'a> {
     model: &'a Model,
@@ -121,8 +128,8 @@ struct Course<'a> {
 }
 
 impl Course<'_> {
-    /// The time (s) at which it is first where it cannot be, and why.
-    fn first_trouble(&self) -> Option<(f64, MeshError)> {
+    /// Where it first cannot be.
+    fn first_trouble(&self) -> Option<Trouble> {
         let end = self.time.end;
         let period = match factor(self.body) {
             Some(TimeFunction::Sine { period, .. }) => *period,
@@ -140,7 +147,8 @@ impl Course<'_> {
                     let middle = 0.5 * (bounds[0] + bounds[1]);
                     bounds[usize::from(self.trouble(middle).is_some())] = middle;
                 }
-                return Some(bounds[1]).zip(self.trouble(bounds[1]));
+                let time = bounds[1];
+                return self.trouble(time).map(|error| Trouble { time, error });
             }
             before = after;
         }

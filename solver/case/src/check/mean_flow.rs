@@ -2,11 +2,12 @@
 
 use super::Findings;
 use super::boundary::check_factor;
-use crate::body::LoadFrame;
 use crate::numbers::significant;
 use crate::region::normal_axis;
 use crate::speed::load_in_space;
-use crate::{Body, BoundaryCondition, FlowModel, Lock, MeanFlowSpec, Motion, TimeSettings};
+use crate::{
+    Body, BoundaryCondition, FlowModel, LoadFrame, Lock, MeanFlowSpec, Motion, TimeSettings,
+};
 
 /// Part of all loads that is taken for rounding.
 const ROUNDING: f64 = 1e-9;

@@ -59,11 +59,11 @@ mod tests {
             TimeFunction::Table(table.iter().map(|[time, value]| [time - 0.75, *value]).collect()),
         ] {
             for end in [0.2, 0.7, 1.9, 4.0] {
-                let n = 20_000_i32;
-                let at = |nth: usize| {
-                    factor_at(Some(&function), end * (nth as f64 + 0.5) / f64::from(n))
+                let n = 20_000_u32;
+                let at = |nth: u32| {
+                    factor_at(Some(&function), end * (f64::from(nth) + 0.5) / f64::from(n))
                 };
-                let sum = (0..n as usize).map(at).sum::<f64>() * end / f64::from(n);
+                let sum = (0..n).map(at).sum::<f64>() * end / f64::from(n);
                 let error = (function.integral(end) - sum).abs();
                 // The midpoint rule with a kink: second order
                 assert!(error < 1e-6, "{function:?} until {end}: {error:.1e}");

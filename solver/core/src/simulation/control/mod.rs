@@ -5,6 +5,8 @@ mod fixed;
 mod start;
 mod trial;
 
+use alewife_mesh::Point;
+
 use super::advance::Simulation;
 use super::error::{RunError, StepError};
 use super::run::Run;
@@ -14,6 +16,18 @@ const NEAR: f64 = 1e-7;
 
 /// The smallest step over the given one, of fixed steps that are halved where they must be.
 const SMALLEST_PART: f64 = 1.0 / 1024.0;
+
+/// Part of the domain that no body goes in the smallest step when all is in one system of units.
+const FAR: f64 = 1e-3;
+
+/// Length of the domain along a coordinate (m).
+fn extent_along<const D: usize>(nodes: &[Point<D>], axis: usize) -> f64 {
+    let [least, most] =
+        nodes.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], node| {
+            [least.min(node[axis]), most.max(node[axis])]
+        });
+    most - least
+}
 
 /// No smaller step helps.
 fn step_size_underflow<const D: usize>(
@@ -30,11 +44,13 @@ fn step_size_underflow<const D: usize>(
     // How far the fastest body would go in the smallest step (m)
     let leap =
         smallest * state.now.twists.iter().map(|twist| twist.linear.norm()).fold(0.0, f64::max);
+    // A wall that a body is driven into is nearer than the smallest step, too, in the end
+    let extent = (0..D).map(|axis| extent_along(&state.nodes, axis)).fold(0.0, f64::max);
     let nearest = moving_mesh.as_ref().zip(state.contact.minimum_gap).map(|(moving, minimum)| {
         let gaps = moving.gaps();
         let names = [gaps.body_name(minimum.body), gaps.partner_name(minimum.partner)];
         let hint = match law {
-            None if leap > minimum.gap => {
+            None if leap > minimum.gap.max(FAR * extent) => {
                 ": bodies would pass each other or a wall in a single step, however short: are loads, viscosity \
                  and time in one system of units?"
             }
