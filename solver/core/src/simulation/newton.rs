@@ -77,6 +77,9 @@ pub(super) enum Reduction {
 /// error of all steps together is this part of the change of the flow, far below that of the scheme,
 /// which is of second order in the step over the time of change.
 const OF_STEP: f64 = 1e-6;
+/// Part of the first residual of the first pass that further passes of a step leave at least: less than a difference of forces
+/// shows, which are compared with rates of momentum to 1e-6 (`tests/spatial/deforming.rs`).
+const OF_PASS: f64 = 1e-7;
 /// Largest part that the solution of a linear system leaves.
 const LEAST_REDUCTION: f64 = 0.1;
 /// Part that the first system of Newton's method leaves, and what stands for the square of the last
@@ -277,8 +280,8 @@ impl<'a> Progress<'a> {
             Reduction::OfStep { first } => {
                 let scale = self.scale();
                 let grown = first.filter(|first| *first > scale && scale > 0.0);
-                let part = grown.map_or(1.0, |first| first / scale);
-                return (OF_STEP * part).min(FIRST_REDUCTION);
+                let part = grown.map_or(0.0, |first| first / scale);
+                return (OF_PASS * part).clamp(OF_STEP, FIRST_REDUCTION);
             }
             Reduction::ToTolerance => enough,
             Reduction::Inexact if self.iterations == 0 => enough.max(FIRST_REDUCTION),
