@@ -286,7 +286,10 @@ def test_a_run_with_one_field_and_no_messages_is_one_frame(growing: Run, tmp_pat
         frame.path.unlink()
     run = open_run(growing.path)
     out = tmp_path / "film.mp4"
-    assert film.film(run, out, film.Request(size=SMALL), lambda text: None) == 1
+    with pytest.raises(ValueError, match="one frame only of speed"):
+        film.film(run, out, film.Request(size=SMALL), lambda text: None)
+    # Unless it is asked for
+    assert film.film(run, out, film.Request(size=SMALL, frames=1), lambda text: None) == 1
     assert frames_of(out)[1].shape[0] == 1
 
 

@@ -29,9 +29,11 @@ class Case:
 
         The case itself stays as it is; the new one is returned.
         """
-        new = dict(key) if isinstance(key, Mapping) else {key: value}
+        new = dict(key) if isinstance(key, Mapping) else _one(key, value)
         if any(value is None for value in new.values()):
             raise TypeError(f"{' and '.join(new)}: a value is missing")
+        for name, one in new.items():
+            _check_setting(name, one)
         return Case(self.name, {**self.settings, **new})
 
     def arguments(self) -> list[str]:
@@ -81,8 +83,27 @@ def load(name: str | Path) -> Case:
     return Case(str(name))
 
 
+def _one(key: str, value: Value | None) -> dict[str, Value | None]:
+    if not isinstance(key, str):
+        raise TypeError(
+            f"{key!r}: a key such as 'fluid.viscosity' and its value are accepted, or a dictionary"
+        )
+    return {key: value}
+
+
+def _check_setting(key: object, value: Value) -> None:
+    if not isinstance(key, str):
+        raise TypeError(f"{key!r} is no key: a text such as 'fluid.viscosity' is accepted")
+    try:
+        to_toml(value)
+    except TypeError as error:
+        raise TypeError(f"{key}: {error}") from None
+
+
 def to_toml(value: Value) -> str:
     """Write a value as TOML, on one line."""
+    if isinstance(value, np.ndarray) and value.ndim == 0:
+        value = value.item()
     if isinstance(value, (bool, np.bool_)):
         return "true" if value else "false"
     if isinstance(value, (int, np.integer)):
@@ -95,6 +116,6 @@ def to_toml(value: Value) -> str:
     if isinstance(value, Mapping):
         items = (f"{to_toml(str(key))} = {to_toml(item)}" for key, item in value.items())
         return f"{{ {', '.join(items)} }}"
-    if isinstance(value, (Sequence, np.ndarray)):
+    if isinstance(value, (Sequence, np.ndarray)) and not isinstance(value, (bytes, bytearray)):
         return f"[{', '.join(to_toml(item) for item in value)}]"
     raise TypeError(f"{value!r}: a number, a text, a truth value, a list or a mapping is accepted")

@@ -20,11 +20,6 @@ class CaseRun(Run):
     kept: TemporaryDirectory[str] | None = None
 
     @cached_property
-    def quantities(self) -> dict[str, float]:
-        """The last value of each quantity, by name."""
-        return {name: float(values[-1]) for name, values in self.series.items() if len(values)}
-
-    @cached_property
     def references(self) -> list[dict[str, Any]]:
         """What was computed beside each reference of the case, with its verdict."""
         return comparisons(self)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 import tempfile
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -12,9 +12,12 @@ import numpy as np
 
 from alewife.case import Case, Value, to_toml
 from alewife.program import call
+from alewife_post import checked
 
 if TYPE_CHECKING:
     import pandas
+
+SUCH_AS = "such as {'fluid.viscosity': [1.0, 2.0]}"
 
 
 def sweep(
@@ -33,11 +36,15 @@ def sweep(
     again makes what is missing; without `out` it is temporary. Returns the table, one row a point:
     a pandas frame if pandas is there, otherwise its columns.
     """
+    if not isinstance(case, Case):
+        raise TypeError(f"{case!r} is no case: alewife.load({str(case)!r}) is one")
+    if not isinstance(grid, Mapping):
+        raise TypeError(f"grid {grid!r}: keys and their values are accepted, {SUCH_AS}")
     with tempfile.TemporaryDirectory(prefix="alewife-") as scratch:
         directory = Path(scratch) / "sweep" if out is None else Path(out)
         settings = {
-            "sweep.grid": {key: list(values) for key, values in grid.items()},
-            "sweep.quantities": list(quantities),
+            "sweep.grid": {key: _values(key, values) for key, values in grid.items()},
+            "sweep.quantities": checked.names(quantities),
         }
         options: list[str | Path] = ["--out", directory]
         if jobs is not None:
@@ -51,6 +58,17 @@ def sweep(
         call("sweep", "run", *arguments, *options, progress=progress)
         call("sweep", "collect", directory)
         return _table(directory / "sweep.csv")
+
+
+def _values(key: str, values: Sequence[Value]) -> list[Value]:
+    """The values of a key; TypeError where it is one alone, whose letters or items it would be."""
+    is_list = isinstance(values, Iterable) and not isinstance(values, (str, bytes, Mapping))
+    if not is_list or (isinstance(values, np.ndarray) and values.ndim == 0):
+        raise TypeError(
+            f"{key}: {values!r} is one value; a list of values is accepted, {SUCH_AS}; "
+            f"one value alone is given by case.set({key!r}, {values!r}), or as [{values!r}]"
+        )
+    return list(values)
 
 
 def _table(path: Path) -> pandas.DataFrame | dict[str, np.ndarray]:

@@ -6,6 +6,7 @@ import difflib
 import fnmatch
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from typing import NoReturn, TypeVar
 
 import numpy as np
 
@@ -13,6 +14,30 @@ Array = np.ndarray
 MINUS = " minus "
 SHOWN = 4
 """Names suggested for one that is not known."""
+T = TypeVar("T")
+
+
+class UnknownNameError(KeyError):
+    """A name that is not there; its text is for a reader, without the quotes of a KeyError."""
+
+    def __str__(self) -> str:
+        """The text as it is."""
+        return str(self.args[0])
+
+
+class Named(dict[str, T]):
+    """What has names: a dictionary that tells of a name it has not which ones are near."""
+
+    def __init__(self, items: Mapping[str, T], kind: str, listed: str) -> None:
+        """Take over items; `kind` is what they are, and `listed` what gives all names."""
+        super().__init__(items)
+        self.kind = kind
+        self.listed = listed
+
+    def __missing__(self, name: object) -> NoReturn:
+        """Tell of the nearest names."""
+        told = unknown(self.kind, str(name), self)
+        raise UnknownNameError(f"{told}; {self.listed} gives all {len(self)}" if self else told)
 
 
 @dataclass(frozen=True)
@@ -48,7 +73,7 @@ def _names(series: Mapping[str, Array], part: str) -> list[str]:
         first, second = (one.strip() for one in part.split(MINUS, 1))
         for one in (first, second):
             if one not in known:
-                raise KeyError(unknown("quantity", one, known))
+                raise UnknownNameError(unknown("quantity", one, known))
         return [first + MINUS + second]
     if part in known:
         return [part]
@@ -58,7 +83,7 @@ def _names(series: Mapping[str, Array], part: str) -> list[str]:
         # The flow has quantities of its own: `velocity.x` is none of them.
         chosen = [name for name in known if name.endswith(f".{part}") and _is_whole(name, part)]
     if not part or not chosen:
-        raise KeyError(unknown("quantity", part, known))
+        raise UnknownNameError(unknown("quantity", part, known))
     return chosen
 
 

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from alewife_post import asked
 from alewife_post.elements import centroid, smooth_outline
 from alewife_post.read import BodyHistory, Run, Shape, Solid
 
@@ -191,7 +192,7 @@ def followed(run: Run, name: str) -> list[str]:
     if name in run.bodies:
         return [name]
     there = ", ".join(dict.fromkeys([*known, *run.bodies])) or "none"
-    raise KeyError(f"no body or swimmer {name} to follow; there are {there}")
+    raise asked.UnknownNameError(f"no body or swimmer {name} to follow; there are {there}")
 
 
 def middle(run: Run, name: str, time: float) -> Array:

@@ -7,21 +7,13 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from alewife_post import cli_series
+from alewife_post import cli_series, packages
 from alewife_post.read import Run, open_run
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 FAILURES = (OSError, KeyError, ValueError, ImportError)
-EXTRAS = {
-    "pictures": ("matplotlib", "PIL", "pyvista", "vtk", "vtkmodules"),
-    "film": ("imageio_ffmpeg",),
-    "table": ("pandas",),
-}
-"""The packages of each extra of `alewife`."""
-SIZES = {"pictures": "835 MB, most of it VTK", "film": "903 MB, most of it VTK"}
-"""What the larger extras take on the disk."""
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -61,11 +53,7 @@ def main(arguments: list[str] | None = None) -> int:
 def message(error: BaseException) -> str:
     """One line for a reader."""
     if isinstance(error, ModuleNotFoundError):
-        package = (error.name or str(error)).partition(".")[0]
-        extra = next((extra for extra, of in EXTRAS.items() if package in of), None)
-        remedy = f"'alewife[{extra}]'" if extra else "alewife"
-        size = f" ({SIZES[extra]})" if extra in SIZES else ""
-        return f"the package {package} is not installed: pip install {remedy}{size}"
+        return packages.missing(error.name or str(error))
     # A KeyError shows its message in quotes; errors of the system have theirs in no argument.
     is_plain = isinstance(error, KeyError) and error.args
     return " ".join(str(error.args[0] if is_plain else error).split())
@@ -288,7 +276,7 @@ def _add_look(parser: argparse.ArgumentParser, quantities: tuple[str, ...]) -> N
         "--view",
         type=float,
         nargs=4,
-        metavar=("X0", "X1", "Y0", "Y1"),
+        metavar=("XMIN", "XMAX", "YMIN", "YMAX"),
         help="of a slice in its own coordinates, about who is followed relative to that",
     )
     parser.add_argument("--half", action="store_true", help="one side of the axis only")

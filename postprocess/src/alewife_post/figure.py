@@ -13,11 +13,12 @@ from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from alewife_post import bodies, drawing, style
+from alewife_post import asked, bodies, checked, drawing, style
 from alewife_post.elements import mirrored, shares
 from alewife_post.periodic import joined
 from alewife_post.read import Field, Run
 from alewife_post.snapshot import (
+    LINES,
     Lines,
     Look,
     Painter,
@@ -61,6 +62,11 @@ def picture(
     `frame` names a body whose velocity is subtracted. Speed has streamlines unless `lines` says
     otherwise. An axisymmetric run is shown on both sides of its axis unless `mirror` is false.
     """
+    checked.run(run, is_spatial=False, instead="slices.slice_picture, or space.surface_picture,")
+    checked.choice("quantity", quantity, QUANTITIES)
+    if lines is not None:
+        checked.choice("lines", lines, LINES)
+    view = None if view is None else checked.view(view)
     painter = chosen_painter(painter)
     style.use()
     field = settled(run, run.field(time))
@@ -127,7 +133,7 @@ def body_velocity(run: Run, name: str, time: float) -> Array:
     """Velocity of a body, of as many components as the run has dimensions."""
     if name not in run.bodies:
         known = ", ".join(run.bodies) or "none"
-        raise KeyError(f"no body {name}; bodies of this run: {known}")
+        raise asked.UnknownNameError(f"no body {name}; bodies of this run: {known}")
     history = run.bodies[name]
     return history.velocity[bodies.nearest(history, time), : 3 if run.is_spatial else 2]
 

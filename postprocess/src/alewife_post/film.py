@@ -10,12 +10,13 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.ticker import FixedFormatter, FixedLocator, MaxNLocator
 
-from alewife_post import bodies, drawing, movie, style
+from alewife_post import bodies, checked, drawing, movie, style
 from alewife_post.elements import mirrored, shares
 from alewife_post.page import SIZE, Page
 from alewife_post.periodic import joined
 from alewife_post.read import Field, Run, read_field
 from alewife_post.snapshot import (
+    LINES,
     Lines,
     Look,
     Painter,
@@ -87,7 +88,10 @@ class Moment:
 
 def film(run: Run, out: Path, request: Request, tell: Callable[[str], None] = print) -> int:
     """Write a film of a run, finished or under way; returns the number of frames."""
+    checked.run(run)
+    out = Path(out)
     movie.check(out)
+    request = _checked(request)
     width, height = request.size or SIZE
     if width % 2 or height % 2 or min(width, height) < 120:
         raise ValueError(f"{width} x {height}: sides of a film are even, and at least 120 pixels")
@@ -99,6 +103,8 @@ def film(run: Run, out: Path, request: Request, tell: Callable[[str], None] = pr
     is_asked = request.follow is not None
     request = replace(request, quantity=quantity, follow=_followed(run, request), is_asked=is_asked)
     moments = chosen_moments(run, request)
+    if len(moments) == 1 and request.frames > 1:
+        raise ValueError(checked.no_film(run, out, request, moments[0].time))
     fps = request.fps or min(25.0, max(4.0, len(moments) / 5.0))
     style.use()
     if run.is_spatial:
@@ -109,10 +115,19 @@ def film(run: Run, out: Path, request: Request, tell: Callable[[str], None] = pr
         images = _planar_images(run, moments, request)
     n = movie.write(out, images, fps)
     tell(
-        f"{out}: {n} frames of {request.iso or quantity}, "
+        f"{out}: {n} {'frame' if n == 1 else 'frames'} of {request.iso or quantity}, "
         f"t = {moments[0].time:.4g} to {moments[-1].time:.4g}, {fps:g} a second"
     )
     return n
+
+
+def _checked(request: Request) -> Request:
+    checked.choice("lines", request.lines, LINES)
+    if request.view is not None:
+        request = replace(request, view=checked.view(request.view))
+    if request.window is not None:
+        request = replace(request, window=checked.window(request.window))
+    return request
 
 
 # ---- What is shown, and when ---------------------------------------------------------------------

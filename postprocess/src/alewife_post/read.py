@@ -17,6 +17,9 @@ import numpy as np
 from mcap.exceptions import McapError
 from mcap.reader import NonSeekingReader
 
+from alewife_post import checked, packages
+from alewife_post.asked import Named
+
 if TYPE_CHECKING:
     import pandas
     import pyvista
@@ -124,6 +127,10 @@ class Run:
 
     path: Path
 
+    def __post_init__(self) -> None:
+        """A text is a path as well."""
+        object.__setattr__(self, "path", Path(self.path))
+
     @cached_property
     def case(self) -> dict[str, Any]:
         """The case as it was run, all defaults filled in."""
@@ -145,17 +152,23 @@ class Run:
         with (self.path / "series.csv").open(newline="") as file:
             rows = list(csv.reader(file))
         if not rows:
-            return {"time": np.empty(0)}
+            return Named({"time": np.empty(0)}, "column", "list(run.series)")
         names, rows = rows[0], rows[1:]
         # A row cut short by a full disk is no row.
         values = [[float(text) for text in row] for row in rows if len(row) == len(names)]
         table = np.array(values, dtype=float).reshape(-1, len(names))
-        return dict(zip(names, table.T, strict=True))
+        columns = dict(zip(names, table.T, strict=True))
+        return Named(columns, "column", "list(run.series)")
+
+    @cached_property
+    def quantities(self) -> dict[str, float]:
+        """The last value of each quantity, by name."""
+        last = {name: float(values[-1]) for name, values in self.series.items() if len(values)}
+        return Named(last, "quantity", "list(run.quantities)")
 
     def to_dataframe(self) -> pandas.DataFrame:
         """The series as a pandas table, indexed by time."""
-        import pandas
-
+        pandas = packages.needed("pandas")
         return pandas.DataFrame(self.series).set_index("time")
 
     @property
@@ -178,7 +191,11 @@ class Run:
             elif message.topic == "/scene":
                 for entity in message.content["entities"]:
                     shapes.setdefault(entity["id"], []).append(_shape(entity, message.time))
-        return {name: _body_history(found) for name, found in reports.items()}, shapes
+        histories = {name: _body_history(found) for name, found in reports.items()}
+        return (
+            Named(histories, "body", "list(run.bodies)"),
+            Named(shapes, "body", "list(run.shapes)"),
+        )
 
     def messages(self) -> Iterator[Message]:
         """All messages of `run.mcap` that were wholly written, in the order they were sent."""
@@ -219,7 +236,8 @@ class Run:
             )
         if time is None:
             return self.fields[-1]
-        return min(self.fields, key=lambda frame: abs(frame.time - time))
+        at = checked.time(time)
+        return min(self.fields, key=lambda frame: abs(frame.time - at))
 
     def check_time(self, time: float) -> None:
         """ValueError where no field can be meant: before the first one, or after the last one."""
@@ -302,7 +320,7 @@ def read_field(path: str | Path) -> Field:
 def _read_grid(path: Path) -> pyvista.UnstructuredGrid:
     """What VTK reads from a file; ValueError in place of VTK's own messages where it is damaged."""
     # VTK takes seconds to load, and series need none of it.
-    import pyvista
+    pyvista = packages.needed("pyvista")
     from vtkmodules.vtkCommonCore import vtkObject
 
     with path.open("rb") as file:

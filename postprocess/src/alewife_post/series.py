@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from alewife_post import asked, evidence, style
+from alewife_post import asked, checked, evidence, style
 from alewife_post.read import Run
 from alewife_post.units import unit_of_quantity, units_of
 
@@ -51,8 +51,10 @@ def series_figure(
     the case has references for. A transient at the start that would squeeze the rest is cut off,
     and marked, unless `is_whole`.
     """
+    checked.run(run)
     style.use()
-    panels = [asked.lines(run.series, name) for name in names or suggested(run)]
+    wanted = checked.names(names) or suggested(run)
+    panels = [asked.lines(run.series, name) for name in wanted]
     time = run.series["time"]
     if len(time) == 0:
         raise ValueError(f"{run.path} has no rows yet")
@@ -136,6 +138,7 @@ ENERGETICS = (
 
 def energy_figure(run: Run, *, window: Span | None = None, is_whole: bool = False) -> Figure:
     """Power, dissipation, efficiency and cost of transport of everything that swims."""
+    checked.run(run)
     style.use()
     swimmers = {
         asked.owner(name) for name in run.series if asked.ending(name) == "shape_power"
@@ -175,6 +178,7 @@ def within(time: Array, window: Span | None) -> Array:
     """Which rows lie in a window."""
     if window is None:
         return np.ones(len(time), dtype=bool)
+    window = checked.window(window)
     inside = (time >= window[0]) & (time <= window[1])
     if not inside.any():
         there = f"t = {time[0]:g} to {time[-1]:g}" if len(time) else "nothing"

@@ -11,13 +11,23 @@ from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 from matplotlib.tri import Triangulation
 
-from alewife_post import bodies, drawing, scene, space, streamlines, style, surfaces, tracing
+from alewife_post import (
+    bodies,
+    checked,
+    drawing,
+    scene,
+    space,
+    streamlines,
+    style,
+    surfaces,
+    tracing,
+)
 from alewife_post.cuts import Cut, samples, whole_slice, within
 from alewife_post.figure import body_velocity, colour_bar
 from alewife_post.periodic import domain_box, periods
 from alewife_post.planes import Plane, parsed, through_bodies
 from alewife_post.read import Field, Run
-from alewife_post.snapshot import Painter, chosen_painter, settled
+from alewife_post.snapshot import LINES, Painter, chosen_painter, settled
 
 if TYPE_CHECKING:
     import pyvista
@@ -53,6 +63,9 @@ def slice_picture(
     others. `view` is in the two coordinates of the plane; without it, what is around the bodies.
     `frame` names a body whose velocity is subtracted.
     """
+    checked.run(run, is_spatial=True, instead="figure.picture")
+    checked.choice("lines", lines, LINES)
+    view = None if view is None else checked.view(view)
     painter = chosen_painter(painter)
     style.use()
     field = settled(run, run.field(time))

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Literal
+from typing import Literal, get_args
 
 import numpy as np
 from matplotlib.axes import Axes
 
-from alewife_post import bodies, drawing, scene, streamlines, style, tracing, ways
+from alewife_post import bodies, checked, drawing, scene, streamlines, style, tracing, ways
 from alewife_post.elements import inside, mirrored
 from alewife_post.periodic import domain_low, images, joined, periods, tiles, trail
 from alewife_post.quantities import speed
@@ -20,6 +20,8 @@ Array = np.ndarray
 View = tuple[float, float, float, float]
 Lines = Literal["streamlines", "arrows", "none"]
 Painter = Literal["auto", "vtk", "matplotlib"]
+LINES = get_args(Lines)
+PAINTERS = get_args(Painter)
 
 SMALL_BODY = 0.1
 """A body smaller than this part of the domain is looked at from near."""
@@ -53,6 +55,7 @@ class Look:
 
 def chosen_painter(painter: Painter) -> Painter:
     """The painter that can paint here."""
+    checked.choice("painter", painter, PAINTERS)
     can_render = painter != "matplotlib" and scene.can_render()
     if painter == "auto":
         return "vtk" if can_render else "matplotlib"

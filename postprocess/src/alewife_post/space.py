@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from alewife_post import bodies, drawing, scene, style, surfaces, tetrahedra
+from alewife_post import bodies, checked, drawing, scene, style, surfaces, tetrahedra
 from alewife_post.figure import colour_bar
 from alewife_post.periodic import domain_box, images, periods
 from alewife_post.planes import Plane
@@ -35,6 +35,7 @@ def surface_picture(
 
     `camera` is where it is looked from: degrees about z, from x, and above the horizon.
     """
+    checked.run(run, is_spatial=True, instead="figure.picture")
     if not scene.can_render():
         raise ValueError("VTK can have no window here: install libosmesa6")
     style.use()

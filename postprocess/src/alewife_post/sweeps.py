@@ -103,7 +103,7 @@ def chosen_key(sweep: Sweep, against: str | None) -> str:
     if against is not None:
         ends = [key for key in numeric if key == against or key.endswith(f".{against}")]
         if len(ends) != 1:
-            raise KeyError(asked.unknown("swept number", against, numeric))
+            raise asked.UnknownNameError(asked.unknown("swept number", against, numeric))
         return ends[0]
     if not numeric:
         raise ValueError(

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from alewife_post import evidence
+from alewife_post import checked, evidence, packages
 from alewife_post.read import QUADRATIC_TETRAHEDRON, QUADRATIC_TRIANGLE, Field, Run
 
 if TYPE_CHECKING:
@@ -23,21 +23,19 @@ def series_table(run: Run) -> pandas.DataFrame:
 
 def reference_table(run: Run) -> pandas.DataFrame:
     """What came of each reference of the case, one row each; without rows before its end."""
-    import pandas
-
+    pandas = packages.needed("pandas")
     return pandas.DataFrame(evidence.comparisons(run))
 
 
 def comparison_table(paths: Iterable[str | Path], names: Iterable[str] = ()) -> pandas.DataFrame:
     """Statistics of runs and published curves, and how far each is from the first run."""
-    import pandas
-
+    pandas = packages.needed("pandas")
     from alewife_post import compare
 
-    runs, sweeps, curves = compare.open_all([Path(path) for path in paths])
+    runs, sweeps, curves = compare.open_all([Path(path) for path in checked.names(paths)])
     if sweeps or not runs:
         raise ValueError("runs and curves are wanted; of a sweep take sweep_table")
-    chosen = compare.chosen_names(runs, curves, list(names))
+    chosen = compare.chosen_names(runs, curves, checked.names(names))
     return pandas.DataFrame(compare.differences(runs, curves, chosen))
 
 
@@ -45,19 +43,19 @@ def sweep_table(
     path: str | Path, names: Iterable[str] = (), statistic: str = "final"
 ) -> pandas.DataFrame:
     """One row a point of a sweep: what it sets, and a statistic of each quantity."""
-    import pandas
-
+    pandas = packages.needed("pandas")
     from alewife_post import compare, sweeps
 
     sweep = compare.open_sweep(path)
-    rows = sweeps.table(sweep, sweeps.chosen_names(sweep, list(names)), statistic)
+    rows = sweeps.table(sweep, sweeps.chosen_names(sweep, checked.names(names)), statistic)
     return pandas.DataFrame(rows).set_index("point")
 
 
 def grid(field: Field) -> pyvista.UnstructuredGrid:
     """A field as a grid of quadratic cells with its values at nodes, for filters of VTK."""
-    import pyvista
-
+    pyvista = packages.needed("pyvista")
+    if not isinstance(field, Field):
+        raise TypeError(f"{field!r} is no field: field(TIME) of a run gives one")
     n_dimensions = field.nodes.shape[1]
     points = np.zeros((len(field.nodes), 3))
     points[:, :n_dimensions] = field.nodes

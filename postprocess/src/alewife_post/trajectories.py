@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping
 import numpy as np
 from matplotlib.figure import Figure
 
-from alewife_post import asked, series, style
+from alewife_post import asked, checked, series, style
 from alewife_post.read import Run
 
 Array = np.ndarray
@@ -23,12 +23,13 @@ def trajectory_figure(
     run: Run, names: Iterable[str] = (), *, window: series.Span | None = None
 ) -> Figure:
     """Paths of the centres of bodies and swimmers, from a dot to a ring."""
+    checked.run(run)
     style.use()
     movers = tracks(run.series)
-    wanted = list(names) or list(movers)
+    wanted = checked.names(names) or list(movers)
     for name in wanted:
         if name not in movers:
-            raise KeyError(asked.unknown("body or swimmer", name, movers))
+            raise asked.UnknownNameError(asked.unknown("body or swimmer", name, movers))
     if not wanted:
         raise ValueError(f"{run.path} has no bodies")
     shown = series.within(run.series["time"], window)
