@@ -172,9 +172,9 @@ def test_colours_mean_the_same_in_all_frames(growing: Run, tmp_path: Path) -> No
     request = film.Request(quantity="pressure", size=(360, 270), painter="matplotlib")
     assert film.film(growing, out, request, lambda text: None) == 6
     _, shown = frames_of(out)
-    # The pressure on the left, where the disc does not go, is 1 to 6 times that of the first frame: ever
-    # farther from white, and strong in the last frame only. A scale of each frame's own would make all
-    # frames alike.
+    # The pressure on the left, where the disc does not go, is 1 to 6 times that of the first
+    # frame: ever farther from white, and strong in the last frame only. A scale of each frame's
+    # own would make all frames alike.
     left = shown[:, 160, 80, :].astype(float)
     away = 255 - left.min(axis=1)
     assert (np.diff(away) > 5).all()
