@@ -248,14 +248,14 @@ def test_tiles_fill_a_region_with_the_same_flow() -> None:
 def test_a_plane_through_bodies_is_across_an_axis_if_that_will_do() -> None:
     pair = {"a": history(at([0, 0, -1.5])), "b": history(at([0, 0, 1.5]))}
     shapes = {name: ball([1.0, 1.0, 1.0]) for name in pair}
-    plane = planes.through_bodies(made({}, pair, shapes), np.zeros(1), np.zeros(3))
+    plane = planes.through_bodies(made({}, pair, shapes), np.zeros(1), np.zeros((2, 3)))
     assert (plane.text, plane.names) == ("y = 0", ("x", "z"))
 
 
 def test_a_plane_through_an_oblique_swimmer_has_it_along_its_first_coordinate() -> None:
     axis = np.array([0.48, 0.6, 0.64])
     run = linked(axis)
-    plane = planes.through_bodies(run, np.array([0.0, 1.0]), np.zeros(3))
+    plane = planes.through_bodies(run, np.array([0.0, 1.0]), np.zeros((2, 3)))
     np.testing.assert_allclose(plane.across[0], axis, atol=1e-12)
     np.testing.assert_allclose(plane.across @ plane.across.T, np.eye(2), atol=1e-12)
     for name in run.bodies:
@@ -274,4 +274,10 @@ def test_a_plane_through_bodies_has_a_plain_height() -> None:
     case = {"body": [{"name": "a", "shape": {"sphere": {"radius": 1.0}}}]}
     for height, text in ((-2.3e-7, "z = 0"), (1.54123, "z = 1.54"), (0.1025, "z = 0.1025")):
         run = made(case, {"a": history(at([0, 0, height]))}, {})
-        assert planes.through_bodies(run, np.zeros(1), np.zeros(3)).text == text
+        assert planes.through_bodies(run, np.zeros(1), np.zeros((2, 3))).text == text
+
+
+def test_the_height_of_a_body_without_a_radius_is_plain_for_the_domain() -> None:
+    run = made({"body": [{"name": "a"}]}, {"a": history(at([0, 0, 2.4e-4]))}, {})
+    box = np.array([[0.0, -7.5, -7.5], [90.0, 7.5, 7.5]])
+    assert planes.through_bodies(run, np.zeros(1), box).text == "z = 0"

@@ -62,10 +62,10 @@ def parsed(text: str) -> Plane:
     raise ValueError(f"{text} is not a plane: write one such as z=0.5")
 
 
-def through_bodies(run: Run, times: Array, middle: Array) -> Plane:
+def through_bodies(run: Run, times: Array, box: Array) -> Plane:
     """Across z, y or x where that goes through all bodies at some times, else the nearest plane.
 
-    A run without bodies is cut across z through its `middle` `(3,)`.
+    A run without bodies is cut across z through the middle of its `box` `(2, 3)`.
     """
     points, size = [], 0.0
     for time in times[:: max(1, len(times) // 50)]:
@@ -76,11 +76,14 @@ def through_bodies(run: Run, times: Array, middle: Array) -> Plane:
             points.append(arrow.start + arrow.vector)
         size = max([size, *(bodies.radius(run, name) for name in placed)])
     if not points:
-        return straight(2, float(middle[2]))
+        return straight(2, float(box[:, 2].mean()))
     found = np.array(points)
+    # Of bodies that only the mesh knows no radius is at hand
+    rounded = size or 0.05 * float(np.ptp(box, axis=0).min())
     for axis in (2, 1, 0):
         if np.ptp(found[:, axis]) <= 2 * THROUGH * size:
-            return straight(axis, _plain(0.5 * (found[:, axis].min() + found[:, axis].max()), size))
+            middle = 0.5 * (found[:, axis].min() + found[:, axis].max())
+            return straight(axis, _plain(middle, rounded))
     return _nearest(found)
 
 

@@ -202,8 +202,8 @@ def _draw_motion(
 def _plane(run: Run, text: str | None, field: Field) -> Plane:
     """The plane that is asked for, which is to be in the domain, or one through the bodies."""
     if text is None:
-        middle = 0.5 * (field.nodes.min(axis=0) + field.nodes.max(axis=0))
-        return through_bodies(run, np.array([field.time]), middle)
+        box = np.array([field.nodes.min(axis=0), field.nodes.max(axis=0)])
+        return through_bodies(run, np.array([field.time]), box)
     plane = parsed(text)
     axis = int(np.argmax(np.abs(plane.normal)))
     low, high = space.shown_box(run.case, field)

@@ -131,7 +131,7 @@ def _cut(run: Run, moments: list[Moment], request: Request, seen: view.Seen, mov
     if request.plane is not None:
         plane = planes.parsed(request.plane)
     else:
-        plane = planes.through_bodies(run, times[:1] if moves else times, seen.box.mean(axis=0))
+        plane = planes.through_bodies(run, times[:1] if moves else times, seen.box)
     if moves:
         plane = replace(plane, origin=plane.origin - moved[0])
     box = plane.coordinates(view.corners_of(seen.box))
