@@ -1,8 +1,8 @@
 //! Runs that go on from about the step in which other velocities of bodies on a joint become the unknowns.
 //!
 //! The unknown of a slider or hinge is the velocity along, or about, the axis of the laboratory to which its own
-//! axis is closest. Where it turns past the diagonal of two of them the system is numbered anew, and what its
-//! solver kept has to be that of the state a run goes on from.
+//! axis is closest. Where it turns past the diagonal of two of them the system is numbered anew, and a run has to
+//! resume with what the solver kept for the state it resumes from.
 
 use std::f64::consts::{FRAC_PI_4, SQRT_2};
 

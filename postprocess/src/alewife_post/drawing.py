@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
+from matplotlib.colors import Colormap
 from matplotlib.patches import Ellipse, FancyArrow, Polygon, Rectangle
 from matplotlib.tri import LinearTriInterpolator, Triangulation
 from mpl_toolkits.axes_grid1.anchored_artists import AnchoredSizeBar
@@ -34,15 +35,12 @@ def draw_values(
     level = 4 if len(field.cells) < 20_000 else 2
     triangles, weights = subdivide(field.cells, level)
     x, y = refine(field.nodes, field.cells, weights).T
-    axes.tripcolor(
+    shade(
+        axes,
         Triangulation(x, y, triangles),
         refine(values, field.cells, weights),
-        shading="gouraud",
-        cmap=colour_map,
-        vmin=limits[0],
-        vmax=limits[1],
-        rasterized=True,
-        zorder=1,
+        colour_map,
+        limits,
     )
 
 
@@ -50,11 +48,26 @@ def draw_fluid(axes: Axes, field: Field) -> None:
     """The fluid in one colour."""
     triangles, weights = subdivide(field.cells, 4)
     x, y = refine(field.nodes, field.cells, weights).T
+    one = style.one_colour(style.FLUID)
+    shade(axes, Triangulation(x, y, triangles), np.zeros(len(x)), one)
+
+
+def shade(
+    axes: Axes,
+    triangles: Triangulation,
+    values: Array,
+    colour_map: str | Colormap,
+    limits: style.Limits | None = None,
+) -> None:
+    """Values at corners of triangles as smooth colours, below all else."""
+    low, high = limits or (None, None)
     axes.tripcolor(
-        Triangulation(x, y, triangles),
-        np.zeros(len(x)),
+        triangles,
+        values,
         shading="gouraud",
-        cmap=style.one_colour(style.FLUID),
+        cmap=colour_map,
+        vmin=low,
+        vmax=high,
         rasterized=True,
         zorder=1,
     )

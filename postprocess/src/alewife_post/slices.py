@@ -127,16 +127,8 @@ def _paint(
         image = scene.render_flat([(seen, look)], view, (IMAGE_WIDTH, True))
         axes.imshow(image, extent=view, zorder=1, interpolation="antialiased", aspect="equal")
         return
-    axes.tripcolor(
-        Triangulation(*flat.T, part.regular_faces),
-        np.asarray(part.point_data["values"]),
-        shading="gouraud",
-        cmap=colour_map,
-        vmin=limits[0],
-        vmax=limits[1],
-        rasterized=True,
-        zorder=1,
-    )
+    triangles = Triangulation(*flat.T, part.regular_faces)
+    drawing.shade(axes, triangles, np.asarray(part.point_data["values"]), colour_map, limits)
 
 
 def _draw_lines(axes: Axes, run: Run, field: Field, cut: Cut, what: tuple[str, str]) -> None:

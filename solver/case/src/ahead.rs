@@ -5,11 +5,9 @@ use nalgebra::{UnitQuaternion, Vector3};
 
 use super::body::{LoadFrame, SquirmerGait};
 use super::encounters::keeps_away;
-use super::speed::{load_in_space, norm, terminal_speed};
+use super::path::{Path, ROUNDING};
+use super::speed::{load_in_space, norm, swimming_speed, terminal_speed};
 use super::{Body, DomainSpec, GaitSpec, Geometry, Lock, Model, Motion};
-
-/// Part of a velocity below which one of its components is rounding.
-const ROUNDING: f64 = 1e-6;
 
 /// Times by which a body under a load is later than by the order of its speed far from everything: walls
 /// slow it down, and in the plane there is no such speed.
@@ -28,11 +26,9 @@ pub(crate) struct OnTheWay {
     pub swims: bool,
 }
 
-/// Where a body is going, as the ball about it.
+/// Where a body is going, and whether it swims.
 struct Way {
-    center: [f64; 3],
-    velocity: [f64; 3],
-    reach: f64,
+    path: Path,
     swims: bool,
 }
 
@@ -42,12 +38,12 @@ impl Model {
     pub(crate) fn first_meeting(&self) -> Option<OnTheWay> {
         let ways: Vec<Way> = (0..self.bodies.len()).map(|body| self.way(body)).collect();
         let of_body = |(body, way): (usize, &Way)| {
-            if way.velocity == [0.0; 3] || keeps_away(&self.bodies[body]) {
+            if way.path.velocity == [0.0; 3] || keeps_away(&self.bodies[body]) {
                 return None;
             }
-            let at_side = self.time_to_side(way);
+            let at_side = self.time_to_side(&way.path);
             let others = ways.iter().enumerate().filter(|(other, _)| *other != body);
-            let meetings = others.filter_map(|(_, other)| time_to_meeting(way, other));
+            let meetings = others.filter_map(|(_, other)| way.path.time_to(&other.path));
             let time = meetings.chain(at_side).min_by(f64::total_cmp)?;
             let delay = if way.swims { 1.0 } else { DELAY };
             let is_at_side = at_side == Some(time);
@@ -60,10 +56,7 @@ impl Model {
     /// Swimming or sinking of a body that is attached to nothing.
     fn way(&self, index: usize) -> Way {
         let body = &self.bodies[index];
-        let at = |axis: usize| body.center.get(axis).copied().unwrap_or(0.0);
-        let is_joined = self.joint_above(index).is_some()
-            || self.joints.iter().any(|joint| joint.parent == body.name);
-        let is_free = body.motion == Motion::Free && body.spring.is_none() && !is_joined;
+        let is_free = body.motion == Motion::Free && body.spring.is_none() && self.is_single(index);
         let swimming = match &body.gait {
             Some(GaitSpec::Squirmer(gait)) if is_free => self.swimming(body, gait),
             _ => Vector3::zeros(),
@@ -75,8 +68,7 @@ impl Model {
                 velocity[axis] = 0.0;
             }
         }
-        let (center, velocity) = ([at(0), at(1), at(2)], velocity.into());
-        Way { center, velocity, reach: body.shape.reach(), swims }
+        Way { path: Path::of(body, velocity.into()), swims }
     }
 
     /// The velocity of a squirmer alone (m/s); none of one whose speed or direction changes in time.
@@ -84,12 +76,9 @@ impl Model {
         if gait.turn.is_some() || gait.factors.contains_key("1") {
             return Vector3::zeros();
         }
-        // Lighthill 1952 for spheres, Blake 1971 for discs
-        let part = if self.case.geometry == Geometry::Planar { 1.0 / 2.0 } else { 2.0 / 3.0 };
         let axis = gait.axis.map_or_else(Vector3::x, Vector3::from);
         let heading = turned(body) * about_z(gait.heading) * axis;
-        heading.try_normalize(0.0).unwrap_or_default()
-            * (part * gait.modes.first().copied().unwrap_or(0.0))
+        heading.try_normalize(0.0).unwrap_or_default() * swimming_speed(&self.case, gait)
     }
 
     /// The velocity of a body by a constant load (m/s).
@@ -106,8 +95,7 @@ impl Model {
 
     /// When a body gets to a side of the domain that is not periodic (s); of a domain of no simple form
     /// to that of the box around it.
-    fn time_to_side(&self, way: &Way) -> Option<f64> {
-        let extent = self.case.extent();
+    fn time_to_side(&self, path: &Path) -> Option<f64> {
         let periodic = self.case.periodic_axes();
         let is_flat = |axis: usize| match self.case.domain {
             DomainSpec::Disc { .. } | DomainSpec::HalfDisc { .. } | DomainSpec::Sphere { .. } => {
@@ -116,21 +104,12 @@ impl Model {
             DomainSpec::Cylinder { .. } => axis == 0,
             _ => axis < self.case.geometry.dimensions(),
         };
-        let along = (0..3).filter(|axis| is_flat(*axis) && !periodic[*axis]).filter_map(|axis| {
-            let velocity = way.velocity[axis];
-            let distance = if velocity > 0.0 {
-                extent.max[axis] - way.center[axis] - way.reach
-            } else {
-                way.center[axis] - way.reach - extent.min[axis]
-            };
-            let is_on_its_way = velocity.abs() > ROUNDING * norm(&way.velocity);
-            is_on_its_way.then(|| (distance / velocity.abs()).max(0.0))
-        });
-        along.chain(self.time_to_round_side(way)).min_by(f64::total_cmp)
+        let flat = path.time_to_sides(&self.case.extent(), |axis| is_flat(axis) && !periodic[axis]);
+        flat.into_iter().chain(self.time_to_round_side(path)).min_by(f64::total_cmp)
     }
 
     /// The same of a wall that is round about a point or about the x axis.
-    fn time_to_round_side(&self, way: &Way) -> Option<f64> {
+    fn time_to_round_side(&self, path: &Path) -> Option<f64> {
         let (center, radius, mut parts) = match &self.case.domain {
             DomainSpec::Disc { center: [x, y], radius } => {
                 (Vector3::new(*x, *y, 0.0), *radius, [1.0, 1.0, 0.0])
@@ -148,13 +127,13 @@ impl Model {
             parts[1] = 0.0;
         }
         let parts = Vector3::from(parts);
-        let from = (Vector3::from(way.center) - center).component_mul(&parts);
-        let velocity = Vector3::from(way.velocity).component_mul(&parts);
-        if velocity.norm() <= ROUNDING * norm(&way.velocity) {
+        let from = (Vector3::from(path.center) - center).component_mul(&parts);
+        let velocity = Vector3::from(path.velocity).component_mul(&parts);
+        if velocity.norm() <= ROUNDING * norm(&path.velocity) {
             return None;
         }
         let (speed, ahead) = (velocity.norm_squared(), from.dot(&velocity));
-        let room = (radius - way.reach).powi(2) - from.norm_squared();
+        let room = (radius - path.reach).powi(2) - from.norm_squared();
         let discriminant = ahead * ahead + speed * room;
         (discriminant >= 0.0).then(|| ((discriminant.sqrt() - ahead) / speed).max(0.0))
     }
@@ -167,24 +146,6 @@ fn turned(body: &Body) -> UnitQuaternion<f64> {
 
 fn about_z(angle: f64) -> UnitQuaternion<f64> {
     UnitQuaternion::from_axis_angle(&Vector3::z_axis(), angle)
-}
-
-/// When two bodies on their ways touch (s). Of thousands of bodies all pairs are looked at: plain sums.
-fn time_to_meeting(one: &Way, other: &Way) -> Option<f64> {
-    let (mut approach, mut speed, mut distance) = (0.0, 0.0, 0.0);
-    for axis in 0..3 {
-        let apart = other.center[axis] - one.center[axis];
-        let velocity = other.velocity[axis] - one.velocity[axis];
-        approach -= apart * velocity;
-        speed += velocity * velocity;
-        distance += apart * apart;
-    }
-    if approach <= 0.0 {
-        return None;
-    }
-    let touching = (one.reach + other.reach).powi(2);
-    let discriminant = approach * approach - speed * (distance - touching);
-    (discriminant >= 0.0).then(|| ((approach - discriminant.sqrt()) / speed).max(0.0))
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! What bodies meet that keep the velocity they can be expected to have, and the films of fluid then.
 
-use super::speed::{load_vector, norm, side_speed, terminal_speed};
+use super::path::Path;
+use super::speed::{load_vector, norm, side_speed, swimming_speed, terminal_speed};
 use super::{
     Body, BoundaryCondition, ContactSpec, GaitSpec, Geometry, Model, Motion, TimeSettings,
 };
@@ -36,13 +37,6 @@ struct Meeting {
     share: f64,
 }
 
-/// Where a body is going.
-struct Path {
-    center: [f64; 2],
-    velocity: [f64; 2],
-    reach: f64,
-}
-
 impl Model {
     /// The first thing each free body meets on a straight way: a wall, or another body on its own way.
     /// Bodies across periodic sides are not looked at.
@@ -67,10 +61,10 @@ impl Model {
         });
         let others = paths.iter().enumerate().filter(|(other, _)| *other != body);
         let with_bodies = others.filter_map(|(_, other)| {
-            let [x, y] = [0, 1].map(|axis| path.velocity[axis] - other.velocity[axis]);
+            let closing = [0, 1, 2].map(|axis| path.velocity[axis] - other.velocity[axis]);
             Some(Meeting {
-                time: time_to_meeting(path, other)?,
-                speed: norm(&[x, y]),
+                time: path.time_to(other)?,
+                speed: norm(&closing),
                 radius: path.reach * other.reach / (path.reach + other.reach),
                 // The other body has the same film
                 share: 0.5,
@@ -157,19 +151,9 @@ impl Model {
     /// Swimming and sinking of a body that is attached to nothing.
     fn path(&self, index: usize) -> Path {
         let body = &self.bodies[index];
-        let at = |axis: usize| body.center.get(axis).copied().unwrap_or(0.0);
-        let is_single = self.joint_above(index).is_none() && !self.has_joints(&body.name);
-        let velocity =
-            if body.motion == Motion::Free && body.translates(self.case.geometry) && is_single {
-                self.drift(body)
-            } else {
-                [0.0; 2]
-            };
-        Path { center: [at(0), at(1)], velocity, reach: body.shape.reach() }
-    }
-
-    fn has_joints(&self, name: &str) -> bool {
-        self.joints.iter().any(|joint| joint.parent == name)
+        let moves = body.motion == Motion::Free && body.translates(self.case.geometry);
+        let [x, y] = if moves && self.is_single(index) { self.drift(body) } else { [0.0; 2] };
+        Path::of(body, [x, y, 0.0])
     }
 
     /// The velocity of a body by its load and its gait, far from everything (m/s).
@@ -179,13 +163,7 @@ impl Model {
         let sinking = if size > 0.0 { terminal_speed(&self.case, body) / size } else { 0.0 };
         let (swimming, heading) = match &body.gait {
             Some(GaitSpec::Squirmer(gait)) => {
-                let first = gait.modes.first().copied().unwrap_or(0.0);
-                // Lighthill 1952 for spheres, Blake 1971 for discs
-                let part = match self.case.geometry {
-                    Geometry::Planar => 1.0 / 2.0,
-                    Geometry::Axisymmetric | Geometry::Spatial => 2.0 / 3.0,
-                };
-                (part * first, body.angle + gait.heading)
+                (swimming_speed(&self.case, gait), body.angle + gait.heading)
             }
             _ => (0.0, 0.0),
         };
@@ -195,19 +173,8 @@ impl Model {
 
     /// When a body gets to the corners of the domain along x or y that are no periodic sides (s).
     fn time_to_wall(&self, path: &Path) -> Option<f64> {
-        let [min, max] = self.case.extent().in_plane();
         let periodic = self.case.periodic_axes();
-        let times = (0..2).filter(|axis| !periodic[*axis]).filter_map(|axis| {
-            let velocity = path.velocity[axis];
-            let distance = if velocity > 0.0 {
-                max[axis] - path.center[axis] - path.reach
-            } else {
-                path.center[axis] - path.reach - min[axis]
-            };
-            let is_on_its_way = velocity.abs() > 1e-6 * norm(&path.velocity);
-            is_on_its_way.then(|| (distance / velocity.abs()).max(0.0))
-        });
-        times.min_by(f64::total_cmp)
+        path.time_to_sides(&self.case.extent(), |axis| axis < 2 && !periodic[axis])
     }
 
     /// With a film that is as thin as contact lets it get.
@@ -258,21 +225,6 @@ impl Model {
 pub(super) fn keeps_away(body: &Body) -> bool {
     let Some(GaitSpec::Squirmer(gait)) = &body.gait else { return false };
     gait.modes.first().zip(gait.modes.get(1)).is_some_and(|(first, second)| first * second < 0.0)
-}
-
-/// When two bodies on their ways touch (s).
-fn time_to_meeting(one: &Path, other: &Path) -> Option<f64> {
-    let pair = |part: fn(&Path) -> [f64; 2]| {
-        let ([x, y], [other_x, other_y]) = (part(one), part(other));
-        [other_x - x, other_y - y]
-    };
-    let (apart, velocity) = (pair(|path| path.center), pair(|path| path.velocity));
-    let dot = |a: [f64; 2], b: [f64; 2]| a[0] * b[0] + a[1] * b[1];
-    let (approach, speed) = (-dot(apart, velocity), dot(velocity, velocity));
-    let touching = (one.reach + other.reach).powi(2);
-    let discriminant = approach * approach - speed * (dot(apart, apart) - touching);
-    let meets = approach > 0.0 && discriminant >= 0.0;
-    meets.then(|| ((approach - discriminant.sqrt()) / speed).max(0.0))
 }
 
 #[cfg(test)]

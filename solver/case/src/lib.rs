@@ -34,6 +34,7 @@ mod orientation;
 mod output;
 mod part_pose;
 mod parts;
+mod path;
 mod problem_keys;
 mod quantity;
 mod random;

@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use super::{
     Body, BoundaryCondition, Case, ContactSpec, GaitSpec, Geometry, Joint, JointKind, Model,
-    Motion, Stroke,
+    Motion, SquirmerGait, Stroke,
 };
 
 /// Times of a stroke's period at which its rate is looked at.
@@ -167,6 +167,12 @@ pub(super) fn load_in_space(case: &Case, body: &Body) -> [f64; 3] {
 pub(super) fn load_vector(case: &Case, body: &Body) -> [f64; 2] {
     let [x, y, _] = load_in_space(case, body);
     [x, y]
+}
+
+/// The speed of a squirmer alone in slow flow (m/s): Lighthill 1952 for spheres, Blake 1971 for discs.
+pub(super) fn swimming_speed(case: &Case, gait: &SquirmerGait) -> f64 {
+    let part = if case.geometry == Geometry::Planar { 1.0 / 2.0 } else { 2.0 / 3.0 };
+    part * gait.modes.first().copied().unwrap_or(0.0)
 }
 
 /// The order of the speed of a body under its load: that of slow flow, or less by inertia (m/s).

@@ -31,16 +31,14 @@ pub fn mesh(argument: &str, settings: &[String], target: Target) -> Result<Exit,
         .unwrap_or_else(|| PathBuf::from(format!("{}.vtu", file.full_name().replace('/', "-"))));
     let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
     let is_file = !std::fs::metadata(&path).is_ok_and(|found| !found.is_file());
-    if let Some(ending) =
-        ending.filter(|ending| is_file && !["vtu", "msh"].contains(&ending.as_str()))
-    {
+    let ending = ending.as_deref();
+    if let Some(ending) = ending.filter(|ending| is_file && !["vtu", "msh"].contains(ending)) {
         let reason = format!(
             "--out: no mesh is written as .{ending}; let the name end in .vtu (ParaView) or .msh (Gmsh)"
         );
         return Err(Failure::new(Exit::Usage, reason));
     }
-    let is_msh = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("msh"));
-    let encoding = match (is_msh, target.as_text) {
+    let encoding = match (ending == Some("msh"), target.as_text) {
         (false, false) => None,
         (true, false) => Some(Encoding::Binary),
         (true, true) => Some(Encoding::Text),

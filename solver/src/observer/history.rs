@@ -67,9 +67,7 @@ impl History {
             longest_checkpoint: None,
         })
     }
-}
 
-impl History {
     /// Takes rows that `series.csv` has lost from those of the state, which has all steps.
     pub fn complete(&mut self, all: &Series, cadence: Cadence) {
         let written = &self.series;

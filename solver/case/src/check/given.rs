@@ -5,13 +5,16 @@ use alewife_mesh::{MeshError, Point, check_wrapped_placement, spatial};
 use super::Findings;
 use super::placement::{coordinates, message};
 use crate::numbers::significant;
-use crate::{Body, Geometry, Model, Motion, ShapeSpec, TimeFunction, TimeSettings, Unsteady};
+use crate::speed::norm;
+use crate::{
+    Body, Geometry, ImposedMotion, Model, Motion, ShapeSpec, TimeFunction, TimeSettings, Unsteady,
+};
 
 /// Times of a run, and of a period, at which bodies are looked at.
 const TIMES: [f64; 2] = [400.0, 64.0];
 
 /// Most times of a run.
-const MOST_TIMES: f64 = 4000.0;
+const MOST_TIMES: u32 = 4000;
 
 /// Most bodies that are followed.
 const MOST_BODIES: usize = 100;
@@ -39,7 +42,9 @@ pub fn check(findings: &mut Findings<'_>) {
         if !is_known(model, body) || !(body.translates(model.case.geometry) || body.turns()) {
             continue;
         }
-        let course = Course { model, time, body, others: &bodies };
+        let others =
+            bodies.iter().copied().filter(|other| may_meet(model, [body, other], time.end));
+        let course = Course { model, time, body, others: others.collect() };
         let Some(Trouble { time: when, error }) = course.first_trouble() else { continue };
         findings.error(
             &format!("body.{index}.motion"),
@@ -111,6 +116,25 @@ fn is_known(model: &Model, body: &Body) -> bool {
     }
 }
 
+/// Whether two bodies may come near each other by the end of a run (s).
+fn may_meet(model: &Model, [body, other]: [&Body; 2], end: f64) -> bool {
+    let excursion = |body: &Body| {
+        let Motion::Imposed(motion) = &body.motion else { return 0.0 };
+        let way = motion.factor.as_ref().map_or(end, |factor| factor.largest_integral(end));
+        norm(&motion.velocity) * way
+    };
+    let is_periodic = model.case.periodic_axes().contains(&true);
+    body.name != other.name
+        && (is_periodic || are_near(body, other, excursion(body) + excursion(other)))
+}
+
+/// Whether the balls around two bodies, where they are, are nearer to each other than this (m).
+fn are_near(body: &Body, other: &Body, apart: f64) -> bool {
+    let parts = body.center.iter().zip(&other.center);
+    let distance = parts.map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
+    distance < body.shape.reach() + other.shape.reach() + apart
+}
+
 /// A place where a body cannot be.
 struct Trouble {
     /// When it gets there (s).
@@ -123,36 +147,32 @@ struct Course<'a> {
     model: &'a Model,
     time: &'a Unsteady,
     body: &'a Body,
-    /// Those that are where their motions say, itself among them.
-    others: &'a [&'a Body],
+    /// Other ones that are where their motions say, as far as it may come near them.
+    others: Vec<&'a Body>,
 }
 
 impl Course<'_> {
     /// Where it first cannot be.
     fn first_trouble(&self) -> Option<Trouble> {
         let end = self.time.end;
-        let period = match factor(self.body) {
-            Some(TimeFunction::Sine { period, .. }) => *period,
+        let period = match &self.body.motion {
+            Motion::Imposed(ImposedMotion {
+                factor: Some(TimeFunction::Sine { period, .. }),
+                ..
+            }) => *period,
             _ => end,
         };
-        let n_times = TIMES[0].max(TIMES[1] * end / period).min(MOST_TIMES).floor();
-        let mut before = 0.0;
-        let mut nth = 0.0;
-        while nth < n_times {
-            nth += 1.0;
-            let after = end * nth / n_times;
-            if self.trouble(after).is_some() {
-                let mut bounds = [before, after];
-                for _ in 0..HALVINGS {
-                    let middle = 0.5 * (bounds[0] + bounds[1]);
-                    bounds[usize::from(self.trouble(middle).is_some())] = middle;
-                }
-                let time = bounds[1];
-                return self.trouble(time).map(|error| Trouble { time, error });
-            }
-            before = after;
+        let n_times = TIMES[0].max(TIMES[1] * end / period).min(f64::from(MOST_TIMES)).floor();
+        let at = |nth: f64| end * nth / n_times;
+        let mut nths = (1..=MOST_TIMES).map(f64::from).take_while(|nth| *nth <= n_times);
+        let nth = nths.find(|nth| self.trouble(at(*nth)).is_some())?;
+        let mut bounds = [at(nth - 1.0), at(nth)];
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (bounds[0] + bounds[1]);
+            bounds[usize::from(self.trouble(middle).is_some())] = middle;
         }
-        None
+        let time = bounds[1];
+        self.trouble(time).map(|error| Trouble { time, error })
     }
 
     /// Why it cannot be where it is at a time (s).
@@ -160,12 +180,8 @@ impl Course<'_> {
         let moved = self.at(self.body, time);
         let outside = if self.is_well_inside(&moved) { None } else { self.refused(&[&moved]) };
         outside.or_else(|| {
-            let others = self.others.iter().filter(|other| other.name != self.body.name);
-            let mut near = others.map(|other| self.at(other, time)).filter(|other| {
-                let parts = moved.center.iter().zip(&other.center);
-                let apart: f64 = parts.map(|(a, b)| (a - b).powi(2)).sum();
-                apart.sqrt() < moved.shape.reach() + other.shape.reach()
-            });
+            let others = self.others.iter().map(|other| self.at(other, time));
+            let mut near = others.filter(|other| are_near(&moved, other, 0.0));
             near.find_map(|other| self.refused(&[&other, &moved]))
         })
     }
@@ -174,7 +190,7 @@ impl Course<'_> {
     fn at(&self, body: &Body, time: f64) -> Body {
         let mut moved = body.clone();
         let Motion::Imposed(motion) = &body.motion else { return moved };
-        let way = integral(motion.factor.as_ref(), time);
+        let way = motion.factor.as_ref().map_or(time, |factor| factor.integral(time));
         for (own, part) in moved.center.iter_mut().zip(&motion.velocity) {
             *own += way * part;
         }
@@ -213,15 +229,4 @@ impl Course<'_> {
         let placed: Vec<_> = bodies.iter().map(|body| body.placed(scale)).collect();
         check_wrapped_placement(&self.model.case.mesh_domain(), &placed).err()
     }
-}
-
-/// The factor of a motion in time.
-fn factor(body: &Body) -> Option<&TimeFunction> {
-    let Motion::Imposed(motion) = &body.motion else { return None };
-    motion.factor.as_ref()
-}
-
-/// The integral of a factor from the start (s).
-fn integral(factor: Option<&TimeFunction>, time: f64) -> f64 {
-    factor.map_or(time, |factor| factor.integral(time))
 }

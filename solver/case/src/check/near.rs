@@ -34,7 +34,6 @@ pub fn check(findings: &mut Findings<'_>) {
         Other::Body(other) => of(other),
         Other::Side(side) => format!("the side `{side}`"),
     };
-    let range = model.bodies[body].size.or(model.case.mesh.surface).unwrap_or(0.1 * thickness);
     findings.warning(
         &format!("body.{body}.center"),
         format!(
@@ -44,9 +43,8 @@ pub fn check(findings: &mut Findings<'_>) {
             gap.max(0.0)
         ),
         &format!(
-            "if they may meet, add contact.barrier = {{ range = {:.1e}, stiffness = ... }}: without \
-             [contact] steps and cells shrink with the gap",
-            range.min(0.5 * thickness)
+            "if they may meet, add {}: without [contact] steps and cells shrink with the gap",
+            barrier(model, body, thickness)
         ),
     );
 }
@@ -62,7 +60,6 @@ pub fn check_ahead(findings: &mut Findings<'_>) {
     let Some(met) = model.first_meeting().filter(|met| met.time < time.end) else { return };
     let other = if met.is_at_side { "a side of the domain" } else { "another body" };
     let thickness = model.bodies[met.body].shape.half_width();
-    let range = model.bodies[met.body].size.or(model.case.mesh.surface).unwrap_or(0.1 * thickness);
     findings.warning(
         &format!("body.{}.{}", met.body, if met.swims { "gait" } else { "center" }),
         format!(
@@ -74,11 +71,16 @@ pub fn check_ahead(findings: &mut Findings<'_>) {
             time.end
         ),
         &format!(
-            "add contact.barrier = {{ range = {:.1e}, stiffness = ... }}, or end before: without \
-             [contact] steps and cells shrink with the gap",
-            range.min(0.5 * thickness)
+            "add {}, or end before: without [contact] steps and cells shrink with the gap",
+            barrier(model, met.body, thickness)
         ),
     );
+}
+
+/// A contact that acts over a cell at a body, whose half width is a `thickness` (m) at least.
+fn barrier(model: &Model, body: usize, thickness: f64) -> String {
+    let range = model.bodies[body].size.or(model.case.mesh.surface).unwrap_or(0.1 * thickness);
+    format!("contact.barrier = {{ range = {:.1e}, stiffness = ... }}", range.min(0.5 * thickness))
 }
 
 /// What is near a body.

@@ -182,7 +182,7 @@ mod tests {
         assert!((estimate.matrix() - exact).amax() < 1e-10);
     }
 
-    /// What was learnt before stays where nothing new is told of it.
+    /// A mobility that was learnt before is kept where no new load acts.
     #[test]
     fn what_was_learnt_is_a_start() {
         let (before, exact) = (mobility(29.0), mobility(30.0));

@@ -30,7 +30,7 @@ impl<const D: usize> FluidSystem<D> {
         if is_free == self.numbering.is_free {
             return;
         }
-        // A run that is stopped before its state moves on goes on from the state of the old numbers
+        // A run that is stopped within this step resumes from the last state, whose numbering is the old one
         let before = self.linear.memory();
         self.kept_memory.get_or_insert(before);
         let sides = problem.do_nothing_sides();

@@ -279,8 +279,7 @@ impl<'a> Progress<'a> {
         let wanted = match self.criterion.reduction {
             Reduction::OfStep { first } => {
                 let scale = self.scale();
-                let grown = first.filter(|first| *first > scale && scale > 0.0);
-                let part = grown.map_or(0.0, |first| first / scale);
+                let part = first.filter(|_| scale > 0.0).map_or(0.0, |first| first / scale);
                 return (OF_PASS * part).clamp(OF_STEP, FIRST_REDUCTION);
             }
             Reduction::ToTolerance => enough,
