@@ -34,7 +34,7 @@ pub use check::check_mesh;
 pub use curved::{CellMap, CellNodes, jacobian_coefficients, map_quadratic, shape_functions};
 pub use error::MeshError;
 pub use index::{BoundaryId, CellId, FacetId, NodeId};
-pub use locate::{Located, Locator};
+pub use locate::{Image, Located, Locator, Neighbours};
 pub use mesh::{Boundary, BoundaryKind, Edge, Facet, Mesh, PeriodicPair, Point};
 pub use msh::{Encoding, MshError, Place, read_msh, read_planar_msh, read_spatial_msh, write_msh};
 pub use number::whole;

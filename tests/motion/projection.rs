@@ -138,7 +138,7 @@ fn what_is_between_the_nodes_keeps_the_energy_of_waves() {
     let (old, new) = moved_and_new(0.15);
     let tables = Tables::new(Metric::Cartesian);
     let field: Vec<Point<2>> = old.nodes.iter().map(waves).collect();
-    let transfer = Transfer::new(&old, &new, &[]).unwrap().with_points(&tables, &[]).unwrap();
+    let transfer = Transfer::new(&old, &new, &[]).unwrap().with_points(&tables).unwrap();
     let transferred = transfer.quadratic(&field);
     let missed = transfer.missed(&tables, &field, &transferred);
     let mut projection = DivergenceFreeProjection::new(&walled(&new, Metric::Cartesian), &new);

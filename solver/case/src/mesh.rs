@@ -38,6 +38,24 @@ pub struct MeshSettings {
     pub scale: f64,
 }
 
+/// Most layers of cells across a gap for which the domain is remeshed unless the case says so.
+const ENOUGH_LAYERS: f64 = 2.0;
+
+impl MeshSettings {
+    /// Layers of cells across a gap in a new mesh.
+    #[must_use]
+    pub fn layers_when_new(&self) -> f64 {
+        self.gap_layers / self.scale
+    }
+
+    /// Layers of cells across a gap below which the domain is remeshed: as given, or half of those in a new
+    /// mesh, 2 at most.
+    #[must_use]
+    pub fn fewest_layers(&self) -> f64 {
+        self.moving.layers.unwrap_or_else(|| ENOUGH_LAYERS.min(0.5 * self.layers_when_new()))
+    }
+}
+
 /// `[mesh.moving]`.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
@@ -49,9 +67,9 @@ pub struct MovingMesh {
     /// Quality of a cell, over its quality when new, below which the domain is remeshed (1).
     #[serde(default = "default_quality")]
     pub quality: f64,
-    /// Layers of cells across a gap below which the domain is remeshed.
-    #[serde(default = "default_layers")]
-    pub layers: f64,
+    /// Layers of cells across a gap below which the domain is remeshed; see [`MeshSettings::fewest_layers`].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub layers: Option<f64>,
 }
 
 impl MovingMesh {
@@ -62,11 +80,7 @@ impl MovingMesh {
 
 impl Default for MovingMesh {
     fn default() -> Self {
-        Self {
-            equation: MeshEquation::default(),
-            quality: default_quality(),
-            layers: default_layers(),
-        }
+        Self { equation: MeshEquation::default(), quality: default_quality(), layers: None }
     }
 }
 
@@ -97,10 +111,6 @@ pub struct RefinementBox {
 
 fn default_quality() -> f64 {
     0.4
-}
-
-fn default_layers() -> f64 {
-    2.0
 }
 
 fn default_growth() -> f64 {

@@ -34,7 +34,7 @@ fn a_moving_mesh_has_limits_a_new_one_meets() {
     for (setting, wanted) in [
         ("quality=0", "must be positive"),
         ("quality=1", "keeps 1 of its quality"),
-        ("layers=0.5", "a gap needs a layer of cells"),
+        ("layers=0", "must be positive"),
         ("layers=5", "a new mesh has 4"),
         ("equation=elastc", "`elastic`?"),
     ] {

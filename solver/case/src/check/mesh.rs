@@ -168,21 +168,17 @@ fn check_moving(findings: &mut Findings<'_>) {
     }
     // Both as written: the scale of the mesh makes gaps coarser than they were meant to be, which
     // is no reason to refuse them. A mesh with few layers is replaced once it has lost some.
-    if moving.layers < 1.0 {
-        findings.error(
-            "mesh.moving.layers",
-            format!("`mesh.moving.layers` is {}, but a gap needs a layer of cells", moving.layers),
-            "write 1 or more; 2 is usual",
-        );
-    } else if moving.layers > gap_layers.max(MODEST_LAYERS) {
-        findings.error(
-            "mesh.moving.layers",
-            format!(
-                "the domain is remeshed below {} layers across a gap, but a new mesh has {gap_layers}",
-                moving.layers
-            ),
-            &format!("write at most mesh.gap_layers = {gap_layers}, or raise that"),
-        );
+    if let Some(layers) = moving.layers {
+        findings.positive("mesh.moving.layers", layers);
+        if layers > gap_layers.max(MODEST_LAYERS) {
+            findings.error(
+                "mesh.moving.layers",
+                format!(
+                    "the domain is remeshed below {layers} layers across a gap, but a new mesh has {gap_layers}"
+                ),
+                &format!("write at most mesh.gap_layers = {gap_layers}, or raise that"),
+            );
+        }
     }
     if moving != MovingMesh::default() && !findings.model().mesh_moves() {
         findings.warning(

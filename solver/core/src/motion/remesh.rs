@@ -6,7 +6,7 @@ use alewife_mesh::{CellId, Facet, FacingSurfaces, Mesh, Point};
 
 /// Layers left at a surface, over those of the new mesh, below which a new mesh is worth its price:
 /// gaps that were meshed with few layers on purpose do not ask for a mesh at every step.
-const LOST: f64 = 0.75;
+const LOST: f64 = 0.5;
 
 /// When a mesh is replaced.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,12 +1,17 @@
 //! Fields of one mesh evaluated at the nodes of another that covers the same region.
 
-use alewife_mesh::{CellId, Locator, Mesh, NodeId, Point, shape_functions, whole};
+use alewife_mesh::{
+    CellId, Image, Located, Locator, Mesh, Neighbours, NodeId, Point, shape_functions, whole,
+};
 use rayon::prelude::*;
 
 use crate::space::{CellValues, Tables};
 
 /// Barycentric coordinates down to this are extrapolated; farther outside they are clamped to it.
 const EXTRAPOLATION: f64 = -0.1;
+
+/// Cells of which a thread finds the quadrature points at a time.
+const CELLS_PER_TASK: usize = 64;
 
 /// Nodes a thread takes at a time.
 const NODES_PER_TASK: usize = 1024;
@@ -26,6 +31,8 @@ pub enum Landing {
 /// Where a node of the new mesh takes its values.
 #[derive(Debug, Clone, Copy)]
 struct Source<const D: usize> {
+    /// Which of the periods lead there.
+    image: usize,
     cell: CellId,
     at: [f64; D],
     landing: Landing,
@@ -38,6 +45,7 @@ struct Source<const D: usize> {
 pub struct Transfer<'a, const D: usize> {
     old: &'a Mesh<D>,
     new: &'a Mesh<D>,
+    finder: Finder<D>,
     sources: Vec<Source<D>>,
     /// Where the quadrature points of the new mesh take their values, cell by cell.
     points: Vec<Source<D>>,
@@ -66,20 +74,33 @@ impl<'a, const D: usize> Transfer<'a, D> {
     /// Returns `None` when a node is not finite or the old mesh has no cells.
     #[must_use]
     pub fn new(old: &'a Mesh<D>, new: &'a Mesh<D>, periods: &[Point<D>]) -> Option<Self> {
-        Some(Self { old, new, sources: find(old, &new.nodes, periods)?, points: Vec::new() })
+        let finder = Finder::new(old, periods);
+        let sources = finder.find(&new.nodes)?;
+        Some(Self { old, new, finder, sources, points: Vec::new() })
     }
 
     /// Finds the quadrature points of the new mesh, too, for [`Self::missed`].
     ///
     /// Returns `None` as [`Self::new`] does.
     #[must_use]
-    pub fn with_points(mut self, tables: &Tables<D>, periods: &[Point<D>]) -> Option<Self> {
-        let mut points = Vec::new();
-        let mut workspace = CellValues::default();
-        for cell in self.new.cell_ids() {
-            workspace.for_each_point(tables, self.new, cell, |at| points.push(at.position));
-        }
-        self.points = find(self.old, &points, periods)?;
+    pub fn with_points(mut self, tables: &Tables<D>) -> Option<Self> {
+        let (new, sources, finder) = (self.new, &self.sources, &self.finder);
+        let cells: Vec<CellId> = new.cell_ids().collect();
+        let of_cells = |cells: &[CellId]| {
+            let mut workspace = CellValues::default();
+            let mut points = Vec::new();
+            for &cell in cells {
+                // From a node of the cell, and from point to point
+                let mut last = Some(sources[new.cell(cell)[0].index()]);
+                workspace.for_each_point(tables, new, cell, |at| {
+                    last = last.and_then(|last| finder.one(&at.position, Some(&last)));
+                    points.push(last);
+                });
+            }
+            points.into_iter().collect::<Option<Vec<_>>>()
+        };
+        let parts: Option<Vec<_>> = cells.par_chunks(CELLS_PER_TASK).map(of_cells).collect();
+        self.points = parts?.concat();
         Some(self)
     }
 
@@ -162,40 +183,56 @@ impl<'a, const D: usize> Transfer<'a, D> {
     }
 }
 
-/// Finds points (m) in a mesh; `None` when one is not finite or the mesh has no cells.
-fn find<const D: usize>(
-    old: &Mesh<D>,
-    points: &[Point<D>],
-    periods: &[Point<D>],
-) -> Option<Vec<Source<D>>> {
-    let locator = Locator::new(old);
-    let images: Vec<Point<D>> = std::iter::once(&Point::zeros()).chain(periods).copied().collect();
-    let find = &|point: &Point<D>, guess: Option<CellId>| {
-        let located = match guess {
-            Some(guess) => locator.locate_from(guess, *point),
-            None => locator.locate(*point),
+/// Finds points in the old mesh, or their images.
+#[derive(Debug, Clone)]
+struct Finder<const D: usize> {
+    locator: Locator<D>,
+    neighbours: Neighbours<D>,
+    /// No period, then all (m).
+    images: Vec<Point<D>>,
+}
+
+impl<const D: usize> Finder<D> {
+    fn new(old: &Mesh<D>, periods: &[Point<D>]) -> Self {
+        let images = std::iter::once(&Point::zeros()).chain(periods).copied().collect();
+        Self { locator: Locator::new(old), neighbours: Neighbours::new(old), images }
+    }
+
+    /// Finds a point (m), sooner near a place where another one was found; `None` when it is not finite or the
+    /// mesh has no cells.
+    fn one(&self, point: &Point<D>, near: Option<&Source<D>>) -> Option<Source<D>> {
+        let Self { locator, neighbours, images } = self;
+        let there = |near: &Source<D>| {
+            let found = locator.walk(neighbours, near.cell, point + images[near.image])?;
+            Some(settle(&Image { located: found, shift: near.image }, Landing::Inside))
         };
-        if let Some(found) = located {
-            return Some(settle(found.cell, found.reference, Landing::Inside, 0.0));
+        if let Some(found) = near.and_then(there) {
+            return Some(found);
         }
-        let nearest = locator.nearest_image(*point, &images)?;
-        Some(settle(nearest.cell, nearest.reference, Landing::Extrapolated, nearest.distance))
-    };
-    let order = by_proximity(points);
-    let found: Option<Vec<(usize, Source<D>)>> = order
-        .par_chunks(NODES_PER_TASK)
-        .flat_map_iter(|some| {
-            let mut last = None;
-            some.iter().map(move |&point| {
-                let found = find(&points[point], last)?;
-                last = Some(found.cell);
-                Some((point, found))
+        if let Some(located) = locator.locate(*point) {
+            return Some(settle(&Image { located, shift: 0 }, Landing::Inside));
+        }
+        Some(settle(&locator.nearest_image(*point, images)?, Landing::Extrapolated))
+    }
+
+    /// Finds points (m); `None` when one is not finite or the mesh has no cells.
+    fn find(&self, points: &[Point<D>]) -> Option<Vec<Source<D>>> {
+        let order = by_proximity(points);
+        let found: Option<Vec<(usize, Source<D>)>> = order
+            .par_chunks(NODES_PER_TASK)
+            .flat_map_iter(|some| {
+                let mut last: Option<Source<D>> = None;
+                some.iter().map(move |&point| {
+                    let found = self.one(&points[point], last.as_ref())?;
+                    last = Some(found);
+                    Some((point, found))
+                })
             })
-        })
-        .collect();
-    let mut found = found?;
-    found.par_sort_unstable_by_key(|(point, _)| *point);
-    Some(found.into_iter().map(|(_, source)| source).collect())
+            .collect();
+        let mut found = found?;
+        found.par_sort_unstable_by_key(|(point, _)| *point);
+        Some(found.into_iter().map(|(_, source)| source).collect())
+    }
 }
 
 /// The barycentric coordinate of the first vertex.
@@ -204,23 +241,20 @@ fn first_barycentric<const D: usize>(at: &[f64; D]) -> f64 {
 }
 
 /// Keeps reference coordinates within the cell, or near it where they are extrapolated.
-fn settle<const D: usize>(
-    cell: CellId,
-    at: [f64; D],
-    landing: Landing,
-    distance: f64,
-) -> Source<D> {
+fn settle<const D: usize>(found: &Image<D>, landing: Landing) -> Source<D> {
+    let Image { located: Located { cell, reference: at, distance }, shift: image } = *found;
+    let distance = if landing == Landing::Inside { 0.0 } else { distance };
     let first = first_barycentric(&at);
     let lowest = at.iter().fold(first, |lowest, l| lowest.min(*l));
     if lowest >= EXTRAPOLATION {
-        return Source { cell, at, landing, distance };
+        return Source { image, cell, at, landing, distance };
     }
     // Back to the sum of one, the parts above the bound giving way
     let spare = |l: f64| l.max(EXTRAPOLATION) - EXTRAPOLATION;
     let total = at.iter().fold(spare(first), |sum, l| sum + spare(*l));
     let scale = (1.0 - (D + 1) as f64 * EXTRAPOLATION) / total;
     let at = at.map(|l| EXTRAPOLATION + spare(l) * scale);
-    Source { cell, at, landing: Landing::Clamped, distance }
+    Source { image, cell, at, landing: Landing::Clamped, distance }
 }
 
 /// Points along a Z-order curve: the search finds what it needs in the cache.
@@ -251,10 +285,14 @@ mod tests {
 
     #[test]
     fn coordinates_far_outside_are_clamped_near_the_cell() {
-        let near = settle(CellId::new(0), [-0.05, 0.5], Landing::Extrapolated, 0.1);
+        let settled = |reference| {
+            let located = Located { cell: CellId::new(0), reference, distance: 0.1 };
+            settle(&Image { located, shift: 0 }, Landing::Extrapolated)
+        };
+        let near = settled([-0.05, 0.5]);
         assert_eq!((near.at, near.landing), ([-0.05, 0.5], Landing::Extrapolated));
         for at in [[-3.0, 0.5], [5.0, 5.0], [-2.0, -2.0], [0.2, -0.2]] {
-            let far = settle(CellId::new(0), at, Landing::Extrapolated, 0.1);
+            let far = settled(at);
             assert_eq!(far.landing, Landing::Clamped);
             for l in [1.0 - far.at[0] - far.at[1], far.at[0], far.at[1]] {
                 assert!((EXTRAPOLATION - 1e-14..=1.2 + 1e-14).contains(&l), "{at:?}: {l}");

@@ -131,7 +131,7 @@ impl<'a, const D: usize> Takeover<'a, D> {
             &mut solution.velocity,
         );
         if let Some(projection) = &mut self.projection {
-            transfer = transfer.with_points(&self.tables, &images).ok_or_else(not_found)?;
+            transfer = transfer.with_points(&self.tables).ok_or_else(not_found)?;
             let residual =
                 transfer.missed(&self.tables, &level.solution.velocity, &solution.velocity);
             if !std::mem::take(&mut self.is_placed) {

@@ -26,7 +26,7 @@ pub fn sizing<const D: usize>(case: &Case) -> Sizing<D> {
         sides: mesh.sides.iter().map(|(name, size)| (name.clone(), size * mesh.scale)).collect(),
         // A finer mesh has the same shape: more layers in gaps, slower growth
         growth: mesh.growth * mesh.scale,
-        gap_layers: mesh.gap_layers / mesh.scale,
+        gap_layers: mesh.layers_when_new(),
         turn: LARGEST_TURN * mesh.scale,
         boxes: boxes.collect(),
         curved: mesh.curved,
@@ -35,6 +35,6 @@ pub fn sizing<const D: usize>(case: &Case) -> Sizing<D> {
 
 /// When a case has its mesh replaced.
 pub(super) fn limits(case: &Case) -> Limits {
-    let moving = &case.mesh.moving;
-    Limits { quality: moving.quality, layers: moving.layers }
+    let mesh = &case.mesh;
+    Limits { quality: mesh.moving.quality, layers: mesh.fewest_layers() }
 }

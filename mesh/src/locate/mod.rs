@@ -3,6 +3,11 @@
 //! A tree of cell boxes finds the candidates; the map of a straight cell is inverted exactly, that
 //! of a curved one by Newton's method.
 
+mod neighbours;
+mod walk;
+
+pub use neighbours::Neighbours;
+
 use crate::box_tree::{Bounds, BoxTree};
 use crate::cell_faces::{Face, push_faces};
 use crate::cell_point::{
@@ -28,9 +33,6 @@ const SHORT: f64 = 0.05;
 /// between two cells.
 const ROUNDING: f64 = 1e-12;
 
-/// Barycentric coordinates of a point that is in no other cell are larger than this.
-const WITHIN: f64 = 1e-6;
-
 /// Where a point is in a mesh.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Located<const D: usize> {
@@ -40,6 +42,15 @@ pub struct Located<const D: usize> {
     pub reference: [f64; D],
     /// Distance from the point to the cell (m), zero inside.
     pub distance: f64,
+}
+
+/// Where an image of a point is in a mesh.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Image<const D: usize> {
+    /// Where it is.
+    pub located: Located<D>,
+    /// Which of the shifts led to it.
+    pub shift: usize,
 }
 
 /// Finds cells; keeps its own copy of the geometry, so the mesh may move on.
@@ -103,19 +114,6 @@ impl<const D: usize> Locator<D> {
         self.search(point, self.tolerance)
     }
 
-    /// The same as [`Self::locate`], sooner where the point is within a cell that is guessed.
-    #[must_use]
-    pub fn locate_from(&self, guess: CellId, point: Point<D>) -> Option<Located<D>> {
-        let is_near = self.boxes[guess.index()].squared_distance(&point) == 0.0;
-        let guessed = is_near.then(|| self.locate_in(guess, point, self.tolerance)).flatten();
-        // On a side, another cell may be the first that is found
-        let is_within = |found: &Located<D>| {
-            let first = 1.0 - found.reference.iter().sum::<f64>();
-            found.distance == 0.0 && found.reference.iter().chain([&first]).all(|l| *l > WITHIN)
-        };
-        guessed.filter(is_within).or_else(|| self.locate(point))
-    }
-
     /// The cell nearest to a point (m), however far outside; `None` only for a point that is not
     /// finite or a mesh without cells.
     ///
@@ -131,10 +129,13 @@ impl<const D: usize> Locator<D> {
     ///
     /// `None` as from [`Self::nearest`], or without a shift.
     #[must_use]
-    pub fn nearest_image(&self, point: Point<D>, shifts: &[Point<D>]) -> Option<Located<D>> {
+    pub fn nearest_image(&self, point: Point<D>, shifts: &[Point<D>]) -> Option<Image<D>> {
         // Most points have an image inside, which a short search finds
-        let mut inside = shifts.iter().filter_map(|shift| self.locate(point + shift));
-        if let Some(found) = inside.find(|found| found.distance == 0.0) {
+        let at = |(shift, by): (usize, &Point<D>)| {
+            self.locate(point + by).map(|located| Image { located, shift })
+        };
+        let mut inside = shifts.iter().enumerate().filter_map(at);
+        if let Some(found) = inside.find(|found| found.located.distance == 0.0) {
             return Some(found);
         }
         // A long search begun at the wrong image goes through many cells
@@ -143,18 +144,13 @@ impl<const D: usize> Locator<D> {
     }
 
     /// The nearest of the images within reach (m).
-    fn nearest_of(
-        &self,
-        point: Point<D>,
-        shifts: &[Point<D>],
-        mut reach: f64,
-    ) -> Option<Located<D>> {
-        let mut best: Option<Located<D>> = None;
-        for shift in shifts {
-            let Some(found) = self.search(point + shift, reach) else { continue };
-            if best.is_none_or(|best| found.distance < best.distance) {
-                reach = found.distance + self.tolerance;
-                best = Some(found);
+    fn nearest_of(&self, point: Point<D>, shifts: &[Point<D>], mut reach: f64) -> Option<Image<D>> {
+        let mut best: Option<Image<D>> = None;
+        for (shift, by) in shifts.iter().enumerate() {
+            let Some(located) = self.search(point + by, reach) else { continue };
+            if best.is_none_or(|best| located.distance < best.located.distance) {
+                reach = located.distance + self.tolerance;
+                best = Some(Image { located, shift });
             }
         }
         best
@@ -178,11 +174,16 @@ impl<const D: usize> Locator<D> {
         best
     }
 
+    /// Vertices of a cell (m), D + 1 of them.
+    fn vertices_of(&self, cell: CellId) -> &[Point<D>] {
+        &self.vertices[(D + 1) * cell.index()..(D + 1) * (cell.index() + 1)]
+    }
+
     /// Where a point is with respect to one cell, unless that is farther than a bound (m).
     fn locate_in(&self, cell: CellId, point: Point<D>, bound: f64) -> Option<Located<D>> {
-        let vertices = &self.vertices[(D + 1) * cell.index()..(D + 1) * (cell.index() + 1)];
+        let vertices = self.vertices_of(cell);
         let columns: [Point<D>; D] = std::array::from_fn(|k| vertices[k + 1] - vertices[0]);
-        let straight = solve(&columns, point - vertices[0], determinant(&columns));
+        let straight = straight_coordinates(vertices, point);
         if self.is_beyond(cell, straight, bound) {
             return None;
         }
@@ -223,6 +224,12 @@ impl<const D: usize> Locator<D> {
     }
 }
 
+/// Reference coordinates of a point (m) in the straight cell with some vertices, D + 1 of them (m).
+fn straight_coordinates<const D: usize>(vertices: &[Point<D>], point: Point<D>) -> [f64; D] {
+    let columns: [Point<D>; D] = std::array::from_fn(|k| vertices[k + 1] - vertices[0]);
+    solve(&columns, point - vertices[0], determinant(&columns))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -230,7 +237,7 @@ mod tests {
     use crate::test_meshes::{bulged_cube, cube_of_five, cube_of_twelve};
     use crate::{Domain, PlacedShape, Shape, Sizing, generate};
 
-    fn channel() -> Mesh<2> {
+    pub(super) fn channel() -> Mesh<2> {
         let domain = Domain::Box {
             min: Point::<2>::zeros(),
             max: Point::<2>::new(2.2, 0.41),
@@ -245,24 +252,6 @@ mod tests {
             size: None,
         };
         generate(&domain, &[disc], &Sizing::graded(0.02, 0.2, 0.08)).unwrap()
-    }
-
-    /// In a guessed cell, on its sides and at its corners, beside it and far away.
-    #[test]
-    fn a_guess_changes_nothing() {
-        let mesh = channel();
-        let locator = Locator::new(&mesh);
-        for cell in mesh.cell_ids() {
-            let nodes = mesh.cell_nodes(cell);
-            for at in [[0.3, 0.3], [0.5, 0.5], [0.0, 0.4], [0.0, 0.0], [-0.1, 0.2], [40.0, 3.0]] {
-                let point = map_quadratic(&nodes, at).position;
-                assert_eq!(
-                    locator.locate_from(cell, point),
-                    locator.locate(point),
-                    "{cell} {at:?}"
-                );
-            }
-        }
     }
 
     #[test]
@@ -308,7 +297,11 @@ mod tests {
             let point = Point::<2>::new(-3.0 + 0.1 * f64::from(i), -0.6 + 0.02 * f64::from(j));
             let all = shifts.iter().filter_map(|shift| locator.nearest(point + shift));
             let plain = all.min_by(|a, b| a.distance.total_cmp(&b.distance));
-            assert_eq!(locator.nearest_image(point, &shifts), plain);
+            let found = locator.nearest_image(point, &shifts);
+            assert_eq!(found.map(|image| image.located), plain);
+            assert!(found.is_none_or(|image| {
+                locator.nearest(point + shifts[image.shift]) == Some(image.located)
+            }));
         }
         let nowhere = Point::<2>::new(f64::NAN, 0.0);
         assert_eq!(locator.nearest_image(nowhere, &shifts), None);

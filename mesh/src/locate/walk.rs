@@ -1,0 +1,84 @@
+//! The way from a guessed cell to the one that holds a point, across the face beyond which the point is.
+
+use super::neighbours::Neighbours;
+use super::{Located, Locator, STRAIGHT, straight_coordinates};
+use crate::{CellId, Point};
+
+/// Coordinates in the straight cell may be negative by this where a point is in the curved one.
+const CURVED: f64 = 0.3;
+
+/// Most cells on a way to a point.
+const LONGEST_WAY: usize = 64;
+
+/// Barycentric coordinates of a point that is in no other cell are larger than this.
+const WITHIN: f64 = 1e-6;
+
+impl<const D: usize> Locator<D> {
+    /// What [`Self::locate`] finds, by a way through cells from one that is guessed; `None` where that leads to
+    /// the boundary, too far, or to a point that is in no cell alone.
+    #[must_use]
+    pub fn walk(
+        &self,
+        neighbours: &Neighbours<D>,
+        guess: CellId,
+        point: Point<D>,
+    ) -> Option<Located<D>> {
+        let mut cell = guess;
+        for _ in 0..LONGEST_WAY {
+            let straight = straight_coordinates(self.vertices_of(cell), point);
+            let first = 1.0 - straight.iter().sum::<f64>();
+            let all = std::iter::once(first).chain(straight).enumerate();
+            let (opposite, least) = all.min_by(|a, b| a.1.total_cmp(&b.1))?;
+            let is_curved = self.curved[cell.index()] != STRAIGHT;
+            if least > if is_curved { -CURVED } else { 0.0 } {
+                // On a side, another cell may be the first that is found
+                let is_within = |found: &Located<D>| {
+                    let first = 1.0 - found.reference.iter().sum::<f64>();
+                    found.distance == 0.0
+                        && found.reference.iter().chain([&first]).all(|l| *l > WITHIN)
+                };
+                let found = self.locate_in(cell, point, self.tolerance).filter(is_within);
+                if found.is_some() || least > 0.0 {
+                    return found;
+                }
+            }
+            cell = neighbours.across(cell, opposite)?;
+        }
+        None
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Mesh;
+    use crate::curved::map_quadratic;
+    use crate::locate::tests::channel;
+    use crate::test_meshes::bulged_cube;
+
+    /// From its cell and from cells far away, on sides and at corners, outside and in a cell behind the body.
+    fn goes_to<const D: usize>(mesh: &Mesh<D>, places: &[[f64; D]]) {
+        let (locator, neighbours) = (Locator::new(mesh), Neighbours::new(mesh));
+        let mut n_found = 0;
+        for (cell, guess) in mesh.cell_ids().zip(mesh.cell_ids().rev()) {
+            for at in places {
+                let point = map_quadratic(&mesh.cell_nodes(cell), *at).position;
+                for from in [cell, guess] {
+                    if let Some(found) = locator.walk(&neighbours, from, point) {
+                        assert_eq!(Some(found), locator.locate(point), "{from} {at:?}");
+                        n_found += 1;
+                    }
+                }
+            }
+        }
+        assert!(n_found >= 2 * mesh.n_cells(), "{n_found}");
+    }
+
+    #[test]
+    fn a_way_leads_to_what_is_found_without() {
+        let all = [[0.3, 0.3], [0.5, 0.5], [0.0, 0.4], [0.0, 0.0], [-0.1, 0.2], [40.0, 3.0]];
+        goes_to(&channel(), &all);
+        let all = [[0.25, 0.2, 0.3], [0.3, 0.3, 0.002], [0.4, 0.3, 0.3], [0.0, 0.2, 0.2], [9.0; 3]];
+        goes_to(&bulged_cube(0.2), &all);
+    }
+}
