@@ -85,7 +85,7 @@ fn few_layers_on_purpose_are_no_reason() {
             let (_, reason) = reason_after(&sizing, [x, 0.0], Pose::planar(x, 0.0, 0.0));
             assert_eq!(reason, None);
             let (_, reason) =
-                reason_after(&sizing, [x, 0.0], Pose::planar(x + 0.5 * gap, 0.0, 0.0));
+                reason_after(&sizing, [x, 0.0], Pose::planar(x + 0.6 * gap, 0.0, 0.0));
             assert!(matches!(reason, Some(Reason::Gap { .. })), "{layers} {gap}: {reason:?}");
         }
     }

@@ -13,6 +13,14 @@ const LONGEST_WAY: usize = 64;
 /// Barycentric coordinates of a point that is in no other cell are larger than this.
 const WITHIN: f64 = 1e-6;
 
+impl<const D: usize> Located<D> {
+    /// Whether no other cell has the point.
+    fn is_within(&self) -> bool {
+        let first = 1.0 - self.reference.iter().sum::<f64>();
+        self.distance == 0.0 && self.reference.iter().chain([&first]).all(|l| *l > WITHIN)
+    }
+}
+
 impl<const D: usize> Locator<D> {
     /// What [`Self::locate`] finds, by a way through cells from one that is guessed; `None` where that leads to
     /// the boundary, too far, or to a point that is in no cell alone.
@@ -29,15 +37,15 @@ impl<const D: usize> Locator<D> {
             let first = 1.0 - straight.iter().sum::<f64>();
             let all = std::iter::once(first).chain(straight).enumerate();
             let (opposite, least) = all.min_by(|a, b| a.1.total_cmp(&b.1))?;
-            let is_curved = self.curved[cell.index()] != STRAIGHT;
-            if least > if is_curved { -CURVED } else { 0.0 } {
-                // On a side, another cell may be the first that is found
-                let is_within = |found: &Located<D>| {
-                    let first = 1.0 - found.reference.iter().sum::<f64>();
-                    found.distance == 0.0
-                        && found.reference.iter().chain([&first]).all(|l| *l > WITHIN)
-                };
-                let found = self.locate_in(cell, point, self.tolerance).filter(is_within);
+            let is_straight = self.curved[cell.index()] == STRAIGHT;
+            // On a side, another cell may be the first that is found
+            if is_straight && least > 0.0 {
+                let found = Located { cell, reference: straight, distance: 0.0 };
+                return (least > WITHIN).then_some(found);
+            }
+            if !is_straight && least > -CURVED {
+                let found = self.locate_in(cell, point, self.tolerance);
+                let found = found.filter(Located::is_within);
                 if found.is_some() || least > 0.0 {
                     return found;
                 }
