@@ -179,6 +179,19 @@ impl<const D: usize> Locator<D> {
         &self.vertices[(D + 1) * cell.index()..(D + 1) * (cell.index() + 1)]
     }
 
+    /// Nodes of a curved cell (m); `None` of a straight one.
+    fn quadratic_nodes(&self, cell: CellId) -> Option<&[Point<D>]> {
+        let start = self.curved[cell];
+        (start != STRAIGHT)
+            .then(|| &self.quadratic[start as usize..start as usize + Simplex::<D>::N_NODES])
+    }
+
+    /// By how much Newton's method may miss a point in a cell (m).
+    fn found_within(&self, cell: CellId) -> f64 {
+        let vertices = self.vertices_of(cell);
+        FOUND * vertices[1..].iter().map(|vertex| (vertex - vertices[0]).norm()).sum::<f64>()
+    }
+
     /// Where a point is with respect to one cell, unless that is farther than a bound (m).
     fn locate_in(&self, cell: CellId, point: Point<D>, bound: f64) -> Option<Located<D>> {
         let vertices = self.vertices_of(cell);
@@ -187,12 +200,9 @@ impl<const D: usize> Locator<D> {
         if self.is_beyond(cell, straight, bound) {
             return None;
         }
-        let start = self.curved[cell];
-        let nodes = (start != STRAIGHT)
-            .then(|| &self.quadratic[start as usize..start as usize + Simplex::<D>::N_NODES]);
-        let size: f64 = columns.iter().map(Point::norm).sum();
+        let nodes = self.quadratic_nodes(cell);
         let found = match nodes {
-            Some(nodes) => invert_quadratic(nodes, point, straight, FOUND * size),
+            Some(nodes) => invert_quadratic(nodes, point, straight, self.found_within(cell)),
             None => Some(straight),
         };
         let reference = found.unwrap_or(straight);

@@ -1,7 +1,8 @@
 //! The way from a guessed cell to the one that holds a point, across the face beyond which the point is.
 
 use super::neighbours::Neighbours;
-use super::{Located, Locator, STRAIGHT, straight_coordinates};
+use super::{Located, Locator, straight_coordinates};
+use crate::cell_point::invert_quadratic;
 use crate::{CellId, Point};
 
 /// Coordinates in the straight cell may be negative by this where a point is in the curved one.
@@ -12,14 +13,6 @@ const LONGEST_WAY: usize = 64;
 
 /// Barycentric coordinates of a point that is in no other cell are larger than this.
 const WITHIN: f64 = 1e-6;
-
-impl<const D: usize> Located<D> {
-    /// Whether no other cell has the point.
-    fn is_within(&self) -> bool {
-        let first = 1.0 - self.reference.iter().sum::<f64>();
-        self.distance == 0.0 && self.reference.iter().chain([&first]).all(|l| *l > WITHIN)
-    }
-}
 
 impl<const D: usize> Locator<D> {
     /// What [`Self::locate`] finds, by a way through cells from one that is guessed; `None` where that leads to
@@ -37,18 +30,20 @@ impl<const D: usize> Locator<D> {
             let first = 1.0 - straight.iter().sum::<f64>();
             let all = std::iter::once(first).chain(straight).enumerate();
             let (opposite, least) = all.min_by(|a, b| a.1.total_cmp(&b.1))?;
-            let is_straight = self.curved[cell.index()] == STRAIGHT;
             // On a side, another cell may be the first that is found
-            if is_straight && least > 0.0 {
-                let found = Located { cell, reference: straight, distance: 0.0 };
-                return (least > WITHIN).then_some(found);
-            }
-            if !is_straight && least > -CURVED {
-                let found = self.locate_in(cell, point, self.tolerance);
-                let found = found.filter(Located::is_within);
-                if found.is_some() || least > 0.0 {
-                    return found;
+            let found = match self.quadratic_nodes(cell) {
+                None => (least > WITHIN).then_some(straight),
+                Some(nodes) if least > -CURVED => {
+                    let found = invert_quadratic(nodes, point, straight, self.found_within(cell));
+                    found.filter(|reference| {
+                        let first = 1.0 - reference.iter().sum::<f64>();
+                        reference.iter().chain([&first]).all(|l| *l > WITHIN)
+                    })
                 }
+                Some(_) => None,
+            };
+            if found.is_some() || least > 0.0 {
+                return found.map(|reference| Located { cell, reference, distance: 0.0 });
             }
             cell = neighbours.across(cell, opposite)?;
         }
