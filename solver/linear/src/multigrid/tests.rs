@@ -147,32 +147,26 @@ fn the_spectrum_is_bounded() {
     }
 }
 
-/// As a film of flat cells among many others has them: three of four thousand rows have the largest eigenvalue, 3,
-/// and those beside them eigenvalues just below; all others are below 2.
+/// As flat cells in a film have them: three of four thousand rows have the largest eigenvalue, and fewer the larger
+/// they are. Unknowns are of very different sizes. After fifteen power steps the bound was 2.96.
 #[test]
 fn eigenvalues_of_a_few_rows_are_bounded() {
-    let (n, coupled) = (4000, 60);
-    let coupling = |row: usize, column: usize| match row.abs_diff(column) {
-        0 => 1.0,
-        // Triples whose couplings differ a little
-        _ if row < coupled && row / 3 == column / 3 => 1.0 - 0.02 * (row / 3) as f32,
-        1 if row.min(column) >= coupled => -0.45,
-        _ => 0.0,
-    };
-    let mut rows = RowBuilder::<1>::new(n);
-    for row in 0..n {
-        // Of very different sizes
-        let size = |row: usize| 10.0f32.powi((row % 5) as i32 - 2);
-        for column in row.saturating_sub(2)..(row + 3).min(n) {
-            let value = coupling(row, column) * (size(row) * size(column)).sqrt();
-            if value != 0.0 {
-                rows.push(u32::try_from(column).expect("there are few"), [[value]]);
-            }
+    let n_triples = 1333;
+    let size = |row: usize| [0.1f32, 0.3, 1.0, 3.0, 10.0][row % 5];
+    let mut rows = RowBuilder::<1>::new(3 * n_triples);
+    for row in 0..3 * n_triples {
+        let triple = row / 3;
+        let coupling = 1.0 - (triple as f32 / n_triples as f32).sqrt().sqrt();
+        for column in 3 * triple..3 * triple + 3 {
+            let coupling = if column == row { 1.0 } else { coupling };
+            let value = coupling * size(row) * size(column);
+            rows.push(u32::try_from(column).expect("there are few"), [[value]]);
         }
         rows.end_row();
     }
+    let largest = 3.0;
     let upper = Chebyshev::new(&rows.build(), 0, Spectrum::UpperEnd(0.1), 2).upper();
-    assert!(upper > 3.0 && upper < 3.3001, "{upper}");
+    assert!(upper > 1.05 * largest && upper < 1.1001 * largest, "{upper}");
 }
 
 #[test]
