@@ -52,6 +52,15 @@ impl<const B: usize> BlockDiagonal<B> {
         }
     }
 
+    /// The diagonal of the inverse in a row.
+    pub fn entries(&self, row: usize) -> [f32; B] {
+        let block = self.blocks.get(row).unwrap_or_else(|| {
+            let row = row - self.blocks.len();
+            &self.pairs[row / 2][row % 2][row % 2]
+        });
+        std::array::from_fn(|a| block[a][a])
+    }
+
     /// The inverse of the block of a row, in no pair.
     pub fn single(&self, row: usize) -> Option<&Block<B>> {
         self.blocks.get(row)

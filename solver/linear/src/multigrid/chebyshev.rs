@@ -1,6 +1,6 @@
 //! `Chebyshev`: a polynomial in D^-1 A that is small on a part of its spectrum, D the diagonal blocks.
 //!
-//! As a smoother the part is the upper end (@adams2003), which power steps find; as a solver it is the
+//! As a smoother the part is the upper end (@adams2003), which Lanczos' method finds; as a solver it is the
 //! whole spectrum, where its bounds are known.
 
 use rayon::prelude::*;
@@ -9,8 +9,10 @@ use super::block_diagonal::BlockDiagonal;
 use super::block_matrix::BlockMatrix;
 use crate::sparse::single::single;
 
-/// Power steps towards the largest eigenvalue of D^-1 A.
-const POWER_STEPS: usize = 15;
+/// Products by which the largest eigenvalue of D^-1 A is found.
+const LANCZOS_STEPS: usize = 12;
+/// Halvings of the interval in which it is then.
+const BISECTIONS: usize = 30;
 /// Numbers that one task works on.
 const CHUNK: usize = 8192;
 /// What the value after them is multiplied by: it is a bound from below.
@@ -19,7 +21,7 @@ const SAFETY: f32 = 1.1;
 /// The part of the spectrum of D^-1 A on which the polynomial is small.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Spectrum {
-    /// From this fraction of the largest eigenvalue, which is found by power steps, to it.
+    /// From this fraction of the largest eigenvalue, which is found by Lanczos' method, to it.
     UpperEnd(f32),
     /// Between bounds.
     Between(f32, f32),
@@ -113,10 +115,12 @@ fn update<const B: usize>(
     });
 }
 
-/// The largest eigenvalue of D^-1 A by power steps, from below.
+/// The largest eigenvalue of D^-1 A, from below, by the steps of Lanczos in the scalar product of D (@saad2003,
+/// section 6.6); of a matrix that is not symmetric that of its symmetric part, and of the skew one the size.
 ///
-/// The eigenvector may live around a pair alone: pairs weigh as much as all others in what the steps
-/// start from.
+/// A few flat cells may have it, which power steps come near to only after three times as many products.
+/// It may live around a pair alone: pairs weigh as much as all others in what the steps start from, in which
+/// every other unknown has the same energy.
 fn largest_eigenvalue<const B: usize>(
     matrix: &BlockMatrix<B>,
     diagonal: &BlockDiagonal<B>,
@@ -126,31 +130,102 @@ fn largest_eigenvalue<const B: usize>(
     let weight = (n as f32).sqrt();
     let start = |row: usize| {
         let weight = if row < n - 2 * n_pairs { 1.0 } else { weight };
-        std::array::from_fn(|a| weight * scattered(row * B + a))
+        let inverse = diagonal.entries(row);
+        std::array::from_fn(|a| {
+            let inverse = if inverse[a] > 0.0 { inverse[a] } else { 1.0 };
+            weight * scattered(row * B + a) / inverse.sqrt()
+        })
     };
-    let mut vector: Vec<[f32; B]> = (0..n).map(start).collect();
-    let mut image = vec![[0.0; B]; n];
-    let mut largest = 0.0;
-    for _ in 0..POWER_STEPS {
-        let size = norm(&vector);
-        if size == 0.0 || !size.is_finite() {
+    // Vectors of norm one, of this step and the one before, and D times them
+    let mut image: Vec<[f32; B]> = (0..n).map(start).collect();
+    let [mut image_before, mut vector, mut before] = [(); 3].map(|()| vec![[0.0; B]; n]);
+    let mut product = before.clone();
+    let mut tridiagonal = Tridiagonal::default();
+    for _ in 0..LANCZOS_STEPS {
+        diagonal.apply(&image, &mut vector);
+        let size = dot(&image, &vector).max(0.0).sqrt();
+        if !single(1.0 / size).is_normal() {
             break;
         }
-        vector.iter_mut().flatten().for_each(|value| *value /= size);
-        matrix.multiply(&vector, &mut image);
-        diagonal.apply(&image, &mut vector);
-        largest = norm(&vector);
+        scale(1.0 / size, &mut image);
+        scale(1.0 / size, &mut vector);
+        matrix.multiply(&vector, &mut product);
+        let [own, earlier] = [dot(&product, &vector), dot(&product, &before)];
+        tridiagonal.diagonal.push(own);
+        tridiagonal.off.push(0.5 * (size + earlier.abs()));
+        subtract(own, &image, &mut product);
+        subtract(earlier, &image_before, &mut product);
+        std::mem::swap(&mut before, &mut vector);
+        std::mem::swap(&mut image_before, &mut image);
+        std::mem::swap(&mut image, &mut product);
     }
+    let largest = single(tridiagonal.largest_eigenvalue());
     // Any bound will do for a matrix that is zero
     if largest > 0.0 && largest.is_finite() { largest } else { 1.0 }
 }
 
-fn norm<const B: usize>(vector: &[[f32; B]]) -> f32 {
-    let squares = vector.iter().flatten().map(|value| f64::from(value * value));
-    single(squares.sum::<f64>().sqrt())
+/// Multiplies all numbers by a factor.
+fn scale<const B: usize>(factor: f64, vector: &mut [[f32; B]]) {
+    let factor = single(factor);
+    let chunks = vector.as_flattened_mut().par_chunks_mut(CHUNK);
+    chunks.for_each(|chunk| chunk.iter_mut().for_each(|value| *value *= factor));
 }
 
-/// A number between -1 and 1 that has little to do with those before and after it: what power steps
+/// Subtracts a factor times other numbers.
+fn subtract<const B: usize>(factor: f64, others: &[[f32; B]], vector: &mut [[f32; B]]) {
+    let factor = single(factor);
+    let chunks = vector.as_flattened_mut().par_chunks_mut(CHUNK);
+    chunks.zip(others.as_flattened().par_chunks(CHUNK)).for_each(|(chunk, others)| {
+        chunk.iter_mut().zip(others).for_each(|(value, other)| *value -= factor * other);
+    });
+}
+
+/// Scalar product, with sums over pieces of a fixed size.
+fn dot<const B: usize>(a: &[[f32; B]], b: &[[f32; B]]) -> f64 {
+    let chunk = |(a, b): (&[f32], &[f32])| {
+        a.iter().zip(b).map(|(a, b)| f64::from(*a) * f64::from(*b)).sum::<f64>()
+    };
+    let chunks = a.as_flattened().par_chunks(CHUNK).zip(b.as_flattened().par_chunks(CHUNK));
+    let sums: Vec<f64> = chunks.map(chunk).collect();
+    sums.into_iter().sum()
+}
+
+/// A symmetric tridiagonal matrix: of each row the entry on the diagonal and the one before it, the first being
+/// none.
+#[derive(Debug, Default)]
+struct Tridiagonal {
+    diagonal: Vec<f64>,
+    off: Vec<f64>,
+}
+
+impl Tridiagonal {
+    /// The largest eigenvalue, by bisection: above it all pivots are positive; zero
+    /// without any.
+    fn largest_eigenvalue(&self) -> f64 {
+        let Self { diagonal, off } = self;
+        let is_above = |value: f64| {
+            let mut pivot = f64::INFINITY;
+            diagonal.iter().zip(off).all(|(entry, off)| {
+                pivot = value - entry - off * off / pivot;
+                pivot > 0.0
+            })
+        };
+        let reach = |row: usize| {
+            let off = |row: usize| off.get(row).map_or(0.0, |off| off.abs());
+            diagonal[row] + off(row) + off(row + 1)
+        };
+        let rows = 0..diagonal.len();
+        let mut lower = diagonal.iter().copied().fold(0.0, f64::max);
+        let mut upper = rows.map(reach).fold(lower, f64::max);
+        for _ in 0..BISECTIONS {
+            let middle = 0.5 * (lower + upper);
+            if is_above(middle) { upper = middle } else { lower = middle }
+        }
+        upper
+    }
+}
+
+/// A number between -1 and 1 that has little to do with those before and after it: what the steps
 /// start from has a part along every eigenvector.
 fn scattered(index: usize) -> f32 {
     let mixed = (index as u64 + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15);
