@@ -223,7 +223,7 @@ fluid = { model = "stokes", viscosity = 1.0 }
 domain.box = { min = [-4.0, -4.0], max = [4.0, 4.0] }
 boundary = { left = "no-slip", right = "no-slip", bottom = "no-slip", top = "no-slip" }
 mesh = { size = 1.5, surface = 0.3, growth = 0.5, gap_layers = 1 }
-time.unsteady = { step = 0.02, end = 3.0 }
+time.unsteady = { step = 0.02, end = 6.0 }
 [[body]]
 name = "one"
 shape = { disc = { radius = 0.5 } }
