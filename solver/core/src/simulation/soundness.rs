@@ -18,8 +18,8 @@ const PRESSED: f64 = 0.01;
 
 /// Gap over the largest one so far below which bodies are near each other.
 const NEAR: f64 = 0.1;
-/// Meshes while bodies are near each other from which contact is proposed.
-const MANY_MESHES: usize = 4;
+/// Meshes while bodies are near each other from which contact is proposed: one for each half of a gap that closes.
+const MANY_MESHES: usize = 3;
 
 /// CFL number up to which extrapolated convection was found to agree with Newton's method
 /// (docs/method.md, section 6).
