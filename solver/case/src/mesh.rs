@@ -67,7 +67,8 @@ pub struct MovingMesh {
     /// Quality of a cell, over its quality when new, below which the domain is remeshed (1).
     #[serde(default = "default_quality")]
     pub quality: f64,
-    /// Layers of cells across a gap below which the domain is remeshed; see [`MeshSettings::fewest_layers`].
+    /// Layers of cells across a gap below which the domain is remeshed; half of `gap_layers`, 2 at most, if
+    /// absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub layers: Option<f64>,
 }
