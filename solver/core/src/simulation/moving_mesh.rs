@@ -16,7 +16,7 @@ use crate::motion::{
 };
 
 /// Part of an edge by which a body may be elsewhere than where the flow was solved.
-const MISPLACED: f64 = 3e-3;
+const MISPLACED: f64 = 1e-3;
 /// Quality of a cell over the lowest one of the reference mesh below which no flow is solved on it.
 const DEGENERATE: f64 = 0.02;
 
