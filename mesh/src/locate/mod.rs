@@ -227,11 +227,15 @@ impl<const D: usize> Locator<D> {
     /// Whether a point is beyond a face of a cell by more than a bound (m), by its coordinates in the straight
     /// cell.
     fn is_beyond(&self, cell: CellId, straight: [f64; D], bound: f64) -> bool {
-        let first = 1.0 - straight.iter().sum::<f64>();
         let faces = &self.faces[(D + 1) * cell.index()..(D + 1) * (cell.index() + 1)];
-        let coordinates = std::iter::once(first).chain(straight);
-        coordinates.zip(faces).any(|(l, face)| (-l - face.beyond) * face.height > bound)
+        barycentric(straight).zip(faces).any(|(l, face)| (-l - face.beyond) * face.height > bound)
     }
+}
+
+/// Barycentric coordinates of a point with these reference coordinates, D + 1 of them.
+fn barycentric<const D: usize>(reference: [f64; D]) -> impl Iterator<Item = f64> {
+    let first = 1.0 - reference.iter().sum::<f64>();
+    std::iter::once(first).chain(reference)
 }
 
 /// Reference coordinates of a point (m) in the straight cell with some vertices, D + 1 of them (m).

@@ -1,7 +1,7 @@
 //! The way from a guessed cell to the one that holds a point, across the face beyond which the point is.
 
 use super::neighbours::Neighbours;
-use super::{Located, Locator, straight_coordinates};
+use super::{Located, Locator, barycentric, straight_coordinates};
 use crate::cell_point::invert_quadratic;
 use crate::{CellId, Point};
 
@@ -27,18 +27,14 @@ impl<const D: usize> Locator<D> {
         let mut cell = guess;
         for _ in 0..LONGEST_WAY {
             let straight = straight_coordinates(self.vertices_of(cell), point);
-            let first = 1.0 - straight.iter().sum::<f64>();
-            let all = std::iter::once(first).chain(straight).enumerate();
+            let all = barycentric(straight).enumerate();
             let (opposite, least) = all.min_by(|a, b| a.1.total_cmp(&b.1))?;
             // On a side, another cell may be the first that is found
             let found = match self.quadratic_nodes(cell) {
                 None => (least > WITHIN).then_some(straight),
                 Some(nodes) if least > -CURVED => {
                     let found = invert_quadratic(nodes, point, straight, self.found_within(cell));
-                    found.filter(|reference| {
-                        let first = 1.0 - reference.iter().sum::<f64>();
-                        reference.iter().chain([&first]).all(|l| *l > WITHIN)
-                    })
+                    found.filter(|reference| barycentric(*reference).all(|l| l > WITHIN))
                 }
                 Some(_) => None,
             };
