@@ -316,9 +316,37 @@ impl<const D: usize> FluidSystem<D> {
         let mut step: Vec<f64> = reduced.iter().map(|value| -value).collect();
         let solved = self.linear.solve_correction(&free, &mut step, reduction, timing);
         solved.map_err(|error| self.explain(at, error))?;
-        for (value, correction) in free.iter_mut().zip(&step) {
-            *value += correction;
-        }
+        free.iter_mut().zip(&step).for_each(|(value, correction)| *value += correction);
+        self.next_solution(at, solution, free, timing)
+    }
+
+    /// Reduces the residual of a solution to `reduction` (1) of what it is, by the matrix that was assembled last.
+    ///
+    /// # Errors
+    /// When the system cannot be solved.
+    pub fn refine(
+        &mut self,
+        at: &Configuration<'_, D>,
+        solution: &Solution<D>,
+        reduced: &[f64],
+        reduction: f64,
+        timing: &mut Timing,
+    ) -> Result<Solution<D>, SolveError> {
+        let mut free = at.constraints.pick(&self.pinned(solution).to_raw(self.modes));
+        let mut step: Vec<f64> = reduced.iter().map(|value| -value).collect();
+        self.linear.solve(&mut step, Some(reduction), timing)?;
+        free.iter_mut().zip(&step).for_each(|(value, correction)| *value += correction);
+        self.next_solution(at, solution, free, timing)
+    }
+
+    /// The solution with these free unknowns, those of the mean flow from the one before.
+    fn next_solution(
+        &mut self,
+        at: &Configuration<'_, D>,
+        solution: &Solution<D>,
+        mut free: Vec<f64>,
+        timing: &mut Timing,
+    ) -> Result<Solution<D>, SolveError> {
         let pressure_gradient =
             solution.pressure_gradient + self.meet_mean_velocity(at, &mut free, timing)?;
         let raw = at.constraints.expand(&free);

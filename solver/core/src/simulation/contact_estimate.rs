@@ -37,7 +37,7 @@ pub(super) struct Bodies<'a> {
 impl Bodies<'_> {
     /// The estimate with all bodies in these poses.
     pub fn estimate(&self, poses: &[Pose]) -> MobilityEstimate {
-        let pairs = self.gaps.pairs(poses, NEAR * self.law.range());
+        let pairs = self.near_pairs(poses);
         let resistance = self.resistance(&pairs);
         let of_unknowns = self.motions.transpose() * resistance * &self.motions;
         let base = &self.motions * inverse(&of_unknowns) * self.motions.transpose();
@@ -45,21 +45,42 @@ impl Bodies<'_> {
         MobilityEstimate::new(base, self.clusters(&pairs))
     }
 
+    fn near_pairs(&self, poses: &[Pose]) -> Vec<ContactPair> {
+        self.gaps.pairs(poses, NEAR * self.law.range())
+    }
+
+    /// Loads by velocities in motions that are all free, with all bodies in these poses.
+    pub fn resistance_at(&self, poses: &[Pose]) -> DMatrix<f64> {
+        self.resistance(&self.near_pairs(poses))
+    }
+
+    /// The mass matrix.
+    pub fn inertia(&self) -> DMatrix<f64> {
+        let modes = self.gaps.modes();
+        let n = modes.len() * self.bodies.len();
+        let mut inertia = DMatrix::zeros(n, n);
+        for (index, &body) in self.bodies.iter().enumerate() {
+            let first = modes.len() * index;
+            for (i, row) in modes.iter().enumerate() {
+                for (j, column) in modes.iter().enumerate() {
+                    inertia[(first + i, first + j)] =
+                        self.equations.bodies[body].inertia[(row.index(), column.index())];
+                }
+            }
+        }
+        inertia
+    }
+
     fn resistance(&self, pairs: &[ContactPair]) -> DMatrix<f64> {
         let Self { equations, viscosity, .. } = self;
         let modes = self.gaps.modes();
-        let n = modes.len() * self.bodies.len();
-        let mut resistance = DMatrix::zeros(n, n);
+        let mut resistance = equations.rate * self.inertia();
         for (index, &body) in self.bodies.iter().enumerate() {
             let equation = &equations.bodies[body];
             let reach = self.gaps.reach(body);
             let drags = [6.0 * PI * viscosity * reach, 8.0 * PI * viscosity * reach.powi(3)];
             let first = modes.len() * index;
             for (i, row) in modes.iter().enumerate() {
-                for (j, column) in modes.iter().enumerate() {
-                    let inertia = equation.inertia[(row.index(), column.index())];
-                    resistance[(first + i, first + j)] = equations.rate * inertia;
-                }
                 let drag = drags[usize::from(row.is_rotation())];
                 resistance[(first + i, first + i)] += equation.resistance[row] + drag;
             }

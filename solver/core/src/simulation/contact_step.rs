@@ -5,6 +5,7 @@ use nalgebra::{DMatrix, DVector};
 use super::contact_estimate::Bodies;
 use super::contact_known::{KnownContact, Learnt};
 use super::error::StepError;
+use super::mesh_path::Placed;
 use super::newton::{Flow, flow_residual};
 use super::pass::PassEquations;
 use super::predict::integrate_poses;
@@ -129,7 +130,7 @@ impl<const D: usize> PassContact<'_, D> {
     fn is_to_be_repeated(&self, flow: &Flow<D>) -> bool {
         let step = &self.equations.history.step;
         let reached = integrate_poses(self.stepper, self.state, step, &flow.solution.twists);
-        !self.stepper.path.resolves(&self.equations.pass.poses, &reached)
+        self.stepper.path.placement(&self.equations.pass.poses, &reached) == Placed::Elsewhere
     }
 
     /// The mobility before any load has been tried in this pass.
@@ -221,13 +222,8 @@ impl<const D: usize> PassContact<'_, D> {
     ) -> Vec<usize> {
         let step = &self.equations.history.step;
         let without = integrate_poses(self.stepper, self.state, step, twists);
-        let (from, to) = (self.seen(&self.state.poses), self.seen(&without));
-        let mut bodies = gaps.candidate_bodies(&from, &to, CONTACT_MARGIN, law.range());
-        let wrenches = loads.wrenches.iter().enumerate();
-        bodies.extend(wrenches.filter(|(_, load)| is_load(load)).map(|(body, _)| body));
-        bodies.sort_unstable();
-        bodies.dedup();
-        bodies
+        let [from, to] = [&self.state.poses, &without].map(|poses| self.seen(poses));
+        candidate_bodies(gaps, law, [&from, &to], loads)
     }
 
     /// The contact forces for a flow that has some of them already.
@@ -274,6 +270,21 @@ impl<const D: usize> PassContact<'_, D> {
         };
         Ok(step.solve()?)
     }
+}
+
+/// The bodies that may get within the range of something between poses, and those with loads.
+pub(super) fn candidate_bodies(
+    gaps: &dyn Gaps,
+    law: &Law,
+    [from, to]: [&[Pose]; 2],
+    loads: &ContactLoads,
+) -> Vec<usize> {
+    let mut bodies = gaps.candidate_bodies(from, to, CONTACT_MARGIN, law.range());
+    let wrenches = loads.wrenches.iter().enumerate();
+    bodies.extend(wrenches.filter(|(_, load)| is_load(load)).map(|(body, _)| body));
+    bodies.sort_unstable();
+    bodies.dedup();
+    bodies
 }
 
 /// Bodies that may be in contact, as the mobility is asked for them: contact does not turn those that are round.

@@ -4,7 +4,7 @@ use std::ops::Deref;
 
 use alewife_mesh::{BoundaryId, BoundaryKind, CellQuality, Mesh, NodeId, Point};
 
-use super::scene::{Meshed, RemeshError, Scene};
+use super::scene::{Meshed, PosesByShift, RemeshError, Scene};
 use super::state::State;
 use crate::body::{Pose, in_space, on_mesh};
 use crate::case::{Body, MeshEquation, Model};
@@ -15,8 +15,6 @@ use crate::motion::{
     mesh_boundary_conditions,
 };
 
-/// Part of an edge by which a body may be elsewhere than where the flow was solved.
-const MISPLACED: f64 = 1e-3;
 /// Quality of a cell over the lowest one of the reference mesh below which no flow is solved on it.
 const DEGENERATE: f64 = 0.02;
 
@@ -172,40 +170,56 @@ impl<const D: usize> MovingMesh<D> {
         mesh.worst_cell().filter(|worst| worst.quality <= lowest)
     }
 
-    /// Whether a body is so far from where the flow was solved that it has to be solved again.
+    /// How far a body is at most from where the flow was solved, over the shortest edge on it.
     #[must_use]
-    pub fn needs_correction(&self, solved_at: &[Pose], poses: &[Pose]) -> bool {
+    pub fn misplacement(&self, solved_at: &[Pose], poses: &[Pose]) -> f64 {
         let pairs = solved_at.iter().zip(poses).enumerate();
-        pairs.into_iter().any(|(body, (solved, pose))| {
+        let of_body = |(body, (solved, pose)): (usize, (&Pose, &Pose))| {
             let off = pose.displacement_from(solved);
             let [way, turn] = [0, 3].map(|first| off.fixed_rows::<3>(first).norm());
             let turn = if self.settings.turns[body] { turn } else { 0.0 };
-            way + turn * self.gaps().reach(body) > MISPLACED * self.edges[body]
-        })
+            (way + turn * self.gaps().reach(body)) / self.edges[body]
+        };
+        pairs.map(of_body).fold(0.0, f64::max)
     }
 
     /// Whether the mesh of a state has to be replaced, and why.
     #[must_use]
     pub fn remesh_reason(&mut self, state: &State<D>, shapes: &BodyShapes) -> Option<String> {
+        let poses = state.in_frame(&state.origin, &state.poses);
+        self.reason_to_replace(&state.mesh_in_frame(), &poses, shapes)
+    }
+
+    /// Whether this mesh has to be replaced where it has moved to with bodies of these shapes at poses, all seen from
+    /// the frame, and why.
+    #[must_use]
+    pub fn reason_to_replace(
+        &mut self,
+        mesh: &Mesh<D>,
+        poses: &[Pose],
+        shapes: &BodyShapes,
+    ) -> Option<String> {
         // A moving wall comes back to where it was, and its mesh with it
         if self.scene.has_moving_wall() {
             return None;
         }
-        let poses = state.in_frame(&state.origin, &state.poses);
-        self.scene.remesh_reason(&state.mesh_in_frame(), &poses, shapes)
+        self.scene.remesh_reason(mesh, poses, shapes)
     }
 
-    /// Generates a mesh with the bodies where they are in a state.
+    /// Generates a mesh with bodies of these shapes at poses seen from the frame.
     ///
     /// # Errors
     /// When it cannot be generated.
-    pub fn remesh(&self, state: &State<D>, shapes: &BodyShapes) -> Result<Meshed<D>, RemeshError> {
+    pub fn remesh(
+        &self,
+        poses: &[Pose],
+        shapes: &BodyShapes,
+        shifted: PosesByShift<'_>,
+    ) -> Result<Meshed<D>, RemeshError> {
         if self.scene.has_moving_wall() {
             return Err(RemeshError::MovingWall);
         }
-        let poses = state.in_frame(&state.origin, &state.poses);
-        let shifted = |shifts: &[nalgebra::Vector3<f64>]| state.shifted_poses(shifts);
-        self.scene.remesh(&poses, shapes, &shifted)
+        self.scene.remesh(poses, shapes, shifted)
     }
 
     /// The same kind of motion for another mesh, generated at a time (s).

@@ -225,6 +225,33 @@ pub(super) fn newton<const D: usize>(
     }
 }
 
+/// Reduces what iterations have left of the residual of a linear flow, whose residual is up to date, to what further passes
+/// of a step leave.
+///
+/// # Errors
+/// When the linear system cannot be solved.
+pub(super) fn refine<const D: usize>(
+    system: &mut FluidSystem<D>,
+    timing: &mut Timing,
+    at: &Configuration<'_, D>,
+    flow: &mut Flow<D>,
+) -> Result<(), SolveError> {
+    let reduced = system.reduced_residual(at, &flow.solution, &flow.residual);
+    let left = largest(&reduced) / flow.scale;
+    // A flow at rest has none to be relative to
+    if !(left > OF_PASS && left.is_finite()) {
+        return Ok(());
+    }
+    let reduction = (OF_PASS / left).min(LEAST_REDUCTION);
+    flow.solution = system.refine(at, &flow.solution, &reduced, reduction, timing)?;
+    Ok(())
+}
+
+/// The largest size of an entry.
+fn largest(residual: &[f64]) -> f64 {
+    residual.iter().fold(0.0, |most, value| most.max(value.abs()))
+}
+
 /// How the residual has fallen so far.
 struct Progress<'a> {
     criterion: &'a Criterion,
@@ -250,7 +277,7 @@ impl<'a> Progress<'a> {
     /// The largest entry of a residual relative to the scale; `mean_force` is the largest one of the mean
     /// pressure gradient.
     fn relative(&mut self, reduced: &[f64], mean_force: f64) -> f64 {
-        let size = reduced.iter().fold(0.0f64, |most, value| most.max(value.abs()));
+        let size = largest(reduced);
         // A fluid at rest has no residual where a mean velocity is given: the force that brings it
         // about is the measure then
         let scale = match self.scale {

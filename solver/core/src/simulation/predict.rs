@@ -38,6 +38,15 @@ pub(super) fn predict_poses<const D: usize>(
     state: &State<D>,
     step: &Step,
 ) -> Vec<Pose> {
+    integrate_poses(stepper, state, step, &predicted_twists(stepper, state, step))
+}
+
+/// Velocities at the new time, given ones as they are then and the others extrapolated.
+pub(super) fn predicted_twists<const D: usize>(
+    stepper: &TimeStepper<'_, D>,
+    state: &State<D>,
+    step: &Step,
+) -> Vec<Twist> {
     let levels = state.now.twists.iter().zip(&state.previous.twists);
     let twists = stepper.problem.bodies.iter().zip(levels).map(|(body, (now, before))| {
         let mut velocity = step.bdf.extrapolate(now.to_vector(), before.to_vector());
@@ -48,7 +57,7 @@ pub(super) fn predict_poses<const D: usize>(
         }
         Twist::from_vector(&velocity)
     });
-    integrate_poses(stepper, state, step, &twists.collect::<Vec<_>>())
+    twists.collect()
 }
 
 /// Poses at the new time of bodies with these velocities there.
@@ -99,18 +108,31 @@ pub(super) fn limit_by_gaps<const D: usize>(
     to: Vec<Pose>,
 ) -> Vec<Pose> {
     let Some(gaps) = gaps else { return to };
+    let on_the_way = |part: f64| {
+        let pairs = from.iter().zip(&to);
+        pairs.map(|(from, to)| from.displaced(&(to.displacement_from(from) * part))).collect()
+    };
+    let at = |part: f64| if part == 1.0 { to.clone() } else { on_the_way(part) };
+    let part = part_left_by_gaps(problem, gaps, state, from, at);
+    if part == 1.0 { to } else { on_the_way(part) }
+}
+
+/// The part of a way from some poses that leaves some of their smallest gap: 1, or halved as often as that asks for.
+pub(super) fn part_left_by_gaps<const D: usize>(
+    problem: &Problem<D>,
+    gaps: &dyn Gaps,
+    state: &State<D>,
+    from: &[Pose],
+    on_the_way: impl Fn(f64) -> Vec<Pose>,
+) -> f64 {
     let gap = |poses: &[Pose]| {
         let minimum = gaps.minimum_gap(&state.in_own_frame(problem, poses));
         minimum.map_or(f64::INFINITY, |minimum| minimum.gap)
     };
     let kept = KEPT_GAP * gap(from);
     let mut part = 1.0;
-    let mut trial = to.clone();
-    while gap(&trial) < kept && part > SMALLEST_PART {
+    while gap(&on_the_way(part)) < kept && part > SMALLEST_PART {
         part *= 0.5;
-        let pairs = from.iter().zip(&to);
-        trial =
-            pairs.map(|(from, to)| from.displaced(&(to.displacement_from(from) * part))).collect();
     }
-    trial
+    part
 }

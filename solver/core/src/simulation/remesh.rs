@@ -4,7 +4,8 @@ use alewife_mesh::Mesh;
 use nalgebra::Vector3;
 
 use super::moving_mesh::MovingMesh;
-use super::scene::{Meshed, RemeshError};
+use super::scene::RemeshError;
+use super::successor::{Successor, successor};
 use super::state::{State, seen_from};
 use crate::body::on_mesh;
 use crate::coupling::{
@@ -39,13 +40,12 @@ pub(super) fn remesh<const D: usize>(
     moving: &MovingMesh<D>,
 ) -> Result<MovingMesh<D>, RemeshError> {
     let shapes = BodyShapes::at(&problem.bodies, state.time)?;
-    let Meshed { mesh: new, scene, poses, shifts } = moving.remesh(state, &shapes)?;
-    let image_shifts: Vec<Vector3<f64>> =
-        state.image_shifts.iter().zip(&shifts).map(|(known, shift)| known + shift).collect();
+    let Successor { mesh: new, moving: successor, image_shifts } =
+        successor(problem, state, moving, &shapes)?;
+    let poses = seen_from(&state.origin, &state.poses, &image_shifts);
     // The frame was elsewhere one level back, too
     let origin_before = state.origin_at(problem, &state.previous_poses);
     let previous_poses = seen_from(&origin_before, &state.previous_poses, &image_shifts);
-    let successor = moving.succeeded_by(&new, scene, poses.clone(), state.time)?;
 
     // One level back the new mesh is where its own motion puts it: nodes whose way had a kink would
     // cost the next step its second order

@@ -12,22 +12,34 @@
 
 use super::contact_known::KnownContact;
 use super::contact_step::{PassContact, update_residual};
-use super::error::StepError;
+use super::error::{RunError, StepError};
 use super::error_estimate::{local_error, pose_errors};
 use super::fluid_loads::{FluidLoads, SolvedConfiguration};
 use super::history::StepHistory;
 use super::new_level::Arrival;
-use super::newton::{Criterion, Flow, newton};
+use super::mesh_path::Placed;
+use super::newton::{Criterion, Flow, newton, refine};
 use super::pass::{Pass, PassEquations, Placement};
+use super::predict_contact::predict_contact;
 use super::predict::{integrate_poses, limit_by_gaps, predict_poses};
 use super::state::State;
 use super::stepper::{Step, StepReport, StepResult, TimeStepper};
 use super::workspace::Workspace;
+use crate::body::Pose;
+use crate::contact::Gaps;
 use crate::coupling::Solution;
 use crate::time::Bdf;
 
 /// Most passes until the bodies are where the flow was solved for.
 const MAX_PASSES: usize = 12;
+
+/// What a step starts from.
+#[derive(Clone, Copy)]
+struct StepSoFar<'a, const D: usize> {
+    state: &'a State<D>,
+    history: &'a StepHistory<D>,
+    gaps: Option<&'a dyn Gaps>,
+}
 
 impl<const D: usize> TimeStepper<'_, D> {
     /// What a step of `bdf` leads to from a state, which stays where it is.
@@ -48,6 +60,9 @@ impl<const D: usize> TimeStepper<'_, D> {
         let gaps = gaps.as_deref();
         let mut apart = state.poses.clone();
         let mut poses = predict_poses(self, state, &step);
+        if let Some(in_contact) = predict_contact(self, work, state, &history, gaps, &poses) {
+            poses = in_contact;
+        }
         let mut guess = history.extrapolated.clone();
         let (mut iterations, mut scale, mut known) = (0, None, None);
         for _ in 0..MAX_PASSES {
@@ -69,12 +84,18 @@ impl<const D: usize> TimeStepper<'_, D> {
             scale = scale.or(Some(flow.scale));
             let is_other = PassContact { stepper: self, state, gaps, equations: &equations }
                 .apply(work, &mut flow, &mut contact)?;
-            let reached = integrate_poses(self, state, &step, &flow.solution.twists);
-            if self.path.resolves(&pass.poses, &reached) {
-                let KnownContact { loads: contact, .. } = contact;
+            let mut reached = integrate_poses(self, state, &step, &flow.solution.twists);
+            let placed = self.path.placement(&pass.poses, &reached);
+            if placed != Placed::Elsewhere {
                 if is_other {
                     update_residual(work, &equations, &mut flow);
                 }
+                if placed == Placed::Near && work.system.is_iterative() && equations.is_linear() {
+                    let known = StepSoFar { state, history: &history, gaps };
+                    reached = self.refine(work, &known, &mut pass, &mut flow, &mut contact)?;
+                }
+                let equations = PassEquations::new(self, &history, &pass);
+                let KnownContact { loads: contact, .. } = contact;
                 let loads = self.loads(work, state, &equations, &mut flow);
                 let mut error = local_error(self, state, &step, &flow.solution);
                 if step.bdf.is_second_order() {
@@ -91,6 +112,30 @@ impl<const D: usize> TimeStepper<'_, D> {
             known = work.system.is_iterative().then_some(contact);
         }
         Err(StepError::CouplingNotConverged { passes: MAX_PASSES })
+    }
+
+    /// Reduces what iterations have left of a flow whose residual is up to date, and finds its contact again. Where
+    /// the bodies get to by it.
+    fn refine(
+        &self,
+        work: &mut Workspace<D>,
+        known: &StepSoFar<'_, D>,
+        pass: &mut Pass<D>,
+        flow: &mut Flow<D>,
+        contact: &mut KnownContact,
+    ) -> Result<Vec<Pose>, StepError> {
+        let StepSoFar { state, history, gaps } = *known;
+        pass.bodies = history.body_equations(self.problem, &pass.poses);
+        contact.load(&mut pass.bodies);
+        let equations = PassEquations::new(self, history, pass);
+        let Workspace { system, mesh, timing } = work;
+        let at = pass.at(self.problem, mesh);
+        refine(system, timing, &at, flow)
+            .map_err(|error| RunError::from_solve(error, history.step.number, history.step.time))?;
+        PassContact { stepper: self, state, gaps, equations: &equations }
+            .apply(work, flow, contact)?;
+        update_residual(work, &equations, flow);
+        Ok(integrate_poses(self, state, &history.step, &flow.solution.twists))
     }
 
     /// The flow on the mesh of a pass, with the contact that is known of it, from a first guess. `scale` is what residuals
