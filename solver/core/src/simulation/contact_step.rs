@@ -105,7 +105,7 @@ impl<const D: usize> PassContact<'_, D> {
             let gap = gap_of(&found.loads);
             let off = off_by(&expected - &before, &estimate) / gap;
             let are_those = size <= SMALL * largest && off <= SMALL;
-            if are_those || off <= SMALL_IN_BETWEEN && self.is_to_be_repeated(flow) {
+            if are_those || off <= SMALL_IN_BETWEEN && self.is_to_be_repeated(flow, applied) {
                 tracing::debug!(attempt, size, off, gap, "contact as known");
                 applied.minimum_gap = found.loads.minimum_gap;
                 is_found = true;
@@ -117,7 +117,7 @@ impl<const D: usize> PassContact<'_, D> {
             estimate.learn(change, &now - before);
             let off = off_by(now - expected, &estimate) / gap;
             tracing::debug!(attempt, size, off, gap, bodies = bodies.len(), "contact");
-            if off <= SMALL || off <= SMALL_IN_BETWEEN && self.is_to_be_repeated(flow) {
+            if off <= SMALL || off <= SMALL_IN_BETWEEN && self.is_to_be_repeated(flow, applied) {
                 is_found = true;
                 break;
             }
@@ -127,10 +127,11 @@ impl<const D: usize> PassContact<'_, D> {
     }
 
     /// Whether bodies get so far from where the flow is solved that the pass is to be repeated there.
-    fn is_to_be_repeated(&self, flow: &Flow<D>) -> bool {
+    fn is_to_be_repeated(&self, flow: &Flow<D>, loads: &ContactLoads) -> bool {
         let step = &self.equations.history.step;
         let reached = integrate_poses(self.stepper, self.state, step, &flow.solution.twists);
-        self.stepper.path.placement(&self.equations.pass.poses, &reached) == Placed::Elsewhere
+        let solved_at = &self.equations.pass.poses;
+        self.stepper.path.placement(solved_at, &reached, loads) == Placed::Elsewhere
     }
 
     /// The mobility before any load has been tried in this pass.

@@ -8,11 +8,12 @@ use super::moving_mesh::{GapsAt, MovingMesh};
 use super::state::State;
 use super::workspace::Workspace;
 use crate::body::{Pose, on_mesh};
+use crate::contact::ContactLoads;
 use crate::coupling::{BodyShapes, Problem, RigidBody};
 
 /// Part of an edge within which a body is where the flow was solved for.
 const THERE: f64 = 1e-3;
-/// Part of an edge within which it is near: twenty squirmers, off by up to that, had forces of contact that differed by 0.2 %
+/// Part of an edge within which it is near, where there is contact: twenty squirmers, off by up to that, had forces of contact that differed by 0.2 %
 /// from those of repeated passes, a twentieth of what half the time step changed.
 const NEAR: f64 = 6e-3;
 
@@ -114,13 +115,18 @@ impl<'a, const D: usize> MeshPath<'a, D> {
         })
     }
 
-    /// How well bodies are where the flow was solved for.
-    pub(super) fn placement(&self, solved_at: &[Pose], reached: &[Pose]) -> Placed {
+    /// How well bodies are where the flow was solved for, with loads of contact or without any.
+    pub(super) fn placement(
+        &self,
+        solved_at: &[Pose],
+        reached: &[Pose],
+        contact: &ContactLoads,
+    ) -> Placed {
         let Some(moving) = self.moving_mesh() else { return Placed::There };
         let off = moving.misplacement(solved_at, reached);
         if off <= THERE {
             Placed::There
-        } else if off <= NEAR {
+        } else if off <= NEAR && !contact.contacts.is_empty() {
             Placed::Near
         } else {
             Placed::Elsewhere

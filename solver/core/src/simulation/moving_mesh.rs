@@ -116,8 +116,12 @@ impl<const D: usize> MovingMesh<D> {
         for facet in &mesh.facets {
             if let Some(body) = bodies[facet.boundary] {
                 let vertices = mesh.facet_vertices(facet);
-                let length = (mesh.nodes[vertices[1]] - mesh.nodes[vertices[0]]).norm();
-                edges[body] = edges[body].min(length);
+                for (end, to) in vertices.iter().enumerate() {
+                    for from in &vertices[..end] {
+                        let length = (mesh.nodes[*to] - mesh.nodes[*from]).norm();
+                        edges[body] = edges[body].min(length);
+                    }
+                }
             }
         }
         let motion = MeshMotion::new(mesh, settings.kind, &conditions)?;

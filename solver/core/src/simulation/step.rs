@@ -85,7 +85,7 @@ impl<const D: usize> TimeStepper<'_, D> {
             let is_other = PassContact { stepper: self, state, gaps, equations: &equations }
                 .apply(work, &mut flow, &mut contact)?;
             let mut reached = integrate_poses(self, state, &step, &flow.solution.twists);
-            let placed = self.path.placement(&pass.poses, &reached);
+            let placed = self.path.placement(&pass.poses, &reached, &contact.loads);
             if placed != Placed::Elsewhere {
                 if is_other {
                     update_residual(work, &equations, &mut flow);
