@@ -138,3 +138,47 @@ fn a_new_mesh_keeps_the_angular_momentum_of_a_body_and_the_fluid_around_it() {
     assert!(coarse < 2e-3, "{coarse:e}");
     assert!(fine < 0.6 * coarse, "{coarse:e} {fine:e}");
 }
+
+/// Steps that each mesh lasted for a sphere that moves steadily through a box.
+fn lives() -> Vec<usize> {
+    let model = case(
+        r#"
+        title = "a sphere moves steadily"
+        geometry = "spatial"
+        fluid = { model = "stokes", viscosity = 1.0 }
+        domain.box = { min = [-5.0, -2.5, -2.5], max = [5.0, 2.5, 2.5] }
+        boundary = { left = "no-slip", right = "no-slip", bottom = "no-slip", top = "no-slip", back = "no-slip", front = "no-slip" }
+        mesh = { size = 1.5, surface = 0.5, growth = 0.6, gap_layers = 1 }
+        time.unsteady = { step = 0.1, end = 6.0 }
+        [[body]]
+        name = "sphere"
+        shape.sphere.radius = 1.0
+        center = [-3.0, 0.1, -0.1]
+        motion.imposed = { velocity = [1.0, 0.0, 0.0] }
+        "#,
+    );
+    let mesh = build_mesh::<3>(&model).expect("it is meshed");
+    let mut simulation = simulation_on(&model, mesh).expect("the case is a problem");
+    let mut lives = vec![0];
+    for _ in 0..60 {
+        let meshes = simulation.state.remeshes;
+        let attempt = simulation.try_step(0.1, f64::INFINITY).expect("the step can be made");
+        assert!(matches!(attempt, Attempt::Made(_)));
+        if simulation.state.remeshes > meshes {
+            lives.push(0);
+        }
+        *lives.last_mut().expect("there is one") += 1;
+    }
+    lives
+}
+
+/// They are best half-way through their life, the first one at its beginning.
+#[test]
+fn meshes_of_bodies_that_move_on_last_longer_than_the_first() {
+    let lives = lives();
+    println!("{lives:?}");
+    let replaced = &lives[1..lives.len() - 1];
+    assert!(replaced.len() >= 2, "{lives:?}");
+    let mean = replaced.iter().sum::<usize>() as f64 / replaced.len() as f64;
+    assert!(mean > 1.35 * lives[0] as f64, "{lives:?}");
+}

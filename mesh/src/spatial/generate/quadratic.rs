@@ -48,13 +48,24 @@ impl Improver<'_> {
         let mut cells = Vec::with_capacity(Simplex::<3>::N_NODES * n_cells);
         let mut curved = Vec::with_capacity(n_cells);
         let mut facets = Vec::new();
-        for (index, cell) in self.mesh.cells().enumerate() {
+        for (index, cell) in self.ordered_cells().into_iter().enumerate() {
             curved.push(mesh.add_cell(cell, &mut cells));
             facets.extend(mesh.facets_of(cell, CellId::new(index)));
         }
         let boundaries = self.geometry.boundaries.clone();
         let periodic = mesh.pairs();
         Mesh { nodes: mesh.nodes, n_vertices, cells, curved, facets, boundaries, periodic }
+    }
+
+    /// The cells by their vertices, which follow the lattice: what is added up cell by cell is then close in memory.
+    fn ordered_cells(&self) -> Vec<u32> {
+        let mut cells: Vec<u32> = self.mesh.cells().collect();
+        cells.sort_by_cached_key(|&cell| {
+            let mut vertices = self.mesh.cell(cell);
+            vertices.sort_unstable();
+            vertices
+        });
+        cells
     }
 
     fn boundary_of(&self, tag: u16) -> BoundaryId {

@@ -45,9 +45,9 @@ mod start;
 mod state;
 mod steady;
 mod step;
-mod successor;
 mod stepper;
 mod stop_request;
+mod successor;
 mod workspace;
 
 pub use crate::timing::{Stage, Timing, cpu_seconds};

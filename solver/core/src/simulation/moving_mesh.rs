@@ -85,7 +85,7 @@ enum SurfaceMap {
 }
 
 impl<const D: usize> MovingMesh<D> {
-    /// Takes a mesh generated at a time (s) as the reference.
+    /// Takes a mesh made for bodies at poses at a time (s) as the reference.
     ///
     /// # Errors
     /// When the equation of the mesh motion cannot be solved.
@@ -226,7 +226,7 @@ impl<const D: usize> MovingMesh<D> {
         self.scene.remesh(poses, shapes, shifted)
     }
 
-    /// The same kind of motion for another mesh, generated at a time (s).
+    /// The same kind of motion for another mesh, made for bodies at poses at a time (s).
     ///
     /// # Errors
     /// When the equation of the mesh motion cannot be solved.

@@ -5,8 +5,8 @@ use nalgebra::Vector3;
 
 use super::moving_mesh::MovingMesh;
 use super::scene::RemeshError;
-use super::successor::{Successor, successor};
 use super::state::{State, seen_from};
+use super::successor::{Successor, successor};
 use crate::body::on_mesh;
 use crate::coupling::{
     BodiesAt, BodyShapes, Boundaries, BoundaryValues, DivergenceFreeProjection, Problem, Solution,

@@ -177,14 +177,6 @@ impl<const D: usize> State<D> {
         self.in_frame(&self.origin_at(problem, poses), poses)
     }
 
-    /// Present poses in the mesh, seen from the frame, with bodies moved by further periods (m).
-    #[must_use]
-    pub fn shifted_poses(&self, shifts: &[Vector3<f64>]) -> Vec<Pose> {
-        let pairs = self.image_shifts.iter().zip(shifts);
-        let image_shifts: Vec<_> = pairs.map(|(known, shift)| known + shift).collect();
-        seen_from(&self.origin, &self.poses, &image_shifts)
-    }
-
     /// Puts the state on another mesh, seen from the frame, whose nodes were at `before` (m) one step
     /// before.
     pub(super) fn put_on_mesh(&mut self, mesh: Mesh<D>, before: Vec<Point<D>>) {

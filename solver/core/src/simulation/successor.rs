@@ -1,5 +1,5 @@
-//! The mesh that takes the place of one that has become poor: made for bodies where they are expected half-way through
-//! its life, and moved back to where they are.
+//! The mesh that takes the place of one that has become poor: in space it is made for bodies where they are expected
+//! half-way through its life, and moved back to where they are.
 
 use alewife_mesh::Mesh;
 use nalgebra::Vector3;
@@ -11,10 +11,12 @@ use super::state::{State, seen_from};
 use crate::body::Pose;
 use crate::coupling::{BodyShapes, Problem};
 
-/// Time from the new mesh to its reference mesh over the time that the one before lasted from its own.
+/// Time from a new mesh to its reference mesh over that from the reference mesh before to the end of its mesh.
 const LEAD: f64 = 0.7;
-/// Most steps ahead: velocities of bodies are known to change slowly for a few steps only.
-const MOST_STEPS_AHEAD: f64 = 10.0;
+/// Most steps ahead: velocities of bodies change little in a few steps only.
+const MOST_STEPS: f64 = 10.0;
+/// Fewest steps ahead that are worth while.
+const FEWEST_STEPS: f64 = 0.5;
 
 /// A mesh that takes the place of another one.
 pub(super) struct Successor<const D: usize> {
@@ -26,14 +28,13 @@ pub(super) struct Successor<const D: usize> {
     pub image_shifts: Vec<Vector3<f64>>,
 }
 
-/// Where bodies are expected.
+/// Bodies at a time.
 struct Expected {
     time: f64,
     poses: Vec<Pose>,
 }
 
-/// The mesh that takes the place of that of a state, with bodies of these shapes at present. Its quality is best where
-/// bodies are expected later, so that it lasts for nearly twice as long as one that is best at present.
+/// The mesh that takes the place of that of a state, with bodies of these shapes at present.
 ///
 /// # Errors
 /// When it cannot be generated.
@@ -43,25 +44,38 @@ pub(super) fn successor<const D: usize>(
     moving: &MovingMesh<D>,
     shapes: &BodyShapes,
 ) -> Result<Successor<D>, RemeshError> {
-    let lasted = state.time - moving.reference_time();
-    let lead = (LEAD * lasted).min(MOST_STEPS_AHEAD * state.last_step);
-    if D == 3 && lead > 0.5 * state.last_step {
-        let ahead = expected(problem, state, moving, shapes, lead);
-        if let Ok(mut made) = generate(problem, state, moving, &ahead) {
-            let poses = seen_from(&state.origin, &state.poses, &made.image_shifts);
-            match made.moving.reason_to_replace(&made.mesh, &poses, shapes) {
-                None => {
-                    tracing::debug!(lasted, lead = ahead.time - state.time, "mesh ahead");
-                    return Ok(made);
-                }
-                Some(reason) => tracing::debug!(lasted, lead, reason, "no mesh ahead"),
-            }
-        } else { tracing::debug!(lasted, lead, "mesh ahead failed"); }
+    if let Some(made) = made_ahead(problem, state, moving, shapes) {
+        return Ok(made);
     }
     generate(problem, state, moving, &Expected { time: state.time, poses: state.poses.clone() })
 }
 
-/// Where bodies are expected after some time (s), or as far on the way there as leaves the smallest gap half of what it is.
+/// A mesh that is best where bodies are expected later, so that it lasts for nearly twice as long as one that is best at
+/// present; none where that is too far ahead to be fit for use at present.
+fn made_ahead<const D: usize>(
+    problem: &Problem<D>,
+    state: &State<D>,
+    moving: &MovingMesh<D>,
+    shapes: &BodyShapes,
+) -> Option<Successor<D>> {
+    // In the plane a periodic box is cut open between the bodies, where they are at present
+    if D == 2 {
+        return None;
+    }
+    let lasted = state.time - moving.reference_time();
+    let lead = (LEAD * lasted).min(MOST_STEPS * state.last_step);
+    if lead < FEWEST_STEPS * state.last_step {
+        return None;
+    }
+    let ahead = expected(problem, state, moving, shapes, lead);
+    let mut made = generate(problem, state, moving, &ahead).ok()?;
+    let poses = seen_from(&state.origin, &state.poses, &made.image_shifts);
+    let reason = made.moving.reason_to_replace(&made.mesh, &poses, shapes);
+    tracing::debug!(lasted, lead = ahead.time - state.time, poor = reason, "mesh made ahead");
+    reason.is_none().then_some(made)
+}
+
+/// Where bodies are expected after some time (s), or as far on the way there as leaves half of the smallest gap.
 fn expected<const D: usize>(
     problem: &Problem<D>,
     state: &State<D>,
@@ -69,7 +83,7 @@ fn expected<const D: usize>(
     shapes: &BodyShapes,
     lead: f64,
 ) -> Expected {
-    let poses_at = |lead: f64| {
+    let poses_after = |lead: f64| {
         let pairs = state.poses.iter().zip(&state.now.twists);
         let mut poses: Vec<Pose> =
             pairs.map(|(pose, twist)| pose.displaced(&(twist.to_vector() * lead))).collect();
@@ -77,11 +91,12 @@ fn expected<const D: usize>(
         poses
     };
     let gaps = moving.gaps_at(shapes);
-    let part = part_left_by_gaps(problem, &*gaps, state, &state.poses, |part| poses_at(part * lead));
-    Expected { time: state.time + part * lead, poses: poses_at(part * lead) }
+    let on_the_way = |part: f64| poses_after(part * lead);
+    let lead = lead * part_left_by_gaps(problem, &*gaps, state, &state.poses, on_the_way);
+    Expected { time: state.time + lead, poses: poses_after(lead) }
 }
 
-/// A mesh generated for bodies where they are expected, at present.
+/// A mesh generated for bodies where they are expected, moved to where they are.
 fn generate<const D: usize>(
     problem: &Problem<D>,
     state: &State<D>,

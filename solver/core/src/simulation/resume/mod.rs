@@ -63,14 +63,14 @@ pub struct SavedState<const D: usize> {
     series: SavedSeries,
 }
 
-/// The reference mesh, and where the bodies were then.
+/// The reference mesh, and where the bodies are in it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SavedReference<const D: usize> {
     /// Positions of its nodes (m).
     pub nodes: Vec<Point<D>>,
     /// Poses of the bodies.
     pub poses: Vec<Pose>,
-    /// When it was generated (s).
+    /// The time it is made for (s).
     pub time: f64,
     /// Start of the domain along its periodic directions.
     pub domain_start: Point<D>,
