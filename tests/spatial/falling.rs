@@ -67,7 +67,7 @@ fn forces_in_space_go_on_smoothly_across_a_new_mesh() {
         fluid = { model = "navier-stokes", viscosity = 1.0, density = 1.0, gravity = [9.0, 6.0, 3.0] }
         domain.box = { min = [-4.0, -4.0, -4.0], max = [4.0, 4.0, 4.0] }
         boundary = { left = "no-slip", right = "no-slip", bottom = "no-slip", top = "no-slip", back = "no-slip", front = "no-slip" }
-        mesh = { size = 1.5, surface = 0.3, growth = 0.5, moving.quality = 0.8 }
+        mesh = { size = 1.5, surface = 0.3, growth = 0.5, moving.quality = 0.9 }
         time.unsteady = { step = 0.05, end = 1.5 }
         [[body]]
         name = "sphere"
