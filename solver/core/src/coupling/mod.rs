@@ -18,6 +18,7 @@ mod pressure_mean;
 mod problem;
 mod projection;
 mod propulsion;
+mod refine;
 mod rigid_equations;
 mod rigid_unknowns;
 mod shapes;
