@@ -13,8 +13,8 @@ use crate::coupling::{BodyShapes, Problem, RigidBody};
 
 /// Part of an edge within which a body is where the flow was solved for.
 const THERE: f64 = 1e-3;
-/// Part of an edge within which it is near, where there is contact: twenty squirmers, off by up to that, had forces of contact that differed by 0.2 %
-/// from those of repeated passes, a twentieth of what half the time step changed.
+/// The same where there is contact, for a flow that is refined: twenty squirmers had forces of contact that differed by
+/// 0.2 % from those of repeated passes, a twentieth of what half the time step changed.
 const NEAR: f64 = 6e-3;
 
 /// How well bodies are where the flow of a pass was solved for.
@@ -22,8 +22,7 @@ const NEAR: f64 = 6e-3;
 pub(super) enum Placed {
     /// They are there.
     There,
-    /// So near that it makes no difference but for what iterations have left: the pass that would have been made there
-    /// would have left less.
+    /// Near enough, but a further pass would have left less of the residual than iterations have.
     Near,
     /// The flow has to be solved for again.
     Elsewhere,
