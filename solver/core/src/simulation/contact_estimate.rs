@@ -38,11 +38,14 @@ impl Bodies<'_> {
     /// The estimate with all bodies in these poses.
     pub fn estimate(&self, poses: &[Pose]) -> MobilityEstimate {
         let pairs = self.near_pairs(poses);
-        let resistance = self.resistance(&pairs);
+        MobilityEstimate::new(self.mobility(&self.resistance(&pairs)), self.clusters(&pairs))
+    }
+
+    /// Velocities by loads, for a resistance of motions that are all free.
+    pub fn mobility(&self, resistance: &DMatrix<f64>) -> DMatrix<f64> {
         let of_unknowns = self.motions.transpose() * resistance * &self.motions;
-        let base = &self.motions * inverse(&of_unknowns) * self.motions.transpose();
-        let base = 0.5 * (&base + base.transpose());
-        MobilityEstimate::new(base, self.clusters(&pairs))
+        let mobility = &self.motions * inverse(&of_unknowns) * self.motions.transpose();
+        0.5 * (&mobility + mobility.transpose())
     }
 
     fn near_pairs(&self, poses: &[Pose]) -> Vec<ContactPair> {

@@ -4,6 +4,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::contact_estimate::Bodies;
 use super::contact_known::{KnownContact, Learnt};
+use super::contact_rows::Rows;
 use super::error::StepError;
 use super::mesh_path::Placed;
 use super::newton::{Flow, flow_residual};
@@ -13,7 +14,7 @@ use super::state::State;
 use super::stepper::TimeStepper;
 use super::workspace::Workspace;
 use super::{RunError, Stage};
-use crate::body::{Pose, RigidVector, Twist, Wrench};
+use crate::body::{Pose, Twist, Wrench};
 use crate::contact::{ContactLoads, ContactSolution, ContactStep, Gaps, Law, MobilityEstimate};
 use crate::coupling::{BodyLoad, LoadedBody};
 
@@ -100,7 +101,7 @@ impl<const D: usize> PassContact<'_, D> {
             let change = self.loads(bodies, &found.loads) - self.loads(bodies, applied);
             let size = estimate.size(&change);
             largest = largest.max(size);
-            let expected = self.rows(found.velocities.iter().map(Twist::to_vector));
+            let expected = self.rows(bodies).of_each(found.velocities.iter().map(Twist::to_vector));
             let before = self.velocities(bodies, flow);
             let gap = gap_of(&found.loads);
             let off = off_by(&expected - &before, &estimate) / gap;
@@ -187,19 +188,17 @@ impl<const D: usize> PassContact<'_, D> {
         add_loads(work, self.equations, &changes, reduction, flow)
     }
 
-    /// Numbers of bodies by their motions.
-    fn rows(&self, of_bodies: impl Iterator<Item = RigidVector>) -> DVector<f64> {
-        let modes = self.stepper.problem.modes();
-        let numbers = of_bodies.flat_map(|of_body| modes.iter().map(move |mode| of_body[mode]));
-        DVector::from_vec(numbers.collect())
+    /// The rows of some bodies.
+    fn rows<'b>(&self, bodies: &'b [usize]) -> Rows<'b> {
+        Rows { bodies, modes: self.stepper.problem.modes() }
     }
 
     fn velocities(&self, bodies: &[usize], flow: &Flow<D>) -> DVector<f64> {
-        self.rows(bodies.iter().map(|&body| flow.solution.twists[body].to_vector()))
+        self.rows(bodies).of_twists(&flow.solution.twists)
     }
 
     fn loads(&self, bodies: &[usize], loads: &ContactLoads) -> DVector<f64> {
-        self.rows(bodies.iter().map(|&body| loads.wrenches[body].to_vector()))
+        self.rows(bodies).of(|body| loads.wrenches[body].to_vector())
     }
 
     /// Poses of the pass, as seen.
@@ -240,17 +239,7 @@ impl<const D: usize> PassContact<'_, D> {
         let poses = &self.equations.pass.poses;
         let modes = self.stepper.problem.modes();
         let pushed = mobility * self.loads(bodies, applied);
-        let free_velocities: Vec<Twist> = bodies
-            .iter()
-            .enumerate()
-            .map(|(index, &body)| {
-                let mut velocity = flow.solution.twists[body].to_vector();
-                for (position, mode) in modes.iter().enumerate() {
-                    velocity[mode] -= pushed[modes.len() * index + position];
-                }
-                Twist::from_vector(&velocity)
-            })
-            .collect();
+        let free_velocities = self.rows(bodies).twists(&(self.velocities(bodies, flow) - pushed));
         let predicted_velocities: Vec<Twist> = bodies
             .iter()
             .map(|&body| {

@@ -5,6 +5,7 @@ mod build;
 mod case_mesh;
 mod contact_estimate;
 mod contact_known;
+mod contact_rows;
 mod contact_step;
 mod control;
 mod cycle_error;

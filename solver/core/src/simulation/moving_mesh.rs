@@ -190,6 +190,10 @@ impl<const D: usize> MovingMesh<D> {
     /// Whether the mesh of a state has to be replaced, and why.
     #[must_use]
     pub fn remesh_reason(&mut self, state: &State<D>, shapes: &BodyShapes) -> Option<String> {
+        // A moving wall comes back to where it was, and its mesh with it
+        if self.scene.has_moving_wall() {
+            return None;
+        }
         let poses = state.in_frame(&state.origin, &state.poses);
         self.reason_to_replace(&state.mesh_in_frame(), &poses, shapes)
     }
@@ -203,10 +207,6 @@ impl<const D: usize> MovingMesh<D> {
         poses: &[Pose],
         shapes: &BodyShapes,
     ) -> Option<String> {
-        // A moving wall comes back to where it was, and its mesh with it
-        if self.scene.has_moving_wall() {
-            return None;
-        }
         self.scene.remesh_reason(mesh, poses, shapes)
     }
 

@@ -8,16 +8,17 @@
 //!
 //! with velocities U and loads f of contact at present, and h the older part of the rate of velocities.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DMatrix;
 
 use super::contact_estimate::Bodies;
+use super::contact_rows::Rows;
 use super::contact_step::{candidate_bodies, loaded_bodies};
 use super::history::StepHistory;
 use super::predict::{integrate_poses, predicted_twists};
 use super::state::State;
 use super::stepper::TimeStepper;
 use super::workspace::Workspace;
-use crate::body::{Modes, Pose, RigidVector, Twist};
+use crate::body::{Pose, Twist};
 use crate::contact::{ContactStep, Gaps};
 use crate::coupling::BodiesAt;
 
@@ -54,9 +55,9 @@ pub(super) fn predict_contact<const D: usize>(
     let older = rows.of(|body| equations.bodies[body].history);
     let rates = &now * bdf.next + older - rows.of_twists(&state.accelerations);
     let loads = rows.of(|body| state.contact.wrenches[body].to_vector());
-    let implied =
-        loads + estimated.resistance_at(&to) * (&then - now) + estimated.inertia() * rates;
-    let mobility = estimated.estimate(&to).into_matrix();
+    let resistance = estimated.resistance_at(&to);
+    let implied = loads + &resistance * (&then - now) + estimated.inertia() * rates;
+    let mobility = estimated.mobility(&resistance);
     let pushed = &mobility * implied;
     let predicted_velocity = |&body: &usize| {
         state.poses[body].velocity_to(bdf, &poses[body], &state.previous_poses[body])
@@ -79,40 +80,6 @@ pub(super) fn predict_contact<const D: usize>(
         twists[body] = Twist::from_vector(&(twists[body].to_vector() + change.to_vector()));
     }
     Some(integrate_poses(stepper, state, &history.step, &twists))
-}
-
-/// Bodies and their motions, one number each.
-struct Rows<'a> {
-    bodies: &'a [usize],
-    modes: Modes,
-}
-
-impl Rows<'_> {
-    /// Vectors of bodies by row.
-    fn of(&self, of_body: impl Fn(usize) -> RigidVector) -> DVector<f64> {
-        let of_body = &of_body;
-        let numbers = self.bodies.iter().flat_map(|&body| {
-            let vector = of_body(body);
-            self.modes.iter().map(move |mode| vector[mode])
-        });
-        DVector::from_vec(numbers.collect())
-    }
-
-    fn of_twists(&self, twists: &[Twist]) -> DVector<f64> {
-        self.of(|body| twists[body].to_vector())
-    }
-
-    /// Velocities of the bodies by rows.
-    fn twists(&self, rows: &DVector<f64>) -> Vec<Twist> {
-        let of_body = |index: usize| {
-            let mut velocity = RigidVector::zeros();
-            for (position, mode) in self.modes.iter().enumerate() {
-                velocity[mode] = rows[self.modes.len() * index + position];
-            }
-            Twist::from_vector(&velocity)
-        };
-        (0..self.bodies.len()).map(of_body).collect()
-    }
 }
 
 /// How the velocities of bodies follow from those that are free.

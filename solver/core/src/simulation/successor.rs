@@ -47,7 +47,8 @@ pub(super) fn successor<const D: usize>(
     if let Some(made) = made_ahead(problem, state, moving, shapes) {
         return Ok(made);
     }
-    generate(problem, state, moving, &Expected { time: state.time, poses: state.poses.clone() })
+    let present = Expected { time: state.time, poses: state.poses.clone() };
+    generate(problem, state, moving, shapes, &present)
 }
 
 /// A mesh that is best where bodies are expected later, so that it lasts for nearly twice as long as one that is best at
@@ -68,7 +69,7 @@ fn made_ahead<const D: usize>(
         return None;
     }
     let ahead = expected(problem, state, moving, shapes, lead);
-    let mut made = generate(problem, state, moving, &ahead).ok()?;
+    let mut made = generate(problem, state, moving, shapes, &ahead).ok()?;
     let poses = seen_from(&state.origin, &state.poses, &made.image_shifts);
     let reason = made.moving.reason_to_replace(&made.mesh, &poses, shapes);
     tracing::debug!(lasted, lead = ahead.time - state.time, poor = reason, "mesh made ahead");
@@ -96,11 +97,12 @@ fn expected<const D: usize>(
     Expected { time: state.time + lead, poses: poses_after(lead) }
 }
 
-/// A mesh generated for bodies where they are expected, moved to where they are.
+/// A mesh generated for bodies where they are expected, moved to where they are with these shapes.
 fn generate<const D: usize>(
     problem: &Problem<D>,
     state: &State<D>,
     moving: &MovingMesh<D>,
+    shapes_now: &BodyShapes,
     expected: &Expected,
 ) -> Result<Successor<D>, RemeshError> {
     let Expected { time, poses } = expected;
@@ -118,6 +120,6 @@ fn generate<const D: usize>(
         return Ok(Successor { mesh, moving, image_shifts });
     }
     let present = seen_from(&state.origin, &state.poses, &image_shifts);
-    let nodes = moving.nodes(&present, &BodyShapes::at(&problem.bodies, state.time)?)?;
+    let nodes = moving.nodes(&present, shapes_now)?;
     Ok(Successor { mesh: Mesh { nodes, ..mesh }, moving, image_shifts })
 }
