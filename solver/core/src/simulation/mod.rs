@@ -33,6 +33,7 @@ mod prepare;
 mod propulsion_history;
 mod remesh;
 mod resume;
+mod rolling;
 mod run;
 mod scene;
 mod series;

@@ -4,9 +4,10 @@ use std::ops::Deref;
 
 use alewife_mesh::{BoundaryId, BoundaryKind, CellQuality, Mesh, NodeId, Point};
 
+use super::rolling::Rolling;
 use super::scene::{Meshed, PosesByShift, RemeshError, Scene};
 use super::state::State;
-use crate::body::{Pose, in_space, on_mesh};
+use crate::body::{Pose, RigidVector, in_space, on_mesh};
 use crate::case::{Body, MeshEquation, Model};
 use crate::contact::Gaps;
 use crate::coupling::{BodyShapes, Problem};
@@ -27,6 +28,7 @@ pub struct MovingMesh<const D: usize> {
     /// Time of the reference mesh (s).
     reference_time: f64,
     settings: MotionSettings,
+    rolling: Rolling,
     /// Shortest edge on each body (m).
     edges: Vec<f64>,
     /// Body of each boundary.
@@ -125,15 +127,33 @@ impl<const D: usize> MovingMesh<D> {
             }
         }
         let motion = MeshMotion::new(mesh, settings.kind, &conditions)?;
-        Ok(Self { motion, reference_poses, reference_time, settings, edges, bodies, scene })
+        let rolls: Vec<bool> = settings.turns.iter().map(|turns| !turns).collect();
+        let rolling = Rolling::new(scene.gaps(), &reference_poses, &rolls);
+        Ok(Self {
+            motion,
+            reference_poses,
+            reference_time,
+            settings,
+            rolling,
+            edges,
+            bodies,
+            scene,
+        })
     }
 
     /// How each body has carried its nodes from the reference mesh to these poses.
     fn surface_maps(&self, poses: &[Pose], shapes: &BodyShapes) -> Vec<SurfaceMap> {
+        let moved = poses.iter().zip(&self.reference_poses);
+        let displacements: Vec<RigidVector> =
+            moved.map(|(pose, reference)| pose.displacement_from(reference)).collect();
+        let turns = self.rolling.turns(&displacements);
         let map = |(body, pose): (usize, &Pose)| {
             let reference = &self.reference_poses[body];
-            let orientation =
-                if self.settings.turns[body] { pose.orientation } else { reference.orientation };
+            let orientation = match &turns[body] {
+                Some(turn) => reference.displaced(turn).orientation,
+                None if self.settings.turns[body] => pose.orientation,
+                None => reference.orientation,
+            };
             let to = Pose { orientation, ..*pose };
             match shapes.deformed(body) {
                 Some(_) => SurfaceMap::Deformed(to),
