@@ -139,9 +139,28 @@ fn a_new_mesh_keeps_the_angular_momentum_of_a_body_and_the_fluid_around_it() {
     assert!(fine < 0.6 * coarse, "{coarse:e} {fine:e}");
 }
 
-/// Steps that each mesh lasted for a sphere that moves steadily through a box.
-fn lives() -> Vec<usize> {
-    let model = case(
+/// Steps that each mesh lasted, of a number of steps of a size (s).
+fn lives(case_text: &str, steps: usize, size: f64) -> Vec<usize> {
+    let model = case(case_text);
+    let mesh = build_mesh::<3>(&model).expect("it is meshed");
+    let mut simulation = simulation_on(&model, mesh).expect("the case is a problem");
+    let mut lives = vec![0];
+    for _ in 0..steps {
+        let meshes = simulation.state.remeshes;
+        let attempt = simulation.try_step(size, f64::INFINITY).expect("the step can be made");
+        assert!(matches!(attempt, Attempt::Made(_)));
+        if simulation.state.remeshes > meshes {
+            lives.push(0);
+        }
+        *lives.last_mut().expect("there is one") += 1;
+    }
+    lives
+}
+
+/// They are best half-way through their life, the first one at its beginning.
+#[test]
+fn meshes_of_bodies_that_move_on_last_longer_than_the_first() {
+    let lives = lives(
         r#"
         title = "a sphere moves steadily"
         geometry = "spatial"
@@ -156,29 +175,42 @@ fn lives() -> Vec<usize> {
         center = [-3.0, 0.1, -0.1]
         motion.imposed = { velocity = [1.0, 0.0, 0.0] }
         "#,
+        60,
+        0.1,
     );
-    let mesh = build_mesh::<3>(&model).expect("it is meshed");
-    let mut simulation = simulation_on(&model, mesh).expect("the case is a problem");
-    let mut lives = vec![0];
-    for _ in 0..60 {
-        let meshes = simulation.state.remeshes;
-        let attempt = simulation.try_step(0.1, f64::INFINITY).expect("the step can be made");
-        assert!(matches!(attempt, Attempt::Made(_)));
-        if simulation.state.remeshes > meshes {
-            lives.push(0);
-        }
-        *lives.last_mut().expect("there is one") += 1;
-    }
-    lives
-}
-
-/// They are best half-way through their life, the first one at its beginning.
-#[test]
-fn meshes_of_bodies_that_move_on_last_longer_than_the_first() {
-    let lives = lives();
     println!("{lives:?}");
     let replaced = &lives[1..lives.len() - 1];
     assert!(replaced.len() >= 2, "{lives:?}");
     let mean = replaced.iter().sum::<usize>() as f64 / replaced.len() as f64;
     assert!(mean > 1.35 * lives[0] as f64, "{lives:?}");
+}
+
+/// The mesh rolls with them: two meshes for a way of ten thicknesses of the film. Five where cells in it are sheared.
+#[test]
+fn spheres_that_pass_each_other_keep_their_mesh() {
+    let lives = lives(
+        r#"
+        title = "two spheres pass each other"
+        geometry = "spatial"
+        fluid = { model = "stokes", viscosity = 1.0 }
+        domain.box = { min = [-3.0, -4.0, -3.0], max = [3.0, 4.0, 3.0] }
+        boundary = { left = "no-slip", right = "no-slip", bottom = "no-slip", top = "no-slip", back = "no-slip", front = "no-slip" }
+        mesh = { size = 1.5, surface = 0.5, growth = 0.6, gap_layers = 1 }
+        time.unsteady = { step = 0.02, end = 1.0 }
+        [[body]]
+        name = "lower"
+        shape.sphere.radius = 1.0
+        center = [-0.3, -1.05, 0.0]
+        motion.imposed = { velocity = [0.5, 0.0, 0.1] }
+        [[body]]
+        name = "upper"
+        shape.sphere.radius = 1.0
+        center = [0.3, 1.05, 0.0]
+        motion.imposed = { velocity = [-0.5, 0.0, -0.1] }
+        "#,
+        50,
+        0.02,
+    );
+    println!("{lives:?}");
+    assert!(lives.len() <= 3, "{lives:?}");
 }

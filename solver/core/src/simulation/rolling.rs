@@ -172,3 +172,94 @@ fn tangents(normal: &Vector3<f64>) -> [Vector3<f64>; 2] {
     let second = normal.cross(&first).normalize();
     [second, normal.cross(&second)]
 }
+
+#[cfg(test)]
+mod tests {
+    use alewife_mesh::{Domain, PlacedShape, Point, Shape};
+
+    use super::*;
+    use crate::contact::PlanarGaps;
+
+    const GAP: f64 = 0.05;
+
+    fn rolling(shapes: &[Shape], poses: &[Pose]) -> Rolling {
+        let body = |shape: &Shape| PlacedShape {
+            name: "body".to_owned(),
+            shape: shape.clone(),
+            center: Point::<2>::zeros(),
+            angle: 0.0,
+            size: None,
+        };
+        let bodies: Vec<PlacedShape> = shapes.iter().map(body).collect();
+        let (min, max) = (Point::<2>::repeat(-20.0), Point::<2>::repeat(20.0));
+        let domain = Domain::Box { min, max, periodic_x: false, periodic_y: false };
+        let gaps = PlanarGaps::new(&domain, &[0, 1, 2, 3], &bodies).expect("they have surfaces");
+        let is_disc = |shape: &Shape| matches!(shape, Shape::Disc { .. });
+        Rolling::new(&gaps, poses, &shapes.iter().map(is_disc).collect::<Vec<_>>())
+    }
+
+    fn displacement(x: f64, y: f64, turn: f64) -> RigidVector {
+        RigidVector::from([x, y, 0.0, 0.0, 0.0, turn])
+    }
+
+    fn angles(turns: &[Option<RigidVector>]) -> Vec<f64> {
+        turns.iter().map(|turn| turn.map_or(0.0, |turn| turn[5])).collect()
+    }
+
+    fn discs(n: usize) -> Vec<Shape> {
+        vec![Shape::Disc { radius: 1.0 }; n]
+    }
+
+    /// In a row upwards.
+    fn row(n: usize) -> Vec<Pose> {
+        (0..n).map(|nth| Pose::planar(0.0, (2.0 + GAP) * nth as f64, 0.3)).collect()
+    }
+
+    /// They share the slide, and what is left of it is the part g^2 of AROUND / 2 that the rotations cost.
+    #[test]
+    fn two_discs_that_pass_each_other_roll_along_each_other() {
+        let moved = [displacement(-0.1, 0.02, 0.0), displacement(0.1, 0.0, 0.0)];
+        let [lower, upper] = angles(&rolling(&discs(2), &row(2)).turns(&moved))[..] else {
+            panic!("there are two")
+        };
+        assert!((lower - upper).abs() < 1e-12, "{lower} {upper}");
+        // The lower one goes left, its top comes back to the right: clockwise
+        let exact = -0.2 / (2.0 + 0.5 * AROUND * GAP * GAP);
+        assert!((lower - exact).abs() < 1e-12, "{lower} {exact}");
+    }
+
+    #[test]
+    fn a_disc_between_two_that_it_passes_does_not_roll_but_they_do() {
+        let mut moved = [displacement(0.0, 0.0, 0.0); 3];
+        moved[1] = displacement(0.2, 0.0, 0.0);
+        let angles = angles(&rolling(&discs(3), &row(3)).turns(&moved));
+        assert!(angles[1].abs() < 1e-12, "{angles:?}");
+        // The inner sides of both follow the whole way of the one between them
+        let exact = 0.2 / (1.0 + AROUND * GAP * GAP);
+        assert!((angles[0] + exact).abs() < 1e-12, "{angles:?}");
+        assert!((angles[2] - exact).abs() < 1e-12, "{angles:?}");
+    }
+
+    #[test]
+    fn bodies_that_move_together_or_are_far_apart_do_not_roll() {
+        let rolling_pair = rolling(&discs(2), &row(2));
+        let together = [displacement(0.3, 0.2, 0.0); 2];
+        assert_eq!(angles(&rolling_pair.turns(&together)), [0.0, 0.0]);
+        let far = [Pose::planar(0.0, 0.0, 0.0), Pose::planar(0.0, 3.5, 0.0)];
+        let moved = [displacement(-0.1, 0.0, 0.0), displacement(0.1, 0.0, 0.0)];
+        assert_eq!(rolling(&discs(2), &far).turns(&moved), [None, None]);
+    }
+
+    /// An ellipse that turns has a surface that goes with it.
+    #[test]
+    fn a_disc_rolls_along_a_body_that_turns() {
+        let shapes = [Shape::Disc { radius: 1.0 }, Shape::Ellipse { semi_axes: [2.0, 1.0] }];
+        let poses = [Pose::planar(0.0, 0.0, 0.0), Pose::planar(0.0, 2.0 + GAP, 0.0)];
+        let moved = [displacement(0.0, 0.0, 0.7), displacement(0.0, 0.0, 0.1)];
+        let turns = rolling(&shapes, &poses).turns(&moved);
+        assert_eq!(turns[1], None);
+        // Its lowest point goes to the right by 0.1, as the highest one of the disc does that turns by -0.1
+        let exact = -0.1 / (1.0 + AROUND * GAP * GAP);
+        assert!((angles(&turns)[0] - exact).abs() < 1e-12, "{turns:?}");
+    }
+}

@@ -6,7 +6,7 @@
 //!
 //! The mesh velocity w is the backward difference of the positions of the nodes, the same as for the
 //! flow: a uniform flow stays uniform, and on the surface of a body w has the body's velocity (that of
-//! its centre where it is round: its mesh does not turn). The mesh may also travel with a body as a
+//! its centre where it is round, but for the rolling of its mesh). The mesh may also travel with a body as a
 //! whole (`frame`); the unknown stays the velocity seen from the laboratory, so that no inertial force
 //! appears.
 
