@@ -116,7 +116,7 @@ fn momentum_of_fluid_and_bodies_is_conserved() {
 }
 
 /// The film between two discs that pass each other is not sheared, as the mesh rolls with them: it lasts for a way of 20
-/// thicknesses of the film. Before, meshes lasted for two or three.
+/// thicknesses of the film. Where it is sheared, meshes last for one or two.
 #[test]
 fn discs_that_pass_each_other_keep_their_mesh() {
     let outcome = run(&case(
