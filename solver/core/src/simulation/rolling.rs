@@ -1,5 +1,4 @@
-//! `Rolling`: how the mesh on round bodies turns, so that it rolls along other bodies and is not sheared in the films
-//! between them.
+//! `Rolling`: how the mesh on round bodies turns, so that it rolls along other bodies.
 //!
 //! How the nodes on a round body turn about its centre is free, as its surface stays the same. Between two bodies that
 //! pass each other cells are sheared by the displacement of one surface along the other over the thickness of the film.
