@@ -214,7 +214,7 @@ mod tests {
         (0..n).map(|nth| Pose::planar(0.0, (2.0 + GAP) * nth as f64, 0.3)).collect()
     }
 
-    /// They share the slide, and what is left of it is the part g^2 of AROUND / 2 that the rotations cost.
+    /// They share the slide s but for what the rotations cost: (s - 2 phi)^2 / g^2 + 2 AROUND phi^2 is least.
     #[test]
     fn two_discs_that_pass_each_other_roll_along_each_other() {
         let moved = [displacement(-0.1, 0.02, 0.0), displacement(0.1, 0.0, 0.0)];
@@ -223,7 +223,7 @@ mod tests {
         };
         assert!((lower - upper).abs() < 1e-12, "{lower} {upper}");
         // The lower one goes left, its top comes back to the right: clockwise
-        let exact = -0.2 / (2.0 + 0.5 * AROUND * GAP * GAP);
+        let exact = -0.2 / (2.0 + AROUND * GAP * GAP);
         assert!((lower - exact).abs() < 1e-12, "{lower} {exact}");
     }
 
