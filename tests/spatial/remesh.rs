@@ -139,9 +139,21 @@ fn a_new_mesh_keeps_the_angular_momentum_of_a_body_and_the_fluid_around_it() {
     assert!(fine < 0.6 * coarse, "{coarse:e} {fine:e}");
 }
 
-/// Steps that each mesh lasted, of a number of steps of a size (s).
-fn lives(case_text: &str, steps: usize, size: f64) -> Vec<usize> {
-    let model = case(case_text);
+/// Steps that each mesh lasted for bodies in a closed box of these half sides (m), of a number of steps of a size (s).
+fn lives(half_sides: [f64; 3], bodies: &str, steps: usize, size: f64) -> Vec<usize> {
+    let [x, y, z] = half_sides;
+    let end = steps as f64 * size;
+    let model = case(&format!(
+        r#"
+        title = "spheres that move steadily"
+        geometry = "spatial"
+        fluid = {{ model = "stokes", viscosity = 1.0 }}
+        domain.box = {{ min = [-{x:?}, -{y:?}, -{z:?}], max = [{x:?}, {y:?}, {z:?}] }}
+        boundary = {{ left = "no-slip", right = "no-slip", bottom = "no-slip", top = "no-slip", back = "no-slip", front = "no-slip" }}
+        mesh = {{ size = 1.5, surface = 0.5, growth = 0.6, gap_layers = 1 }}
+        time.unsteady = {{ step = {size:?}, end = {end:?} }}
+        {bodies}"#
+    ));
     let mesh = build_mesh::<3>(&model).expect("it is meshed");
     let mut simulation = simulation_on(&model, mesh).expect("the case is a problem");
     let mut lives = vec![0];
@@ -160,24 +172,14 @@ fn lives(case_text: &str, steps: usize, size: f64) -> Vec<usize> {
 /// They are best half-way through their life, the first one at its beginning.
 #[test]
 fn meshes_of_bodies_that_move_on_last_longer_than_the_first() {
-    let lives = lives(
-        r#"
-        title = "a sphere moves steadily"
-        geometry = "spatial"
-        fluid = { model = "stokes", viscosity = 1.0 }
-        domain.box = { min = [-5.0, -2.5, -2.5], max = [5.0, 2.5, 2.5] }
-        boundary = { left = "no-slip", right = "no-slip", bottom = "no-slip", top = "no-slip", back = "no-slip", front = "no-slip" }
-        mesh = { size = 1.5, surface = 0.5, growth = 0.6, gap_layers = 1 }
-        time.unsteady = { step = 0.1, end = 6.0 }
+    let sphere = r#"
         [[body]]
         name = "sphere"
         shape.sphere.radius = 1.0
         center = [-3.0, 0.1, -0.1]
         motion.imposed = { velocity = [1.0, 0.0, 0.0] }
-        "#,
-        60,
-        0.1,
-    );
+        "#;
+    let lives = lives([5.0, 2.5, 2.5], sphere, 60, 0.1);
     println!("{lives:?}");
     let replaced = &lives[1..lives.len() - 1];
     assert!(replaced.len() >= 2, "{lives:?}");
@@ -188,15 +190,7 @@ fn meshes_of_bodies_that_move_on_last_longer_than_the_first() {
 /// The mesh rolls with them: two meshes for a way of ten thicknesses of the film. Five where cells in it are sheared.
 #[test]
 fn spheres_that_pass_each_other_keep_their_mesh() {
-    let lives = lives(
-        r#"
-        title = "two spheres pass each other"
-        geometry = "spatial"
-        fluid = { model = "stokes", viscosity = 1.0 }
-        domain.box = { min = [-3.0, -4.0, -3.0], max = [3.0, 4.0, 3.0] }
-        boundary = { left = "no-slip", right = "no-slip", bottom = "no-slip", top = "no-slip", back = "no-slip", front = "no-slip" }
-        mesh = { size = 1.5, surface = 0.5, growth = 0.6, gap_layers = 1 }
-        time.unsteady = { step = 0.02, end = 1.0 }
+    let spheres = r#"
         [[body]]
         name = "lower"
         shape.sphere.radius = 1.0
@@ -207,10 +201,8 @@ fn spheres_that_pass_each_other_keep_their_mesh() {
         shape.sphere.radius = 1.0
         center = [0.3, 1.05, 0.0]
         motion.imposed = { velocity = [-0.5, 0.0, -0.1] }
-        "#,
-        50,
-        0.02,
-    );
+        "#;
+    let lives = lives([3.0, 4.0, 3.0], spheres, 50, 0.02);
     println!("{lives:?}");
     assert!(lives.len() <= 3, "{lives:?}");
 }

@@ -100,8 +100,8 @@ fn the_cpu_time_of_a_run_is_estimated() {
 }
 
 /// Every sixth of the members that docs/performance.md counts, since each is meshed. An estimate has in it what the
-/// mesh takes on this machine, beside other tests, while the page is of another one: where that is a large part, nothing
-/// is told of the rest.
+/// mesh takes on this machine, beside other tests, while the page is of another one: where that is a large part, the
+/// ratio says nothing of the rest.
 #[test]
 fn most_cpu_times_are_estimated() {
     let long = measured().into_iter().filter(|row| row.seconds >= 1.2);
