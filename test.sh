@@ -23,4 +23,4 @@ venv=target/venv
 [ -x "$venv/bin/python" ] || python3 -m venv "$venv"
 "$venv/bin/pip" install --quiet --disable-pip-version-check --editable '.[test]'
 export ALEWIFE_BIN="$PWD/target/release/alewife" VTK_DEFAULT_OPENGL_WINDOW=vtkOSOpenGLRenderWindow
-"$venv/bin/python" -m pytest
+"$venv/bin/python" -m pytest --numprocesses "$(nproc)"
