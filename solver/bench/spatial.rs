@@ -12,8 +12,8 @@ use std::time::Instant;
 
 use alewife_core::body::{Pose, Wrench};
 use alewife_core::coupling::{FluidSystem, Problem, RigidBody, Side, Solution};
-use alewife_core::simulation::{Stage, Timing, cpu_seconds};
 use alewife_core::space::Metric;
+use alewife_core::timing::{Stage, Timing, cpu_seconds};
 use alewife_mesh::{BoundaryId, Mesh, Point};
 use benches::{write_integers, write_matrix, write_reals};
 use nalgebra::Vector3;

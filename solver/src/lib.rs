@@ -5,7 +5,7 @@
 //!
 //! ```
 //! use alewife::case::{Case, check};
-//! use alewife::simulation::simulate;
+//! use alewife::run::simulate;
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! let power = |viscosity: f64| -> Result<f64, Box<dyn std::error::Error>> {
@@ -32,7 +32,7 @@ pub mod observer;
 pub mod sweep;
 pub mod validation;
 
-pub use alewife_core::{body, case, coupling, flow, simulation, timing};
+pub use alewife_core::{body, case, coupling, flow, run, state, step, timing};
 
 /// The program of a page, compiled and run.
 #[cfg(doctest)]

@@ -2,8 +2,8 @@
 
 use alewife_core::case::{Convection, Steady};
 use alewife_core::coupling::Side;
-use alewife_core::simulation::MeshPath;
 use alewife_core::space::Metric;
+use alewife_core::step::MeshPath;
 use alewife_core::time::Bdf;
 use alewife_mesh::{Domain, Point, Sizing, generate};
 use tests::cases::{case, last, run};
@@ -29,8 +29,9 @@ fn decaying_vortices_in_a_doubly_periodic_box_converge_at_third_order() {
         let mut run = Stepping::new(&problem, &mesh, choice, MeshPath::Fixed);
         let step = 1e-3;
         let at = |time: f64| mesh.nodes.iter().map(|place| exact.velocity(place, time)).collect();
-        run.state.now.velocity = at(0.0);
-        run.state.previous.velocity = at(-step);
+        let mut levels = run.state.levels();
+        (levels.now.velocity, levels.previous.velocity) = (at(0.0), at(-step));
+        run.state.begin(levels);
         let bdf = Bdf::second_order(step, step);
         for _ in 0..10 {
             run.advance(bdf);

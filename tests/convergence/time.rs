@@ -1,8 +1,8 @@
 //! Orders in time.
 
 use alewife_core::case::Convection;
-use alewife_core::simulation::MeshPath;
 use alewife_core::space::Metric;
+use alewife_core::step::MeshPath;
 use alewife_core::time::Bdf;
 use alewife_mesh::{Domain, Mesh, Point, Sizing, generate};
 use tests::exact::{EthierSteinman, Exact, TaylorGreen};
@@ -41,8 +41,9 @@ impl<const D: usize, E: Exact<D> + Copy + Send + 'static> Decay<D, E> {
         let mut run = Stepping::new(&problem, mesh, choice, MeshPath::Fixed);
         let step = end / n_steps as f64;
         let at = |time: f64| mesh.nodes.iter().map(|place| exact.velocity(place, time)).collect();
-        run.state.now.velocity = at(0.0);
-        run.state.previous.velocity = at(-step);
+        let mut levels = run.state.levels();
+        (levels.now.velocity, levels.previous.velocity) = (at(0.0), at(-step));
+        run.state.begin(levels);
         let bdf = if second_order { Bdf::second_order(step, step) } else { Bdf::first_order(step) };
         for _ in 0..n_steps {
             run.advance(bdf);

@@ -2,7 +2,8 @@
 
 use std::sync::{Arc, Mutex};
 
-use alewife_core::simulation::{LastState, Observer, RunError, Snapshot, simulate};
+use alewife_core::run::{LastState, Observer, RunError, Snapshot, simulate};
+use alewife_core::step::FlowError;
 use tests::cases::case;
 
 /// Remembers the largest speed and the reason of a failure.
@@ -45,7 +46,7 @@ fn a_stalled_newton_method_is_an_error_that_shows_the_last_iterate() {
     let seen = Arc::new(Mutex::new(None));
     let mut observers: Vec<Box<dyn Observer<2>>> = vec![Box::new(Witness(Arc::clone(&seen)))];
     let error = simulate(&case, &mut observers).expect_err("one iteration is too few");
-    assert!(matches!(error, RunError::NewtonStalled { .. }), "{error}");
+    assert!(matches!(error, RunError::Flow(FlowError::NewtonStalled { .. })), "{error}");
     let (speed, reason) = seen.lock().expect("the run is over").take().expect("it was told");
     assert!((0.5..10.0).contains(&speed), "largest speed {speed}");
     assert!(reason.contains("refine the mesh"), "{reason}");
@@ -72,7 +73,7 @@ fn a_system_without_a_solution_names_what_is_not_determined() {
         "#,
     );
     let error = simulate::<2>(&case, &mut []).expect_err("the body may drift");
-    assert!(matches!(error, RunError::Singular { .. }), "{error}");
+    assert!(matches!(error, RunError::Flow(FlowError::Singular { .. })), "{error}");
     let message = error.to_string();
     assert!(message.contains("velocity of body \"disc\""), "{message}");
     assert!(message.contains("a wall, a given velocity"), "{message}");

@@ -1,6 +1,6 @@
 //! Flow driven along periodic directions: by a pressure gradient, a body force, or a mean velocity.
 
-use alewife_core::simulation::RunSummary;
+use alewife_core::run::RunSummary;
 use tests::cases::{PERIODIC_BOX, PERIODIC_CHANNEL, case, last, run};
 
 /// A disc in a doubly periodic box, whose mesh does not know of its symmetries.

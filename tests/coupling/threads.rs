@@ -1,6 +1,6 @@
 //! The same input gives the same bits, on any number of threads and in every run.
 
-use alewife_core::simulation::RunSummary;
+use alewife_core::run::RunSummary;
 use tests::cases::{case, run};
 
 const CASE: &str = r#"

@@ -2,7 +2,7 @@
 
 use alewife_core::algebra::{DirectSolver, LinearSolver, SparseMatrix, Unknowns};
 use alewife_core::case::{Case, TimeSettings};
-use alewife_core::simulation::{Attempt, Simulation, build_mesh, simulation_on};
+use alewife_core::run::{Attempt, Simulation, build_mesh, simulation_on};
 use rayon::prelude::*;
 
 /// Relative residual that every system has to reach.

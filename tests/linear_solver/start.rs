@@ -2,7 +2,7 @@
 //! in space, where the solver iterates, as far as Newton's method asks, in three systems at most.
 
 use alewife_core::case::{Case, Model, Steady, library};
-use alewife_core::simulation::{CaseMesh, Dimension, build_mesh, build_problem};
+use alewife_core::run::{CaseMesh, Dimension, build_mesh, build_problem};
 use rayon::prelude::*;
 use tests::{steady_with, workspace};
 

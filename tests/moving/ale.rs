@@ -3,8 +3,9 @@
 use std::f64::consts::PI;
 
 use alewife_core::case::Convection;
-use alewife_core::simulation::{MeshPath, State};
 use alewife_core::space::Metric;
+use alewife_core::state::State;
+use alewife_core::step::MeshPath;
 use alewife_core::time::Bdf;
 use alewife_mesh::{BoundaryKind, Domain, Mesh, NodeId, Point, Sizing, generate};
 use tests::exact::{EthierSteinman, Exact, TaylorGreen};
@@ -65,11 +66,13 @@ fn run<const D: usize>(
     let mut start = mesh.clone();
     start.nodes = places(0.0);
     let mut run = Stepping::new(&problem, &start, choice, MeshPath::Given(&place));
-    let state = &mut run.state;
-    state.nodes_before = places(-step);
+    let before = places(-step);
     let at = |nodes: &[Point<D>], time: f64| nodes.iter().map(|x| exact(x, time)).collect();
-    state.now.velocity = at(&state.nodes, 0.0);
-    state.previous.velocity = at(&state.nodes_before, -step);
+    let mut levels = run.state.levels();
+    levels.now.velocity = at(&run.state.nodes, 0.0);
+    levels.previous.velocity = at(&before, -step);
+    levels.nodes_before = Some(before);
+    run.state.begin(levels);
     for _ in 0..n_steps {
         run.advance(Bdf::second_order(step, step));
     }
@@ -130,7 +133,7 @@ fn assert_second_order<const D: usize>(
     for choice in [Convection::Extrapolated, Convection::Newton] {
         let at = |n_steps| {
             let velocity = move |place: &Point<D>, time: f64| exact.velocity(place, time);
-            run(mesh, n_steps, end, choice, velocity, viscosity).now.velocity
+            run(mesh, n_steps, end, choice, velocity, viscosity).now.velocity.clone()
         };
         let n_steps = |step: f64| (end / step).round() as usize;
         let fine = at(8 * steps.iter().map(|step| n_steps(*step)).max().unwrap_or(1));

@@ -1,7 +1,7 @@
 //! Free and driven bodies in a mesh that follows them.
 
 use super::tank;
-use alewife_core::simulation::RunSummary;
+use alewife_core::run::RunSummary;
 use tests::Study;
 use tests::cases::{PERIODIC_CHANNEL, case, last, run};
 

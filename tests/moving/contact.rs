@@ -1,6 +1,6 @@
 //! Bodies that meet walls and each other in whole runs.
 
-use alewife_core::simulation::{RunError, simulate};
+use alewife_core::run::{RunError, simulate};
 use tests::cases::{case, last, run};
 
 use super::tank;

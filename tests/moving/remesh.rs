@@ -2,7 +2,7 @@
 
 use std::sync::{Arc, Mutex};
 
-use alewife_core::simulation::{Observer, Snapshot, simulate};
+use alewife_core::run::{Observer, Snapshot, simulate};
 use alewife_core::space::{CellValues, Metric, Tables};
 use tests::cases::{PERIODIC_BOX, case, column, last, run};
 

@@ -7,7 +7,7 @@
 use std::f64::consts::{FRAC_PI_4, SQRT_2};
 
 use alewife_core::case::Model;
-use alewife_core::simulation::{Dimension, SavedState, Solve, simulate};
+use alewife_core::run::{Dimension, SavedState, Solve, simulate};
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use tests::cases::{case, column};
 use tests::{stopped, stopped_again, stopped_within_a_step};
@@ -140,7 +140,7 @@ impl Turning {
             let saved = stopped.expect("it left a state");
             let rest = stopped_again(&model, &saved, end);
             assert!(rest == whole, "{off:e} beyond the diagonal, {spared} questions in the step");
-            if saved.step == self.steps {
+            if saved.step() == self.steps {
                 return;
             }
         }

@@ -1,7 +1,7 @@
 //! Runs that go on from the state another one left.
 
 use alewife_core::case::{Case, Model, TimeSettings};
-use alewife_core::simulation::{Dimension, RunSummary, SavedState, Solve, simulate};
+use alewife_core::run::{Dimension, RunSummary, SavedState, Solve, simulate};
 use tests::cases::{PERIODIC_CHANNEL, case, column, last, run};
 use tests::{resumed, stopped, stopped_again, stopped_within_a_step};
 

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 use std::fmt::Write as _;
 
-use alewife_core::simulation::{RunSummary, simulate};
+use alewife_core::run::{RunSummary, simulate};
 use tests::cases::{PERIODIC_BOX, case, last, run};
 
 /// Place and heading of swimmers in a cell of this length, which leave no straight strip free.

@@ -2,7 +2,7 @@
 
 use alewife_core::body::{Pose, Wrench};
 use alewife_core::contact::{ContactLoads, Law, LawKind, SpatialGaps};
-use alewife_core::simulation::{Attempt, Observer, Snapshot, build_mesh, simulate, simulation_on};
+use alewife_core::run::{Attempt, Observer, Snapshot, build_mesh, simulate, simulation_on};
 use alewife_mesh::Point;
 use alewife_mesh::spatial::{Body, Domain, Shape};
 use nalgebra::Isometry3;

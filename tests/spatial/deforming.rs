@@ -2,7 +2,7 @@
 
 use alewife_core::case::Model;
 use alewife_core::coupling::BodyShapes;
-use alewife_core::simulation::{RunSummary, build_mesh, build_problem, simulate, simulation_on};
+use alewife_core::run::{RunSummary, build_mesh, build_problem, simulate, simulation_on};
 use tests::cases::{case, column, last};
 
 fn run(model: &Model) -> RunSummary {

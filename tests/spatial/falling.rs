@@ -1,6 +1,6 @@
 //! A free body that falls through a mesh of tetrahedra, which follows it and is replaced on the way.
 
-use alewife_core::simulation::{RunSummary, simulate};
+use alewife_core::run::{RunSummary, simulate};
 use nalgebra::Vector3;
 use tests::cases::{case, last};
 

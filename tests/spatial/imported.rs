@@ -1,7 +1,7 @@
 //! Flow in meshes made by Gmsh: Poiseuille flow in the plane and in a tube, and a sphere in a box.
 
 use alewife_core::case::{Case, CaseFile, check};
-use alewife_core::simulation::{RunSummary, simulate};
+use alewife_core::run::{RunSummary, simulate};
 
 /// A case, its mesh a file of the tests of the mesher where a name is given.
 fn case(text: &str, mesh: Option<&str>) -> CaseFile {

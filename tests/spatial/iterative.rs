@@ -1,14 +1,15 @@
 //! Iterative solution of fluid and bodies: against factors, on finer meshes, on more threads.
 
 use alewife_core::algebra::IterativeSettings;
-use alewife_core::body::{Inertia, Mode, Pose, Wrench};
+use alewife_core::body::{Inertia, LoadedBody, Mode, Pose, Wrench};
 use alewife_core::case::Steady;
 use alewife_core::coupling::{
-    BodiesAt, BodyShapes, Drive, FluidSystem, LoadedBody, Problem, RigidBody, Side, Solution,
-    SolveError, SolverChoice,
+    BodiesAt, BodyShapes, Drive, FluidSystem, Problem, RigidBody, Side, Solution, SolveError,
+    SolverChoice,
 };
-use alewife_core::simulation::{SteadyFlow, Timing};
 use alewife_core::space::Metric;
+use alewife_core::step::SteadyFlow;
+use alewife_core::timing::Timing;
 use alewife_mesh::{BoundaryId, BoundaryKind, Mesh, Point};
 use nalgebra::{DMatrix, Matrix3, UnitQuaternion, Vector3};
 use tests::{BoxOfTetrahedra, fluid_only, one_system_from_rest, steady_with, workspace};

@@ -20,10 +20,11 @@ use alewife_core::body::{Inertia, Pose, Twist, Wrench};
 use alewife_core::case::{Convection, Scheme};
 use alewife_core::coupling::{Problem, RigidBody, Side};
 use alewife_core::motion::{MotionKind, Transfer};
-use alewife_core::simulation::{
-    Attempt, MeshPath, MotionSettings, MovingMesh, Simulation, State, StepScheme,
-};
+use alewife_core::motion::{MotionSettings, MovingMesh};
+use alewife_core::run::{Attempt, Simulation, StepControl, StepScheme};
 use alewife_core::space::{CellValues, Metric, Tables};
+use alewife_core::state::{InitialLevels, State};
+use alewife_core::step::MeshPath;
 use alewife_core::time::Bdf;
 use alewife_mesh::{BoundaryId, Mesh, Point};
 use nalgebra::{Matrix3, UnitQuaternion, Vector3};
@@ -129,10 +130,10 @@ fn in_uniform_flow(velocity: &Vector3<f64>, convection: Convection) -> Simulatio
     let mesh = two_tetrahedra();
     let problem = problem(&mesh, true);
     let mut state = State::at_rest(&problem, mesh.clone());
-    for level in [&mut state.now, &mut state.previous] {
-        level.velocity.fill(*velocity);
-        level.twists = vec![Twist { linear: *velocity, ..Twist::default() }];
-    }
+    let mut flow = state.now.clone();
+    flow.velocity.fill(*velocity);
+    flow.twists = vec![Twist { linear: *velocity, ..Twist::default() }];
+    state.begin(InitialLevels::steady(flow));
     let work = workspace(&problem, &mesh);
     let poses = state.poses.clone();
     let settings = MotionSettings { kind: MotionKind::default(), turns: vec![true] };
@@ -140,7 +141,18 @@ fn in_uniform_flow(velocity: &Vector3<f64>, convection: Convection) -> Simulatio
     let moving = MovingMesh::new(&mesh, scene, settings, poses, 0.0).expect("the mesh can move");
     let scheme = StepScheme { method: Scheme::Bdf2, convection, unknown_frame: false };
     let moving_mesh = Some(moving);
-    Simulation { problem, state, work, moving_mesh, law: None, scheme, is_fresh: true, stop: None }
+    let control = StepControl::default();
+    Simulation {
+        problem,
+        state,
+        control,
+        work,
+        moving_mesh,
+        law: None,
+        scheme,
+        is_fresh: true,
+        stop: None,
+    }
 }
 
 #[test]

@@ -4,10 +4,8 @@ use alewife_core::body::{Orientation, Pose};
 use alewife_core::case::Model;
 use alewife_core::contact::Gaps;
 use alewife_core::coupling::BodyShapes;
-use alewife_core::simulation::{
-    Attempt, Meshed, MotionSettings, MovingMesh, PosesByShift, RemeshError, Scene, Simulation,
-    build_mesh, simulation_on,
-};
+use alewife_core::motion::{Meshed, MovingMesh, PosesByShift, RemeshError, Scene};
+use alewife_core::run::{Attempt, Simulation, build_mesh, motion_settings, simulation_on};
 use alewife_mesh::{Mesh, Point};
 use nalgebra::{Quaternion, UnitQuaternion};
 use tests::cases::case;
@@ -128,7 +126,7 @@ fn scene(model: &Model) -> Meshed<3> {
 fn in_mirror(model: &Model, shown: Meshed<3>) -> Simulation<3> {
     let mesh = mirror_image(&shown.mesh, AXIS);
     let mut simulation = simulation_on(model, mesh.clone()).expect("the image is a problem");
-    let settings = MotionSettings::new(model, &simulation.problem);
+    let settings = motion_settings(model, &simulation.problem);
     let scene = Box::new(Mirrored { own: scene(model).scene, image: shown.scene });
     let poses = simulation.state.poses.clone();
     let moving = MovingMesh::new(&mesh, scene, settings, poses, 0.0);

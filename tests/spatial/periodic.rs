@@ -1,6 +1,6 @@
 //! Boxes with periodic sides in space: bodies lie across them, pass through them, and meet across them.
 
-use alewife_core::simulation::{RunSummary, simulate};
+use alewife_core::run::{RunSummary, simulate};
 use tests::cases::{case, last};
 
 /// Sides that are periodic along all axes.

@@ -1,6 +1,6 @@
 //! Resistances of a body near a wall are symmetric, and invert the velocities of the free body.
 
-use alewife_core::simulation::{RunSummary, simulate};
+use alewife_core::run::{RunSummary, simulate};
 use nalgebra::Vector3;
 use tests::cases::{case, last};
 

@@ -1,7 +1,7 @@
 //! What a new mesh in space leaves as it was: the momentum of fluid and bodies together.
 
 use alewife_core::body::Wrench;
-use alewife_core::simulation::{Attempt, Simulation, build_mesh, simulation_on};
+use alewife_core::run::{Attempt, Simulation, build_mesh, simulation_on};
 use nalgebra::Vector3;
 use tests::cases::case;
 

@@ -3,7 +3,8 @@
 use alewife_core::body::{Pose, Twist, Wrench};
 use alewife_core::case::Convection;
 use alewife_core::coupling::{Problem, Spring};
-use alewife_core::simulation::{MeshPath, simulate};
+use alewife_core::run::simulate;
+use alewife_core::step::MeshPath;
 use alewife_core::time::Bdf;
 use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3, Vector6};
 use tests::cases::{case, column, last};
@@ -79,9 +80,11 @@ impl Top<'_> {
         let mut run = Stepping::new(problem, &mesh, Convection::Extrapolated, MeshPath::Fixed);
         let before = self.after(start, -step);
         let twist = |at: &Turning| Twist { linear: Vector3::zeros(), angular: at.spin_in_world() };
-        run.state.previous_poses = vec![Pose::spatial(center, before.turn)];
-        run.state.now.twists = vec![twist(start)];
-        run.state.previous.twists = vec![twist(&before)];
+        let mut levels = run.state.levels();
+        levels.previous_poses = Some(vec![Pose::spatial(center, before.turn)]);
+        levels.now.twists = vec![twist(start)];
+        levels.previous.twists = vec![twist(&before)];
+        run.state.begin(levels);
         (0..n)
             .map(|_| {
                 run.advance(Bdf::second_order(step, step));

@@ -3,7 +3,7 @@
 use alewife_core::body::{Modes, Pose, on_mesh};
 use alewife_core::contact::{ContactPair, Gaps, MinimumGap, Partner};
 use alewife_core::coupling::BodyShapes;
-use alewife_core::simulation::{Meshed, PosesByShift, RemeshError, Scene};
+use alewife_core::motion::{Meshed, PosesByShift, RemeshError, Scene};
 use alewife_mesh::{Mesh, Point};
 use nalgebra::Vector3;
 use tests::three_tetrahedra;

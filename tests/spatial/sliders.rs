@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use alewife_core::case::Model;
-use alewife_core::simulation::{RunSummary, simulate};
+use alewife_core::run::{RunSummary, simulate};
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use tests::cases::{case, column, last};
 

@@ -1,7 +1,7 @@
 //! Cases given as text, for tests that need a whole run.
 
 use alewife_core::case::{Case, Model};
-use alewife_core::simulation::{RunSummary, simulate};
+use alewife_core::run::{RunSummary, simulate};
 
 /// Sides of a channel that is periodic along x.
 pub const PERIODIC_CHANNEL: &str = r#"boundary = { left.periodic = "right", right.periodic = "left", bottom = "no-slip", top = "no-slip" }"#;

@@ -7,11 +7,12 @@ use alewife_core::coupling::{
     Solution, SolveError,
 };
 use alewife_core::flow::{self, FlowTerms};
-use alewife_core::simulation::{
-    MeshPath, Stage, State, SteadyFlow, SteadyTask, StepReport, StepResult, TimeStepper, Timing,
-    Workspace, solve_steady,
+use alewife_core::state::State;
+use alewife_core::step::{
+    MeshPath, SteadyFlow, SteadyTask, StepReport, StepResult, TimeStepper, Workspace, solve_steady,
 };
 use alewife_core::time::Bdf;
+use alewife_core::timing::{Stage, Timing};
 use alewife_mesh::{Mesh, Point};
 
 /// What steps of a problem on a mesh work with, its bodies at their poses at time zero.

@@ -4,10 +4,11 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};
 
 use alewife_core::case::Model;
-use alewife_core::simulation::{
-    Dimension, LastState, Observer, RunError, RunSummary, SavedState, Snapshot, Solve, StopRequest,
+use alewife_core::run::{
+    Dimension, LastState, Observer, RunError, RunSummary, SavedState, Snapshot, Solve,
     simulate_from,
 };
+use alewife_core::step::{FlowError, StopRequest};
 
 /// What a stopped run leaves.
 #[derive(Debug, Clone)]
@@ -66,7 +67,7 @@ where
     let left = Arc::new(Mutex::new(Stopped { state: None, times: Vec::new() }));
     let stopper = Stopper { after, spared, left: Arc::clone(&left) };
     let error = simulate_from(model, from, &mut [Box::new(stopper)]).expect_err("it is stopped");
-    assert!(matches!(error, RunError::Stopped { .. }), "{error}");
+    assert!(matches!(error, RunError::Flow(FlowError::Stopped { .. })), "{error}");
     let stopped = left.lock().expect("the run is over").clone();
     assert!(stopped.state.is_some(), "there is a state");
     stopped
@@ -119,7 +120,7 @@ where
     Dimension<D>: Solve<D>,
 {
     // The step it resumes from is not reported again
-    let more = after.checked_sub(from.step + 1).expect("a later step");
+    let more = after.checked_sub(from.step() + 1).expect("a later step");
     stop(model, Some(from), more, 0).state.expect("there is a state")
 }
 

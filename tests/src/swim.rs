@@ -3,7 +3,8 @@
 use alewife_core::body::Twist;
 use alewife_core::case::{Convection, Model, Scheme, Steady};
 use alewife_core::coupling::{Problem, SurfaceLoads};
-use alewife_core::simulation::{Simulation, State, simulation_on};
+use alewife_core::run::{Simulation, simulation_on};
+use alewife_core::state::{InitialLevels, State};
 use alewife_mesh::{Mesh, Point};
 use nalgebra::Vector3;
 
@@ -48,10 +49,10 @@ impl Swim {
     pub fn stream(&mut self, velocity: Point<2>) {
         let linear = Vector3::new(velocity.x, velocity.y, 0.0);
         let state = &mut self.simulation.state;
-        for level in [&mut state.now, &mut state.previous] {
-            level.velocity.fill(velocity);
-            level.twists.fill(Twist { linear, angular: Vector3::zeros() });
-        }
+        let mut flow = state.now.clone();
+        flow.velocity.fill(velocity);
+        flow.twists.fill(Twist { linear, angular: Vector3::zeros() });
+        state.begin(InitialLevels::steady(flow));
     }
 
     /// The Stokes flow at time zero.
@@ -62,8 +63,7 @@ impl Swim {
         let Simulation { problem, state, work, .. } = &mut self.simulation;
         let settings = Steady { tolerance: 1e-10, max_iterations: 5 };
         let flow = steady_with(work, problem, &settings, problem.has_convection);
-        state.now = flow.solution.clone();
-        state.previous = flow.solution;
+        state.begin(InitialLevels::steady(flow.solution));
         self.loads = self.simulation.loads(&flow.residual);
     }
 

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use alewife_core::simulation::RunSummary;
+use alewife_core::run::RunSummary;
 use tests::cases::{case, column, last, run};
 
 /// Semi-axes of a link, and from its centre to the pivot.

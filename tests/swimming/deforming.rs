@@ -2,7 +2,8 @@
 //! are gone on from.
 
 use alewife_core::coupling::BodyShapes;
-use alewife_core::simulation::{RunError, RunSummary, build_mesh, build_problem, simulate};
+use alewife_core::run::{RunError, RunSummary, build_mesh, build_problem, simulate};
+use alewife_core::step::FlowError;
 use tests::cases::{case, column, last, run};
 use tests::{resumed, stopped};
 
@@ -193,7 +194,7 @@ fn a_gait_that_fails_in_a_run_stops_it_with_the_body_and_the_time() {
         "#,
     );
     let error = simulate::<2>(&case, &mut []).expect_err("the outline crosses itself");
-    assert!(matches!(error, RunError::Shape(_)), "{error:?}");
+    assert!(matches!(error, RunError::Flow(FlowError::Shape(_))), "{error:?}");
     let message = error.to_string();
     assert!(message.starts_with("body `fish`: at t = 0.033000 the body bends so far"), "{message}");
 }

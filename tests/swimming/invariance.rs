@@ -2,7 +2,7 @@
 //! that is moved in the same way the same motion comes out, so that no direction of the plane and no
 //! frame is built into anything.
 
-use alewife_core::simulation::build_mesh;
+use alewife_core::run::build_mesh;
 use alewife_mesh::Point;
 use tests::cases::case;
 use tests::{Moved, Swim};

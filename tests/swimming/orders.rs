@@ -1,7 +1,7 @@
 //! Orders in time of swimmers without inertia, on one mesh, with smooth strokes and with strokes whose
 //! rates jump.
 
-use alewife_core::simulation::{RunSummary, simulate};
+use alewife_core::run::{RunSummary, simulate};
 use tests::Study;
 use tests::cases::{case, last, run};
 

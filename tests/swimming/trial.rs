@@ -5,7 +5,8 @@ use std::io;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use alewife_core::simulation::{Observer, RunError, Snapshot, StopRequest, simulate};
+use alewife_core::run::{Observer, RunError, Snapshot, simulate};
+use alewife_core::step::{FlowError, StopRequest};
 use tests::cases::case;
 
 /// Two links that a motor turns, which is too strong for the steps if its torque is.
@@ -64,7 +65,7 @@ fn asked_until_stopped(torque: f64, stops_at: usize, stops_at_row: bool) -> [usi
     let [asked, rows] = counts.clone();
     let asker = Asker { stops_at, stops_at_row, asked, rows };
     let error = simulate(&case(&links(torque)), &mut [Box::new(asker)]).expect_err("it is stopped");
-    assert!(matches!(error, RunError::Stopped { .. }), "{error}");
+    assert!(matches!(error, RunError::Flow(FlowError::Stopped { .. })), "{error}");
     counts.map(|count| count.load(Ordering::Relaxed))
 }
 

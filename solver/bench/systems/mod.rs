@@ -6,8 +6,9 @@ use alewife_core::algebra::{AffineConstraints, CellMaps, SparseMatrix, Unknowns}
 use alewife_core::case::{Case, Model};
 use alewife_core::coupling::{BodiesAt, BodyShapes, FluidSystem, Problem, Solution};
 use alewife_core::flow::{Assembly, Convection, FlowTerms, assemble, residual};
-use alewife_core::simulation::{build_mesh, build_problem, cpu_seconds};
+use alewife_core::run::{build_mesh, build_problem};
 use alewife_core::time::Bdf;
+use alewife_core::timing::cpu_seconds;
 use alewife_mesh::{Mesh, Point};
 use criterion::Throughput;
 use criterion::measurement::{Measurement, ValueFormatter};

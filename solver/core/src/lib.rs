@@ -7,8 +7,10 @@ pub mod coupling;
 pub mod flow;
 pub mod gait;
 pub mod motion;
-pub mod simulation;
+pub mod run;
 pub mod space;
+pub mod state;
+pub mod step;
 pub mod time;
 pub mod timing;
 

@@ -16,7 +16,8 @@ use crate::case::{
     Cadence, CaseFile, Diagnostic, FlowModel, Model, Precision, Sweep, TimeSettings,
     known_quantities, number_table, printable, significant,
 };
-use crate::simulation::{BodyRecoil, Dimension, Solve, cpu_seconds, recoils};
+use crate::run::{BodyRecoil, Dimension, Solve, recoils};
+use crate::timing::cpu_seconds;
 
 /// Output above which a warning is given (bytes).
 const LARGE_OUTPUT: f64 = 2e9;

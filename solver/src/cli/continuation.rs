@@ -84,12 +84,12 @@ pub fn beginning<const D: usize>(
     state.check_case(file.case()).map_err(|error| {
         Failure::new(Exit::BadCase, format!("cannot continue from {}: {error}", path.display()))
     })?;
-    if end.is_some_and(|end| state.time >= end) {
+    if end.is_some_and(|end| state.time() >= end) {
         return Ok(Beginning::IsDone);
     }
-    let mut history = History::read(out, state.step, state.time)?;
+    let mut history = History::read(out, state.step(), state.time())?;
     history.complete(&state.series(), file.case().output.series);
-    history.restarts = status.restarts.next(state.step);
+    history.restarts = status.restarts.next(state.step());
     history.longest_checkpoint = status.longest_checkpoint;
     if history.restarts.count > MOST_RESTARTS {
         return Err(Failure::new(
@@ -98,7 +98,7 @@ pub fn beginning<const D: usize>(
                 "{MOST_RESTARTS} runs in a row began at step {} in {} and made no checkpoint after it; look \
                  at log.jsonl there, give more time than one checkpoint takes (output.checkpoint), or \
                  --overwrite it",
-                state.step,
+                state.step(),
                 out.display()
             ),
         ));

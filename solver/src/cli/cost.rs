@@ -4,7 +4,7 @@ use crate::case::{
     Adaptive, Body, Convection, FlowModel, Geometry, Model, Motion, Scheme, TimeSettings, Unsteady,
 };
 use crate::coupling::memory_estimate;
-use crate::simulation::DOFS_OF_CELL;
+use crate::run::DOFS_OF_CELL;
 
 // All constants are fitted to the shipped cases of over 3 s of CPU time in `docs/validation.md`, one
 // core of the machine of `docs/performance.md`; `solver/tests/command_line/estimates.rs` compares.

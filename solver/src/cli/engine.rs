@@ -10,14 +10,14 @@ use super::threads;
 use super::wall_limit::WallLimit;
 use crate::case::Model;
 use crate::observer::{self, History, RunDirectory, Shown, WriteTimes};
-use crate::simulation::{self, Dimension, RunError, RunSummary, SavedState, Solve};
+use crate::run::{self, Dimension, RunError, RunSummary, SavedState, Solve};
 
 /// The mesh of a case.
 pub fn build_mesh<const D: usize>(model: &Model) -> Result<Mesh<D>, RunError>
 where
     Dimension<D>: Solve<D>,
 {
-    simulation::build_mesh(model)
+    run::build_mesh(model)
 }
 
 /// How a case is run into a directory.
@@ -49,8 +49,8 @@ pub struct Resumed<const D: usize> {
 /// Runs a case of any dimension without files.
 pub fn simulate(model: &Model, watch: SignalWatch) -> Result<RunSummary, RunError> {
     threads::within(|| match model.case.geometry.dimensions() {
-        2 => simulation::simulate::<2>(model, &mut [Box::new(watch)]),
-        _ => simulation::simulate::<3>(model, &mut [Box::new(watch)]),
+        2 => run::simulate::<2>(model, &mut [Box::new(watch)]),
+        _ => run::simulate::<3>(model, &mut [Box::new(watch)]),
     })
 }
 
@@ -80,7 +80,7 @@ where
             observers.push(Box::new(limit.learning_from(&writes)));
         }
         observers.push(Box::new(StopFile::new(run.directory.path())));
-        simulation::simulate_from(model, resumed.map(|resumed| &resumed.state), &mut observers)
+        run::simulate_from(model, resumed.map(|resumed| &resumed.state), &mut observers)
     })
 }
 

@@ -6,7 +6,8 @@ use std::process::ExitCode;
 use super::style;
 use crate::case::{CaseError, Diagnostic};
 use crate::observer::RunDirectoryError;
-use crate::simulation::RunError;
+use crate::run::RunError;
+use crate::step::FlowError;
 use crate::sweep::SweepDirectoryError;
 
 /// What became of it.
@@ -89,20 +90,23 @@ impl From<CaseError> for Failure {
 /// The code a stopped run ends with.
 pub fn exit_of(error: &RunError) -> Exit {
     match error {
-        RunError::NewtonStalled { .. }
-        | RunError::StepSizeUnderflow { .. }
+        RunError::Flow(error) => match error {
+            FlowError::NewtonStalled { .. }
+            | FlowError::NotFinite { .. }
+            | FlowError::Singular { .. } => Exit::Diverged,
+            FlowError::Shape(_) => Exit::BadCase,
+            FlowError::MeshMotion(_) => Exit::Mesh,
+            FlowError::Stopped { .. } => Exit::Stopped,
+        },
+        RunError::StepSizeUnderflow { .. }
         | RunError::Contact { .. }
-        | RunError::NotFinite { .. }
-        | RunError::BlownUp { .. }
-        | RunError::Singular { .. } => Exit::Diverged,
+        | RunError::BlownUp { .. } => Exit::Diverged,
         RunError::Unsupported(_)
         | RunError::Resume(_)
-        | RunError::Shape(_)
         | RunError::TooLarge { .. }
         | RunError::TooManyCells { .. } => Exit::BadCase,
-        RunError::Mesh(_) | RunError::MeshMotion(_) | RunError::Remesh { .. } => Exit::Mesh,
+        RunError::Mesh(_) | RunError::Remesh { .. } => Exit::Mesh,
         RunError::Output(_) => Exit::InputOutput,
-        RunError::Stopped { .. } => Exit::Stopped,
     }
 }
 

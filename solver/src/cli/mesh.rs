@@ -11,7 +11,7 @@ use super::style::say;
 use super::too_large;
 use crate::case::CaseFile;
 use crate::observer::write_atomic;
-use crate::simulation::{Dimension, Solve};
+use crate::run::{Dimension, Solve};
 
 /// Where a mesh is written, and how.
 #[derive(Debug)]

@@ -10,7 +10,7 @@ use super::exit::{Exit, Failure};
 use super::style::say;
 use crate::case::{several_nearest, significant};
 use crate::observer::{columns_of, read_series};
-use crate::simulation::Series;
+use crate::run::Series;
 
 /// Fewest and most columns of the curve.
 const WIDTHS: [usize; 2] = [4, 400];

@@ -2,7 +2,7 @@
 
 use super::style::{Ink, on_stdout, say};
 use crate::case::{Model, significant};
-use crate::simulation::RunSummary;
+use crate::run::RunSummary;
 use crate::validation::{Comparison, Verdict, comparison_table};
 
 /// Prints by how much the flow crosses cells at most, for a flow with convection.

@@ -21,7 +21,9 @@ use crate::observer::{
     COMPARISON_FILE, Earlier, FAILURE_STATE, History, Point, RunDirectory, Shown, Start,
     checkpoints, read_state, run_of_state, write_atomic,
 };
-use crate::simulation::{Dimension, RunError, RunSummary, SavedState, Solve, cpu_seconds};
+use crate::run::{Dimension, RunError, RunSummary, SavedState, Solve};
+use crate::step::FlowError;
+use crate::timing::cpu_seconds;
 use crate::validation::{Comparison, compare, comparisons_to_json};
 
 /// What `run` is asked for.
@@ -163,8 +165,8 @@ where
     }
     let n_threads = threads::start(options.threads)?;
     let from = resumed.as_ref().map_or(Point::default(), |resumed| Point {
-        step: resumed.state.step,
-        time: resumed.state.time,
+        step: resumed.state.step(),
+        time: resumed.state.time(),
     });
     let start = Start { threads: n_threads, from, lock };
     let directory = RunDirectory::create(&out, file.case(), start, earlier)?;
@@ -178,7 +180,7 @@ where
     let run = RunInto { directory: &directory, shown, watch, limit };
     let outcome =
         engine::simulate_into(&file.model, resumed.as_ref(), run).map_err(|error| match error {
-            RunError::Stopped { step, .. } => {
+            RunError::Flow(FlowError::Stopped { step, .. }) => {
                 let is_over = has_limit_asked.is_some_and(|asked| asked.load(Ordering::Relaxed));
                 stopped(&error, why_stopped(is_over, step > from.step), &out)
             }
@@ -193,7 +195,7 @@ where
     if comparisons.is_empty() {
         tell_last_values(&file.model, &outcome);
     }
-    let before = resumed.as_ref().map_or(0, |resumed| resumed.state.step);
+    let before = resumed.as_ref().map_or(0, |resumed| resumed.state.step());
     tell_cost(file, &outcome, Spent { steps_before: before, started }, &out);
     tell_cell_numbers(&outcome);
     Ok(Exit::Done)
@@ -246,7 +248,7 @@ fn beginning_of<const D: usize>(
 
 /// Tells from where a run goes on.
 fn tell_of_resuming<const D: usize>(resumed: &Resumed<D>, quiet: bool) {
-    let (step, time, from) = (resumed.state.step, resumed.state.time, resumed.from.display());
+    let (step, time, from) = (resumed.state.step(), resumed.state.time(), resumed.from.display());
     tracing::info!(step, time, from = %from, "resumed");
     if !quiet {
         let time = rounded(time);
@@ -346,7 +348,7 @@ fn read_resumed<const D: usize>(
     let state = read_unfinished(path, case)?;
     let run = run_of_state(path);
     let is_in_place = run.is_some_and(|run| is_inside(run, out) && is_inside(out, run));
-    let mut history = run.map(|run| History::read(run, state.step, state.time)).transpose()?;
+    let mut history = run.map(|run| History::read(run, state.step(), state.time())).transpose()?;
     if let Some(history) = history.as_mut().filter(|_| !is_in_place) {
         // The field files stay where they are
         history.frames.clear();
@@ -372,8 +374,8 @@ fn read_unfinished<const D: usize>(path: &Path, case: &Case) -> Result<SavedStat
         let path = path.display();
         Failure::new(Exit::BadCase, format!("cannot resume from {path}: {error}"))
     })?;
-    if saved.time >= settings.end {
-        let (path, time, end) = (path.display(), saved.time, settings.end);
+    if saved.time() >= settings.end {
+        let (path, time, end) = (path.display(), saved.time(), settings.end);
         let reason = format!(
             "cannot resume from {path}: it is at time {time}, and the case ends at {end}; raise \
              time.unsteady.end"

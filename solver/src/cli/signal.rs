@@ -8,7 +8,8 @@ use std::time::Duration;
 use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM, SIGUSR1, SIGXCPU, SIGXFSZ};
 use signal_hook::flag;
 
-use crate::simulation::{Observer, Snapshot, StopRequest};
+use crate::run::{Observer, Snapshot};
+use crate::step::StopRequest;
 
 /// How often it is looked whether a first signal has come.
 const LOOK_EVERY: Duration = Duration::from_millis(100);

@@ -6,7 +6,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
 
 use crate::observer::STOP;
-use crate::simulation::{LastState, Observer, RunError, Snapshot, StopRequest};
+use crate::run::{LastState, Observer, RunError, Snapshot};
+use crate::step::StopRequest;
 
 /// How often it is looked for (ms).
 const LOOK_EVERY: u64 = 1000;

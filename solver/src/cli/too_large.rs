@@ -2,7 +2,7 @@
 
 use super::exit::Failure;
 use crate::case::{CaseFile, Diagnostic, Severity};
-use crate::simulation::RunError;
+use crate::run::RunError;
 
 /// Growth of cells below which it is likely what makes a mesh large: half of what it is by default.
 const SLOW_GROWTH: f64 = 0.1;

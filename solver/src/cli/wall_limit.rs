@@ -8,7 +8,8 @@ use std::time::{Duration, Instant, SystemTime};
 use super::exit::{Exit, Failure};
 use crate::case::WallTime;
 use crate::observer::WriteTimes;
-use crate::simulation::{Observer, Snapshot, StopRequest};
+use crate::run::{Observer, Snapshot};
+use crate::step::StopRequest;
 
 /// Steps of which the longest is expected once more: every few of them end with a remeshing.
 const RECENT: usize = 20;

@@ -15,7 +15,8 @@ use super::run_directory::remove_failure;
 use super::state_file::{read_state, write_state};
 use super::write_times::WriteTimes;
 use crate::case::{Case, Checkpoints, TimeSettings};
-use crate::simulation::{LastState, Observer, RunError, SavedState, Snapshot};
+use crate::run::{LastState, Observer, RunError, SavedState, Snapshot};
+use crate::step::FlowError;
 
 /// How often it is looked for.
 const LOOK_EVERY: Duration = Duration::from_secs(1);
@@ -106,13 +107,13 @@ fn write<const D: usize>(
     let started = Instant::now();
     let folder = directory.join(FOLDER);
     fs::create_dir_all(&folder).at(&folder)?;
-    let path = folder.join(format!("{:06}{ENDING}", state.step));
+    let path = folder.join(format!("{:06}{ENDING}", state.step()));
     let bytes = write_state(&path, state)?;
     for old in checkpoints(directory)?.into_iter().skip(keep) {
         remove_if_there(&old)?;
     }
     times.record(started.elapsed());
-    let (step, time, seconds) = (state.step, state.time, started.elapsed().as_secs_f64());
+    let (step, time, seconds) = (state.step(), state.time(), started.elapsed().as_secs_f64());
     tracing::info!(step, time, bytes, seconds, "checkpoint");
     Ok(())
 }
@@ -168,7 +169,7 @@ impl<const D: usize> Observer<D> for CheckpointFiles {
     fn on_state(&mut self, state: &Arc<SavedState<D>>) -> io::Result<()> {
         self.finish()?;
         self.written = Instant::now();
-        self.periods = periods(&self.settings, state.time);
+        self.periods = periods(&self.settings, state.time());
         let (directory, keep, state, times) =
             (self.directory.clone(), self.settings.keep, Arc::clone(state), self.times.clone());
         let work = move || write(&directory, &state, keep, &times);
@@ -176,7 +177,7 @@ impl<const D: usize> Observer<D> for CheckpointFiles {
         Ok(())
     }
 
-    fn on_end(&mut self, _timing: &crate::simulation::Timing) -> io::Result<()> {
+    fn on_end(&mut self, _timing: &crate::timing::Timing) -> io::Result<()> {
         self.finish()?;
         remove_failure(&self.directory)
     }
@@ -184,7 +185,9 @@ impl<const D: usize> Observer<D> for CheckpointFiles {
     fn on_failure(&mut self, error: &RunError, last: Option<&LastState<'_, D>>) -> io::Result<()> {
         let finished = self.finish();
         let saved = last.and_then(|last| last.saved);
-        if let Some(state) = saved.filter(|_| matches!(error, RunError::Stopped { .. })) {
+        if let Some(state) =
+            saved.filter(|_| matches!(error, RunError::Flow(FlowError::Stopped { .. })))
+        {
             // Asked for: also where no other checkpoints are
             write(&self.directory, state, self.settings.keep.max(1), &self.times)?;
             remove_failure(&self.directory)?;

@@ -14,7 +14,7 @@ use super::history::History;
 use super::schedule::Schedule;
 use super::series_rows::SERIES_FILE;
 use crate::case::Case;
-use crate::simulation::{LastState, Observer, RunError, SavedState, Snapshot};
+use crate::run::{LastState, Observer, RunError, SavedState, Snapshot};
 
 /// Longest time a row waits in memory.
 const INTERVAL: Duration = Duration::from_secs(1);

@@ -10,7 +10,7 @@ use super::foxglove::WORLD;
 use super::primitives::{Arrow, Colour, Line, Primitives, SceneUpdate, Triangles, Xyz};
 use crate::body::{Pose, in_space};
 use crate::case::{Geometry, JointKind, Model};
-use crate::simulation::BodyReport;
+use crate::run::BodyReport;
 
 /// Part of the longest extent of the walls by which they have to move to be drawn anew.
 const NOTICEABLE: f64 = 0.01;

@@ -17,7 +17,9 @@ use super::schedule::Schedule;
 use super::state_file::write_state;
 use crate::body::in_space;
 use crate::case::{Case, Precision};
-use crate::simulation::{Dimension, LastState, Observer, RunError, Snapshot, Solve, Timing};
+use crate::run::{Dimension, LastState, Observer, RunError, Snapshot, Solve};
+use crate::step::FlowError;
+use crate::timing::Timing;
 
 /// The flow of a run that was stopped, which goes once the run has gone on.
 const STOPPED: &str = "fields/stopped.vtu";
@@ -158,7 +160,7 @@ where
             return Ok(());
         }
         let bytes = self.frame(last.time, last.mesh, last.velocity, last.pressure)?;
-        if matches!(error, RunError::Stopped { .. }) {
+        if matches!(error, RunError::Flow(FlowError::Stopped { .. })) {
             let name = STOPPED.to_owned();
             self.create_folder("fields")?;
             write_atomic(&self.directory.join(&name), &bytes)?;

@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 
 use super::primitives::{Timestamp, Xyz, Xyzw};
 use crate::body::{Pose, Twist, Wrench, in_space};
-use crate::simulation::{BodyReport, Snapshot};
+use crate::run::{BodyReport, Snapshot};
 
 /// Frame all others are given in.
 pub const WORLD: &str = "world";

@@ -8,7 +8,7 @@ use super::atomic::AtPath;
 use super::restarts::Restarts;
 use super::series_rows::read_series;
 use crate::case::Cadence;
-use crate::simulation::Series;
+use crate::run::Series;
 
 /// One field file.
 #[derive(Debug, Clone, PartialEq)]

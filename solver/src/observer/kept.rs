@@ -6,7 +6,8 @@ use std::path::Path;
 use super::atomic::AtPath;
 use super::series_rows::{SERIES_FILE, series_of};
 use super::status::{RunState, Status};
-use crate::simulation::{RunSummary, Stage, Timing};
+use crate::run::RunSummary;
+use crate::timing::{Stage, Timing};
 
 /// What the run in `directory` left: its series, its time and its size.
 ///

@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 use super::history::History;
 use super::provenance::{Point, Provenance};
 use super::run_directory::RunDirectory;
-use crate::simulation::{LastState, Observer, RunError, Snapshot, Timing};
+use crate::run::{LastState, Observer, RunError, Snapshot};
+use crate::timing::Timing;
 
 /// How a leg ends that comes to the end of the run.
 const FINISHED: &str = "finished";

@@ -29,7 +29,7 @@ use super::run_directory::RunDirectory;
 use super::scene::{Shown, scene};
 use super::schedule::Schedule;
 use crate::case::{Body, Model};
-use crate::simulation::{LastState, Observer, RunError, SavedState, Snapshot};
+use crate::run::{LastState, Observer, RunError, SavedState, Snapshot};
 
 /// Size of a chunk, the unit of compression (bytes).
 const CHUNK: u64 = 256 * 1024;

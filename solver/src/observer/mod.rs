@@ -54,7 +54,7 @@ mod tests;
 mod write_times;
 
 use crate::case::Model;
-use crate::simulation::{Dimension, Observer, Solve};
+use crate::run::{Dimension, Observer, Solve};
 
 pub use atomic::{UNFINISHED, directory_of, write_atomic};
 pub use checkpoint_list::checkpoints;

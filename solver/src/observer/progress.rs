@@ -7,7 +7,7 @@ use indicatif::{HumanDuration, ProgressBar, ProgressStyle};
 
 use super::terminal::{LINE_INTERVAL, TERMINAL};
 use crate::case::{Model, TimeSettings, significant};
-use crate::simulation::{LastState, Observer, RunError, Snapshot};
+use crate::run::{LastState, Observer, RunError, Snapshot};
 
 /// Parts of a full bar.
 const FULL: u64 = 10_000;

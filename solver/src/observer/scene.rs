@@ -6,7 +6,7 @@ use super::drawing::surface;
 use super::primitives::{Colour, Line, Primitives, SceneUpdate};
 use super::solids::Solids;
 use crate::case::{Body, Geometry, ShapeSpec};
-use crate::simulation::{BodyReport, Snapshot};
+use crate::run::{BodyReport, Snapshot};
 
 /// Which bodies are shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -5,7 +5,7 @@ use std::io;
 use std::path::Path;
 
 use super::atomic::AtPath;
-use crate::simulation::Series;
+use crate::run::Series;
 
 /// The file of a run directory.
 pub(super) const SERIES_FILE: &str = "series.csv";

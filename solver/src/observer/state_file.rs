@@ -13,7 +13,7 @@ use std::io;
 use std::path::Path;
 
 use super::atomic::{AtPath, write_atomic};
-use crate::simulation::{STATE_VERSION, SavedState};
+use crate::run::{STATE_VERSION, SavedState};
 
 /// How such a file begins.
 const MAGIC: [u8; 16] = *b"alewife state\0\0\0";
@@ -82,7 +82,8 @@ mod tests {
 
     use super::*;
     use crate::case::Model;
-    use crate::simulation::{LastState, Observer, RunError, Snapshot, StopRequest, simulate};
+    use crate::run::{LastState, Observer, RunError, Snapshot, simulate};
+    use crate::step::StopRequest;
 
     /// Stops a run at once and keeps its state.
     #[derive(Default)]

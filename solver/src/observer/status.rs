@@ -13,7 +13,9 @@ use super::process;
 use super::restarts::Restarts;
 use super::write_times::WriteTimes;
 use crate::case::{Case, TimeSettings};
-use crate::simulation::{LastState, Observer, RunError, Snapshot, Stage, Timing, cpu_seconds};
+use crate::run::{LastState, Observer, RunError, Snapshot};
+use crate::step::FlowError;
+use crate::timing::{Stage, Timing, cpu_seconds};
 
 /// Longest time a status on the disk may be behind.
 const INTERVAL: Duration = Duration::from_secs(1);
@@ -175,11 +177,11 @@ impl<const D: usize> Observer<D> for StatusFile {
 
     fn on_failure(&mut self, error: &RunError, _last: Option<&LastState<'_, D>>) -> io::Result<()> {
         self.status.state = match error {
-            RunError::Stopped { .. } => RunState::Stopped,
+            RunError::Flow(FlowError::Stopped { .. }) => RunState::Stopped,
             _ => RunState::Failed,
         };
         self.status.is_interrupted =
-            matches!(error, RunError::Stopped { .. } | RunError::Output(_));
+            matches!(error, RunError::Flow(FlowError::Stopped { .. }) | RunError::Output(_));
         self.status.reason = Some(error.to_string());
         self.write(write_atomic)
     }

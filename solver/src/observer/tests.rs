@@ -14,7 +14,9 @@ use self::two_triangles::two_triangles;
 use super::*;
 use crate::body::{Pose, Twist, Wrench};
 use crate::case::{Case, Model};
-use crate::simulation::{BodyReport, RunError, Snapshot, Timing, cpu_seconds};
+use crate::run::{BodyReport, RunError, Snapshot};
+use crate::step::FlowError;
+use crate::timing::{Timing, cpu_seconds};
 
 const CASE: &str = r#"
 title = "Two triangles"
@@ -269,7 +271,9 @@ fn a_failure_is_told_with_its_reason() {
     assert_eq!(all.last().unwrap().content["message"], "mesh: no room between the bodies");
 
     for observer in &mut everyone {
-        observer.on_failure(&RunError::Stopped { step: 0, time: 0.0 }, None).unwrap();
+        observer
+            .on_failure(&RunError::Flow(FlowError::Stopped { step: 0, time: 0.0 }), None)
+            .unwrap();
     }
     assert_eq!(Status::read(place.path()).unwrap().state, RunState::Stopped);
 }
@@ -378,7 +382,7 @@ fn a_run_that_resumes_goes_on_in_its_files() {
     let mut everyone = everyone_at(&run.model, &begin(Earlier::Keep), None);
     (0..=17).for_each(|step| run.step(&mut everyone, step));
     let time = 17.0 * 0.1;
-    let error = RunError::Stopped { step: 17, time };
+    let error = RunError::Flow(FlowError::Stopped { step: 17, time });
     everyone.iter_mut().for_each(|observer| observer.on_failure(&error, None).unwrap());
 
     let history = History::read(halves.path(), 17, time).unwrap();

@@ -10,7 +10,7 @@ use super::directory::SweepDirectory;
 use super::point_state::{PointState, Stand, stand};
 use crate::case::{Case, CaseError, Reference, ReferenceKind, SweepQuantity};
 use crate::observer::{COMPARISON_FILE, read_outcome};
-use crate::simulation::RunSummary;
+use crate::run::RunSummary;
 use crate::validation::measured_value;
 
 /// One row of the table, by the names of its columns.

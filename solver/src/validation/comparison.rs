@@ -4,7 +4,7 @@ use serde_json::{Value, json};
 
 use super::statistic::measured_value;
 use crate::case::{Case, Reference};
-use crate::simulation::RunSummary;
+use crate::run::RunSummary;
 
 /// What a comparison came to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

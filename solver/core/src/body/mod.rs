@@ -4,12 +4,14 @@
 
 mod embedding;
 mod inertia;
+mod load;
 mod modes;
 mod pose;
 mod twist;
 
 pub use embedding::{in_space, on_mesh};
 pub use inertia::{Inertia, carried_velocity};
+pub use load::{BodyLoad, LoadedBody};
 pub use modes::{Mode, Modes, RigidVector};
 pub use pose::{Orientation, Pose, rate_of_displacement};
 pub use twist::{Twist, Wrench};

@@ -57,6 +57,17 @@ pub enum ContactError {
         /// Largest force of the law (N; N/m planar).
         greatest: f64,
     },
+    /// Contact is stiff in an explicit step.
+    #[error(
+        "contact moves the bodies back within {time_scale:.2e}, too fast for a step of {size:.2e} of \
+         the scheme `rk3`; lower the step, soften the contact, or write scheme = \"bdf2\""
+    )]
+    Stiff {
+        /// Size of the step (s).
+        size: f64,
+        /// Time in which it does (s).
+        time_scale: f64,
+    },
     /// Newton's method did not find the forces.
     #[error(
         "contact: no forces found in {iterations} iterations: poses still change by {change:e}; \

@@ -3,12 +3,18 @@
 use std::fmt::Debug;
 
 use nalgebra::DVector;
+use serde::{Deserialize, Serialize};
 
 use super::{ContactPair, Partner};
 use crate::body::{Mode, Modes, Pose};
 
+/// Part of the smallest gap that is left at least when bodies are put nearer to each other.
+const KEPT_GAP: f64 = 0.5;
+/// Smallest part of a displacement that is tried.
+const SMALLEST_PART: f64 = 1e-6;
+
 /// The smallest of all gaps.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct MinimumGap {
     /// A body.
     pub body: usize,
@@ -54,6 +60,20 @@ pub trait Gaps: Debug + Send + Sync {
     /// The fraction, at most 1, of the displacements between poses within which no body can get to
     /// the far side of another.
     fn max_step_fraction(&self, from: &[Pose], to: &[Pose]) -> f64;
+
+    /// The part of a displacement, at most 1, that leaves half of the smallest gap: halved as often as that asks for.
+    /// `poses_at` gives the poses of all bodies after a part of it.
+    fn part_that_keeps_open(&self, poses_at: &dyn Fn(f64) -> Vec<Pose>) -> f64 {
+        let gap_at = |part: f64| {
+            self.minimum_gap(&poses_at(part)).map_or(f64::INFINITY, |minimum| minimum.gap)
+        };
+        let kept = KEPT_GAP * gap_at(0.0);
+        let mut part = 1.0;
+        while gap_at(part) < kept && part > SMALLEST_PART {
+            part *= 0.5;
+        }
+        part
+    }
 
     /// Length by which a component of a motion of a body counts as a displacement: the reach (m) for
     /// rotations, one for translations.

@@ -1,5 +1,7 @@
 //! `ContactLoads`: force and torque of contact on each body, with every contact and its gap.
 
+use serde::{Deserialize, Serialize};
+
 use super::{ContactPair, Gaps, Law, MinimumGap, Partner};
 use crate::body::{Pose, Wrench};
 
@@ -14,11 +16,12 @@ pub struct ContactForce {
 }
 
 /// What contact does to the bodies.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct ContactLoads {
     /// Force and torque about the centre of mass of each body.
     pub wrenches: Vec<Wrench>,
-    /// All contacts within the range.
+    /// All contacts within the range. They are not saved: a step starts from none.
+    #[serde(skip)]
     pub contacts: Vec<ContactForce>,
     /// The smallest gap, within the range or not; `None` for one body without walls.
     pub minimum_gap: Option<MinimumGap>,

@@ -7,11 +7,11 @@
 
 mod broad_phase;
 mod correction;
+mod coupled;
 mod curvature;
 mod direction;
 mod encounter;
 mod error;
-mod estimate;
 mod gaps;
 mod implicit;
 mod law;
@@ -24,9 +24,12 @@ mod surface;
 mod surface_gaps;
 mod unknowns;
 
+pub use coupled::{
+    BodyDynamics, ByMobility, ByQuasiNewton, ContactPrediction, CoupledContact, CoupledSolver,
+    LoadedFlow, SecantMobility, StageContact,
+};
 pub use curvature::Curvatures;
 pub use error::ContactError;
-pub use estimate::MobilityEstimate;
 pub use gaps::{Gaps, MinimumGap};
 pub use implicit::{ContactSolution, ContactStep};
 pub use law::{Law, LawKind};

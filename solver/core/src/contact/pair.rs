@@ -1,13 +1,14 @@
 //! `ContactPair`: a close pair of points, and how its gap changes as the bodies move.
 
 use nalgebra::{DVector, Vector3};
+use serde::{Deserialize, Serialize};
 
 use super::Curvatures;
 use super::pair_vector::{PairMatrix, PairVector};
 use crate::body::{Modes, RigidVector, Wrench};
 
 /// What a body faces.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Partner {
     /// Another body, or an image of one across a periodic side.
     Body(usize),

@@ -44,7 +44,9 @@ impl<const D: usize> Constrainer<'_, D> {
     /// The constraints with bodies at these poses.
     pub fn constraints(&self, boundaries: &Boundaries, bodies: BodiesAt<'_>) -> AffineConstraints {
         let mut builder = ConstraintBuilder::new(self.layout.n_raw());
-        self.constrain_rigid_velocities(bodies, &mut builder);
+        let raw = |body: usize, position: usize| self.layout.rigid(body, position);
+        let time = bodies.shapes.time();
+        constrain_rigid_velocities(self.problem, bodies.poses, time, raw, &mut builder);
         let surfaces = bodies.shapes.surfaces(&self.problem.bodies, bodies.poses);
         for at in boundaries.nodes() {
             match at.body {
@@ -57,35 +59,6 @@ impl<const D: usize> Constrainer<'_, D> {
         self.close_pressures_and_periods(&mut builder);
         self.pin_free_translations(&mut builder);
         builder.build()
-    }
-
-    /// Rigid velocities that are given or follow from others.
-    fn constrain_rigid_velocities(&self, bodies: BodiesAt<'_>, builder: &mut ConstraintBuilder) {
-        let problem = self.problem;
-        let time = bodies.shapes.time();
-        let modes = problem.modes();
-        let rows = problem.has_joints().then(|| problem.rigid_rows(bodies.poses, time));
-        for (body, rigid) in problem.bodies.iter().enumerate() {
-            for (position, mode) in modes.iter().enumerate() {
-                let raw = self.layout.rigid(body, position);
-                let drive = rigid.drive(mode);
-                if let Some(value) = drive.given(time) {
-                    builder.fix(raw, value);
-                } else if let (Drive::Linked, Some(rows)) = (drive, &rows) {
-                    let row = &rows[body][mode];
-                    if row.is(body, mode) {
-                        continue;
-                    }
-                    let RigidRow { entries, value } = row;
-                    let entries = entries.iter().filter_map(|(unknown, weight)| {
-                        let position = modes.position(unknown.mode)?;
-                        let unknown = self.layout.rigid(unknown.body, position);
-                        Some(Term { unknown, weight: *weight })
-                    });
-                    builder.constrain(raw, entries.collect(), *value);
-                }
-            }
-        }
     }
 
     /// u = U + omega x (x - G) + slip.
@@ -166,6 +139,38 @@ impl<const D: usize> Constrainer<'_, D> {
         };
         for axis in (0..D).filter(|&axis| is_free[axis]) {
             builder.fix(self.layout.velocity(node, axis), 0.0);
+        }
+    }
+}
+
+/// Constrains rigid velocities that are given at a time (s) or follow from others, with bodies at poses in the mesh;
+/// `raw(body, position)` is the raw unknown of a motion.
+pub(super) fn constrain_rigid_velocities<const D: usize>(
+    problem: &Problem<D>,
+    poses: &[Pose],
+    time: f64,
+    raw: impl Fn(usize, usize) -> usize,
+    builder: &mut ConstraintBuilder,
+) {
+    let modes = problem.modes();
+    let rows = problem.has_joints().then(|| problem.rigid_rows(poses, time));
+    for (body, rigid) in problem.bodies.iter().enumerate() {
+        for (position, mode) in modes.iter().enumerate() {
+            let drive = rigid.drive(mode);
+            if let Some(value) = drive.given(time) {
+                builder.fix(raw(body, position), value);
+            } else if let (Drive::Linked, Some(rows)) = (drive, &rows) {
+                let row = &rows[body][mode];
+                if row.is(body, mode) {
+                    continue;
+                }
+                let RigidRow { entries, value } = row;
+                let entries = entries.iter().filter_map(|(unknown, weight)| {
+                    let position = modes.position(unknown.mode)?;
+                    Some(Term { unknown: raw(unknown.body, position), weight: *weight })
+                });
+                builder.constrain(raw(body, position), entries.collect(), *value);
+            }
         }
     }
 }

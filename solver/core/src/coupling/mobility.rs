@@ -2,30 +2,14 @@
 
 use nalgebra::DMatrix;
 
+use super::constrain::constrain_rigid_velocities;
 use super::error::SolveError;
+use super::problem::Problem;
 use super::solution::Solution;
 use super::system::FluidSystem;
-use crate::algebra::{AffineConstraints, Term};
-use crate::body::{Mode, RigidVector};
+use crate::algebra::{AffineConstraints, ConstraintBuilder, Term};
+use crate::body::{BodyLoad, LoadedBody, Mode, Pose};
 use crate::timing::Timing;
-
-/// A load on a body.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct BodyLoad {
-    /// The body.
-    pub body: usize,
-    /// The load (N, N m).
-    pub load: RigidVector,
-}
-
-/// A body that loads may act on.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct LoadedBody {
-    /// The body.
-    pub body: usize,
-    /// Whether there may be torques on it, or its turns make a difference.
-    pub turns: bool,
-}
 
 impl<const D: usize> FluidSystem<D> {
     /// Velocities (m/s, rad/s) of some bodies by unit loads in each of their rigid motions, with the
@@ -60,18 +44,45 @@ impl<const D: usize> FluidSystem<D> {
         Masters::of(&self.rows_of(constraints, bodies)).weights
     }
 
+    /// The same with bodies at poses in the mesh at a time (s), whatever the mesh.
+    #[must_use]
+    pub fn free_motions_at(
+        &self,
+        problem: &Problem<D>,
+        poses: &[Pose],
+        time: f64,
+        bodies: &[LoadedBody],
+    ) -> DMatrix<f64> {
+        let n_modes = self.modes.len();
+        let mut builder = ConstraintBuilder::new(n_modes * problem.bodies.len());
+        let raw = |body: usize, position: usize| n_modes * body + position;
+        constrain_rigid_velocities(problem, poses, time, raw, &mut builder);
+        Masters::of(&self.rows(&builder.build(), raw, bodies)).weights
+    }
+
     /// What each motion of some bodies is made of, nothing where it does not count.
     fn rows_of<'a>(
         &self,
         constraints: &'a AffineConstraints,
         bodies: &[LoadedBody],
     ) -> Vec<&'a [Term<u32>]> {
-        let (modes, layout) = (self.modes, &self.layout);
+        self.rows(constraints, |body, position| self.layout.rigid(body, position), bodies)
+    }
+
+    /// The same, `raw(body, position)` being the raw unknown of a motion.
+    fn rows<'a>(
+        &self,
+        constraints: &'a AffineConstraints,
+        raw: impl Fn(usize, usize) -> usize,
+        bodies: &[LoadedBody],
+    ) -> Vec<&'a [Term<u32>]> {
+        let modes = self.modes;
         let counts_all = !self.is_iterative();
         let row = |loaded: &LoadedBody, (position, mode): (usize, Mode)| -> &'a [Term<u32>] {
             let counts = counts_all || loaded.turns || !mode.is_rotation();
-            if counts { constraints.row(layout.rigid(loaded.body, position)) } else { &[] }
+            if counts { constraints.row(raw(loaded.body, position)) } else { &[] }
         };
+        let row = &row;
         let of_body = |loaded| modes.iter().enumerate().map(move |mode| row(loaded, mode));
         bodies.iter().flat_map(of_body).collect()
     }

@@ -35,7 +35,6 @@ pub use joint_loads::{BodyStates, JointReport, joint_reports};
 pub use linear_system::{SolverChoice, memory_estimate};
 pub use loads::{BodyLoads, ResidualOnMesh, SurfaceLoads, surface_loads};
 pub use mean_flow::MeanFlowReport;
-pub use mobility::{BodyLoad, LoadedBody};
 pub use problem::{
     Arm, Drive, Group, Joint, JointLaw, Length, MeanFlow, MeanFlowAlong, MeanFlowAt, MovingValue,
     Pivot, Problem, RateDiscontinuities, RigidBody, Side, Spring, TimeValue, Turn, VelocityProfile,

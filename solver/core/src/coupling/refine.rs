@@ -1,4 +1,4 @@
-//! The solution that follows from free unknowns, and what iterations have left of it.
+//! The solution that follows from free unknowns.
 
 use alewife_mesh::Point;
 
@@ -8,25 +8,6 @@ use super::system::{Configuration, FluidSystem};
 use crate::timing::Timing;
 
 impl<const D: usize> FluidSystem<D> {
-    /// Reduces the residual of a solution to `reduction` (1) of what it is, by the matrix that was assembled last.
-    ///
-    /// # Errors
-    /// When the system cannot be solved.
-    pub fn refine(
-        &mut self,
-        at: &Configuration<'_, D>,
-        solution: &Solution<D>,
-        reduced: &[f64],
-        reduction: f64,
-        timing: &mut Timing,
-    ) -> Result<Solution<D>, SolveError> {
-        let mut free = at.constraints.pick(&self.pinned(solution).to_raw(self.modes));
-        let mut step: Vec<f64> = reduced.iter().map(|value| -value).collect();
-        self.linear.solve(&mut step, Some(reduction), timing)?;
-        free.iter_mut().zip(&step).for_each(|(value, correction)| *value += correction);
-        self.next_solution(at, solution, free, timing)
-    }
-
     /// The solution with these free unknowns, those of the mean flow from the one before.
     pub(super) fn next_solution(
         &mut self,

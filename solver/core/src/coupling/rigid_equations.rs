@@ -156,6 +156,13 @@ impl RigidBodyEquations {
         Self { bodies: vec![RigidBodyEquation::default(); n_bodies], ..Self::default() }
     }
 
+    /// Adds loads from outside, one on each body.
+    pub fn add_external(&mut self, loads: &[Wrench]) {
+        for (equation, wrench) in self.bodies.iter_mut().zip(loads) {
+            equation.external += wrench.to_vector();
+        }
+    }
+
     /// Adds the loads and springs of a time (s).
     pub fn add_loads<const D: usize>(
         &mut self,

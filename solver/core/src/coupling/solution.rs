@@ -1,13 +1,14 @@
 //! `Solution`: values of all raw unknowns: velocities, pressures, rigid velocities.
 
 use alewife_mesh::Point;
+use serde::{Deserialize, Serialize};
 
 use crate::body::{Modes, RigidVector, Twist};
 use crate::flow::Fields;
 use crate::space::DofLayout;
 
 /// Values of all raw unknowns.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Solution<const D: usize> {
     /// Velocity at the nodes (m/s).
     pub velocity: Vec<Point<D>>,

@@ -9,7 +9,7 @@ use crate::case::{Cadence, Case, CaseError, Model, Numbers, Output, Statistics};
 use crate::observer::{
     MESH_SIZE_FILE, Provenance, RunState, Status, executable, read_outcome, write_atomic,
 };
-use crate::simulation::{Dimension, RunSummary, Solve};
+use crate::run::{Dimension, RunSummary, Solve};
 use crate::validation::MeshSize;
 
 /// How often a row of a series is written for a run to be compared.

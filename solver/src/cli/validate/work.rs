@@ -11,7 +11,8 @@ use crate::case::{Case, CaseFile, Model, Severity, check};
 use crate::observer::{
     COMPARISON_FILE, Earlier, Origin, Provenance, RunDirectory, Shown, Start, write_atomic,
 };
-use crate::simulation::{RunError, RunSummary};
+use crate::run::{RunError, RunSummary};
+use crate::step::FlowError;
 use crate::validation::{
     Companion, Comparison, MemberReport, Refinement, RunSize, coarser_settings, compare,
     comparisons_to_json, not_computed, set_uncertainties,
@@ -230,7 +231,7 @@ fn unless_stopped(
     summary: Result<RunSummary, RunError>,
 ) -> Result<Result<RunSummary, String>, Failure> {
     match summary {
-        Err(error @ RunError::Stopped { .. }) => Err(error.into()),
+        Err(error @ RunError::Flow(FlowError::Stopped { .. })) => Err(error.into()),
         summary => Ok(summary.map_err(|error| error.to_string())),
     }
 }

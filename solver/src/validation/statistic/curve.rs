@@ -4,7 +4,7 @@
 //! time or an extremum is wanted, and as straight lines where it is averaged.
 
 use super::error::StatisticError;
-use crate::simulation::Series;
+use crate::run::Series;
 
 /// Part of the range a series must go below its mean before it crosses it again: less is noise.
 const HYSTERESIS: f64 = 0.05;

@@ -9,7 +9,7 @@ use self::curve::Curve;
 pub use self::error::StatisticError;
 use super::morison::{self, Oscillation};
 use crate::case::{Case, ForceComponent, Reference, Statistic};
-use crate::simulation::Series;
+use crate::run::Series;
 
 /// The number that is compared with a reference: its statistic of the run, divided by `per`.
 ///

@@ -1,0 +1,151 @@
+//! A new mesh in the middle of a run, with both levels of the flow transferred to it.
+
+use alewife_mesh::Mesh;
+use nalgebra::Vector3;
+
+use super::moving_mesh::MovingMesh;
+use super::new_mesh::{NewMesh, new_mesh};
+use super::scene::RemeshError;
+use super::transfer::Transfer;
+use crate::body::on_mesh;
+use crate::coupling::{
+    BodiesAt, BodyShapes, Boundaries, BoundaryValues, DivergenceFreeProjection, Problem, Solution,
+    impose_boundary_values,
+};
+use crate::space::Tables;
+use crate::state::{State, TransferredState, seen_from};
+
+/// One level of a flow, on the old mesh and where the new one is to be then.
+struct Level<'a, const D: usize> {
+    name: &'static str,
+    solution: &'a Solution<D>,
+    /// The old mesh then, seen from the frame.
+    old: &'a Mesh<D>,
+    /// The new mesh then, seen from the frame.
+    new: &'a Mesh<D>,
+    /// Bodies then, seen from the frame.
+    bodies: BodiesAt<'a>,
+    /// Position of the frame then (m).
+    origin: Vector3<f64>,
+}
+
+/// Replaces the mesh of a state, with bodies where they are, and takes the flow over. On error the
+/// state is where it was.
+///
+/// # Errors
+/// When the mesh cannot be generated, or the flow not be made divergence-free on it.
+pub fn replace_mesh<const D: usize>(
+    problem: &Problem<D>,
+    state: &mut State<D>,
+    moving: &MovingMesh<D>,
+) -> Result<MovingMesh<D>, RemeshError> {
+    let shapes = BodyShapes::at(&problem.bodies, state.time)?;
+    let NewMesh { mesh: new, moving: successor, image_shifts } =
+        new_mesh(problem, state, moving, &shapes)?;
+    let poses = seen_from(&state.origin, &state.poses, &image_shifts);
+    // The frame was elsewhere one level back, too
+    let origin_before = state.origin_at(problem, &state.previous_poses);
+    let previous_poses = seen_from(&origin_before, &state.previous_poses, &image_shifts);
+
+    // One level back the new mesh is where its own motion puts it: nodes whose way had a kink would
+    // cost the next step its second order
+    let shapes_before = BodyShapes::at(&problem.bodies, state.time_before())?;
+    let nodes_before = successor.nodes(&previous_poses, &shapes_before)?;
+    let before = Mesh { nodes: nodes_before, ..new.clone() };
+    let old = state.mesh_in_frame();
+    let old_before = Mesh { nodes: state.nodes_before.clone(), ..old.clone() };
+    let bodies = |poses, shapes| BodiesAt { poses, shapes };
+    let mut transfer = FieldTransfer::new(problem, &new, &successor);
+    let now = Level {
+        name: "present level",
+        solution: &state.now,
+        old: &old,
+        new: &new,
+        bodies: bodies(&poses, &shapes),
+        origin: state.origin,
+    };
+    let previous = Level {
+        name: "level before",
+        solution: &state.previous,
+        old: &old_before,
+        new: &before,
+        bodies: bodies(&previous_poses, &shapes_before),
+        origin: origin_before,
+    };
+    let (now, previous) = (transfer.level(&now)?, transfer.level(&previous)?);
+    let rates = now.transfer.quadratic(&state.rates);
+    let (now, previous) = (now.solution, previous.solution);
+    state.replace_mesh(TransferredState {
+        mesh: new,
+        nodes_before: before.nodes,
+        now,
+        previous,
+        rates,
+        image_shifts,
+    });
+    Ok(successor)
+}
+
+/// A level on the new mesh.
+struct TransferredLevel<'a, const D: usize> {
+    solution: Solution<D>,
+    /// From the old mesh to the new one.
+    transfer: Transfer<'a, D>,
+}
+
+/// Takes levels of a flow from one mesh to another.
+struct FieldTransfer<'a, const D: usize> {
+    problem: &'a Problem<D>,
+    moving: &'a MovingMesh<D>,
+    boundaries: Boundaries,
+    tables: Tables<D>,
+    /// None where nothing has inertia: the older velocities are first guesses only.
+    projection: Option<DivergenceFreeProjection<D>>,
+    /// Whether the projection is where the first level asks for it.
+    is_placed: bool,
+}
+
+impl<'a, const D: usize> FieldTransfer<'a, D> {
+    /// With the new mesh where the first level has it.
+    fn new(problem: &'a Problem<D>, new: &Mesh<D>, moving: &'a MovingMesh<D>) -> Self {
+        let projection = problem.has_inertia.then(|| DivergenceFreeProjection::new(problem, new));
+        let (boundaries, tables) = (Boundaries::new(new), Tables::new(problem.metric));
+        Self { problem, moving, boundaries, tables, projection, is_placed: true }
+    }
+
+    /// A level on the new mesh.
+    fn level<'b>(&mut self, level: &Level<'b, D>) -> Result<TransferredLevel<'b, D>, RemeshError> {
+        let images = self.moving.scene().images([level.old, level.new]);
+        let not_found = || RemeshError::NotFound { level: level.name };
+        let mut transfer = Transfer::new(level.old, level.new, &images).ok_or_else(not_found)?;
+        let mut solution = Solution {
+            velocity: transfer.quadratic(&level.solution.velocity),
+            pressure: transfer.linear(&level.solution.pressure),
+            twists: level.solution.twists.clone(),
+            pressure_gradient: level.solution.pressure_gradient,
+        };
+        let values = BoundaryValues {
+            bodies: level.bodies,
+            twists: &solution.twists,
+            origin: on_mesh(&level.origin),
+        };
+        impose_boundary_values(
+            self.problem,
+            level.new,
+            &self.boundaries,
+            &values,
+            &mut solution.velocity,
+        );
+        if let Some(projection) = &mut self.projection {
+            transfer = transfer.with_points(&self.tables).ok_or_else(not_found)?;
+            let residual =
+                transfer.missed(&self.tables, &level.solution.velocity, &solution.velocity);
+            if !std::mem::take(&mut self.is_placed) {
+                projection.move_to(self.problem, level.new);
+            }
+            solution.velocity =
+                projection.project_with(level.new, &solution.velocity, &residual)?;
+        }
+        Ok(TransferredLevel { solution, transfer })
+    }
+}

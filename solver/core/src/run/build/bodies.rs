@@ -1,0 +1,153 @@
+//! Bodies of a case as rigid bodies.
+
+use std::f64::consts::PI;
+
+use alewife_mesh::{BoundaryId, Mesh};
+use nalgebra::Vector3;
+
+use super::solid::Solid;
+use crate::body::{Inertia, Mode, Orientation, Pose, RigidVector, Wrench};
+use crate::case::{
+    Body, Case, FlowModel, GaitSpec, Geometry, Lock, Motion, ShapeSpec, SpringSpec, TimeFunction,
+};
+use crate::coupling::{Drive, RigidBody, Spring, TimeValue};
+use crate::gait::{Gait, InTime, Squirmer};
+use crate::run::RunError;
+use crate::run::shape_motion;
+use crate::space::Metric;
+use crate::time::factor_at;
+
+/// A component of a vector of the case; those that are not written are zero.
+fn component(values: &[f64], axis: usize) -> f64 {
+    values.get(axis).copied().unwrap_or(0.0)
+}
+
+/// A vector of the case in space.
+fn vector(values: &[f64]) -> Vector3<f64> {
+    Vector3::from_fn(|axis, _| component(values, axis))
+}
+
+/// A body of a case with its boundary in the mesh.
+pub(super) fn rigid_body<const D: usize>(
+    case: &Case,
+    body: &Body,
+    mesh: &Mesh<D>,
+    boundary: BoundaryId,
+    metric: Metric,
+) -> Result<RigidBody, RunError> {
+    let Solid { volume, pose } = Solid::of(body, case.geometry, mesh, boundary)?;
+    let density = body.density.unwrap_or(case.fluid.density);
+    let inertia = match case.fluid.model {
+        FlowModel::Stokes => Inertia::default(),
+        FlowModel::UnsteadyStokes | FlowModel::NavierStokes => volume.scaled(density),
+    };
+    // Weight less buoyancy: the pressure is the one without its hydrostatic part
+    let net_mass = (density - case.fluid.density) * volume.mass;
+    let weight = vector(&case.fluid.gravity) * net_mass;
+    Ok(RigidBody {
+        drives: drives(body, metric, case.geometry),
+        inertia,
+        volume,
+        weight: Wrench { force: weight, torque: Vector3::zeros() },
+        load: Wrench { force: vector(&body.force), torque: Vector3::from(body.torque.0) },
+        load_factor: body
+            .load_factor
+            .clone()
+            .map(|factor| -> TimeValue { Box::new(move |time| factor_at(Some(&factor), time)) }),
+        load_in_body: !body.load_frame.is_laboratory(),
+        spring: body.spring.as_ref().map(|spring| rigid_spring(spring, &pose)),
+        gait: slip(body, metric),
+        shape: shape_motion(body, case.geometry)?,
+        ..RigidBody::held(body.name.clone(), boundary, pose)
+    })
+}
+
+/// What determines the velocities of a body.
+fn drives(body: &Body, metric: Metric, geometry: Geometry) -> [Drive; 6] {
+    let in_plane = geometry != Geometry::Spatial;
+    let is_locked = |mode: Mode| match mode {
+        Mode::X => body.locked.contains(&Lock::X),
+        Mode::Y => body.locked.contains(&Lock::Y) || !metric.has_translation(1),
+        Mode::Z => in_plane || body.locked.contains(&Lock::Z),
+        Mode::AboutZ => body.locked.contains(&Lock::Rotation) || !metric.has_rotation(),
+        Mode::AboutX | Mode::AboutY => in_plane || body.locked.contains(&Lock::Rotation),
+    };
+    Mode::ALL.map(|mode| match &body.motion {
+        Motion::Free if !is_locked(mode) => Drive::Free,
+        Motion::Held | Motion::Free => Drive::Held,
+        Motion::Imposed(imposed) => {
+            let value = match mode {
+                Mode::AboutX | Mode::AboutY | Mode::AboutZ => {
+                    imposed.angular_velocity.0[mode.axis()]
+                }
+                Mode::X | Mode::Y | Mode::Z => component(&imposed.velocity, mode.axis()),
+            };
+            let factor = imposed.factor.clone();
+            Drive::Given(Box::new(move |time| value * factor_at(factor.as_ref(), time)))
+        }
+    })
+}
+
+fn rigid_spring(spring: &SpringSpec, pose: &Pose) -> Spring {
+    let in_space = matches!(pose.orientation, Orientation::Spatial(_));
+    let rigid = |linear: &[f64], angular: f64| {
+        let about: &[Mode] =
+            if in_space { &[Mode::AboutX, Mode::AboutY, Mode::AboutZ] } else { &[Mode::AboutZ] };
+        let mut rigid = RigidVector::zeros();
+        for axis in 0..3 {
+            rigid[Mode::along(axis)] = component(linear, axis);
+        }
+        for mode in about {
+            rigid[*mode] = angular;
+        }
+        rigid
+    };
+    let anchor = |axis: usize| spring.anchor.get(axis).copied().unwrap_or(pose.center[axis]);
+    let rest = match pose.orientation {
+        Orientation::Planar(angle) => {
+            Pose::planar(anchor(0), anchor(1), spring.rest_angle.unwrap_or(angle))
+        }
+        Orientation::Spatial(rotation) => {
+            let rest = spring.rest_orientation.map_or(rotation, |rest| rest.rotation());
+            Pose::spatial(Vector3::from_fn(|axis, _| anchor(axis)), rest)
+        }
+    };
+    Spring {
+        stiffness: rigid(&spring.stiffness, spring.torsion),
+        damping: rigid(&spring.damping, spring.torsion_damping),
+        rest,
+    }
+}
+
+/// Slip of the surface; gaits that deform the body are in `shape_motion`.
+fn slip(body: &Body, metric: Metric) -> Option<Box<dyn Gait>> {
+    let squirmer = match &body.gait {
+        Some(GaitSpec::Squirmer(squirmer)) => squirmer,
+        None
+        | Some(
+            GaitSpec::Carangiform(_)
+            | GaitSpec::Anguilliform(_)
+            | GaitSpec::Flagellum(_)
+            | GaitSpec::Pulsating(_)
+            | GaitSpec::Joints(_),
+        ) => return None,
+    };
+    // On the axis the heading is 0 or pi, and must be so to the last bit
+    let axis = if metric.is_revolved() {
+        Vector3::x() * if (squirmer.heading.abs() - PI).abs() < 1e-3 { -1.0 } else { 1.0 }
+    } else if let Some(axis) = squirmer.axis {
+        Vector3::from(axis).normalize()
+    } else {
+        Vector3::new(squirmer.heading.cos(), squirmer.heading.sin(), 0.0)
+    };
+    let in_time =
+        |function: TimeFunction| InTime(Box::new(move |time| factor_at(Some(&function), time)));
+    let factors = squirmer.factors_of_modes().into_iter();
+    Some(Box::new(Squirmer {
+        modes: squirmer.modes.clone(),
+        factors: factors.map(|factor| factor.map(in_time)).collect(),
+        axis,
+        turn: squirmer.turn.clone().map(in_time),
+        is_sphere: matches!(body.shape, ShapeSpec::Sphere { .. }),
+    }))
+}

@@ -1,0 +1,191 @@
+//! From a `Case` to a `Problem`.
+
+mod bodies;
+mod joints;
+mod motion_settings;
+mod shape_motion;
+mod sides;
+mod sizing;
+mod solid;
+
+use alewife_mesh::{BoundaryId, BoundaryKind, Mesh, Point};
+
+use self::bodies::rigid_body;
+use self::joints::add_joint;
+pub use self::motion_settings::motion_settings;
+pub use self::shape_motion::{BodyRecoil, recoils, shape_motion};
+use self::sides::side;
+pub(super) use self::sizing::limits;
+pub use self::sizing::sizing;
+pub(super) use self::solid::no_solid;
+use super::RunError;
+use crate::body::{Orientation, Pose};
+use crate::case::{
+    Case, ContactSpec, FlowModel, Geometry, MeanFlowSpec, Model, Stroke, SwimmerModel, TimeSettings,
+};
+use crate::contact::{Law, LawKind};
+use crate::coupling::{
+    BodyShapes, Group, MeanFlow, MeanFlowAlong, Problem, RateDiscontinuities, Side,
+};
+use crate::space::Metric;
+use crate::time::factor_at;
+
+/// The law of contact a case asks for.
+pub(super) fn contact_law(contact: &ContactSpec) -> Result<Law, RunError> {
+    let (kind, range) = match *contact {
+        ContactSpec::Quadratic { range, epsilon } => (LawKind::Quadratic { epsilon }, range),
+        ContactSpec::Barrier { range, stiffness } => (LawKind::Barrier { stiffness }, range),
+    };
+    Law::new(kind, range).map_err(|error| RunError::Unsupported(error.to_string()))
+}
+
+/// The problem of a case on its mesh.
+///
+/// # Errors
+/// When the case asks for something that is not there yet.
+pub fn build_problem<const D: usize>(
+    model: &Model,
+    mesh: &Mesh<D>,
+) -> Result<Problem<D>, RunError> {
+    let case = &model.case;
+    let metric = match case.geometry {
+        Geometry::Planar | Geometry::Spatial => Metric::Cartesian,
+        Geometry::Axisymmetric => Metric::Revolved,
+    };
+    let mut sides = Vec::new();
+    let mut bodies = Vec::new();
+    for (boundary, known) in mesh.boundaries.iter().enumerate() {
+        sides.push(match known.kind {
+            BoundaryKind::Body(body) => {
+                let boundary = BoundaryId::new(boundary);
+                bodies.push(rigid_body(case, &model.bodies[body], mesh, boundary, metric)?);
+                None
+            }
+            BoundaryKind::Axis => Some(Side::Symmetry { normal_axis: Metric::RADIAL }),
+            BoundaryKind::Side => Some(side(case, &known.name)?),
+        });
+    }
+    let frame = model.frame_body();
+    if let (None, Some(name)) = (frame, &case.frame) {
+        return Err(RunError::Unsupported(format!("frame = \"{name}\" names no body")));
+    }
+    for joint in &model.joints {
+        add_joint(model, joint, &mut bodies)?;
+    }
+    let has_inertia = case.fluid.model != FlowModel::Stokes;
+    let mut problem = Problem {
+        metric,
+        density: if has_inertia { case.fluid.density } else { 0.0 },
+        viscosity: case.fluid.viscosity,
+        has_inertia,
+        has_convection: case.fluid.model == FlowModel::NavierStokes,
+        sides,
+        bodies,
+        groups: model.swimmers.iter().map(|swimmer| group(case, swimmer)).collect(),
+        frame,
+        mean_flow: mean_flow(case),
+        body_force: None,
+        rate_discontinuities: None,
+    };
+    problem.rate_discontinuities = rate_discontinuities(model, &problem);
+    check_volumes(case, &problem)?;
+    let mut poses: Vec<Pose> = problem.bodies.iter().map(|body| body.pose).collect();
+    problem.apply_joints(&mut poses, 0.0);
+    for (body, pose) in problem.bodies.iter_mut().zip(poses) {
+        if body.joint.is_some() {
+            body.pose = match pose.orientation {
+                // Within half a turn of x
+                Orientation::Planar(_) => {
+                    Pose::planar(pose.center.x, pose.center.y, pose.heading())
+                }
+                Orientation::Spatial(_) => pose,
+            };
+        }
+    }
+    Ok(problem)
+}
+
+/// What drives the fluid along periodic directions.
+fn mean_flow<const D: usize>(case: &Case) -> Option<MeanFlow<D>> {
+    let MeanFlowSpec { pressure_gradient, mean_velocity, body_force, factor } =
+        case.flow.clone()?;
+    let component = |values: &Option<Vec<f64>>, axis: usize| {
+        values.as_ref().map(|values| values.get(axis).copied().unwrap_or(0.0))
+    };
+    let is_periodic = case.periodic_axes();
+    let along = std::array::from_fn(|axis| {
+        let given = (component(&pressure_gradient, axis), component(&mean_velocity, axis));
+        match given {
+            (Some(value), _) => MeanFlowAlong::PressureGradient(value),
+            (None, Some(value)) if is_periodic[axis] => MeanFlowAlong::Velocity(value),
+            _ => MeanFlowAlong::Nothing,
+        }
+    });
+    let body_force =
+        Point::<D>::from_fn(|axis, _| component(&body_force, axis).unwrap_or_default());
+    let factor = Box::new(move |time| factor_at(factor.as_ref(), time));
+    Some(MeanFlow { along, body_force, factor })
+}
+
+fn group(case: &Case, swimmer: &SwimmerModel) -> Group {
+    let SwimmerModel { name, bodies, period, resistance } = swimmer.clone();
+    // A steady solution knows no cycle
+    let period = period.filter(|_| matches!(case.time, TimeSettings::Unsteady(_)));
+    Group { name, bodies, period, resistance }
+}
+
+/// Times at which rates of strokes and shapes jump.
+fn rate_discontinuities<const D: usize>(
+    model: &Model,
+    problem: &Problem<D>,
+) -> Option<RateDiscontinuities> {
+    // Torques of hinges may jump: nothing moves by them at once
+    let strokes: Vec<Stroke> =
+        model.joints.iter().filter_map(|joint| joint.kind.stroke().cloned()).collect();
+    let shapes: Vec<_> = problem.bodies.iter().filter_map(|body| body.shape.clone()).collect();
+    if strokes.is_empty() && shapes.is_empty() {
+        return None;
+    }
+    Some(Box::new(move |from, to| {
+        let of_strokes = strokes.iter().flat_map(|stroke| stroke.rate_discontinuities(from, to));
+        let of_shapes = shapes.iter().flat_map(|shape| shape.discontinuities(from, to));
+        let mut times: Vec<f64> = of_strokes.chain(of_shapes).collect();
+        times.sort_by(f64::total_cmp);
+        times.dedup_by(|later, earlier| *later - *earlier <= 1e-12 * later.abs());
+        times
+    }))
+}
+
+/// Times of a run at which volumes of bodies are compared.
+const VOLUME_TRIALS: u32 = 50;
+
+/// In an enclosed fluid bodies cannot grow or shrink together.
+fn check_volumes<const D: usize>(case: &Case, problem: &Problem<D>) -> Result<(), RunError> {
+    let TimeSettings::Unsteady(settings) = &case.time else { return Ok(()) };
+    let is_rigid = problem.bodies.iter().all(|body| body.shape.is_none());
+    if is_rigid || !problem.is_enclosed() {
+        return Ok(());
+    }
+    let volume = |time: f64| -> Result<f64, RunError> {
+        let shapes = BodyShapes::at(&problem.bodies, time)?;
+        let deformed = (0..problem.bodies.len()).filter_map(|body| shapes.deformed(body));
+        Ok(deformed.map(|deformed| deformed.moments.measure).sum())
+    };
+    let start = volume(0.0)?;
+    for trial in 1..VOLUME_TRIALS {
+        // Not in step with any period
+        let time = settings.end.min(100.0 * settings.step) * (f64::from(trial) * 0.618_034).fract();
+        let now = volume(time)?;
+        if (now - start).abs() > SAME_VOLUME * start {
+            return Err(RunError::Unsupported(format!(
+                "the bodies that deform have the volume {start:.6e} at time 0 and {now:.6e} at time \
+                 {time:.4}, and no side of the domain lets fluid out: give two bodies gaits that \
+                 exchange their volume, or open a side"
+            )));
+        }
+    }
+    Ok(())
+}
+
+/// Change of a volume over itself that is the error of an interpolated outline.
+const SAME_VOLUME: f64 = 1e-6;

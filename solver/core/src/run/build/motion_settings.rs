@@ -1,0 +1,18 @@
+//! How the mesh of a case moves.
+
+use crate::case::{Body, MeshEquation, Model};
+use crate::coupling::Problem;
+use crate::motion::{MotionKind, MotionSettings, Stiffening};
+
+/// How the mesh of a case moves with the bodies of its problem.
+#[must_use]
+pub fn motion_settings<const D: usize>(model: &Model, problem: &Problem<D>) -> MotionSettings {
+    let deforms_in_space = D == 3 && problem.bodies.iter().any(|body| body.shape.is_some());
+    let kind = match model.case.mesh.moving.equation {
+        MeshEquation::Elastic if deforms_in_space => MotionKind::around_deforming_bodies(),
+        MeshEquation::Elastic => MotionKind::default(),
+        MeshEquation::Harmonic => MotionKind::Harmonic(Stiffening::MasudHughes),
+    };
+    let turns = |body: &Body| !problem.metric.is_revolved() && !body.is_round();
+    MotionSettings { kind, turns: model.bodies.iter().map(turns).collect() }
+}

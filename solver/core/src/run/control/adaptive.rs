@@ -1,0 +1,161 @@
+//! Steps as long as their error, the cells and the gaps allow.
+
+use super::start::start_pieces;
+use super::{NEAR, Piece, SMALLEST_PART, step_size_underflow};
+use crate::case::{Adaptive, Scheme, Unsteady};
+use crate::run::RunError;
+use crate::run::run::{Run, StepSummary};
+use crate::run::simulation::{Attempt, Simulation};
+use crate::step::{StepError, StepReport};
+
+/// Part of the time to the end that is rounding.
+const AT_END: f64 = 1e-9;
+
+/// Bounds of the steps (s).
+#[derive(Clone, Copy)]
+struct Bounds {
+    smallest: f64,
+    largest: f64,
+}
+
+/// A step that has been made.
+struct Made {
+    report: StepReport,
+    size: f64,
+    /// Whether a longer one was rejected before.
+    is_shortened: bool,
+}
+
+/// Factor of the next step after a step with this error over the tolerance; the error goes with the
+/// third power of the step.
+fn step_size_factor(error: f64) -> f64 {
+    if error > 0.0 { (0.85 * error.powf(-1.0 / 3.0)).clamp(0.3, 1.5) } else { 1.5 }
+}
+
+impl<const D: usize> Run<'_, D> {
+    /// Makes all steps; their number.
+    pub(in crate::run) fn adaptive_steps(
+        &mut self,
+        settings: &Unsteady,
+        adaptive: &Adaptive,
+    ) -> Result<usize, RunError> {
+        let bounds = Bounds {
+            smallest: adaptive.smallest.unwrap_or(settings.step * 1e-6),
+            largest: adaptive.largest.unwrap_or(settings.end / 10.0),
+        };
+        let Simulation { state, control, .. } = &self.simulation;
+        if state.last_step == 0.0 && control.proposed_step.is_none() {
+            self.begin_in_pieces(settings, settings.step.min(settings.end));
+        }
+        loop {
+            let proposed = self.simulation.control.proposed_step.unwrap_or(settings.step);
+            self.restart_at_discontinuity(settings, proposed);
+            let pieces = &self.simulation.control.pieces;
+            let is_start = !pieces.is_empty() && settings.scheme == Scheme::Bdf2;
+            let piece = pieces.last().map(|piece| piece.size);
+            let wanted = piece.unwrap_or(proposed);
+            let size = self.cut_to_fit(settings, proposed, wanted.min(bounds.largest));
+            // Pieces of the first step are smaller than any that is asked for
+            let floor = bounds.smallest;
+            let floor = if is_start { floor.min(SMALLEST_PART * size) } else { floor };
+            let gap = self.simulation.state.contact.minimum_gap.map(|minimum| minimum.gap);
+            let made = self.adaptive_step(adaptive, size, floor)?;
+            let error = made.report.error / adaptive.tolerance;
+            let factor = if is_start { 2.0 } else { step_size_factor(error) };
+            let crossing = self.simulation.cell_crossing();
+            let longest = adaptive.cfl / crossing.rate;
+            let proposed = self.propose(adaptive, made.size, factor, gap).min(longest);
+            let Simulation { state, control, .. } = &mut self.simulation;
+            // Only now: within a step the run may be stopped, and then tries again what was rejected
+            control.pieces.pop();
+            if made.is_shortened {
+                control.pieces.clear();
+            }
+            control.proposed_step = Some(proposed.clamp(bounds.smallest, bounds.largest));
+            let is_last = settings.end - state.time <= AT_END * settings.end;
+            if is_last {
+                state.round_time(settings.end);
+            }
+            let is_last = is_last || self.is_over(settings)?;
+            let Made { report, size, .. } = made;
+            let (iterations, crossing) = (report.iterations, Some(crossing));
+            let summary = StepSummary { iterations, time_step: size, is_last, crossing };
+            self.report(&report.loads, summary)?;
+            if is_last {
+                return Ok(self.simulation.state.step);
+            }
+            self.check_signals(is_last)?;
+        }
+    }
+
+    /// Makes the next steps the pieces of one of this size (s).
+    fn begin_in_pieces(&mut self, settings: &Unsteady, size: f64) {
+        let pieces = start_pieces(settings.scheme, true, size).into_iter().rev();
+        let pieces = pieces.map(|size| Piece { size, is_restart: false });
+        self.simulation.control.pieces = pieces.collect();
+    }
+
+    /// Where rates jump, what was before does not count for what comes.
+    fn restart_at_discontinuity(&mut self, settings: &Unsteady, proposed: f64) {
+        let left = settings.end - self.simulation.state.time;
+        let has_begun = self.simulation.state.step > 0;
+        if has_begun && self.simulation.is_at_discontinuity(NEAR * proposed.min(left)) {
+            self.begin_in_pieces(settings, settings.step.min(proposed));
+            self.simulation.state.restart();
+        }
+    }
+
+    /// A step that ends with the run, and where rates jump; the last two before share what is left.
+    fn cut_to_fit(&self, settings: &Unsteady, proposed: f64, size: f64) -> f64 {
+        let time = self.simulation.state.time;
+        let mut left = settings.end - time;
+        let near = NEAR * proposed.min(left);
+        let jumps = self.simulation.problem.rate_discontinuities.as_ref();
+        let next = jumps.and_then(|jumps| jumps(time + near, settings.end).first().copied());
+        left = next.map_or(left, |next| next - time);
+        if left >= 2.0 * size {
+            size
+        } else if left <= size * (1.0 + AT_END) {
+            left
+        } else {
+            0.5 * left
+        }
+    }
+
+    /// Makes a step, shorter where it must be.
+    fn adaptive_step(
+        &mut self,
+        adaptive: &Adaptive,
+        mut size: f64,
+        floor: f64,
+    ) -> Result<Made, RunError> {
+        let mut is_shortened = false;
+        loop {
+            match self.simulation.try_step(size, adaptive.tolerance)? {
+                Attempt::Made(report) => return Ok(Made { report, size, is_shortened }),
+                Attempt::Rejected(error) if size <= floor => {
+                    return Err(step_size_underflow(self, size, &error));
+                }
+                Attempt::Rejected(StepError::LocalErrorTooLarge { error, .. }) => {
+                    size *= step_size_factor(error / adaptive.tolerance).min(0.7);
+                }
+                Attempt::Rejected(_) => size *= 0.5,
+            }
+            size = size.max(floor);
+            is_shortened = true;
+            self.check_signals(false)?;
+        }
+    }
+
+    /// The next step after one of this size: by its error and the rate at which the smallest gap closes.
+    fn propose(&self, adaptive: &Adaptive, size: f64, factor: f64, gap: Option<f64>) -> f64 {
+        let proposed = size * factor;
+        match (gap, self.simulation.state.contact.minimum_gap) {
+            (Some(before), Some(now)) => {
+                let rate = (now.gap - before).abs() / size;
+                proposed.min(adaptive.gap * now.gap / rate)
+            }
+            _ => proposed,
+        }
+    }
+}

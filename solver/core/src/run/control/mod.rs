@@ -1,0 +1,88 @@
+//! Control of the step size: fixed steps, steps by their error, first steps, trials of other sizes.
+
+mod adaptive;
+mod fixed;
+mod start;
+mod trial;
+
+use alewife_mesh::Point;
+use serde::{Deserialize, Serialize};
+
+use super::error::RunError;
+use super::run::Run;
+use super::simulation::Simulation;
+use crate::step::StepError;
+
+/// A piece of a step.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Piece {
+    /// Its size (s).
+    pub size: f64,
+    /// Whether rates jump at its beginning, so that what was before does not count.
+    pub is_restart: bool,
+}
+
+/// Where the control of the step size is.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct StepControl {
+    /// The step proposed by its error (s), none before the first or with fixed steps.
+    pub proposed_step: Option<f64>,
+    /// Pieces of the present step that are still to be made, the next one last.
+    pub pieces: Vec<Piece>,
+}
+
+/// Part of a step by which a discontinuity may be off and still be at its end.
+const NEAR: f64 = 1e-7;
+
+/// The smallest step over the given one, of fixed steps that are halved where they must be.
+const SMALLEST_PART: f64 = 1.0 / 1024.0;
+
+/// Part of the domain that no body goes in the smallest step when all is in one system of units.
+const FAR: f64 = 1e-3;
+
+/// Length of the domain along a coordinate (m).
+fn extent_along<const D: usize>(nodes: &[Point<D>], axis: usize) -> f64 {
+    let [least, most] =
+        nodes.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], node| {
+            [least.min(node[axis]), most.max(node[axis])]
+        });
+    most - least
+}
+
+/// No smaller step helps.
+fn step_size_underflow<const D: usize>(
+    run: &Run<'_, D>,
+    smallest: f64,
+    error: &StepError,
+) -> RunError {
+    let Simulation { problem, state, moving_mesh, law, .. } = &run.simulation;
+    let (step, time, reason) = (state.step + 1, state.time, error.to_string());
+    if let Some(trouble) = run.pace.trouble(run.simulation.fastest()) {
+        let advice = format!("; {trouble}; the last flow is in failure/");
+        return RunError::StepSizeUnderflow { step, time, smallest, reason, advice };
+    }
+    // How far the fastest body would go in the smallest step (m)
+    let leap =
+        smallest * state.now.twists.iter().map(|twist| twist.linear.norm()).fold(0.0, f64::max);
+    // A wall that a body is driven into is nearer than the smallest step, too, in the end
+    let extent = (0..D).map(|axis| extent_along(&state.nodes, axis)).fold(0.0, f64::max);
+    let nearest = moving_mesh.as_ref().zip(state.contact.minimum_gap).map(|(moving, minimum)| {
+        let gaps = moving.gaps();
+        let names = [gaps.body_name(minimum.body), gaps.partner_name(minimum.partner)];
+        let hint = match law {
+            None if leap > minimum.gap.max(FAR * extent) => {
+                ": bodies would pass each other or a wall in a single step, however short: are loads, viscosity \
+                 and time in one system of units?"
+            }
+            None if problem.gives_way() => {
+                ": [contact] keeps bodies apart from each other and from walls"
+            }
+            _ => "",
+        };
+        let gap = minimum.gap;
+        format!("; nearest are `{}` and `{}`, {gap:.3e} apart{hint}", names[0], names[1])
+    });
+    let advice = nearest.unwrap_or_default()
+        + "; the last state is in failure/: look at its flow there, and resume from it with --resume";
+    RunError::StepSizeUnderflow { step, time, smallest, reason, advice }
+}

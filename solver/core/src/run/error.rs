@@ -1,0 +1,144 @@
+//! `RunError`: what stopped a run, at which step, for which body or cell.
+
+use alewife_mesh::MeshError;
+use thiserror::Error;
+
+use super::resume::ResumeError;
+use crate::contact::ContactError;
+use crate::coupling::{ShapeError, coordinates};
+use crate::motion::{MotionError, RemeshError};
+use crate::step::{FlowError, at_step};
+
+/// Every way a run can stop before its end.
+#[derive(Debug, Error)]
+pub enum RunError {
+    /// No flow was found.
+    #[error(transparent)]
+    Flow(#[from] FlowError),
+    /// The fluid is far faster than what drives it.
+    #[error(
+        "{}: the flow has blown up: on average it is {times:.0} times as fast as \
+         the fastest boundary ever was, most near {}; CFL number {cfl:.3e}, cell Reynolds number \
+         {cell_reynolds:.3e}; look at failure/flow.vtu, and start again with a finer mesh there, a \
+         shorter time.unsteady.step, or time.unsteady.convection = \"newton\"",
+        at_step(*step, *time),
+        coordinates(.near)
+    )]
+    BlownUp {
+        /// Step.
+        step: usize,
+        /// Time (s).
+        time: f64,
+        /// Root mean square of the velocity over the largest speed of a boundary so far.
+        times: f64,
+        /// CFL number of the step.
+        cfl: f64,
+        /// Largest cell Reynolds number.
+        cell_reynolds: f64,
+        /// Where the fluid is fastest (m).
+        near: Vec<f64>,
+    },
+    /// The system would not fit into memory.
+    #[error(
+        "{n_dofs} unknowns need about {needed:.0} GB of memory and {available:.0} GB are free; \
+         raise mesh.size, mesh.surface or mesh.growth, or lower mesh.gap_layers"
+    )]
+    TooLarge {
+        /// Velocities and pressures.
+        n_dofs: usize,
+        /// Estimate (GB).
+        needed: f64,
+        /// Free memory (GB).
+        available: f64,
+    },
+    /// The mesh would not fit into memory; it has not been made.
+    #[error(
+        "the cell sizes ask for {n_cells:.1e} cells or more, which need {needed:.0} GB of memory, and \
+         {available:.0} GB are free; raise mesh.size, mesh.surface or mesh.growth, or lower \
+         mesh.gap_layers: cells {coarser:.1} times as large would fit"
+    )]
+    TooManyCells {
+        /// Estimate, or where it ended.
+        n_cells: f64,
+        /// Memory of a system on them (GB).
+        needed: f64,
+        /// Free memory (GB).
+        available: f64,
+        /// Factor on all sizes with which it would fit.
+        coarser: f64,
+    },
+    /// A request the solver cannot meet (a case that `check` should have refused).
+    #[error("{0}")]
+    Unsupported(String),
+    /// No shorter step helps.
+    #[error(
+        "{}: {reason}, with steps down to {smallest:.3e}{advice}",
+        at_step(*step, *time)
+    )]
+    StepSizeUnderflow {
+        /// Step.
+        step: usize,
+        /// Time (s).
+        time: f64,
+        /// The smallest step tried (s).
+        smallest: f64,
+        /// What went wrong in it.
+        reason: String,
+        /// What else is known, and what may help, behind semicolons.
+        advice: String,
+    },
+    /// Remeshing failed.
+    #[error("{}: remeshing failed: {reason}", at_step(*step, *time))]
+    Remesh {
+        /// Step.
+        step: usize,
+        /// Time (s).
+        time: f64,
+        /// Which body, and why.
+        #[source]
+        reason: Box<RemeshError>,
+    },
+    /// Contact cannot be solved for.
+    #[error("{}: {reason}", at_step(*step, *time))]
+    Contact {
+        /// Step.
+        step: usize,
+        /// Time (s).
+        time: f64,
+        /// Which bodies, and why.
+        reason: Box<ContactError>,
+    },
+    /// The mesh could not be generated.
+    #[error("mesh: {0}")]
+    Mesh(#[from] MeshError),
+    /// A run cannot resume from a state.
+    #[error("cannot resume from this state: {0}")]
+    Resume(#[from] ResumeError),
+    /// An observer could not write.
+    #[error("output: {0}")]
+    Output(#[from] std::io::Error),
+}
+
+impl RunError {
+    /// A mesh that could not be set up at the start.
+    pub(super) fn from_remesh(error: RemeshError) -> Self {
+        match error {
+            RemeshError::Mesh(error) => Self::Mesh(error),
+            RemeshError::Motion(error) => FlowError::from(error).into(),
+            RemeshError::Shape(error) => FlowError::from(error).into(),
+            error => Self::Unsupported(error.to_string()),
+        }
+    }
+}
+
+impl From<ShapeError> for RunError {
+    fn from(error: ShapeError) -> Self {
+        FlowError::from(error).into()
+    }
+}
+
+impl From<MotionError> for RunError {
+    fn from(error: MotionError) -> Self {
+        FlowError::from(error).into()
+    }
+}

@@ -1,0 +1,144 @@
+//! The quantities of the flow: its integrals, its energy balance, and the mesh it is computed on.
+
+use nalgebra::Vector3;
+
+use super::integrals::Integrals;
+use super::momentum::FluidMomentum;
+use crate::case::FlowQuantity;
+use crate::coupling::{MeanFlowReport, Problem, SurfaceLoads};
+use crate::run::simulation::{CellCrossing, Simulation};
+use crate::state::EnergyRecord;
+
+/// The whole flow at one time.
+pub(in crate::run) struct FlowMeasurement {
+    /// Dissipation int 2 mu D : D (W).
+    dissipation: f64,
+    /// Kinetic energy int rho u^2 / 2 (J).
+    kinetic_energy: f64,
+    /// Momentum int rho u (kg m/s).
+    momentum: Vector3<f64>,
+    /// int u^2 (m5/s2; m4/s2 planar).
+    squared_speed: f64,
+    /// int div u (m3/s).
+    mass_defect: f64,
+    /// Defect of the energy balance over the work; not a number where sides do work, too.
+    pub energy_defect: f64,
+    /// Defect of the balance of momentum over what is exchanged; not a number where sides are open.
+    pub momentum_defect: f64,
+    /// Area or volume (m2, m3).
+    volume: f64,
+    /// The mean flow, where one is given.
+    mean_flow: Option<MeanFlowReport>,
+    /// How fast the fluid crosses the cells, if it is convected.
+    crossing: Option<CellCrossing>,
+    /// The last step (s).
+    last_step: f64,
+    /// Density over viscosity (s/m2).
+    density_over_viscosity: f64,
+    /// Smallest gap between bodies and walls (m).
+    minimum_gap: f64,
+    cells: usize,
+    remeshes: usize,
+}
+
+impl FlowMeasurement {
+    /// Integrals over the fluid, with how fast it crosses the cells where that is known already.
+    pub(super) fn new<const D: usize>(
+        simulation: &Simulation<D>,
+        crossing: Option<CellCrossing>,
+    ) -> Self {
+        let Simulation { problem, state, work, .. } = simulation;
+        let tables = work.system.tables();
+        let sums = Integrals::over_fluid(problem, &state.mesh, &state.now.velocity, tables);
+        Self {
+            dissipation: 2.0 * problem.viscosity * sums.squared_rate,
+            kinetic_energy: 0.5 * problem.density * sums.squared_speed,
+            momentum: problem.metric.total_force(&sums.velocity) * problem.density,
+            squared_speed: sums.squared_speed,
+            mass_defect: sums.divergence,
+            energy_defect: f64::NAN,
+            momentum_defect: f64::NAN,
+            volume: sums.volume,
+            mean_flow: work.system.mean_flow(&problem.mean_flow_at(state.time), &state.now),
+            crossing: problem
+                .has_convection
+                .then(|| crossing.unwrap_or_else(|| simulation.cell_crossing())),
+            last_step: state.last_step,
+            density_over_viscosity: problem.density / problem.viscosity,
+            minimum_gap: state.contact.minimum_gap.map_or(f64::INFINITY, |minimum| minimum.gap),
+            cells: state.mesh.n_cells(),
+            remeshes: state.remeshes,
+        }
+    }
+
+    /// What the balance of momentum records of the fluid of a density (kg/m3).
+    pub(super) fn fluid_momentum(&self, density: f64) -> FluidMomentum {
+        FluidMomentum {
+            momentum: self.momentum,
+            mean_force: self.mean_flow.map_or(Vector3::zeros(), |report| report.force),
+            scale: density * (self.volume * self.squared_speed).sqrt(),
+        }
+    }
+
+    /// What the energy balance records at a time (s).
+    pub(super) fn energy_record<const D: usize>(
+        &self,
+        problem: &Problem<D>,
+        time: f64,
+        loads: &SurfaceLoads,
+    ) -> EnergyRecord {
+        let dimension = if problem.metric.is_revolved() { 3.0 } else { D as f64 };
+        let squared_size = self.volume.powf(2.0 / dimension);
+        EnergyRecord {
+            time,
+            power: loads.power() + self.mean_flow.map_or(0.0, |report| report.power),
+            dissipation: self.dissipation,
+            kinetic_energy: self.kinetic_energy,
+            dissipation_scale: problem.viscosity * self.squared_speed / squared_size,
+        }
+    }
+
+    fn pressure_gradient(&self, axis: usize) -> f64 {
+        self.mean_flow.map_or(0.0, |report| report.pressure_gradient[axis])
+    }
+
+    fn mean_velocity(&self, axis: usize) -> f64 {
+        self.mean_flow.map_or(0.0, |report| report.velocity[axis])
+    }
+
+    /// Cells the fluid crosses in the last step at most.
+    pub(in crate::run) fn cfl(&self) -> f64 {
+        self.crossing.map_or(0.0, |crossing| crossing.rate * self.last_step)
+    }
+
+    /// Largest Reynolds number of a cell.
+    pub(in crate::run) fn cell_reynolds(&self) -> f64 {
+        self.crossing.map_or(0.0, |crossing| crossing.reach * self.density_over_viscosity)
+    }
+
+    /// Kinetic energy over that of all the fluid at a speed (m/s).
+    pub(in crate::run) fn energy_ratio(&self, density: f64, speed: f64) -> f64 {
+        self.kinetic_energy / (0.5 * density * speed * speed * self.volume)
+    }
+
+    pub(super) fn value(&self, quantity: FlowQuantity) -> f64 {
+        match quantity {
+            FlowQuantity::Dissipation => self.dissipation,
+            FlowQuantity::KineticEnergy => self.kinetic_energy,
+            FlowQuantity::MassDefect => self.mass_defect,
+            FlowQuantity::EnergyDefect => self.energy_defect,
+            FlowQuantity::MomentumDefect => self.momentum_defect,
+            FlowQuantity::PressureGradientX => self.pressure_gradient(0),
+            FlowQuantity::PressureGradientY => self.pressure_gradient(1),
+            FlowQuantity::PressureGradientZ => self.pressure_gradient(2),
+            FlowQuantity::MeanVelocityX => self.mean_velocity(0),
+            FlowQuantity::MeanVelocityY => self.mean_velocity(1),
+            FlowQuantity::MeanVelocityZ => self.mean_velocity(2),
+            FlowQuantity::Cfl => self.cfl(),
+            FlowQuantity::CellReynolds => self.cell_reynolds(),
+            FlowQuantity::MinimumGap => self.minimum_gap,
+            FlowQuantity::Cells => self.cells as f64,
+            FlowQuantity::Remeshes => self.remeshes as f64,
+        }
+    }
+}

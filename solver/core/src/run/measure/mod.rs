@@ -1,0 +1,154 @@
+//! `Measure`: the quantities of a run, one value per column of `series.csv`.
+//!
+//! What is measured, under which name and when, is the table in `case/quantity`; the files of this
+//! folder have the value of each, by its owner.
+
+mod bodies;
+mod flow;
+mod integrals;
+mod momentum;
+mod probes;
+mod swimmers;
+
+use alewife_mesh::{Mesh, Point};
+
+use self::bodies::{BodyMotion, Coefficients, body_reports, joint_value, measure_joints};
+pub(super) use self::flow::FlowMeasurement;
+use self::momentum::momentum_record;
+use self::probes::Probes;
+use self::swimmers::SwimmerMeasurement;
+use super::RunError;
+use super::simulation::{CellCrossing, Simulation};
+use super::snapshot::BodyReport;
+use crate::case::{Case, Column, Model, Source, TimeSettings, columns};
+use crate::coupling::{Group, SurfaceLoads};
+use crate::timing::Stage;
+
+/// Measures a run; made once a mesh.
+pub(super) struct Measure<const D: usize> {
+    names: Vec<String>,
+    sources: Vec<Source>,
+    probes: Probes<D>,
+    coefficients: Coefficients,
+    balances_energy: bool,
+    balances_momentum: bool,
+    is_unsteady: bool,
+}
+
+/// What is reported of a state.
+pub(super) struct Measured {
+    /// All bodies.
+    pub bodies: Vec<BodyReport>,
+    /// The values of all quantities, in the order of their names.
+    pub values: Vec<f64>,
+    /// The whole flow.
+    pub flow: FlowMeasurement,
+}
+
+impl<const D: usize> Measure<D> {
+    /// Finds the probes in the mesh, or in its images by these shifts (m), and names the quantities.
+    ///
+    /// # Errors
+    /// When a probe is not in the fluid.
+    pub(super) fn new(
+        model: &Model,
+        mesh: &Mesh<D>,
+        images: &[Point<D>],
+    ) -> Result<Self, RunError> {
+        let case = &model.case;
+        let (names, sources) =
+            columns(model).into_iter().map(|Column { name, source }| (name, source)).unzip();
+        Ok(Self {
+            names,
+            sources,
+            probes: Probes::in_fluid(case, mesh, images)?,
+            coefficients: Coefficients::of(case),
+            balances_energy: model.balances_energy(),
+            balances_momentum: model.balances_momentum(),
+            is_unsteady: matches!(case.time, TimeSettings::Unsteady(_)),
+        })
+    }
+
+    /// Finds the probes in a mesh that has moved, seen from the frame.
+    pub(super) fn find_probes(&mut self, case: &Case, mesh: &Mesh<D>, images: &[Point<D>]) {
+        self.probes = Probes::find(case, mesh, images);
+    }
+
+    pub(super) fn names(&self) -> &[String] {
+        &self.names
+    }
+
+    /// Reports of all bodies and the values of all quantities.
+    ///
+    /// # Errors
+    /// When a gait fails.
+    pub(super) fn measure(
+        &mut self,
+        case: &Case,
+        simulation: &mut Simulation<D>,
+        loads: &SurfaceLoads,
+        crossing: Option<CellCrossing>,
+    ) -> Result<Measured, RunError> {
+        let Simulation { state, work, moving_mesh, .. } = simulation;
+        if let Some(moving) = moving_mesh.as_ref().filter(|_| !self.probes.is_empty()) {
+            let seen = state.mesh_in_frame();
+            work.timing.measure(Stage::Loads, || {
+                let images = moving.scene().images([&seen, &seen]);
+                self.find_probes(case, &seen, &images);
+            });
+        }
+        let mut timing = simulation.work.timing;
+        let measured = timing.measure(Stage::Loads, || self.values(simulation, loads, crossing));
+        simulation.work.timing = timing;
+        measured
+    }
+
+    fn values(
+        &self,
+        simulation: &mut Simulation<D>,
+        loads: &SurfaceLoads,
+        crossing: Option<CellCrossing>,
+    ) -> Result<Measured, RunError> {
+        let bodies = body_reports(simulation, &loads.bodies)?;
+        let mut flow = FlowMeasurement::new(simulation, crossing);
+        let Simulation { problem, state, moving_mesh, .. } = simulation;
+        let own_poses = state.in_own_frame(problem, &state.poses);
+        let minimum_gap = |group: &Group| {
+            moving_mesh.as_ref()?.gaps().minimum_gap_among(&own_poses, &group.bodies)
+        };
+        let joints = measure_joints(problem, state, &loads.bodies)?;
+        let groups = problem.groups.iter().zip(&state.propulsion);
+        let swimmers: Vec<_> = groups
+            .map(|(group, history)| {
+                SwimmerMeasurement::new(problem, state, group, history, &loads.bodies)
+                    .with_minimum_gap(minimum_gap(group))
+            })
+            .collect();
+        let probes = self.probes.values(state);
+        if self.balances_energy {
+            let has_memory = self.is_unsteady && problem.has_inertia;
+            flow.energy_defect =
+                state.record_energy(has_memory, flow.energy_record(problem, state.time, loads));
+        }
+        if self.balances_momentum {
+            let fluid = flow.fluid_momentum(problem.density);
+            let record = momentum_record(problem, state, loads, &fluid);
+            flow.momentum_defect = state.record_momentum(record);
+        }
+        let value = |source: &Source| match *source {
+            Source::Body(body, quantity) => BodyMotion {
+                report: &bodies[body],
+                angle: state.poses[body].angle(),
+                acceleration: &state.accelerations[body],
+                coefficients: &self.coefficients,
+            }
+            .value(quantity),
+            Source::Joint(joint, quantity) => joint_value(&joints[joint], quantity),
+            Source::Swimmer(swimmer, quantity) => swimmers[swimmer].value(quantity),
+            Source::Probe(probe, quantity) => probes[probe].value(quantity),
+            Source::Flow(quantity) => flow.value(quantity),
+        };
+        let values = self.sources.iter().map(value).collect();
+        Ok(Measured { bodies, values, flow })
+    }
+}

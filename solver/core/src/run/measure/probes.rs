@@ -1,0 +1,112 @@
+//! The quantities of probes: velocity and pressure at points of the fluid.
+
+use alewife_mesh::{CellId, Locator, Mesh, Point};
+
+use nalgebra::Vector3;
+
+use crate::body::in_space;
+use crate::case::{Case, Probe, ProbeQuantity};
+use crate::run::RunError;
+use crate::space::{p1_values, p2_values};
+use crate::state::State;
+
+/// One value of a probe's point: where it is in the mesh, and with which sign it counts.
+struct ProbePoint<const D: usize> {
+    cell: CellId,
+    xi: Point<D>,
+    sign: f64,
+}
+
+/// The points of each probe; `None` where there is no fluid, as where a body covers the point.
+pub(super) struct Probes<const D: usize>(Vec<Vec<Option<ProbePoint<D>>>>);
+
+/// Velocity (m/s) and pressure (Pa) of a probe; not numbers where there is no fluid.
+pub(super) struct ProbeMeasurement {
+    velocity: Vector3<f64>,
+    pressure: f64,
+}
+
+impl ProbeMeasurement {
+    pub(super) fn value(&self, quantity: ProbeQuantity) -> f64 {
+        match quantity {
+            ProbeQuantity::VelocityX => self.velocity.x,
+            ProbeQuantity::VelocityY => self.velocity.y,
+            ProbeQuantity::VelocityZ => self.velocity.z,
+            ProbeQuantity::Pressure => self.pressure,
+        }
+    }
+}
+
+impl<const D: usize> Probes<D> {
+    /// The points of all probes in a mesh, or in its images by these shifts (m).
+    pub(super) fn find(case: &Case, mesh: &Mesh<D>, images: &[Point<D>]) -> Self {
+        if case.probe.is_empty() {
+            return Self(Vec::new());
+        }
+        let locator = Locator::new(mesh);
+        // A point on an exact curve may lie outside the quadratic geometry.
+        let reach = 0.01 * case.mesh.surface.unwrap_or(case.mesh.size);
+        let find = |point: &[f64], sign: f64| {
+            let point = Point::<D>::from_fn(|axis, _| point[axis]);
+            // The sides of a periodic mesh may be elsewhere than those of the domain
+            let found = images.iter().filter_map(|shift| locator.nearest(point + shift));
+            let found = found.min_by(|a, b| a.distance.total_cmp(&b.distance));
+            let found = found.filter(|found| found.distance <= reach);
+            found.map(|found| ProbePoint { cell: found.cell, xi: found.reference.into(), sign })
+        };
+        let of_probe = |probe: &Probe| {
+            let minus = (!probe.minus.is_empty()).then(|| find(&probe.minus, -1.0));
+            std::iter::once(find(&probe.point, 1.0)).chain(minus).collect()
+        };
+        Self(case.probe.iter().map(of_probe).collect())
+    }
+
+    /// The same, where all of them must be in the fluid.
+    ///
+    /// # Errors
+    /// When one is not.
+    pub(super) fn in_fluid(
+        case: &Case,
+        mesh: &Mesh<D>,
+        images: &[Point<D>],
+    ) -> Result<Self, RunError> {
+        let probes = Self::find(case, mesh, images);
+        for (probe, points) in case.probe.iter().zip(&probes.0) {
+            if let Some(missing) = points.iter().position(Option::is_none) {
+                let point = if missing == 0 { &probe.point } else { &probe.minus };
+                return Err(RunError::Unsupported(format!(
+                    "probe `{}`: point {point:?} is not in the fluid",
+                    probe.name
+                )));
+            }
+        }
+        Ok(probes)
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    pub(super) fn values(&self, state: &State<D>) -> Vec<ProbeMeasurement> {
+        self.0.iter().map(|points| measure(state, points)).collect()
+    }
+}
+
+/// Velocity and pressure of a probe.
+fn measure<const D: usize>(state: &State<D>, points: &[Option<ProbePoint<D>>]) -> ProbeMeasurement {
+    let (mut velocity, mut pressure) = (Point::<D>::zeros(), 0.0);
+    for point in points {
+        let Some(point) = point else {
+            let velocity = Vector3::repeat(f64::NAN);
+            return ProbeMeasurement { velocity, pressure: f64::NAN };
+        };
+        let nodes = state.mesh.cell(point.cell);
+        for (&node, phi) in nodes.iter().zip(p2_values(&point.xi)) {
+            velocity += state.now.velocity[node] * (point.sign * phi);
+        }
+        for (&node, psi) in nodes.iter().zip(p1_values(&point.xi)) {
+            pressure += point.sign * psi * state.now.pressure[node];
+        }
+    }
+    ProbeMeasurement { velocity: in_space(&velocity), pressure }
+}

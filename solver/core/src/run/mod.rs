@@ -1,0 +1,34 @@
+//! From a case to a run: build, begin, make steps of a controlled size, measure, and let observers look on.
+
+mod build;
+mod case_mesh;
+mod control;
+mod cycle_error;
+mod error;
+mod leaving;
+mod measure;
+mod pace;
+mod planar;
+mod prepare;
+mod resume;
+mod run;
+mod series;
+mod simulation;
+mod snapshot;
+mod solve;
+mod soundness;
+mod spatial;
+mod start;
+
+pub use build::{BodyRecoil, build_problem, motion_settings, recoils, shape_motion, sizing};
+pub use case_mesh::{CaseMesh, Dimension, InitialMesh, build_mesh};
+pub use control::{Piece, StepControl};
+pub use error::RunError;
+pub use prepare::simulation_on;
+pub use resume::{Reference, ResumeError, SavedState, VERSION as STATE_VERSION};
+pub use run::RunSummary;
+pub use series::Series;
+pub use simulation::{Attempt, Simulation, StepScheme};
+pub use snapshot::{BodyReport, LastState, Observer, Snapshot};
+pub use solve::{Solve, simulate, simulate_from};
+pub use start::DOFS_OF_CELL;

@@ -1,0 +1,30 @@
+//! The reference mesh of a saved state, with the outlines it was generated for.
+
+use std::sync::Arc;
+
+use super::case::PlanarCase;
+use super::scene::PlanarScene;
+use crate::case::Model;
+use crate::coupling::{BodyShapes, Problem};
+use crate::motion::MovingMesh;
+use crate::run::RunError;
+use crate::run::resume::{Reference, ResumeError};
+
+/// What moves the mesh of a saved state.
+///
+/// # Errors
+/// When it cannot be set up.
+pub(super) fn moving_mesh_of(
+    model: &Model,
+    problem: &Problem<2>,
+    reference: &Reference<'_, 2>,
+) -> Result<MovingMesh<2>, RunError> {
+    let Reference { saved, mesh } = reference;
+    let shapes = BodyShapes::at(&problem.bodies, saved.time)?;
+    let planar = Arc::new(PlanarCase::new(model, problem)?);
+    let settings = planar.motion.clone();
+    let (start, poses) = (&saved.domain_start, saved.poses.clone());
+    let scene = PlanarScene::restored(planar, mesh, start, poses.clone(), &shapes)
+        .map_err(ResumeError::from)?;
+    Ok(MovingMesh::new(mesh, Box::new(scene), settings, poses, saved.time)?)
+}

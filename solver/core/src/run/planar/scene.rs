@@ -1,0 +1,209 @@
+//! `PlanarScene`: domain and outlines of the bodies of a planar or axisymmetric mesh.
+
+use std::collections::HashMap;
+use std::sync::Arc;
+
+use alewife_mesh::{
+    BoundaryId, BoundaryKind, Domain, GapQuery, Mesh, NodeId, Outline, PlacedShape, Point, Shape,
+};
+use nalgebra::Vector3;
+
+use super::case::PlanarCase;
+use super::periodic_cell::{PeriodicCell, choose_periodic_cell, start_of, started_at};
+use crate::body::{Pose, on_mesh};
+use crate::contact::{Gaps, PlanarGaps};
+use crate::coupling::BodyShapes;
+use crate::gait::{DeformedOutline, WavingSheet};
+use crate::motion::{Fresh, RigidMove, needs_remesh};
+use crate::motion::{Meshed, PosesByShift, RemeshError, Scene};
+
+/// Domain and bodies as they were meshed.
+#[derive(Debug)]
+pub(in crate::run) struct PlanarScene {
+    case: Arc<PlanarCase>,
+    domain: Domain,
+    /// Bodies in the mesh.
+    shapes: Vec<PlacedShape>,
+    /// Parameters on the outlines of bodies that deform, by node.
+    materials: HashMap<NodeId, f64>,
+    /// Sheet of each boundary.
+    sheets: Vec<Option<WavingSheet>>,
+    fresh: Fresh,
+    surroundings: GapQuery,
+    gaps: PlanarGaps,
+}
+
+/// A body of this shape with a pose.
+fn placed(body: &PlacedShape, shape: Shape, pose: &Pose) -> PlacedShape {
+    PlacedShape { shape, center: on_mesh(&pose.center), angle: pose.angle(), ..body.clone() }
+}
+
+impl PlanarScene {
+    /// Takes a mesh of a domain with bodies at poses.
+    pub fn new(
+        case: Arc<PlanarCase>,
+        mesh: &Mesh<2>,
+        domain: Domain,
+        shapes: Vec<PlacedShape>,
+        poses: &[Pose],
+    ) -> Result<Self, RemeshError> {
+        let sheets = mesh.boundaries.iter().map(|boundary| case.sheet(&boundary.name)).collect();
+        let surroundings = GapQuery::new(&domain, &shapes)?;
+        let fresh = Fresh::new(mesh, &surroundings, case.limits);
+        let walls: Vec<usize> =
+            (0..domain.sides().len()).filter(|&side| domain.wall(side).is_some()).collect();
+        let gaps =
+            PlanarGaps::new(&domain, &walls, &shapes)?.with_joined(case.pivots.iter().copied());
+        let materials = materials(&case, mesh, &shapes, poses)?;
+        Ok(Self { case, domain, shapes, materials, sheets, fresh, surroundings, gaps })
+    }
+
+    /// That of a mesh whose domain starts at a point (m) along its periodic directions, with the bodies
+    /// of the case carried to poses.
+    pub fn restored(
+        case: Arc<PlanarCase>,
+        mesh: &Mesh<2>,
+        domain_start: &Point<2>,
+        poses: Vec<Pose>,
+        shapes: &BodyShapes,
+    ) -> Result<Self, RemeshError> {
+        let domain = started_at(&case.home, domain_start);
+        let carried = shapes_at(&case, &poses, shapes);
+        Self::new(case, mesh, domain, carried, &poses)
+    }
+}
+
+/// The bodies of a case with these shapes at poses.
+///
+/// Always carried from where they started, so that a scene that is restored has the same bits as one that has gone
+/// from mesh to mesh.
+fn shapes_at(case: &PlanarCase, poses: &[Pose], shapes: &BodyShapes) -> Vec<PlacedShape> {
+    let bodies = case.start_shapes.iter().zip(&case.start_poses).zip(poses).enumerate();
+    bodies
+        .map(|(body, ((shape, start), pose))| {
+            match shapes.deformed(body).and_then(DeformedOutline::shape) {
+                Some(deformed) => placed(shape, deformed, pose),
+                None => {
+                    // The mesh of a body that looks the same from all sides does not turn
+                    let is_turned = case.motion.turns[body];
+                    let orientation = if is_turned { pose.orientation } else { start.orientation };
+                    RigidMove::between(start, &Pose { orientation, ..*pose }).carry(shape)
+                }
+            }
+        })
+        .collect()
+}
+
+/// Parameters on the outlines of bodies that deform, of the nodes on them.
+fn materials(
+    case: &PlanarCase,
+    mesh: &Mesh<2>,
+    shapes: &[PlacedShape],
+    poses: &[Pose],
+) -> Result<HashMap<NodeId, f64>, RemeshError> {
+    let outline = |body: usize| {
+        let outline =
+            || Outline::new(&placed(&shapes[body], shapes[body].shape.clone(), &poses[body]));
+        case.deforms[body].then(outline).transpose()
+    };
+    let outlines: Vec<Option<Outline>> =
+        (0..shapes.len()).map(outline).collect::<Result<_, _>>()?;
+    let mut materials = HashMap::new();
+    for facet in &mesh.facets {
+        let BoundaryKind::Body(body) = mesh.boundaries[facet.boundary].kind else { continue };
+        let Some(outline) = &outlines[body] else { continue };
+        for node in mesh.facet_nodes(facet) {
+            materials.entry(node).or_insert_with(|| outline.parameter_of(mesh.nodes[node]));
+        }
+    }
+    Ok(materials)
+}
+
+impl Scene<2> for PlanarScene {
+    fn gaps(&self) -> &dyn Gaps {
+        &self.gaps
+    }
+
+    fn deformed_gaps(&self, shapes: &BodyShapes) -> Option<Box<dyn Gaps>> {
+        let mut gaps: Option<PlanarGaps> = None;
+        for body in 0..self.shapes.len() {
+            if let Some(outline) = shapes.outline(body) {
+                gaps.get_or_insert_with(|| self.gaps.clone()).deform_outline(body, outline.clone());
+            }
+        }
+        gaps.map(|gaps| -> Box<dyn Gaps> { Box::new(gaps) })
+    }
+
+    fn material_position(
+        &self,
+        node: NodeId,
+        body: usize,
+        shapes: &BodyShapes,
+    ) -> Option<Vector3<f64>> {
+        let at = shapes.deformed(body)?.position(*self.materials.get(&node)?);
+        Some(Vector3::new(at.x, at.y, 0.0))
+    }
+
+    /// Up and down: where the nodes are along the curve makes no difference.
+    fn side_displacement(
+        &self,
+        boundary: BoundaryId,
+        reference: &Point<2>,
+        time: f64,
+    ) -> Option<Point<2>> {
+        let sheet = self.sheets[boundary].as_ref()?;
+        Some(Point::<2>::new(0.0, sheet.height(reference[0], time)))
+    }
+
+    fn has_moving_wall(&self) -> bool {
+        self.sheets.iter().any(Option::is_some)
+    }
+
+    fn lowest_quality(&self) -> f64 {
+        self.fresh.lowest()
+    }
+
+    fn remesh_reason(
+        &mut self,
+        mesh: &Mesh<2>,
+        poses: &[Pose],
+        shapes: &BodyShapes,
+    ) -> Option<String> {
+        let placed = shapes_at(&self.case, poses, shapes);
+        for (body, PlacedShape { center, angle, .. }) in placed.into_iter().enumerate() {
+            match shapes.outline(body) {
+                None => self.surroundings.place_body(body, center, angle),
+                Some(outline) => {
+                    self.surroundings.set_body(body, outline.placed_at(center, angle));
+                }
+            }
+        }
+        needs_remesh(mesh, &self.fresh, &self.surroundings).map(|reason| reason.to_string())
+    }
+
+    fn remesh(
+        &self,
+        poses: &[Pose],
+        shapes: &BodyShapes,
+        shifted: PosesByShift<'_>,
+    ) -> Result<Meshed<2>, RemeshError> {
+        let shapes = shapes_at(&self.case, poses, shapes);
+        let cell = choose_periodic_cell(&self.domain, &self.case.home, shapes)?;
+        let mesh = cell.mesh(&self.case.sizing)?;
+        let PeriodicCell { domain, shapes, shifts, .. } = cell;
+        let shifts: Vec<Vector3<f64>> =
+            shifts.iter().map(|shift| Vector3::new(shift.x, shift.y, 0.0)).collect();
+        let poses = shifted(&shifts);
+        let case = Arc::clone(&self.case);
+        let scene = Self::new(case, &mesh, domain, shapes, &poses)?;
+        Ok(Meshed { mesh, scene: Box::new(scene), poses, shifts })
+    }
+
+    fn images(&self, [old, new]: [&Mesh<2>; 2]) -> Vec<Point<2>> {
+        self.domain.images_around(old.nodes.iter().chain(&new.nodes).copied())
+    }
+
+    fn domain_start(&self) -> Point<2> {
+        start_of(&self.domain)
+    }
+}

@@ -1,0 +1,56 @@
+//! The first mesh of a planar or axisymmetric case, and what moves it.
+
+use std::sync::Arc;
+
+use alewife_mesh::{Mesh, Point};
+use nalgebra::Vector3;
+
+use super::case::{MeshedCell, PlanarCase};
+use super::resume::moving_mesh_of;
+use super::scene::PlanarScene;
+use crate::case::{Case, Model};
+use crate::coupling::Problem;
+use crate::motion::MovingMesh;
+use crate::motion::RemeshError;
+use crate::run::RunError;
+use crate::run::case_mesh::{CaseMesh, Dimension, InitialMesh, MakeMovingMesh};
+use crate::run::resume::Reference;
+
+impl CaseMesh<2> for Dimension<2> {
+    fn generate(model: &Model) -> Result<InitialMesh<2>, RunError> {
+        Ok(initial(MeshedCell::generate(model)?))
+    }
+
+    fn adopt(model: &Model, mesh: Mesh<2>) -> Result<InitialMesh<2>, RunError> {
+        Ok(initial(MeshedCell::of(model, mesh)?))
+    }
+
+    fn images(case: &Case, mesh: &Mesh<2>) -> Vec<Point<2>> {
+        case.mesh_domain().images_around(mesh.nodes.iter().copied())
+    }
+
+    fn moving_mesh_of(
+        model: &Model,
+        problem: &Problem<2>,
+        reference: &Reference<'_, 2>,
+    ) -> Result<MovingMesh<2>, RunError> {
+        moving_mesh_of(model, problem, reference)
+    }
+}
+
+/// A mesh with what moves it.
+fn initial(meshed: MeshedCell) -> InitialMesh<2> {
+    let MeshedCell { mesh, cell } = meshed;
+    let shifts = cell.shifts.iter().map(|shift| Vector3::new(shift.x, shift.y, 0.0)).collect();
+    let make: MakeMovingMesh<2> = Box::new(move |model, problem, mesh, poses| {
+        let planar = Arc::new(PlanarCase::new(model, problem)?);
+        let (domain, shapes) = (cell.domain, cell.shapes);
+        let moving = || -> Result<_, RemeshError> {
+            let scene = PlanarScene::new(Arc::clone(&planar), mesh, domain, shapes, &poses)?;
+            let settings = planar.motion.clone();
+            Ok(MovingMesh::new(mesh, Box::new(scene), settings, poses, 0.0)?)
+        };
+        moving().map_err(RunError::from_remesh)
+    });
+    InitialMesh { mesh, shifts, make_moving: make }
+}

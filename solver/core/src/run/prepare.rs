@@ -1,0 +1,126 @@
+//! From a case to a simulation at rest, or as it was saved.
+
+use alewife_mesh::Mesh;
+
+use super::RunError;
+use super::build::{build_problem, contact_law};
+use super::case_mesh::{CaseMesh, Dimension, InitialMesh};
+use super::control::StepControl;
+use super::measure::Measure;
+use super::resume::SavedState;
+use super::simulation::Simulation;
+use super::start::{check_memory, step_scheme};
+use crate::case::Model;
+use crate::coupling::{FluidSystem, Problem, ShapeError};
+use crate::state::State;
+use crate::step::Workspace;
+use crate::timing::{Stage, Timing};
+
+/// A simulation with its measurements.
+pub(super) struct Prepared<const D: usize> {
+    /// At rest, or as it was saved.
+    pub simulation: Simulation<D>,
+    /// What is measured of it.
+    pub measure: Measure<D>,
+}
+
+/// Builds the simulation of a case with its measurements, as it was saved if there is such a state.
+pub(super) fn prepare<const D: usize>(
+    model: &Model,
+    saved: Option<&SavedState<D>>,
+) -> Result<Prepared<D>, RunError>
+where
+    Dimension<D>: CaseMesh<D>,
+{
+    let mut timing = Timing::default();
+    let initial = timing.measure(Stage::Mesh, || Dimension::<D>::generate(model))?;
+    let mesh = &initial.mesh;
+    tracing::info!(cells = mesh.n_cells(), nodes = mesh.n_nodes(), "mesh generated");
+    check_memory(mesh)?;
+    let images = |mesh: &Mesh<D>| Dimension::<D>::images(&model.case, mesh);
+    let mut measure = Measure::new(model, mesh, &images(mesh))?;
+    let mut simulation = at_rest(model, initial, timing)?;
+    log_recoils(&simulation.problem)?;
+    if let Some(saved) = saved {
+        saved.restore_into(&model.case, &mut simulation, |problem, reference| {
+            Dimension::<D>::moving_mesh_of(model, problem, reference)
+        })?;
+        if simulation.moving_mesh.is_none() {
+            let mesh = simulation.state.mesh_in_frame();
+            measure.find_probes(&model.case, &mesh, &images(&mesh));
+        }
+    }
+    Ok(Prepared { simulation, measure })
+}
+
+/// A simulation of a case at rest, on a mesh of it from elsewhere.
+///
+/// # Errors
+/// When the case makes no problem on this mesh.
+pub fn simulation_on<const D: usize>(
+    model: &Model,
+    mesh: Mesh<D>,
+) -> Result<Simulation<D>, RunError>
+where
+    Dimension<D>: CaseMesh<D>,
+{
+    at_rest(model, Dimension::<D>::adopt(model, mesh)?, Timing::default())
+}
+
+/// Tells what is subtracted from the gaits of the bodies that deform.
+fn log_recoils<const D: usize>(problem: &Problem<D>) -> Result<(), RunError> {
+    for body in &problem.bodies {
+        let Some(shape) = &body.shape else { continue };
+        let motion =
+            shape.recoil().map_err(|reason| ShapeError { body: body.name.clone(), reason })?;
+        tracing::info!(
+            body = body.name,
+            translation = motion.translation,
+            largest_speed = motion.largest_speed,
+            rms_speed = motion.rms_speed,
+            rotation = motion.rotation,
+            largest_angular_velocity = motion.largest_angular_velocity,
+            rms_angular_velocity = motion.rms_angular_velocity,
+            turn = motion.turn,
+            duration = motion.duration,
+            "recoil subtracted from the gait"
+        );
+    }
+    Ok(())
+}
+
+fn at_rest<const D: usize>(
+    model: &Model,
+    initial: InitialMesh<D>,
+    mut timing: Timing,
+) -> Result<Simulation<D>, RunError> {
+    let case = &model.case;
+    let InitialMesh { mesh, shifts, make_moving } = initial;
+    let problem = build_problem(model, &mesh)?;
+    let scheme = step_scheme(case, &problem);
+    let state = State::at_rest(&problem, mesh).with_image_shifts(shifts);
+    let poses = state.in_mesh(&state.poses);
+    let system = timing.measure(Stage::Assembly, || {
+        FluidSystem::new(&problem, &state.mesh, &poses, scheme.unknown_frame)
+    });
+    tracing::info!(unknowns = system.n_unknowns, entries = system.n_entries(), "system built");
+    let moving_mesh = model.mesh_moves().then(|| {
+        timing.measure(Stage::MeshMotion, || make_moving(model, &problem, &state.mesh, poses))
+    });
+    let moving_mesh = moving_mesh.transpose()?;
+    let law = case.contact.as_ref().map(contact_law).transpose()?;
+    let work = Workspace { system, mesh: state.mesh.clone(), timing };
+    let mut simulation = Simulation {
+        problem,
+        state,
+        control: StepControl::default(),
+        work,
+        moving_mesh,
+        law,
+        scheme,
+        is_fresh: true,
+        stop: None,
+    };
+    simulation.settle_moving_walls()?;
+    Ok(simulation)
+}

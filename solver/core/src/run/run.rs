@@ -1,0 +1,341 @@
+//! The run: build, solve or step in time, measure, notify the observers.
+
+use std::sync::Arc;
+
+use super::case_mesh::{CaseMesh, Dimension};
+use super::cycle_error::OtherSteps;
+use super::measure::Measure;
+use super::pace::Pace;
+use super::prepare::{Prepared, prepare};
+use super::resume::SavedState;
+use super::simulation::{CellCrossing, Simulation};
+use super::snapshot::{LastState, Observer, Snapshot};
+use super::{RunError, Series};
+use crate::case::{Case, Initial, Model, Steady, TimeSettings, Unsteady};
+use crate::coupling::{BodiesAt, BodyShapes, RigidBodyEquations, SurfaceLoads};
+use crate::state::InitialLevels;
+use crate::step::{FlowError, SteadyFlow, SteadyTask, StopRequest, solve_steady};
+use crate::timing::{Stage, Timing};
+
+/// What a finished run leaves in memory.
+#[derive(Debug, Clone)]
+pub struct RunSummary {
+    /// All quantities at all steps.
+    pub series: Series,
+    /// Time spent.
+    pub timing: Timing,
+    /// Free unknowns of the linear system.
+    pub n_dofs: usize,
+    /// Steps made.
+    pub steps: usize,
+}
+
+/// Runs a case to its end, from a saved state if there is one.
+///
+/// # Errors
+/// Whatever stops the run; observers are notified before it is returned.
+pub(super) fn run_case<const D: usize>(
+    model: &Model,
+    saved: Option<&SavedState<D>>,
+    observers: &mut [Box<dyn Observer<D>>],
+) -> Result<RunSummary, RunError>
+where
+    Dimension<D>: CaseMesh<D>,
+{
+    let Prepared { mut simulation, measure } = match prepare(model, saved) {
+        Ok(prepared) => prepared,
+        Err(error) => {
+            notify_all(observers, &error, None);
+            return Err(error);
+        }
+    };
+    let mut series = Series { names: measure.names().to_vec(), ..Series::default() };
+    if let Some(saved) = saved {
+        let earlier = saved.series();
+        if earlier.names == series.names {
+            series = earlier;
+        } else {
+            tracing::warn!("other quantities than before: statistics begin where the run resumes");
+        }
+    }
+    let requests: Vec<StopRequest> =
+        observers.iter().filter_map(|observer| observer.stop_request()).collect();
+    simulation.stop = Some(Arc::new(move || requests.iter().any(|request| request())));
+    let case = &model.case;
+    let mut run = Run {
+        case,
+        observers,
+        series,
+        simulation,
+        measure,
+        warned: Warned::default(),
+        pace: Pace::default(),
+        other_steps: None,
+        is_trial: false,
+        rejections: 0,
+    };
+    if saved.is_none() {
+        run.try_other_steps(model);
+    }
+    let result = run.make(saved.is_some());
+    if let Err(error) = &result {
+        run.notify_of_failure(error);
+    }
+    let steps = result?;
+    let timing = *run.simulation.timing();
+    if let Err(error) = run.observers.iter_mut().try_for_each(|observer| observer.on_end(&timing)) {
+        let error = RunError::from(error);
+        run.notify_of_failure(&error);
+        return Err(error);
+    }
+    let Simulation { work, .. } = run.simulation;
+    let n_dofs = work.system.n_unknowns;
+    Ok(RunSummary { series: run.series, timing: work.timing, n_dofs, steps })
+}
+
+/// A run under way.
+pub(super) struct Run<'a, const D: usize> {
+    case: &'a Case,
+    observers: &'a mut [Box<dyn Observer<D>>],
+    series: Series,
+    pub simulation: Simulation<D>,
+    measure: Measure<D>,
+    /// How fast its flow is.
+    pub pace: Pace,
+    /// What it has warned of.
+    pub warned: Warned,
+    /// What the error of the first cycle is told by, until it is.
+    pub other_steps: Option<OtherSteps>,
+    /// Whether nothing is measured or shown.
+    pub is_trial: bool,
+    /// Fixed steps that were halved.
+    pub rejections: usize,
+}
+
+/// How near bodies have come without contact.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Nearness {
+    /// Largest minimum gap so far (m).
+    pub largest_gap: f64,
+    /// Number of meshes when they came near, while they are.
+    pub since_mesh: Option<usize>,
+    /// Whether contact was proposed.
+    pub is_told: bool,
+}
+
+/// What a run has warned of; each is told once.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Warned {
+    /// Steps too long for extrapolated convection.
+    pub of_cfl: bool,
+    /// A gap far below the range of contact.
+    pub of_gap: bool,
+    /// Bodies that stay near each other without contact.
+    pub nearness: Nearness,
+    /// Bodies that leave through an open side.
+    pub left: Vec<usize>,
+}
+
+impl Warned {
+    /// Whether it was told that a body leaves.
+    pub fn has_left(&self, body: usize) -> bool {
+        self.left.contains(&body)
+    }
+}
+
+/// What is reported of a step besides loads.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct StepSummary {
+    /// Linear systems solved.
+    pub iterations: usize,
+    /// Size of the step (s).
+    pub time_step: f64,
+    /// Whether the run ends with it.
+    pub is_last: bool,
+    /// How fast the fluid crosses the cells, where that is known already.
+    pub crossing: Option<CellCrossing>,
+}
+
+impl<const D: usize> Run<'_, D> {
+    /// Makes the run; the number of its steps.
+    fn make(&mut self, is_resumed: bool) -> Result<usize, RunError> {
+        let case = self.case;
+        match &case.time {
+            TimeSettings::Steady(settings) => self.steady(settings),
+            TimeSettings::Unsteady(settings) => {
+                if !is_resumed {
+                    self.begin(settings)?;
+                }
+                match &settings.adaptive {
+                    None => self.fixed_steps(settings),
+                    Some(adaptive) => self.adaptive_steps(settings, adaptive),
+                }
+            }
+        }
+    }
+
+    /// Tells the observers why the run ends, with what can be saved of it.
+    fn notify_of_failure(&mut self, error: &RunError) {
+        let Simulation { state, .. } = &self.simulation;
+        let saved = match self.case.time {
+            TimeSettings::Steady(_) => None,
+            // Before the flow at the start is known there is nothing to resume from
+            TimeSettings::Unsteady(_) if self.series.times.is_empty() => None,
+            // No step leads on from a flow that is wrong
+            TimeSettings::Unsteady(_) if matches!(error, RunError::BlownUp { .. }) => None,
+            TimeSettings::Unsteady(_) => {
+                let saved = SavedState::of(self.case, &self.simulation, &self.series);
+                saved.inspect_err(|error| tracing::error!(%error, "no state is left")).ok()
+            }
+        };
+        let last = LastState {
+            saved: saved.as_ref(),
+            time: state.time,
+            mesh: &state.mesh,
+            velocity: &state.now.velocity,
+            pressure: &state.now.pressure,
+        };
+        notify_all(self.observers, error, Some(&last));
+    }
+}
+
+/// Tells all observers why a run ends; where one cannot write of it, the first error stays the one
+/// that is returned.
+fn notify_all<const D: usize>(
+    observers: &mut [Box<dyn Observer<D>>],
+    error: &RunError,
+    last: Option<&LastState<'_, D>>,
+) {
+    for observer in observers.iter_mut() {
+        if let Err(error) = observer.on_failure(error, last) {
+            tracing::error!(%error, "while the run was ended");
+        }
+    }
+}
+
+impl<const D: usize> Run<'_, D> {
+    /// Solves for the flow at time zero without a time derivative.
+    fn solve_at_start(
+        &mut self,
+        settings: &Steady,
+        equations: &RigidBodyEquations,
+        has_convection: bool,
+    ) -> Result<SteadyFlow<D>, RunError> {
+        let Simulation { problem, state, work, stop, .. } = &mut self.simulation;
+        let (poses, shapes) = (state.in_mesh(&state.poses), BodyShapes::at(&problem.bodies, 0.0)?);
+        let bodies = BodiesAt { poses: &poses, shapes: &shapes };
+        let stop = stop.as_ref();
+        let task = SteadyTask { bodies, equations, settings, has_convection, stop };
+        solve_steady(work, problem, &task).map_err(|failure| {
+            state.begin(InitialLevels::steady(failure.last));
+            RunError::from(*failure.error)
+        })
+    }
+
+    /// Newton's and Euler's equations of bodies without acceleration at time zero.
+    fn steady_equations(&self) -> RigidBodyEquations {
+        let Simulation { problem, state, .. } = &self.simulation;
+        RigidBodyEquations::steady(problem, &state.poses, 0.0)
+    }
+
+    fn steady(&mut self, settings: &Steady) -> Result<usize, RunError> {
+        let has_convection = self.simulation.problem.has_convection;
+        let flow = self.solve_at_start(settings, &self.steady_equations(), has_convection)?;
+        self.simulation.state.begin(InitialLevels::steady(flow.solution));
+        let loads = self.simulation.loads(&flow.residual);
+        let iterations = flow.iterations;
+        let summary = StepSummary { iterations, is_last: true, ..StepSummary::default() };
+        self.report(&loads, summary)?;
+        Ok(0)
+    }
+
+    /// The flow an unsteady run starts from.
+    pub(super) fn begin(&mut self, settings: &Unsteady) -> Result<(), RunError> {
+        let n_bodies = self.simulation.problem.bodies.len();
+        let mut loads = SurfaceLoads::none(n_bodies);
+        let has_inertia = self.simulation.problem.has_inertia;
+        // Without inertia the flow has no memory, and is that of the bodies' poses at any time
+        if settings.initial == Initial::Stokes || !has_inertia {
+            // Where bodies have inertia their loads have not moved them yet
+            let equations = if has_inertia {
+                RigidBodyEquations::without_loads(n_bodies)
+            } else {
+                self.steady_equations()
+            };
+            let settings = Steady { tolerance: 1e-10, max_iterations: 5 };
+            let flow = self.solve_at_start(&settings, &equations, false)?;
+            self.simulation.state.begin(InitialLevels::steady(flow.solution));
+            loads = self.simulation.loads(&flow.residual);
+        }
+        self.report(&loads, StepSummary::default())
+    }
+
+    /// Ends the run where an observer asks for it.
+    pub(super) fn check_signals(&self, is_last: bool) -> Result<(), RunError> {
+        let Simulation { state, stop, .. } = &self.simulation;
+        if !is_last && stop.as_ref().is_some_and(|stop| stop()) {
+            return Err(FlowError::Stopped { step: state.step, time: state.time }.into());
+        }
+        Ok(())
+    }
+
+    /// Measures the present state and shows it to the observers.
+    pub(super) fn report(
+        &mut self,
+        loads: &SurfaceLoads,
+        summary: StepSummary,
+    ) -> Result<(), RunError> {
+        self.simulation.record_propulsion(&loads.bodies);
+        self.simulation.work.system.mark_solver();
+        if self.is_trial {
+            return Ok(());
+        }
+        if let Some(other) = self.other_steps.take_if(|own| own.is_due(&self.simulation)) {
+            other.compare(&self.simulation);
+        }
+        let Self { case, observers, series, simulation, measure, .. } = self;
+        let measured = measure.measure(case, simulation, loads, summary.crossing)?;
+        let Simulation { state, work, .. } = simulation;
+        series.times.push(state.time);
+        let timing = work.timing;
+        let snapshot = Snapshot {
+            case,
+            step: state.step,
+            time: state.time,
+            time_step: summary.time_step,
+            mesh: &state.mesh,
+            velocity: &state.now.velocity,
+            pressure: &state.now.pressure,
+            bodies: &measured.bodies,
+            names: measure.names(),
+            values: &measured.values,
+            n_dofs: work.system.n_unknowns,
+            iterations: summary.iterations,
+            timing: &timing,
+            is_last: summary.is_last,
+        };
+        work.timing.measure(Stage::Output, || {
+            observers.iter_mut().try_for_each(|observer| observer.on_step(&snapshot))
+        })?;
+        // Each is asked
+        let wanted =
+            observers.iter_mut().filter_map(|one| one.wants_state(&snapshot).then_some(()));
+        let is_wanted = wanted.count() > 0;
+        series.rows.push(measured.values);
+        self.check_soundness(&measured.flow)?;
+        self.propose_contact();
+        if is_wanted { self.show_state() } else { Ok(()) }
+    }
+
+    /// Gives the observers the whole state.
+    fn show_state(&mut self) -> Result<(), RunError> {
+        let Self { case, observers, series, simulation, .. } = self;
+        let mut timing = simulation.work.timing;
+        let shown = timing.measure(Stage::Output, || -> Result<(), RunError> {
+            let state = Arc::new(SavedState::of(case, simulation, series)?);
+            Ok(observers.iter_mut().try_for_each(|observer| observer.on_state(&state))?)
+        });
+        simulation.work.timing = timing;
+        shown
+    }
+}

@@ -1,0 +1,252 @@
+//! `Simulation`: problem, state and workspace; a step of a given size, on a new mesh where needed.
+
+use alewife_mesh::{CellId, NodeId};
+use rayon::prelude::*;
+
+use super::control::StepControl;
+use super::error::RunError;
+use crate::case::{Convection, Scheme};
+use crate::contact::{ContactError, Law};
+use crate::coupling::{BodyLoads, BodyShapes, FluidSystem, Problem, SurfaceLoads};
+use crate::motion::{MovingMesh, replace_mesh};
+use crate::state::State;
+use crate::step::{
+    FlowError, MeshPath, StepError, StepReport, StepResult, StopRequest, TimeStepper, Workspace,
+};
+use crate::time::Bdf;
+use crate::timing::{Stage, Timing};
+
+/// Error over the tolerance above which a step is rejected.
+const REJECTED: f64 = 2.0;
+
+/// What is solved, where it is, and what it is solved with.
+pub struct Simulation<const D: usize> {
+    /// What never changes during a run.
+    pub problem: Problem<D>,
+    /// What evolves.
+    pub state: State<D>,
+    /// What is still to be made of the present step, and the size of the next.
+    pub control: StepControl,
+    /// What steps work with.
+    pub work: Workspace<D>,
+    /// Moves the mesh, where bodies move in it.
+    pub moving_mesh: Option<MovingMesh<D>>,
+    /// The law of contact, if any.
+    pub law: Option<Law>,
+    /// How steps are made.
+    pub scheme: StepScheme,
+    /// Whether no step has been made on this mesh.
+    pub is_fresh: bool,
+    /// What to ask whether the run is to end.
+    pub stop: Option<StopRequest>,
+}
+
+/// How steps are made.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StepScheme {
+    /// The method in time.
+    pub method: Scheme,
+    /// How convection is taken.
+    pub convection: Convection,
+    /// Whether the frame's velocity is an unknown of the convection.
+    pub unknown_frame: bool,
+}
+
+/// How fast the fluid crosses the cells, seen from the mesh.
+#[derive(Debug, Clone, Copy)]
+pub struct CellCrossing {
+    /// Largest velocity over the shortest edge of a cell (1/s).
+    pub rate: f64,
+    /// Largest velocity times the longest edge of a cell (m2/s).
+    pub reach: f64,
+}
+
+/// What came of an attempt to make a step.
+pub enum Attempt {
+    /// The state has moved on.
+    Made(StepReport),
+    /// The state is where it was; a shorter step may help.
+    Rejected(StepError),
+}
+
+impl<const D: usize> Simulation<D> {
+    /// Time spent so far.
+    #[must_use]
+    pub fn timing(&self) -> &Timing {
+        &self.work.timing
+    }
+
+    /// Tries a step of a size (s) whose error is within a tolerance, if need be on a new mesh.
+    ///
+    /// # Errors
+    /// What no shorter step would help against.
+    pub fn try_step(&mut self, size: f64, tolerance: f64) -> Result<Attempt, RunError> {
+        // Not after the step before: what was measured belongs to its mesh
+        if !self.is_fresh {
+            self.remesh_where_needed()?;
+        }
+        loop {
+            let (step, time) = (self.state.step + 1, self.state.time + size);
+            match self.attempt(size, tolerance) {
+                Ok(report) => return Ok(Attempt::Made(report)),
+                Err(StepError::Flow(error))
+                    if !matches!(error, FlowError::NewtonStalled { .. }) =>
+                {
+                    return Err(error.into());
+                }
+                Err(StepError::Contact(reason @ ContactError::TooWeak { .. })) => {
+                    return Err(RunError::Contact { step, time, reason: Box::new(reason) });
+                }
+                Err(error @ StepError::DegenerateCell { .. }) if !self.is_fresh => {
+                    self.remesh(&error.to_string())?;
+                }
+                Err(error) => {
+                    tracing::info!(step, time, size, %error, "step rejected");
+                    return Ok(Attempt::Rejected(error));
+                }
+            }
+        }
+    }
+
+    /// Makes a step of a size (s) on the present mesh, or leaves the state where it is.
+    ///
+    /// # Errors
+    /// Why no step was made.
+    pub fn step_on_this_mesh(&mut self, size: f64) -> Result<StepReport, StepError> {
+        self.attempt(size, f64::INFINITY)
+    }
+
+    /// Makes a step, or leaves the state where it is.
+    fn attempt(&mut self, size: f64, tolerance: f64) -> Result<StepReport, StepError> {
+        let Self { problem, state, work, moving_mesh, law, scheme, stop, .. } = self;
+        let stepper = TimeStepper {
+            problem,
+            convection: scheme.convection,
+            path: moving_mesh.as_ref().map_or(MeshPath::Fixed, MeshPath::FollowsBodies),
+            contact: law.as_ref(),
+            stop: stop.as_ref(),
+        };
+        let StepResult { level, report } = match scheme.method {
+            Scheme::Rk3 => {
+                // The first flow of a run knows nothing of contact
+                let is_known = state.time == 0.0 && law.is_none();
+                let rates_jump = state.last_step == 0.0 && !is_known;
+                stepper.advance_explicitly(work, state, size, rates_jump)?
+            }
+            Scheme::Bdf2 if state.last_step > 0.0 => {
+                stepper.advance(work, state, Bdf::second_order(size, state.last_step))?
+            }
+            Scheme::Bdf2 | Scheme::Bdf1 => stepper.advance(work, state, Bdf::first_order(size))?,
+        };
+        let StepReport { error, .. } = report;
+        if error > REJECTED * tolerance {
+            return Err(StepError::LocalErrorTooLarge { error, tolerance });
+        }
+        state.accept(problem, level);
+        // As a run has it that resumes from this state
+        work.system.fit_to_poses(problem, &work.mesh, &state.in_mesh(&state.poses));
+        work.system.mark_solver();
+        self.is_fresh = false;
+        Ok(report)
+    }
+
+    fn remesh_where_needed(&mut self) -> Result<(), RunError> {
+        let Self { problem, state, work, moving_mesh: Some(moving), .. } = self else {
+            return Ok(());
+        };
+        let shapes = BodyShapes::at(&problem.bodies, state.time)?;
+        let reason =
+            work.timing.measure(Stage::MeshMotion, || moving.remesh_reason(state, &shapes));
+        match reason {
+            None => Ok(()),
+            Some(reason) => self.remesh(&reason),
+        }
+    }
+
+    fn remesh(&mut self, reason: &str) -> Result<(), RunError> {
+        let Self { problem, state, work, moving_mesh: Some(moving), scheme, .. } = self else {
+            return Ok(());
+        };
+        let (step, time) = (state.step, state.time);
+        *moving = work
+            .timing
+            .measure(Stage::Mesh, || replace_mesh(problem, state, moving))
+            .map_err(|reason| RunError::Remesh { step, time, reason: Box::new(reason) })?;
+        tracing::info!(step, time, cells = state.mesh.n_cells(), reason, "remeshed");
+        let poses = state.in_mesh(&state.poses);
+        work.mesh = state.mesh.clone();
+        work.system = work.timing.measure(Stage::Assembly, || {
+            FluidSystem::new(problem, &state.mesh, &poses, scheme.unknown_frame)
+        });
+        self.is_fresh = true;
+        Ok(())
+    }
+
+    /// Whether rates of gaits jump within `near` (s) of the present.
+    #[must_use]
+    pub fn is_at_discontinuity(&self, near: f64) -> bool {
+        let time = self.state.time;
+        let times = self.problem.rate_discontinuities.as_ref();
+        times.is_some_and(|times| !times(time - near, time + near).is_empty())
+    }
+
+    /// Loads of the fluid by the raw residual at the present solution.
+    #[must_use]
+    pub fn loads(&self, residual: &[f64]) -> SurfaceLoads {
+        let Self { problem, state, work, .. } = self;
+        let poses = state.in_mesh(&state.poses);
+        work.system.surface_loads(problem, &state.mesh, &poses, &state.now, residual)
+    }
+
+    /// How fast the fluid crosses the cells.
+    #[must_use]
+    pub fn cell_crossing(&self) -> CellCrossing {
+        let state = &self.state;
+        let frame = state.origin_at(&self.problem, &state.poses)
+            - state.origin_at(&self.problem, &state.previous_poses);
+        let frame = crate::body::on_mesh::<D>(&frame);
+        let of_cell = |cell: usize| {
+            let cell = CellId::new(cell);
+            let length = |edge: alewife_mesh::Edge<'_>| {
+                let [from, to] = edge.ends;
+                (state.nodes[to] - state.nodes[from]).norm()
+            };
+            let (mut shortest, mut longest) = (f64::INFINITY, 0.0f64);
+            for length in state.mesh.cell_edges(cell).map(length) {
+                (shortest, longest) = (shortest.min(length), longest.max(length));
+            }
+            let passing = |&node: &NodeId| {
+                let mut passing = state.now.velocity[node];
+                if state.last_step > 0.0 {
+                    let way = state.nodes[node] - state.nodes_before[node] + frame;
+                    passing -= way / state.last_step;
+                }
+                passing.norm()
+            };
+            let fastest = state.mesh.cell(cell).iter().map(passing).fold(0.0, f64::max);
+            CellCrossing { rate: fastest / shortest, reach: fastest * longest }
+        };
+        let least = CellCrossing { rate: f64::MIN_POSITIVE, reach: 0.0 };
+        let larger = |one: CellCrossing, other: CellCrossing| CellCrossing {
+            rate: one.rate.max(other.rate),
+            reach: one.reach.max(other.reach),
+        };
+        let cells = (0..state.mesh.n_cells()).into_par_iter().with_min_len(1024);
+        cells.map(of_cell).reduce(|| least, larger)
+    }
+
+    /// Records where swimmers are, and at the start what they do.
+    pub fn record_propulsion(&mut self, loads: &[BodyLoads]) {
+        let Self { problem, state, work, .. } = self;
+        if problem.groups.is_empty() {
+            return;
+        }
+        if state.last_step == 0.0 {
+            let stress = work.system.surface_stress(problem, &state.mesh, &state.now);
+            let twists = &state.now.twists;
+            let powers = state.propulsion_powers(problem, &state.poses, twists, loads, &stress);
+            state.start_propulsion(&powers);
+        }
+        state.record_cycles(problem);
+    }
+}

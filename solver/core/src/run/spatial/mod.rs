@@ -1,0 +1,82 @@
+//! What is spatial by nature in a run: solids, their domain, meshes of tetrahedra.
+
+mod case;
+mod scene;
+
+use std::sync::Arc;
+
+use alewife_mesh::spatial::{estimate_cells, generate};
+use alewife_mesh::{Mesh, Point};
+use nalgebra::Vector3;
+
+use self::case::{SpatialCase, move_into, no_domain, solids};
+use self::scene::SpatialScene;
+use super::RunError;
+use super::build::sizing;
+use super::case_mesh::{CaseMesh, Dimension, InitialMesh, MakeMovingMesh};
+use super::resume::{Reference, ResumeError};
+use super::start::check_cells;
+use crate::body::Pose;
+use crate::case::{Case, Model};
+use crate::coupling::{BodyShapes, Problem};
+use crate::motion::MovingMesh;
+use crate::motion::RemeshError;
+
+impl CaseMesh<3> for Dimension<3> {
+    fn generate(model: &Model) -> Result<InitialMesh<3>, RunError> {
+        let case = &model.case;
+        let (mut solids, sizing) = (solids(model)?, sizing(case));
+        let domain = case.domain_in_space().ok_or_else(no_domain)?;
+        let shifts = move_into(&domain, &mut solids);
+        check_cells::<3>(|limit| estimate_cells(&domain, &solids, &sizing, limit))?;
+        let mesh = generate(&domain, &solids, &sizing)?;
+        Ok(initial(mesh, shifts))
+    }
+
+    fn adopt(model: &Model, mesh: Mesh<3>) -> Result<InitialMesh<3>, RunError> {
+        let domain = model.case.domain_in_space().ok_or_else(no_domain)?;
+        let shifts = move_into(&domain, &mut solids(model)?);
+        Ok(initial(mesh, shifts))
+    }
+
+    fn images(case: &Case, mesh: &Mesh<3>) -> Vec<Point<3>> {
+        let domain = case.domain_in_space();
+        domain.map_or(vec![Point::<3>::zeros()], |domain| domain.images_around(&mesh.nodes))
+    }
+
+    fn moving_mesh_of(
+        model: &Model,
+        problem: &Problem<3>,
+        reference: &Reference<'_, 3>,
+    ) -> Result<MovingMesh<3>, RunError> {
+        let Reference { saved, mesh } = reference;
+        let moving = moving(model, problem, mesh, saved.poses.clone(), saved.time)?;
+        Ok(moving.map_err(ResumeError::from)?)
+    }
+}
+
+/// A mesh with what moves it, its bodies moved by whole periods (m).
+fn initial(mesh: Mesh<3>, shifts: Vec<Vector3<f64>>) -> InitialMesh<3> {
+    let make: MakeMovingMesh<3> = Box::new(|model, problem, mesh, poses| {
+        moving(model, problem, mesh, poses, 0.0)?.map_err(RunError::from_remesh)
+    });
+    InitialMesh { mesh, shifts, make_moving: make }
+}
+
+/// What moves a mesh that was generated at a time (s) with the bodies at poses.
+fn moving(
+    model: &Model,
+    problem: &Problem<3>,
+    mesh: &Mesh<3>,
+    poses: Vec<Pose>,
+    time: f64,
+) -> Result<Result<MovingMesh<3>, RemeshError>, RunError> {
+    let case = Arc::new(SpatialCase::new(model, problem)?);
+    let shapes = BodyShapes::at(&problem.bodies, time)?;
+    let moving = || {
+        let settings = case.motion.clone();
+        let scene = SpatialScene::new(Arc::clone(&case), mesh, &poses, &shapes)?;
+        Ok(MovingMesh::new(mesh, Box::new(scene), settings, poses, time)?)
+    };
+    Ok(moving())
+}

@@ -1,0 +1,114 @@
+//! What a simulation starts with: its scheme, its mesh, and the memory it needs.
+
+use alewife_mesh::{Mesh, MeshError};
+
+use super::RunError;
+use super::simulation::{Simulation, StepScheme};
+use crate::case::{Case, Convection, Scheme, TimeSettings};
+use crate::coupling::{BodyShapes, Problem, memory_estimate};
+
+impl<const D: usize> Simulation<D> {
+    /// Meshed with straight sides, a sheet has its shape from the beginning.
+    pub(super) fn settle_moving_walls(&mut self) -> Result<(), RunError> {
+        let Self { problem, state, work, moving_mesh, .. } = self;
+        let Some(moving) = moving_mesh else { return Ok(()) };
+        let mut settled = None;
+        if moving.scene().has_moving_wall() {
+            let shapes = BodyShapes::at(&problem.bodies, 0.0)?;
+            let nodes = moving.nodes(&state.poses, &shapes)?;
+            work.mesh.nodes.clone_from(&nodes);
+            work.system.move_to(problem, &work.mesh);
+            settled = Some(nodes);
+        }
+        let minimum_gap = moving.gaps().minimum_gap(&state.poses);
+        state.settle(settled, minimum_gap);
+        Ok(())
+    }
+}
+
+/// How the steps of a case are made.
+pub(super) fn step_scheme<const D: usize>(case: &Case, problem: &Problem<D>) -> StepScheme {
+    let (method, convection, is_linear) = match &case.time {
+        TimeSettings::Steady(_) => (Scheme::default(), Convection::Newton, false),
+        TimeSettings::Unsteady(settings) => {
+            let convection = settings.convection;
+            (settings.scheme, convection, convection == Convection::Extrapolated)
+        }
+    };
+    // A frame whose velocity is itself sought enters the convection of every cell
+    let unknown_frame = problem.frame.is_some() && problem.has_convection && !is_linear;
+    StepScheme { method, convection, unknown_frame }
+}
+
+const GIGABYTE: f64 = 1e9;
+
+/// Unknowns over cells of a large mesh, planar or spatial: velocities at vertices and edges, pressures
+/// at vertices.
+pub const DOFS_OF_CELL: f64 = 4.5;
+
+/// Part by which an estimate of cells may be too high.
+const UNCERTAIN: f64 = 1.4;
+
+/// Refuses a mesh whose system would not fit into the memory that is free, where the system tells.
+pub(super) fn check_memory<const D: usize>(mesh: &Mesh<D>) -> Result<(), RunError> {
+    let n_dofs = D * mesh.n_nodes() + mesh.n_vertices;
+    let needed = memory_estimate(D, n_dofs as f64) / GIGABYTE;
+    match free_memory() {
+        Some(available) if needed > available => {
+            Err(RunError::TooLarge { n_dofs, needed, available })
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Refuses a mesh before it is made, by an estimate of its cells, which gets the number from which on
+/// they need not be counted.
+pub(super) fn check_cells<const D: usize>(
+    estimate: impl FnOnce(f64) -> Result<f64, MeshError>,
+) -> Result<(), RunError> {
+    let Some(available) = free_memory() else { return Ok(()) };
+    let memory = |n_cells: f64| memory_estimate(D, DOFS_OF_CELL * n_cells) / GIGABYTE;
+    // In proportion to what a million cells need
+    let fitting = UNCERTAIN * 1e6 * available / memory(1e6);
+    let limit = 10.0 * fitting;
+    let n_cells = estimate(limit)?;
+    if n_cells <= fitting {
+        return Ok(());
+    }
+    let n_cells = n_cells.min(limit);
+    let coarser = (n_cells / fitting).powf(1.0 / D as f64);
+    Err(RunError::TooManyCells { n_cells, needed: memory(n_cells), available, coarser })
+}
+
+/// Memory that is free (GB), where the system tells.
+fn free_memory() -> Option<f64> {
+    let report = std::fs::read_to_string("/proc/meminfo").ok()?;
+    let line = report.lines().find_map(|line| line.strip_prefix("MemAvailable:"))?;
+    let kilobytes = line.trim().trim_end_matches(" kB").parse::<f64>().ok()?;
+    Some(kilobytes * 1024.0 / GIGABYTE)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn more_cells_than_fit_are_refused_with_what_would_fit() {
+        assert!(check_cells::<2>(|_| Ok(1e3)).is_ok());
+        if free_memory().is_none() {
+            return;
+        }
+        let infinite = |_| Ok(f64::INFINITY);
+        for (refused, power) in
+            [(check_cells::<2>(infinite), 1.0 / 2.0), (check_cells::<3>(infinite), 1.0 / 3.0)]
+        {
+            match refused {
+                Err(RunError::TooManyCells { coarser, needed, available, .. }) => {
+                    assert!((coarser - 10f64.powf(power)).abs() < 1e-9, "{coarser}");
+                    assert!(needed > available);
+                }
+                other => panic!("{other:?}"),
+            }
+        }
+    }
+}

@@ -1,0 +1,15 @@
+//! What evolves in a run: mesh, flow and bodies at two levels, and the balances over time.
+
+mod cycles;
+mod energy;
+mod momentum;
+mod propulsion_history;
+mod saved_mesh;
+mod state;
+
+pub use cycles::{CycleMeans, Cycles, Record};
+pub use energy::{EnergyBalance, EnergyRecord};
+pub use momentum::{MomentumBalance, MomentumRecord, Part};
+pub use propulsion_history::{PowerShare, PropulsionHistory, PropulsionStep};
+pub use saved_mesh::is_consistent;
+pub use state::{Evolving, InitialLevels, NewLevel, State, TransferredState, seen_from};

@@ -1,0 +1,375 @@
+//! `State`: what evolves: mesh, fields, bodies, at the present level and the one before.
+
+use std::ops::Deref;
+
+use alewife_mesh::{Mesh, Point};
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+use super::energy::{EnergyBalance, EnergyRecord};
+use super::momentum::{MomentumBalance, MomentumRecord};
+use super::propulsion_history::{PropulsionHistory, PropulsionStep};
+use super::saved_mesh;
+use crate::body::{Pose, Twist, on_mesh};
+use crate::contact::{ContactLoads, MinimumGap};
+use crate::coupling::{
+    BodyLoads, LoadedBodies, Problem, PropulsionPower, Solution, SurfaceStress, mean_motion,
+    propulsion_power,
+};
+use crate::space::DofLayout;
+
+/// Everything that evolves. It can be read everywhere; it changes here only: it moves on in [`State::accept`], and to another
+/// mesh in [`State::replace_mesh`]; [`State::restart`] lets rates jump.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct State<const D: usize>(Evolving<D>);
+
+impl<const D: usize> Deref for State<D> {
+    type Target = Evolving<D>;
+
+    fn deref(&self) -> &Evolving<D> {
+        &self.0
+    }
+}
+
+/// What a [`State`] holds.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Evolving<const D: usize> {
+    /// Number of steps made.
+    pub step: usize,
+    /// Time (s).
+    pub time: f64,
+    /// The last step (s), zero before the first and where rates jump.
+    pub last_step: f64,
+    /// Meshes generated since the first.
+    pub remeshes: usize,
+    /// The mesh at present, in the laboratory.
+    #[serde(with = "saved_mesh")]
+    pub mesh: Mesh<D>,
+    /// Where the frame of reference is at present (m).
+    pub origin: Vector3<f64>,
+    /// Positions of the nodes at present, seen from the frame (m).
+    pub nodes: Vec<Point<D>>,
+    /// Positions of the same nodes one step before, seen from the frame (m).
+    pub nodes_before: Vec<Point<D>>,
+    /// Fields and rigid velocities at present.
+    pub now: Solution<D>,
+    /// Fields and rigid velocities one step before.
+    pub previous: Solution<D>,
+    /// Poses of the bodies at present, in the laboratory.
+    pub poses: Vec<Pose>,
+    /// Poses of the bodies one step before.
+    pub previous_poses: Vec<Pose>,
+    /// What is added to the centre of a body for where it is in the mesh (m): whole periods.
+    pub image_shifts: Vec<Vector3<f64>>,
+    /// Rates of change of the velocities at the nodes (m/s2).
+    pub rates: Vec<Point<D>>,
+    /// Rates of change of the rigid velocities (m/s2, rad/s2).
+    pub accelerations: Vec<Twist>,
+    /// The largest speed so far (m/s).
+    pub top_speed: f64,
+    /// The largest speed of a boundary so far (m/s).
+    pub boundary_speed: f64,
+    /// Loads of contact, and the smallest gap.
+    pub contact: ContactLoads,
+    /// What each group of bodies does and has done.
+    pub propulsion: Vec<PropulsionHistory>,
+    /// Where the work of the bodies went so far.
+    pub energy: EnergyBalance,
+    /// Impulses and momenta so far.
+    pub momentum: MomentumBalance,
+}
+
+/// The level a step leads to.
+#[derive(Debug, Clone)]
+pub struct NewLevel<const D: usize> {
+    /// Time (s).
+    pub time: f64,
+    /// Size of the step (s).
+    pub step: f64,
+    /// Fields and rigid velocities.
+    pub solution: Solution<D>,
+    /// Poses of the bodies, in the laboratory.
+    pub poses: Vec<Pose>,
+    /// Positions of the nodes, seen from the frame (m).
+    pub nodes: Vec<Point<D>>,
+    /// Rates of change of the velocities at the nodes (m/s2); `None` leaves those before.
+    pub rates: Option<Vec<Point<D>>>,
+    /// Rates of change of the rigid velocities (m/s2, rad/s2).
+    pub accelerations: Vec<Twist>,
+    /// Loads of contact, and the smallest gap.
+    pub contact: ContactLoads,
+    /// What each group of bodies did in the step.
+    pub propulsion: Vec<PropulsionStep>,
+}
+
+/// The two levels of a flow that is known at the start.
+#[derive(Debug, Clone)]
+pub struct InitialLevels<const D: usize> {
+    /// At the start.
+    pub now: Solution<D>,
+    /// One step before.
+    pub previous: Solution<D>,
+    /// Positions of the nodes one step before, seen from the frame (m); by default those at the start.
+    pub nodes_before: Option<Vec<Point<D>>>,
+    /// Poses one step before; by default those at the start.
+    pub previous_poses: Option<Vec<Pose>>,
+}
+
+impl<const D: usize> InitialLevels<D> {
+    /// Both levels the same.
+    #[must_use]
+    pub fn steady(flow: Solution<D>) -> Self {
+        Self { now: flow.clone(), previous: flow, nodes_before: None, previous_poses: None }
+    }
+}
+
+/// A state on another mesh.
+#[derive(Debug, Clone)]
+pub struct TransferredState<const D: usize> {
+    /// The mesh, seen from the frame.
+    pub mesh: Mesh<D>,
+    /// Positions of its nodes one step before, seen from the frame (m).
+    pub nodes_before: Vec<Point<D>>,
+    /// Fields and rigid velocities at present.
+    pub now: Solution<D>,
+    /// Fields and rigid velocities one step before.
+    pub previous: Solution<D>,
+    /// Rates of change of the velocities at the nodes (m/s2).
+    pub rates: Vec<Point<D>>,
+    /// Whole periods from each body to its image in the mesh (m).
+    pub image_shifts: Vec<Vector3<f64>>,
+}
+
+impl<const D: usize> State<D> {
+    /// Everything at rest at time zero.
+    #[must_use]
+    pub fn at_rest(problem: &Problem<D>, mesh: Mesh<D>) -> Self {
+        let n_bodies = problem.bodies.len();
+        let at_rest = Solution::at_rest(&DofLayout::new(&mesh, n_bodies, problem.modes().len()));
+        let poses: Vec<Pose> = problem.bodies.iter().map(|body| body.pose).collect();
+        Self(Evolving {
+            step: 0,
+            time: 0.0,
+            last_step: 0.0,
+            remeshes: 0,
+            origin: Vector3::zeros(),
+            nodes: mesh.nodes.clone(),
+            nodes_before: mesh.nodes.clone(),
+            now: at_rest.clone(),
+            previous: at_rest,
+            previous_poses: poses.clone(),
+            image_shifts: vec![Vector3::zeros(); n_bodies],
+            rates: vec![Point::<D>::zeros(); mesh.n_nodes()],
+            accelerations: vec![Twist::default(); n_bodies],
+            top_speed: 0.0,
+            boundary_speed: 0.0,
+            contact: ContactLoads::none(n_bodies),
+            propulsion: vec![PropulsionHistory::default(); problem.groups.len()],
+            energy: EnergyBalance::default(),
+            momentum: MomentumBalance::default(),
+            poses,
+            mesh,
+        })
+    }
+
+    /// The same with bodies moved by whole periods (m) to where they are in the mesh.
+    #[must_use]
+    pub fn with_image_shifts(mut self, image_shifts: Vec<Vector3<f64>>) -> Self {
+        self.0.image_shifts = image_shifts;
+        self
+    }
+
+    /// The flow of a state, with both levels.
+    #[must_use]
+    pub fn levels(&self) -> InitialLevels<D> {
+        InitialLevels {
+            now: self.now.clone(),
+            previous: self.previous.clone(),
+            nodes_before: Some(self.nodes_before.clone()),
+            previous_poses: Some(self.previous_poses.clone()),
+        }
+    }
+
+    /// Gives a state at its start a flow.
+    pub fn begin(&mut self, levels: InitialLevels<D>) {
+        let InitialLevels { now, previous, nodes_before, previous_poses } = levels;
+        let own = &mut self.0;
+        (own.now, own.previous) = (now, previous);
+        own.nodes_before = nodes_before.unwrap_or_else(|| own.nodes.clone());
+        own.previous_poses = previous_poses.unwrap_or_else(|| own.poses.clone());
+    }
+
+    /// Puts the nodes (m) of a state at its start where sides that move have them, and finds the smallest gap.
+    pub fn settle(&mut self, nodes: Option<Vec<Point<D>>>, minimum_gap: Option<MinimumGap>) {
+        let own = &mut self.0;
+        if let Some(nodes) = nodes {
+            own.nodes_before.clone_from(&nodes);
+            own.mesh.nodes.clone_from(&nodes);
+            own.nodes = nodes;
+        }
+        own.contact.minimum_gap = minimum_gap;
+    }
+
+    /// Lets rates jump at present: what was before does not count for what comes.
+    pub fn restart(&mut self) {
+        self.0.last_step = 0.0;
+    }
+
+    /// Says of the step that was accepted last that it is a piece of one that is not over: it does not count yet.
+    pub fn continue_step(&mut self) {
+        self.0.step -= 1;
+    }
+
+    /// Replaces the time (s), a sum of steps, by what it is without their rounding.
+    pub fn round_time(&mut self, time: f64) {
+        self.0.time = time;
+    }
+
+    /// Replaces the mesh.
+    pub fn replace_mesh(&mut self, transferred: TransferredState<D>) {
+        let own = &mut self.0;
+        let TransferredState { mesh, nodes_before, now, previous, rates, image_shifts } =
+            transferred;
+        (own.now, own.previous, own.rates) = (now, previous, rates);
+        own.image_shifts = image_shifts;
+        own.nodes.clone_from(&mesh.nodes);
+        own.nodes_before = nodes_before;
+        own.mesh = mesh;
+        let origin = on_mesh::<D>(&own.origin);
+        for node in &mut own.mesh.nodes {
+            *node += origin;
+        }
+        own.remeshes += 1;
+    }
+
+    /// Gives a state that was read from a file the boundaries of its mesh, and the positions of its nodes: the file has
+    /// neither.
+    pub fn complete_mesh(&mut self, boundaries: &[alewife_mesh::Boundary]) {
+        let own = &mut self.0;
+        let origin = on_mesh::<D>(&own.origin);
+        own.mesh.boundaries = boundaries.to_vec();
+        own.mesh.nodes = own.nodes.iter().map(|node| node + origin).collect();
+    }
+
+    /// Notes the powers of the groups at the start, or where rates jump.
+    pub fn start_propulsion(&mut self, powers: &[PropulsionPower]) {
+        let histories = self.0.propulsion.iter_mut();
+        histories.zip(powers).for_each(|(own, power)| own.start(power));
+    }
+
+    /// Notes where swimmers are.
+    pub fn record_cycles(&mut self, problem: &Problem<D>) {
+        let own = &mut self.0;
+        for (group, history) in problem.groups.iter().zip(&mut own.propulsion) {
+            let Some(period) = group.period else { continue };
+            let center = mean_motion(problem, group, &own.poses, &own.now.twists).center;
+            let orientation = own.poses[group.bodies[0]].orientation;
+            let record = history.record(own.time, center, orientation);
+            history.cycles.push(record, period);
+        }
+    }
+
+    /// Adds to the balance of energy; its defect.
+    pub fn record_energy(&mut self, has_memory: bool, record: EnergyRecord) -> f64 {
+        self.0.energy.add(has_memory, record)
+    }
+
+    /// Adds to the balance of momentum; its defect.
+    pub fn record_momentum(&mut self, record: MomentumRecord) -> f64 {
+        self.0.momentum.add(record)
+    }
+
+    /// Notes the largest speed of a boundary at present (m/s).
+    pub fn record_boundary_speed(&mut self, speed: f64) {
+        self.0.boundary_speed = self.0.boundary_speed.max(speed);
+    }
+
+    /// Time of the level before (s).
+    #[must_use]
+    pub fn time_before(&self) -> f64 {
+        self.time - self.last_step
+    }
+
+    /// Moves on in time.
+    pub fn accept(&mut self, problem: &Problem<D>, level: NewLevel<D>) {
+        let origin = self.origin_at(problem, &level.poses);
+        let own = &mut self.0;
+        own.top_speed = own.top_speed.max(level.solution.top_speed());
+        own.origin = origin;
+        let origin = on_mesh::<D>(&origin);
+        for (node, seen) in own.mesh.nodes.iter_mut().zip(&level.nodes) {
+            *node = seen + origin;
+        }
+        for (history, step) in own.propulsion.iter_mut().zip(&level.propulsion) {
+            history.add_step(level.step, step);
+        }
+        own.nodes_before = std::mem::replace(&mut own.nodes, level.nodes);
+        own.previous_poses = std::mem::replace(&mut own.poses, level.poses);
+        own.previous = std::mem::replace(&mut own.now, level.solution);
+        if let Some(rates) = level.rates {
+            own.rates = rates;
+        }
+        (own.accelerations, own.contact) = (level.accelerations, level.contact);
+        own.step += 1;
+        (own.time, own.last_step) = (level.time, level.step);
+    }
+
+    /// Poses where bodies would be in the mesh.
+    #[must_use]
+    pub fn in_mesh(&self, poses: &[Pose]) -> Vec<Pose> {
+        seen_from(&Vector3::zeros(), poses, &self.image_shifts)
+    }
+
+    /// Poses where bodies would be in the mesh, seen from a frame at `origin` (m).
+    #[must_use]
+    pub fn in_frame(&self, origin: &Vector3<f64>, poses: &[Pose]) -> Vec<Pose> {
+        seen_from(origin, poses, &self.image_shifts)
+    }
+
+    /// Poses where bodies would be in the mesh, seen from the frame that goes with them.
+    #[must_use]
+    pub fn in_own_frame(&self, problem: &Problem<D>, poses: &[Pose]) -> Vec<Pose> {
+        self.in_frame(&self.origin_at(problem, poses), poses)
+    }
+
+    /// The mesh at present, seen from the frame.
+    #[must_use]
+    pub fn mesh_in_frame(&self) -> Mesh<D> {
+        Mesh { nodes: self.nodes.clone(), ..self.mesh.clone() }
+    }
+
+    /// What the groups do in a flow, with bodies at these poses in the laboratory.
+    #[must_use]
+    pub fn propulsion_powers(
+        &self,
+        problem: &Problem<D>,
+        poses: &[Pose],
+        twists: &[Twist],
+        loads: &[BodyLoads],
+        stress: &SurfaceStress<'_, D>,
+    ) -> Vec<PropulsionPower> {
+        let bodies = LoadedBodies { poses, image_shifts: &self.image_shifts, twists, loads };
+        let groups = problem.groups.iter();
+        groups.map(|group| propulsion_power(problem, group, &bodies, stress)).collect()
+    }
+
+    /// Where the frame is with bodies at these poses (m).
+    #[must_use]
+    pub fn origin_at(&self, problem: &Problem<D>, poses: &[Pose]) -> Vector3<f64> {
+        problem
+            .frame
+            .map_or(Vector3::zeros(), |body| poses[body].center - problem.bodies[body].pose.center)
+    }
+}
+
+/// Poses, `image_shifts` (m) added to their centres, seen from a frame at `origin` (m).
+#[must_use]
+pub fn seen_from(
+    origin: &Vector3<f64>,
+    poses: &[Pose],
+    image_shifts: &[Vector3<f64>],
+) -> Vec<Pose> {
+    let pairs = poses.iter().zip(image_shifts);
+    pairs.map(|(pose, shift)| Pose { center: pose.center + shift - origin, ..*pose }).collect()
+}

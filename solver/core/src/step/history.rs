@@ -1,0 +1,179 @@
+//! `StepHistory`: the older levels of a step, with what follows from them.
+
+use alewife_mesh::Point;
+
+use super::error::StepError;
+use super::stepper::{Step, TimeStepper};
+use crate::body::{Inertia, Pose, RigidVector, Twist, carried_velocity};
+use crate::coupling::{
+    BodyShapes, PosesByVelocity, Problem, RigidBody, RigidBodyEquations, Solution,
+};
+use crate::state::State;
+use crate::time::Bdf;
+
+/// Part of a step by which rates at its ends are evaluated inside it: those that jump there have two.
+pub(super) const INSIDE: f64 = 1e-9;
+
+/// What a step knows before it is made.
+pub struct StepHistory<const D: usize> {
+    /// The step.
+    pub step: Step,
+    /// The bodies at the new time.
+    pub shapes: BodyShapes,
+    /// The bodies just before the new time, where rates may jump at it.
+    before_jump: Option<BodyShapes>,
+    /// Older part of du/dt at the nodes (m/s2).
+    pub derivative: Vec<Point<D>>,
+    /// All unknowns extrapolated to the new time.
+    pub extrapolated: Solution<D>,
+    /// Velocity of the frame extrapolated to the new time (m/s).
+    pub frame_velocity: Point<D>,
+    /// Poses at the new time of bodies without velocity there.
+    unmoved: Vec<Pose>,
+    /// The bodies at the present level and the one before; none of an instantaneous flow.
+    older: Option<[OlderBodies; 2]>,
+}
+
+/// Bodies at an older level.
+struct OlderBodies {
+    inertia: Vec<Inertia>,
+    poses: Vec<Pose>,
+    twists: Vec<Twist>,
+}
+
+impl OlderBodies {
+    fn new<const D: usize>(
+        problem: &Problem<D>,
+        time: f64,
+        poses: &[Pose],
+        twists: &[Twist],
+    ) -> Result<Self, StepError> {
+        let inertia =
+            |body: &RigidBody| -> Result<Inertia, StepError> { Ok(body.inertia_at(time)?) };
+        Ok(Self {
+            inertia: problem.bodies.iter().map(inertia).collect::<Result<_, _>>()?,
+            poses: poses.to_vec(),
+            twists: twists.to_vec(),
+        })
+    }
+}
+
+impl<const D: usize> StepHistory<D> {
+    /// That of a step from a state.
+    ///
+    /// # Errors
+    /// When a gait gives its body no shape.
+    pub fn new(
+        stepper: &TimeStepper<'_, D>,
+        state: &State<D>,
+        step: Step,
+    ) -> Result<Self, StepError> {
+        let problem = stepper.problem;
+        let Step { time, bdf, .. } = step;
+        let levels = || state.now.velocity.iter().zip(&state.previous.velocity);
+        let before_jump = problem
+            .rate_discontinuities
+            .is_some()
+            .then(|| BodyShapes::at(&problem.bodies, time - INSIDE * bdf.step))
+            .transpose()?;
+        let older = |time: f64, poses: &[Pose], twists: &[Twist]| {
+            OlderBodies::new(problem, time, poses, twists)
+        };
+        Ok(Self {
+            shapes: BodyShapes::at(&problem.bodies, time)?,
+            before_jump,
+            derivative: levels().map(|(now, before)| bdf.history(*now, *before)).collect(),
+            extrapolated: extrapolate(state, &step),
+            frame_velocity: bdf.extrapolate(
+                problem.frame_velocity(&state.now.twists),
+                problem.frame_velocity(&state.previous.twists),
+            ),
+            unmoved: stepper.unmoved_poses(state, &step),
+            older: Some([
+                older(state.time, &state.poses, &state.now.twists)?,
+                older(state.time_before(), &state.previous_poses, &state.previous.twists)?,
+            ]),
+            step,
+        })
+    }
+
+    /// That of an instantaneous flow of bodies at poses in a step of a number, without inertia: bodies have their
+    /// shapes at a time (s), and rates of gaits and boundary values are those at another one.
+    ///
+    /// # Errors
+    /// When a gait gives its body no shape.
+    pub fn instantaneous(
+        problem: &Problem<D>,
+        number: usize,
+        poses: &[Pose],
+        time: f64,
+        rates_at: f64,
+    ) -> Result<Self, StepError> {
+        Ok(Self {
+            // Without density its coefficients multiply nothing
+            step: Step { number, time, bdf: Bdf::first_order(1.0) },
+            shapes: BodyShapes::at(&problem.bodies, time)?,
+            before_jump: Some(BodyShapes::at(&problem.bodies, rates_at)?),
+            derivative: Vec::new(),
+            extrapolated: Solution {
+                velocity: Vec::new(),
+                pressure: Vec::new(),
+                twists: Vec::new(),
+                pressure_gradient: Point::<D>::zeros(),
+            },
+            frame_velocity: Point::<D>::zeros(),
+            unmoved: poses.to_vec(),
+            older: None,
+        })
+    }
+
+    /// The bodies at the time at which boundary values and rates of gaits are taken.
+    pub fn boundary_shapes(&self) -> &BodyShapes {
+        self.before_jump.as_ref().unwrap_or(&self.shapes)
+    }
+
+    /// Newton's and Euler's equations with bodies at these poses at the new time.
+    pub fn body_equations(&self, problem: &Problem<D>, poses: &[Pose]) -> RigidBodyEquations {
+        let Step { time, bdf, .. } = self.step;
+        let mut equations = RigidBodyEquations::without_loads(problem.bodies.len());
+        let Some(older) = &self.older else {
+            let time = self.boundary_shapes().time();
+            equations.add_loads(problem, time, PosesByVelocity::staying(&self.unmoved));
+            return equations;
+        };
+        equations.rate = bdf.next;
+        for (body, equation) in equations.bodies.iter_mut().enumerate() {
+            let inertia = problem.bodies[body].inertia_with(self.shapes.deformed(body));
+            equation.inertia = inertia.matrix(&poses[body]);
+            let [now, before] = older.each_ref().map(|older| -> RigidVector {
+                let then = older.inertia[body].matrix(&older.poses[body]);
+                let velocity = older.twists[body].to_vector();
+                carried_velocity(&then, &equation.inertia, &velocity, problem.modes())
+            });
+            equation.history = bdf.history(now, before);
+        }
+        let unmoved = &self.unmoved;
+        let reached = PosesByVelocity { unmoved, expected: poses, coefficient: 1.0 / bdf.next };
+        equations.add_loads(problem, time, reached);
+        equations
+    }
+}
+
+/// All unknowns extrapolated to the new time: nearer to the new level than the present one, so that
+/// less is left for an iterative solve.
+fn extrapolate<const D: usize>(state: &State<D>, step: &Step) -> Solution<D> {
+    let (now, previous, bdf) = (&state.now, &state.previous, &step.bdf);
+    let velocities = now.velocity.iter().zip(&previous.velocity);
+    let pressures = now.pressure.iter().zip(&previous.pressure);
+    let twists = now.twists.iter().zip(&previous.twists);
+    Solution {
+        velocity: velocities.map(|(now, before)| bdf.extrapolate(*now, *before)).collect(),
+        pressure: pressures.map(|(now, before)| bdf.extrapolate(*now, *before)).collect(),
+        twists: twists
+            .map(|(now, before)| {
+                Twist::from_vector(&bdf.extrapolate(now.to_vector(), before.to_vector()))
+            })
+            .collect(),
+        pressure_gradient: bdf.extrapolate(now.pressure_gradient, previous.pressure_gradient),
+    }
+}

@@ -1,0 +1,25 @@
+//! One step in time: the flow with its bodies, their poses and their contact, on a mesh that follows them.
+//!
+//! `step.rs` is the step by backward differences; `explicit/` the one by stages without inertia; `newton/` the equations of
+//! the flow on one configuration, steady or in a step.
+
+mod configuration;
+mod context;
+mod coupled_flow;
+mod error;
+mod error_estimate;
+mod explicit;
+mod history;
+mod mesh_path;
+mod new_level;
+mod newton;
+mod predict;
+mod step;
+mod stepper;
+mod workspace;
+
+pub use error::{FlowError, StepError, at_step};
+pub use mesh_path::{MeshPath, NodePath};
+pub use newton::{SteadyFailure, SteadyFlow, SteadyTask, solve_steady};
+pub use stepper::{Step, StepReport, StepResult, StopRequest, TimeStepper};
+pub use workspace::Workspace;

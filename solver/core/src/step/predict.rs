@@ -1,0 +1,70 @@
+//! Where bodies get to: velocities extrapolated, and poses integrated from velocities.
+
+use super::context::StepContext;
+use super::mesh_path::MeshPath;
+use super::stepper::{Step, TimeStepper};
+use crate::body::{Mode, Pose, RigidVector, Twist};
+use crate::state::State;
+
+impl<const D: usize> TimeStepper<'_, D> {
+    /// Whether a body goes where one of its velocities takes it: it stays where the mesh is that does
+    /// not follow.
+    fn moves(&self, body: usize, mode: Mode) -> bool {
+        mode.is_rotation()
+            || matches!(self.path, MeshPath::FollowsBodies(_))
+            || self.problem.frame == Some(body)
+    }
+
+    /// The components of a displacement along which a body moves.
+    pub(super) fn restricted(&self, body: usize, displacement: &RigidVector) -> RigidVector {
+        let mut kept = RigidVector::zeros();
+        for mode in self.problem.modes().iter().filter(|mode| self.moves(body, *mode)) {
+            kept[mode] = displacement[mode];
+        }
+        kept
+    }
+
+    /// Poses at the new time of bodies with these velocities there, each by itself, whatever it hangs on.
+    fn integrate_apart(&self, state: &State<D>, step: &Step, twists: &[Twist]) -> Vec<Pose> {
+        let levels = state.poses.iter().zip(&state.previous_poses);
+        let advanced = levels.zip(twists).enumerate().map(|(body, ((now, before), twist))| {
+            let last = now.displacement_from(before);
+            let increment = step.bdf.increment(twist.to_vector(), last);
+            now.displaced(&self.restricted(body, &increment))
+        });
+        advanced.collect()
+    }
+
+    /// Poses at the new time of bodies without velocity there, whatever they hang on: the velocities of bodies
+    /// on joints have what the joints give of them, and lead from here to where they are.
+    pub(super) fn unmoved_poses(&self, state: &State<D>, step: &Step) -> Vec<Pose> {
+        self.integrate_apart(state, step, &vec![Twist::default(); state.poses.len()])
+    }
+}
+
+impl<const D: usize> StepContext<'_, D> {
+    /// Velocities at the new time, given ones as they are then and the others extrapolated.
+    pub fn extrapolated_twists(&self) -> Vec<Twist> {
+        let step = &self.history.step;
+        let levels = self.state.now.twists.iter().zip(&self.state.previous.twists);
+        let bodies = self.stepper.problem.bodies.iter();
+        let twists = bodies.zip(levels).map(|(body, (now, before))| {
+            let mut velocity = step.bdf.extrapolate(now.to_vector(), before.to_vector());
+            for mode in Mode::ALL {
+                if let Some(given) = body.drive(mode).given(step.time) {
+                    velocity[mode] = given;
+                }
+            }
+            Twist::from_vector(&velocity)
+        });
+        twists.collect()
+    }
+
+    /// Poses at the new time of bodies with these velocities there.
+    pub fn integrate(&self, twists: &[Twist]) -> Vec<Pose> {
+        let step = &self.history.step;
+        let mut poses = self.stepper.integrate_apart(self.state, step, twists);
+        self.stepper.problem.apply_joints(&mut poses, step.time);
+        poses
+    }
+}
