@@ -11,7 +11,7 @@ use std::fs;
 use sources::{CRATES, all_sources, root, sources};
 
 /// The rooms of the solver, lowest first, and the rooms each may use.
-const ROOMS: [(&str, &[&str]); 20] = [
+const ROOMS: [(&str, &[&str]); 22] = [
     ("case", &[]),
     ("timing", &[]),
     ("space", &[]),
@@ -23,20 +23,31 @@ const ROOMS: [(&str, &[&str]); 20] = [
     ("body", &["time"]),
     ("contact", &["body"]),
     ("gait", &["body"]),
-    ("motion", &["algebra", "body", "space", "time"]),
     ("flow", &["algebra", "space"]),
     ("coupling", &["algebra", "body", "flow", "gait", "space", "time", "timing"]),
+    ("state", &["body", "contact", "coupling", "space"]),
     (
-        "simulation",
+        "motion",
+        &["algebra", "body", "contact", "coupling", "space", "state", "time"],
+    ),
+    (
+        "step",
         &[
-            "algebra", "body", "case", "contact", "coupling", "flow", "gait", "motion", "space",
-            "time", "timing",
+            "algebra", "body", "case", "contact", "coupling", "flow", "motion", "state", "time",
+            "timing",
         ],
     ),
-    ("observer", &["body", "case", "flow", "simulation"]),
-    ("validation", &["case", "simulation"]),
-    ("sweep", &["case", "observer", "simulation", "validation"]),
-    ("cli", &["case", "coupling", "observer", "simulation", "sweep", "validation"]),
+    (
+        "run",
+        &[
+            "algebra", "body", "case", "contact", "coupling", "flow", "gait", "motion", "space",
+            "state", "step", "time", "timing",
+        ],
+    ),
+    ("observer", &["body", "case", "flow", "run", "step", "timing"]),
+    ("validation", &["case", "run"]),
+    ("sweep", &["case", "observer", "run", "validation"]),
+    ("cli", &["case", "coupling", "observer", "run", "step", "sweep", "timing", "validation"]),
     ("main", &["cli"]),
 ];
 

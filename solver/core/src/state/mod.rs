@@ -6,6 +6,8 @@ mod momentum;
 mod propulsion_history;
 mod saved_mesh;
 mod state;
+#[cfg(test)]
+mod tests;
 
 pub use cycles::{CycleMeans, Cycles, Record};
 pub use energy::{EnergyBalance, EnergyRecord};

@@ -22,7 +22,7 @@ use crate::space::DofLayout;
 /// mesh in [`State::replace_mesh`]; [`State::restart`] lets rates jump.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(transparent)]
-pub struct State<const D: usize>(Evolving<D>);
+pub struct State<const D: usize>(pub(super) Evolving<D>);
 
 impl<const D: usize> Deref for State<D> {
     type Target = Evolving<D>;

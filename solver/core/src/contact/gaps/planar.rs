@@ -8,8 +8,9 @@ use nalgebra::Rotation2;
 
 use super::surface::{ContactSurface, FacingPoints};
 use super::surface_gaps::{BodySolid, SurfaceGaps, WallSide};
-use super::{ContactError, Curvatures, Gaps};
+use super::{Curvatures, Gaps};
 use crate::body::{Modes, Pose, in_space, on_mesh};
+use crate::contact::ContactError;
 
 /// Outlines and walls that may come into contact; the exact curves.
 pub type PlanarGaps = SurfaceGaps<2, PlanarSurface>;

@@ -4,10 +4,11 @@ use alewife_mesh::spatial::{Body, BodySurface, ClosestPoints, Domain, WallSurfac
 use alewife_mesh::{Point, Surface};
 use nalgebra::{Isometry3, Translation3};
 
+use super::Curvatures;
 use super::surface::{ContactSurface, FacingPoints};
 use super::surface_gaps::{BodySolid, SurfaceGaps, WallSide};
-use super::{ContactError, Curvatures};
 use crate::body::{Modes, Pose};
+use crate::contact::ContactError;
 
 /// Bodies and walls that may come into contact; the exact surfaces.
 pub type SpatialGaps = SurfaceGaps<3, SpatialSurface>;

@@ -7,9 +7,9 @@
 
 use nalgebra::{DMatrix, DVector, Matrix3, UnitQuaternion, Vector3};
 
-use super::implicit::ContactStep;
-use super::{ContactPair, PairVector, Partner};
+use super::step::ContactStep;
 use crate::body::{Mode, Pose, RigidVector, Twist};
+use crate::contact::{ContactPair, PairVector, Partner};
 
 /// Angle below which the left Jacobian is taken from its series (rad).
 const SMALL_ANGLE: f64 = 1e-2;

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::implicit::{ContactStep, Trial, narrowest};
+use super::step::{ContactStep, Trial, narrowest};
 use crate::body::RigidVector;
 
 /// Displacement over the smallest gap of finite differences.

@@ -93,7 +93,7 @@ impl ContactPair {
     }
 
     /// Both sides of [`Self::gradient`] in one vector.
-    pub(super) fn gradient_of_both(&self) -> PairVector {
+    pub(in crate::contact) fn gradient_of_both(&self) -> PairVector {
         let [body, partner] = self.gradient();
         PairVector::from_fn(|i, _| if i < 6 { body[i] } else { partner[i - 6] })
     }

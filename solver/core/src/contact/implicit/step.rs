@@ -15,9 +15,10 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::loads::{ContactForce, ContactLoads};
-use super::{ContactError, ContactPair, Gaps, Law, LawKind, MinimumGap, Partner};
 use crate::body::{Modes, Pose, Twist};
+use crate::contact::{
+    ContactError, ContactForce, ContactLoads, ContactPair, Gaps, Law, LawKind, MinimumGap, Partner,
+};
 
 /// Most iterations of Newton's method.
 const MAX_ITERATIONS: usize = 200;

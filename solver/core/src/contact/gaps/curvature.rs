@@ -58,7 +58,7 @@ impl Curvatures {
 
     /// Derivative of the gradient (n, l_a x n, -n, -l_b x n) by displacements of both bodies, zero
     /// where the surfaces are parallel.
-    pub(super) fn gradient_derivative(
+    pub(in crate::contact) fn gradient_derivative(
         &self,
         normal: &Vector3<f64>,
         gap: f64,

@@ -8,9 +8,9 @@
 
 use nalgebra::{DMatrix, DVector, UnitQuaternion, Vector3};
 
-use super::ContactPair;
-use super::implicit::{ContactStep, Trial};
+use super::step::{ContactStep, Trial};
 use crate::body::{Orientation, Pose};
+use crate::contact::ContactPair;
 
 /// Most corrections of one trial.
 const MAX_CORRECTIONS: usize = 6;
