@@ -44,7 +44,7 @@ const ROOMS: [(&str, &[&str]); 20] = [
 const FOREIGN: [(&str, &[&str]); 8] = [
     ("num_dual", &["solver/core/src/gait/"]),
     ("faer", &["solver/linear/src/algebra/", "solver/linear/src/multifrontal/"]),
-    ("pulp", &["solver/core/src/flow/", "solver/linear/src/multifrontal/"]),
+    ("pulp", &["solver/flow/src/flow/", "solver/linear/src/multifrontal/"]),
     ("metis_sys", &["solver/linear/src/multifrontal/metis.rs"]),
     ("spade", &["mesh/src/planar/generate/", "mesh/src/planar/cut/"]),
     ("mcap", &["solver/src/observer/"]),

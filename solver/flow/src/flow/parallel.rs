@@ -18,7 +18,7 @@ const NUMBERS_PER_THREAD: usize = 1 << 17;
 /// of threads.
 ///
 /// While one thread adds what a block of cells gave, the others work on the next block.
-pub(crate) fn for_each_cell(
+pub fn for_each_cell(
     n_cells: usize,
     size: usize,
     compute: impl Fn(Range<usize>, &mut [f64]) + Sync,
@@ -60,7 +60,7 @@ pub(crate) fn for_each_cell(
 
 /// Adds the integrals of basis functions over the mesh to one value for each node that has one, its
 /// first `per_cell` nodes in each cell.
-pub(crate) fn integrate_basis<const D: usize>(
+pub fn integrate_basis<const D: usize>(
     mesh: &Mesh<D>,
     tables: &Tables<D>,
     per_cell: usize,

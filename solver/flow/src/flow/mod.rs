@@ -12,5 +12,5 @@ mod tests;
 
 pub use assemble::{Assembly, assemble, pressure_unknowns, residual};
 pub use nodal::{nodal_pressure, nodal_vorticity};
-pub(crate) use parallel::{for_each_cell, integrate_basis};
+pub use parallel::{for_each_cell, integrate_basis};
 pub use terms::{BodyForce, Convection, Fields, FlowTerms};
