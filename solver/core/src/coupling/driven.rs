@@ -96,7 +96,7 @@ impl<const D: usize> FluidSystem<D> {
         let (layout, modes) = (self.layout, self.modes);
         let system =
             ResponseSystem { cell, layout: &layout, modes, constraints: at.constraints, axes };
-        self.response.update(&system, &mut self.linear, timing)?;
+        self.response.update(&system, self.linear.as_mut(), timing)?;
         if self.response.is_empty() {
             return Ok(Point::<D>::zeros());
         }

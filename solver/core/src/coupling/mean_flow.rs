@@ -11,7 +11,7 @@ use alewife_mesh::{Mesh, Point, Simplex};
 use nalgebra::{DMatrix, DVector, Vector3};
 
 use super::error::SolveError;
-use super::linear_system::LinearSystem;
+use super::linear_system::SystemSolver;
 use super::problem::{MeanFlowAlong, MeanFlowAt, Problem};
 use super::solution::Solution;
 use crate::algebra::{AffineConstraints, LinearError};
@@ -135,7 +135,7 @@ impl MeanFlowResponse {
     pub fn update<const D: usize>(
         &mut self,
         at: &ResponseSystem<'_, D>,
-        linear: &mut LinearSystem,
+        linear: &mut dyn SystemSolver,
         timing: &mut Timing,
     ) -> Result<(), LinearError> {
         let earlier = std::mem::take(&mut self.answers);

@@ -3,7 +3,7 @@
 use alewife_mesh::Mesh;
 
 use super::constrain::BodiesAt;
-use super::linear_system::LinearSystem;
+use super::linear_system::system_solver;
 use super::numbering::free_velocities;
 use super::preconditioning::saddle_point;
 use super::problem::{Drive, Problem};
@@ -38,7 +38,7 @@ impl<const D: usize> FluidSystem<D> {
         self.assembly = Assembly::new(mesh, layout, constraints, problem.metric, &sides, frame);
         let saddle_point = saddle_point(&layout, constraints, self.modes);
         let choice = self.numbering.choice;
-        self.linear = LinearSystem::new(&self.assembly, constraints, saddle_point, choice);
+        self.linear = system_solver(&self.assembly, constraints, saddle_point, choice);
         self.n_unknowns = constraints.n_unknowns();
         self.numbering.is_free = is_free;
     }

@@ -10,7 +10,7 @@ use alewife_mesh::{Mesh, Point};
 use super::boundaries::Boundaries;
 use super::constrain::{BodiesAt, Constrainer};
 use super::error::SolveError;
-use super::linear_system::{LinearSystem, SolverChoice};
+use super::linear_system::{SolverChoice, SystemSolver, system_solver};
 use super::loads::{ResidualOnMesh, SurfaceLoads, surface_loads};
 use super::mean_flow::{CellIntegrals, MeanFlowResponse};
 use super::nullspace::TranslationNullspace;
@@ -54,7 +54,7 @@ pub struct FluidSystem<const D: usize> {
     pub(super) modes: Modes,
     facet_rule: FacetRule<D>,
     pub(super) assembly: Assembly<D>,
-    pub(super) linear: LinearSystem,
+    pub(super) linear: Box<dyn SystemSolver>,
     /// What the solver kept when it was marked, if the unknowns have been numbered anew since.
     pub(super) kept_memory: Option<SolverMemory>,
     pub(super) numbering: Numbering,
@@ -104,7 +104,7 @@ impl<const D: usize> FluidSystem<D> {
         let driven = problem.mean_flow.as_ref();
         let cell = driven.map(|_| CellIntegrals::new(problem, mesh, assembly.tables()));
         let saddle_point = saddle_point(&layout, &constraints, modes);
-        let linear = LinearSystem::new(&assembly, &constraints, saddle_point, choice);
+        let linear = system_solver(&assembly, &constraints, saddle_point, choice);
         let is_free = free_velocities(&layout, problem.bodies.len(), modes, &constraints);
         Self {
             layout,
@@ -291,7 +291,7 @@ impl<const D: usize> FluidSystem<D> {
     ) -> Result<Solution<D>, SolveError> {
         timing.measure(Stage::Assembly, || {
             let (assembly, fields) = (&self.assembly, solution.fields());
-            self.linear.assemble(|scatter| {
+            self.linear.assemble(&mut |scatter| {
                 assemble(assembly, at.mesh, at.constraints, terms, &fields, scatter);
             });
             self.add_rigid_matrix(at);
@@ -310,7 +310,7 @@ impl<const D: usize> FluidSystem<D> {
             constraints: at.constraints,
             tables: self.assembly.tables(),
         };
-        self.linear.prepare(coefficients, || discretised.weights(coefficients), timing);
+        self.linear.prepare(coefficients, &|| discretised.weights(coefficients), timing);
         self.linear.recall_with_weights()?;
         let mut free = at.constraints.pick(&self.pinned(solution).to_raw(self.modes));
         let mut step: Vec<f64> = reduced.iter().map(|value| -value).collect();
