@@ -45,7 +45,7 @@ const FOREIGN: [(&str, &[&str]); 8] = [
     ("num_dual", &["solver/core/src/gait/"]),
     ("faer", &["solver/linear/src/algebra/", "solver/linear/src/multifrontal/"]),
     ("pulp", &["solver/flow/src/flow/", "solver/linear/src/multifrontal/"]),
-    ("metis_sys", &["solver/linear/src/multifrontal/metis.rs"]),
+    ("metis_sys", &["solver/linear/src/multifrontal/ordering/metis.rs"]),
     ("spade", &["mesh/src/planar/generate/", "mesh/src/planar/cut/"]),
     ("mcap", &["solver/src/observer/"]),
     ("clap", &["solver/src/cli/"]),

@@ -1,19 +1,24 @@
 //! `Factors`: the numbers of a factorisation.
 
+mod delays;
+mod elimination;
+mod scaling;
+mod traversal;
+
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 
 use rayon::prelude::*;
 
+pub(super) use self::delays::Delay;
+use self::delays::Delays;
+use self::elimination::{DelayedContribution, DelayedPivotFactors, FactorisationContext};
+use self::scaling::scale_pressures;
+pub use self::traversal::Singular;
+use self::traversal::{Incoming, SubtreeFactors, SubtreeResult, Workspace, factorise_subtree};
 use super::analysis::Analysis;
-use super::delays::Delays;
-use super::elimination::{DelayedContribution, DelayedPivotFactors, FactorisationContext};
 use super::front::Subtree;
-use super::scaling::scale_pressures;
 use super::substitution::Scratch;
-use super::traversal::{
-    Incoming, Singular, SubtreeFactors, SubtreeResult, Workspace, factorise_subtree,
-};
 use crate::sparse::SparseMatrix;
 
 /// L and U of a matrix.

@@ -2,13 +2,13 @@
 
 use std::collections::BTreeMap;
 
+use super::super::segments::Segment;
 use super::elimination::DelayedContribution;
-use super::segments::Segment;
 use crate::sparse::index::to_u32;
 
 /// A row and a column that a subtree delays, and the slot above that they share.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Delay {
+pub(in super::super) struct Delay {
     /// Slot of the row in the segment of the subtree.
     pub row: u32,
     /// Slot of the column there.
@@ -19,7 +19,7 @@ pub(super) struct Delay {
 
 /// Rows and columns that subtrees delay to the fronts above.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Delays {
+pub(in super::super) struct Delays {
     /// Of each subtree.
     pub of_subtrees: Vec<Vec<Delay>>,
     /// Slot above of the position of each row.

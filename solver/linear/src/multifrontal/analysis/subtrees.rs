@@ -6,7 +6,7 @@ use crate::sparse::index::to_u32;
 /// A subtree is cut off when it takes less than this part of all arithmetic.
 const SUBTREE_SHARE: f64 = 1.0 / 24.0;
 /// Matrices with less arithmetic are one subtree.
-pub(super) const MIN_PARALLEL_FLOPS: f64 = 2e7;
+pub(in super::super) const MIN_PARALLEL_FLOPS: f64 = 2e7;
 
 /// A tree of supernodes in which each subtree is contiguous and the supernodes above come last.
 #[derive(Debug)]

@@ -5,14 +5,11 @@
 
 use rayon::prelude::*;
 
-use super::analysis::Analysis;
-use super::delays::Delay;
-use super::factors::Factors;
-use super::segments::{Segment, Slot};
+use super::super::analysis::Analysis;
+use super::super::factorisation::{Delay, Factors};
+use super::super::segments::{Segment, Slot};
 use super::shared;
-use super::substitution::{
-    FrontFactors, LocalValues, Scratch, backward, backward_block, forward, forward_block,
-};
+use super::{FrontFactors, LocalValues, Scratch, backward, backward_block, forward, forward_block};
 
 /// Right-hand sides worked on together: the factors are read once for all of them.
 const BLOCK: usize = 32;

@@ -1,14 +1,19 @@
 //! `Analysis`: everything about a factorisation that the sparsity decides.
 
+mod entries;
+mod stacks;
+mod subtrees;
+mod tree;
+
+use self::entries::{EntryMap, Positions};
+use self::stacks::plan_stack;
+use self::subtrees::CutTree;
+pub(super) use self::subtrees::MIN_PARALLEL_FLOPS;
+use self::tree::{Supernode, flops, supernodes};
 use super::buckets::Buckets;
-use super::entries::{EntryMap, Positions};
 use super::front::{Front, Subtree};
-use super::graph::{Graph, Vertices};
-use super::ordering::{Ordering, order};
+use super::ordering::{Graph, Ordering, Vertices, order};
 use super::segments::{Segment, Slot};
-use super::stacks::plan_stack;
-use super::subtrees::{CutTree, MIN_PARALLEL_FLOPS};
-use super::tree::{Supernode, flops, supernodes};
 use crate::sparse::index::to_u32;
 use crate::sparse::{Pattern, Unknowns};
 

@@ -1,8 +1,6 @@
 //! `Scales`: factors of rows and columns that make all equations weigh the same.
 
-use super::matrix::SaddleMatrix;
-use super::numbering::Numbering;
-use super::vector::{B, Blocks, Place};
+use super::super::matrix::{B, Blocks, Numbering, Place, SaddleMatrix};
 
 /// Factors of rows and columns, one for each unknown.
 ///
@@ -11,7 +9,7 @@ use super::vector::{B, Blocks, Place};
 /// however much cells differ in size: the Euclidean norm is close to the one in which the error of the
 /// solution is the energy that it dissipates (@elman2014, chapter 4).
 #[derive(Debug)]
-pub(super) struct Scales {
+pub(in super::super) struct Scales {
     factors: Blocks,
 }
 

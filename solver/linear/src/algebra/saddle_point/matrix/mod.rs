@@ -3,16 +3,21 @@
 //! The leading numbers are what the preconditioner computes with, so that it needs no copy; with the rest, 48
 //! bits together, residuals have the accuracy of double precision.
 
+mod block_maps;
+mod gradient;
+mod numbering;
+mod vector;
+
 use std::ops::Range;
 
 use rayon::prelude::*;
 
+use self::block_maps::{BlockMaps, BlockPattern, CellBlocks, RowsOfCells};
+pub(super) use self::gradient::Gradient;
+pub(super) use self::numbering::Numbering;
+pub(super) use self::vector::{B, Blocks, Place};
 use super::super::cell_unknowns::CellUnknowns;
-use super::block_maps::{BlockMaps, BlockPattern, CellBlocks, RowsOfCells};
 use super::data::SaddlePoint;
-use super::gradient::Gradient;
-use super::numbering::Numbering;
-use super::vector::{B, Blocks, Place};
 use crate::multigrid::{Block, BlockMatrix};
 use crate::sparse::index::to_u32;
 use crate::sparse::single::single;

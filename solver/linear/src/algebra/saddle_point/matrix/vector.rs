@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use crate::sparse::single::single;
 
 /// Unknowns in a block.
-pub(super) const B: usize = 3;
+pub(in super::super) const B: usize = 3;
 
 /// Numbers that are summed up on their own, whatever the number of threads.
 const CHUNK: usize = 12_288;
@@ -14,7 +14,7 @@ const LANES: usize = 16;
 
 /// Where an unknown stands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Place {
+pub(in super::super) enum Place {
     /// In a block of velocities.
     Velocity { row: u32, component: u8 },
     /// Among the pressures.
@@ -23,7 +23,7 @@ pub(super) enum Place {
 
 /// A vector of the unknowns by what they are, in single precision if nothing else is said.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Blocks<T = f32> {
+pub(in super::super) struct Blocks<T = f32> {
     /// Velocities of nodes, then of bodies; zero where a component is no unknown.
     pub velocity: Vec<[T; B]>,
     /// Pressures.

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::front::{Front, Subtree};
+use super::super::front::{Front, Subtree};
 
 /// Plans the stack of the fronts of a subtree, or of those above: sets where the contribution of each
 /// is kept, and returns how large the stack gets.

@@ -16,7 +16,7 @@ const ROUNDING: f32 = 1e-4;
 
 /// G by rows of blocks: for each node or body its pressures with three numbers each.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Gradient {
+pub(in super::super) struct Gradient {
     n_pressures: usize,
     /// Start of each row in the others, and the end of the last.
     starts: Vec<usize>,

@@ -1,10 +1,14 @@
 //! Fill-reducing orders of the graph of mesh nodes: nested dissection by METIS, or minimum degree.
 
+mod graph;
+#[cfg(feature = "metis")]
+mod metis;
+
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::SymbolicSparseColMatRef;
 use faer::sparse::linalg::amd;
 
-use super::graph::Graph;
+pub(super) use self::graph::{Graph, Vertices};
 
 /// How the unknowns are ordered.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -29,7 +33,7 @@ pub(super) fn order(
     #[cfg(feature = "metis")]
     if ordering == Ordering::Best
         && graph.n() > SMALL
-        && let Some(order) = super::metis::nested_dissection(graph)
+        && let Some(order) = self::metis::nested_dissection(graph)
     {
         return order;
     }

@@ -5,11 +5,9 @@
 //! lumped D. The sum of both inverses serves all between (@cahouet1988). Where convection is more than
 //! diffusion in steady flow, the least-squares commutator.
 
+use super::super::data::Weights;
+use super::super::matrix::{B, Gradient, Numbering};
 use super::commutator::{Commutator, laplacian};
-use super::data::Weights;
-use super::gradient::Gradient;
-use super::numbering::Numbering;
-use super::vector::B;
 use crate::multigrid::{BlockMatrix, Chebyshev, Multigrid, RowBuilder, Spectrum};
 use crate::sparse::SparseMatrix;
 use crate::sparse::single::single;

@@ -1,12 +1,12 @@
 //! The graph that is ordered: vertices are mesh nodes with all their unknowns.
 
-use super::buckets::Buckets;
+use super::super::buckets::Buckets;
 use crate::sparse::index::to_u32;
 use crate::sparse::{Pattern, Unknowns};
 
 /// The vertex of each unknown: those of mesh nodes first, then one for each unknown with a dense row.
 #[derive(Debug, Clone)]
-pub(super) struct Vertices {
+pub(in super::super) struct Vertices {
     pub of_unknown: Vec<u32>,
     /// Number of vertices that are mesh nodes.
     pub n_nodes: usize,
@@ -44,7 +44,7 @@ impl Vertices {
 
 /// Vertices that share an entry of the matrix are neighbours; compressed rows.
 #[derive(Debug, Clone)]
-pub(super) struct Graph {
+pub(in super::super) struct Graph {
     pub starts: Vec<u32>,
     pub neighbours: Vec<u32>,
     /// Number of unknowns of each vertex.

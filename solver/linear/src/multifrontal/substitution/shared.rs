@@ -7,7 +7,7 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use super::substitution::{
+use super::{
     Columns, FrontFactors, LocalValues, eliminate_down, eliminate_up, gather, scatter,
     subtract_columns, subtract_last_first,
 };

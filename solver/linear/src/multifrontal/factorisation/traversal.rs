@@ -2,12 +2,12 @@
 
 use std::collections::BTreeMap;
 
-use super::analysis::Analysis;
+use super::super::analysis::Analysis;
+use super::super::front::{Front, Subtree};
 use super::elimination::{
     Child, DelayedContribution, DelayedElimination, DelayedPivotFactors, FactorisationContext,
     FrontTarget, factorise_delayed, factorise_static,
 };
-use super::front::{Front, Subtree};
 
 /// Equations and unknowns without a pivot.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::super::cell_unknowns::{CellUnknowns, NO_UNKNOWN};
+use super::super::super::cell_unknowns::{CellUnknowns, NO_UNKNOWN};
 use super::gradient::Gradient;
 use super::numbering::Numbering;
 use super::vector::{B, Place};

@@ -1,13 +1,17 @@
 //! `Preconditioner`: the upper block-triangular matrix [F G; 0 -S] with approximate inverses of F and S.
 
+mod commutator;
+mod scales;
+mod schur;
+mod transfer;
+
+#[cfg(test)]
+pub(super) use self::commutator::Commutator;
+use self::scales::Scales;
+use self::schur::SchurComplement;
+pub(super) use self::transfer::transfer;
 use super::data::{SaddlePoint, Weights};
-use super::gradient::Gradient;
-use super::matrix::SaddleMatrix;
-use super::numbering::Numbering;
-use super::scales::Scales;
-use super::schur::SchurComplement;
-use super::transfer::transfer;
-use super::vector::{B, Blocks};
+use super::matrix::{B, Blocks, Gradient, Numbering, SaddleMatrix};
 use crate::multigrid::{BlockMatrix, Chebyshev, Hierarchy, HierarchySettings, Spectrum, upwinded};
 use crate::sparse::single::single;
 

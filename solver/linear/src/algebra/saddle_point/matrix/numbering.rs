@@ -1,12 +1,12 @@
 //! `Numbering`: unknowns as blocks of three velocities, two blocks for a body, and as pressures.
 
-use super::data::{Part, SaddlePoint};
+use super::super::data::{Part, SaddlePoint};
 use super::vector::{B, Blocks, Place};
 use crate::sparse::index::to_u32;
 
 /// Blocks of the unknowns of a system.
 #[derive(Debug, Clone)]
-pub(super) struct Numbering {
+pub(in super::super) struct Numbering {
     /// Place of each unknown.
     pub places: Vec<Place>,
     /// The unknowns of each block, where they are free.

@@ -1,6 +1,6 @@
 //! The scale of pressures against velocities, and the size below which pivots count as zero.
 
-use super::analysis::Analysis;
+use super::super::analysis::Analysis;
 use crate::sparse::SparseMatrix;
 
 /// Pivots below this fraction of the scale of their unknown count as zero.

@@ -4,9 +4,7 @@
 //! to it by least squares gives L^-1 (G^T D^-1 F D^-1 G) L^-1 with L = G^T D^-1 G (@elman2006). D is the diagonal of
 //! F: with the mass matrix in its place a sphere in a stream at a Reynolds number of ten takes 53 iterations for 46.
 
-use super::gradient::Gradient;
-use super::numbering::Numbering;
-use super::vector::B;
+use super::super::matrix::{B, Gradient, Numbering};
 use crate::multigrid::{BlockMatrix, HierarchySettings, Multigrid};
 
 /// Degree of the smoothers of the Laplacian.
@@ -14,7 +12,7 @@ const SMOOTHING: usize = 2;
 
 /// Approximate inverse of a Schur complement.
 #[derive(Debug)]
-pub(super) struct Commutator {
+pub(in super::super) struct Commutator {
     /// D^-1, zero for bodies and for what is no unknown.
     inverse_diagonal: Vec<[f32; B]>,
     gradient: Gradient,

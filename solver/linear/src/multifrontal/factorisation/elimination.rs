@@ -5,9 +5,9 @@ use std::ops::Range;
 
 use faer::Accum;
 
-use super::analysis::Analysis;
-use super::dense::{self, NoPivot, PanelShape, PivotRows};
-use super::front::Front;
+use super::super::analysis::Analysis;
+use super::super::dense::{self, NoPivot, PanelShape, PivotRows};
+use super::super::front::Front;
 use crate::sparse::index::to_u32;
 
 /// Columns of the border that a thread updates at a time in fronts that threads share.
@@ -60,7 +60,7 @@ pub(super) struct Child<'a> {
 
 /// The contribution of a front with delayed pivots, in memory of its own.
 #[derive(Debug, Clone, Default)]
-pub(super) struct DelayedContribution {
+pub(in super::super) struct DelayedContribution {
     pub values: Vec<f64>,
     pub delayed_rows: Vec<u32>,
     pub delayed_columns: Vec<u32>,
@@ -68,7 +68,7 @@ pub(super) struct DelayedContribution {
 
 /// Factors of a front that has not the size the analysis foresaw, because pivots were delayed.
 #[derive(Debug, Clone)]
-pub(super) struct DelayedPivotFactors {
+pub(in super::super) struct DelayedPivotFactors {
     /// m x p columns of L with U11, for p pivots.
     pub l: Vec<f64>,
     /// p x (m - p) entries of U12.

@@ -1,13 +1,13 @@
 //! `EntryMap`: which entries of the matrix each front takes, and where in its values they go.
 
-use super::buckets::Buckets;
-use super::front::Front;
+use super::super::buckets::Buckets;
+use super::super::front::Front;
 use crate::sparse::Pattern;
 use crate::sparse::index::to_u32;
 
 /// The entries of the matrix, front by front.
 #[derive(Debug, Clone)]
-pub(super) struct EntryMap {
+pub(in super::super) struct EntryMap {
     /// Entries of the matrix.
     pub sources: Vec<u32>,
     /// Where in the values of the front each goes.
@@ -16,7 +16,7 @@ pub(super) struct EntryMap {
 
 /// The order of elimination.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Positions<'a> {
+pub(in super::super) struct Positions<'a> {
     /// Position of each unknown.
     pub of_unknown: &'a [u32],
     /// Whether the unknown at each position is a pressure.

@@ -1,14 +1,16 @@
 //! The transfer of velocities from the coarser level, in blocks.
 
-use super::data::Interpolation;
-use super::numbering::Numbering;
-use super::vector::{B, Place};
+use super::super::data::Interpolation;
+use super::super::matrix::{B, Numbering, Place};
 use crate::multigrid::{Block, BlockMatrix, RowBuilder};
 use crate::sparse::single::single;
 
 /// The prolongation from the coarser level, which has the nodes with an unknown on both levels, and the
 /// bodies.
-pub(super) fn transfer(interpolation: &Interpolation, numbering: &Numbering) -> BlockMatrix<B> {
+pub(in super::super) fn transfer(
+    interpolation: &Interpolation,
+    numbering: &Numbering,
+) -> BlockMatrix<B> {
     let is_coarse = |block: &[Option<u32>; B]| {
         block.iter().flatten().any(|&unknown| interpolation.is_coarse(unknown as usize))
     };

@@ -2,7 +2,7 @@
 //!
 //! Vertices are named by their rank, their position in the order of elimination.
 
-use super::graph::Graph;
+use super::super::ordering::Graph;
 use crate::sparse::index::to_u32;
 
 /// Vertices eliminated together, and those their elimination couples.

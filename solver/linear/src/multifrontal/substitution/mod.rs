@@ -1,5 +1,8 @@
 //! Forward and backward substitution in one front.
 
+mod shared;
+mod solve;
+
 use std::ops::Range;
 
 use faer::linalg::matmul::matmul;
