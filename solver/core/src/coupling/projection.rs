@@ -7,8 +7,9 @@ use alewife_mesh::{BoundaryKind, Mesh, NodeId, Point};
 
 use super::boundaries::{Boundaries, BoundaryNode};
 use super::constrain::Constrainer;
-use super::linear_system::{SolverChoice, SystemSolver, system_solver};
-use super::preconditioning::{Coefficients, Discretised, saddle_point};
+use super::linear_system::{
+    Coefficients, Discretised, SolverChoice, SystemSolver, saddle_point, system_solver,
+};
 use super::pressure_mean::PressureMean;
 use super::problem::{Problem, Side};
 

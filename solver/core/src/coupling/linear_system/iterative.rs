@@ -1,6 +1,6 @@
 //! `IterativeSystem`: a saddle-point matrix by blocks, solved by iterations.
 
-use super::super::preconditioning::Coefficients;
+use super::preconditioning::Coefficients;
 use super::system_solver::{Scatter, SystemSolver, corrected, set_up_and, solved};
 use crate::algebra::{
     Accuracy, CellUnknowns, IterativeSettings, IterativeSolver, LinearError, LinearSolver,

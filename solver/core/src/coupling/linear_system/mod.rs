@@ -2,10 +2,13 @@
 
 mod direct;
 mod iterative;
+mod preconditioning;
 mod system_solver;
+mod wall_distance;
 
 use self::direct::DirectSystem;
 use self::iterative::IterativeSystem;
+pub(super) use self::preconditioning::{Coefficients, Discretised, saddle_point};
 pub(super) use self::system_solver::SystemSolver;
 use crate::algebra::{AffineConstraints, IterativeSettings, SaddlePoint};
 use crate::flow::Assembly;

@@ -1,6 +1,6 @@
 //! `SystemSolver`: a matrix in the form that its solver takes, with the solver.
 
-use super::super::preconditioning::Coefficients;
+use super::preconditioning::Coefficients;
 use crate::algebra::{
     Accuracy, LinearError, LinearSolver, SolverMemory, SparseMatrix, Term, Unknowns, Weights,
 };

@@ -35,7 +35,7 @@ fn held_pressure<const D: usize>(
 }
 
 /// What each free unknown is.
-pub(super) fn saddle_point<const D: usize>(
+pub(in super::super) fn saddle_point<const D: usize>(
     layout: &DofLayout<D>,
     constraints: &AffineConstraints,
     modes: Modes,
@@ -70,7 +70,7 @@ pub(super) fn saddle_point<const D: usize>(
 
 /// What the numbers depend on, beside where the nodes are.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Coefficients {
+pub(in super::super) struct Coefficients {
     /// Dynamic viscosity (Pa s).
     pub viscosity: f64,
     /// Density times the factor of the new velocity in its rate (kg/m^3/s), zero without inertia.
@@ -80,7 +80,7 @@ pub(super) struct Coefficients {
 }
 
 /// Spaces on a mesh, under constraints.
-pub(super) struct Discretised<'a, const D: usize> {
+pub(in super::super) struct Discretised<'a, const D: usize> {
     pub mesh: &'a Mesh<D>,
     pub layout: &'a DofLayout<D>,
     pub constraints: &'a AffineConstraints,

@@ -5,9 +5,9 @@
 
 use nalgebra::Vector3;
 
-use super::kinematics::Levers;
-use super::problem::{Joint, Length, Pivot, Problem, Turn};
-use super::shapes::BodyShapes;
+use super::super::kinematics::Levers;
+use super::super::problem::{Joint, Length, Pivot, Problem, Turn};
+use super::super::shapes::BodyShapes;
 use crate::body::{Pose, RigidVector, Twist, Wrench};
 
 /// What is known of the bodies at one time.

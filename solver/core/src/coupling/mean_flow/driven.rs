@@ -2,12 +2,12 @@
 
 use alewife_mesh::Point;
 
-use super::error::SolveError;
-use super::mean_flow::{MeanFlowReport, ResponseSystem, with_given_gradients};
-use super::problem::MeanFlowAt;
-use super::rigid_equations::RigidBodyEquation;
-use super::solution::Solution;
-use super::system::{Configuration, FluidSystem};
+use super::super::error::SolveError;
+use super::super::problem::MeanFlowAt;
+use super::super::rigid_equations::RigidBodyEquation;
+use super::super::solution::Solution;
+use super::super::system::{Configuration, FluidSystem};
+use super::{MeanFlowReport, ResponseSystem, with_given_gradients};
 use crate::body::{Mode, Wrench, in_space};
 use crate::timing::Timing;
 
@@ -83,7 +83,7 @@ impl<const D: usize> FluidSystem<D> {
 
     /// Gives the free unknowns the mean velocities that are given where something holds the fluid; the
     /// change of the pressure gradient that does.
-    pub(super) fn meet_mean_velocity(
+    pub(in super::super) fn meet_mean_velocity(
         &mut self,
         at: &Configuration<'_, D>,
         free: &mut [f64],
@@ -109,7 +109,7 @@ impl<const D: usize> FluidSystem<D> {
     }
 
     /// The mean velocity of fluid and bodies (m/s), where nothing holds them or one is given.
-    pub(super) fn mean_velocity(&self, solution: &Solution<D>) -> Point<D> {
+    pub(in super::super) fn mean_velocity(&self, solution: &Solution<D>) -> Point<D> {
         match (&self.cell, &self.nullspace) {
             (Some(cell), _) => cell.mean_velocity(solution),
             (None, Some(nullspace)) => nullspace.mean(solution),

@@ -5,23 +5,32 @@
 //! m dU/dt - F_ext and d(I omega)/dt - T_ext: no interface stress, no multiplier, and no added-mass
 //! instability at any density ratio.
 
+mod diagnosis;
+mod mobility;
+mod nullspace;
+mod numbering;
+mod refine;
+mod rigid_unknowns;
+mod solver_memory;
+
 use alewife_mesh::{Mesh, Point};
 
+pub use self::mobility::{BodyLoad, LoadedBody};
+use self::nullspace::TranslationNullspace;
+use self::numbering::{Numbering, free_velocities};
 use super::boundaries::Boundaries;
 use super::constrain::{BodiesAt, Constrainer};
 use super::error::SolveError;
-use super::linear_system::{SolverChoice, SystemSolver, system_solver};
-use super::loads::{ResidualOnMesh, SurfaceLoads, surface_loads};
+use super::linear_system::{
+    Coefficients, Discretised, SolverChoice, SystemSolver, saddle_point, system_solver,
+};
+use super::loads::{ResidualOnMesh, SurfaceLoads, SurfaceStress, surface_loads};
 use super::mean_flow::{CellIntegrals, MeanFlowResponse};
-use super::nullspace::TranslationNullspace;
-use super::numbering::{Numbering, free_velocities};
-use super::preconditioning::{Coefficients, Discretised, saddle_point};
 use super::pressure_mean::PressureMean;
 use super::problem::{MeanFlowAt, Problem};
 use super::rigid_equations::RigidBodyEquations;
 use super::shapes::BodyShapes;
 use super::solution::Solution;
-use super::surface_load::SurfaceStress;
 use crate::algebra::{Accuracy, AffineConstraints, SolverMemory, SparseMatrix, Unknowns};
 use crate::body::{Modes, Pose};
 use crate::flow::{Assembly, Convection, FlowTerms, assemble, residual};
@@ -53,11 +62,11 @@ pub struct FluidSystem<const D: usize> {
     pub n_unknowns: usize,
     pub(super) modes: Modes,
     facet_rule: FacetRule<D>,
-    pub(super) assembly: Assembly<D>,
+    assembly: Assembly<D>,
     pub(super) linear: Box<dyn SystemSolver>,
     /// What the solver kept when it was marked, if the unknowns have been numbered anew since.
-    pub(super) kept_memory: Option<SolverMemory>,
-    pub(super) numbering: Numbering,
+    kept_memory: Option<SolverMemory>,
+    numbering: Numbering,
     pressure: PressureMean,
     /// The common velocity of fluid and bodies, where nothing holds them.
     pub(super) nullspace: Option<TranslationNullspace<D>>,
@@ -321,7 +330,7 @@ impl<const D: usize> FluidSystem<D> {
     }
 
     /// The solution seen from where the system holds fluid and bodies.
-    pub(super) fn pinned(&self, solution: &Solution<D>) -> Solution<D> {
+    fn pinned(&self, solution: &Solution<D>) -> Solution<D> {
         let mut pinned = solution.clone();
         if let Some(nullspace) = &self.nullspace {
             nullspace.pin(&mut pinned);
@@ -330,7 +339,7 @@ impl<const D: usize> FluidSystem<D> {
     }
 
     /// The solution with a mean velocity (m/s) where nothing holds fluid and bodies.
-    pub(super) fn centered(&self, mut solution: Solution<D>, mean: &Point<D>) -> Solution<D> {
+    fn centered(&self, mut solution: Solution<D>, mean: &Point<D>) -> Solution<D> {
         if let Some(nullspace) = &self.nullspace {
             nullspace.subtract(&(self.mean_velocity(&solution) - mean), &mut solution);
         }

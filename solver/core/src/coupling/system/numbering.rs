@@ -1,6 +1,6 @@
 //! `Numbering`: what the unknowns of a linear system were numbered for.
 
-use super::linear_system::SolverChoice;
+use super::super::linear_system::SolverChoice;
 use crate::algebra::AffineConstraints;
 use crate::body::Modes;
 use crate::space::DofLayout;

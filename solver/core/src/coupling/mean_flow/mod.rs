@@ -7,6 +7,8 @@
 //! of the cell. Where it is given, gamma is one more unknown: with J dy + b dgamma = -R a step of Newton's
 //! method is that without dgamma and the answer of the flow to b, J^-1 b.
 
+mod driven;
+
 use alewife_mesh::{Mesh, Point, Simplex};
 use nalgebra::{DMatrix, DVector, Vector3};
 

@@ -2,9 +2,9 @@
 
 use alewife_mesh::Point;
 
-use super::error::SolveError;
-use super::solution::Solution;
-use super::system::{Configuration, FluidSystem};
+use super::super::error::SolveError;
+use super::super::solution::Solution;
+use super::{Configuration, FluidSystem};
 use crate::timing::Timing;
 
 impl<const D: usize> FluidSystem<D> {

@@ -2,8 +2,8 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::loads::BodyLoads;
-use super::problem::{Group, Problem};
+use super::super::problem::{Group, Problem};
+use super::BodyLoads;
 use super::surface_load::SurfaceStress;
 use crate::body::{Inertia, Mode, Modes, Pose, Twist, Wrench, in_space};
 

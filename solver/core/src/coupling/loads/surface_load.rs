@@ -3,7 +3,7 @@
 use alewife_mesh::{BoundaryId, Mesh, Point};
 use nalgebra::SMatrix;
 
-use super::boundaries::Boundaries;
+use super::super::boundaries::Boundaries;
 use crate::body::Wrench;
 use crate::flow::Fields;
 use crate::space::{FacetRule, Metric};

@@ -5,11 +5,11 @@ use std::collections::HashMap;
 use alewife_mesh::{BoundaryKind, Facet, Mesh, NodeId, Point};
 use nalgebra::{SMatrix, Vector3};
 
-use super::constrain::pinned_node;
-use super::error::SolveError;
-use super::problem::{MeanFlowAt, Problem};
-use super::rigid_equations::RigidBodyEquations;
-use super::solution::Solution;
+use super::super::constrain::pinned_node;
+use super::super::error::SolveError;
+use super::super::problem::{MeanFlowAt, Problem};
+use super::super::rigid_equations::RigidBodyEquations;
+use super::super::solution::Solution;
 use crate::body::{Mode, in_space, on_mesh};
 
 /// Loads that sum up to less than this part of their sizes are balanced.
@@ -17,7 +17,7 @@ const BALANCED: f64 = 1e-9;
 
 /// Takes a common velocity out of fluid and bodies.
 #[derive(Debug, Clone)]
-pub(super) struct TranslationNullspace<const D: usize> {
+pub(in super::super) struct TranslationNullspace<const D: usize> {
     /// Along which coordinates nothing holds them.
     axes: [bool; D],
     /// The node at which the system holds them.

@@ -1,6 +1,6 @@
 //! What the linear solver of fluid and bodies carries from step to step, as part of the state of a run.
 
-use super::system::FluidSystem;
+use super::FluidSystem;
 use crate::algebra::{LinearError, SolverMemory};
 
 impl<const D: usize> FluidSystem<D> {

@@ -2,9 +2,9 @@
 
 use nalgebra::DMatrix;
 
-use super::error::SolveError;
-use super::solution::Solution;
-use super::system::FluidSystem;
+use super::super::error::SolveError;
+use super::super::solution::Solution;
+use super::FluidSystem;
 use crate::algebra::{AffineConstraints, Term};
 use crate::body::{Mode, RigidVector};
 use crate::timing::Timing;

@@ -1,8 +1,8 @@
 //! What an error of the linear algebra means: which unknown, where, and what may be missing.
 
-use super::error::{SolveError, coordinates};
-use super::problem::Problem;
-use super::system::{Configuration, FluidSystem};
+use super::super::error::{SolveError, coordinates};
+use super::super::problem::Problem;
+use super::{Configuration, FluidSystem};
 use crate::algebra::LinearError;
 use crate::body::Mode;
 

@@ -2,13 +2,12 @@
 
 use alewife_mesh::Mesh;
 
-use super::constrain::BodiesAt;
-use super::linear_system::system_solver;
+use super::super::constrain::BodiesAt;
+use super::super::linear_system::{saddle_point, system_solver};
+use super::super::problem::{Drive, Problem};
+use super::super::shapes::BodyShapes;
 use super::numbering::free_velocities;
-use super::preconditioning::saddle_point;
-use super::problem::{Drive, Problem};
-use super::shapes::BodyShapes;
-use super::system::{Configuration, FluidSystem};
+use super::{Configuration, FluidSystem};
 use crate::algebra::{AffineConstraints, Term};
 use crate::body::Pose;
 use crate::flow::Assembly;
