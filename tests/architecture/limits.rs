@@ -15,7 +15,7 @@ const FUNCTION: usize = 70;
 const ARGUMENTS: usize = 6;
 
 /// Files of element kernels, whose functions may be longer.
-const KERNELS: &str = "solver/core/src/flow/taylor_hood/";
+const KERNELS: &str = "solver/flow/src/flow/taylor_hood/";
 
 /// What is wrong with the functions of a file.
 struct Functions<'a> {

@@ -26,10 +26,7 @@ const ROOMS: [(&str, &[&str]); 22] = [
     ("flow", &["algebra", "space"]),
     ("coupling", &["algebra", "body", "flow", "gait", "space", "time", "timing"]),
     ("state", &["body", "contact", "coupling", "space"]),
-    (
-        "motion",
-        &["algebra", "body", "contact", "coupling", "space", "state", "time"],
-    ),
+    ("motion", &["algebra", "body", "contact", "coupling", "space", "state", "time"]),
     (
         "step",
         &[
@@ -55,8 +52,8 @@ const ROOMS: [(&str, &[&str]); 22] = [
 const FOREIGN: [(&str, &[&str]); 8] = [
     ("num_dual", &["solver/core/src/gait/"]),
     ("faer", &["solver/linear/src/algebra/", "solver/linear/src/multifrontal/"]),
-    ("pulp", &["solver/core/src/flow/", "solver/linear/src/multifrontal/"]),
-    ("metis_sys", &["solver/linear/src/multifrontal/metis.rs"]),
+    ("pulp", &["solver/flow/src/flow/", "solver/linear/src/multifrontal/"]),
+    ("metis_sys", &["solver/linear/src/multifrontal/ordering/metis.rs"]),
     ("spade", &["mesh/src/planar/generate/", "mesh/src/planar/cut/"]),
     ("mcap", &["solver/src/observer/"]),
     ("clap", &["solver/src/cli/"]),

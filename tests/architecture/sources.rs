@@ -27,8 +27,14 @@ pub fn sources(folder: &str) -> BTreeMap<String, String> {
 }
 
 /// Source folders of all crates.
-pub const CRATES: [&str; 5] =
-    ["mesh/src", "solver/case/src", "solver/core/src", "solver/linear/src", "solver/src"];
+pub const CRATES: [&str; 6] = [
+    "mesh/src",
+    "solver/case/src",
+    "solver/core/src",
+    "solver/flow/src",
+    "solver/linear/src",
+    "solver/src",
+];
 
 /// The source files of all crates, by path relative to the root.
 pub fn all_sources() -> impl Iterator<Item = (String, String)> {

@@ -141,8 +141,14 @@ fn read_and_check(argument: &str, what: &str) -> CaseFile {
 }
 
 /// Source folders of all crates.
-const CRATES: [&str; 5] =
-    ["mesh/src", "solver/case/src", "solver/core/src", "solver/linear/src", "solver/src"];
+const CRATES: [&str; 6] = [
+    "mesh/src",
+    "solver/case/src",
+    "solver/core/src",
+    "solver/flow/src",
+    "solver/linear/src",
+    "solver/src",
+];
 
 /// All source files below a folder.
 fn sources(folder: &Path) -> Vec<PathBuf> {

@@ -4,15 +4,14 @@
 pub mod body;
 pub mod contact;
 pub mod coupling;
-pub mod flow;
 pub mod gait;
 pub mod motion;
 pub mod run;
-pub mod space;
 pub mod state;
 pub mod step;
 pub mod time;
 pub mod timing;
 
 pub use alewife_case as case;
+pub use alewife_flow::{flow, space};
 pub use alewife_linear::{algebra, multifrontal};

@@ -7,8 +7,9 @@ use alewife_mesh::{BoundaryKind, Mesh, NodeId, Point};
 
 use super::boundaries::{Boundaries, BoundaryNode};
 use super::constrain::Constrainer;
-use super::linear_system::{LinearSystem, SolverChoice};
-use super::preconditioning::{Coefficients, Discretised, saddle_point};
+use super::linear_system::{
+    Coefficients, Discretised, SolverChoice, SystemSolver, saddle_point, system_solver,
+};
 use super::pressure_mean::PressureMean;
 use super::problem::{Problem, Side};
 
@@ -27,7 +28,7 @@ pub struct DivergenceFreeProjection<const D: usize> {
     layout: DofLayout<D>,
     constraints: AffineConstraints,
     assembly: Assembly<D>,
-    linear: LinearSystem,
+    linear: Box<dyn SystemSolver>,
     /// Distributes a net flux where the flow is enclosed.
     enclosed: Option<PressureMean>,
 }
@@ -57,8 +58,7 @@ impl<const D: usize> DivergenceFreeProjection<D> {
         let constraints = hold_given_velocities(problem, mesh, &layout);
         let assembly = Assembly::new(mesh, layout, &constraints, problem.metric, &[], None);
         let saddle_point = saddle_point(&layout, &constraints, problem.modes());
-        let linear =
-            LinearSystem::new(&assembly, &constraints, saddle_point, SolverChoice::Automatic);
+        let linear = system_solver(&assembly, &constraints, saddle_point, SolverChoice::Automatic);
         let mut projection = Self { layout, constraints, assembly, linear, enclosed: None };
         projection.move_to(problem, mesh);
         projection
@@ -70,7 +70,7 @@ impl<const D: usize> DivergenceFreeProjection<D> {
         let pressure = vec![0.0; self.layout.n_vertices];
         let fields = Fields { velocity: &velocity, pressure: &pressure };
         let (assembly, constraints) = (&self.assembly, &self.constraints);
-        self.linear.assemble(|scatter| {
+        self.linear.assemble(&mut |scatter| {
             assemble(assembly, mesh, constraints, &terms(1.0), &fields, scatter);
         });
         let edge = (volume(mesh) / mesh.n_cells() as f64).powf(1.0 / D as f64);
@@ -79,7 +79,7 @@ impl<const D: usize> DivergenceFreeProjection<D> {
         let tables = self.assembly.tables();
         let discretised = Discretised { mesh, layout: &self.layout, constraints, tables };
         self.linear.forget_weights();
-        let weights = || discretised.weights(coefficients);
+        let weights = &|| discretised.weights(coefficients);
         self.linear.prepare(coefficients, weights, &mut Timing::default());
         self.enclosed =
             problem.is_enclosed().then(|| PressureMean::new(mesh, self.assembly.tables()));

@@ -82,6 +82,9 @@ pub trait LinearSolver: Debug + Send {
     ///
     /// # Errors
     /// When the residual stays large, or a value is not finite.
+    ///
+    /// # Panics
+    /// May panic where no matrix has been set up.
     fn solve(&mut self, matrix: &Self::Matrix, rhs: &mut [f64]) -> Result<Accuracy, LinearError>;
 
     /// The same, where the accuracy is a choice until what is left of the residual is this part of the

@@ -22,29 +22,15 @@
 
 mod analysis;
 mod buckets;
-mod delays;
 mod dense;
-mod elimination;
-mod entries;
-mod factors;
+mod factorisation;
 mod front;
-mod graph;
-#[cfg(feature = "metis")]
-mod metis;
 mod ordering;
-mod scaling;
 mod segments;
-mod shared;
-mod solve;
-mod stacks;
 mod substitution;
-mod subtrees;
 #[cfg(test)]
 mod tests;
-mod traversal;
-mod tree;
 
 pub use analysis::Analysis;
-pub use factors::Factors;
+pub use factorisation::{Factors, Singular};
 pub use ordering::Ordering;
-pub use traversal::Singular;

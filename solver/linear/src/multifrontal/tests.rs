@@ -6,7 +6,7 @@ use faer::Mat;
 use faer::linalg::solvers::Solve;
 use proptest::prelude::*;
 
-use super::subtrees::MIN_PARALLEL_FLOPS;
+use super::analysis::MIN_PARALLEL_FLOPS;
 use super::{Analysis, Factors, Ordering, Singular};
 use crate::sparse::index::to_u32;
 use crate::sparse::{Pattern, SparseMatrix, Unknowns};

@@ -60,10 +60,37 @@ struct SizedRun {
     size: RunSize,
 }
 
-/// A run, or why there is no result.
-struct Outcome {
-    summary: Result<RunSummary, String>,
-    directory: Option<PathBuf>,
+/// Why a run has no result.
+enum NoResult {
+    /// It failed, or is not there to be read: a row of the table says so.
+    Reported(String),
+    /// The validation ends with it.
+    Ends(Failure),
+}
+
+impl NoResult {
+    /// What the row says, unless the validation ends.
+    fn reported(self) -> Result<String, Failure> {
+        match self {
+            Self::Reported(reason) => Ok(reason),
+            Self::Ends(failure) => Err(failure),
+        }
+    }
+}
+
+impl From<RunError> for NoResult {
+    fn from(error: RunError) -> Self {
+        match error {
+            RunError::Flow(FlowError::Stopped { .. }) => Self::Ends(error.into()),
+            error => Self::Reported(error.to_string()),
+        }
+    }
+}
+
+impl From<Failure> for NoResult {
+    fn from(failure: Failure) -> Self {
+        Self::Ends(failure)
+    }
 }
 
 impl Work {
@@ -78,7 +105,11 @@ impl Work {
     pub fn validate(&self, member: &Member) -> Result<MemberReport, Failure> {
         let file = &member.file;
         let name = file.full_name();
-        let Outcome { summary, directory } = self.outcome(file, Which::Itself)?;
+        let directory = self.directory(file, Which::Itself);
+        let summary = match self.summary(file, Which::Itself, directory.as_deref()) {
+            Ok(summary) => Ok(summary),
+            Err(none) => Err(none.reported()?),
+        };
         let size = match &summary {
             Ok(summary) if self.with_sizes => {
                 Some(size_of(&file.model, summary, directory.as_deref())?)
@@ -91,7 +122,11 @@ impl Work {
         };
         let companion = match size {
             Some(size) if self.with_companions => {
-                Some(self.companion(member, size, &mut comparisons)?)
+                let run = match self.companion_run(member) {
+                    Ok(run) => Ok(run),
+                    Err(none) => Err(none.reported()?),
+                };
+                Some(companion(member, size, run, &mut comparisons))
             }
             _ => None,
         };
@@ -102,103 +137,101 @@ impl Work {
         Ok(MemberReport { name, size, companion, comparisons, made_by })
     }
 
-    /// Gives values their uncertainties by a companion.
-    fn companion(
-        &self,
-        member: &Member,
-        fine: RunSize,
-        values: &mut [Comparison],
-    ) -> Result<Result<Companion, String>, Failure> {
-        let case = member.file.case();
-        let run = match readable(&member.name, &coarser_settings(case)) {
-            Ok(file) => self.companion_run(&file)?,
-            Err(reason) => Err(reason),
-        };
-        let refinement = match &run {
-            Ok(run) => Refinement::between(case, fine, run.size),
-            Err(reason) => Err(reason.clone()),
-        };
-        let compared = match &run {
-            Ok(run) => compare(&member.name, case, &run.summary),
-            Err(_) => Vec::new(),
-        };
-        set_uncertainties(values, &compared, &refinement);
-        Ok(run.map(|run| Companion { size: run.size, refinement }))
+    /// The run of a companion.
+    fn companion_run(&self, member: &Member) -> Result<SizedRun, NoResult> {
+        let settings = coarser_settings(member.file.case());
+        let file = readable(&member.name, &settings).map_err(NoResult::Reported)?;
+        let directory = self.directory(&file, Which::Companion);
+        let summary = self.summary(&file, Which::Companion, directory.as_deref())?;
+        let size = size_of(&file.model, &summary, directory.as_deref())?;
+        Ok(SizedRun { summary, size })
     }
 
-    /// The run of a companion, or why there is none.
-    fn companion_run(&self, file: &CaseFile) -> Result<Result<SizedRun, String>, Failure> {
-        let Outcome { summary, directory } = self.outcome(file, Which::Companion)?;
-        Ok(match summary {
-            Ok(summary) => {
-                let size = size_of(&file.model, &summary, directory.as_deref())?;
-                Ok(SizedRun { summary, size })
-            }
-            Err(reason) => Err(reason),
-        })
-    }
-
-    fn outcome(&self, file: &CaseFile, which: Which) -> Result<Outcome, Failure> {
+    /// Where a run is kept, if anywhere.
+    fn directory(&self, file: &CaseFile, which: Which) -> Option<PathBuf> {
         let mut name = file.full_name().replace('/', "-");
         if which == Which::Companion {
             name += COARSER;
         }
-        let case = file.case();
-        let (directory, summary) = match &self.place {
-            Place::Memory => {
-                let summary = engine::simulate(&file.model, self.watch.clone());
-                (None, unless_stopped(summary)?)
-            }
-            Place::Read(from) => {
-                let directory = from.join(name);
-                let summary = match kept::find(&directory, case, true) {
-                    Found::Failed(reason) => Err(reason),
-                    _ => match kept::read(&directory, case) {
-                        // Without a companion a value has no uncertainty, without its run no value
-                        Err(_) if which == Which::Companion && !directory.is_dir() => {
-                            Err("not run".to_owned())
-                        }
-                        Err(refusal) if which == Which::Companion => Err(refusal.reason),
-                        read => Ok(read?),
-                    },
-                };
-                (Some(directory), summary)
-            }
-            Place::Kept { out, by_any_program } => {
-                let directory = out.join(name);
-                let summary = match kept::find(&directory, case, *by_any_program) {
-                    Found::Finished => Ok(kept::outcome(&directory)?),
-                    Found::Failed(reason) => Err(reason),
-                    Found::Replaceable => {
-                        let is_of_validation = kept::is_of_validation(&directory);
-                        let summary = self.run(file, &directory, Earlier::Replace)?;
-                        if is_of_validation && summary.is_ok() {
-                            kept::mesh_size(&file.model, Some(&directory))?;
-                        }
-                        summary
-                    }
-                    Found::Other => self.run(file, &directory, Earlier::Keep)?,
-                };
-                (Some(directory), summary)
-            }
-        };
-        Ok(Outcome { summary, directory })
+        match &self.place {
+            Place::Memory => None,
+            Place::Kept { out: place, .. } | Place::Read(place) => Some(place.join(name)),
+        }
     }
 
-    fn run(
+    /// What a run came to, with the directory it is kept in.
+    fn summary(
         &self,
         file: &CaseFile,
-        place: &Path,
-        earlier: Earlier,
-    ) -> Result<Result<RunSummary, String>, Failure> {
+        which: Which,
+        directory: Option<&Path>,
+    ) -> Result<RunSummary, NoResult> {
+        match (&self.place, directory) {
+            (Place::Memory, _) | (_, None) => {
+                Ok(engine::simulate(&file.model, self.watch.clone())?)
+            }
+            (Place::Read(_), Some(directory)) => read(file.case(), which, directory),
+            (Place::Kept { by_any_program, .. }, Some(directory)) => {
+                match kept::find(directory, file.case(), *by_any_program) {
+                    Found::Finished => Ok(kept::outcome(directory).map_err(Failure::from)?),
+                    Found::Failed(reason) => Err(NoResult::Reported(reason)),
+                    Found::Replaceable => {
+                        let is_of_validation = kept::is_of_validation(directory);
+                        let summary = self.run(file, directory, Earlier::Replace)?;
+                        if is_of_validation {
+                            kept::mesh_size(&file.model, Some(directory))?;
+                        }
+                        Ok(summary)
+                    }
+                    Found::Other => self.run(file, directory, Earlier::Keep),
+                }
+            }
+        }
+    }
+
+    fn run(&self, file: &CaseFile, place: &Path, earlier: Earlier) -> Result<RunSummary, NoResult> {
         let start = Start::with_threads(self.n_threads);
         let model = kept::with_every_step(&file.model);
-        let directory = RunDirectory::create(place, &model.case, start, earlier)?;
+        let directory =
+            RunDirectory::create(place, &model.case, start, earlier).map_err(Failure::from)?;
         let shown = Shown { quiet: true, live: None };
         let watch = self.watch.clone();
         let run = RunInto { directory: &directory, shown, watch, limit: None };
-        unless_stopped(engine::simulate_afresh(&model, run))
+        Ok(engine::simulate_afresh(&model, run)?)
     }
+}
+
+/// Reads a run that is kept; none is made.
+fn read(case: &Case, which: Which, directory: &Path) -> Result<RunSummary, NoResult> {
+    if let Found::Failed(reason) = kept::find(directory, case, true) {
+        return Err(NoResult::Reported(reason));
+    }
+    kept::read(directory, case).map_err(|refusal| match which {
+        // Without a companion a value has no uncertainty, without its run no value
+        Which::Companion if !directory.is_dir() => NoResult::Reported("not run".to_owned()),
+        Which::Companion => NoResult::Reported(refusal.reason),
+        Which::Itself => NoResult::Ends(refusal.into()),
+    })
+}
+
+/// Gives values their uncertainties by the run of a companion, where there is one.
+fn companion(
+    member: &Member,
+    fine: RunSize,
+    run: Result<SizedRun, String>,
+    values: &mut [Comparison],
+) -> Result<Companion, String> {
+    let case = member.file.case();
+    let refinement = match &run {
+        Ok(run) => Refinement::between(case, fine, run.size),
+        Err(reason) => Err(reason.clone()),
+    };
+    let compared = match &run {
+        Ok(run) => compare(&member.name, case, &run.summary),
+        Err(_) => Vec::new(),
+    };
+    set_uncertainties(values, &compared, &refinement);
+    run.map(|run| Companion { size: run.size, refinement })
 }
 
 /// Writes what `run` does of its comparison.
@@ -224,16 +257,6 @@ fn made_by(directory: Option<&Path>, n_threads: usize) -> String {
     let origin = kept.map_or_else(|| Origin::of_this_process("", n_threads), |kept| kept.origin);
     let day = origin.started_at.get(..10).unwrap_or_default();
     format!("{}, {day}", origin.program())
-}
-
-/// What a run came to; to be asked to stop is no result.
-fn unless_stopped(
-    summary: Result<RunSummary, RunError>,
-) -> Result<Result<RunSummary, String>, Failure> {
-    match summary {
-        Err(error @ RunError::Flow(FlowError::Stopped { .. })) => Err(error.into()),
-        summary => Ok(summary.map_err(|error| error.to_string())),
-    }
 }
 
 fn size_of(

@@ -50,33 +50,35 @@ impl CaseMesh<3> for Dimension<3> {
         reference: &Reference<'_, 3>,
     ) -> Result<MovingMesh<3>, RunError> {
         let Reference { saved, mesh } = reference;
-        let moving = moving(model, problem, mesh, saved.poses.clone(), saved.time)?;
-        Ok(moving.map_err(ResumeError::from)?)
+        let failed = |error| ResumeError::from(error).into();
+        moving(model, problem, mesh, saved.poses.clone(), saved.time, failed)
     }
 }
 
 /// A mesh with what moves it, its bodies moved by whole periods (m).
 fn initial(mesh: Mesh<3>, shifts: Vec<Vector3<f64>>) -> InitialMesh<3> {
     let make: MakeMovingMesh<3> = Box::new(|model, problem, mesh, poses| {
-        moving(model, problem, mesh, poses, 0.0)?.map_err(RunError::from_remesh)
+        moving(model, problem, mesh, poses, 0.0, RunError::from_remesh)
     });
     InitialMesh { mesh, shifts, make_moving: make }
 }
 
-/// What moves a mesh that was generated at a time (s) with the bodies at poses.
+/// What moves a mesh that was generated at a time (s) with the bodies at poses; `failed` says what it means
+/// that it cannot be set up.
 fn moving(
     model: &Model,
     problem: &Problem<3>,
     mesh: &Mesh<3>,
     poses: Vec<Pose>,
     time: f64,
-) -> Result<Result<MovingMesh<3>, RemeshError>, RunError> {
+    failed: fn(RemeshError) -> RunError,
+) -> Result<MovingMesh<3>, RunError> {
     let case = Arc::new(SpatialCase::new(model, problem)?);
     let shapes = BodyShapes::at(&problem.bodies, time)?;
-    let moving = || {
+    let moving = || -> Result<_, RemeshError> {
         let settings = case.motion.clone();
         let scene = SpatialScene::new(Arc::clone(&case), mesh, &poses, &shapes)?;
         Ok(MovingMesh::new(mesh, Box::new(scene), settings, poses, time)?)
     };
-    Ok(moving())
+    moving().map_err(failed)
 }

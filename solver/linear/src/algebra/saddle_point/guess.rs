@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-use super::vector::Blocks;
+use super::matrix::Blocks;
 
 /// Solutions that are kept.
 const KEPT: usize = 6;

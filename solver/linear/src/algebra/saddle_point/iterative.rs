@@ -203,9 +203,9 @@ impl IterativeSolver {
         reduction: f64,
         uses_earlier: bool,
     ) -> Result<Iterated, LinearError> {
-        let Some(SetUp { preconditioner, space, .. }) = &mut self.set_up else {
-            return Err(LinearError::NotFinite);
-        };
+        let set_up = self.set_up.as_mut();
+        let SetUp { preconditioner, space, .. } =
+            set_up.expect("a matrix is set up before systems with it are solved");
         let mut system = Scaled { matrix, preconditioner };
         let initial = system.norm(rhs);
         let tolerance = reduction * initial;

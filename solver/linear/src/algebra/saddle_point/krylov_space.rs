@@ -4,8 +4,8 @@
 //! residual is computed anew in double precision: what they have of it is taken off, and convergence goes on
 //! as if nothing had been rounded.
 
+use super::matrix::Blocks;
 use super::scaled::Scaled;
-use super::vector::Blocks;
 
 /// An image that is smaller than this part of what it was before those of the others were taken off
 /// is rounding.

@@ -5,23 +5,15 @@
 //! Laplacian (@cahouet1988, @elman2014). What is in [`SaddlePoint`] and [`Weights`] is all that is known of
 //! flow and mesh here.
 
-mod block_maps;
-mod commutator;
 mod data;
-mod gradient;
 mod guess;
 mod iterative;
 mod krylov_space;
 mod matrix;
-mod numbering;
 mod preconditioner;
 mod scaled;
-mod scales;
-mod schur;
 #[cfg(test)]
 mod tests;
-mod transfer;
-mod vector;
 
 pub use data::{Interpolation, Part, SaddlePoint, Weights};
 pub use iterative::{IterativeSettings, IterativeSolver};

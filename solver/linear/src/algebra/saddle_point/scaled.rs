@@ -2,9 +2,8 @@
 
 use super::super::vectors::norm;
 use super::guess::EarlierSolutions;
-use super::matrix::SaddleMatrix;
+use super::matrix::{Blocks, SaddleMatrix};
 use super::preconditioner::Preconditioner;
-use super::vector::Blocks;
 use crate::sparse::single::single;
 
 /// An approximation x of the solution of A x = b, and b - A x.

@@ -1,9 +1,7 @@
 //! Parts of the preconditioner against what they stand for, on systems of a few unknowns.
 
-use super::commutator::Commutator;
-use super::matrix::SaddleMatrix;
-use super::numbering::Numbering;
-use super::transfer::transfer;
+use super::matrix::{Numbering, SaddleMatrix};
+use super::preconditioner::{Commutator, transfer};
 use super::{Interpolation, Part, SaddlePoint};
 use crate::algebra::{CellFolds, CellMaps, ConstraintBuilder, Term};
 use crate::sparse::SparseMatrix;

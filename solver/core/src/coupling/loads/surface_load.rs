@@ -1,0 +1,76 @@
+//! The load of the fluid on a boundary by integrating its stress: a cross-check of lower order.
+
+use alewife_mesh::{BoundaryId, Mesh, Point};
+use nalgebra::SMatrix;
+
+use super::super::boundaries::Boundaries;
+use crate::body::Wrench;
+use crate::flow::Fields;
+use crate::space::{FacetRule, Metric};
+
+/// A flow whose stress is integrated over boundaries.
+#[derive(Debug, Clone, Copy)]
+pub struct SurfaceStress<'a, const D: usize> {
+    /// The mesh.
+    pub mesh: &'a Mesh<D>,
+    /// Its boundaries.
+    pub boundaries: &'a Boundaries,
+    /// Quadrature on facets.
+    pub rule: &'a FacetRule<D>,
+    /// Dynamic viscosity (Pa s).
+    pub viscosity: f64,
+    /// Velocity and pressure.
+    pub fields: Fields<'a, D>,
+}
+
+/// The stress at one quadrature point of a boundary.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct SurfacePoint<const D: usize> {
+    /// Position (m).
+    pub position: Point<D>,
+    /// - sigma n ds with n out of the fluid: the force on the body (N).
+    pub force: Point<D>,
+    /// Velocity of the fluid (m/s).
+    pub velocity: Point<D>,
+}
+
+impl<const D: usize> SurfaceStress<'_, D> {
+    /// Visits the quadrature points of a boundary.
+    pub(super) fn for_each_point(
+        &self,
+        boundary: BoundaryId,
+        mut visit: impl FnMut(&SurfacePoint<D>),
+    ) {
+        let Self { mesh, fields, .. } = self;
+        for &facet in self.boundaries.facets_on(boundary) {
+            let facet = &mesh.facets[facet];
+            let nodes = mesh.cell(facet.cell);
+            self.rule.for_each_point(mesh, facet, |at| {
+                let mut velocity = Point::<D>::zeros();
+                let mut gradient = SMatrix::<f64, D, D>::zeros();
+                for (a, &node) in nodes.iter().enumerate() {
+                    let nodal = fields.velocity[node];
+                    velocity += nodal * at.phi[a];
+                    gradient += nodal * at.grad_phi[a].transpose();
+                }
+                let pressure: f64 =
+                    nodes.iter().zip(at.psi).map(|(&node, psi)| fields.pressure[node] * psi).sum();
+                let traction = (gradient + gradient.transpose()) * at.normal_ds * self.viscosity
+                    - at.normal_ds * pressure;
+                visit(&SurfacePoint { position: at.position, force: -traction, velocity });
+            });
+        }
+    }
+
+    /// Force and torque about `center` of the fluid on a boundary:
+    /// F = - int sigma n ds with n out of the fluid.
+    #[must_use]
+    pub fn load(&self, boundary: BoundaryId, metric: Metric, center: &Point<D>) -> Wrench {
+        let mut load = Wrench::default();
+        self.for_each_point(boundary, |at| {
+            load.force += metric.total_force(&at.force);
+            load.torque += metric.total_torque(&(at.position - center), &at.force);
+        });
+        load
+    }
+}

@@ -1,0 +1,372 @@
+//! One linear system for the fluid and every body in it.
+//!
+//! A step of Newton's method on R(x) = 0 with x = P y + g: solve P^T J P dy = -P^T R(x). On the
+//! rows of U and omega, P^T gathers minus the fluid's load, to which Newton and Euler add
+//! m dU/dt - F_ext and d(I omega)/dt - T_ext: no interface stress, no multiplier, and no added-mass
+//! instability at any density ratio.
+
+mod diagnosis;
+mod mobility;
+mod nullspace;
+mod numbering;
+mod refine;
+mod rigid_unknowns;
+mod solver_memory;
+
+use alewife_mesh::{Mesh, Point};
+
+use self::nullspace::TranslationNullspace;
+use self::numbering::{Numbering, free_velocities};
+use super::boundaries::Boundaries;
+use super::constrain::{BodiesAt, Constrainer};
+use super::error::SolveError;
+use super::linear_system::{
+    Coefficients, Discretised, SolverChoice, SystemSolver, saddle_point, system_solver,
+};
+use super::loads::{ResidualOnMesh, SurfaceLoads, SurfaceStress, surface_loads};
+use super::mean_flow::{CellIntegrals, MeanFlowResponse};
+use super::pressure_mean::PressureMean;
+use super::problem::{MeanFlowAt, Problem};
+use super::rigid_equations::RigidBodyEquations;
+use super::shapes::BodyShapes;
+use super::solution::Solution;
+use crate::algebra::{Accuracy, AffineConstraints, SolverMemory, SparseMatrix, Unknowns};
+use crate::body::{Modes, Pose};
+use crate::flow::{Assembly, Convection, FlowTerms, assemble, residual};
+use crate::space::{DofLayout, FacetRule, Tables};
+use crate::timing::{Stage, Timing};
+
+/// Everything that defines the system on one configuration of the mesh.
+#[derive(Clone, Copy)]
+pub struct Configuration<'a, const D: usize> {
+    /// What is solved.
+    pub problem: &'a Problem<D>,
+    /// The mesh.
+    pub mesh: &'a Mesh<D>,
+    /// Boundary conditions and bodies.
+    pub constraints: &'a AffineConstraints,
+    /// Newton's and Euler's equations.
+    pub bodies: &'a RigidBodyEquations,
+    /// What is given of the mean flow.
+    pub mean_flow: MeanFlowAt<D>,
+}
+
+/// Pattern, factorisation and workspace for the systems on one mesh.
+pub struct FluidSystem<const D: usize> {
+    /// Numbering of the raw unknowns.
+    pub layout: DofLayout<D>,
+    /// Boundaries of the mesh.
+    pub boundaries: Boundaries,
+    /// Number of free unknowns.
+    pub n_unknowns: usize,
+    pub(super) modes: Modes,
+    facet_rule: FacetRule<D>,
+    assembly: Assembly<D>,
+    pub(super) linear: Box<dyn SystemSolver>,
+    /// What the solver kept when it was marked, if the unknowns have been numbered anew since.
+    kept_memory: Option<SolverMemory>,
+    numbering: Numbering,
+    pressure: PressureMean,
+    /// The common velocity of fluid and bodies, where nothing holds them.
+    pub(super) nullspace: Option<TranslationNullspace<D>>,
+    /// Integrals over a cell with a mean flow.
+    pub(super) cell: Option<CellIntegrals<D>>,
+    /// How the flow answered to pressure gradients in the last step of Newton's method.
+    pub(super) response: MeanFlowResponse,
+}
+
+impl<const D: usize> FluidSystem<D> {
+    /// Analyses a problem on a mesh. `unknown_frame` makes the frame's velocity an unknown of the
+    /// convection.
+    #[must_use]
+    pub fn new(problem: &Problem<D>, mesh: &Mesh<D>, poses: &[Pose], unknown_frame: bool) -> Self {
+        Self::with_solver(problem, mesh, poses, unknown_frame, SolverChoice::default())
+    }
+
+    /// The same, with systems solved by a chosen method.
+    #[must_use]
+    pub fn with_solver(
+        problem: &Problem<D>,
+        mesh: &Mesh<D>,
+        poses: &[Pose],
+        unknown_frame: bool,
+        choice: SolverChoice,
+    ) -> Self {
+        let modes = problem.modes();
+        let layout = DofLayout::new(mesh, problem.bodies.len(), modes.len());
+        let boundaries = Boundaries::new(mesh);
+        // Which unknowns are constrained does not depend on how bodies deform
+        let shapes = BodyShapes::rigid(problem.bodies.len());
+        let constraints = Constrainer { problem, mesh, layout: &layout }
+            .constraints(&boundaries, BodiesAt { poses, shapes: &shapes });
+        let frame = problem.frame.filter(|_| unknown_frame);
+        let assembly = Assembly::new(
+            mesh,
+            layout,
+            &constraints,
+            problem.metric,
+            &problem.do_nothing_sides(),
+            frame,
+        );
+        let pressure = PressureMean::new(mesh, assembly.tables());
+        let driven = problem.mean_flow.as_ref();
+        let cell = driven.map(|_| CellIntegrals::new(problem, mesh, assembly.tables()));
+        let saddle_point = saddle_point(&layout, &constraints, modes);
+        let linear = system_solver(&assembly, &constraints, saddle_point, choice);
+        let is_free = free_velocities(&layout, problem.bodies.len(), modes, &constraints);
+        Self {
+            layout,
+            boundaries,
+            kept_memory: None,
+            numbering: Numbering { choice, frame, is_free },
+            n_unknowns: constraints.n_unknowns(),
+            modes,
+            facet_rule: FacetRule::new(problem.metric),
+            assembly,
+            linear,
+            pressure,
+            nullspace: TranslationNullspace::new(problem, mesh),
+            cell,
+            response: MeanFlowResponse::default(),
+        }
+    }
+
+    /// Entries of the matrix.
+    #[must_use]
+    pub fn n_entries(&self) -> usize {
+        self.linear.n_entries()
+    }
+
+    /// What the linear solver is given of each free unknown.
+    #[must_use]
+    pub fn unknowns(&self) -> &Unknowns {
+        self.linear.unknowns()
+    }
+
+    /// How well the last system was solved for which the matrix was factorised.
+    #[must_use]
+    pub fn accuracy(&self) -> Accuracy {
+        self.linear.accuracy()
+    }
+
+    /// Whether systems are solved by iterations: how accurately is then a choice.
+    #[must_use]
+    pub fn is_iterative(&self) -> bool {
+        self.linear.is_iterative()
+    }
+
+    /// Memory of the preconditioner of an iterative solver (bytes).
+    #[must_use]
+    pub fn preconditioner_bytes(&self) -> usize {
+        self.linear.preconditioner_bytes()
+    }
+
+    /// A copy of the matrix last assembled.
+    #[must_use]
+    pub fn matrix(&self) -> SparseMatrix {
+        self.linear.matrix()
+    }
+
+    /// Basis tables, for measurements.
+    #[must_use]
+    pub fn tables(&self) -> &Tables<D> {
+        self.assembly.tables()
+    }
+
+    /// The stress of a flow on the boundaries of the mesh.
+    #[must_use]
+    pub fn surface_stress<'a>(
+        &'a self,
+        problem: &Problem<D>,
+        mesh: &'a Mesh<D>,
+        solution: &'a Solution<D>,
+    ) -> SurfaceStress<'a, D> {
+        SurfaceStress {
+            mesh,
+            boundaries: &self.boundaries,
+            rule: &self.facet_rule,
+            viscosity: problem.viscosity,
+            fields: solution.fields(),
+        }
+    }
+
+    /// Loads of a flow on the bodies at these poses in the mesh, and the work of the sides, from the
+    /// raw residual at it.
+    #[must_use]
+    pub fn surface_loads(
+        &self,
+        problem: &Problem<D>,
+        mesh: &Mesh<D>,
+        poses: &[Pose],
+        solution: &Solution<D>,
+        residual: &[f64],
+    ) -> SurfaceLoads {
+        let flow = ResidualOnMesh {
+            mesh,
+            layout: &self.layout,
+            boundaries: &self.boundaries,
+            velocity: &solution.velocity,
+            residual,
+        };
+        let mut loads = surface_loads(problem, poses, &flow);
+        if self.cell.is_some() {
+            for (body, (loads, twist)) in loads.bodies.iter_mut().zip(&solution.twists).enumerate()
+            {
+                let mean = self.mean_load(body, solution);
+                loads.power -= mean.force.dot(&twist.linear);
+                loads.load = loads.load + mean;
+            }
+        }
+        loads
+    }
+
+    /// Constraints with bodies at these poses, at the time of their shapes.
+    #[must_use]
+    pub fn constraints(
+        &self,
+        problem: &Problem<D>,
+        mesh: &Mesh<D>,
+        bodies: BodiesAt<'_>,
+    ) -> AffineConstraints {
+        Constrainer { problem, mesh, layout: &self.layout }.constraints(&self.boundaries, bodies)
+    }
+
+    /// Takes note that the mesh has moved.
+    pub fn move_to(&mut self, problem: &Problem<D>, mesh: &Mesh<D>) {
+        if problem.is_enclosed() {
+            self.pressure = PressureMean::new(mesh, self.assembly.tables());
+        }
+        self.nullspace = TranslationNullspace::new(problem, mesh);
+        self.linear.forget_weights();
+        if problem.mean_flow.is_some() {
+            self.cell = Some(CellIntegrals::new(problem, mesh, self.assembly.tables()));
+        }
+    }
+
+    /// The raw residual of the fluid's equations at a solution.
+    #[must_use]
+    pub fn fluid_residual(
+        &self,
+        at: &Configuration<'_, D>,
+        terms: &FlowTerms<'_, D>,
+        solution: &Solution<D>,
+    ) -> Vec<f64> {
+        let mut raw = residual(&self.assembly, at.mesh, terms, &solution.fields());
+        if let Some(cell) = &self.cell {
+            let force = solution.pressure_gradient - at.mean_flow.body_force;
+            cell.add(&self.layout, self.modes, [&force, &Point::<D>::zeros()], &mut raw);
+        }
+        raw
+    }
+
+    /// P^T R: the residual of fluid and bodies on the free unknowns, from that of the fluid.
+    #[must_use]
+    pub fn reduced_residual(
+        &self,
+        at: &Configuration<'_, D>,
+        solution: &Solution<D>,
+        fluid: &[f64],
+    ) -> Vec<f64> {
+        let mut raw = fluid.to_vec();
+        if at.problem.is_enclosed() {
+            self.pressure.make_compatible(&mut raw[self.layout.pressures()]);
+        }
+        let row = |body: usize, position: usize| self.layout.rigid(body, position);
+        at.bodies.add_residual(&solution.twists, self.modes, row, &mut raw);
+        if let Some(cell) = &self.cell {
+            let force = solution.pressure_gradient;
+            cell.add(&self.layout, self.modes, [&Point::<D>::zeros(), &force], &mut raw);
+        }
+        at.constraints.restrict(&raw)
+    }
+
+    /// One Newton step: assembles and factorises the Jacobian at `solution` and returns the next
+    /// solution for a given reduced residual.
+    ///
+    /// Where systems are solved by iterations, what the linear equations leave of the residual is
+    /// `reduction` (1), by default the tolerance of the solver.
+    ///
+    /// # Errors
+    /// When the matrix is singular or the solution not finite.
+    pub fn newton_step(
+        &mut self,
+        at: &Configuration<'_, D>,
+        terms: &FlowTerms<'_, D>,
+        solution: &Solution<D>,
+        reduced: &[f64],
+        reduction: Option<f64>,
+        timing: &mut Timing,
+    ) -> Result<Solution<D>, SolveError> {
+        timing.measure(Stage::Assembly, || {
+            let (assembly, fields) = (&self.assembly, solution.fields());
+            self.linear.assemble(&mut |scatter| {
+                assemble(assembly, at.mesh, at.constraints, terms, &fields, scatter);
+            });
+            self.add_rigid_matrix(at);
+        });
+        if let Some(nullspace) = &self.nullspace {
+            nullspace.check_balance(at.bodies, &at.mean_flow)?;
+        }
+        let coefficients = Coefficients {
+            viscosity: terms.viscosity,
+            inertia: terms.density * terms.rate,
+            has_convection: terms.convection != Convection::None,
+        };
+        let discretised = Discretised {
+            mesh: at.mesh,
+            layout: &self.layout,
+            constraints: at.constraints,
+            tables: self.assembly.tables(),
+        };
+        self.linear.prepare(coefficients, &|| discretised.weights(coefficients), timing);
+        self.linear.recall_with_weights()?;
+        let mut free = at.constraints.pick(&self.pinned(solution).to_raw(self.modes));
+        let mut step: Vec<f64> = reduced.iter().map(|value| -value).collect();
+        let solved = self.linear.solve_correction(&free, &mut step, reduction, timing);
+        solved.map_err(|error| self.explain(at, error))?;
+        free.iter_mut().zip(&step).for_each(|(value, correction)| *value += correction);
+        self.next_solution(at, solution, free, timing)
+    }
+
+    /// The solution seen from where the system holds fluid and bodies.
+    fn pinned(&self, solution: &Solution<D>) -> Solution<D> {
+        let mut pinned = solution.clone();
+        if let Some(nullspace) = &self.nullspace {
+            nullspace.pin(&mut pinned);
+        }
+        pinned
+    }
+
+    /// The solution with a mean velocity (m/s) where nothing holds fluid and bodies.
+    fn centered(&self, mut solution: Solution<D>, mean: &Point<D>) -> Solution<D> {
+        if let Some(nullspace) = &self.nullspace {
+            nullspace.subtract(&(self.mean_velocity(&solution) - mean), &mut solution);
+        }
+        solution
+    }
+
+    /// The solution with all free unknowns zero.
+    #[must_use]
+    pub fn at_rest(&self, constraints: &AffineConstraints) -> Solution<D> {
+        let raw = constraints.expand(&vec![0.0; constraints.n_unknowns()]);
+        Solution::from_raw(&self.layout, self.modes, &raw)
+    }
+
+    /// A solution that meets the constraints, from another one.
+    #[must_use]
+    pub fn constrained(&self, constraints: &AffineConstraints, from: &Solution<D>) -> Solution<D> {
+        let free = constraints.pick(&self.pinned(from).to_raw(self.modes));
+        let raw = constraints.expand(&free);
+        Solution {
+            pressure_gradient: from.pressure_gradient,
+            ..Solution::from_raw(&self.layout, self.modes, &raw)
+        }
+    }
+
+    /// Shifts the pressure of an enclosed flow to zero mean.
+    pub fn center_pressure(&self, problem: &Problem<D>, solution: &mut Solution<D>) {
+        if problem.is_enclosed() {
+            self.pressure.center(&mut solution.pressure);
+        }
+    }
+}
