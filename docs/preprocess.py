@@ -1,8 +1,10 @@
-"""Preprocessor of the book: adds the pages of the cases, and keeps all links within the book.
+"""Preprocessor of the book: pages of cases and references, links, formulas and citations.
 
 mdBook calls it with the book as JSON on the standard input, and takes the book it prints. The pages
 stay where they are in the repository, where their links lead to files; in the book a link to
-`cases/NAME` is one to a page of the gallery, and a link to a file that is no page is its text.
+`cases/NAME` is one to its page, and a link to a file that is no page is its text. Formulas, `$...$`
+and blocks of `math`, become MathML, which browsers draw by themselves; `@key` becomes authors and
+year, with a link to the page of references that is made of `references.bib`.
 """
 
 from __future__ import annotations
@@ -11,20 +13,33 @@ import json
 import posixpath
 import re
 import sys
+import unicodedata
 from pathlib import Path
+
+from latex2mathml.converter import convert
 
 ROOT = Path(__file__).resolve().parent.parent
 # Pages of the repository outside docs, and the pages of the book that hold them.
 PAGES = {
     "README.md": "index.md",
     "CONTRIBUTING.md": "contributing.md",
-    "cases": "gallery.md",
+    "cases": "cases.md",
     "cases/README.md": "cases.md",
     "postprocess/README.md": "postprocess.md",
 }
+REFERENCES = "references.md"
 LINK = re.compile(r"(!?)\[((?:[^\[\]]|\[[^\]]*\])*)\]\(([^)\s]+)\)")
-CODE = re.compile(r"(```.*?^\s*```|`[^`\n]*`)", re.DOTALL | re.MULTILINE)
+CODE = re.compile(r"(^```.*?^\s*```|^~~~.*?^~~~|`[^`\n]*`)", re.DOTALL | re.MULTILINE)
+BLOCK = re.compile(r"^```math\n(.*?)^```$", re.DOTALL | re.MULTILINE)
 FORMULA = re.compile(r"(?<![\\$])\$([^$\n]+)\$(?!\$)")
+TAG = re.compile(r"\\tag\{([^}]*)\}")
+# Functions that are written by their names stand apart from what follows them.
+NAMED = re.compile(r"<m[io]>(sin|cos|tan|ln|log|exp|max|min|det|div|diag)</m[io]>(?=<m[in])")
+CITATION = re.compile(r"@([a-z]+\d{4}[a-z]?)\b")
+ENTRY = re.compile(r"^@\w+\{(\w+),\n(.*?)^\}", re.DOTALL | re.MULTILINE)
+FIELD = re.compile(r"(\w+)\s*=\s*\{((?:[^{}]|\{(?:[^{}]|\{[^{}]*\})*\})*)\}")
+ACCENTS = {"'": "\u0301", "`": "\u0300", '"': "\u0308", "v": "\u030c", "c": "\u0327"}
+LETTERS = {r"\o": "ø", r"\O": "Ø", r"\ss": "ß", r"\aa": "å", r"\&": "&"}
 
 
 def in_book(target: str, folder: str, page: str) -> str | None:
@@ -34,7 +49,9 @@ def in_book(target: str, folder: str, page: str) -> str | None:
     path, hash_mark, anchor = target.partition("#")
     path = posixpath.normpath(posixpath.join(folder, path))
     case = re.fullmatch(r"cases/([a-z0-9-]+)(/README\.md|/case\.toml)?", path)
-    if path.startswith("docs/") and (ROOT / path).is_file():
+    if path == "docs/references.bib":
+        to = REFERENCES
+    elif path.startswith("docs/") and (ROOT / path).is_file():
         to = path.removeprefix("docs/")
     elif path in PAGES:
         to = PAGES[path]
@@ -45,8 +62,27 @@ def in_book(target: str, folder: str, page: str) -> str | None:
     return posixpath.relpath(to, posixpath.dirname(page) or ".") + hash_mark + anchor
 
 
+def mathml(formula: str, display: str) -> str:
+    """A formula of LaTeX as MathML, in which Markdown finds nothing to do."""
+    drawn = convert(formula.strip(), display=display)
+    # What is not understood is taken for a text
+    unknown = re.search(r"\\[A-Za-z]+", drawn)
+    if unknown:
+        raise SystemExit(f"formula `{formula}`: {unknown[0]} is not understood")
+    drawn = NAMED.sub(r"\g<0><mspace width='0.17em'/>", drawn)
+    return re.sub(r"[*_\[\]`]", lambda mark: f"&#{ord(mark[0])};", drawn)
+
+
+def formula_block(match: re.Match[str]) -> str:
+    """A formula on lines of its own, its number beside it."""
+    tag = TAG.search(match[1])
+    number = f'<span class="number">({tag[1]})</span>' if tag else ""
+    drawn = mathml(TAG.sub("", match[1]), "block")
+    return f'\n<div class="formula">{drawn}{number}</div>\n'
+
+
 def rewritten(text: str, folder: str, page: str) -> str:
-    """The text of a page with its links within the book, and formulas as MathJax reads them."""
+    """The text of a page with its links within the book, its formulas and its citations."""
 
     def link(match: re.Match[str]) -> str:
         mark, label, target = match.groups()
@@ -56,20 +92,22 @@ def rewritten(text: str, folder: str, page: str) -> str:
         # A picture within a link
         return f"{mark}[{LINK.sub(link, label)}]({to})"
 
-    parts = CODE.split(text)
+    def citation(match: re.Match[str]) -> str:
+        entry = ENTRIES.get(match[1])
+        if entry is None:
+            return match[0]
+        to = posixpath.relpath(REFERENCES, posixpath.dirname(page) or ".")
+        return f"[{cited(entry)}]({to}#{match[1]})"
+
     # Links may have code in their text, so that they are rewritten before the code is left out.
     joined = "".join(
         part if part.startswith("```") else LINK.sub(link, part) for part in blocks(text)
     )
-    parts = CODE.split(joined)
+    parts = CODE.split(BLOCK.sub(formula_block, joined))
     for number in range(0, len(parts), 2):
-        parts[number] = FORMULA.sub(lambda match: rf"\\({escaped(match[1])}\\)", parts[number])
+        part = CITATION.sub(citation, parts[number])
+        parts[number] = FORMULA.sub(lambda match: mathml(match[1], "inline"), part)
     return "".join(parts)
-
-
-def escaped(formula: str) -> str:
-    """A formula in which Markdown finds nothing to do."""
-    return re.sub(r"([\\_*])", r"\\\1", formula)
 
 
 def blocks(text: str) -> list[str]:
@@ -77,13 +115,59 @@ def blocks(text: str) -> list[str]:
     return re.split(r"(^```.*?^```\s*?$)", text, flags=re.DOTALL | re.MULTILINE)
 
 
-def chapter(name: str, file: str, page: str, parents: list[str]) -> dict:
-    """A page of the book made of a file of the repository."""
-    text = (ROOT / file).read_text(encoding="utf-8")
+def plain(text: str) -> str:
+    """A text of BibTeX without braces and commands."""
+
+    def accented(match: re.Match[str]) -> str:
+        letter = match[2].replace("\\i", "i")
+        return unicodedata.normalize("NFC", letter + ACCENTS[match[1]])
+
+    text = re.sub(r"\\(['`\"vc])\s*\{?(\\?[A-Za-z])\}?", accented, text)
+    for command, letter in LETTERS.items():
+        text = text.replace(command, letter)
+    return " ".join(re.sub(r"[{}]", "", text).replace("--", "–").split())
+
+
+def bibliography() -> dict[str, dict[str, str]]:
+    """The entries of the bibliography by their keys."""
+    text = (ROOT / "docs" / "references.bib").read_text(encoding="utf-8")
+    return {
+        key: {name: plain(value) for name, value in FIELD.findall(fields)}
+        for key, fields in ENTRY.findall(text)
+    }
+
+
+ENTRIES = bibliography()
+
+
+def cited(entry: dict[str, str]) -> str:
+    """Authors and year of an entry, as a text cites it."""
+    families = [author.partition(",")[0] for author in entry["author"].split(" and ")]
+    names = " and ".join(families) if len(families) < 3 else f"{families[0]} et al."
+    return f"{names} {entry['year']}"
+
+
+def reference_page() -> str:
+    """The page of all references."""
+    rows = ["# References\n"]
+    for key, entry in sorted(ENTRIES.items(), key=lambda item: cited(item[1]).lower()):
+        authors = [" ".join(a.split(", ")[::-1]) for a in entry["author"].split(" and ")]
+        where = [entry.get(name, "") for name in ("journal", "booktitle", "publisher")]
+        where.append(entry.get("institution", ""))
+        numbers = ", ".join(entry[name] for name in ("volume", "pages") if name in entry)
+        parts = [*(part for part in where if part), *([numbers] if numbers else [])]
+        doi = f" [doi](https://doi.org/{entry['doi']})." if "doi" in entry else ""
+        row = f'<span id="{key}"></span>{", ".join(authors)} ({entry["year"]}): '
+        rows.append(f"{row}*{entry['title']}*. {', '.join(parts)}.{doi}\n")
+    return "\n".join(rows)
+
+
+def chapter(name: str, page: str, content: str, parents: list[str]) -> dict:
+    """A page of the book that is no file of docs."""
     return {
         "Chapter": {
             "name": name,
-            "content": rewritten(text, posixpath.dirname(file), page),
+            "content": content,
             "number": None,
             "sub_items": [],
             "path": page,
@@ -93,13 +177,24 @@ def chapter(name: str, file: str, page: str, parents: list[str]) -> dict:
     }
 
 
+def of_file(name: str, file: str, page: str, parents: list[str]) -> dict:
+    """A page of the book made of a file of the repository."""
+    text = (ROOT / file).read_text(encoding="utf-8")
+    return chapter(name, page, rewritten(text, posixpath.dirname(file), page), parents)
+
+
 def case_pages() -> list[dict]:
-    """The page of each case."""
+    """The page of each case, below the table that leads there: the sidebar leaves them out."""
     names = sorted(path.parent.name for path in (ROOT / "cases").glob("*/case.toml"))
-    parents = ["All shipped cases"]
-    table = chapter("Table of cases", "cases/README.md", "cases.md", parents)
-    pages = [chapter(n, f"cases/{n}/README.md", f"cases/{n}.md", parents) for n in names]
-    return [table, *pages]
+    parents = ["Table of cases"]
+    return [of_file(n, f"cases/{n}/README.md", f"cases/{n}.md", parents) for n in names]
+
+
+def insert(book: dict, after: str, item: dict) -> None:
+    """Puts a page behind that of a path."""
+    items = book["items"]
+    paths = [item["Chapter"]["path"] if "Chapter" in item else None for item in items]
+    items.insert(paths.index(after) + 1, item)
 
 
 def main() -> None:
@@ -113,17 +208,18 @@ def main() -> None:
     for page in pages:
         path = page["path"]
         if path == "contributing.md":
-            held = chapter(page["name"], "CONTRIBUTING.md", path, [])
+            held = of_file(page["name"], "CONTRIBUTING.md", path, [])
             page["content"] = held["Chapter"]["content"]
             continue
         folder = posixpath.join("docs", posixpath.dirname(path))
         page["content"] = rewritten(page["content"], folder, path)
-        if path == "gallery.md":
-            page["sub_items"] = case_pages()
-        if path == "output.md":
-            name = "alewife-post"
-            held = chapter(name, "postprocess/README.md", "postprocess.md", [page["name"]])
-            page["sub_items"] = [held]
+    table = of_file("Table of cases", "cases/README.md", "cases.md", [])
+    table["Chapter"]["sub_items"] = case_pages()
+    insert(book, "gallery.md", table)
+    insert(
+        book, "output.md", of_file("alewife-post", "postprocess/README.md", "postprocess.md", [])
+    )
+    insert(book, "performance.md", chapter("References", REFERENCES, reference_page(), []))
     json.dump(book, sys.stdout)
 
 
