@@ -15,6 +15,7 @@ import re
 import sys
 import unicodedata
 from pathlib import Path
+from urllib.parse import quote
 
 from latex2mathml.converter import convert
 
@@ -95,7 +96,7 @@ def rewritten(text: str, folder: str, page: str) -> str:
     def citation(match: re.Match[str]) -> str:
         entry = ENTRIES.get(match[1])
         if entry is None:
-            return match[0]
+            raise SystemExit(f"{page}: {match[0]} is not in docs/references.bib")
         to = posixpath.relpath(REFERENCES, posixpath.dirname(page) or ".")
         return f"[{cited(entry)}]({to}#{match[1]})"
 
@@ -125,7 +126,7 @@ def plain(text: str) -> str:
     text = re.sub(r"\\(['`\"vc])\s*\{?(\\?[A-Za-z])\}?", accented, text)
     for command, letter in LETTERS.items():
         text = text.replace(command, letter)
-    return " ".join(re.sub(r"[{}]", "", text).replace("--", "–").split())
+    return " ".join(re.sub(r"[{}]", "", text).replace("--", "\u2013").split())
 
 
 def bibliography() -> dict[str, dict[str, str]]:
@@ -156,7 +157,7 @@ def reference_page() -> str:
         where.append(entry.get("institution", ""))
         numbers = ", ".join(entry[name] for name in ("volume", "pages") if name in entry)
         parts = [*(part for part in where if part), *([numbers] if numbers else [])]
-        doi = f" [doi](https://doi.org/{entry['doi']})." if "doi" in entry else ""
+        doi = f" [doi](<https://doi.org/{entry['doi']}>)." if "doi" in entry else ""
         row = f'<span id="{key}"></span>{", ".join(authors)} ({entry["year"]}): '
         rows.append(f"{row}*{entry['title']}*. {', '.join(parts)}.{doi}\n")
     return "\n".join(rows)
