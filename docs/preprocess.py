@@ -157,7 +157,7 @@ def reference_page() -> str:
         where.append(entry.get("institution", ""))
         numbers = ", ".join(entry[name] for name in ("volume", "pages") if name in entry)
         parts = [*(part for part in where if part), *([numbers] if numbers else [])]
-        doi = f" [doi](<https://doi.org/{entry['doi']}>)." if "doi" in entry else ""
+        doi = f" [doi](https://doi.org/{quote(entry['doi'])})." if "doi" in entry else ""
         row = f'<span id="{key}"></span>{", ".join(authors)} ({entry["year"]}): '
         rows.append(f"{row}*{entry['title']}*. {', '.join(parts)}.{doi}\n")
     return "\n".join(rows)
