@@ -31,11 +31,14 @@ PAGES = {
 REFERENCES = "references.md"
 LINK = re.compile(r"(!?)\[((?:[^\[\]]|\[[^\]]*\])*)\]\(([^)\s]+)\)")
 CODE = re.compile(r"(^```.*?^\s*```|^~~~.*?^~~~|`[^`\n]*`)", re.DOTALL | re.MULTILINE)
-BLOCK = re.compile(r"^```math\n(.*?)^```$", re.DOTALL | re.MULTILINE)
+BLOCK = re.compile(r"^```math\n(.*?)^```$|\$\$(.+?)\$\$", re.DOTALL | re.MULTILINE)
 FORMULA = re.compile(r"(?<![\\$])\$([^$\n]+)\$(?!\$)")
 TAG = re.compile(r"\\tag\{([^}]*)\}")
-# Functions that are written by their names stand apart from what follows them.
-NAMED = re.compile(r"<m[io]>(sin|cos|tan|ln|log|exp|max|min|det|div|diag)</m[io]>(?=<m[in])")
+# Functions that are written by their names stand apart from what is before and behind them.
+NAMED = r"<m[io]>(?:sin|cos|tan|ln|log|exp|max|min|det|div|diag)</m[io]>"
+BEFORE = re.compile(rf"(?<=</m[in]>)(?={NAMED})")
+BEHIND = re.compile(rf"({NAMED})(?=<m[in])")
+SPACE = "<mspace width='0.17em'/>"
 CITATION = re.compile(r"@([a-z]+\d{4}[a-z]?)\b")
 ENTRY = re.compile(r"^@\w+\{(\w+),\n(.*?)^\}", re.DOTALL | re.MULTILINE)
 FIELD = re.compile(r"(\w+)\s*=\s*\{((?:[^{}]|\{(?:[^{}]|\{[^{}]*\})*\})*)\}")
@@ -70,15 +73,16 @@ def mathml(formula: str, display: str) -> str:
     unknown = re.search(r"\\[A-Za-z]+", drawn)
     if unknown:
         raise SystemExit(f"formula `{formula}`: {unknown[0]} is not understood")
-    drawn = NAMED.sub(r"\g<0><mspace width='0.17em'/>", drawn)
+    drawn = BEHIND.sub(rf"\1{SPACE}", BEFORE.sub(SPACE, drawn))
     return re.sub(r"[*_\[\]`]", lambda mark: f"&#{ord(mark[0])};", drawn)
 
 
 def formula_block(match: re.Match[str]) -> str:
     """A formula on lines of its own, its number beside it."""
-    tag = TAG.search(match[1])
+    formula = match[1] or match[2]
+    tag = TAG.search(formula)
     number = f'<span class="number">({tag[1]})</span>' if tag else ""
-    drawn = mathml(TAG.sub("", match[1]), "block")
+    drawn = mathml(TAG.sub("", formula), "block")
     return f'\n<div class="formula">{drawn}{number}</div>\n'
 
 
