@@ -29,6 +29,7 @@ PAGES = {
     "postprocess/README.md": "postprocess.md",
 }
 REFERENCES = "references.md"
+NOTEBOOK = "docs/notebooks/first-look.ipynb"
 LINK = re.compile(r"(!?)\[((?:[^\[\]]|\[[^\]]*\])*)\]\(([^)\s]+)\)")
 CODE = re.compile(r"(^```.*?^\s*```|^~~~.*?^~~~|`[^`\n]*`)", re.DOTALL | re.MULTILINE)
 BLOCK = re.compile(r"^```math\n(.*?)^```$|\$\$(.+?)\$\$", re.DOTALL | re.MULTILINE)
@@ -55,6 +56,8 @@ def in_book(target: str, folder: str, page: str) -> str | None:
     case = re.fullmatch(r"cases/([a-z0-9-]+)(/README\.md|/case\.toml)?", path)
     if path == "docs/references.bib":
         to = REFERENCES
+    elif path == NOTEBOOK:
+        to = path.removeprefix("docs/").replace(".ipynb", ".md")
     elif path.startswith("docs/") and (ROOT / path).is_file():
         to = path.removeprefix("docs/")
     elif path in PAGES:
@@ -186,6 +189,31 @@ def of_file(name: str, file: str, page: str, parents: list[str]) -> dict:
     """A page of the book made of a file of the repository."""
     text = (ROOT / file).read_text(encoding="utf-8")
     return chapter(name, page, rewritten(text, posixpath.dirname(file), page), parents)
+
+
+def shown(output: dict) -> str:
+    """An output of a cell of a notebook: a picture, a table, or text."""
+    data = output.get("data", {})
+    if "image/png" in data:
+        picture = "".join("".join(data["image/png"]).split())
+        return f'<img alt="" src="data:image/png;base64,{picture}">'
+    if "text/html" in data:
+        table = re.search(r"<table.*</table>", "".join(data["text/html"]), re.DOTALL)
+        return re.sub(r"\n\s*", "", table[0]) if table else ""
+    text = "".join(data.get("text/plain", output.get("text", "")))
+    return f"```text\n{text.rstrip()}\n```"
+
+
+def notebook_page() -> dict:
+    """The notebook as a page: its text, its code, and what that has printed and drawn."""
+    cells = json.loads((ROOT / NOTEBOOK).read_text(encoding="utf-8"))["cells"]
+    parts = []
+    for cell in cells:
+        source = "".join(cell["source"])
+        parts.append(f"```python\n{source}\n```" if cell["cell_type"] == "code" else source)
+        parts += map(shown, cell.get("outputs", []))
+    page = NOTEBOOK.removeprefix("docs/").replace(".ipynb", ".md")
+    return chapter("A notebook", page, "\n\n".join(parts) + "\n", [])
 
 
 def case_pages() -> list[dict]:
