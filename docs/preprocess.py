@@ -249,6 +249,7 @@ def main() -> None:
     table = of_file("Table of cases", "cases/README.md", "cases.md", [])
     table["Chapter"]["sub_items"] = case_pages()
     insert(book, "gallery.md", table)
+    insert(book, "python.md", notebook_page())
     insert(
         book, "output.md", of_file("alewife-post", "postprocess/README.md", "postprocess.md", [])
     )
