@@ -25,28 +25,26 @@ fn up_to_date(page: &str, wanted: &str) {
 #[test]
 fn the_gallery_shows_every_case() {
     let mut page = String::from(
-        "# Gallery\n\nAll shipped cases. `alewife show NAME` tells more of one, \
-         `alewife show NAME --source > my.toml`\n\
-         starts a file of your own from it; [cases](../cases/README.md) lists what each is \
-         compared with.\n",
+        "# Gallery\n\nAll shipped cases; [the table of cases](../cases/README.md) lists what each \
+         is compared with. `alewife show NAME`\ndescribes one, and \
+         `alewife show NAME --source > my.toml` starts a file of your own from it.\n",
     );
     for name in case_names() {
         let path = root().join("cases").join(&name).display().to_string();
         let file = Case::read(&path, &[]).unwrap_or_else(|error| panic!("{name}\n{error}"));
         let case = file.case();
-        write!(page, "\n## {name}\n\n**{}.** ", case.title).unwrap();
-        writeln!(page, "{}", case.gist()).unwrap();
         // A case whose values are all of its variants is run by one of them.
         let variant = match case.variant.first() {
             Some(variant) if case.reference.is_empty() => format!("/{}", variant.name),
             _ => String::new(),
         };
-        writeln!(page, "\n```text\nalewife run {name}{variant}\n```").unwrap();
+        let title = &case.title;
+        write!(page, "\n## {name}\n\n[{title}](../cases/{name}/README.md): ").unwrap();
+        writeln!(page, "`alewife run {name}{variant}`").unwrap();
         let picture = format!("pictures/{name}.png");
         if root().join("docs").join(&picture).is_file() {
-            writeln!(page, "\n![{}]({picture})", case.title).unwrap();
+            writeln!(page, "\n![{title}]({picture})").unwrap();
         }
-        writeln!(page, "\n[More](../cases/{name}/README.md)").unwrap();
     }
     up_to_date("docs/gallery.md", &page);
 }
