@@ -92,9 +92,9 @@ fn type_of(value: &Value) -> String {
 }
 
 /// A description on one line, as a cell of a table.
-fn told(value: &Value) -> String {
-    let description = value["description"].as_str().unwrap_or_default();
-    description.split_whitespace().collect::<Vec<_>>().join(" ").replace('|', "\\|")
+fn description(value: &Value) -> String {
+    let text = value["description"].as_str().unwrap_or_default();
+    text.split_whitespace().collect::<Vec<_>>().join(" ").replace('|', "\\|")
 }
 
 /// Adds the rows of a table's keys, and those of the tables within it.
@@ -108,8 +108,11 @@ fn add_keys(rows: &mut String, above: &str, table: &Value) {
             Value::Object(_) => "table".to_owned(),
             default => format!("`{default}`").replace('|', "\\|"),
         };
-        let row =
-            format!("| `{above}{key}` | {} | {default} | {} |\n", type_of(value), told(value));
+        let row = format!(
+            "| `{above}{key}` | {} | {default} | {} |\n",
+            type_of(value),
+            description(value)
+        );
         *rows += &row.replace("|  |", "| |").replace("|  |", "| |");
         add_keys(rows, &format!("{above}{key}."), value);
     }
@@ -117,7 +120,7 @@ fn add_keys(rows: &mut String, above: &str, table: &Value) {
 
 /// Writes one section: a type of the schema with its keys, or with the choices it has.
 fn add_section(page: &mut String, title: &str, value: &Value) {
-    writeln!(page, "\n## {title}\n\n{}", told(value)).unwrap();
+    writeln!(page, "\n## {title}\n\n{}", description(value)).unwrap();
     let head = "\n| Key | Type | Default | Meaning |\n|---|---|---|---|\n";
     let mut rows = String::new();
     add_keys(&mut rows, "", value);
@@ -126,13 +129,14 @@ fn add_section(page: &mut String, title: &str, value: &Value) {
         let is_word = choice["properties"].is_null();
         match type_of(choice) {
             kind if is_word && !kind.is_empty() => {
-                let meaning = told(choice);
+                let meaning = description(choice);
                 let row = format!("| | {kind} | | {meaning} |\n");
                 rows += &row.replace("|  |", "| |");
             }
             _ => {
                 for (key, inner) in choice["properties"].as_object().into_iter().flatten() {
-                    let row = format!("| `{key}` | {} | | {} |\n", type_of(inner), told(choice));
+                    let row =
+                        format!("| `{key}` | {} | | {} |\n", type_of(inner), description(choice));
                     rows += &row.replace("|  |", "| |");
                     add_keys(&mut rows, &format!("{key}."), inner);
                 }
