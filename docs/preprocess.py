@@ -33,7 +33,7 @@ NOTEBOOK = "docs/notebooks/first-look.ipynb"
 LINK = re.compile(r"(!?)\[((?:[^\[\]]|\[[^\]]*\])*)\]\(([^)\s]+)\)")
 CODE = re.compile(r"(^```.*?^\s*```|^~~~.*?^~~~|`[^`\n]*`)", re.DOTALL | re.MULTILINE)
 BLOCK = re.compile(r"^```math\n(.*?)^```$|\$\$(.+?)\$\$", re.DOTALL | re.MULTILINE)
-FORMULA = re.compile(r"(?<![\\$])\$([^$\n]+)\$(?!\$)")
+FORMULA = re.compile(r"(?<![\\$])\$([^$\n]+)\$(?!\$)([,.;:)]*)")
 TAG = re.compile(r"\\tag\{([^}]*)\}")
 # Functions that are written by their names stand apart from what is before and behind them.
 NAMED = r"<m[io]>(?:sin|cos|tan|ln|log|exp|max|min|det|div|diag)</m[io]>"
@@ -89,6 +89,12 @@ def formula_block(match: re.Match[str]) -> str:
     return f'\n<div class="formula">{drawn}{number}</div>\n'
 
 
+def formula_in_text(match: re.Match[str]) -> str:
+    """A formula within a line, kept together with the punctuation behind it."""
+    drawn = mathml(match[1], "inline")
+    return f'<span class="kept">{drawn}{match[2]}</span>' if match[2] else drawn
+
+
 def rewritten(text: str, folder: str, page: str) -> str:
     """The text of a page with its links within the book, its formulas and its citations."""
 
@@ -114,7 +120,7 @@ def rewritten(text: str, folder: str, page: str) -> str:
     parts = CODE.split(BLOCK.sub(formula_block, joined))
     for number in range(0, len(parts), 2):
         part = CITATION.sub(citation, parts[number])
-        parts[number] = FORMULA.sub(lambda match: mathml(match[1], "inline"), part)
+        parts[number] = FORMULA.sub(formula_in_text, part)
     return "".join(parts)
 
 
