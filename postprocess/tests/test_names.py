@@ -79,9 +79,10 @@ def words(text: str) -> set[str]:
 
 
 def test_words_on_their_page_are_those_of_cases_and_commands() -> None:
-    page = (ROOT / "docs" / "words.md").read_text(encoding="utf-8")
-    own, _, _ = page.partition("| Here | ParaView |")
-    sources = ["docs/case-file.md", "docs/output.md", "README.md"]
+    page = (ROOT / "docs" / "notation.md").read_text(encoding="utf-8")
+    _, _, own = page.partition("## Words of other programs")
+    own, _, _ = own.partition("| Here | ParaView |")
+    sources = ["docs/case-file.md", "docs/keys.md", "docs/output.md", "README.md"]
     known = words("\n".join((ROOT / file).read_text(encoding="utf-8") for file in sources))
     first = [row.split("|")[1] for row in own.splitlines() if row.startswith("| ")]
     terms = re.findall(r"`([^`]+)`", "\n".join(first))

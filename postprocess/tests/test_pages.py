@@ -22,7 +22,9 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
+from PIL import Image
 
 from alewife_post import published
 
@@ -44,6 +46,10 @@ NEAR_THE_TOP = 6
 """Lines of a case page within which its picture is."""
 LARGEST_DOCS = 10_000_000
 """Bytes of all pictures of the documentation."""
+PIXELS = 64
+"""Pixels of a side to which pictures are reduced before they are compared."""
+LARGEST_DIFFERENCE = 1.8
+"""Of colours from 0 to 255, in the mean: fewer pixels and colours make less."""
 LINK = re.compile(r"\]\(([^)\s]+)\)")
 FENCED = re.compile(r"^```.*?^```", re.DOTALL | re.MULTILINE)
 
@@ -146,10 +152,36 @@ def follow(text: str, folder: Path) -> int:
     return count
 
 
+def reduced(picture: Path) -> np.ndarray:
+    """A picture in few pixels, shape (PIXELS, PIXELS, 3)."""
+    with Image.open(picture) as image:
+        small = image.convert("RGB").resize((PIXELS, PIXELS), Image.Resampling.BOX)
+        return np.asarray(small, dtype=float)
+
+
+def unlike(page: Path, folder: Path) -> list[str]:
+    """Pictures of a page that are not what its commands have drawn in a folder."""
+    pairs = [(picture, folder / picture.name) for picture in shown(page)]
+    drawn = [(ours, theirs) for ours, theirs in pairs if theirs.is_file()]
+    differences = {a.name: np.abs(reduced(a) - reduced(b)).mean() for a, b in drawn}
+    return [name for name, by in differences.items() if by > LARGEST_DIFFERENCE]
+
+
 @pytest.mark.skipif(not program().is_file(), reason="the program is not built")
 @pytest.mark.parametrize("page", PAGES)
-def test_the_commands_of_a_page_run(page: str, tmp_path: Path) -> None:
+def test_the_commands_of_a_page_run_and_draw_its_pictures(page: str, tmp_path: Path) -> None:
     assert follow((ROOT / page).read_text(encoding="utf-8"), tmp_path) > 0
+    assert not unlike(ROOT / page, tmp_path)
+
+
+def test_another_picture_is_found(tmp_path: Path) -> None:
+    (tmp_path / "drawn").mkdir()
+    page = tmp_path / "page.md"
+    page.write_text("![A picture](a.png)\n\n![Another](b.png)\n", encoding="utf-8")
+    for name, colour in (("a.png", 100), ("b.png", 103)):
+        Image.new("RGB", (90, 60), (100, 100, 100)).save(tmp_path / name)
+        Image.new("RGB", (180, 120), (colour, 100, colour)).save(tmp_path / "drawn" / name)
+    assert unlike(page, tmp_path / "drawn") == ["b.png"]
 
 
 def test_a_command_that_fails_is_found(tmp_path: Path) -> None:

@@ -25,28 +25,26 @@ fn up_to_date(page: &str, wanted: &str) {
 #[test]
 fn the_gallery_shows_every_case() {
     let mut page = String::from(
-        "# Gallery\n\nAll shipped cases. `alewife show NAME` tells more of one, \
-         `alewife show NAME --source > my.toml`\n\
-         starts a file of your own from it; [cases](../cases/README.md) lists what each is \
-         compared with.\n",
+        "# Gallery\n\nAll shipped cases; [the table of cases](../cases/README.md) lists what each \
+         is compared with. `alewife show NAME`\ndescribes one, and \
+         `alewife show NAME --source > my.toml` starts a file of your own from it.\n",
     );
     for name in case_names() {
         let path = root().join("cases").join(&name).display().to_string();
         let file = Case::read(&path, &[]).unwrap_or_else(|error| panic!("{name}\n{error}"));
         let case = file.case();
-        write!(page, "\n## {name}\n\n**{}.** ", case.title).unwrap();
-        writeln!(page, "{}", case.gist()).unwrap();
         // A case whose values are all of its variants is run by one of them.
         let variant = match case.variant.first() {
             Some(variant) if case.reference.is_empty() => format!("/{}", variant.name),
             _ => String::new(),
         };
-        writeln!(page, "\n```text\nalewife run {name}{variant}\n```").unwrap();
+        let title = &case.title;
+        write!(page, "\n## {name}\n\n[{title}](../cases/{name}/README.md): ").unwrap();
+        writeln!(page, "`alewife run {name}{variant}`").unwrap();
         let picture = format!("pictures/{name}.png");
         if root().join("docs").join(&picture).is_file() {
-            writeln!(page, "\n![{}]({picture})", case.title).unwrap();
+            writeln!(page, "\n![{title}]({picture})").unwrap();
         }
-        writeln!(page, "\n[More](../cases/{name}/README.md)").unwrap();
     }
     up_to_date("docs/gallery.md", &page);
 }
@@ -94,9 +92,9 @@ fn type_of(value: &Value) -> String {
 }
 
 /// A description on one line, as a cell of a table.
-fn told(value: &Value) -> String {
-    let description = value["description"].as_str().unwrap_or_default();
-    description.split_whitespace().collect::<Vec<_>>().join(" ").replace('|', "\\|")
+fn description(value: &Value) -> String {
+    let text = value["description"].as_str().unwrap_or_default();
+    text.split_whitespace().collect::<Vec<_>>().join(" ").replace('|', "\\|")
 }
 
 /// Adds the rows of a table's keys, and those of the tables within it.
@@ -110,8 +108,11 @@ fn add_keys(rows: &mut String, above: &str, table: &Value) {
             Value::Object(_) => "table".to_owned(),
             default => format!("`{default}`").replace('|', "\\|"),
         };
-        let row =
-            format!("| `{above}{key}` | {} | {default} | {} |\n", type_of(value), told(value));
+        let row = format!(
+            "| `{above}{key}` | {} | {default} | {} |\n",
+            type_of(value),
+            description(value)
+        );
         *rows += &row.replace("|  |", "| |").replace("|  |", "| |");
         add_keys(rows, &format!("{above}{key}."), value);
     }
@@ -119,7 +120,7 @@ fn add_keys(rows: &mut String, above: &str, table: &Value) {
 
 /// Writes one section: a type of the schema with its keys, or with the choices it has.
 fn add_section(page: &mut String, title: &str, value: &Value) {
-    writeln!(page, "\n## {title}\n\n{}", told(value)).unwrap();
+    writeln!(page, "\n## {title}\n\n{}", description(value)).unwrap();
     let head = "\n| Key | Type | Default | Meaning |\n|---|---|---|---|\n";
     let mut rows = String::new();
     add_keys(&mut rows, "", value);
@@ -128,13 +129,14 @@ fn add_section(page: &mut String, title: &str, value: &Value) {
         let is_word = choice["properties"].is_null();
         match type_of(choice) {
             kind if is_word && !kind.is_empty() => {
-                let meaning = told(choice);
+                let meaning = description(choice);
                 let row = format!("| | {kind} | | {meaning} |\n");
                 rows += &row.replace("|  |", "| |");
             }
             _ => {
                 for (key, inner) in choice["properties"].as_object().into_iter().flatten() {
-                    let row = format!("| `{key}` | {} | | {} |\n", type_of(inner), told(choice));
+                    let row =
+                        format!("| `{key}` | {} | | {} |\n", type_of(inner), description(choice));
                     rows += &row.replace("|  |", "| |");
                     add_keys(&mut rows, &format!("{key}."), inner);
                 }
