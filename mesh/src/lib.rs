@@ -27,6 +27,7 @@ mod surface;
 mod surroundings;
 #[cfg(test)]
 mod test_meshes;
+mod topology;
 mod vtu;
 
 pub use box_tree::{Bounds, BoxTree};
@@ -35,7 +36,7 @@ pub use curved::{CellMap, CellNodes, jacobian_coefficients, map_quadratic, shape
 pub use error::MeshError;
 pub use index::{BoundaryId, CellId, FacetId, NodeId};
 pub use locate::{Image, Located, Locator, Neighbours};
-pub use mesh::{Boundary, BoundaryKind, Edge, Facet, Mesh, PeriodicPair, Point};
+pub use mesh::{Mesh, Point};
 pub use msh::{Encoding, MshError, Place, read_msh, read_planar_msh, read_spatial_msh, write_msh};
 pub use number::whole;
 pub use planar::{
@@ -51,4 +52,5 @@ pub use simplex::{NodeArray, Simplex};
 pub use sizing::{SizeBox, Sizing};
 pub use surface::{Facing, FacingSurfaces, NearSurface, Surface, SurfacePoint};
 pub use surroundings::{Sides, Surroundings};
+pub use topology::{Boundary, BoundaryKind, Edge, Facet, PeriodicPair, Topology};
 pub use vtu::{Array, Precision, write_vtu, write_vtu_as};

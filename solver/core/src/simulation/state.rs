@@ -192,7 +192,7 @@ impl<const D: usize> State<D> {
     /// The mesh at present, seen from the frame.
     #[must_use]
     pub fn mesh_in_frame(&self) -> Mesh<D> {
-        Mesh { nodes: self.nodes.clone(), ..self.mesh.clone() }
+        self.mesh.with_nodes(self.nodes.clone())
     }
 
     /// What the groups do in a flow, with bodies at these poses in the laboratory.

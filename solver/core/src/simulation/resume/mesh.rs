@@ -1,7 +1,7 @@
 //! `SavedMesh`: the topology of a mesh as plain numbers.
 
 use alewife_mesh::{
-    Boundary, BoundaryId, CellId, Facet, Mesh, NodeId, PeriodicPair, Point, Simplex,
+    Boundary, BoundaryId, CellId, Facet, Mesh, NodeId, PeriodicPair, Point, Simplex, Topology,
 };
 use serde::{Deserialize, Serialize};
 
@@ -61,15 +61,15 @@ impl SavedMesh {
             copy: NodeId::from(copy),
             original: NodeId::from(original),
         };
-        Mesh {
-            nodes,
+        let topology = Topology {
             n_vertices: self.n_vertices,
             cells: self.cells.iter().copied().map(NodeId::from).collect(),
             curved: self.curved.clone(),
             facets: self.facets.iter().map(facet).collect(),
             boundaries: boundaries.to_vec(),
             periodic: self.periodic.iter().map(pair).collect(),
-        }
+        };
+        Mesh::new(nodes, topology)
     }
 }
 
