@@ -2,8 +2,8 @@
 
 use std::collections::{HashMap, HashSet};
 
-use crate::curved::{determinant, jacobian_coefficients};
-use crate::topology::Edge;
+use crate::mesh::Edge;
+use crate::mesh::{determinant, jacobian_coefficients};
 use crate::{BoundaryKind, CellId, Mesh, MeshError, NodeId, Simplex};
 
 /// Nodes of a straight edge are this near to it, in lengths of the edge.

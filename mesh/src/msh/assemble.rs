@@ -9,7 +9,7 @@ use super::file::MshFile;
 use super::kind::node_order;
 use super::parts::{Middle, Parts, edges_of, facet_of};
 use crate::check::check_mesh;
-use crate::curved::jacobian_coefficients;
+use crate::mesh::jacobian_coefficients;
 use crate::{Boundary, BoundaryId, CellId, Facet, Mesh, NodeId, Point, Simplex, Topology};
 
 /// Inner nodes this near to the middle of their edge are on it, in lengths of the edge.
@@ -156,7 +156,7 @@ fn turn<const D: usize>(
     let longest = Simplex::<D>::EDGES.iter().map(|[i, j]| (corner(*i) - corner(*j)).norm());
     let longest = longest.fold(0.0, f64::max);
     // Of scaled columns, which cannot overflow
-    let measure = crate::curved::determinant(&columns.map(|column| column / longest));
+    let measure = crate::mesh::determinant(&columns.map(|column| column / longest));
     if measure.is_nan() || measure.abs() <= NO_VOLUME {
         let kind = if D == 2 { "no area" } else { "no volume" };
         let found = format!("element {tag} {} has {kind}", at(&corner(0)));

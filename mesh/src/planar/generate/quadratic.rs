@@ -2,7 +2,7 @@
 
 use super::edges::EdgePair;
 use super::triangulation::{Triangulation, WALL};
-use crate::curved::jacobian_coefficients;
+use crate::mesh::jacobian_coefficients;
 use crate::planar::boundary::BoundaryLoops;
 use crate::{BoundaryId, CellId, Facet, Mesh, MeshError, NodeId, PeriodicPair, Simplex, Topology};
 

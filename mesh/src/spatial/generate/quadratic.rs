@@ -3,10 +3,10 @@
 
 use std::collections::HashMap;
 
-use super::boundary_edges::{INNER, surface_of};
-use super::improver::Improver;
+use super::improve::Improver;
 use super::opened::{Opened, Steps};
 use super::tetrahedra::Face;
+use super::tetrahedra::boundary_edges::{INNER, surface_of};
 use crate::{BoundaryId, CellId, Facet, Mesh, NodeId, PeriodicPair, Point, Simplex, Topology};
 
 /// A node in an edge, where the edge is shown in one of its places.

@@ -1,11 +1,21 @@
 //! `Mesh<D>`: positions of the P2 nodes, and the topology that meshes with the same cells share.
 
+mod curved;
+mod index;
+mod simplex;
+mod straight;
+mod topology;
+
+pub(crate) use curved::determinant;
+pub use curved::{CellMap, CellNodes, jacobian_coefficients, map_quadratic, shape_functions};
+pub use index::{BoundaryId, CellId, FacetId, NodeId};
+pub use simplex::{NodeArray, Simplex};
+pub use topology::{Boundary, BoundaryKind, Edge, Facet, PeriodicPair, Topology};
+
 use std::ops::Deref;
 use std::sync::Arc;
 
 use nalgebra::SVector;
-
-use crate::{CellId, NodeId, Topology};
 
 /// A place in space (m), D components.
 pub type Point<const D: usize> = SVector<f64, D>;
