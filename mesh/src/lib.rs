@@ -6,6 +6,7 @@
 
 mod box_tree;
 mod check;
+mod count;
 mod error;
 mod locate;
 mod mesh;
