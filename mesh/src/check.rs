@@ -2,8 +2,8 @@
 
 use std::collections::{HashMap, HashSet};
 
-use crate::curved::{determinant, jacobian_coefficients};
 use crate::mesh::Edge;
+use crate::mesh::{determinant, jacobian_coefficients};
 use crate::{BoundaryKind, CellId, Mesh, MeshError, NodeId, Simplex};
 
 /// Nodes of a straight edge are this near to it, in lengths of the edge.
@@ -225,10 +225,19 @@ mod tests {
         };
         let inverted = spoil(&|mesh| mesh.nodes[4] = Point::<3>::repeat(-1.0));
         assert_eq!(inverted, "a cell has a Jacobian that is not positive");
-        assert_eq!(spoil(&|mesh| mesh.facets.truncate(1)), "a facet on the boundary is not listed");
-        let twice = spoil(&|mesh| mesh.facets.push(mesh.facets[0]));
+        assert_eq!(
+            spoil(&|mesh| mesh.topology_mut().facets.truncate(1)),
+            "a facet on the boundary is not listed"
+        );
+        let twice = spoil(&|mesh| {
+            let first = mesh.facets[0];
+            mesh.topology_mut().facets.push(first);
+        });
         assert_eq!(twice, "a facet is not on the boundary or is listed twice");
-        assert_eq!(spoil(&|mesh| mesh.cells[0] = mesh.cells[1]), "a node belongs to no cell");
+        assert_eq!(
+            spoil(&|mesh| mesh.topology_mut().cells.copy_within(1..2, 0)),
+            "a node belongs to no cell"
+        );
     }
 
     #[test]
@@ -254,7 +263,7 @@ mod tests {
         });
         assert_eq!(bent, "an interior edge is not straight");
         assert_eq!(
-            spoil(&|mesh| mesh.cells.swap(4, 5)),
+            spoil(&|mesh| mesh.topology_mut().cells.swap(4, 5)),
             "a cell has a Jacobian that is not positive"
         );
         let folded = bulged_cube(-1.2);

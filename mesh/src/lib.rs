@@ -5,12 +5,9 @@
 //! (quadratic) geometry: vertices first, then one node per edge.
 
 mod box_tree;
-mod cell_faces;
-mod cell_point;
 mod check;
-mod curved;
+mod count;
 mod error;
-mod index;
 mod locate;
 mod mesh;
 mod msh;
@@ -19,23 +16,22 @@ mod planar;
 mod quadrature;
 mod quality;
 mod side_shape;
-mod simplex;
 mod sizing;
 pub mod spatial;
-mod straight;
 mod surface;
-mod surroundings;
 #[cfg(test)]
 mod test_meshes;
 mod vtu;
 
 pub use box_tree::{Bounds, BoxTree};
 pub use check::check_mesh;
-pub use curved::{CellMap, CellNodes, jacobian_coefficients, map_quadratic, shape_functions};
 pub use error::MeshError;
-pub use index::{BoundaryId, CellId, FacetId, NodeId};
 pub use locate::{Image, Located, Locator, Neighbours};
-pub use mesh::{Boundary, BoundaryKind, Edge, Facet, Mesh, PeriodicPair, Point};
+pub use mesh::{
+    Boundary, BoundaryId, BoundaryKind, CellId, CellMap, CellNodes, Edge, Facet, FacetId, Mesh,
+    NodeArray, NodeId, PeriodicPair, Point, Simplex, Topology, jacobian_coefficients,
+    map_quadratic, shape_functions,
+};
 pub use msh::{Encoding, MshError, Place, read_msh, read_planar_msh, read_spatial_msh, write_msh};
 pub use number::whole;
 pub use planar::{
@@ -47,8 +43,8 @@ pub use planar::{
 pub use quadrature::GaussRule;
 pub use quality::{CellQuality, Quality, WorstCell};
 pub use side_shape::{Circle, SideShape};
-pub use simplex::{NodeArray, Simplex};
 pub use sizing::{SizeBox, Sizing};
-pub use surface::{Facing, FacingSurfaces, NearSurface, Surface, SurfacePoint};
-pub use surroundings::{Sides, Surroundings};
+pub use surface::{
+    Facing, FacingSurfaces, NearSurface, Sides, Surface, SurfacePoint, Surroundings,
+};
 pub use vtu::{Array, Precision, write_vtu, write_vtu_as};

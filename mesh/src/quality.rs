@@ -4,7 +4,7 @@ use std::fmt;
 
 use rayon::prelude::*;
 
-use crate::curved::{determinant, jacobian_coefficients};
+use crate::mesh::{determinant, jacobian_coefficients};
 use crate::{CellId, Mesh, Point, Simplex};
 
 /// Worst cells listed.

@@ -43,7 +43,8 @@ pub fn bulged_cube(by: f64) -> Mesh<3> {
     for (node, _) in mesh.nodes.iter_mut().zip(is_moved).filter(|(_, is_moved)| *is_moved) {
         *node += (*node - center) * by;
     }
-    mesh.curved = vec![true; mesh.n_cells()];
+    let n_cells = mesh.n_cells();
+    mesh.topology_mut().curved = vec![true; n_cells];
     mesh
 }
 

@@ -186,19 +186,19 @@ fn escape(name: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Facet, NodeId, Point};
+    use crate::{Facet, NodeId, Point, Topology};
 
     fn triangle() -> Mesh<2> {
         let nodes = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [0.5, 0.0], [0.5, 0.5], [0.0, 0.5]];
-        Mesh {
-            nodes: nodes.into_iter().map(Point::<2>::from).collect(),
+        let topology = Topology {
             n_vertices: 3,
             cells: (0..6).map(NodeId::new).collect(),
             curved: vec![false],
             facets: Vec::<Facet>::new(),
             boundaries: Vec::new(),
             periodic: Vec::new(),
-        }
+        };
+        Mesh::new(nodes.into_iter().map(Point::<2>::from).collect(), topology)
     }
 
     #[test]

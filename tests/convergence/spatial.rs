@@ -33,7 +33,7 @@ fn cube() -> Domain {
 
 /// All velocities of the boundary are given, on the body too.
 fn sustained(mut mesh: Mesh<3>) -> Errors {
-    for boundary in &mut mesh.boundaries {
+    for boundary in &mut mesh.topology_mut().boundaries {
         boundary.kind = BoundaryKind::Side;
     }
     let sides = sides(&mesh, |place, time| SUSTAINED.velocity(place, time));

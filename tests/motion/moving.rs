@@ -8,7 +8,7 @@ use alewife_core::motion::{
 use alewife_core::space::simplex_rule;
 use alewife_mesh::{
     Boundary, BoundaryId, BoundaryKind, CellId, Domain, Facet, Mesh, NodeId, Point, Simplex,
-    Sizing, check_mesh, generate,
+    Sizing, Topology, check_mesh, generate,
 };
 use tests::Study;
 
@@ -151,18 +151,18 @@ fn frame() -> Mesh<2> {
         cells.extend(corners.iter().chain(&middles).copied().map(NodeId::from));
     }
     let boundary = |name: &str, kind| Boundary { name: name.into(), kind };
-    let mesh = Mesh {
+    let topology = Topology {
         curved: vec![false; triangles.len()],
         boundaries: vec![
             boundary("wall", BoundaryKind::Side),
             boundary("b", BoundaryKind::Body(0)),
         ],
         periodic: Vec::new(),
-        nodes,
         n_vertices,
         cells,
         facets,
     };
+    let mesh = Mesh::new(nodes, topology);
     check_mesh(&mesh).unwrap();
     mesh
 }

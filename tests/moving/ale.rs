@@ -110,7 +110,7 @@ fn a_uniform_flow_stays_uniform_on_a_moving_mesh() {
 #[test]
 fn a_uniform_flow_stays_uniform_on_a_moving_mesh_of_tetrahedra() {
     let mut mesh = tetrahedra(true);
-    for boundary in &mut mesh.boundaries {
+    for boundary in &mut mesh.topology_mut().boundaries {
         boundary.kind = BoundaryKind::Side;
     }
     let stream = Point::<3>::new(1.3, -0.7, 0.4);

@@ -69,12 +69,13 @@ pub fn mirror_image<const D: usize>(mesh: &Mesh<D>, axis: usize) -> Mesh<D> {
         node[axis] = -node[axis];
     }
     let n = Simplex::<D>::N_NODES;
-    for (cell, image) in mesh.cells().zip(moved.cells.chunks_exact_mut(n)) {
+    let topology = moved.topology_mut();
+    for (cell, image) in mesh.cells().zip(topology.cells.chunks_exact_mut(n)) {
         for (place, from) in image.iter_mut().zip(&nodes) {
             *place = cell[*from];
         }
     }
-    for facet in &mut moved.facets {
+    for facet in &mut topology.facets {
         let side = side_of(usize::from(facet.side)).unwrap_or(0);
         facet.side = u8::try_from(side).unwrap_or(0);
     }

@@ -3,19 +3,19 @@
 //! A tree of cell boxes finds the candidates; the map of a straight cell is inverted exactly, that
 //! of a curved one by Newton's method.
 
+mod cell_faces;
+mod cell_point;
 mod neighbours;
 mod walk;
 
 pub use neighbours::Neighbours;
 
 use crate::box_tree::{Bounds, BoxTree};
-use crate::cell_faces::{Face, push_faces};
-use crate::cell_point::{
-    CellPoint, invert_quadratic, nearest_in_quadratic, nearest_in_simplex, solve,
-};
-use crate::curved::determinant;
+use crate::mesh::determinant;
 use crate::number::index_u32;
 use crate::{CellId, Mesh, Point, Simplex};
+use cell_faces::{Face, push_faces};
+use cell_point::{CellPoint, invert_quadratic, nearest_in_quadratic, nearest_in_simplex, solve};
 
 /// A point this far outside (in sizes of the mesh) still counts as on its boundary.
 const TOLERANCE: f64 = 1e-9;
@@ -247,7 +247,7 @@ fn straight_coordinates<const D: usize>(vertices: &[Point<D>], point: Point<D>) 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::curved::map_quadratic;
+    use crate::mesh::map_quadratic;
     use crate::test_meshes::{bulged_cube, cube_of_five, cube_of_twelve};
     use crate::{Domain, PlacedShape, Shape, Sizing, generate};
 

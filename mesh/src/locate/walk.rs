@@ -1,8 +1,8 @@
 //! The way from a guessed cell to the one that holds a point, across the face beyond which the point is.
 
+use super::cell_point::invert_quadratic;
 use super::neighbours::Neighbours;
 use super::{Located, Locator, barycentric, straight_coordinates};
-use crate::cell_point::invert_quadratic;
 use crate::{CellId, Point};
 
 /// Coordinates in the straight cell may be negative by this where a point is in the curved one.
@@ -51,8 +51,8 @@ impl<const D: usize> Locator<D> {
 mod tests {
     use super::*;
     use crate::Mesh;
-    use crate::curved::map_quadratic;
     use crate::locate::tests::channel;
+    use crate::mesh::map_quadratic;
     use crate::test_meshes::bulged_cube;
 
     /// To places inside, on sides and at corners, and outside, from their cell and from one far away.

@@ -9,8 +9,8 @@ use super::file::MshFile;
 use super::kind::node_order;
 use super::parts::{Middle, Parts, edges_of, facet_of};
 use crate::check::check_mesh;
-use crate::curved::jacobian_coefficients;
-use crate::{Boundary, BoundaryId, CellId, Facet, Mesh, NodeId, Point, Simplex};
+use crate::mesh::jacobian_coefficients;
+use crate::{Boundary, BoundaryId, CellId, Facet, Mesh, NodeId, Point, Simplex, Topology};
 
 /// Inner nodes this near to the middle of their edge are on it, in lengths of the edge.
 const IN_MIDDLE: f64 = 1e-12;
@@ -156,7 +156,7 @@ fn turn<const D: usize>(
     let longest = Simplex::<D>::EDGES.iter().map(|[i, j]| (corner(*i) - corner(*j)).norm());
     let longest = longest.fold(0.0, f64::max);
     // Of scaled columns, which cannot overflow
-    let measure = crate::curved::determinant(&columns.map(|column| column / longest));
+    let measure = crate::mesh::determinant(&columns.map(|column| column / longest));
     if measure.is_nan() || measure.abs() <= NO_VOLUME {
         let kind = if D == 2 { "no area" } else { "no volume" };
         let found = format!("element {tag} {} has {kind}", at(&corner(0)));
@@ -272,8 +272,7 @@ fn mesh_of<const D: usize>(
         let is_kept = off <= IN_MIDDLE || on_boundary.contains(&[a, b]);
         nodes.push(if is_kept { middle.point } else { straight });
     }
-    let mut mesh = Mesh {
-        nodes: Vec::new(),
+    let mut topology = Topology {
         n_vertices,
         cells: Vec::with_capacity(Simplex::<D>::N_NODES * cells.len()),
         curved: Vec::with_capacity(cells.len()),
@@ -282,23 +281,23 @@ fn mesh_of<const D: usize>(
         periodic: Vec::new(),
     };
     for (index, cell) in cells.iter().enumerate() {
-        mesh.cells.extend(cell.iter().map(|vertex| NodeId::new(*vertex)));
+        topology.cells.extend(cell.iter().map(|vertex| NodeId::new(*vertex)));
         let mut is_curved = false;
         for ends in Simplex::<D>::EDGES {
             let [a, b] = ends.map(|local| cell[local]);
             let ends = [a.min(b), a.max(b)];
             is_curved |= is_bent.contains(&ends);
-            mesh.cells.push(*numbers.entry(ends).or_insert_with(|| {
+            topology.cells.push(*numbers.entry(ends).or_insert_with(|| {
                 nodes.push((nodes[a] + nodes[b]) * 0.5);
                 NodeId::new(nodes.len() - 1)
             }));
         }
-        mesh.curved.push(is_curved);
+        topology.curved.push(is_curved);
         for side in 0..=D {
             if let Some(boundary) = sides.get(&facet_of::<D>(cell, side)) {
                 #[expect(clippy::cast_possible_truncation, reason = "a simplex has few facets")]
                 let side = side as u8;
-                mesh.facets.push(Facet { cell: CellId::new(index), side, boundary: *boundary });
+                topology.facets.push(Facet { cell: CellId::new(index), side, boundary: *boundary });
             }
         }
     }
@@ -306,7 +305,7 @@ fn mesh_of<const D: usize>(
         let found = format!("a mesh of {} nodes", nodes.len());
         return Err(MshError::of_mesh(found, "meshes up to 4 billion nodes are read"));
     }
-    mesh.nodes = nodes;
+    let mesh = Mesh::new(nodes, topology);
     check_folds(&mesh, &tags)?;
     Ok(mesh)
 }

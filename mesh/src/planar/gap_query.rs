@@ -1,7 +1,7 @@
 //! `GapQuery`: the surroundings of bodies in the plane.
 
 use super::{Domain, Outline, PlacedShape};
-use crate::surroundings::{Sides, Surroundings};
+use crate::surface::{Sides, Surroundings};
 use crate::{MeshError, Point};
 
 /// Sides of a domain and outlines of bodies. Periodic sides and the axis are no surfaces.

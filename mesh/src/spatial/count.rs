@@ -3,7 +3,8 @@
 use super::domain::Domain;
 use super::shape::Body;
 use super::size_field::SizeField;
-use crate::{MeshError, Point, Sizing};
+use crate::count::{Cube, sum_over};
+use crate::{MeshError, Sizing};
 
 /// Cells over volume / size^3 where the size varies, fitted to meshes of the generator.
 const CELLS: f64 = 10.2;
@@ -34,25 +35,6 @@ pub fn estimate_cells(
     Ok(Count { sizes: &sizes, growth: sizing.growth, limit }.total(domain))
 }
 
-/// A cube of the domain.
-struct Cube {
-    center: Point<3>,
-    /// Half its edge (m).
-    half: f64,
-    depth: u32,
-}
-
-impl Cube {
-    fn eighths(&self) -> impl Iterator<Item = Self> + '_ {
-        let (half, depth) = (0.5 * self.half, self.depth + 1);
-        (0..8u8).map(move |corner| {
-            let to = |axis: u8| if corner >> axis & 1 == 1 { half } else { -half };
-            let center = self.center + Point::<3>::new(to(0), to(1), to(2));
-            Self { center, half, depth }
-        })
-    }
-}
-
 /// The integral over the fluid.
 struct Count<'a> {
     sizes: &'a SizeField,
@@ -68,19 +50,12 @@ impl Count<'_> {
         }
         let [min, max] = domain.corners();
         let half = 0.5 * (max - min).max();
-        let mut total = 0.0;
-        let mut stack = vec![Cube { center: (min + max) * 0.5, half, depth: 0 }];
-        while let Some(cube) = stack.pop() {
-            total += self.cells_of(&cube, &mut stack);
-            if total > self.limit {
-                return f64::INFINITY;
-            }
-        }
-        total
+        let whole = Cube { center: (min + max) * 0.5, half, depth: 0 };
+        sum_over([whole], self.limit, |cube| self.cells_of(cube))
     }
 
-    /// Cells in a cube, or 0 and its eighths for later.
-    fn cells_of(&self, cube: &Cube, stack: &mut Vec<Cube>) -> f64 {
+    /// Cells in a cube; `None` where it has to be halved.
+    fn cells_of(&self, cube: &Cube<3>) -> Option<f64> {
         let Cube { center, half, depth } = *cube;
         let reach = 3.0_f64.sqrt() * half;
         let geometry = self.sizes.geometry();
@@ -89,24 +64,24 @@ impl Count<'_> {
             inside = -inside.abs();
         }
         if inside < -reach {
-            return 0.0;
+            return Some(0.0);
         }
         let h = self.sizes.at(center);
         let is_cut = inside < reach && half > h;
         if depth < DEEPEST && (half * self.growth > CHANGE * h || is_cut) {
-            stack.extend(cube.eighths());
-            return 0.0;
+            return None;
         }
         let part = (0.5 + 0.5 * inside / half).clamp(0.0, 1.0);
         let is_coarsest = h > 0.97 * self.sizes.largest();
         let density = if is_coarsest { COARSEST } else { CELLS };
-        density * part * (2.0 * half / h).powi(3)
+        Some(density * part * (2.0 * half / h).powi(3))
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Point;
     use crate::spatial::{Centreline, Part, Shape, generate};
     use nalgebra::{Isometry3, UnitQuaternion};
 

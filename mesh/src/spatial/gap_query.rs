@@ -3,7 +3,7 @@
 use super::body_surface::BodySurface;
 use super::domain::Domain;
 use super::shape::Body;
-use crate::surroundings::{Sides, Surroundings};
+use crate::surface::{Sides, Surroundings};
 use crate::{MeshError, Point};
 
 /// Sides of a domain and surfaces of bodies. Periodic sides and planes of symmetry are no surfaces.

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::surface::{Facets, SmoothSurface};
-use crate::curved::jacobian_coefficients;
+use crate::mesh::jacobian_coefficients;
 use crate::quality::smallest_angle;
 use crate::{BoundaryId, Bounds, Locator, Mesh, Point};
 

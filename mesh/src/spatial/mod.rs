@@ -5,9 +5,9 @@
 //! of the curved cell.
 
 mod body_surface;
-mod centreline;
 mod closest;
 mod count;
+mod curve;
 mod domain;
 mod gap_query;
 mod generate;
@@ -16,25 +16,23 @@ mod imported;
 mod least_gap;
 mod periods;
 mod placement;
-mod profile_sections;
 mod sections;
 mod shape;
 mod size_field;
-mod spline;
 mod surface;
 
 pub use body_surface::{BodySurface, MaterialPoint};
-pub use centreline::Centreline;
 pub use closest::{ClosestPoints, WallSurface};
 pub use count::estimate_cells;
+pub use curve::{Centreline, SpaceSpline};
 pub use domain::Domain;
 pub use gap_query::GapQuery;
 pub use generate::generate;
 pub use imported::Imported;
 pub use placement::{check_placement, cutting_planes};
-pub use profile_sections::SectionHeight;
-pub use sections::{RulePoint, Section, SectionMoments, SectionPoint, Sections, Summand};
+pub use sections::{
+    RulePoint, Section, SectionHeight, SectionMoments, SectionPoint, Sections, Summand,
+};
 pub use shape::{Body, Part, Shape};
 pub use size_field::SizeField;
-pub use spline::SpaceSpline;
 pub use surface::Slender;

@@ -2,7 +2,7 @@
 
 use nalgebra::Translation3;
 
-use super::centreline::Centreline;
+use super::curve::Centreline;
 use super::domain::Domain;
 use super::geometry::{sides, surfaces_of};
 use super::imported::Imported;

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use nalgebra::Isometry3;
 
-use super::centreline::Centreline;
+use super::curve::Centreline;
 use super::surface::Slender;
 
 /// A solid in its own frame.

@@ -135,7 +135,7 @@ impl TimeStep {
     /// The same step with the full quadratic map on every cell.
     #[allow(dead_code, reason = "only assembly cares")]
     pub fn with_curved_cells(mut self) -> Self {
-        self.mesh.curved.fill(true);
+        self.mesh.topology_mut().curved.fill(true);
         self
     }
 

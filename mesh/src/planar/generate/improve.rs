@@ -6,7 +6,7 @@
 use super::relax::{flip_all, flip_from, raise_worst, smooth_all};
 use super::trial::try_moves;
 use super::triangulation::{Corner, Triangulation, WALL};
-use crate::curved::jacobian_coefficients;
+use crate::mesh::jacobian_coefficients;
 use crate::planar::boundary::BoundaryLoops;
 use crate::planar::vector::cross;
 

@@ -9,7 +9,7 @@ use crate::planar::boundary::{BoundaryLoops, BoundaryPiece, Curve, quarter_of, s
 use crate::planar::cut::CopyOf;
 use crate::{
     Boundary, BoundaryId, BoundaryKind, CellId, Domain, Facet, Mesh, NodeId, Outline, PeriodicPair,
-    PlacedShape, Point, Sizing,
+    PlacedShape, Point, Sizing, Topology,
 };
 
 /// Mirror images agree within this part of the size of the domain: bodies that have moved through a
@@ -268,25 +268,24 @@ impl Mirror {
             node[self.axis] = self.at;
         }
         let Numbering { kept, image, n_nodes } = number(&half, &is_on_line);
-        let mut whole = Mesh {
-            nodes: vec![Point::<2>::zeros(); n_nodes],
-            n_vertices: 0,
+        let on_line = is_on_line[..half.n_vertices].iter().filter(|on_line| **on_line).count();
+        let mut whole = Topology {
+            n_vertices: 2 * half.n_vertices - on_line,
             cells: Vec::with_capacity(2 * half.cells.len()),
             curved: [half.curved.as_slice(), &half.curved].concat(),
             facets: Vec::new(),
             boundaries: half.boundaries[..line].to_vec(),
             periodic: Vec::new(),
         };
-        let on_line = is_on_line[..half.n_vertices].iter().filter(|on_line| **on_line).count();
-        whole.n_vertices = 2 * half.n_vertices - on_line;
+        let mut nodes = vec![Point::<2>::zeros(); n_nodes];
         for (node, place) in half.nodes.iter().enumerate() {
-            whole.nodes[image[node]] = self.reflect(*place);
-            whole.nodes[kept[node]] = *place;
+            nodes[image[node]] = self.reflect(*place);
+            nodes[kept[node]] = *place;
         }
         whole.cells.extend(half.cells.iter().map(|node| kept[*node]));
-        for nodes in half.cells() {
+        for cell in half.cells() {
             // Turned round: the sides are those from 0 to 2, 2 to 1, 1 to 0
-            whole.cells.extend([0, 2, 1, 5, 4, 3].map(|i| image[nodes[i]]));
+            whole.cells.extend([0, 2, 1, 5, 4, 3].map(|i| image[cell[i]]));
         }
         for facet in half.facets.iter().filter(|facet| facet.boundary.index() != line) {
             whole.facets.push(*facet);
@@ -308,7 +307,7 @@ impl Mirror {
             periodic.extend(far.map(|node| pair(kept[node], image[node])));
         }
         whole.periodic = resolve(periodic);
-        whole
+        Mesh::new(nodes, whole)
     }
 }
 

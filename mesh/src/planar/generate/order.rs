@@ -44,16 +44,17 @@ pub fn renumber(mesh: &Mesh<2>) -> Mesh<2> {
     for (position, &new) in mesh.nodes.iter().zip(&new_node) {
         renumbered.nodes[new] = *position;
     }
-    renumbered.cells =
+    let topology = renumbered.topology_mut();
+    topology.cells =
         order.iter().flat_map(|&(_, cell)| mesh.cell(cell)).map(|&old| new_node[old]).collect();
-    renumbered.curved = order.iter().map(|&(_, cell)| mesh.curved[cell]).collect();
-    for facet in &mut renumbered.facets {
+    topology.curved = order.iter().map(|&(_, cell)| mesh.curved[cell]).collect();
+    for facet in &mut topology.facets {
         facet.cell = new_cell[facet.cell];
     }
-    for pair in &mut renumbered.periodic {
+    for pair in &mut topology.periodic {
         *pair = PeriodicPair { copy: new_node[pair.copy], original: new_node[pair.original] };
     }
-    renumbered.periodic.sort_unstable();
+    topology.periodic.sort_unstable();
     renumbered
 }
 

@@ -2,9 +2,9 @@
 
 use super::edges::EdgePair;
 use super::triangulation::{Triangulation, WALL};
-use crate::curved::jacobian_coefficients;
+use crate::mesh::jacobian_coefficients;
 use crate::planar::boundary::BoundaryLoops;
-use crate::{BoundaryId, CellId, Facet, Mesh, MeshError, NodeId, PeriodicPair, Simplex};
+use crate::{BoundaryId, CellId, Facet, Mesh, MeshError, NodeId, PeriodicPair, Simplex, Topology};
 
 /// Mesh with quadratic geometry; `periodic` are the pairs of boundary edges.
 ///
@@ -62,8 +62,7 @@ pub fn finish(
             nodes.push(middle);
         }
     }
-    let mut mesh = Mesh {
-        nodes,
+    let topology = Topology {
         n_vertices,
         cells,
         curved,
@@ -71,7 +70,8 @@ pub fn finish(
         boundaries: border.boundaries.clone(),
         periodic: Vec::new(),
     };
-    mesh.periodic = pair_nodes(&mesh, &triangles, periodic);
+    let mut mesh = Mesh::new(nodes, topology);
+    mesh.topology_mut().periodic = pair_nodes(&mesh, &triangles, periodic);
     check_curved(&mesh)?;
     Ok(mesh)
 }

@@ -1,6 +1,7 @@
 //! How many cells a size field asks for, before any of them is made.
 
 use super::SizeField;
+use crate::count::{Cube, sum_over};
 use crate::planar::boundary::BoundaryLoops;
 use crate::planar::placement::{place, place_wrapped};
 use crate::surface::SurfaceTree;
@@ -74,14 +75,6 @@ fn widened(domain: &Domain, outlines: &[Outline]) -> Domain {
     }
 }
 
-/// A square of the domain.
-struct Square {
-    center: Point<2>,
-    /// Half its side (m).
-    half: f64,
-    depth: u32,
-}
-
 /// The integral over the fluid.
 struct Count<'a> {
     domain: &'a Domain,
@@ -103,57 +96,39 @@ impl<'a> Count<'a> {
         // Squares side by side along the longer side, the last one reaching beyond it
         let n = (size / side).map(|ratio| ratio.ceil().min(1e6));
         let side = (size.x / n.x).max(size.y / n.y);
-        let mut total = 0.0;
-        let mut stack = Vec::new();
-        let (mut row, mut column) = (0.0, 0.0);
-        while row < n.y {
+        let mut next = (0.0, 0.0);
+        let squares = std::iter::from_fn(|| {
+            let (column, row) = next;
             let corner = min + Point::<2>::new(column, row) * side;
-            stack.push(Square {
-                center: corner + Point::<2>::repeat(0.5 * side),
-                half: 0.5 * side,
-                depth: 0,
-            });
-            while let Some(square) = stack.pop() {
-                total += self.cells_of(&square, &mut stack);
-                if total > self.limit {
-                    return f64::INFINITY;
-                }
-            }
-            column += 1.0;
-            if column >= n.x {
-                (column, row) = (0.0, row + 1.0);
-            }
-        }
-        total
+            let center = corner + Point::<2>::repeat(0.5 * side);
+            next = if column + 1.0 >= n.x { (0.0, row + 1.0) } else { (column + 1.0, row) };
+            (row < n.y).then_some(Cube { center, half: 0.5 * side, depth: 0 })
+        });
+        sum_over(squares, self.limit, |square| self.cells_of(square))
     }
 
-    /// Cells in a square, or 0 and its quarters for later.
-    fn cells_of(&self, square: &Square, stack: &mut Vec<Square>) -> f64 {
-        let Square { center, half, depth } = *square;
+    /// Cells in a square; `None` where it has to be halved.
+    fn cells_of(&self, square: &Cube<2>) -> Option<f64> {
+        let Cube { center, half, depth } = *square;
         let reach = std::f64::consts::SQRT_2 * half;
         let below = if self.domain.is_axisymmetric() { center.y } else { f64::INFINITY };
         let inside = self.domain.clearance(center).min(below);
         if inside < -reach {
-            return 0.0;
+            return Some(0.0);
         }
         let near = self.tree.nearest(self.outlines, &[Point::<2>::zeros()], center, None, reach);
         let outside = near.map_or(f64::INFINITY, |near| near.gap);
         if outside < -reach {
-            return 0.0;
+            return Some(0.0);
         }
         let h = self.sizes.at(center);
         // At a boundary a square of a few cells is small enough
         let is_cut = inside.min(outside) < reach && half > 2.0 * h;
         if depth < DEEPEST && (2.0 * half * self.sizes.growth() > h || is_cut) {
-            let quarter = 0.5 * half;
-            for [x, y] in [[-1.0, -1.0], [1.0, -1.0], [-1.0, 1.0], [1.0, 1.0]] {
-                let center = center + Point::<2>::new(x, y) * quarter;
-                stack.push(Square { center, half: quarter, depth: depth + 1 });
-            }
-            return 0.0;
+            return None;
         }
         let is_fluid = inside > 0.0 && outside > 0.0;
-        if is_fluid { CELLS * 4.0 * half * half / (h * h) } else { 0.0 }
+        Some(if is_fluid { CELLS * 4.0 * half * half / (h * h) } else { 0.0 })
     }
 }
 

@@ -2,9 +2,8 @@
 
 use std::collections::BinaryHeap;
 
-use super::improver::Improver;
-use super::measure::{EDGES, middle};
-use super::split::Split;
+use super::improve::{Improver, Split};
+use super::tetrahedra::measure::{EDGES, middle};
 use crate::{MeshError, Point};
 
 /// Edges longer than this many wanted lengths are split.

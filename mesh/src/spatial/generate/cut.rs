@@ -2,12 +2,11 @@
 //! and cells beyond it dropped.
 
 use super::bisection::DIP;
-use super::boundary_edges::tag_of;
-use super::improver::Improver;
-use super::measure::{FACES, middle};
-use super::split::Split;
-use super::surface_set::SurfaceSet;
+use super::improve::{Improver, Split};
 use super::tetrahedra::Face;
+use super::tetrahedra::boundary_edges::tag_of;
+use super::tetrahedra::measure::{FACES, middle};
+use super::tetrahedra::surface_set::SurfaceSet;
 use crate::{MeshError, Point};
 
 /// Vertices are moved along an edge onto a surface that cuts it nearer than this part of its length.

@@ -1,10 +1,9 @@
 //! A given mesh in the place of the lattice: its sides stay, with the nodes of their bent edges.
 
-use super::boundary_edges::{INNER, tag_of};
-use super::given_nodes::GivenPart;
-use super::improver::Improver;
-use super::surface_set::SurfaceSet;
+use super::improve::{GivenPart, Improver};
 use super::tetrahedra::Face;
+use super::tetrahedra::boundary_edges::{INNER, tag_of};
+use super::tetrahedra::surface_set::SurfaceSet;
 use crate::number::index_u32;
 use crate::spatial::surface::is_bent;
 use crate::{Mesh, Simplex};

@@ -1,10 +1,10 @@
 //! The body-centred cubic lattice of tetrahedra that the mesh is cut from.
 
-use super::boundary_edges::{INNER, tag_of};
-use super::improver::Improver;
-use super::measure::six_volumes;
-use super::surface_set::SurfaceSet;
+use super::improve::Improver;
 use super::tetrahedra::Face;
+use super::tetrahedra::boundary_edges::{INNER, tag_of};
+use super::tetrahedra::measure::six_volumes;
+use super::tetrahedra::surface_set::SurfaceSet;
 use crate::Point;
 use crate::number::whole;
 

@@ -4,33 +4,16 @@
 //! is random: equal input, equal bits.
 
 mod bisection;
-mod boundary_edges;
-mod collapse;
 mod cut;
-mod edge_removal;
-mod face_swap;
 mod given;
-mod given_nodes;
-mod improver;
+mod improve;
 mod lattice;
-mod measure;
 mod opened;
-mod passes;
-mod peel;
-mod projections;
 mod quadratic;
-mod replace;
-mod schedule;
-mod smooth;
-mod split;
 mod surface_faces;
-mod surface_set;
 mod tetrahedra;
-mod verdict;
-mod worst_cells;
 
-use improver::Improver;
-use verdict::Verdict;
+use improve::{Improver, Verdict};
 
 use super::domain::Domain;
 use super::shape::Body;

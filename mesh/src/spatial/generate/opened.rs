@@ -3,10 +3,10 @@
 //! Cells at bodies are where their body is, so that bodies stay whole; all others where their middle is in
 //! the box. Each vertex has as many copies as places in which the cells around it show it.
 
-use super::boundary_edges::{INNER, surface_of};
-use super::improver::Improver;
-use super::measure::FACES;
+use super::improve::Improver;
 use super::tetrahedra::Face;
+use super::tetrahedra::boundary_edges::{INNER, surface_of};
+use super::tetrahedra::measure::FACES;
 use crate::Point;
 
 /// Numbers of whole periods along the axes.

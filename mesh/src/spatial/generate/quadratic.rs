@@ -3,11 +3,11 @@
 
 use std::collections::HashMap;
 
-use super::boundary_edges::{INNER, surface_of};
-use super::improver::Improver;
+use super::improve::Improver;
 use super::opened::{Opened, Steps};
 use super::tetrahedra::Face;
-use crate::{BoundaryId, CellId, Facet, Mesh, NodeId, PeriodicPair, Point, Simplex};
+use super::tetrahedra::boundary_edges::{INNER, surface_of};
+use crate::{BoundaryId, CellId, Facet, Mesh, NodeId, PeriodicPair, Point, Simplex, Topology};
 
 /// A node in an edge, where the edge is shown in one of its places.
 struct EdgeNode {
@@ -54,7 +54,8 @@ impl Improver<'_> {
         }
         let boundaries = self.geometry.boundaries.clone();
         let periodic = mesh.pairs();
-        Mesh { nodes: mesh.nodes, n_vertices, cells, curved, facets, boundaries, periodic }
+        let topology = Topology { n_vertices, cells, curved, facets, boundaries, periodic };
+        Mesh::new(mesh.nodes, topology)
     }
 
     /// The cells by their vertices, which follow the lattice: what is added up cell by cell is then close in memory.

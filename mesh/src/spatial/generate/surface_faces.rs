@@ -1,10 +1,10 @@
 //! Whether triangles follow the surface they are to be on.
 
-use super::boundary_edges::{INNER, surface_of};
-use super::improver::Improver;
-use super::measure::middle;
-use super::surface_set::SurfaceSet;
+use super::improve::Improver;
 use super::tetrahedra::Face;
+use super::tetrahedra::boundary_edges::{INNER, surface_of};
+use super::tetrahedra::measure::middle;
+use super::tetrahedra::surface_set::SurfaceSet;
 use crate::Point;
 
 /// Twice the area over the sum of squared edges that a face has at least; 0.29 when regular.

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::spatial::SpaceSpline;
-use crate::spatial::centreline::Centreline;
+use crate::spatial::curve::Centreline;
 use crate::spatial::sections::test_bodies::{bent_fish, ellipsoid};
 use nalgebra::{Translation3, UnitQuaternion};
 

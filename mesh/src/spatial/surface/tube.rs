@@ -1,7 +1,7 @@
 //! `Tube`: all points at a distance from a curve; its ends are half spheres.
 
 use crate::Point;
-use crate::spatial::centreline::Centreline;
+use crate::spatial::curve::Centreline;
 
 /// Most levels of the tree of balls.
 const MOST_LEVELS: usize = 32;

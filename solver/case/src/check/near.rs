@@ -5,7 +5,7 @@ use alewife_mesh::{Domain, Outline, Wall, closest, closest_to_wall};
 use super::Findings;
 use super::strokes::{Tree, cycle_of};
 use super::swing::swing;
-use crate::balls::{Ball, BallGrid};
+use crate::balls::{Ball, BallTree};
 use crate::numbers::significant;
 use crate::{Body, BoundaryCondition, Lock, Model, Motion, TimeSettings};
 
@@ -155,15 +155,14 @@ impl<'a> Surroundings<'a> {
     /// Pairs that may come near each other, with their gaps at the start less what gaits take.
     fn candidates(&self) -> Vec<Near> {
         let mut found = Vec::new();
-        let [min, max] = self.model.case.extent().in_plane();
-        let mut grid = BallGrid::<2>::new(min.into(), max.into(), self.outlines.len());
+        let mut placed = BallTree::<2>::empty();
         for (body, outline) in self.outlines.iter().enumerate() {
             let Some(outline) = outline else { continue };
             let spec = &self.model.bodies[body];
             let own = spec.shape.half_width();
             let room = outline.reach() * (1.0 + NEAR) + self.swings[body];
             let circle = Ball { center: outline.center(), radius: room };
-            let mut near: Vec<usize> = grid.near(&circle).collect();
+            let mut near: Vec<usize> = placed.near(&circle).collect();
             near.sort_unstable();
             near.dedup();
             for other in near {
@@ -191,7 +190,7 @@ impl<'a> Surroundings<'a> {
                     }
                 }
             }
-            grid.insert(body, &circle);
+            placed.insert(body, &circle);
         }
         found
     }

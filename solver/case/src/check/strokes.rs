@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use alewife_mesh::{Domain, MeshError, Outline, PlacedShape, Point, check_placement, closest};
 
 use super::Findings;
-use crate::balls::{Ball, BallGrid};
+use crate::balls::{Ball, BallTree};
 use crate::joint::{PlanarPose, child_pose};
 use crate::{Geometry, Joint, Model, Stroke, TimeSettings};
 
@@ -185,12 +185,12 @@ impl<'a> Tree<'a> {
             .iter()
             .flatten()
             .fold(0.0f64, |far, outline| far.max(outline.center().norm() + outline.reach()));
-        let mut grid = BallGrid::new([-far; 2].into(), [far; 2].into(), bodies.len());
+        let mut tested = BallTree::empty();
         for (index, outline) in outlines.iter().enumerate() {
             let Some(outline) = outline else { continue };
             let radius = (1.0 + APART) * outline.reach();
             let circle = Ball { center: outline.center(), radius };
-            let mut near: Vec<usize> = grid.near(&circle).collect();
+            let mut near: Vec<usize> = tested.near(&circle).collect();
             near.sort_unstable();
             near.dedup();
             for other in near {
@@ -204,7 +204,7 @@ impl<'a> Tree<'a> {
                     }
                 }
             }
-            grid.insert(index, &circle);
+            tested.insert(index, &circle);
         }
         None
     }

@@ -123,5 +123,5 @@ fn generate<const D: usize>(
     }
     let present = seen_from(&state.origin, &state.poses, &image_shifts);
     let nodes = moving.nodes(&present, shapes_now)?;
-    Ok(NewMesh { mesh: Mesh { nodes, ..mesh }, moving, image_shifts })
+    Ok(NewMesh { mesh: mesh.with_nodes(nodes), moving, image_shifts })
 }

@@ -51,9 +51,9 @@ pub fn replace_mesh<const D: usize>(
     // cost the next step its second order
     let shapes_before = BodyShapes::at(&problem.bodies, state.time_before())?;
     let nodes_before = successor.nodes(&previous_poses, &shapes_before)?;
-    let before = Mesh { nodes: nodes_before, ..new.clone() };
+    let before = new.with_nodes(nodes_before);
     let old = state.mesh_in_frame();
-    let old_before = Mesh { nodes: state.nodes_before.clone(), ..old.clone() };
+    let old_before = old.with_nodes(state.nodes_before.clone());
     let bodies = |poses, shapes| BodiesAt { poses, shapes };
     let mut transfer = FieldTransfer::new(problem, &new, &successor);
     let now = Level {

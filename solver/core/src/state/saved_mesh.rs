@@ -1,7 +1,7 @@
 //! The topology of a mesh as plain numbers, for states that are saved: positions of nodes and names of boundaries are
 //! known from elsewhere.
 
-use alewife_mesh::{BoundaryId, CellId, Facet, Mesh, NodeId, PeriodicPair, Simplex};
+use alewife_mesh::{BoundaryId, CellId, Facet, Mesh, NodeId, PeriodicPair, Simplex, Topology};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 /// The topology of a mesh.
@@ -52,20 +52,24 @@ pub(super) fn deserialize<'de, De: Deserializer<'de>, const D: usize>(
         copy: NodeId::from(copy),
         original: NodeId::from(original),
     };
-    Ok(Mesh {
-        nodes: Vec::new(),
+    let topology = Topology {
         n_vertices: saved.n_vertices,
         cells: saved.cells.iter().copied().map(NodeId::from).collect(),
         curved: saved.curved,
         facets: saved.facets.iter().map(facet).collect(),
         boundaries: Vec::new(),
         periodic: saved.periodic.iter().map(pair).collect(),
-    })
+    };
+    Ok(Mesh::new(Vec::new(), topology))
 }
 
-/// Whether the topology of a mesh that was read fits to so many nodes and boundaries.
+/// Whether a topology that was read fits to so many nodes and boundaries.
 #[must_use]
-pub fn is_consistent<const D: usize>(mesh: &Mesh<D>, n_nodes: usize, n_boundaries: usize) -> bool {
+pub fn is_consistent<const D: usize>(
+    mesh: &Topology<D>,
+    n_nodes: usize,
+    n_boundaries: usize,
+) -> bool {
     let n_cells = mesh.curved.len();
     let is_node = |node: NodeId| node.index() < n_nodes;
     mesh.n_vertices <= n_nodes
@@ -91,8 +95,7 @@ mod tests {
             side,
             boundary: BoundaryId::from(boundary),
         };
-        let right = Mesh::<2> {
-            nodes: Vec::new(),
+        let right = Topology::<2> {
             n_vertices: 3,
             cells: (0..6).map(node).collect(),
             curved: vec![false],
@@ -100,20 +103,20 @@ mod tests {
             boundaries: Vec::new(),
             periodic: vec![PeriodicPair { copy: node(1), original: node(0) }],
         };
-        let is_consistent = |mesh: &Mesh<2>| is_consistent(mesh, 6, 2);
+        let is_consistent = |topology: &Topology<2>| is_consistent(topology, 6, 2);
         assert!(is_consistent(&right));
         let beyond = [0, 1, 2, 3, 4, 6].map(node).to_vec();
         for wrong in [
-            Mesh { facets: vec![facet(0, 3, 1)], ..right.clone() },
-            Mesh { facets: vec![facet(1, 2, 1)], ..right.clone() },
-            Mesh { facets: vec![facet(0, 2, 2)], ..right.clone() },
-            Mesh {
+            Topology { facets: vec![facet(0, 3, 1)], ..right.clone() },
+            Topology { facets: vec![facet(1, 2, 1)], ..right.clone() },
+            Topology { facets: vec![facet(0, 2, 2)], ..right.clone() },
+            Topology {
                 periodic: vec![PeriodicPair { copy: node(6), original: node(0) }],
                 ..right.clone()
             },
-            Mesh { cells: beyond, ..right.clone() },
-            Mesh { cells: (0..3).map(node).collect(), ..right.clone() },
-            Mesh { n_vertices: 7, ..right.clone() },
+            Topology { cells: beyond, ..right.clone() },
+            Topology { cells: (0..3).map(node).collect(), ..right.clone() },
+            Topology { n_vertices: 7, ..right.clone() },
         ] {
             assert!(!is_consistent(&wrong), "{wrong:?}");
         }

@@ -2,7 +2,7 @@
 
 use std::ops::Deref;
 
-use alewife_mesh::{Mesh, Point};
+use alewife_mesh::{Boundary, Mesh, Point};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
@@ -245,11 +245,11 @@ impl<const D: usize> State<D> {
 
     /// Gives a state that was read from a file the boundaries of its mesh, and the positions of its nodes: the file has
     /// neither.
-    pub fn complete_mesh(&mut self, boundaries: &[alewife_mesh::Boundary]) {
+    pub fn complete_mesh(&mut self, boundaries: &[Boundary]) {
         let own = &mut self.0;
         let origin = on_mesh::<D>(&own.origin);
-        own.mesh.boundaries = boundaries.to_vec();
         own.mesh.nodes = own.nodes.iter().map(|node| node + origin).collect();
+        own.mesh.topology_mut().boundaries = boundaries.to_vec();
     }
 
     /// Notes the powers of the groups at the start, or where rates jump.
@@ -336,7 +336,7 @@ impl<const D: usize> State<D> {
     /// The mesh at present, seen from the frame.
     #[must_use]
     pub fn mesh_in_frame(&self) -> Mesh<D> {
-        Mesh { nodes: self.nodes.clone(), ..self.mesh.clone() }
+        self.mesh.with_nodes(self.nodes.clone())
     }
 
     /// What the groups do in a flow, with bodies at these poses in the laboratory.

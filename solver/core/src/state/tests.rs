@@ -1,7 +1,7 @@
 //! Every field of a state survives a file.
 
 use alewife_mesh::{
-    Boundary, BoundaryId, BoundaryKind, CellId, Facet, Mesh, NodeId, PeriodicPair, Point,
+    Boundary, BoundaryId, BoundaryKind, CellId, Facet, Mesh, NodeId, PeriodicPair, Point, Topology,
 };
 use nalgebra::Vector3;
 
@@ -15,15 +15,15 @@ use crate::coupling::Solution;
 
 /// A triangle with all that a mesh may have.
 fn mesh(origin: Point<2>, nodes: &[Point<2>]) -> Mesh<2> {
-    Mesh {
-        nodes: nodes.iter().map(|node| node + origin).collect(),
+    let topology = Topology {
         n_vertices: 3,
         cells: (0..6u32).map(NodeId::from).collect(),
         curved: vec![true],
         facets: vec![Facet { cell: CellId::from(0), side: 1, boundary: BoundaryId::from(0) }],
         boundaries: vec![Boundary { name: "wall".to_owned(), kind: BoundaryKind::Side }],
         periodic: vec![PeriodicPair { copy: NodeId::from(2), original: NodeId::from(1) }],
-    }
+    };
+    Mesh::new(nodes.iter().map(|node| node + origin).collect(), topology)
 }
 
 /// Numbers that are all different.

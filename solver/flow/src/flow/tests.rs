@@ -54,7 +54,7 @@ fn the_matrix_is_the_derivative_of_the_residual() {
 
 fn check_maps<const D: usize>(mesh: Mesh<D>, metric: Metric, tolerance: f64) {
     let mut bent = mesh.clone();
-    bent.curved.fill(true);
+    bent.topology_mut().curved.fill(true);
     let straight = Setting::new(mesh, metric, false);
     let bent = Setting::new(bent, metric, false);
     for convection in &CONVECTIONS[..3] {

@@ -25,7 +25,7 @@ pub(crate) fn bent<const D: usize>(mut mesh: Mesh<D>, bend: f64) -> Mesh<D> {
     for (index, node) in mesh.nodes.iter_mut().enumerate().skip(n_vertices) {
         *node += Point::from_fn(|axis, _| bend * (3.0 * index as f64 + 5.0 * axis as f64).sin());
     }
-    mesh.curved.fill(bend != 0.0);
+    mesh.topology_mut().curved.fill(bend != 0.0);
     mesh
 }
 

@@ -1,6 +1,6 @@
 //! What a planar or axisymmetric case says of meshes: domain, sizes, bodies, sheets.
 
-use alewife_mesh::{Domain, Mesh, PlacedShape, Sizing, estimate_cells};
+use alewife_mesh::{CellId, Domain, Facet, Mesh, PlacedShape, Sizing, estimate_cells};
 
 use super::periodic_cell::{PeriodicCell, initial_cell};
 use crate::body::Pose;
@@ -87,10 +87,12 @@ impl MeshedCell {
         let cell = initial_cell(&domain, bodies)?;
         let mut mesh = cell.mesh(&sizing)?;
         // The side of a sheet is straight at first, but will not stay so
-        for facet in &mesh.facets {
-            if waving_sheet(case, &mesh.boundaries[facet.boundary].name).is_some() {
-                mesh.curved[facet.cell] = true;
-            }
+        let is_waving =
+            |facet: &&Facet| waving_sheet(case, &mesh.boundaries[facet.boundary].name).is_some();
+        let waving: Vec<CellId> = mesh.facets.iter().filter(is_waving).map(|f| f.cell).collect();
+        if !waving.is_empty() {
+            let topology = mesh.topology_mut();
+            waving.into_iter().for_each(|cell| topology.curved[cell] = true);
         }
         Ok(Self { mesh, cell })
     }

@@ -124,7 +124,7 @@ impl<const D: usize> SavedState<D> {
         state.complete_mesh(&boundaries);
         simulation.moving_mesh = match (&self.reference, &simulation.moving_mesh) {
             (Some(saved), Some(_)) => {
-                let mesh = Mesh { nodes: saved.nodes.clone(), ..state.mesh.clone() };
+                let mesh = state.mesh.with_nodes(saved.nodes.clone());
                 Some(follow(problem, &Reference { saved, mesh })?)
             }
             (None, None) => None,

@@ -1,5 +1,9 @@
 //! `Surface`: what is asked of the surface of a body in the plane or in space.
 
+mod surroundings;
+
+pub use surroundings::{Sides, Surroundings};
+
 use crate::box_tree::{Bounds, BoxTree};
 use crate::{BoundaryKind, Point};
 

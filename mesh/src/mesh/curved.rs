@@ -3,7 +3,7 @@
 //! x(X) = Σ_a x_a φ_a(X), with φ_a = l_i (2 l_i - 1) at vertex i and 4 l_i l_j inside edge (i, j),
 //! where l_0 = 1 - Σ X_k and l_k = X_k are the barycentric coordinates.
 
-use crate::simplex::{NodeArray, Simplex};
+use super::simplex::{NodeArray, Simplex};
 use crate::{CellId, Mesh, Point};
 
 /// Positions (m) of the nodes of a cell.

@@ -1,9 +1,9 @@
 //! The removal of a flat cell with two or three faces on one surface.
 
-use super::boundary_edges::{INNER, surface_of};
 use super::improver::{Improver, Pending};
-use super::surface_set::SurfaceSet;
-use super::tetrahedra::Face;
+use crate::spatial::generate::tetrahedra::Face;
+use crate::spatial::generate::tetrahedra::boundary_edges::{INNER, surface_of};
+use crate::spatial::generate::tetrahedra::surface_set::SurfaceSet;
 
 impl Improver<'_> {
     /// Takes a cell away that has two or three faces on one surface and none on others, where its other

@@ -1,9 +1,9 @@
 //! The swap of a face for an edge: two cells become three.
 
-use super::boundary_edges::INNER;
 use super::improver::{Improver, Pending};
-use super::measure::six_volumes;
-use super::tetrahedra::Face;
+use crate::spatial::generate::tetrahedra::Face;
+use crate::spatial::generate::tetrahedra::boundary_edges::INNER;
+use crate::spatial::generate::tetrahedra::measure::six_volumes;
 
 /// A change must raise the quality by this.
 pub const LEAST_GAIN: f64 = 1e-9;

@@ -97,7 +97,7 @@ pub fn least_coefficient(p: &[Point<3>; 4], offsets: &[Point<3>; 6]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::curved::jacobian_coefficients;
+    use crate::mesh::jacobian_coefficients;
     use crate::{Simplex, map_quadratic};
 
     fn sample() -> [Point<3>; 4] {

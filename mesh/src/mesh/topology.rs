@@ -1,11 +1,6 @@
-//! `Mesh<D>`: positions of the P2 nodes, cells, tagged boundary facets.
-
-use nalgebra::SVector;
+//! `Topology<D>`: cells, tagged boundary facets and periodic pairs of a mesh, wherever its nodes are.
 
 use crate::{BoundaryId, CellId, FacetId, NodeId, Simplex};
-
-/// A place in space (m), D components.
-pub type Point<const D: usize> = SVector<f64, D>;
 
 /// What a boundary of the mesh belongs to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -56,15 +51,9 @@ pub struct Edge<'a> {
     pub inner: &'a [NodeId],
 }
 
-/// A conforming mesh of triangles (D = 2) or tetrahedra (D = 3) with quadratic geometry.
-///
-/// [`Simplex`] fixes the local numbering of nodes, edges and facets; cells are positive
-/// (counter-clockwise in the plane). Interior edges are straight: their inner nodes lie on the line
-/// between their ends.
+/// What remains of a mesh while its nodes move.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Mesh<const D: usize> {
-    /// Positions of all nodes (m): the vertices first, then the inner nodes of the edges.
-    pub nodes: Vec<Point<D>>,
+pub struct Topology<const D: usize> {
     /// Number of vertices; the first `n_vertices` nodes are the vertices.
     pub n_vertices: usize,
     /// Nodes of all cells, [`Simplex::N_NODES`] for each.
@@ -79,27 +68,16 @@ pub struct Mesh<const D: usize> {
     pub periodic: Vec<PeriodicPair>,
 }
 
-impl<const D: usize> Mesh<D> {
+impl<const D: usize> Topology<D> {
     /// Number of cells.
     #[must_use]
     pub fn n_cells(&self) -> usize {
         self.curved.len()
     }
 
-    /// Number of nodes.
-    #[must_use]
-    pub fn n_nodes(&self) -> usize {
-        self.nodes.len()
-    }
-
     /// All cells, in order.
     pub fn cell_ids(&self) -> impl ExactSizeIterator<Item = CellId> + Clone + use<D> {
         (0..self.n_cells()).map(CellId::new)
-    }
-
-    /// All nodes, in order.
-    pub fn node_ids(&self) -> impl ExactSizeIterator<Item = NodeId> + Clone + use<D> {
-        (0..self.n_nodes()).map(NodeId::new)
     }
 
     /// All vertices, in order.
@@ -137,13 +115,6 @@ impl<const D: usize> Mesh<D> {
             ends: ends.map(|vertex| nodes[vertex]),
             inner: &nodes[Simplex::<D>::edge_nodes(edge)],
         })
-    }
-
-    /// Centroid (m) of the vertices of one cell.
-    #[must_use]
-    pub fn cell_center(&self, cell: CellId) -> Point<D> {
-        let sum: Point<D> = self.cell_vertices(cell).iter().map(|&node| self.nodes[node]).sum();
-        sum / (D + 1) as f64
     }
 
     /// Vertices of a facet; in the plane the fluid is on the left from the first to the second.

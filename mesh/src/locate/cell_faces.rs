@@ -1,7 +1,7 @@
 //! `Face`: a face of a straight cell, and how far a curved cell with the same vertices may be beyond it.
 
-use crate::cell_point::solve;
-use crate::curved::determinant;
+use super::cell_point::solve;
+use crate::mesh::determinant;
 use crate::{Point, Simplex};
 
 /// The shape functions of the middles of edges sum to this at most: 2 - 2 sum(l^2) with coordinates l.

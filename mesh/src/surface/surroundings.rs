@@ -2,7 +2,7 @@
 
 use std::sync::OnceLock;
 
-use crate::surface::SurfaceTree;
+use super::SurfaceTree;
 use crate::{BoundaryKind, Facing, FacingSurfaces, Point, Surface};
 
 /// The sides of a domain, as bodies face them.

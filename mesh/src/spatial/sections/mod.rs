@@ -4,6 +4,10 @@
 //! are in the plane z = 0, the half height H is across it. The parameter p runs from the nose to the
 //! end of the tail, where W and H vanish and are odd in p, so that both ends are smooth.
 
+mod profile;
+
+pub use profile::SectionHeight;
+
 use std::f64::consts::PI;
 use std::ops::{Add, Mul, Sub};
 

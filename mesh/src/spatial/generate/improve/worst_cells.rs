@@ -2,8 +2,8 @@
 
 use super::collapse::CollapseGoal;
 use super::improver::Improver;
-use super::measure::EDGES;
-use super::tetrahedra::Face;
+use crate::spatial::generate::tetrahedra::Face;
+use crate::spatial::generate::tetrahedra::measure::EDGES;
 
 /// Edges shorter than this many wanted lengths are not split.
 const SHORT: f64 = 0.8;

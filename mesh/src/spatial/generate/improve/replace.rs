@@ -1,8 +1,8 @@
 //! Replacement of the cells in a cavity by others.
 
-use super::boundary_edges::INNER;
-use super::measure::FACES;
-use super::tetrahedra::Tetrahedra;
+use crate::spatial::generate::tetrahedra::Tetrahedra;
+use crate::spatial::generate::tetrahedra::boundary_edges::INNER;
+use crate::spatial::generate::tetrahedra::measure::FACES;
 
 /// A boundary face that a change makes.
 #[derive(Debug, Clone, Copy)]

@@ -2,8 +2,8 @@
 
 use std::cell::RefCell;
 
-use super::surface_set::SurfaceSet;
 use crate::Point;
+use crate::spatial::generate::tetrahedra::surface_set::SurfaceSet;
 use crate::spatial::geometry::Geometry;
 
 /// Places of the cache, a power of two.

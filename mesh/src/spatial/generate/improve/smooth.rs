@@ -1,12 +1,12 @@
 //! Moves of single vertices: to the middle of what is around them, and up the slope of the worst
 //! qualities.
 
-use super::boundary_edges::INNER;
 use super::improver::{Improver, LEAST_CLEARANCE, Pending};
-use super::measure::{middle, six_volumes};
-use super::surface_set::SurfaceSet;
-use super::tetrahedra::Face;
 use crate::Point;
+use crate::spatial::generate::tetrahedra::Face;
+use crate::spatial::generate::tetrahedra::boundary_edges::INNER;
+use crate::spatial::generate::tetrahedra::measure::{middle, six_volumes};
+use crate::spatial::generate::tetrahedra::surface_set::SurfaceSet;
 
 /// Steps up the slope in one go.
 const ASCENTS: usize = 2;

@@ -1,11 +1,13 @@
 //! `Improver`: a mesh with the surfaces and sizes it is to follow, and the quality of its cells.
 
 use super::given_nodes::GivenNodes;
-use super::measure::{EDGES, least_coefficient, least_sine, middle, volume_length};
 use super::projections::Projections;
-use super::surface_set::SurfaceSet;
-use super::tetrahedra::Tetrahedra;
 use crate::Point;
+use crate::spatial::generate::tetrahedra::Tetrahedra;
+use crate::spatial::generate::tetrahedra::measure::{
+    EDGES, least_coefficient, least_sine, middle, volume_length,
+};
+use crate::spatial::generate::tetrahedra::surface_set::SurfaceSet;
 use crate::spatial::geometry::Geometry;
 use crate::spatial::size_field::SizeField;
 

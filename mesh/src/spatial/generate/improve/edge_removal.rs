@@ -1,12 +1,12 @@
 //! Removal of an edge: the cells around it are replaced by the best triangulation of the ring of
 //! their other vertices.
 
-use super::boundary_edges::tag_of;
 use super::face_swap::LEAST_GAIN;
 use super::improver::{Improver, Pending};
 use super::replace::NewFace;
-use super::surface_set::SurfaceSet;
 use crate::Point;
+use crate::spatial::generate::tetrahedra::boundary_edges::tag_of;
+use crate::spatial::generate::tetrahedra::surface_set::SurfaceSet;
 
 /// Most cells around an edge that is removed.
 const MOST_CELLS: usize = 9;

@@ -1,8 +1,10 @@
 //! `Verdict`: whether a mesh is good enough to be given away.
 
 use super::improver::Improver;
-use super::measure::{EDGES, least_coefficient, least_sine, six_volumes};
 use crate::quality::smallest_angle;
+use crate::spatial::generate::tetrahedra::measure::{
+    EDGES, least_coefficient, least_sine, six_volumes,
+};
 use crate::{MeshError, Point};
 
 /// Smallest dihedral angle of a good mesh (degrees), where no two surfaces of a body meet.

@@ -1,6 +1,6 @@
 //! `CellPoint`: reference coordinates of a point in a cell, and the point of a cell nearest to it.
 
-use crate::curved::{determinant, map_quadratic};
+use crate::mesh::{determinant, map_quadratic};
 use crate::{Point, Simplex};
 
 /// A point of a cell.

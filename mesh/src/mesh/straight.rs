@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use crate::{Boundary, BoundaryId, CellId, Facet, Mesh, NodeId, Point, Simplex};
+use crate::{Boundary, BoundaryId, CellId, Facet, Mesh, NodeId, Point, Simplex, Topology};
 
 impl<const D: usize> Mesh<D> {
     /// The mesh of simplices between these vertices (m), its sides straight. `cells` has the D + 1
@@ -47,15 +47,15 @@ impl<const D: usize> Mesh<D> {
                 }
             }
         }
-        Self {
-            nodes,
+        let topology = Topology {
             n_vertices: vertices.len(),
             cells: cell_nodes,
             curved: vec![false; cells.len()],
             facets,
             boundaries,
             periodic: Vec::new(),
-        }
+        };
+        Self::new(nodes, topology)
     }
 }
 

@@ -1,8 +1,13 @@
 //! `Tetrahedra`: a mesh that can be changed cell by cell, with what lies around each vertex.
 
-use super::boundary_edges::{BoundaryEdges, INNER};
-use super::measure::FACES;
-use super::surface_set::SurfaceSet;
+pub mod boundary_edges;
+pub mod measure;
+pub mod surface_set;
+
+use boundary_edges::{BoundaryEdges, INNER};
+use measure::FACES;
+use surface_set::SurfaceSet;
+
 use crate::Point;
 use crate::spatial::periods::Periods;
 

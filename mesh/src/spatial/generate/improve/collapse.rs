@@ -1,10 +1,10 @@
 //! The collapse of an edge: one of its ends is merged into the other.
 
-use super::boundary_edges::INNER;
 use super::improver::{Improver, Pending};
-use super::measure::FACES;
-use super::tetrahedra::Face;
 use crate::Point;
+use crate::spatial::generate::tetrahedra::Face;
+use crate::spatial::generate::tetrahedra::boundary_edges::INNER;
+use crate::spatial::generate::tetrahedra::measure::FACES;
 
 /// Quality that every cell keeps.
 const LEAST_QUALITY: f64 = 0.03;

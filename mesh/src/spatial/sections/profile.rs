@@ -1,6 +1,6 @@
 //! `SectionHeight`: how high the sections of a profile are, and the straight body they make.
 
-use super::sections::Sections;
+use super::Sections;
 use crate::{Profile, Station};
 
 /// Half height of the sections of a slender body, across the plane of its midline.

@@ -2,7 +2,7 @@
 
 use super::collapse::CollapseGoal;
 use super::improver::Improver;
-use super::tetrahedra::Face;
+use crate::spatial::generate::tetrahedra::Face;
 
 /// Part of the worst quality to which a collapse may lower it.
 const COLLAPSE_LOSS: f64 = 0.6;

@@ -11,7 +11,7 @@ const MOST_PIECES: f64 = 4096.0;
 
 /// A point of a curve with derivatives by the parameter.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct CurvePoint {
+pub(in crate::spatial) struct CurvePoint {
     pub at: Point<3>,
     pub rate: Point<3>,
     pub second: Point<3>,
@@ -75,7 +75,7 @@ impl SpaceSpline {
     }
 
     /// The point at a parameter from 0 to 1.
-    pub(super) fn evaluate(&self, parameter: f64) -> CurvePoint {
+    pub(in crate::spatial) fn evaluate(&self, parameter: f64) -> CurvePoint {
         let last = self.points.len() - 2;
         let i = self.knots.partition_point(|knot| *knot <= parameter).saturating_sub(1).min(last);
         let h = self.knots[i + 1] - self.knots[i];
@@ -91,7 +91,7 @@ impl SpaceSpline {
     }
 
     /// Pieces into which it is cut so that each is nearly straight.
-    pub(super) fn pieces(&self) -> f64 {
+    pub(in crate::spatial) fn pieces(&self) -> f64 {
         self.n_pieces
     }
 
@@ -110,7 +110,7 @@ impl SpaceSpline {
     /// Largest radius of a tube around it that does not meet itself (m), to the pieces it is cut into: the
     /// least radius of curvature, and half the least distance of places between which the curve goes
     /// away and comes back.
-    pub(super) fn widest_tube(&self) -> f64 {
+    pub(in crate::spatial) fn widest_tube(&self) -> f64 {
         let samples = self.samples();
         let of_curvature = samples.iter().map(|on| {
             let speed = on.rate.norm();

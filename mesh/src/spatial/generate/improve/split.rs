@@ -1,10 +1,10 @@
 //! Splits of edges.
 
-use super::boundary_edges::INNER;
 use super::improver::{Improver, LEAST_CLEARANCE};
-use super::measure::volume_length;
-use super::surface_set::SurfaceSet;
 use crate::Point;
+use crate::spatial::generate::tetrahedra::boundary_edges::INNER;
+use crate::spatial::generate::tetrahedra::measure::volume_length;
+use crate::spatial::generate::tetrahedra::surface_set::SurfaceSet;
 
 /// Least measure of volume and edge lengths of the halves of a cell.
 const LEAST_HALF: f64 = 0.02;

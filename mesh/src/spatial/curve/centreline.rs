@@ -28,7 +28,7 @@ impl Centreline {
         self.evaluate(parameter).at
     }
 
-    pub(super) fn evaluate(&self, parameter: f64) -> CurvePoint {
+    pub(in crate::spatial) fn evaluate(&self, parameter: f64) -> CurvePoint {
         match *self {
             Self::Spline(ref spline) => spline.evaluate(parameter),
             Self::Helix { radius, pitch, turns } => {

@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 
-use super::boundary_edges::INNER;
 use super::improver::{Improver, Measure, Straight};
+use crate::spatial::generate::tetrahedra::boundary_edges::INNER;
 
 /// Rounds of passes that give edges their lengths.
 const REMESH_ROUNDS: usize = 4;

@@ -1,0 +1,7 @@
+//! Curves in space, along which tubes lie.
+
+mod centreline;
+mod spline;
+
+pub use centreline::Centreline;
+pub use spline::SpaceSpline;
