@@ -267,9 +267,10 @@ fn the_table_of_cases_is_that_of_the_folders() {
 
         let n_members = case.variant.len() + usize::from(!case.reference.is_empty());
         assert_eq!(*members, n_members.to_string(), "{name}: runs that are compared");
-        let known: BTreeSet<String> = references.iter().map(|r| r.quantity.clone()).collect();
+        let known: BTreeSet<String> =
+            references.iter().map(|r| r.statistic.quantity.clone()).collect();
         assert_eq!(terms(quantities), known, "{name}: quantities");
-        let known: BTreeSet<ReferenceKind> = references.iter().map(|r| r.kind).collect();
+        let known: BTreeSet<ReferenceKind> = references.iter().map(|r| r.expected.kind).collect();
         let known: Vec<&str> = known.into_iter().map(ReferenceKind::name).collect();
         assert_eq!(*kinds, known.join(", "), "{name}: kinds of references");
     }

@@ -51,6 +51,7 @@ mod solid_shape;
 mod source;
 mod speed;
 mod spring;
+mod statistic;
 mod stroke;
 mod stroke_file;
 mod sweep;
@@ -100,13 +101,12 @@ pub use quantity::{
     SwimmerQuantity, When, columns, known_quantities,
 };
 pub use read::CaseFile;
-pub use reference::{
-    ForceComponent, Numbers, Reference, ReferenceKind, Scales, Statistic, Statistics, Variant,
-};
+pub use reference::{Expected, Numbers, Reference, ReferenceKind, Scales, Statistics, Variant};
 pub use region::{normal_axis, opposite};
 pub use schema::schema;
 pub use source::Location;
 pub use spring::SpringSpec;
+pub use statistic::{ForceComponent, Statistic, StatisticKind};
 pub use stroke::{Stroke, smooth_ramp};
 pub use sweep::{Sweep, SweepPoint, SweepQuantity};
 pub use swimmer::{Copies, Pivot, Skin, SwimmerKind, SwimmerSpec};

@@ -100,10 +100,10 @@ fn reference_lines(reference: &Reference, indent: &str) -> String {
     let mut text = format!(
         "{indent}{}\n{indent}  {}: {}\n",
         reference_line(reference),
-        reference.kind.name(),
-        reference.source
+        reference.expected.kind.name(),
+        reference.expected.source
     );
-    if let Some(note) = &reference.note {
+    if let Some(note) = &reference.expected.note {
         let _ = writeln!(text, "{indent}  note: {note}");
     }
     printable(&text)
@@ -111,16 +111,16 @@ fn reference_lines(reference: &Reference, indent: &str) -> String {
 
 /// A reference in one line.
 fn reference_line(reference: &Reference) -> String {
-    let tolerance = match (reference.relative, reference.absolute) {
+    let tolerance = match (reference.expected.relative, reference.expected.absolute) {
         (Some(relative), _) => format!("within {} %", significant(100.0 * relative)),
         (None, Some(absolute)) => format!("within {}", significant(absolute)),
         (None, None) => "no tolerance".to_owned(),
     };
-    let label = reference.label();
-    let what = match (reference.per == 1.0, &reference.minus) {
+    let label = reference.statistic.label();
+    let what = match (reference.expected.per == 1.0, &reference.statistic.minus) {
         (true, _) => label,
-        (false, None) => format!("{label} / {}", significant(reference.per)),
-        (false, Some(_)) => format!("({label}) / {}", significant(reference.per)),
+        (false, None) => format!("{label} / {}", significant(reference.expected.per)),
+        (false, Some(_)) => format!("({label}) / {}", significant(reference.expected.per)),
     };
-    format!("{what} = {}, {tolerance}", reference.value)
+    format!("{what} = {}, {tolerance}", reference.expected.value)
 }
