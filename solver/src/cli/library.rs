@@ -42,12 +42,7 @@ pub fn list(is_long: bool) -> Result<Exit, Failure> {
 pub fn show(argument: &str, is_source: bool) -> Result<Exit, Failure> {
     let file = Case::read(argument, &[])?;
     if is_source {
-        let shipped = library::find(argument.split('/').next().unwrap_or(argument));
-        let text = match shipped {
-            Some(case) => case.text.to_owned(),
-            None => std::fs::read_to_string(&file.file)?,
-        };
-        say(text.trim_end());
+        say(Case::text(argument)?.trim_end());
         return Ok(Exit::Done);
     }
     say(&summary(&file));

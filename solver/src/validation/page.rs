@@ -170,14 +170,13 @@ fn judged_in(text: &str) -> Vec<Judged> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::case::{Case, Reference, library};
+    use crate::case::{Case, Reference};
     use crate::validation::comparison::judge;
     use crate::validation::section::{Links, MemberReport};
 
     /// The section of a case whose computed values are its references times these factors.
     fn report(name: &str, factors: [f64; 2]) -> CaseReport {
-        let text = library::find("dfg-2d-1").unwrap().text;
-        let case = Case::parse("c", text, &[]).unwrap().model.case;
+        let case = Case::read("dfg-2d-1", &[]).unwrap().model.case;
         let judged = |(index, factor): (usize, f64)| {
             let reference: &Reference = &case.reference[index];
             let computed = Ok(factor * reference.expected.value);
