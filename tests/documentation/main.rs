@@ -8,8 +8,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use alewife_core::case::{
-    BodyQuantity, Case, CaseFile, FlowQuantity, JointQuantity, ProbeQuantity, Quantity, Reference,
-    ReferenceKind, Severity, SwimmerQuantity, check, schema,
+    BodyQuantity, Case, CaseFile, FlowQuantity, JointQuantity, NamedComponent, ProbeQuantity,
+    Quantity, Reference, ReferenceKind, Severity, SwimmerQuantity, check, schema,
 };
 
 /// Beginnings of paths that exist on one machine only.
@@ -90,13 +90,15 @@ fn table<T>(title: &str, rows: &[Quantity<T>]) -> String {
     let mut text = format!(
         "{title}\n\n| Quantity | Unit (planar) | Only with | Meaning |\n|---|---|---|---|\n"
     );
-    let is_same = |a: &Quantity<T>, b: &Quantity<T>| {
-        (a.unit, a.when, a.meaning) == (b.unit, b.when, b.meaning)
+    let numbers: Vec<NamedComponent> = rows.iter().flat_map(Quantity::components).collect();
+    let is_same = |a: &NamedComponent, b: &NamedComponent| {
+        (a.unit, &a.when, a.meaning) == (b.unit, &b.when, b.meaning)
     };
-    for rows in rows.chunk_by(is_same) {
-        let names: Vec<String> = rows.iter().map(|row| format!("`{}`", row.name)).collect();
-        let Quantity { unit, when, meaning, .. } = &rows[0];
-        let row = format!("| {} | {unit} | {} | {meaning} |\n", names.join(", "), when.words());
+    for alike in numbers.chunk_by(is_same) {
+        let names: Vec<String> = alike.iter().map(|one| format!("`{}`", one.name)).collect();
+        let NamedComponent { unit, when, meaning, .. } = &alike[0];
+        let when: Vec<&str> = when.iter().map(|condition| condition.words()).collect();
+        let row = format!("| {} | {unit} | {} | {meaning} |\n", names.join(", "), when.join(", "));
         text += &row.replace("|  |", "| |");
     }
     text

@@ -99,8 +99,8 @@ pub use orientation::Orientation;
 pub use output::{Cadence, Checkpoints, Output, Precision, Probe};
 pub use problem_keys::collect_keys;
 pub use quantity::{
-    BodyQuantity, Column, FlowQuantity, JointQuantity, ProbeQuantity, Quantity, Source,
-    SwimmerQuantity, When, columns, known_quantities,
+    BodyQuantity, Column, Component, Condition, FlowQuantity, JointQuantity, NamedComponent,
+    ProbeQuantity, Quantity, Shape, Source, SwimmerQuantity, columns, known_quantities,
 };
 pub use read::CaseFile;
 pub use reference::{Expected, Numbers, Reference, ReferenceKind, Scales, Statistics, Variant};

@@ -4,7 +4,7 @@ use std::collections::HashSet;
 
 use super::Findings;
 use crate::nearest::nearest;
-use crate::quantity::{When, conditions_of, known_quantities, renamed};
+use crate::quantity::{Condition, conditions_of, known_quantities, renamed};
 use crate::type_error::suggestion;
 use crate::{Expected, Geometry, Reference, ReferenceKind, Statistic, StatisticKind, TimeSettings};
 
@@ -144,14 +144,15 @@ fn check_quantity(findings: &mut Findings<'_>, key: &str, quantity: &str, known:
     if known.iter().any(|name| name == quantity) {
         return;
     }
-    let missing = conditions_of(quantity);
+    let conditions = conditions_of(quantity);
+    let needs = |condition: Condition| conditions.iter().any(|all| *all == [condition]);
     let help = if let Some(new) = renamed(quantity) {
         format!("it is called `{new}`")
-    } else if missing.contains(&When::Scales) && !findings.case().has_coefficients() {
+    } else if needs(Condition::Scales) && !findings.case().has_coefficients() {
         "coefficients need [scales] with length and velocity, and a fluid density".to_owned()
     } else if quantity.ends_with("lighthill_efficiency") {
         "this efficiency needs `resistance` of the [[swimmer]]".to_owned()
-    } else if missing.contains(&When::Cycles) {
+    } else if needs(Condition::Cycles) {
         "cycles need an unsteady run and a period: that of a stroke or gait, or `period` of the \
          [[swimmer]]"
             .to_owned()
