@@ -54,6 +54,19 @@ def test_a_case_is_published_by_its_curves_or_the_kinds_of_its_values(tmp_path: 
     assert published.is_published(folder)
 
 
+@pytest.mark.parametrize("kind", ["measured", "exact"])
+@pytest.mark.parametrize("is_beside", [True, False])
+def test_a_case_is_published_by_the_kinds_in_its_table(
+    tmp_path: Path, kind: str, is_beside: bool
+) -> None:
+    table = f"quantity, value, relative, kind,    source\n# one\n\ndisc.y,   6.0, 0.1, {kind}, a\n"
+    folder = case(tmp_path, "[references]\n" + (
+        'file = "references.csv"' if is_beside else f"table = '''\n{table}'''"
+    ))
+    (folder / "references.csv").write_text(table)
+    assert published.is_published(folder) == (kind == "measured")
+
+
 def test_a_published_curve_lies_on_the_one_of_its_variant(tmp_path: Path) -> None:
     variants = '[[variant]]\nname = "slow"\n[[variant]]\nname = "fast"\n'
     folder = case(tmp_path / "cases", variants)

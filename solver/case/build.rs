@@ -1,4 +1,4 @@
-//! Embeds `cases/*/case.toml` and the meshes beside them in the program.
+//! Embeds `cases/*/case.toml`, references and meshes beside them in the program.
 
 use std::error::Error;
 use std::fmt::Write as _;
@@ -29,10 +29,10 @@ fn main() -> Result<(), Box<dyn Error>> {
         if !file.is_file() {
             continue;
         }
-        for mesh in meshes(&folder)? {
-            let Some(file) = mesh.file_name().and_then(|file| file.to_str()) else { continue };
+        for beside in named_files(&folder)? {
+            let Some(file) = beside.file_name().and_then(|file| file.to_str()) else { continue };
             let path = format!("cases/{name}/{file}");
-            let bytes = mesh.canonicalize()?;
+            let bytes = beside.canonicalize()?;
             writeln!(
                 files,
                 "    ShippedFile {{ path: {path:?}, bytes: include_bytes!({bytes:?}) }},"
@@ -52,15 +52,16 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Files of Gmsh in a folder.
-fn meshes(folder: &Path) -> Result<Vec<PathBuf>, Box<dyn Error>> {
-    let mut meshes = Vec::new();
+/// Files of a folder that its case may name: meshes of Gmsh, and the table of references.
+fn named_files(folder: &Path) -> Result<Vec<PathBuf>, Box<dyn Error>> {
+    let mut files = Vec::new();
     for entry in fs::read_dir(folder)? {
         let path = entry?.path();
-        if path.extension().is_some_and(|extension| extension == "msh") {
-            meshes.push(path);
+        let is_mesh = path.extension().is_some_and(|extension| extension == "msh");
+        if is_mesh || path.ends_with("references.csv") {
+            files.push(path);
         }
     }
-    meshes.sort();
-    Ok(meshes)
+    files.sort();
+    Ok(files)
 }

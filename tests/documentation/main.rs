@@ -9,8 +9,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use alewife_core::case::{
-    BodyQuantity, Case, CaseFile, FlowQuantity, JointQuantity, ProbeQuantity, Quantity, Reference,
-    ReferenceKind, Severity, SwimmerQuantity, check,
+    BodyQuantity, Case, CaseFile, FlowQuantity, JointQuantity, NamedComponent, ProbeQuantity,
+    Quantity, Reference, ReferenceKind, Severity, SwimmerQuantity, check,
 };
 
 /// Beginnings of paths that exist on one machine only.
@@ -62,13 +62,15 @@ fn table<T>(title: &str, rows: &[Quantity<T>]) -> String {
     let mut text = format!(
         "{title}\n\n| Quantity | Unit (planar) | Only with | Meaning |\n|---|---|---|---|\n"
     );
-    let is_same = |a: &Quantity<T>, b: &Quantity<T>| {
-        (a.unit, a.when, a.meaning) == (b.unit, b.when, b.meaning)
+    let numbers: Vec<NamedComponent> = rows.iter().flat_map(Quantity::components).collect();
+    let is_same = |a: &NamedComponent, b: &NamedComponent| {
+        (a.unit, &a.when, a.meaning) == (b.unit, &b.when, b.meaning)
     };
-    for rows in rows.chunk_by(is_same) {
-        let names: Vec<String> = rows.iter().map(|row| format!("`{}`", row.name)).collect();
-        let Quantity { unit, when, meaning, .. } = &rows[0];
-        let row = format!("| {} | {unit} | {} | {meaning} |\n", names.join(", "), when.words());
+    for alike in numbers.chunk_by(is_same) {
+        let names: Vec<String> = alike.iter().map(|one| format!("`{}`", one.name)).collect();
+        let NamedComponent { unit, when, meaning, .. } = &alike[0];
+        let when: Vec<&str> = when.iter().map(|condition| condition.words()).collect();
+        let row = format!("| {} | {unit} | {} | {meaning} |\n", names.join(", "), when.join(", "));
         text += &row.replace("|  |", "| |");
     }
     text
@@ -247,9 +249,10 @@ fn the_table_of_cases_is_that_of_the_folders() {
 
         let n_members = case.variant.len() + usize::from(!case.reference.is_empty());
         assert_eq!(*members, n_members.to_string(), "{name}: runs that are compared");
-        let known: BTreeSet<String> = references.iter().map(|r| r.quantity.clone()).collect();
+        let known: BTreeSet<String> =
+            references.iter().map(|r| r.statistic.quantity.clone()).collect();
         assert_eq!(terms(quantities), known, "{name}: quantities");
-        let known: BTreeSet<ReferenceKind> = references.iter().map(|r| r.kind).collect();
+        let known: BTreeSet<ReferenceKind> = references.iter().map(|r| r.expected.kind).collect();
         let known: Vec<&str> = known.into_iter().map(ReferenceKind::name).collect();
         assert_eq!(*kinds, known.join(", "), "{name}: kinds of references");
     }

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import re
 import tomllib
 from collections.abc import Iterator
@@ -60,9 +61,20 @@ def pictures(cases: Path, runs: Path, out: Path) -> Iterator[tuple[str, Exceptio
 
 def is_published(folder: Path) -> bool:
     """Whether a case has curves or values others have published."""
+    kinds = {one.get("kind") for one in given_references(folder)}
+    return bool(curves.curves_of(folder)) or not kinds.isdisjoint(PUBLISHED)
+
+
+def given_references(folder: Path) -> list[dict[str, Any]]:
+    """References of a case and its variants as they are written, in `case.toml` and in its table."""
     case = tomllib.loads((folder / "case.toml").read_text())
-    given = [one for part in (case, *case.get("variant", [])) for one in part.get("reference", [])]
-    return bool(curves.curves_of(folder)) or any(one.get("kind") in PUBLISHED for one in given)
+    single = [one for part in (case, *case.get("variant", [])) for one in part.get("reference", [])]
+    table = case.get("references", {})
+    text = table.get("table", "")
+    if "file" in table:
+        text = (folder / table["file"]).read_text()
+    rows = [line for line in text.splitlines() if line.strip() and line.lstrip()[0] != "#"]
+    return single + list(csv.DictReader(rows, skipinitialspace=True))
 
 
 def picture(folder: Path, runs: Path) -> Figure:

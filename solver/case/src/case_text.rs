@@ -7,7 +7,7 @@ use std::sync::Arc;
 use super::diagnostic::CaseError;
 use super::library;
 use super::nearest::several_nearest;
-use super::source::Source;
+use super::source::{Origin, Source};
 
 /// The text of a case before it is understood.
 pub struct CaseText {
@@ -105,6 +105,31 @@ pub fn shipped_text(case: &library::Shipped) -> CaseText {
     let (name, text) = (case.file.to_owned(), case.text.to_owned());
     let source = Source { name, directory: None, text };
     CaseText { name: case.name.to_owned(), source: Arc::new(source) }
+}
+
+/// The text of a file that another one names, beside it on the disk or among the shipped ones.
+///
+/// # Errors
+/// Why it cannot be read.
+pub fn source_beside(file: &str, origin: &Origin) -> Result<Source, String> {
+    let Source { name, directory, .. } = &*origin.source;
+    let (name, text) = match (directory, library::file_beside(name, file)) {
+        (Some(directory), _) => {
+            let path = directory.join(file);
+            let text = read_text(&path).map_err(|error| match error {
+                CaseError::NotFound { what, .. } => what,
+                CaseError::Wrong(mut all) if !all.is_empty() => all.swap_remove(0).message,
+                other => other.to_string(),
+            })?;
+            (path.display().to_string(), text.trim_start_matches('\u{feff}').to_owned())
+        }
+        (None, Some(bytes)) => {
+            let folder = name.strip_suffix("case.toml").unwrap_or_default();
+            (format!("{folder}{file}"), String::from_utf8_lossy(bytes).into_owned())
+        }
+        (None, None) => return Err(format!("`{file}` cannot be reached from here")),
+    };
+    Ok(Source { name, directory: None, text })
 }
 
 /// Largest file that is read (bytes); the largest shipped case has a thousandth of it.

@@ -11,6 +11,7 @@ mod case_text;
 mod check;
 mod contact;
 mod copies;
+mod csv_line;
 mod deserialize;
 mod diagnostic;
 mod domain;
@@ -41,6 +42,7 @@ mod random;
 mod read;
 mod read_mesh;
 mod reference;
+mod reference_table;
 mod region;
 mod schema;
 mod setting;
@@ -51,6 +53,7 @@ mod solid_shape;
 mod source;
 mod speed;
 mod spring;
+mod statistic;
 mod stroke;
 mod stroke_file;
 mod sweep;
@@ -96,17 +99,16 @@ pub use orientation::Orientation;
 pub use output::{Cadence, Checkpoints, Output, Precision, Probe};
 pub use problem_keys::collect_keys;
 pub use quantity::{
-    BodyQuantity, Column, FlowQuantity, JointQuantity, ProbeQuantity, Quantity, Source,
-    SwimmerQuantity, When, columns, known_quantities,
+    BodyQuantity, Column, Component, Condition, FlowQuantity, JointQuantity, NamedComponent,
+    ProbeQuantity, Quantity, Shape, Source, SwimmerQuantity, columns, known_quantities,
 };
 pub use read::CaseFile;
-pub use reference::{
-    ForceComponent, Numbers, Reference, ReferenceKind, Scales, Statistic, Statistics, Variant,
-};
+pub use reference::{Expected, Numbers, Reference, ReferenceKind, Scales, Statistics, Variant};
 pub use region::{normal_axis, opposite};
 pub use schema::schema;
 pub use source::Location;
 pub use spring::SpringSpec;
+pub use statistic::{ForceComponent, Statistic, StatisticKind};
 pub use stroke::{Stroke, smooth_ramp};
 pub use sweep::{Sweep, SweepPoint, SweepQuantity};
 pub use swimmer::{Copies, Pivot, Skin, SwimmerKind, SwimmerSpec};

@@ -2,8 +2,8 @@
 //!
 //! A case is put together in this order, the later over the earlier: the file it `extends`, the
 //! file itself, the variant, the settings of the command line. Tables are merged, everything else
-//! is replaced. `reference`, `variant`, `quick` and `sweep` of an extended file are not inherited:
-//! what is known of one problem does not hold for another. Then the values of files take the place of
+//! is replaced. `reference`, `references`, `variant`, `quick` and `sweep` of an extended file are not
+//! inherited: what is known of one problem does not hold for another. Then the values of files take the place of
 //! their names.
 
 use std::sync::Arc;
@@ -11,16 +11,20 @@ use std::sync::Arc;
 use super::case_text::{CaseText, Located, locate, no_such_case, read_file, shipped_text, stem};
 use super::diagnostic::{CaseError, Diagnostic, Severity};
 use super::names::SWEEP;
+use super::reference_table::REFERENCES;
 use super::region::opposite;
 use super::source::{Location, Source};
 use super::sweep::spec;
 use super::tree::{self, Found, TomlNode, TomlValue, TreeError};
 use super::typing::typed;
 use super::variants::{apply_variant, check_names, variant_names};
-use super::{BoundaryCondition, Case, Model, ShapeSpec, library, read_mesh, setting, stroke_file};
+use super::{
+    BoundaryCondition, Case, Model, ShapeSpec, library, read_mesh, reference_table, setting,
+    stroke_file,
+};
 
 /// Keys of a file that those who extend it do not inherit.
-const OWN_KEYS: [&str; 4] = ["reference", "variant", "quick", SWEEP];
+const OWN_KEYS: [&str; 5] = ["reference", REFERENCES, "variant", "quick", SWEEP];
 
 /// A case and where everything in it is written.
 #[derive(Debug, Clone)]
@@ -95,6 +99,14 @@ impl Case {
         UntypedCase::assemble(&text, variant, settings)?.typed()
     }
 
+    /// The text of a case as it is written, with the table of its references in it.
+    ///
+    /// # Errors
+    /// [`CaseError`]: no such case, or a file that cannot be read.
+    pub fn text(argument: &str) -> Result<String, CaseError> {
+        Ok(reference_table::with_table(&locate(argument)?.text.source))
+    }
+
     /// Reads a case from a text; `name` stands for its file in messages.
     ///
     /// # Errors
@@ -162,6 +174,15 @@ impl UntypedCase {
         }
         for setting in settings {
             let setting::Setting { path, value } = setting::read(&root, setting).map_err(wrong)?;
+            if path.split('.').next() == Some(REFERENCES) {
+                return Err(wrong(TreeError {
+                    origin: value.key,
+                    message: "[references] is read with its file, before anything is set"
+                        .to_owned(),
+                    help: "set entries of `reference`, or write a file that extends the case"
+                        .to_owned(),
+                }));
+            }
             root.set(&path, value).map_err(wrong)?;
         }
         let sweep = root.table_mut().and_then(|entries| entries.remove(SWEEP));
@@ -234,6 +255,7 @@ pub(super) fn wrong(error: TreeError) -> CaseError {
 /// The tree of a text, laid over that of the file it extends.
 fn extended(text: &CaseText) -> Result<TomlNode, CaseError> {
     let mut root = tree::parse(&text.source).map_err(wrong)?;
+    reference_table::resolve(&mut root)?;
     let Some(extends) = root.table_mut().and_then(|entries| entries.remove("extends")) else {
         return Ok(root);
     };

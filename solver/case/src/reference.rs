@@ -4,6 +4,8 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
+use super::{Statistic, StatisticKind};
+
 /// `[scales]`: what makes coefficients and numbers dimensionless.
 ///
 /// Force coefficient c = 2 F / (density velocity^2 area), with area = length in planar cases.
@@ -32,63 +34,6 @@ pub struct Numbers {
     /// Density of the first body over that of the fluid.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub density_ratio: Option<f64>,
-}
-
-/// How a time series becomes one number.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(rename_all = "kebab-case")]
-pub enum Statistic {
-    /// The last value.
-    #[default]
-    Final,
-    /// The value at `at`, interpolated.
-    At,
-    /// Largest value in the window, refined by a parabola.
-    Max,
-    /// Smallest value in the window, refined by a parabola.
-    Min,
-    /// Time average over the window (over whole periods where the series is periodic).
-    Mean,
-    /// Root mean square over the window.
-    Rms,
-    /// Frequency times scales.length / scales.velocity, from mean crossings in the window.
-    Strouhal,
-    /// The value half a period after the largest value of `statistics.phase_of`.
-    HalfPeriodAfterMax,
-    /// The time in the window at which it first reaches `level`, from either side.
-    Crossing,
-    /// The value at the time in the window at which the quantity `of` first reaches `level`.
-    When,
-    /// Largest less smallest value in the window, both refined by a parabola.
-    Range,
-    /// Drag coefficient c_D of Morison's equation, fitted to a force over the window:
-    /// F = -1/2 rho D c_D |v| v - rho (pi D^2/4) c_I dv/dt, with D = scales.length.
-    MorisonDrag,
-    /// Inertia coefficient c_I of the same fit.
-    MorisonInertia,
-}
-
-impl Statistic {
-    /// Name in the case file.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Final => "final",
-            Self::At => "at",
-            Self::Max => "max",
-            Self::Min => "min",
-            Self::Mean => "mean",
-            Self::Rms => "rms",
-            Self::Strouhal => "strouhal",
-            Self::HalfPeriodAfterMax => "half-period-after-max",
-            Self::Crossing => "crossing",
-            Self::When => "when",
-            Self::Range => "range",
-            Self::MorisonDrag => "morison-drag",
-            Self::MorisonInertia => "morison-inertia",
-        }
-    }
 }
 
 /// `[statistics]`.
@@ -174,53 +119,139 @@ impl ReferenceKind {
 /// `[[reference]]`: a value to compare with, where it comes from and how near we should be.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[serde(from = "WrittenReference", into = "WrittenReference")]
 pub struct Reference {
-    /// What is compared: a column of `series.csv`, such as `cylinder.drag_coefficient`.
-    pub quantity: String,
-    /// A quantity subtracted from it first: `upper.y` minus `lower.y`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub minus: Option<String>,
-    /// How its time series becomes a number.
-    #[serde(default)]
+    /// What is compared.
     pub statistic: Statistic,
-    /// Time of statistic `at` (s).
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub at: Option<f64>,
-    /// Value that statistic `crossing` waits for, in the quantity's unit; that of `of` for `when`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub level: Option<f64>,
-    /// The quantity statistic `when` waits for.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub of: Option<String>,
+    /// What it is compared with.
+    pub expected: Expected,
+}
+
+/// A value that a statistic should have, and where it comes from.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Expected {
     /// The value.
     pub value: f64,
-    /// What the computed quantity is divided by before it is compared (say, 6 pi mu a U).
-    #[serde(default = "one")]
+    /// What the computed quantity is divided by before it is compared.
     pub per: f64,
     /// Accepted difference relative to the value (1); this or `absolute`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub relative: Option<f64>,
     /// Accepted difference; this or `relative`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub absolute: Option<f64>,
-    /// The value's own uncertainty, relative to it if the tolerance is `relative`; of a
-    /// `regression`, what refinement of mesh and step changes.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    /// The value's own uncertainty, relative to it if the tolerance is `relative`.
     pub uncertainty: Option<f64>,
     /// What kind of evidence the value is.
     pub kind: ReferenceKind,
     /// Who published the value and where, or how it follows.
     pub source: String,
     /// Day on which a `regression` was computed: year-month-day.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub date: Option<String>,
-    /// Why the computed value is known to be outside the tolerance; an error once it is within.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    /// Why the computed value is known to be outside the tolerance.
     pub outside: Option<String>,
     /// What a reader should know: disagreements in words.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub note: Option<String>,
+}
+
+/// A reference as it is written: its keys in one table, or one row.
+#[derive(Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(rename = "Reference", deny_unknown_fields)]
+struct WrittenReference {
+    /// What is compared: a column of `series.csv`, such as `cylinder.drag_coefficient`.
+    quantity: String,
+    /// A quantity subtracted from it first: `upper.y` minus `lower.y`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    minus: Option<String>,
+    /// How its time series becomes a number.
+    #[serde(default)]
+    statistic: StatisticKind,
+    /// Time of statistic `at` (s).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    at: Option<f64>,
+    /// Value that statistic `crossing` waits for, in the quantity's unit; that of `of` for `when`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    level: Option<f64>,
+    /// The quantity statistic `when` waits for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    of: Option<String>,
+    /// The value.
+    value: f64,
+    /// What the computed quantity is divided by before it is compared (say, 6 pi mu a U).
+    #[serde(default = "one")]
+    per: f64,
+    /// Accepted difference relative to the value (1); this or `absolute`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    relative: Option<f64>,
+    /// Accepted difference; this or `relative`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    absolute: Option<f64>,
+    /// The value's own uncertainty, relative to it if the tolerance is `relative`; of a
+    /// `regression`, what refinement of mesh and step changes.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    uncertainty: Option<f64>,
+    /// What kind of evidence the value is.
+    kind: ReferenceKind,
+    /// Who published the value and where, or how it follows.
+    source: String,
+    /// Day on which a `regression` was computed: year-month-day.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    date: Option<String>,
+    /// Why the computed value is known to be outside the tolerance; an error once it is within.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    outside: Option<String>,
+    /// What a reader should know: disagreements in words.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    note: Option<String>,
+}
+
+impl From<WrittenReference> for Reference {
+    fn from(written: WrittenReference) -> Self {
+        Self {
+            statistic: Statistic {
+                quantity: written.quantity,
+                minus: written.minus,
+                kind: written.statistic,
+                at: written.at,
+                level: written.level,
+                of: written.of,
+            },
+            expected: Expected {
+                value: written.value,
+                per: written.per,
+                relative: written.relative,
+                absolute: written.absolute,
+                uncertainty: written.uncertainty,
+                kind: written.kind,
+                source: written.source,
+                date: written.date,
+                outside: written.outside,
+                note: written.note,
+            },
+        }
+    }
+}
+
+impl From<Reference> for WrittenReference {
+    fn from(Reference { statistic, expected }: Reference) -> Self {
+        Self {
+            quantity: statistic.quantity,
+            minus: statistic.minus,
+            statistic: statistic.kind,
+            at: statistic.at,
+            level: statistic.level,
+            of: statistic.of,
+            value: expected.value,
+            per: expected.per,
+            relative: expected.relative,
+            absolute: expected.absolute,
+            uncertainty: expected.uncertainty,
+            kind: expected.kind,
+            source: expected.source,
+            date: expected.date,
+            outside: expected.outside,
+            note: expected.note,
+        }
+    }
 }
 
 /// `[[variant]]`: the same case with some keys set.
@@ -240,51 +271,6 @@ pub struct Variant {
     /// Its references, besides those of the case.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub reference: Vec<Reference>,
-}
-
-impl Reference {
-    /// What is compared, as a formula: `upper.y - lower.y`.
-    #[must_use]
-    pub fn formula(&self) -> String {
-        match &self.minus {
-            None => self.quantity.clone(),
-            Some(minus) => format!("{} - {minus}", self.quantity),
-        }
-    }
-
-    /// What is compared, with its statistic unless that is the final value.
-    #[must_use]
-    pub fn label(&self) -> String {
-        let number = |value: Option<f64>| value.map_or(String::new(), |value| format!(" {value}"));
-        let statistic = match self.statistic {
-            Statistic::Final => return self.formula(),
-            Statistic::At => format!("at{}", number(self.at)),
-            Statistic::Crossing => format!("crossing{}", number(self.level)),
-            Statistic::When => {
-                let of = self.of.as_deref().unwrap_or_default();
-                format!("when {of} ={}", number(self.level))
-            }
-            other => other.name().to_owned(),
-        };
-        format!("{} ({statistic})", self.formula())
-    }
-
-    /// The force that is compared: body `cylinder` and axis `x` for `cylinder.force.x`.
-    #[must_use]
-    pub fn force_of(&self) -> Option<ForceComponent<'_>> {
-        let (owner, axis) = self.quantity.rsplit_once('.')?;
-        let body = owner.strip_suffix(".force").or(owner.strip_suffix(".surface_force"))?;
-        ["x", "y"].contains(&axis).then_some(ForceComponent { body, axis })
-    }
-}
-
-/// A component of the force on a body, by name.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct ForceComponent<'a> {
-    /// The body.
-    pub body: &'a str,
-    /// `x` or `y`.
-    pub axis: &'a str,
 }
 
 fn yes() -> bool {

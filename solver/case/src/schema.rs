@@ -17,6 +17,7 @@ mod tests {
 
     use super::schema;
     use crate::Case;
+    use crate::reference_table::{REFERENCES, ReferenceTable};
     use crate::stroke_file::FileStroke;
     use crate::tree::CHOICES;
 
@@ -28,8 +29,15 @@ mod tests {
             "type": "string",
             "description": "The case this one starts from: the relative path of a case file, or the \
                             name of a shipped case. Tables are merged, everything else is replaced; \
-                            reference, variant, quick and sweep are not inherited.",
+                            reference, references, variant, quick and sweep are not inherited.",
         });
+        // Rows are put beside the references before the case is typed
+        let mut table = schemars::schema_for!(ReferenceTable).to_value();
+        if let Some(keys) = table.as_object_mut() {
+            keys.retain(|key, _| key != "$schema" && key != "title");
+        }
+        schema["$defs"]["ReferenceTable"] = table;
+        schema["properties"][REFERENCES] = json!({ "$ref": "#/$defs/ReferenceTable" });
         schema["properties"]["sweep"] = sweep();
         schema["$defs"]["SweepRange"] = sweep_range();
         // A plain number is a stroke, too

@@ -5,8 +5,7 @@ use std::sync::Arc;
 use csv::{ReaderBuilder, StringRecord, Trim};
 use serde::Deserialize;
 
-use super::case_text::read_text;
-use super::diagnostic::CaseError;
+use super::case_text::source_beside;
 use super::source::{Origin, Source};
 use super::stroke::KNOTS_OF_A_FILE;
 use super::tree::{TomlNode, TomlValue, TreeError};
@@ -109,22 +108,7 @@ impl CsvTable {
             help: "give the path of a CSV file, relative to the file in which it is written"
                 .to_owned(),
         };
-        let Some(directory) = &origin.source.directory else {
-            return Err(refused(format!("`{}` cannot be reached from here", asked.path)));
-        };
-        let path = directory.join(&asked.path);
-        let text = read_text(&path).map_err(|error| {
-            refused(match error {
-                CaseError::NotFound { what, .. } => what,
-                CaseError::Wrong(mut all) if !all.is_empty() => all.swap_remove(0).message,
-                other => other.to_string(),
-            })
-        })?;
-        let source = Arc::new(Source {
-            name: path.display().to_string(),
-            directory: None,
-            text: text.trim_start_matches('\u{feff}').to_owned(),
-        });
+        let source = Arc::new(source_beside(&asked.path, origin).map_err(refused)?);
         let mut reader = ReaderBuilder::new()
             .flexible(true)
             .trim(Trim::All)

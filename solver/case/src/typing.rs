@@ -7,6 +7,7 @@ use super::diagnostic::{CaseError, Diagnostic, Severity};
 use super::meant::meant;
 use super::names::SWEEP;
 use super::nearest::nearest;
+use super::reference_table::REFERENCES;
 use super::source::Origin;
 use super::tree::{TomlNode, TomlValue};
 use super::type_error::{Mismatch, TypeError, suggestion};
@@ -96,7 +97,7 @@ fn top_keys() -> Vec<String> {
         Err(Mismatch::UnknownKey { accepted, .. }) => accepted,
         _ => Vec::new(),
     };
-    keys.extend(["extends", SWEEP].map(str::to_owned));
+    keys.extend(["extends", REFERENCES, SWEEP].map(str::to_owned));
     keys
 }
 

@@ -42,12 +42,7 @@ pub fn list(is_long: bool) -> Result<Exit, Failure> {
 pub fn show(argument: &str, is_source: bool) -> Result<Exit, Failure> {
     let file = Case::read(argument, &[])?;
     if is_source {
-        let shipped = library::find(argument.split('/').next().unwrap_or(argument));
-        let text = match shipped {
-            Some(case) => case.text.to_owned(),
-            None => std::fs::read_to_string(&file.file)?,
-        };
-        say(text.trim_end());
+        say(Case::text(argument)?.trim_end());
         return Ok(Exit::Done);
     }
     say(&summary(&file));
@@ -100,10 +95,10 @@ fn reference_lines(reference: &Reference, indent: &str) -> String {
     let mut text = format!(
         "{indent}{}\n{indent}  {}: {}\n",
         reference_line(reference),
-        reference.kind.name(),
-        reference.source
+        reference.expected.kind.name(),
+        reference.expected.source
     );
-    if let Some(note) = &reference.note {
+    if let Some(note) = &reference.expected.note {
         let _ = writeln!(text, "{indent}  note: {note}");
     }
     printable(&text)
@@ -111,16 +106,16 @@ fn reference_lines(reference: &Reference, indent: &str) -> String {
 
 /// A reference in one line.
 fn reference_line(reference: &Reference) -> String {
-    let tolerance = match (reference.relative, reference.absolute) {
+    let tolerance = match (reference.expected.relative, reference.expected.absolute) {
         (Some(relative), _) => format!("within {} %", significant(100.0 * relative)),
         (None, Some(absolute)) => format!("within {}", significant(absolute)),
         (None, None) => "no tolerance".to_owned(),
     };
-    let label = reference.label();
-    let what = match (reference.per == 1.0, &reference.minus) {
+    let label = reference.statistic.label();
+    let what = match (reference.expected.per == 1.0, &reference.statistic.minus) {
         (true, _) => label,
-        (false, None) => format!("{label} / {}", significant(reference.per)),
-        (false, Some(_)) => format!("({label}) / {}", significant(reference.per)),
+        (false, None) => format!("{label} / {}", significant(reference.expected.per)),
+        (false, Some(_)) => format!("({label}) / {}", significant(reference.expected.per)),
     };
-    format!("{what} = {}, {tolerance}", reference.value)
+    format!("{what} = {}, {tolerance}", reference.expected.value)
 }

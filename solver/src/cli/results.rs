@@ -65,7 +65,7 @@ pub fn print_comparisons(comparisons: &[Comparison]) {
         if let Err(reason) = &comparison.computed {
             say(&format!("    {reason}"));
         }
-        if let Some(reason) = &comparison.reference.outside {
+        if let Some(reason) = &comparison.reference.expected.outside {
             say(&format!("    known to be outside: {reason}"));
         }
     }

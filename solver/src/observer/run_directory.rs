@@ -263,11 +263,9 @@ fn is_of_a_run(folder: &Path, name: &str) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::case::Model;
 
     fn case() -> Case {
-        let text = include_str!("../../../cases/three-disc-2d/case.toml");
-        Model::new(toml::from_str(text).unwrap()).unwrap().case
+        Case::read("three-disc-2d", &[]).unwrap().model.case
     }
 
     fn create(path: &Path, earlier: Earlier) -> Result<RunDirectory, RunDirectoryError> {

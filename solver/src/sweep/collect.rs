@@ -8,7 +8,7 @@ use serde_json::Value;
 
 use super::directory::SweepDirectory;
 use super::point_state::{PointState, Stand, stand};
-use crate::case::{Case, CaseError, Reference, ReferenceKind, SweepQuantity};
+use crate::case::{Case, CaseError, SweepQuantity};
 use crate::observer::{COMPARISON_FILE, read_outcome};
 use crate::run::RunSummary;
 use crate::validation::measured_value;
@@ -123,7 +123,7 @@ fn row(run: &Path, quantities: &[SweepQuantity]) -> io::Result<Row> {
         let outcome = read_outcome(run).map_err(|error| in_run(&error))?;
         let case = case_of(run).map_err(|error| in_run(&error))?;
         for wanted in quantities {
-            cells.add(&wanted.label(), measured(&outcome, &case, wanted));
+            cells.add(&wanted.statistic.label(), measured(&outcome, &case, wanted));
         }
     } else if references.0.is_empty() {
         let RunSummary { series, .. } = read_outcome(run).map_err(|error| in_run(&error))?;
@@ -141,25 +141,8 @@ fn case_of(run: &Path) -> Result<Case, CaseError> {
 
 /// A quantity of a run by its statistic; nothing where it cannot be taken.
 fn measured(outcome: &RunSummary, case: &Case, wanted: &SweepQuantity) -> String {
-    let reference = Reference {
-        quantity: wanted.quantity.clone(),
-        minus: None,
-        statistic: wanted.statistic,
-        at: None,
-        level: None,
-        of: None,
-        value: 0.0,
-        per: 1.0,
-        relative: None,
-        absolute: None,
-        uncertainty: None,
-        kind: ReferenceKind::Property,
-        source: String::new(),
-        date: None,
-        outside: None,
-        note: None,
-    };
-    measured_value(&outcome.series, case, &reference).map_or_else(|_| String::new(), number)
+    let value = measured_value(&outcome.series, case, &wanted.statistic);
+    value.map_or_else(|_| String::new(), number)
 }
 
 /// Computed values and verdicts as the run found them.

@@ -73,17 +73,17 @@ pub fn compare(name: &str, case: &Case, outcome: &RunSummary) -> Vec<Comparison>
     case.reference
         .iter()
         .map(|reference| {
-            let computed =
-                measured_value(&outcome.series, case, reference).map_err(|error| error.to_string());
-            let computed = computed.and_then(|value| {
-                let is_of_cycle = reference.quantity.contains(".cycle.");
+            let computed = measured_value(&outcome.series, case, &reference.statistic);
+            let computed = computed.map_err(|error| error.to_string()).and_then(|value| {
+                let value = value / reference.expected.per;
+                let is_of_cycle = reference.statistic.quantity.contains(".cycle.");
                 match value {
                     value if value.is_finite() => Ok(value),
                     _ if is_of_cycle => Err(format!(
                         "{} is not a number: no whole cycle had ended by then",
-                        reference.quantity
+                        reference.statistic.quantity
                     )),
-                    value => Err(format!("{} is {value}", reference.quantity)),
+                    value => Err(format!("{} is {value}", reference.statistic.quantity)),
                 }
             });
             judge(name, reference, computed, outcome.n_dofs, cpu_seconds)
@@ -110,15 +110,21 @@ pub(super) fn judge(
     let verdict = match &computed {
         Err(_) => Verdict::NotComputed,
         // Written so that a value that is not a number is outside, too.
-        Ok(value) if (value - reference.value).abs() <= allowed(reference) => {
-            if reference.outside.is_some() { Verdict::NoLongerOutside } else { Verdict::Within }
+        Ok(value) if (value - reference.expected.value).abs() <= allowed(reference) => {
+            if reference.expected.outside.is_some() {
+                Verdict::NoLongerOutside
+            } else {
+                Verdict::Within
+            }
         }
-        Ok(value) if reference.outside.is_some() && value.is_finite() => Verdict::KnownOutside,
+        Ok(value) if reference.expected.outside.is_some() && value.is_finite() => {
+            Verdict::KnownOutside
+        }
         Ok(_) => Verdict::Outside,
     };
     Comparison {
         case: name.to_owned(),
-        quantity: reference.label(),
+        quantity: reference.statistic.label(),
         computed,
         reference: reference.clone(),
         verdict,
@@ -130,8 +136,8 @@ pub(super) fn judge(
 
 /// Largest accepted difference.
 fn allowed(reference: &Reference) -> f64 {
-    match (reference.relative, reference.absolute) {
-        (Some(relative), _) => relative * reference.value.abs(),
+    match (reference.expected.relative, reference.expected.absolute) {
+        (Some(relative), _) => relative * reference.expected.value.abs(),
         (None, Some(absolute)) => absolute,
         (None, None) => 0.0,
     }
@@ -141,9 +147,9 @@ impl Comparison {
     /// Computed less reference, relative if the tolerance is.
     #[must_use]
     pub fn difference(&self) -> Option<f64> {
-        let difference = self.computed.as_ref().ok()? - self.reference.value;
-        Some(match self.reference.relative {
-            Some(_) => difference / self.reference.value.abs(),
+        let difference = self.computed.as_ref().ok()? - self.reference.expected.value;
+        Some(match self.reference.expected.relative {
+            Some(_) => difference / self.reference.expected.value.abs(),
             None => difference,
         })
     }
@@ -158,8 +164,8 @@ impl Comparison {
     #[must_use]
     pub fn numerical_share(&self) -> Option<f64> {
         let uncertainty = self.numerical_uncertainty()?;
-        Some(match self.reference.relative {
-            Some(_) => uncertainty / self.reference.value.abs(),
+        Some(match self.reference.expected.relative {
+            Some(_) => uncertainty / self.reference.expected.value.abs(),
             None => uncertainty,
         })
     }
@@ -169,25 +175,25 @@ impl Comparison {
     pub fn to_json(&self) -> Value {
         json!({
             "case": self.case,
-            "quantity": self.reference.quantity,
-            "minus": self.reference.minus,
-            "statistic": self.reference.statistic.name(),
-            "at": self.reference.at,
-            "level": self.reference.level,
-            "of": self.reference.of,
+            "quantity": self.reference.statistic.quantity,
+            "minus": self.reference.statistic.minus,
+            "statistic": self.reference.statistic.kind.name(),
+            "at": self.reference.statistic.at,
+            "level": self.reference.statistic.level,
+            "of": self.reference.statistic.of,
             "computed": self.computed.as_ref().ok(),
-            "reference": self.reference.value,
-            "kind": self.reference.kind.name(),
-            "date": self.reference.date,
-            "uncertainty": self.reference.uncertainty,
+            "reference": self.reference.expected.value,
+            "kind": self.reference.expected.kind.name(),
+            "date": self.reference.expected.date,
+            "uncertainty": self.reference.expected.uncertainty,
             "numerical_uncertainty": self.numerical_share(),
             "difference": self.difference(),
-            "tolerance": self.reference.relative.or(self.reference.absolute),
-            "is_relative": self.reference.relative.is_some(),
-            "source": self.reference.source,
-            "note": self.reference.note,
+            "tolerance": self.reference.expected.relative.or(self.reference.expected.absolute),
+            "is_relative": self.reference.expected.relative.is_some(),
+            "source": self.reference.expected.source,
+            "note": self.reference.expected.note,
             "verdict": self.verdict.name().to_lowercase(),
-            "outside": self.reference.outside,
+            "outside": self.reference.expected.outside,
             "reason": self.computed.as_ref().err(),
             "dofs": self.dofs,
             "cpu_seconds": self.cpu_seconds,

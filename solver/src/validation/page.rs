@@ -170,17 +170,16 @@ fn judged_in(text: &str) -> Vec<Judged> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::case::{Case, Reference, library};
+    use crate::case::{Case, Reference};
     use crate::validation::comparison::judge;
     use crate::validation::section::{Links, MemberReport};
 
     /// The section of a case whose computed values are its references times these factors.
     fn report(name: &str, factors: [f64; 2]) -> CaseReport {
-        let text = library::find("dfg-2d-1").unwrap().text;
-        let case = Case::parse("c", text, &[]).unwrap().model.case;
+        let case = Case::read("dfg-2d-1", &[]).unwrap().model.case;
         let judged = |(index, factor): (usize, f64)| {
             let reference: &Reference = &case.reference[index];
-            let computed = Ok(factor * reference.value);
+            let computed = Ok(factor * reference.expected.value);
             judge(&format!("{name}/v"), reference, computed, 1, 0.0)
         };
         let member = MemberReport {
@@ -219,7 +218,7 @@ mod tests {
     fn a_value_known_to_be_outside_is_listed_as_long_as_its_section_stays() {
         let mut case = report("a", [2.0, 1.0]);
         let value = &mut case.members[0].comparisons[0];
-        value.reference.outside = Some("it is hard".to_owned());
+        value.reference.expected.outside = Some("it is hard".to_owned());
         *value = judge("a/v", &value.reference, value.computed.clone(), 1, 0.0);
         let mut page = ReportPage::default();
         page.set(&case);
@@ -242,8 +241,8 @@ mod tests {
     fn the_uncertainty_is_held_against_exact_values() {
         let mut case = report("a", [1.001, 1.01]);
         for value in &mut case.members[0].comparisons {
-            value.reference.kind = ReferenceKind::Exact;
-            value.numerical = Some(Ok(0.002 * value.reference.value.abs()));
+            value.reference.expected.kind = ReferenceKind::Exact;
+            value.numerical = Some(Ok(0.002 * value.reference.expected.value.abs()));
         }
         let mut page = ReportPage::default();
         page.set(&case);

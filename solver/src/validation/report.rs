@@ -14,7 +14,7 @@ pub(super) struct Judged {
 
 /// Those of comparisons.
 pub(super) fn judged(comparisons: &[Comparison]) -> Vec<Judged> {
-    let of = |row: &Comparison| Judged { kind: row.reference.kind, verdict: row.verdict };
+    let of = |row: &Comparison| Judged { kind: row.reference.expected.kind, verdict: row.verdict };
     comparisons.iter().map(of).collect()
 }
 
@@ -79,13 +79,14 @@ pub(super) fn summary_of(all: &[Judged]) -> String {
 impl Comparison {
     /// Case, quantity, computed, reference, kind, difference, tolerance and verdict.
     pub(super) fn cells(&self) -> [String; 8] {
-        let tolerance = self.reference.relative.or(self.reference.absolute).unwrap_or(0.0);
+        let tolerance =
+            self.reference.expected.relative.or(self.reference.expected.absolute).unwrap_or(0.0);
         [
             self.case.clone(),
             self.quantity.clone(),
             self.computed.as_ref().map_or("-".to_owned(), |value| significant(*value)),
-            significant(self.reference.value),
-            self.reference.kind.name().to_owned(),
+            significant(self.reference.expected.value),
+            self.reference.expected.kind.name().to_owned(),
             self.difference().map_or("-".to_owned(), |difference| {
                 format!("{}{}", if difference < 0.0 { "" } else { "+" }, self.share(difference))
             }),
@@ -96,7 +97,7 @@ impl Comparison {
 
     /// A difference from the reference, in per cent where its tolerance is relative.
     pub(super) fn share(&self, value: f64) -> String {
-        if self.reference.relative.is_some() {
+        if self.reference.expected.relative.is_some() {
             format!("{}%", two_digits(100.0 * value))
         } else {
             two_digits(value)
@@ -167,26 +168,24 @@ fn aligned(rows: &[Vec<String>], numbers: &[usize]) -> Vec<String> {
 mod tests {
     use super::super::comparison::judge;
     use super::*;
-    use crate::case::{Reference, Statistic};
+    use crate::case::{Expected, Reference, Statistic, StatisticKind};
 
     fn reference(relative: Option<f64>, absolute: Option<f64>) -> Reference {
+        let quantity = "body.force.x".to_owned();
         Reference {
-            quantity: "body.force.x".to_owned(),
-            minus: None,
-            statistic: Statistic::Max,
-            at: None,
-            level: None,
-            of: None,
-            value: -2.0,
-            per: 1.0,
-            relative,
-            absolute,
-            uncertainty: None,
-            kind: ReferenceKind::Literature,
-            source: "somebody".to_owned(),
-            date: None,
-            outside: None,
-            note: None,
+            statistic: Statistic { quantity, kind: StatisticKind::Max, ..Statistic::default() },
+            expected: Expected {
+                value: -2.0,
+                per: 1.0,
+                relative,
+                absolute,
+                uncertainty: None,
+                kind: ReferenceKind::Literature,
+                source: "somebody".to_owned(),
+                date: None,
+                outside: None,
+                note: None,
+            },
         }
     }
 
@@ -205,24 +204,22 @@ mod tests {
     #[test]
     fn a_comparison_says_what_was_subtracted_and_waited_for() {
         let plain = reference(Some(0.01), None);
-        let named = |reference: Reference| judge("c", &reference, Ok(-2.0), 1, 0.0).quantity;
-        assert_eq!(named(plain.clone()), "body.force.x (max)");
-        let apart = Reference { minus: Some("other.force.x".to_owned()), ..plain };
-        assert_eq!(named(apart.clone()), "body.force.x - other.force.x (max)");
-        let last = Reference { statistic: Statistic::Final, ..apart.clone() };
-        assert_eq!(named(last), "body.force.x - other.force.x");
-        let crossing =
-            Reference { statistic: Statistic::Crossing, level: Some(0.5), ..apart.clone() };
-        assert_eq!(named(crossing), "body.force.x - other.force.x (crossing 0.5)");
-        let of = Some("body.y".to_owned());
-        let when = Reference {
-            statistic: Statistic::When,
-            level: Some(-0.5),
-            of,
-            minus: None,
-            ..apart.clone()
+        let named = |statistic: Statistic| {
+            judge("c", &Reference { statistic, ..plain.clone() }, Ok(-2.0), 1, 0.0).quantity
         };
+        assert_eq!(named(plain.statistic.clone()), "body.force.x (max)");
+        let minus = Some("other.force.x".to_owned());
+        let apart = Statistic { minus, ..plain.statistic.clone() };
+        assert_eq!(named(apart.clone()), "body.force.x - other.force.x (max)");
+        let last = Statistic { kind: StatisticKind::Final, ..apart.clone() };
+        assert_eq!(named(last), "body.force.x - other.force.x");
+        let kind = StatisticKind::Crossing;
+        let crossing = Statistic { kind, level: Some(0.5), ..apart.clone() };
+        assert_eq!(named(crossing), "body.force.x - other.force.x (crossing 0.5)");
+        let (kind, of) = (StatisticKind::When, Some("body.y".to_owned()));
+        let when = Statistic { kind, level: Some(-0.5), of, minus: None, ..apart.clone() };
         assert_eq!(named(when), "body.force.x (when body.y = -0.5)");
+        let apart = Reference { statistic: apart, ..plain };
         let json = judge("c", &apart, Ok(-2.0), 1, 0.0).to_json();
         assert_eq!(
             (&json["quantity"], &json["minus"]),
@@ -249,7 +246,8 @@ mod tests {
 
     #[test]
     fn values_are_counted_by_kind() {
-        let own = Reference { kind: ReferenceKind::Regression, ..reference(Some(0.01), None) };
+        let mut own = reference(Some(0.01), None);
+        own.expected.kind = ReferenceKind::Regression;
         let rows = [
             judge("c", &own, Ok(-2.0), 1, 0.0),
             judge("c", &reference(Some(0.01), None), Ok(-2.01), 1, 0.0),
@@ -268,7 +266,8 @@ mod tests {
     #[test]
     fn a_value_known_to_be_outside_fails_only_once_it_is_not() {
         let outside = Some("they sum up less".to_owned());
-        let known = Reference { outside, ..reference(Some(0.01), None) };
+        let mut known = reference(Some(0.01), None);
+        known.expected.outside = outside;
         let row = |computed| judge("c", &known, computed, 1, 0.0);
         assert_eq!(row(Ok(-2.5)).verdict, Verdict::KnownOutside);
         assert_eq!(row(Ok(-2.0)).verdict, Verdict::NoLongerOutside);

@@ -138,7 +138,8 @@ pub(super) fn section(case: &CaseReport) -> String {
 fn value_row(variant: &str, value: &Comparison) -> String {
     let [_, quantity, computed, reference, kind, difference, tolerance, verdict] = value.cells();
     let numerical = value.numerical_share().map_or("-".to_owned(), |share| value.share(share));
-    let uncertainty = value.reference.uncertainty.map_or("-".to_owned(), |own| value.share(own));
+    let uncertainty =
+        value.reference.expected.uncertainty.map_or("-".to_owned(), |own| value.share(own));
     let cells = [
         variant.to_owned(),
         quantity,
@@ -159,8 +160,8 @@ fn value_row(variant: &str, value: &Comparison) -> String {
 fn coverage(values: &[&Comparison]) -> Option<String> {
     let wrong_by = |value: &Comparison| {
         let numerical = value.numerical_uncertainty()?;
-        let is_exact = value.reference.kind == ReferenceKind::Exact;
-        let difference = value.computed.as_ref().ok()? - value.reference.value;
+        let is_exact = value.reference.expected.kind == ReferenceKind::Exact;
+        let difference = value.computed.as_ref().ok()? - value.reference.expected.value;
         is_exact.then_some(difference.abs() <= numerical)
     };
     let covered: Vec<bool> = values.iter().filter_map(|value| wrong_by(value)).collect();
@@ -191,9 +192,19 @@ impl Coverage {
 
 fn sources(values: &[&Comparison]) -> String {
     let all = each_once(values.iter().map(|value| {
-        let date = value.reference.date.as_ref().map_or(String::new(), |date| format!(", {date}"));
-        let note = value.reference.note.as_ref().map_or(String::new(), |note| format!(" ({note})"));
-        format!("{}{date}{note}", value.reference.source)
+        let date = value
+            .reference
+            .expected
+            .date
+            .as_ref()
+            .map_or(String::new(), |date| format!(", {date}"));
+        let note = value
+            .reference
+            .expected
+            .note
+            .as_ref()
+            .map_or(String::new(), |note| format!(" ({note})"));
+        format!("{}{date}{note}", value.reference.expected.source)
     }));
     let list: String = all.iter().map(|source| format!("- {source}\n")).collect();
     format!("\nSources:\n\n{list}")
@@ -203,7 +214,7 @@ fn sources(values: &[&Comparison]) -> String {
 fn reasons(members: &[MemberReport]) -> String {
     let values = || members.iter().flat_map(|member| &member.comparisons);
     let mut lines = each_once(values().filter_map(|value| {
-        Some(format!("Outside, known: {}.", value.reference.outside.as_ref()?))
+        Some(format!("Outside, known: {}.", value.reference.expected.outside.as_ref()?))
     }));
     let named = |value: &Comparison| {
         let variant = variant_of(&value.case);
@@ -232,7 +243,7 @@ pub(super) fn known_outside(case: &CaseReport) -> Vec<String> {
     let outside = values.filter(|value| value.verdict == Verdict::KnownOutside);
     let line = |value: &Comparison| {
         let [case, quantity, computed, reference, _, difference, tolerance, _] = value.cells();
-        let reason = value.reference.outside.as_deref().unwrap_or_default();
+        let reason = value.reference.expected.outside.as_deref().unwrap_or_default();
         let numerical = value
             .numerical_uncertainty()
             .map_or(String::new(), |own| format!(" ± {}", two_digits(own)));

@@ -128,13 +128,12 @@ pub fn set_uncertainties(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::case::{Model, Reference, library};
+    use crate::case::{Model, Reference};
     use crate::validation::comparison::judge;
 
     fn case(name: &str, settings: &[&str]) -> Case {
-        let text = library::find(name).unwrap().text;
         let settings: Vec<String> = settings.iter().map(|one| (*one).to_owned()).collect();
-        Case::parse(name, text, &settings).unwrap().model.case
+        Case::read(name, &settings).unwrap().model.case
     }
 
     fn size(cells: usize, steps: usize) -> RunSize {

@@ -4,9 +4,9 @@ use std::collections::HashSet;
 
 use super::Findings;
 use crate::nearest::nearest;
-use crate::quantity::{When, conditions_of, known_quantities, renamed};
+use crate::quantity::{Condition, conditions_of, known_quantities, renamed};
 use crate::type_error::suggestion;
-use crate::{Geometry, Reference, ReferenceKind, Statistic, TimeSettings};
+use crate::{Expected, Geometry, Reference, ReferenceKind, Statistic, StatisticKind, TimeSettings};
 
 /// Part of the end of a run that is taken for rounding.
 const ROUNDING: f64 = 1e-9;
@@ -39,27 +39,28 @@ pub fn check(findings: &mut Findings<'_>) {
     }
     for (index, reference) in case.reference.iter().enumerate() {
         let key = format!("reference.{index}");
-        check_quantity(findings, &format!("{key}.quantity"), &reference.quantity, &known);
-        for (name, other) in [("minus", &reference.minus), ("of", &reference.of)] {
+        let Reference { statistic, expected } = reference;
+        check_quantity(findings, &format!("{key}.quantity"), &statistic.quantity, &known);
+        for (name, other) in [("minus", &statistic.minus), ("of", &statistic.of)] {
             if let Some(other) = other {
                 check_quantity(findings, &format!("{key}.{name}"), other, &known);
             }
         }
-        if reference.minus.as_ref() == Some(&reference.quantity) {
+        if statistic.minus.as_ref() == Some(&statistic.quantity) {
             findings.error(
                 &format!("{key}.minus"),
-                format!("`{}` less itself is 0", reference.quantity),
+                format!("`{}` less itself is 0", statistic.quantity),
                 "name another quantity, or leave `minus` out",
             );
         }
         check_tolerance(findings, &key, reference);
-        check_evidence(findings, &key, reference);
-        check_statistic(findings, &key, reference, end);
-        if reference.per == 0.0 {
+        check_evidence(findings, &key, expected);
+        check_statistic(findings, &key, statistic, end);
+        if expected.per == 0.0 {
             let help = "leave it out, or write the scale the quantity is divided by";
             findings.error(&format!("{key}.per"), "`per` is 0".to_owned(), help);
         }
-        if reference.source.trim().is_empty() {
+        if expected.source.trim().is_empty() {
             findings.error(
                 &format!("{key}.source"),
                 "the source of a reference is empty".to_owned(),
@@ -75,10 +76,10 @@ fn is_beyond(time: f64, end: f64) -> bool {
 }
 
 /// Whether the value says how certain it is, and a regression when it was made.
-fn check_evidence(findings: &mut Findings<'_>, key: &str, reference: &Reference) {
-    let is_regression = reference.kind == ReferenceKind::Regression;
-    if let Some(uncertainty) = reference.uncertainty {
-        let tolerance = reference.relative.or(reference.absolute).unwrap_or(f64::INFINITY);
+fn check_evidence(findings: &mut Findings<'_>, key: &str, expected: &Expected) {
+    let is_regression = expected.kind == ReferenceKind::Regression;
+    if let Some(uncertainty) = expected.uncertainty {
+        let tolerance = expected.relative.or(expected.absolute).unwrap_or(f64::INFINITY);
         if !(uncertainty >= 0.0 && uncertainty <= tolerance) {
             findings.error(
                 &format!("{key}.uncertainty"),
@@ -97,12 +98,12 @@ fn check_evidence(findings: &mut Findings<'_>, key: &str, reference: &Reference)
              value if the tolerance is `relative`",
         );
     }
-    match &reference.date {
+    match &expected.date {
         Some(_) if !is_regression => findings.error(
             &format!("{key}.date"),
             format!(
                 "`date` goes with the kind \"regression\" only, not \"{}\"",
-                reference.kind.name()
+                expected.kind.name()
             ),
             "leave it out",
         ),
@@ -118,7 +119,7 @@ fn check_evidence(findings: &mut Findings<'_>, key: &str, reference: &Reference)
         ),
         _ => {}
     }
-    if reference.outside.as_ref().is_some_and(|reason| reason.trim().is_empty()) {
+    if expected.outside.as_ref().is_some_and(|reason| reason.trim().is_empty()) {
         findings.error(
             &format!("{key}.outside"),
             "the reason why the value is known to be outside is empty".to_owned(),
@@ -143,14 +144,15 @@ fn check_quantity(findings: &mut Findings<'_>, key: &str, quantity: &str, known:
     if known.iter().any(|name| name == quantity) {
         return;
     }
-    let missing = conditions_of(quantity);
+    let conditions = conditions_of(quantity);
+    let needs = |condition: Condition| conditions.iter().any(|all| *all == [condition]);
     let help = if let Some(new) = renamed(quantity) {
         format!("it is called `{new}`")
-    } else if missing.contains(&When::Scales) && !findings.case().has_coefficients() {
+    } else if needs(Condition::Scales) && !findings.case().has_coefficients() {
         "coefficients need [scales] with length and velocity, and a fluid density".to_owned()
     } else if quantity.ends_with("lighthill_efficiency") {
         "this efficiency needs `resistance` of the [[swimmer]]".to_owned()
-    } else if missing.contains(&When::Cycles) {
+    } else if needs(Condition::Cycles) {
         "cycles need an unsteady run and a period: that of a stroke or gait, or `period` of the \
          [[swimmer]]"
             .to_owned()
@@ -186,7 +188,7 @@ fn known_help(quantity: &str, known: &[String]) -> String {
 }
 
 fn check_tolerance(findings: &mut Findings<'_>, key: &str, reference: &Reference) {
-    match (reference.relative, reference.absolute) {
+    match (reference.expected.relative, reference.expected.absolute) {
         (Some(_), Some(_)) => findings.error(
             &format!("{key}.absolute"),
             "both `relative` and `absolute` are given".to_owned(),
@@ -194,12 +196,12 @@ fn check_tolerance(findings: &mut Findings<'_>, key: &str, reference: &Reference
         ),
         (None, None) => findings.error(
             key,
-            format!("the reference for `{}` has no tolerance", reference.quantity),
+            format!("the reference for `{}` has no tolerance", reference.statistic.quantity),
             "add relative = ... (a fraction of the value) or absolute = ...",
         ),
         (Some(relative), None) => {
             findings.positive(&format!("{key}.relative"), relative);
-            if reference.value == 0.0 {
+            if reference.expected.value == 0.0 {
                 findings.error(
                     &format!("{key}.relative"),
                     "no value but 0 is near 0 in relative terms".to_owned(),
@@ -211,21 +213,16 @@ fn check_tolerance(findings: &mut Findings<'_>, key: &str, reference: &Reference
     }
 }
 
-fn check_statistic(
-    findings: &mut Findings<'_>,
-    key: &str,
-    reference: &Reference,
-    end: Option<f64>,
-) {
-    use Statistic::{
+fn check_statistic(findings: &mut Findings<'_>, key: &str, taken: &Statistic, end: Option<f64>) {
+    use StatisticKind::{
         At, Crossing, HalfPeriodAfterMax, MorisonDrag, MorisonInertia, Strouhal, When,
     };
     let case = findings.case();
     let statistic = format!("{key}.statistic");
-    let is_any = |list: &[Statistic]| list.contains(&reference.statistic);
-    check_arguments(findings, key, reference);
-    if reference.statistic == At
-        && let Some(at) = reference.at
+    let is_any = |list: &[StatisticKind]| list.contains(&taken.kind);
+    check_arguments(findings, key, taken);
+    if taken.kind == At
+        && let Some(at) = taken.at
     {
         if at < 0.0 {
             findings.error(
@@ -255,14 +252,14 @@ fn check_statistic(
             "use [time.unsteady], or take the statistic \"final\"",
         );
     }
-    if reference.statistic == Strouhal && case.scales.is_none() {
+    if taken.kind == Strouhal && case.scales.is_none() {
         findings.error(
             &statistic,
             "a Strouhal number needs a length and a velocity".to_owned(),
             "add [scales] with length and velocity",
         );
     }
-    if reference.statistic == HalfPeriodAfterMax && case.statistics.phase_of.is_none() {
+    if taken.kind == HalfPeriodAfterMax && case.statistics.phase_of.is_none() {
         findings.error(
             &statistic,
             "nothing says which quantity's maximum starts the period".to_owned(),
@@ -270,30 +267,30 @@ fn check_statistic(
         );
     }
     if is_any(&[MorisonDrag, MorisonInertia]) {
-        check_morison(findings, key, reference);
+        check_morison(findings, key, taken);
     }
 }
 
 /// Whether the statistic has what it needs, and nothing else is given.
-fn check_arguments(findings: &mut Findings<'_>, key: &str, reference: &Reference) {
-    use Statistic::{At, Crossing, When};
+fn check_arguments(findings: &mut Findings<'_>, key: &str, taken: &Statistic) {
+    use StatisticKind::{At, Crossing, When};
     let statistic = format!("{key}.statistic");
-    let is_any = |list: &[Statistic]| list.contains(&reference.statistic);
+    let is_any = |list: &[StatisticKind]| list.contains(&taken.kind);
     for (name, is_given, what, owners, names) in [
-        ("at", reference.at.is_some(), "a time", [At].as_slice(), "statistic `at`"),
+        ("at", taken.at.is_some(), "a time", [At].as_slice(), "statistic `at`"),
         (
             "level",
-            reference.level.is_some(),
+            taken.level.is_some(),
             "a value",
             &[Crossing, When],
             "statistics `crossing` and `when`",
         ),
-        ("of", reference.of.is_some(), "a quantity to wait for", &[When], "statistic `when`"),
+        ("of", taken.of.is_some(), "a quantity to wait for", &[When], "statistic `when`"),
     ] {
         if is_any(owners) && !is_given {
             findings.error(
                 &statistic,
-                format!("the statistic `{}` needs {what}", reference.statistic.name()),
+                format!("the statistic `{}` needs {what}", taken.kind.name()),
                 &format!("add {name} = ... to the reference"),
             );
         } else if is_given && !is_any(owners) {
@@ -307,17 +304,17 @@ fn check_arguments(findings: &mut Findings<'_>, key: &str, reference: &Reference
 }
 
 /// Whether Morison's equation has its force, diameter and density.
-fn check_morison(findings: &mut Findings<'_>, key: &str, reference: &Reference) {
+fn check_morison(findings: &mut Findings<'_>, key: &str, taken: &Statistic) {
     let case = findings.case();
     let statistic = format!("{key}.statistic");
-    if reference.force_of().is_none() {
+    if taken.force_of().is_none() {
         findings.error(
             &format!("{key}.quantity"),
-            format!("Morison's equation is one of forces, not of `{}`", reference.quantity),
+            format!("Morison's equation is one of forces, not of `{}`", taken.quantity),
             "write quantity = \"NAME.force.x\" or \"NAME.force.y\"",
         );
     }
-    if reference.minus.is_some() {
+    if taken.minus.is_some() {
         findings.error(
             &format!("{key}.minus"),
             "Morison's equation is that of one body".to_owned(),

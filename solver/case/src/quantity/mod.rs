@@ -5,10 +5,9 @@
 mod row;
 mod table;
 
-use super::{FlowModel, Geometry, Model, TimeSettings};
+use super::{FlowModel, Geometry, Model, SwimmerModel, TimeSettings};
 
-use self::row::Circumstances;
-pub use self::row::{Quantity, When};
+pub use self::row::{Component, Condition, NamedComponent, Quantity, Shape};
 pub use self::table::{BodyQuantity, FlowQuantity, JointQuantity, ProbeQuantity, SwimmerQuantity};
 
 /// A column of `series.csv`: which quantity, and of what.
@@ -33,25 +32,15 @@ pub struct Column {
     pub name: String,
     /// Whose quantity it is, and which.
     pub source: Source,
+    /// Which number of the quantity.
+    pub component: Component,
 }
 
 /// The columns of `series.csv` after `time`.
 #[must_use]
 pub fn columns(model: &Model) -> Vec<Column> {
     let case = &model.case;
-    let is_unsteady = matches!(case.time, TimeSettings::Unsteady(_));
-    let of_case = Circumstances {
-        is_spatial: case.geometry == Geometry::Spatial,
-        has_coefficients: case.has_coefficients(),
-        has_contact: case.contact.is_some(),
-        balances_energy: model.balances_energy(),
-        balances_momentum: model.balances_momentum(),
-        has_mean_flow: case.flow.is_some(),
-        has_convection: case.fluid.model == FlowModel::NavierStokes,
-        is_unsteady,
-        mesh_moves: model.mesh_moves(),
-        ..Circumstances::default()
-    };
+    let of_case = conditions_of_case(model);
     let mut columns = Vec::new();
     for (nth, body) in model.bodies.iter().enumerate() {
         let source = |quantity| Source::Body(nth, quantity);
@@ -63,18 +52,14 @@ pub fn columns(model: &Model) -> Vec<Column> {
     });
     for (nth, (child, is_arm)) in joints.enumerate() {
         let source = |quantity| Source::Joint(nth, quantity);
-        let known = Circumstances { is_arm, ..of_case.clone() };
+        let kind = if is_arm { Condition::Arm } else { Condition::Pivot };
+        let known = [&of_case[..], &[kind]].concat();
         add(&mut columns, &child.name, JointQuantity::TABLE, &known, source);
     }
     for (nth, swimmer) in model.swimmers.iter().enumerate() {
         let source = |quantity| Source::Swimmer(nth, quantity);
-        let known = Circumstances {
-            has_several_bodies: swimmer.bodies.len() > 1,
-            has_separate_bodies: has_separate_bodies(model, &swimmer.bodies),
-            has_cycles: swimmer.period.is_some() && is_unsteady,
-            has_resistance: swimmer.resistance.is_some(),
-            ..of_case.clone()
-        };
+        let own = conditions_of_swimmer(model, swimmer);
+        let known = [&of_case[..], &own].concat();
         add(&mut columns, &swimmer.name, SwimmerQuantity::TABLE, &known, source);
     }
     for (nth, probe) in case.probe.iter().enumerate() {
@@ -83,6 +68,42 @@ pub fn columns(model: &Model) -> Vec<Column> {
     }
     add(&mut columns, "flow", FlowQuantity::TABLE, &of_case, Source::Flow);
     columns
+}
+
+/// The conditions that hold in a case, whatever the owner of a quantity.
+fn conditions_of_case(model: &Model) -> Vec<Condition> {
+    let case = &model.case;
+    let is_spatial = case.geometry == Geometry::Spatial;
+    holding(&[
+        (Condition::Planar, !is_spatial),
+        (Condition::Spatial, is_spatial),
+        (Condition::Scales, case.has_coefficients()),
+        (Condition::Contact, case.contact.is_some()),
+        (Condition::IdleSides, model.balances_energy()),
+        (Condition::ClosedSides, model.balances_momentum()),
+        (Condition::MeanFlow, case.flow.is_some()),
+        (Condition::Convection, case.fluid.model == FlowModel::NavierStokes),
+        (Condition::Unsteady, matches!(case.time, TimeSettings::Unsteady(_))),
+        (Condition::MovingMesh, model.mesh_moves()),
+    ])
+}
+
+/// The conditions that hold for a swimmer.
+fn conditions_of_swimmer(model: &Model, swimmer: &SwimmerModel) -> Vec<Condition> {
+    let is_unsteady = matches!(model.case.time, TimeSettings::Unsteady(_));
+    let has_cycles = swimmer.period.is_some() && is_unsteady;
+    holding(&[
+        (Condition::SeveralBodies, swimmer.bodies.len() > 1),
+        (Condition::SeparateBodies, has_separate_bodies(model, &swimmer.bodies)),
+        (Condition::Cycles, has_cycles),
+        (Condition::NoCycles, !has_cycles),
+        (Condition::Resistance, swimmer.resistance.is_some()),
+    ])
+}
+
+/// Those of the conditions that hold.
+fn holding(conditions: &[(Condition, bool)]) -> Vec<Condition> {
+    conditions.iter().filter(|(_, holds)| *holds).map(|(condition, _)| *condition).collect()
 }
 
 /// Whether two of these bodies share no pivot: there are more pairs than pivots.
@@ -103,15 +124,17 @@ fn add<T: Copy>(
     columns: &mut Vec<Column>,
     owner: &str,
     table: &[Quantity<T>],
-    known: &Circumstances,
+    known: &[Condition],
     source: impl Fn(T) -> Source,
 ) {
-    columns.extend(
-        table
-            .iter()
-            .filter(|row| row.when.holds(known))
-            .map(|row| Column { name: format!("{owner}.{}", row.name), source: source(row.id) }),
-    );
+    for row in table {
+        let existing = row.components().into_iter().filter(|one| one.exists_where(known));
+        columns.extend(existing.map(|NamedComponent { name, component, .. }| Column {
+            name: format!("{owner}.{name}"),
+            source: source(row.id),
+            component,
+        }));
+    }
 }
 
 /// Names of all quantities of a run: the columns of `series.csv` after `time`.
@@ -132,10 +155,11 @@ pub(crate) fn renamed(name: &str) -> Option<String> {
 }
 
 /// The conditions under which quantities of a name exist, whatever the case.
-pub(crate) fn conditions_of(name: &str) -> Vec<When> {
-    fn of<T>(table: &[Quantity<T>], name: &str) -> Vec<When> {
-        let is_it = |row: &&Quantity<T>| name.ends_with(&format!(".{}", row.name));
-        table.iter().filter(is_it).map(|row| row.when).collect()
+pub(crate) fn conditions_of(name: &str) -> Vec<Vec<Condition>> {
+    fn of<T>(table: &[Quantity<T>], name: &str) -> Vec<Vec<Condition>> {
+        let all = table.iter().flat_map(Quantity::components);
+        let found = all.filter(|one| name.ends_with(&format!(".{}", one.name)));
+        found.map(|one| one.when).collect()
     }
     let mut found = of(BodyQuantity::TABLE, name);
     found.extend(of(SwimmerQuantity::TABLE, name));

@@ -5,24 +5,22 @@ use std::fmt;
 use crate::source::Origin;
 use crate::tree::{TomlNode, TreeError};
 use crate::type_error::suggestion;
-use crate::{Diagnostic, Model, Statistic, known_quantities};
+use crate::{Diagnostic, Model, Statistic, StatisticKind, known_quantities};
 
 /// Statistics that need nothing but a quantity.
-const STATISTICS: [Statistic; 6] = [
-    Statistic::Final,
-    Statistic::Mean,
-    Statistic::Max,
-    Statistic::Min,
-    Statistic::Rms,
-    Statistic::Range,
+const STATISTICS: [StatisticKind; 6] = [
+    StatisticKind::Final,
+    StatisticKind::Mean,
+    StatisticKind::Max,
+    StatisticKind::Min,
+    StatisticKind::Rms,
+    StatisticKind::Range,
 ];
 
 /// A quantity of a run, and how its series becomes a number.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SweepQuantity {
-    /// A column of `series.csv`.
-    pub quantity: String,
-    /// How it becomes a number.
+    /// The number.
     pub statistic: Statistic,
     origin: Option<Origin>,
 }
@@ -33,17 +31,17 @@ impl SweepQuantity {
     /// # Errors
     /// What is wrong with the word in front, and what it may be.
     pub fn parse(text: &str) -> Result<Self, String> {
-        let of = |quantity: &str, statistic| Self {
-            quantity: quantity.to_owned(),
-            statistic,
-            origin: None,
+        let of = |quantity: &str, kind| {
+            let quantity = quantity.to_owned();
+            let statistic = Statistic { quantity, kind, ..Statistic::default() };
+            Self { statistic, origin: None }
         };
         match text.split_whitespace().collect::<Vec<_>>()[..] {
-            [quantity] => Ok(of(quantity, Statistic::Final)),
+            [quantity] => Ok(of(quantity, StatisticKind::Final)),
             [word, quantity] => {
-                let statistic = STATISTICS.into_iter().find(|one| one.name() == word);
-                statistic.map(|statistic| of(quantity, statistic)).ok_or_else(|| {
-                    let known = STATISTICS.map(Statistic::name);
+                let kind = STATISTICS.into_iter().find(|one| one.name() == word);
+                kind.map(|kind| of(quantity, kind)).ok_or_else(|| {
+                    let known = STATISTICS.map(StatisticKind::name);
                     format!("\"{word}\" is no statistic; {}", suggestion(word, &known))
                 })
             }
@@ -54,23 +52,14 @@ impl SweepQuantity {
         }
     }
 
-    /// The quantity, with its statistic unless that is the final value.
-    #[must_use]
-    pub fn label(&self) -> String {
-        match self.statistic {
-            Statistic::Final => self.quantity.clone(),
-            other => format!("{} ({})", self.quantity, other.name()),
-        }
-    }
-
     /// Why a run of a case has no such quantity; nothing if it has.
     pub(crate) fn mistake(&self, model: &Model) -> Option<Diagnostic> {
         let known = known_quantities(model);
-        if known.contains(&self.quantity) {
+        if known.contains(&self.statistic.quantity) {
             return None;
         }
-        let message = format!("a run has no quantity `{}`", self.quantity);
-        let help = suggestion(&self.quantity, &known);
+        let message = format!("a run has no quantity `{}`", self.statistic.quantity);
+        let help = suggestion(&self.statistic.quantity, &known);
         let mut diagnostic = Diagnostic::error("sweep.quantities", message, &help);
         diagnostic.location = self.origin.as_ref().map(Origin::location);
         Some(diagnostic)
@@ -80,9 +69,9 @@ impl SweepQuantity {
 /// As it is written in a case.
 impl fmt::Display for SweepQuantity {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.statistic {
-            Statistic::Final => f.write_str(&self.quantity),
-            other => write!(f, "{} {}", other.name(), self.quantity),
+        match self.statistic.kind {
+            StatisticKind::Final => f.write_str(&self.statistic.quantity),
+            other => write!(f, "{} {}", other.name(), self.statistic.quantity),
         }
     }
 }

@@ -8,38 +8,38 @@ mod tests;
 use self::curve::Curve;
 pub use self::error::StatisticError;
 use super::morison::{self, Oscillation};
-use crate::case::{Case, ForceComponent, Reference, Statistic};
+use crate::case::{Case, ForceComponent, Statistic, StatisticKind};
 use crate::run::Series;
 
-/// The number that is compared with a reference: its statistic of the run, divided by `per`.
+/// A statistic of a run.
 ///
 /// # Errors
 /// [`StatisticError`] when the run does not hold what the statistic needs.
 pub fn measured_value(
     series: &Series,
     case: &Case,
-    reference: &Reference,
+    statistic: &Statistic,
 ) -> Result<f64, StatisticError> {
-    let whole = compared(series, reference)?;
+    let whole = compared(series, statistic)?;
     let window = || whole.whole_window(case.statistics.window);
     let mean = |curve: &Curve| {
         if case.statistics.whole_periods { curve.mean() } else { curve.average_of_all() }
     };
-    let value = match reference.statistic {
-        Statistic::Final => whole.last(),
-        Statistic::At => {
-            let time = reference.at.ok_or(StatisticError::Missing("a time, `at`"))?;
+    Ok(match statistic.kind {
+        StatisticKind::Final => whole.last(),
+        StatisticKind::At => {
+            let time = statistic.at.ok_or(StatisticError::Missing("a time, `at`"))?;
             whole.value_at(time)?
         }
-        Statistic::Max => window()?.extremum(1.0).value,
-        Statistic::Min => window()?.extremum(-1.0).value,
-        Statistic::Mean => mean(&window()?),
-        Statistic::Rms => mean(&window()?.squared()).sqrt(),
-        Statistic::Strouhal => {
+        StatisticKind::Max => window()?.extremum(1.0).value,
+        StatisticKind::Min => window()?.extremum(-1.0).value,
+        StatisticKind::Mean => mean(&window()?),
+        StatisticKind::Rms => mean(&window()?.squared()).sqrt(),
+        StatisticKind::Strouhal => {
             let scales = case.scales.ok_or(StatisticError::Missing("[scales]"))?;
-            scales.length / (scales.velocity * window()?.period(&reference.formula())?)
+            scales.length / (scales.velocity * window()?.period(&statistic.formula())?)
         }
-        Statistic::HalfPeriodAfterMax => {
+        StatisticKind::HalfPeriodAfterMax => {
             let name = case.statistics.phase_of.as_deref();
             let name = name.ok_or(StatisticError::Missing("statistics.phase_of"))?;
             let phase = Curve::of(series, name)?.whole_window(case.statistics.window)?;
@@ -48,31 +48,30 @@ pub fn measured_value(
             let peak = phase.until(last)?.extremum(1.0);
             whole.value_at(peak.time + half_period)?
         }
-        Statistic::Crossing => {
-            let level = reference.level.ok_or(StatisticError::Missing("a value, `level`"))?;
-            whole.time_of(level, case.statistics.window, &reference.formula())?
+        StatisticKind::Crossing => {
+            let level = statistic.level.ok_or(StatisticError::Missing("a value, `level`"))?;
+            whole.time_of(level, case.statistics.window, &statistic.formula())?
         }
-        Statistic::When => {
-            let level = reference.level.ok_or(StatisticError::Missing("a value, `level`"))?;
-            let of = reference.of.as_deref();
+        StatisticKind::When => {
+            let level = statistic.level.ok_or(StatisticError::Missing("a value, `level`"))?;
+            let of = statistic.of.as_deref();
             let of = of.ok_or(StatisticError::Missing("a quantity, `of`"))?;
             let time = Curve::of(series, of)?.time_of(level, case.statistics.window, of)?;
             whole.value_at(time)?
         }
-        Statistic::Range => {
+        StatisticKind::Range => {
             let window = window()?;
             window.extremum(1.0).value - window.extremum(-1.0).value
         }
-        Statistic::MorisonDrag => morison_fit(series, case, reference)?[0],
-        Statistic::MorisonInertia => morison_fit(series, case, reference)?[1],
-    };
-    Ok(value / reference.per)
+        StatisticKind::MorisonDrag => morison_fit(series, case, statistic)?[0],
+        StatisticKind::MorisonInertia => morison_fit(series, case, statistic)?[1],
+    })
 }
 
-/// The quantity of a reference, less the one that is subtracted.
-fn compared(series: &Series, reference: &Reference) -> Result<Curve, StatisticError> {
-    let mut whole = Curve::of(series, &reference.quantity)?;
-    if let Some(minus) = &reference.minus {
+/// The quantity of a statistic, less the one that is subtracted.
+fn compared(series: &Series, statistic: &Statistic) -> Result<Curve, StatisticError> {
+    let mut whole = Curve::of(series, &statistic.quantity)?;
+    if let Some(minus) = &statistic.minus {
         for (value, less) in whole.values.iter_mut().zip(Curve::of(series, minus)?.values) {
             *value -= less;
         }
@@ -84,13 +83,13 @@ fn compared(series: &Series, reference: &Reference) -> Result<Curve, StatisticEr
 fn morison_fit(
     series: &Series,
     case: &Case,
-    reference: &Reference,
+    statistic: &Statistic,
 ) -> Result<[f64; 2], StatisticError> {
     let scales = case.scales.ok_or(StatisticError::Missing("[scales]"))?;
     let ForceComponent { body, axis } =
-        reference.force_of().ok_or(StatisticError::Missing("a force on a body"))?;
+        statistic.force_of().ok_or(StatisticError::Missing("a force on a body"))?;
     let column = |name: &str| Curve::of(series, name)?.whole_window(case.statistics.window);
-    let force = column(&reference.quantity)?;
+    let force = column(&statistic.quantity)?;
     let velocity = column(&format!("{body}.velocity.{axis}"))?;
     let acceleration = column(&format!("{body}.acceleration.{axis}"))?;
     let oscillation = Oscillation {

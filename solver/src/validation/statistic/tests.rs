@@ -3,7 +3,6 @@
 use std::f64::consts::TAU;
 
 use super::*;
-use crate::case::ReferenceKind;
 
 const CASE: &str = r#"
     title = "t"
@@ -31,33 +30,16 @@ fn series(dt: f64, n: usize, columns: &[(&str, &dyn Fn(f64) -> f64)]) -> Series 
 fn value(
     series: &Series,
     quantity: &str,
-    statistic: Statistic,
+    kind: StatisticKind,
     window: Option<[f64; 2]>,
 ) -> Result<f64, StatisticError> {
     let mut case = Case::parse("t.toml", CASE, &[]).unwrap().model.case;
     case.statistics.window = window;
-    measured_value(series, &case, &reference(quantity, statistic))
+    measured_value(series, &case, &taken(quantity, kind))
 }
 
-fn reference(quantity: &str, statistic: Statistic) -> Reference {
-    Reference {
-        quantity: quantity.to_owned(),
-        minus: None,
-        statistic,
-        at: Some(0.33),
-        level: None,
-        of: None,
-        value: 1.0,
-        per: 1.0,
-        relative: Some(0.1),
-        absolute: None,
-        uncertainty: None,
-        kind: ReferenceKind::Exact,
-        source: "test".to_owned(),
-        date: None,
-        outside: None,
-        note: None,
-    }
+fn taken(quantity: &str, kind: StatisticKind) -> Statistic {
+    Statistic { quantity: quantity.to_owned(), kind, at: Some(0.33), ..Statistic::default() }
 }
 
 /// As `series`, with steps that grow threefold from the first to the last.
@@ -80,53 +62,53 @@ fn crossing(
     let mut case = Case::parse("t.toml", CASE, &[]).unwrap().model.case;
     case.statistics.window = window;
     let minus = (!minus.is_empty()).then(|| minus.to_owned());
-    let plain = reference(quantity, Statistic::Crossing);
-    measured_value(run, &case, &Reference { level: Some(level), minus, ..plain })
+    let plain = taken(quantity, StatisticKind::Crossing);
+    measured_value(run, &case, &Statistic { level: Some(level), minus, ..plain })
 }
 
 #[test]
 fn a_parabola_is_met_exactly_between_steps() {
     let arch = series(0.1, 10, &[("q", &|t| 3.0 - (t - 0.47) * (t - 0.47))]);
     let of = |statistic| value(&arch, "q", statistic, None).unwrap();
-    assert!((of(Statistic::Max) - 3.0).abs() < 1e-13);
-    assert!((of(Statistic::At) - (3.0 - 0.14 * 0.14)).abs() < 1e-13);
-    assert!((of(Statistic::Final) - (3.0 - 0.53 * 0.53)).abs() < 1e-13);
+    assert!((of(StatisticKind::Max) - 3.0).abs() < 1e-13);
+    assert!((of(StatisticKind::At) - (3.0 - 0.14 * 0.14)).abs() < 1e-13);
+    assert!((of(StatisticKind::Final) - (3.0 - 0.53 * 0.53)).abs() < 1e-13);
     let bowl = series(0.1, 10, &[("q", &|t| (t - 0.47) * (t - 0.47) - 3.0)]);
-    assert!((value(&bowl, "q", Statistic::Min, None).unwrap() + 3.0).abs() < 1e-13);
+    assert!((value(&bowl, "q", StatisticKind::Min, None).unwrap() + 3.0).abs() < 1e-13);
 }
 
 #[test]
 fn an_extremum_at_the_edge_of_the_window_is_taken_as_it_is() {
     let line = series(0.1, 10, &[("q", &|t| t)]);
-    assert_eq!(value(&line, "q", Statistic::Max, Some([0.2, 0.5])), Ok(0.5));
-    assert_eq!(value(&line, "q", Statistic::Min, Some([0.2, 0.5])), Ok(0.2));
+    assert_eq!(value(&line, "q", StatisticKind::Max, Some([0.2, 0.5])), Ok(0.5));
+    assert_eq!(value(&line, "q", StatisticKind::Min, Some([0.2, 0.5])), Ok(0.2));
 }
 
 #[test]
 fn a_periodic_series_is_averaged_over_whole_periods() {
     // 3.3 periods, so that the plain average would be off by several per cent.
     let wave = series(0.01, 330, &[("q", &|t| 2.0 + (TAU * t + 0.4).sin())]);
-    let mean = value(&wave, "q", Statistic::Mean, None).unwrap();
+    let mean = value(&wave, "q", StatisticKind::Mean, None).unwrap();
     assert!((mean - 2.0).abs() < 1e-5, "{mean}");
     let swing = series(0.01, 330, &[("q", &|t| (TAU * t + 0.4).sin())]);
-    let rms = value(&swing, "q", Statistic::Rms, None).unwrap();
+    let rms = value(&swing, "q", StatisticKind::Rms, None).unwrap();
     assert!((rms - 0.5_f64.sqrt()).abs() < 1e-3, "{rms}");
 }
 
 #[test]
 fn a_series_that_does_not_repeat_is_averaged_over_the_window() {
     let line = series(0.1, 10, &[("q", &|t| 4.0 * t)]);
-    let mean = value(&line, "q", Statistic::Mean, Some([0.5, 1.0])).unwrap();
+    let mean = value(&line, "q", StatisticKind::Mean, Some([0.5, 1.0])).unwrap();
     assert!((mean - 3.0).abs() < 1e-13);
 }
 
 #[test]
 fn the_strouhal_number_is_frequency_times_length_over_velocity() {
     let wave = series(0.013, 400, &[("q", &|t| 1.0 + (TAU * 2.5 * t).sin())]);
-    let strouhal = value(&wave, "q", Statistic::Strouhal, None).unwrap();
+    let strouhal = value(&wave, "q", StatisticKind::Strouhal, None).unwrap();
     assert!((strouhal - 2.5 * 0.1 / 2.0).abs() < 1e-5, "{strouhal}");
     let line = series(0.1, 10, &[("q", &|t| t)]);
-    let error = value(&line, "q", Statistic::Strouhal, None).unwrap_err();
+    let error = value(&line, "q", StatisticKind::Strouhal, None).unwrap_err();
     assert!(matches!(error, StatisticError::NoPeriod { .. }), "{error}");
 }
 
@@ -136,7 +118,7 @@ fn half_a_period_after_the_maximum_is_where_the_lift_is_lowest() {
     let lift = |t: f64| (TAU * (t - 0.1)).cos();
     let pressure = |t: f64| 5.0 + (TAU * (t - 0.1)).cos();
     let run = series(0.01, 400, &[("b.lift", &lift), ("p", &pressure)]);
-    let found = value(&run, "p", Statistic::HalfPeriodAfterMax, None).unwrap();
+    let found = value(&run, "p", StatisticKind::HalfPeriodAfterMax, None).unwrap();
     assert!((found - 4.0).abs() < 1e-4, "{found}");
 }
 
@@ -187,16 +169,16 @@ fn only_what_happens_in_the_window_counts() {
 fn a_quantity_is_taken_when_another_reaches_a_level() {
     let run = uneven(2.0, 23, &[("y", &|t| 3.0 - t * t), ("x", &|t| 4.0 * t)]);
     let case = Case::parse("t.toml", CASE, &[]).unwrap().model.case;
-    let plain = Reference { level: Some(1.0), ..reference("x", Statistic::When) };
+    let plain = Statistic { level: Some(1.0), ..taken("x", StatisticKind::When) };
     assert!(measured_value(&run, &case, &plain).is_err());
-    let when = Reference { of: Some("y".to_owned()), ..plain };
+    let when = Statistic { of: Some("y".to_owned()), ..plain };
     let x = measured_value(&run, &case, &when).unwrap();
     assert!((x - 4.0 * 2.0_f64.sqrt()).abs() < 1e-11, "{x}");
     // Less another quantity: 4 t - (3 - t^2), where t^2 = 2.
-    let apart = Reference { minus: Some("y".to_owned()), ..when.clone() };
+    let apart = Statistic { minus: Some("y".to_owned()), ..when.clone() };
     let x = measured_value(&run, &case, &apart).unwrap();
     assert!((x - 4.0 * 2.0_f64.sqrt() + 1.0).abs() < 1e-11, "{x}");
-    let never = Reference { level: Some(5.0), ..when };
+    let never = Statistic { level: Some(5.0), ..when };
     let error = measured_value(&run, &case, &never).unwrap_err();
     assert!(error.to_string().contains("`y` does not reach 5"), "{error}");
 }
@@ -204,10 +186,10 @@ fn a_quantity_is_taken_when_another_reaches_a_level() {
 #[test]
 fn the_range_is_from_trough_to_peak_in_the_window() {
     let run = uneven(2.0, 300, &[("q", &|t| 1.0 + 0.3 * (TAU * t + 0.2).sin())]);
-    let range = value(&run, "q", Statistic::Range, None).unwrap();
+    let range = value(&run, "q", StatisticKind::Range, None).unwrap();
     assert!((range - 0.6).abs() < 1e-6, "{range}");
     let line = series(0.1, 10, &[("q", &|t| -t)]);
-    let range = value(&line, "q", Statistic::Range, Some([0.2, 0.5])).unwrap();
+    let range = value(&line, "q", StatisticKind::Range, Some([0.2, 0.5])).unwrap();
     assert!((range - 0.3).abs() < 1e-13, "{range}");
 }
 
@@ -220,9 +202,9 @@ fn a_difference_is_taken_before_its_statistic() {
     );
     let case = Case::parse("t.toml", CASE, &[]).unwrap().model.case;
     let minus = Some("b".to_owned());
-    let largest = Reference { minus, ..reference("a", Statistic::Max) };
+    let largest = Statistic { minus, ..taken("a", StatisticKind::Max) };
     assert!((measured_value(&run, &case, &largest).unwrap() - 1.0).abs() < 1e-12);
-    let unknown = Reference { minus: Some("c".to_owned()), ..largest };
+    let unknown = Statistic { minus: Some("c".to_owned()), ..largest };
     let error = measured_value(&run, &case, &unknown).unwrap_err();
     assert_eq!(error, StatisticError::UnknownQuantity("c".to_owned()));
 }
@@ -247,24 +229,24 @@ fn morisons_coefficients_are_those_of_the_bodys_own_motion() {
     let mut case = Case::parse("t.toml", CASE, &[]).unwrap().model.case;
     case.fluid.density = 2.0;
     case.statistics.window = Some([1.0, 3.0]);
-    let of = |quantity, statistic| measured_value(&run, &case, &reference(quantity, statistic));
-    let drag = of("b.force.y", Statistic::MorisonDrag).unwrap();
-    let inertia = of("b.force.y", Statistic::MorisonInertia).unwrap();
+    let of = |quantity, kind| measured_value(&run, &case, &taken(quantity, kind));
+    let drag = of("b.force.y", StatisticKind::MorisonDrag).unwrap();
+    let inertia = of("b.force.y", StatisticKind::MorisonInertia).unwrap();
     assert!((drag - 1.7).abs() < 1e-11 && (inertia - 1.2).abs() < 1e-11, "{drag} {inertia}");
-    let error = of("b.force.x", Statistic::MorisonDrag).unwrap_err();
+    let error = of("b.force.x", StatisticKind::MorisonDrag).unwrap_err();
     assert!(matches!(error, StatisticError::NoOscillation { .. }), "{error}");
-    assert!(of("b.velocity.y", Statistic::MorisonDrag).is_err());
+    assert!(of("b.velocity.y", StatisticKind::MorisonDrag).is_err());
 }
 
 #[test]
 fn what_was_not_computed_is_an_error() {
     let line = series(0.1, 2, &[("q", &|t| t)]);
-    assert!(value(&line, "r", Statistic::Final, None).is_err());
-    assert!(value(&line, "q", Statistic::At, None).is_err());
-    assert!(value(&line, "q", Statistic::Max, Some([5.0, 6.0])).is_err());
+    assert!(value(&line, "r", StatisticKind::Final, None).is_err());
+    assert!(value(&line, "q", StatisticKind::At, None).is_err());
+    assert!(value(&line, "q", StatisticKind::Max, Some([5.0, 6.0])).is_err());
     // Of a window that the run has reached in part another value would come out
     let long = series(0.1, 20, &[("q", &|t| t)]);
-    assert!(value(&long, "q", Statistic::Mean, Some([0.5, 1.5])).is_ok());
-    assert!(value(&long, "q", Statistic::Mean, Some([1.5, 2.5])).is_err());
-    assert!(value(&long, "q", Statistic::Final, Some([1.5, 2.5])).is_ok());
+    assert!(value(&long, "q", StatisticKind::Mean, Some([0.5, 1.5])).is_ok());
+    assert!(value(&long, "q", StatisticKind::Mean, Some([1.5, 2.5])).is_err());
+    assert!(value(&long, "q", StatisticKind::Final, Some([1.5, 2.5])).is_ok());
 }

@@ -2,6 +2,7 @@
 
 use nalgebra::Vector3;
 
+use super::value::Value;
 use crate::body::{Twist, Wrench, on_mesh};
 use crate::case::{BodyQuantity, Case, Geometry, JointQuantity};
 use crate::coupling::{
@@ -47,66 +48,39 @@ pub(super) struct BodyMotion<'a> {
 }
 
 impl BodyMotion<'_> {
-    pub(super) fn value(&self, quantity: BodyQuantity) -> f64 {
+    pub(super) fn value(&self, quantity: BodyQuantity) -> Value {
         let BodyReport { pose, twist, load, surface_load, contact, power, .. } = self.report;
         match quantity {
-            BodyQuantity::X => pose.center.x,
-            BodyQuantity::Y => pose.center.y,
-            BodyQuantity::Z => pose.center.z,
-            BodyQuantity::Angle => self.angle,
-            BodyQuantity::OrientationW => pose.rotation().w,
-            BodyQuantity::OrientationX => pose.rotation().i,
-            BodyQuantity::OrientationY => pose.rotation().j,
-            BodyQuantity::OrientationZ => pose.rotation().k,
-            BodyQuantity::DirectionX => pose.to_world(&Vector3::x()).x,
-            BodyQuantity::DirectionY => pose.to_world(&Vector3::x()).y,
-            BodyQuantity::DirectionZ => pose.to_world(&Vector3::x()).z,
-            BodyQuantity::VelocityX => twist.linear.x,
-            BodyQuantity::VelocityY => twist.linear.y,
-            BodyQuantity::VelocityZ => twist.linear.z,
-            BodyQuantity::AngularVelocityX => twist.angular.x,
-            BodyQuantity::AngularVelocityY => twist.angular.y,
-            BodyQuantity::AngularVelocity | BodyQuantity::AngularVelocityZ => twist.angular.z,
-            BodyQuantity::BodyAngularVelocityX => pose.to_body(&twist.angular).x,
-            BodyQuantity::BodyAngularVelocityY => pose.to_body(&twist.angular).y,
-            BodyQuantity::BodyAngularVelocityZ => pose.to_body(&twist.angular).z,
-            BodyQuantity::AccelerationX => self.acceleration.linear.x,
-            BodyQuantity::AccelerationY => self.acceleration.linear.y,
-            BodyQuantity::AccelerationZ => self.acceleration.linear.z,
-            BodyQuantity::ForceX => load.force.x,
-            BodyQuantity::ForceY => load.force.y,
-            BodyQuantity::ForceZ => load.force.z,
-            BodyQuantity::TorqueX => load.torque.x,
-            BodyQuantity::TorqueY => load.torque.y,
-            BodyQuantity::Torque | BodyQuantity::TorqueZ => load.torque.z,
-            BodyQuantity::SurfaceForceX => surface_load.force.x,
-            BodyQuantity::SurfaceForceY => surface_load.force.y,
-            BodyQuantity::SurfaceForceZ => surface_load.force.z,
-            BodyQuantity::SurfaceTorqueX => surface_load.torque.x,
-            BodyQuantity::SurfaceTorqueY => surface_load.torque.y,
-            BodyQuantity::SurfaceTorque | BodyQuantity::SurfaceTorqueZ => surface_load.torque.z,
-            BodyQuantity::Power => *power,
-            BodyQuantity::DragCoefficient => load.force.x * self.coefficients.force,
-            BodyQuantity::LiftCoefficient => load.force.y * self.coefficients.force,
-            BodyQuantity::SideCoefficient => load.force.z * self.coefficients.force,
-            BodyQuantity::MomentCoefficient => load.torque.z * self.coefficients.moment,
-            BodyQuantity::ContactForceX => contact.force.x,
-            BodyQuantity::ContactForceY => contact.force.y,
-            BodyQuantity::ContactForceZ => contact.force.z,
-            BodyQuantity::ContactTorqueX => contact.torque.x,
-            BodyQuantity::ContactTorqueY => contact.torque.y,
-            BodyQuantity::ContactTorque | BodyQuantity::ContactTorqueZ => contact.torque.z,
+            BodyQuantity::Position => pose.center.into(),
+            BodyQuantity::Angle => self.angle.into(),
+            BodyQuantity::Orientation => Value::Quaternion(*pose.rotation().quaternion()),
+            BodyQuantity::Direction => pose.to_world(&Vector3::x()).into(),
+            BodyQuantity::Velocity => twist.linear.into(),
+            BodyQuantity::AngularVelocity => twist.angular.into(),
+            BodyQuantity::BodyAngularVelocity => pose.to_body(&twist.angular).into(),
+            BodyQuantity::Acceleration => self.acceleration.linear.into(),
+            BodyQuantity::Force => load.force.into(),
+            BodyQuantity::Torque => load.torque.into(),
+            BodyQuantity::SurfaceForce => surface_load.force.into(),
+            BodyQuantity::SurfaceTorque => surface_load.torque.into(),
+            BodyQuantity::Power => (*power).into(),
+            BodyQuantity::DragCoefficient => (load.force.x * self.coefficients.force).into(),
+            BodyQuantity::LiftCoefficient => (load.force.y * self.coefficients.force).into(),
+            BodyQuantity::SideCoefficient => (load.force.z * self.coefficients.force).into(),
+            BodyQuantity::MomentCoefficient => (load.torque.z * self.coefficients.moment).into(),
+            BodyQuantity::ContactForce => contact.force.into(),
+            BodyQuantity::ContactTorque => contact.torque.into(),
         }
     }
 }
 
-pub(super) fn joint_value(joint: &JointReport, quantity: JointQuantity) -> f64 {
-    match quantity {
+pub(super) fn joint_value(joint: &JointReport, quantity: JointQuantity) -> Value {
+    Value::Scalar(match quantity {
         JointQuantity::Angle | JointQuantity::Length => joint.coordinate,
         JointQuantity::Rate => joint.rate,
         JointQuantity::Torque | JointQuantity::Force => joint.load,
         JointQuantity::Power => joint.power,
-    }
+    })
 }
 
 /// Reports of all bodies.

@@ -4,6 +4,7 @@ use nalgebra::Vector3;
 
 use super::integrals::Integrals;
 use super::momentum::FluidMomentum;
+use super::value::Value;
 use crate::case::FlowQuantity;
 use crate::coupling::{MeanFlowReport, Problem, SurfaceLoads};
 use crate::run::simulation::{CellCrossing, Simulation};
@@ -98,14 +99,6 @@ impl FlowMeasurement {
         }
     }
 
-    fn pressure_gradient(&self, axis: usize) -> f64 {
-        self.mean_flow.map_or(0.0, |report| report.pressure_gradient[axis])
-    }
-
-    fn mean_velocity(&self, axis: usize) -> f64 {
-        self.mean_flow.map_or(0.0, |report| report.velocity[axis])
-    }
-
     /// Cells the fluid crosses in the last step at most.
     pub(in crate::run) fn cfl(&self) -> f64 {
         self.crossing.map_or(0.0, |crossing| crossing.rate * self.last_step)
@@ -121,24 +114,23 @@ impl FlowMeasurement {
         self.kinetic_energy / (0.5 * density * speed * speed * self.volume)
     }
 
-    pub(super) fn value(&self, quantity: FlowQuantity) -> f64 {
+    pub(super) fn value(&self, quantity: FlowQuantity) -> Value {
+        let of_mean_flow = |value: fn(&MeanFlowReport) -> Vector3<f64>| {
+            Value::Vector(self.mean_flow.as_ref().map_or(Vector3::zeros(), value))
+        };
         match quantity {
-            FlowQuantity::Dissipation => self.dissipation,
-            FlowQuantity::KineticEnergy => self.kinetic_energy,
-            FlowQuantity::MassDefect => self.mass_defect,
-            FlowQuantity::EnergyDefect => self.energy_defect,
-            FlowQuantity::MomentumDefect => self.momentum_defect,
-            FlowQuantity::PressureGradientX => self.pressure_gradient(0),
-            FlowQuantity::PressureGradientY => self.pressure_gradient(1),
-            FlowQuantity::PressureGradientZ => self.pressure_gradient(2),
-            FlowQuantity::MeanVelocityX => self.mean_velocity(0),
-            FlowQuantity::MeanVelocityY => self.mean_velocity(1),
-            FlowQuantity::MeanVelocityZ => self.mean_velocity(2),
-            FlowQuantity::Cfl => self.cfl(),
-            FlowQuantity::CellReynolds => self.cell_reynolds(),
-            FlowQuantity::MinimumGap => self.minimum_gap,
-            FlowQuantity::Cells => self.cells as f64,
-            FlowQuantity::Remeshes => self.remeshes as f64,
+            FlowQuantity::Dissipation => self.dissipation.into(),
+            FlowQuantity::KineticEnergy => self.kinetic_energy.into(),
+            FlowQuantity::MassDefect => self.mass_defect.into(),
+            FlowQuantity::EnergyDefect => self.energy_defect.into(),
+            FlowQuantity::MomentumDefect => self.momentum_defect.into(),
+            FlowQuantity::PressureGradient => of_mean_flow(|report| report.pressure_gradient),
+            FlowQuantity::MeanVelocity => of_mean_flow(|report| report.velocity),
+            FlowQuantity::Cfl => self.cfl().into(),
+            FlowQuantity::CellReynolds => self.cell_reynolds().into(),
+            FlowQuantity::MinimumGap => self.minimum_gap.into(),
+            FlowQuantity::Cells => (self.cells as f64).into(),
+            FlowQuantity::Remeshes => (self.remeshes as f64).into(),
         }
     }
 }

@@ -9,6 +9,7 @@ mod integrals;
 mod momentum;
 mod probes;
 mod swimmers;
+mod value;
 
 use alewife_mesh::{Mesh, Point};
 
@@ -26,8 +27,8 @@ use crate::timing::Stage;
 
 /// Measures a run; made once a mesh.
 pub(super) struct Measure<const D: usize> {
+    columns: Vec<Column>,
     names: Vec<String>,
-    sources: Vec<Source>,
     probes: Probes<D>,
     coefficients: Coefficients,
     balances_energy: bool,
@@ -56,11 +57,10 @@ impl<const D: usize> Measure<D> {
         images: &[Point<D>],
     ) -> Result<Self, RunError> {
         let case = &model.case;
-        let (names, sources) =
-            columns(model).into_iter().map(|Column { name, source }| (name, source)).unzip();
+        let columns = columns(model);
         Ok(Self {
-            names,
-            sources,
+            names: columns.iter().map(|column| column.name.clone()).collect(),
+            columns,
             probes: Probes::in_fluid(case, mesh, images)?,
             coefficients: Coefficients::of(case),
             balances_energy: model.balances_energy(),
@@ -135,7 +135,7 @@ impl<const D: usize> Measure<D> {
             let record = momentum_record(problem, state, loads, &fluid);
             flow.momentum_defect = state.record_momentum(record);
         }
-        let value = |source: &Source| match *source {
+        let value = |column: &Column| match column.source {
             Source::Body(body, quantity) => BodyMotion {
                 report: &bodies[body],
                 angle: state.poses[body].angle(),
@@ -148,7 +148,8 @@ impl<const D: usize> Measure<D> {
             Source::Probe(probe, quantity) => probes[probe].value(quantity),
             Source::Flow(quantity) => flow.value(quantity),
         };
-        let values = self.sources.iter().map(value).collect();
+        let of_column = |column: &Column| value(column).component(column.component);
+        let values = self.columns.iter().map(of_column).collect();
         Ok(Measured { bodies, values, flow })
     }
 }

@@ -4,6 +4,7 @@ use alewife_mesh::{CellId, Locator, Mesh, Point};
 
 use nalgebra::Vector3;
 
+use super::value::Value;
 use crate::body::in_space;
 use crate::case::{Case, Probe, ProbeQuantity};
 use crate::run::RunError;
@@ -27,12 +28,10 @@ pub(super) struct ProbeMeasurement {
 }
 
 impl ProbeMeasurement {
-    pub(super) fn value(&self, quantity: ProbeQuantity) -> f64 {
+    pub(super) fn value(&self, quantity: ProbeQuantity) -> Value {
         match quantity {
-            ProbeQuantity::VelocityX => self.velocity.x,
-            ProbeQuantity::VelocityY => self.velocity.y,
-            ProbeQuantity::VelocityZ => self.velocity.z,
-            ProbeQuantity::Pressure => self.pressure,
+            ProbeQuantity::Velocity => self.velocity.into(),
+            ProbeQuantity::Pressure => self.pressure.into(),
         }
     }
 }

@@ -1,5 +1,6 @@
 //! The quantities of swimmers: their mean motion, power, thrust, and averages over their cycles.
 
+use super::value::Value;
 use crate::body::Wrench;
 use crate::case::SwimmerQuantity;
 use crate::coupling::{
@@ -49,35 +50,27 @@ impl SwimmerMeasurement {
         Self { minimum_gap, ..self }
     }
 
-    pub(super) fn value(&self, quantity: SwimmerQuantity) -> f64 {
+    pub(super) fn value(&self, quantity: SwimmerQuantity) -> Value {
         let MeanMotion { center, twist } = &self.motion;
         let PropulsionPower { power, shape_power, expended_power, thrust, drag, .. } = self.power;
-        let of_cycle = |value: fn(&CycleMeans) -> f64| self.means.as_ref().map_or(f64::NAN, value);
+        let of_cycle = |value: fn(&CycleMeans) -> f64| {
+            Value::Scalar(self.means.as_ref().map_or(f64::NAN, value))
+        };
         match quantity {
-            SwimmerQuantity::X => center.x,
-            SwimmerQuantity::Y => center.y,
-            SwimmerQuantity::Z => center.z,
-            SwimmerQuantity::Angle => self.angle,
-            SwimmerQuantity::VelocityX => twist.linear.x,
-            SwimmerQuantity::VelocityY => twist.linear.y,
-            SwimmerQuantity::VelocityZ => twist.linear.z,
-            SwimmerQuantity::AngularVelocityX => twist.angular.x,
-            SwimmerQuantity::AngularVelocityY => twist.angular.y,
-            SwimmerQuantity::AngularVelocity | SwimmerQuantity::AngularVelocityZ => twist.angular.z,
-            SwimmerQuantity::ForceX => self.load.force.x,
-            SwimmerQuantity::ForceY => self.load.force.y,
-            SwimmerQuantity::ForceZ => self.load.force.z,
-            SwimmerQuantity::TorqueX => self.load.torque.x,
-            SwimmerQuantity::TorqueY => self.load.torque.y,
-            SwimmerQuantity::Torque | SwimmerQuantity::TorqueZ => self.load.torque.z,
-            SwimmerQuantity::Power => power,
-            SwimmerQuantity::ShapePower => shape_power,
-            SwimmerQuantity::ExpendedPower => expended_power,
-            SwimmerQuantity::Thrust => thrust,
-            SwimmerQuantity::Drag => drag,
-            SwimmerQuantity::CycleX => of_cycle(|means| means.displacement.x),
-            SwimmerQuantity::CycleY => of_cycle(|means| means.displacement.y),
-            SwimmerQuantity::CycleZ => of_cycle(|means| means.displacement.z),
+            SwimmerQuantity::Position => (*center).into(),
+            SwimmerQuantity::Angle => self.angle.into(),
+            SwimmerQuantity::Velocity => twist.linear.into(),
+            SwimmerQuantity::AngularVelocity => twist.angular.into(),
+            SwimmerQuantity::Force => self.load.force.into(),
+            SwimmerQuantity::Torque => self.load.torque.into(),
+            SwimmerQuantity::Power => power.into(),
+            SwimmerQuantity::ShapePower => shape_power.into(),
+            SwimmerQuantity::ExpendedPower => expended_power.into(),
+            SwimmerQuantity::Thrust => thrust.into(),
+            SwimmerQuantity::Drag => drag.into(),
+            SwimmerQuantity::CycleDisplacement => {
+                Value::of(self.means.as_ref().map(|means| means.displacement))
+            }
             SwimmerQuantity::CycleAngle => of_cycle(|means| means.angle),
             SwimmerQuantity::CycleSpeed => of_cycle(|means| means.speed),
             SwimmerQuantity::CyclePower => of_cycle(|means| means.power),
@@ -87,10 +80,11 @@ impl SwimmerMeasurement {
             SwimmerQuantity::CycleLighthillEfficiency => {
                 of_cycle(|means| means.lighthill_efficiency)
             }
-            SwimmerQuantity::MinimumGap => self.minimum_gap.unwrap_or(f64::NAN),
+            SwimmerQuantity::MinimumGap => self.minimum_gap.unwrap_or(f64::NAN).into(),
             SwimmerQuantity::LighthillEfficiency => self
                 .resistance
-                .map_or(f64::NAN, |force| force * twist.linear.norm_squared() / power),
+                .map_or(f64::NAN, |force| force * twist.linear.norm_squared() / power)
+                .into(),
         }
     }
 }
