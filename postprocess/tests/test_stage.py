@@ -27,6 +27,7 @@ from alewife_post import (
 )
 from alewife_post.cast import Cast, _cone
 from alewife_post.read import QUADRATIC_TETRAHEDRON, Field
+from alewife_post.request import chosen_moments
 
 NEEDS_WINDOW = pytest.mark.skipif(not CAN_RENDER, reason="VTK can have no window here")
 SMALL = ["--size", "320x240"]
@@ -390,7 +391,7 @@ def test_bodies_that_only_the_mesh_knows_are_read_once_a_frame(
     monkeypatch.setattr(camera.bodies, "shape", lambda *_: None)
     history = run.bodies["ball"]
     run.bodies.update({f"ball-{nth}": history for nth in range(3)})
-    moments = film.chosen_moments(run, film.Request(quantity="speed"))
+    moments = chosen_moments(run, film.Request(quantity="speed"))
     seen = camera.seen(run, moments, film.Request(quantity="speed"), np.zeros((len(moments), 3)))
     assert read == [moment.path for moment in moments]
     # The block from 1 to 2
