@@ -1,6 +1,7 @@
 """Which bodies swim together, what joins them, and how each of them swims.
 
-`from_case` works it out from the case, by the names that swimmers give their bodies.
+The program says so in `bodies.json`. Of runs of versions that did not write it, `from_case` works
+it out from the case, by the names that swimmers give their bodies.
 """
 
 from __future__ import annotations
@@ -54,6 +55,32 @@ class Members:
     """Unit vectors `(3,)` in the frames of squirmers whose heading does not turn in time."""
     deforming: set[str]
     """Bodies that change their shape."""
+
+
+def from_file(content: dict[str, Any]) -> Members:
+    """The content of `bodies.json`."""
+    bodies = content["bodies"]
+    return Members(
+        content["frame"],
+        {swimmer["name"]: swimmer["bodies"] for swimmer in content["swimmers"]},
+        [
+            Joint(
+                joint["kind"],
+                joint["parent"],
+                joint["child"],
+                np.array(joint["on_parent"]),
+                np.array(joint["on_child"]),
+                joint["swimmer"] is not None,
+            )
+            for joint in content["joints"]
+        ],
+        {body["name"]: body["gait"] for body in bodies if body["gait"] is not None},
+        {body["name"]: np.array(body["heading"]) for body in bodies if body["heading"] is not None},
+        {body["name"] for body in bodies if body["deforms"]},
+    )
+
+
+# ---- Runs of earlier versions --------------------------------------------------------------------
 
 
 def from_case(case: dict[str, Any], names: list[str], shapes: dict[str, list[Shape]]) -> Members:

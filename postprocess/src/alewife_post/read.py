@@ -19,7 +19,7 @@ from mcap.reader import NonSeekingReader
 
 from alewife_post import checked, packages
 from alewife_post.asked import Named
-from alewife_post.members import Members, from_case
+from alewife_post.members import Members, from_case, from_file
 from alewife_post.messages import BodyHistory, Message, Shape, Solid, body_history, shape_of
 from alewife_post.units import Given
 
@@ -135,6 +135,9 @@ class Run:
     @cached_property
     def members(self) -> Members:
         """Which bodies swim together, what joins them, and how each swims."""
+        path = self.path / "bodies.json"
+        if path.is_file():
+            return from_file(json.loads(path.read_text()))
         return from_case(self.case, list(self.bodies), self.shapes)
 
     @property
