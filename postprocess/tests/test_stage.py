@@ -18,6 +18,7 @@ from alewife_post import (
     camera,
     cli,
     cuts,
+    domains,
     film,
     isosurfaces,
     open_run,
@@ -202,7 +203,7 @@ def test_an_oblique_slice_lies_in_its_plane(run: Run) -> None:
 def test_the_camera_has_all_in_view_and_no_more(angles: tuple[float, float]) -> None:
     from alewife_post import scene
 
-    corners = camera.corners_of(np.array([[1.0, -2.0, 0.0], [4.0, 5.0, 1.0]]))
+    corners = domains.corners_of(np.array([[1.0, -2.0, 0.0], [4.0, 5.0, 1.0]]))
     for aspect in (0.5, 1.0, 2.0):
         found = camera.camera(scene.direction(angles), corners, aspect)
         frame = np.array([found.right, found.up, found.towards])
@@ -233,7 +234,7 @@ def test_gravity_points_down(run: Run) -> None:
         run.__dict__["case"] = run.case | {"fluid": {"gravity": gravity}}
         for plane in (None, planes.straight(0, 0.0), planes.straight(2, 0.0)):
             towards, up = camera.direction(run, film.Request(), plane)
-            found = camera.camera((towards, up), camera.corners_of(np.eye(3)[:2]), 1.0)
+            found = camera.camera((towards, up), domains.corners_of(np.eye(3)[:2]), 1.0)
             assert np.linalg.norm(towards) == pytest.approx(1.0)
             assert found.up @ gravity < 0.0
             assert abs(found.right @ gravity) < 1e-9 * np.linalg.norm(gravity)

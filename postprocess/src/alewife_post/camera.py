@@ -157,11 +157,6 @@ def beyond(run: Run) -> Array:
     return np.where(periods(run.case) > 0, largest, 0.0)
 
 
-def corners_of(box: Array) -> Array:
-    """All corners `(8, 3)` of a box `(2, 3)`."""
-    return np.array([[box[i, 0], box[j, 1], box[k, 2]] for i, j, k in np.ndindex(2, 2, 2)])
-
-
 def legend(page: Page, camera: Camera, units: str) -> None:
     """Directions of the axes and a length, in the lower corners."""
     page.axes.set_axis_off()

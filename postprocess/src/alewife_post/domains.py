@@ -60,6 +60,11 @@ def domain_box(case: dict[str, Any]) -> tuple[Array, Array]:
     return np.full(3, -np.inf), np.full(3, np.inf)
 
 
+def corners_of(box: Array) -> Array:
+    """All corners `(8, 3)` of a box `(2, 3)`."""
+    return np.array([[box[i, 0], box[j, 1], box[k, 2]] for i, j, k in np.ndindex(2, 2, 2)])
+
+
 def domain_view(case: dict[str, Any]) -> View | None:
     """All of a domain as its case has it; none if it is a mesh."""
     ((kind, domain),) = case["domain"].items()

@@ -164,9 +164,8 @@ def boundary_loops(field: Field) -> list[Array]:
     return loops
 
 
-def draw_arrows(axes: Axes, flow: list[Field], view: View, colour: str) -> None:
-    """Arrows on a regular grid, as long as the speed there."""
-    x, y, velocity = on_grid(flow, view, 28)
+def draw_arrows(axes: Axes, x: Array, y: Array, velocity: Array, colour: str) -> None:
+    """Arrows on a regular grid, as `on_grid` has it, as long as the speed there."""
     axes.quiver(
         x, y, velocity[..., 0], velocity[..., 1], color=colour, width=0.0018, zorder=3, pivot="mid"
     )

@@ -21,13 +21,13 @@ from alewife_post import (
     tracing,
 )
 from alewife_post.cuts import Cut, samples, whole_slice, within
-from alewife_post.domains import domain_box, periods
+from alewife_post.domains import corners_of, domain_box, periods
 from alewife_post.drawing import colour_bar
 from alewife_post.fields import flow_at
 from alewife_post.periodic import shifts
 from alewife_post.planes import Plane, parsed, through_bodies
 from alewife_post.read import Field, Run, check_run
-from alewife_post.snapshot import LINES, Painter, chosen_painter, title
+from alewife_post.snapshot import ARROWS, LINES, Painter, chosen_painter, title
 
 if TYPE_CHECKING:
     import pyvista
@@ -141,19 +141,14 @@ def _draw_lines(axes: Axes, run: Run, field: Field, cut: Cut, what: tuple[str, s
     flat = np.ma.masked_array(found.data @ cut.plane.across.T, found.mask[:, :2])
     velocity = flat.reshape(len(y), len(x), 2)
     if lines == "arrows":
-        _draw_arrows(axes, x, y, velocity, colour)
+        step = max(1, max(len(x), len(y)) // ARROWS)
+        drawing.draw_arrows(axes, x[::step], y[::step], velocity[::step, ::step], colour)
         return
     placed = bodies.poses(run, field.time)
     centers = np.array([center for center, _ in placed.values()]).reshape(-1, 3)
     middles = [cut.plane.coordinates(centers).mean(axis=0)] if len(centers) else []
     traced = tracing.traced(tracing.Grid.of(x, y, velocity), view, middles)
     drawing.draw_streamlines(axes, traced, view, colour)
-
-
-def _draw_arrows(axes: Axes, x: Array, y: Array, velocity: Array, colour: str) -> None:
-    step = max(1, max(len(x), len(y)) // 28)
-    u, v = (velocity[::step, ::step, k] for k in range(2))
-    axes.quiver(x[::step], y[::step], u, v, color=colour, width=0.0018, zorder=3, pivot="mid")
 
 
 def _region(plane: Plane, view: View) -> tuple[Array, Array]:
@@ -206,9 +201,7 @@ def _surroundings(run: Run, field: Field, plane: Plane) -> View:
     """The part of the domain around the bodies, in the coordinates of a slice."""
     places = plane.coordinates(field.nodes)
     if periods(run.case).any():
-        ends = np.array(domain_box(run.case))
-        box = [[ends[i, 0], ends[j, 1], ends[k, 2]] for i, j, k in np.ndindex(2, 2, 2)]
-        places = plane.coordinates(np.array(box))
+        places = plane.coordinates(corners_of(np.array(domain_box(run.case))))
         (x0, y0), (x1, y1) = places.min(axis=0), places.max(axis=0)
         return (x0, x1, y0, y1)
     low, high = places.min(axis=0), places.max(axis=0)

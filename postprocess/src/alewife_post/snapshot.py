@@ -29,6 +29,8 @@ LONGEST_STRIP = 8.0
 """A domain longer than this many widths is shown near its bodies only: whole, it is a line."""
 FOLLOWED = 4.0
 """Half the height of a view over the reach of the body it follows."""
+ARROWS = 28
+"""Arrows on the longer side of a view."""
 ABOVE_TRAILS = 5.7
 """Where bodies are drawn once more, so that ways end at them."""
 NEAR_SWIMMER = 0.5
@@ -87,7 +89,7 @@ def paint(
             axes, _traced(flow, view, is_mirrored=look.is_mirrored), view, colour
         )
     elif look.lines == "arrows":
-        drawing.draw_arrows(axes, flow, view, colour)
+        drawing.draw_arrows(axes, *drawing.on_grid(flow, view, ARROWS), colour)
 
 
 def _traced(flow: list[Field], view: View, *, is_mirrored: bool) -> Streamlines:

@@ -12,7 +12,7 @@ from alewife_post import camera as view
 from alewife_post import isosurfaces, planes, scene, style, surfaces
 from alewife_post.cast import Cast
 from alewife_post.cuts import Cut, samples, whole_slice
-from alewife_post.domains import domain_box
+from alewife_post.domains import corners_of, domain_box
 from alewife_post.page import Page
 from alewife_post.read import Field, Run
 from alewife_post.request import (
@@ -94,7 +94,7 @@ def _pages(run: Run, moments: list[Moment], request: Request, finer: int) -> Ite
         look["show_scalar_bar"] = False
         look |= style.SOLID if request.surface else {"lighting": False, "opacity": alpha}
     page = Page(request.size, title, None, bar)
-    corners = view.corners_of(seen.box + np.outer([-1.0, 1.0], view.beyond(run)))
+    corners = corners_of(seen.box + np.outer([-1.0, 1.0], view.beyond(run)))
     if cut is not None and not seen.is_whole:
         corners = np.concatenate([cut.corners(), seen.points])
     direction = view.direction(run, request, cut and cut.plane)
@@ -140,7 +140,7 @@ def _cut(run: Run, moments: list[Moment], request: Request, seen: view.Seen, mov
         plane = planes.through_bodies(run, times[:1] if moves else times, seen.box)
     if moves:
         plane = replace(plane, origin=plane.origin - moved[0])
-    box = plane.coordinates(view.corners_of(seen.box))
+    box = plane.coordinates(corners_of(seen.box))
     low, high = box.min(axis=0), box.max(axis=0)
     if not seen.is_whole:
         near = plane.coordinates(seen.points)
