@@ -182,6 +182,9 @@ def write_run(path: Path, *, is_axisymmetric: bool) -> None:
         nodes, cells = ring(end=np.pi)
     (path / "fields").mkdir(parents=True)
     (path / "case.toml").write_text(CASE.format(geometry=geometry, shape=shape, center=center))
+    body = {"name": "disc", "gait": None, "heading": None, "deforms": False}
+    bodies = {"frame": None, "bodies": [body], "swimmers": [], "joints": []}
+    (path / "bodies.json").write_text(json.dumps(bodies))
     (path / "status.json").write_text('{"state": "finished", "step": 40}\n')
     (path / "provenance.json").write_text('{"alewife": "0.1.0"}\n')
     rows = "".join(f"{time!r},{float(np.sin(time))!r}\n" for time in TIMES.tolist())

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 from typing import Any
 
@@ -190,6 +191,48 @@ def test_bodies_that_deform_are_known_by_their_gait() -> None:
     # Unless its shape was written again and again
     shapes = {"fish": [*ball([1.0, 1.0, 1.0]), Shape(1.0, [], [])]}
     assert bodies.deforming(made({"body": [fish, disc]}, found, shapes)) == set()
+
+
+def test_bodies_are_joined_and_swim_as_the_program_wrote(tmp_path: Path) -> None:
+    still = {"gait": None, "heading": None, "deforms": False}
+    content = {
+        "frame": "tail",
+        "bodies": [
+            {"name": "head", "gait": "squirmer", "heading": [0.0, 1.0, 0.0], "deforms": False},
+            {"name": "tail", "gait": "flagellum", "heading": None, "deforms": True},
+            {"name": "other"} | still,
+        ],
+        "swimmers": [{"name": "pair", "bodies": ["head", "tail"]}],
+        "joints": [
+            {
+                "kind": "hinge",
+                "parent": "head",
+                "child": "tail",
+                "on_parent": [-1.25, 0.0, 0.0],
+                "on_child": [1.25, 0.0, 0.0],
+                "swimmer": "pair",
+            }
+        ],
+    }
+    (tmp_path / "bodies.json").write_text(json.dumps(content))
+    names = ("other", "tail", "head")
+    found = {name: history(at([-2.5 * (name == "tail"), 0, 0])) for name in names}
+    run = Run(tmp_path)
+    run.__dict__["case"] = {"geometry": "spatial"}
+    shapes = {name: ball([1.0, 1.0, 1.0]) for name in found}
+    run.__dict__["_bodies_and_shapes"] = (found, shapes)
+    assert bodies.groups(run) == {"pair": ["head", "tail"], "other": ["other"]}
+    placed = bodies.poses(run, 0.0)
+    (rod,) = bodies.rods(run, placed, 0.0)
+    np.testing.assert_allclose(rod, [[-1, 0, 0], [-1.25, 0, 0], [-1.5, 0, 0]])
+    (arrow,) = bodies.headings(run, placed)
+    np.testing.assert_allclose(arrow.start, [0, 1, 0])
+    assert bodies.deforming(run) == {"tail"}
+    assert bodies.swims(run)
+    assert run.members.frame == "tail"
+    # A body without messages is in no group
+    del found["tail"]
+    assert bodies.groups(run) == {"pair": ["head"], "other": ["other"]}
 
 
 # ---- Periodic domains ----------------------------------------------------------------------------

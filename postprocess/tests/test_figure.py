@@ -11,9 +11,10 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from mpl_toolkits.axes_grid1.anchored_artists import AnchoredSizeBar
 
-from alewife_post import Run, cli, drawing, figure, series, snapshot, style
+from alewife_post import Run, cli, drawing, fields, figure, series, snapshot, style
 from alewife_post.drawing import boundary_loops
 from alewife_post.elements import smooth_outline
+from alewife_post.quantities import percentile
 from alewife_post.read import Field
 from alewife_post.units import units_of
 
@@ -88,7 +89,7 @@ def test_the_bar_lies_beside_the_picture_and_scales_are_equal(planar_run: Run) -
 
 
 def test_a_frame_that_moves_with_a_body_loses_its_velocity(planar_run: Run) -> None:
-    np.testing.assert_allclose(figure.body_velocity(planar_run, "disc", 4.0), [0.5, 0.0])
+    np.testing.assert_allclose(fields.body_velocity(planar_run, "disc", 4.0), [0.5, 0.0])
     drawn = figure.picture(planar_run, "speed", frame="disc", lines="none", painter="matplotlib")
     assert drawn.axes[1].get_ylabel() == "speed (m/s) relative to disc"
 
@@ -145,9 +146,9 @@ def test_limits_of_vorticity_do_not_depend_on_the_fluid_at_rest() -> None:
 
 def test_a_percentile_is_that_of_a_uniform_distribution() -> None:
     values = np.random.default_rng(3).permutation(np.linspace(0.0, 1.0, 2001))
-    assert style.percentile(values, np.ones(2001), 25.0) == pytest.approx(0.25, abs=1e-3)
+    assert percentile(values, np.ones(2001), 25.0) == pytest.approx(0.25, abs=1e-3)
     # Shares that grow with the value: the density is 2 v, half of it lies below the root of 1/2
-    assert style.percentile(values, values, 50.0) == pytest.approx(0.5**0.5, abs=1e-3)
+    assert percentile(values, values, 50.0) == pytest.approx(0.5**0.5, abs=1e-3)
 
 
 def test_a_body_that_the_view_cuts_keeps_its_colour(planar_run: Run) -> None:
@@ -280,9 +281,9 @@ def test_what_rounding_leaves_of_a_flow_is_not_shown(planar_run: Run) -> None:
     field = planar_run.field()
     # The body has had a speed of 0.5
     faint = replace(field, velocity=1e-11 * field.velocity)
-    assert not snapshot.settled(planar_run, faint).velocity.any()
+    assert not fields.settled(planar_run, faint).velocity.any()
     slow = replace(field, velocity=1e-6 * field.velocity)
-    assert snapshot.settled(planar_run, slow) is slow
+    assert fields.settled(planar_run, slow) is slow
 
 
 def test_a_view_stands_back_from_the_end_of_the_domain(planar_run: Run) -> None:

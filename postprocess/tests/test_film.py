@@ -11,8 +11,9 @@ import pytest
 from conftest import CAN_RENDER, TIMES, ring, write_vtu
 from PIL import Image
 
-from alewife_post import Run, cli, film, movie, open_run, style
-from alewife_post.page import Page, fitting
+from alewife_post import Run, cli, film, movie, open_run, planar, style
+from alewife_post.page import Bar, Page, fitting
+from alewife_post.request import chosen_moments, offsets
 
 imageio_ffmpeg = pytest.importorskip("imageio_ffmpeg")
 
@@ -144,16 +145,16 @@ def test_a_film_that_fails_leaves_nothing_behind(tmp_path: Path) -> None:
 
 
 def test_frames_have_times_of_what_was_written(growing: Run) -> None:
-    moments = film.chosen_moments(growing, film.Request(quantity="pressure"))
+    moments = chosen_moments(growing, film.Request(quantity="pressure"))
     assert [moment.time for moment in moments] == pytest.approx([0.4 * k for k in range(6)])
     assert [moment.path for moment in moments] == [frame.path for frame in growing.fields]
     # Fewer frames are spread over all of the time, and none lies between two fields
-    moments = film.chosen_moments(growing, film.Request(quantity="pressure", frames=3))
+    moments = chosen_moments(growing, film.Request(quantity="pressure", frames=3))
     assert [moment.time for moment in moments] == pytest.approx([0.0, 0.8, 2.0])
-    moments = film.chosen_moments(growing, film.Request(quantity="bodies", window=(1.0, 2.0)))
+    moments = chosen_moments(growing, film.Request(quantity="bodies", window=(1.0, 2.0)))
     assert [moment.time for moment in moments] == pytest.approx(TIMES[10:21])
     with pytest.raises(ValueError, match="nothing between t = 7 and 8: there is t = 0 to 2"):
-        film.chosen_moments(growing, film.Request(quantity="speed", window=(7.0, 8.0)))
+        chosen_moments(growing, film.Request(quantity="speed", window=(7.0, 8.0)))
 
 
 def test_frames_are_evenly_spaced_in_time_though_fields_are_not(growing: Run) -> None:
@@ -162,7 +163,7 @@ def test_frames_are_evenly_spaced_in_time_though_fields_are_not(growing: Run) ->
     growing.__dict__["fields"] = [
         type(frame)(time, frame.path) for frame, time in zip(frames, uneven, strict=True)
     ]
-    moments = film.chosen_moments(growing, film.Request(quantity="speed"))
+    moments = chosen_moments(growing, film.Request(quantity="speed"))
     # Nearest to 0, 0.4, 0.8, 1.2, 1.6, 2.0: the flow stays as long as it was not written
     assert [moment.time for moment in moments] == [0.0, 0.5, 0.5, 0.5, 2.0, 2.0]
 
@@ -223,11 +224,11 @@ def test_who_is_followed_stays_where_it_is(planar_run: Run, tmp_path: Path) -> N
 def test_a_view_that_follows_stops_at_the_end_of_the_domain(growing: Run) -> None:
     # The disc goes from 0 to 1 along x; a body half as large has a view half as wide
     request = film.Request(quantity="speed", follow="disc", is_asked=True)
-    moments = film.chosen_moments(growing, request)
-    moved = 3.0 * film.offsets(growing, "disc", moments)[:, :2]
+    moments = chosen_moments(growing, request)
+    moved = 3.0 * offsets(growing, "disc", moments)[:, :2]
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(film, "followed_view", lambda *_: (-0.8, 0.8, -0.6, 0.6))
-        view, back = film._planar_views(growing, moments, request, moved)
+        patch.setattr(planar, "followed_view", lambda *_: (-0.8, 0.8, -0.6, 0.6))
+        view, back = planar.views(growing, moments, request, moved)
     ends = view[1] + moved[:, 0] + back[:, 0]
     assert ends == pytest.approx(np.minimum(0.8 + moved[:, 0], 2.0))
     assert np.abs(back[:3]).max() < 1e-12
@@ -255,7 +256,7 @@ def test_pages_fit_what_is_seen() -> None:
             assert width % 2 == height % 2 == 0
             assert width <= 960
             assert height <= 720
-            bar = ("viridis", (0.0, 1.0), np.array([0.0, 1.0]), "speed", 1.0)
+            bar = Bar("viridis", (0.0, 1.0), np.array([0.0, 1.0]), "speed")
             page = Page(None, "A title", aspect, bar if has_bar else None)
             across, up = page.pixels
             assert abs(across / up / aspect - 1) < 0.03
@@ -376,7 +377,7 @@ def test_bodies_are_where_the_mesh_has_them_if_no_message_tells(
     kept = history.time < 0.85
     for name, values in list(vars(history).items()):
         object.__setattr__(history, name, values[kept])
-    moments = film.chosen_moments(growing, film.Request(quantity="pressure"))
+    moments = chosen_moments(growing, film.Request(quantity="pressure"))
     assert [moment.time for moment in moments] == pytest.approx([0.0, 0.4, 0.8])
     # The hole of the mesh is about the origin, wherever a message of another time has the disc
     out = tmp_path / "film.mp4"

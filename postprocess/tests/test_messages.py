@@ -16,6 +16,7 @@ import pytest
 from mcap.reader import make_reader
 
 from alewife_post import open_run
+from alewife_post.members import from_case
 
 PUBLISHED = {
     f"foxglove.{path.stem}": json.loads(path.read_text())
@@ -72,6 +73,22 @@ def test_messages_are_valid_by_published_and_by_own_schemas(made: tuple) -> None
     assert len(seen["/scene"]) == (n_rows if kind in DEFORMING else 1)
     for topic in {"/forces", *scenes}:
         assert len(seen[topic]) == n_rows
+
+
+def test_bodies_are_told_as_names_and_case_tell_them(made: tuple) -> None:
+    _, out, _ = made
+    run = open_run(out)
+    assert (out / "bodies.json").is_file()
+    named = from_case(run.case, list(run.bodies), run.shapes)
+    told = run.members
+    assert told.swimmers == named.swimmers
+    assert told.gaits == named.gaits
+    assert told.deforming == named.deforming
+    assert told.headings.keys() == named.headings.keys()
+    for name, heading in told.headings.items():
+        np.testing.assert_allclose(heading, named.headings[name], atol=2e-3)
+    pairs = [{frozenset((one.parent, one.child)) for one in of.joints} for of in (told, named)]
+    assert pairs[0] == pairs[1]
 
 
 def test_quantities_are_those_of_the_series(made: tuple) -> None:

@@ -10,7 +10,7 @@ import pytest
 from conftest import CAN_RENDER, block
 from matplotlib.figure import Figure
 
-from alewife_post import Run, cuts, open_run, slices, space, surfaces
+from alewife_post import Run, cuts, domains, open_run, sections, slices, space, surfaces
 from alewife_post.cli import picture
 from alewife_post.planes import straight
 from alewife_post.read import QUADRATIC_TETRAHEDRON, Field
@@ -67,14 +67,14 @@ def test_fields_are_read_with_three_components(run: Run) -> None:
 
 def test_samples_are_those_of_the_quadratic_flow_and_masked_in_bodies(run: Run) -> None:
     points = np.array([[0.3, 0.4, 0.2], [2.7, 1.1, 0.9], [1.5, 1.5, 1.5]])
-    found = space.sample(run.field(), points, "speed")
+    found = sections.sample(run.field(), points, "speed")
     x, y, z = points[:2].T
     velocity = np.stack([y**2, z * x, 1.0 + x], axis=1)
     # A quarter of the second derivative, over pieces half as wide as the cells
     assert found["velocity"].data[:2] == pytest.approx(velocity, abs=0.07)
     nodes = run.field().nodes[::7]
     exact = np.stack([nodes[:, 1] ** 2, nodes[:, 2] * nodes[:, 0], 1.0 + nodes[:, 0]], axis=1)
-    assert space.sample(run.field(), nodes, "speed")["velocity"].data == pytest.approx(
+    assert sections.sample(run.field(), nodes, "speed")["velocity"].data == pytest.approx(
         exact, abs=1e-5
     )
     assert found["values"].mask.tolist() == [False, False, True]
@@ -93,7 +93,7 @@ def test_points_just_inside_a_body_are_no_fluid_however_large_the_domain(run: Ru
         vorticity=np.vstack([field.vorticity, field.vorticity[:10]]),
     )
     points = np.array([[1.001, 1.5, 1.5], [0.999, 1.5, 1.5]])
-    assert space.sample(grown, points, "speed")["values"].mask.tolist() == [True, False]
+    assert sections.sample(grown, points, "speed")["values"].mask.tolist() == [True, False]
 
 
 def test_the_surface_of_bodies_has_no_sides_of_the_domain(run: Run) -> None:
@@ -148,20 +148,20 @@ def test_a_side_of_the_domain_can_be_looked_at(run: Run) -> None:
 
 def test_the_sides_of_a_domain_are_outlined(run: Run) -> None:
     plane, region = straight(2, 1.4), (np.zeros(3), np.full(3, 3.0))
-    sides = space.side_sections(run, run.field(), plane, region)
+    sides = sections.side_sections(run, run.field(), plane, region)
     length = sum(np.linalg.norm(np.diff(side, axis=0), axis=1).sum() for side in sides)
     assert length == pytest.approx(12.0, rel=1e-6)
     # But for where a periodic mesh is cut open
     other, moved = cut_open_elsewhere(run)
-    sides = space.side_sections(other, moved, plane, region)
+    sides = sections.side_sections(other, moved, plane, region)
     assert all(np.ptp(side[:, 1]) < 1e-9 for side in sides)
 
 
 def test_a_plane_cuts_the_block_in_a_square(run: Run) -> None:
-    (square,) = space.sections(run, run.field(), straight(2, 1.4))
+    (square,) = sections.sections(run, run.field(), straight(2, 1.4))
     assert square[:, 2] == pytest.approx(1.4)
     assert np.ptp(square[:, :2], axis=0) == pytest.approx([1.0, 1.0], abs=1e-6)
-    assert space.sections(run, run.field(), straight(2, 0.5)) == []
+    assert sections.sections(run, run.field(), straight(2, 0.5)) == []
 
 
 @pytest.mark.parametrize("domain", ["cylinder", "sphere"])
@@ -171,7 +171,7 @@ def test_nodes_on_round_sides_are_found(domain: str) -> None:
         "sphere": {"domain": {"sphere": {"radius": 2.0}}},
     }[domain]
     nodes = np.array([[0.0, 1.2, 1.6], [0.3, 0.4, 0.5]])
-    least = np.abs(surfaces.distances_to_sides(case, nodes)).min(axis=1)
+    least = np.abs(domains.distances_to_sides(case, nodes)).min(axis=1)
     assert least[0] < 1e-12 < least[1]
 
 
@@ -271,8 +271,8 @@ def test_a_periodic_domain_goes_on_beyond_its_mesh(run: Run) -> None:
 
     other, moved = cut_open_elsewhere(run)
     points = np.array([[0.3, 0.4, 0.2], [2.7, 1.1, 0.9], [1.5, 1.5, 1.5]])
-    here = space.sample(run.field(), points, "pressure")
-    there = space.sample(moved, points, "pressure", other.case)
+    here = sections.sample(run.field(), points, "pressure")
+    there = sections.sample(moved, points, "pressure", other.case)
     assert there["values"].mask.tolist() == [False, False, True]
     assert there["values"].data[:2] == pytest.approx(here["values"].data[:2], abs=1e-6)
     cut = cuts.Cut(straight(2, 1.4), np.zeros(2), np.full(2, 3.0), moves=False)
@@ -287,9 +287,9 @@ def test_a_periodic_domain_goes_on_beyond_its_mesh(run: Run) -> None:
 
 def test_bodies_are_whole_wherever_a_view_reaches_beyond_a_periodic_box(run: Run) -> None:
     other, _ = cut_open_elsewhere(run)
-    here = space.sections(other, run.field(), straight(2, 1.4))
+    here = sections.sections(other, run.field(), straight(2, 1.4))
     region = (np.array([-1.9, 0.0, 0.0]), np.array([4.9, 3.0, 3.0]))
-    found = space.sections(other, run.field(), straight(2, 1.4), region)
+    found = sections.sections(other, run.field(), straight(2, 1.4), region)
     assert len(here) == 1
     middles = sorted(float(curve[:, 0].min() + curve[:, 0].max()) / 2 for curve in found)
     assert middles == pytest.approx([-1.5, 1.5, 4.5])
@@ -334,7 +334,8 @@ def test_faces_at_a_wall_of_a_huge_domain_that_travels_are_told_from_a_body_besi
     centers = np.array([[0.0, 0.0, 0.0], [3.0, 0.0, 0.0]])
     turns = np.array([[0.0, 0.0, 0.0, 1.0]] * 2)
     history = SimpleNamespace(time=np.array([0.0, 1.0]), center=centers, rotation=turns)
-    run = SimpleNamespace(case=case, bodies={"one": history})
+    members = SimpleNamespace(frame="one")
+    run = SimpleNamespace(case=case, bodies={"one": history}, members=members)
     around = np.array([[0, 0], [0.1, 0], [0, 0.1], [0.05, 0], [0.05, 0.05], [0, 0.05]]) * 1e-5
     wall = np.column_stack([np.ones(6), around])
     wall *= 1e5 / np.linalg.norm(wall, axis=1, keepdims=True)

@@ -18,6 +18,7 @@ from alewife_post import (
     camera,
     cli,
     cuts,
+    domains,
     film,
     isosurfaces,
     open_run,
@@ -27,6 +28,7 @@ from alewife_post import (
 )
 from alewife_post.cast import Cast, _cone
 from alewife_post.read import QUADRATIC_TETRAHEDRON, Field
+from alewife_post.request import chosen_moments
 
 NEEDS_WINDOW = pytest.mark.skipif(not CAN_RENDER, reason="VTK can have no window here")
 SMALL = ["--size", "320x240"]
@@ -201,7 +203,7 @@ def test_an_oblique_slice_lies_in_its_plane(run: Run) -> None:
 def test_the_camera_has_all_in_view_and_no_more(angles: tuple[float, float]) -> None:
     from alewife_post import scene
 
-    corners = camera.corners_of(np.array([[1.0, -2.0, 0.0], [4.0, 5.0, 1.0]]))
+    corners = domains.corners_of(np.array([[1.0, -2.0, 0.0], [4.0, 5.0, 1.0]]))
     for aspect in (0.5, 1.0, 2.0):
         found = camera.camera(scene.direction(angles), corners, aspect)
         frame = np.array([found.right, found.up, found.towards])
@@ -232,7 +234,7 @@ def test_gravity_points_down(run: Run) -> None:
         run.__dict__["case"] = run.case | {"fluid": {"gravity": gravity}}
         for plane in (None, planes.straight(0, 0.0), planes.straight(2, 0.0)):
             towards, up = camera.direction(run, film.Request(), plane)
-            found = camera.camera((towards, up), camera.corners_of(np.eye(3)[:2]), 1.0)
+            found = camera.camera((towards, up), domains.corners_of(np.eye(3)[:2]), 1.0)
             assert np.linalg.norm(towards) == pytest.approx(1.0)
             assert found.up @ gravity < 0.0
             assert abs(found.right @ gravity) < 1e-9 * np.linalg.norm(gravity)
@@ -390,7 +392,7 @@ def test_bodies_that_only_the_mesh_knows_are_read_once_a_frame(
     monkeypatch.setattr(camera.bodies, "shape", lambda *_: None)
     history = run.bodies["ball"]
     run.bodies.update({f"ball-{nth}": history for nth in range(3)})
-    moments = film.chosen_moments(run, film.Request(quantity="speed"))
+    moments = chosen_moments(run, film.Request(quantity="speed"))
     seen = camera.seen(run, moments, film.Request(quantity="speed"), np.zeros((len(moments), 3)))
     assert read == [moment.path for moment in moments]
     # The block from 1 to 2

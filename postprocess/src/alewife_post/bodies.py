@@ -3,21 +3,19 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import pairwise
 from typing import Any
 
 import numpy as np
 
 from alewife_post import asked
 from alewife_post.elements import centroid, smooth_outline
-from alewife_post.read import BodyHistory, Run, Shape, Solid
+from alewife_post.members import Joint
+from alewife_post.messages import BodyHistory, Shape, Solid, rotation_matrix
+from alewife_post.read import Run
 
 Array = np.ndarray
 Pose = tuple[Array, Array]
 """Centre `(3,)` and rotation matrix `(3, 3)` from the body's frame to the world."""
-
-DEFORMING = ("carangiform", "anguilliform", "flagellum", "joints", "pulsating")
-"""Gaits by which a body changes its shape."""
 
 ARROW = 0.07
 """Length of an arrow before a body over the longer side of a view."""
@@ -25,18 +23,6 @@ CLEAR = 0.2
 """Room before it, over its length."""
 LONGEST_INSIDE = 0.15
 """That of one in a body, at most."""
-
-
-def rotation_matrix(quaternion: Array) -> Array:
-    """The matrix `(3, 3)` of a quaternion x, y, z, w."""
-    x, y, z, w = quaternion / np.linalg.norm(quaternion)
-    return np.array(
-        [
-            [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-            [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-            [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
-        ]
-    )
 
 
 def poses(run: Run, time: float) -> dict[str, Pose]:
@@ -101,30 +87,12 @@ def _simple_shape(given: dict[str, Any]) -> Shape | None:
     return Shape(0.0, [Solid("ellipsoid", np.zeros(3), turn, size, (1.0, 1.0))], [])
 
 
-def extents(seen: Shape) -> tuple[Array, Array]:
-    """Lowest and highest corner `(3,)` of a shape in its own frame."""
-    low, high = [], []
-    for solid in seen.solids:
-        # Of the box around an ellipsoid or cylinder that is turned
-        half = np.abs(rotation_matrix(solid.rotation)) @ (solid.size / 2)
-        if solid.kind == "ellipsoid":
-            half = np.linalg.norm(rotation_matrix(solid.rotation) * (solid.size / 2), axis=1)
-        low.append(solid.position - half)
-        high.append(solid.position + half)
-    for line in seen.lines:
-        low.append(np.append(line.min(axis=0), 0.0))
-        high.append(np.append(line.max(axis=0), 0.0))
-    if not low:
-        return np.zeros(3), np.zeros(3)
-    return np.min(low, axis=0), np.max(high, axis=0)
-
-
 def corners(run: Run, name: str, pose: Pose) -> tuple[Array, Array]:
     """Lowest and highest corner `(3,)` of a body that is placed somewhere, by its first shape."""
     seen = shape(run, name, 0.0)
     if seen is None:
         return pose[0], pose[0]
-    low, high = extents(seen)
+    low, high = seen.extents()
     middle = pose[0] + pose[1] @ (0.5 * (low + high))
     half = np.abs(pose[1]) @ (0.5 * (high - low))
     return middle - half, middle + half
@@ -155,7 +123,7 @@ def radius(run: Run, name: str) -> float:
     seen = shape(run, name, 0.0)
     if seen is None:
         return 0.0
-    corners = np.abs(np.array(extents(seen))).max(axis=0)
+    corners = np.abs(np.array(seen.extents())).max(axis=0)
     # A ball has no corners
     is_planar = not run.is_spatial
     return float(corners[:2].max() if is_planar else corners.max())
@@ -166,7 +134,7 @@ def _thickness(run: Run, name: str) -> float:
     seen = shape(run, name, 0.0)
     if seen is None:
         return 0.0
-    low, high = extents(seen)
+    low, high = seen.extents()
     # In the plane solids are flat.
     return float(0.5 * (high - low)[: 3 if run.is_spatial else 2].min())
 
@@ -174,12 +142,12 @@ def _thickness(run: Run, name: str) -> float:
 def groups(run: Run) -> dict[str, list[str]]:
     """Bodies of each swimmer, and each body that belongs to none."""
     names = list(run.bodies) or [body["name"] for body in run.case.get("body", [])]
-    found: dict[str, list[str]] = {}
-    for swimmer in run.case.get("swimmer", []):
-        for name in _copies(swimmer, names):
-            own = _members(swimmer, name, names)
-            if own:
-                found[name] = own
+    known = set(names)
+    found = {
+        swimmer: own
+        for swimmer, members in run.members.swimmers.items()
+        if (own := [name for name in members if name in known])
+    }
     grouped = {name for own in found.values() for name in own}
     return found | {name: [name] for name in names if name not in grouped}
 
@@ -201,87 +169,53 @@ def middle(run: Run, name: str, time: float) -> Array:
     return np.mean([placed[member][0] for member in followed(run, name)], axis=0)
 
 
-def _copies(swimmer: dict[str, Any], names: list[str]) -> list[str]:
-    name = swimmer["name"]
-    if "copies" not in swimmer:
-        return [name]
-    numbers = {
-        other.removeprefix(f"{name}-").split("-")[0]
-        for other in names
-        if other.startswith(f"{name}-")
-    }
-    return [f"{name}-{number}" for number in sorted(filter(str.isdigit, numbers), key=int)]
-
-
-def _members(swimmer: dict[str, Any], name: str, names: list[str]) -> list[str]:
-    kind, values = next(iter(swimmer["kind"].items()))
-    if kind == "bodies":
-        return [other for other in values if other in names]
-    if name in names:
-        return [name]
-    known = set(names)
-    return [own for nth in range(1, len(names) + 1) if (own := f"{name}-{nth}") in known]
-
-
 def rods(run: Run, placed: dict[str, Pose], time: float) -> list[Array]:
     """Arms and pivots between bodies that are placed somewhere, polylines `(n, 3)`."""
     found = []
-    own = groups(run)
-    names = list(run.bodies)
-    for swimmer in run.case.get("swimmer", []):
-        kind, values = next(iter(swimmer["kind"].items()))
-        for name in _copies(swimmer, names):
-            members = own.get(name, [])
-            match kind:
-                case "linked-spheres":
-                    pairs = list(pairwise(members))
-                case "star":
-                    pairs = [(members[0], other) for other in members[1:]]
-                case "chain":
-                    found += _links(run, members, placed, values["gap"], time)
-                    continue
-                case _:
-                    continue
-            found += [_arm(run, (a, b), placed) for a, b in pairs]
-    for joint in run.case.get("joint", []):
-        if joint["parent"] in placed and joint["child"] in placed:
-            found.append(_joint(joint, placed))
+    for joint in run.members.joints:
+        if joint.parent not in placed or joint.child not in placed:
+            continue
+        if not joint.is_of_swimmer:
+            found.append(_attached(joint, placed))
+        elif joint.is_arm:
+            found.append(_arm(run, joint, placed))
+        else:
+            found += _pivot(run, joint, placed, time)
     return found
 
 
-def _arm(run: Run, pair: tuple[str, str], placed: dict[str, Pose]) -> Array:
+def _ends(joint: Joint, placed: dict[str, Pose]) -> tuple[Array, Array]:
+    """Where a joint is on its parent and on its child, `(3,)`."""
+    (center, turn), (other, other_turn) = placed[joint.parent], placed[joint.child]
+    return center + turn @ joint.on_parent, other + other_turn @ joint.on_child
+
+
+def _attached(joint: Joint, placed: dict[str, Pose]) -> Array:
+    """From the centre of the parent to the joint, and along an arm."""
+    on_parent, on_child = _ends(joint, placed)
+    ends = [placed[joint.parent][0], on_parent]
+    return np.array([*ends, on_child] if joint.is_arm else ends)
+
+
+def _arm(run: Run, joint: Joint, placed: dict[str, Pose]) -> Array:
     """From surface to surface of two balls."""
-    start, end = (placed[name][0] for name in pair)
+    start, end = placed[joint.parent][0], placed[joint.child][0]
     along = (end - start) / np.linalg.norm(end - start)
-    first, last = (radius(run, name) for name in pair)
+    first, last = radius(run, joint.parent), radius(run, joint.child)
     return np.array([start + first * along, end - last * along])
 
 
-def _joint(joint: dict[str, Any], placed: dict[str, Pose]) -> Array:
-    def point(body: str, key: str) -> Array:
-        center, turn = placed[body]
-        return center + turn @ np.array([*joint.get(key, []), 0.0, 0.0, 0.0])[:3]
-
-    ends = [placed[joint["parent"]][0], point(joint["parent"], "on_parent")]
-    if next(iter(joint["kind"])) == "arm":
-        ends.append(point(joint["child"], "on_child"))
-    return np.array(ends)
-
-
-def _links(
-    run: Run, members: list[str], placed: dict[str, Pose], gap: float, time: float
-) -> list[Array]:
-    """From the back end of each link by the pivot to the front end of the next one."""
-    found = []
-    for before, after in pairwise(members):
-        shapes = [shape(run, name, time) for name in (before, after)]
-        if None in shapes:
-            continue
-        (center, turn), (other, other_turn) = placed[before], placed[after]
-        back = center + extents(shapes[0])[0][0] * turn[:, 0]
-        front = other + extents(shapes[1])[1][0] * other_turn[:, 0]
-        found.append(np.array([back, back - 0.5 * gap * turn[:, 0], front]))
-    return found
+def _pivot(run: Run, joint: Joint, placed: dict[str, Pose], time: float) -> list[Array]:
+    """From the end of one link by the pivot to the end of the other one."""
+    ends = []
+    for name, at in ((joint.parent, joint.on_parent), (joint.child, joint.on_child)):
+        seen = shape(run, name, time)
+        if seen is None:
+            return []
+        center, turn = placed[name]
+        ends.append(center + turn @ np.clip(at, *seen.extents()))
+    pivot, _ = _ends(joint, placed)
+    return [np.array([ends[0], pivot, ends[1]])]
 
 
 @dataclass(frozen=True)
@@ -317,12 +251,11 @@ def headings(run: Run, placed: dict[str, Pose]) -> list[Heading]:
     """
     found = []
     pointed = set()
-    for name, gait in _gaits(run):
-        # Where the heading turns in time, it is not written.
-        if name in placed and "squirmer" in gait and "turn" not in gait["squirmer"]:
+    for name, heading in run.members.headings.items():
+        if name in placed:
             pointed.add(name)
             center, turn = placed[name]
-            found.append(_arrow_of_squirmer(run, name, center, turn @ _heading(gait["squirmer"])))
+            found.append(_arrow_of_squirmer(run, name, center, turn @ heading))
     for members in groups(run).values():
         if len(members) < 2 or any(name in pointed or name not in run.bodies for name in members):
             continue
@@ -347,39 +280,11 @@ def _arrow_of_squirmer(run: Run, name: str, center: Array, along: Array) -> Head
     return Heading(center - 0.55 * size * along, 1.1 * size * along, True)
 
 
-def _heading(squirmer: dict[str, Any]) -> Array:
-    axis = squirmer.get("axis")
-    if axis is not None:
-        return np.array(axis, dtype=float) / np.linalg.norm(axis)
-    angle = squirmer.get("heading", 0.0)
-    return np.array([np.cos(angle), np.sin(angle), 0.0])
-
-
-def _gaits(run: Run) -> list[tuple[str, dict[str, Any]]]:
-    """Name of a body and its gait, of all bodies that have one."""
-    names = list(run.bodies)
-    found = [(body["name"], body["gait"]) for body in run.case.get("body", []) if body.get("gait")]
-    for swimmer in run.case.get("swimmer", []):
-        kind, values = next(iter(swimmer["kind"].items()))
-        for name in _copies(swimmer, names):
-            members = _members(swimmer, name, names)
-            if kind == "body" and values.get("gait"):
-                found += [(member, values["gait"]) for member in members]
-            elif kind == "linked-spheres" and values.get("gaits"):
-                found += list(zip(members, values["gaits"], strict=False))
-            elif kind == "chain" and values.get("skin") is not None:
-                found += [(member, {"joints": {}}) for member in members]
-    return found
-
-
 def deforming(run: Run) -> set[str]:
     """Bodies whose shape changes in time and was written once only."""
-    changing = {name for name, gait in _gaits(run) if next(iter(gait)) in DEFORMING}
-    return {name for name in changing if len(run.shapes.get(name, [])) < 2}
+    return {name for name in run.members.deforming if len(run.shapes.get(name, [])) < 2}
 
 
 def swims(run: Run) -> bool:
     """Whether anything in a run swims."""
-    return bool(
-        run.case.get("swimmer") or any(body.get("gait") for body in run.case.get("body", []))
-    )
+    return bool(run.members.swimmers or run.members.gaits)

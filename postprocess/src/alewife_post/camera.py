@@ -8,18 +8,16 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from alewife_post import bodies, planes, scene, style, surfaces
-from alewife_post.film import Moment, Request
+from alewife_post.domains import domain_box, periods
 from alewife_post.page import Page
-from alewife_post.periodic import domain_box, periods
 from alewife_post.read import Run, read_field
+from alewife_post.request import Moment, Request
 
 if TYPE_CHECKING:
     import pyvista
 
 Array = np.ndarray
 
-CAMERA = (-50.0, 20.0)
-"""Degrees about z and above the horizon."""
 MARGIN = 0.7
 """Space shown around bodies over what they take."""
 WHOLE = 4.0
@@ -121,7 +119,7 @@ def direction(run: Run, request: Request, plane: planes.Plane | None) -> tuple[A
     gravity = np.array(run.case.get("fluid", {}).get("gravity", [0.0, 0.0, 0.0]), dtype=float)
     if np.linalg.norm(gravity) > 0:
         up = -gravity / np.linalg.norm(gravity)
-    towards, _ = scene.direction(CAMERA)
+    towards, _ = scene.direction(scene.CAMERA)
     # Turned as z is turned to the direction upwards, by way of the nearest axes.
     if up[2] < 0.9:
         side = np.eye(3)[int(np.argmin(np.abs(up)))]
@@ -157,11 +155,6 @@ def beyond(run: Run) -> Array:
     """How far bodies that cross its sides reach out of a periodic domain, `(3,)`."""
     largest = max([0.0, *(bodies.radius(run, name) for name in run.bodies)])
     return np.where(periods(run.case) > 0, largest, 0.0)
-
-
-def corners_of(box: Array) -> Array:
-    """All corners `(8, 3)` of a box `(2, 3)`."""
-    return np.array([[box[i, 0], box[j, 1], box[k, 2]] for i, j, k in np.ndindex(2, 2, 2)])
 
 
 def legend(page: Page, camera: Camera, units: str) -> None:

@@ -7,9 +7,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from alewife_post import bodies, space, style, surfaces, ways
-from alewife_post.film import Moment, Request, group_colours
-from alewife_post.periodic import domain_box, images, trail
-from alewife_post.read import Run, Shape, Solid, read_field
+from alewife_post.domains import domain_box
+from alewife_post.messages import Shape, Solid
+from alewife_post.periodic import images, trail
+from alewife_post.read import Run, read_field
+from alewife_post.request import Moment, Request, group_colours
 
 if TYPE_CHECKING:
     import pyvista

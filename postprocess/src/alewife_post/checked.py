@@ -5,25 +5,9 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
-
-if TYPE_CHECKING:
-    from alewife_post.film import Request
-    from alewife_post.read import Run
+from typing import Any
 
 Names = str | Path | Iterable[Any]
-
-
-def run(value: object, *, is_spatial: bool | None = None, instead: str = "") -> None:
-    """TypeError where a value is no run; ValueError where it is one of the other dimension."""
-    from alewife_post.read import Run
-
-    if not isinstance(value, Run):
-        cure = f"alewife_post.open_run({str(value)!r})" if isinstance(value, str | Path) else None
-        raise TypeError(f"{value!r} is no run: {cure or 'alewife_post.open_run(DIRECTORY)'} is one")
-    if is_spatial is not None and value.is_spatial != is_spatial:
-        kind = "in space" if value.is_spatial else "in the plane or about an axis"
-        raise ValueError(f"{value.path} is a run {kind}: {instead} draws it")
 
 
 def choice(kind: str, value: object, choices: Sequence[str]) -> None:
@@ -68,25 +52,6 @@ def window(given: Sequence[float]) -> tuple[float, float]:
             f"write {_shown(ends[::-1])}"
         )
     return tuple(ends)
-
-
-def no_film(run: Run, out: Path, request: Request, time: float) -> str:
-    """That a film would have one frame only, and what to do instead."""
-    still = out.with_suffix(".png")
-    instead = f"draw a picture: alewife-post picture {run.path} --out {still}"
-    if "unsteady" not in run.case["time"]:
-        return f"{run.path} is steady: it has one frame only, which is no film; {instead}"
-    if request.window is not None:
-        more = "a longer window may have more"
-    elif request.quantity == "bodies":
-        more = "a longer run has more"
-    else:
-        more = "output.fields of the case, such as { time = 0.1 }, asks for more"
-    shown = request.iso or request.quantity
-    return (
-        f"{run.path} has one frame only of {shown}, at t = {time:.6g}, which is no film: "
-        f"{more}; or {instead}"
-    )
 
 
 def time(given: object) -> float:

@@ -98,7 +98,7 @@ def _write_picture(options: argparse.Namespace) -> None:
 
 
 def _picture(run: Run, options: argparse.Namespace) -> Figure:
-    from alewife_post import figure, slices, space
+    from alewife_post import figure, scene, slices, space
 
     view = options.view and tuple(options.view)
     if not run.is_spatial:
@@ -118,7 +118,7 @@ def _picture(run: Run, options: argparse.Namespace) -> Figure:
         return _still(run, options)
     if options.surface:
         quantity = options.quantity or "pressure"
-        camera = tuple(options.camera or CAMERA)
+        camera = tuple(options.camera or scene.CAMERA)
         return space.surface_picture(run, quantity, time=options.time, camera=camera)
     return slices.slice_picture(
         run,
@@ -153,9 +153,6 @@ def _filmed(options: argparse.Namespace) -> str:
     if options.iso:
         return "iso"
     return options.quantity or ("pressure" if options.surface else "speed")
-
-
-CAMERA = (-50.0, 20.0)
 
 
 def _add_gallery(parser: argparse.ArgumentParser) -> None:

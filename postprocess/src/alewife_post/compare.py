@@ -101,7 +101,7 @@ def named(runs: list[Run]) -> list[Named]:
     names = [run.path.resolve().name for run in runs]
     labels = names
     if apart and len(apart) <= MOST_KEYS:
-        texts = [", ".join(f"{short(key, apart)} = {_text(one.get(key))}" for key in apart)
+        texts = [", ".join(f"{short(key, apart)} = {value_text(one.get(key))}" for key in apart)
                  for one in flat]  # fmt: skip
         if max(map(len, texts)) <= 60:
             labels = texts
@@ -143,7 +143,8 @@ def short(key: str, others: Iterable[str]) -> str:
     return key
 
 
-def _text(value: object) -> str:
+def value_text(value: object) -> str:
+    """A value of a key, for a legend."""
     if value is None:
         return "none"
     return f"{value:g}" if isinstance(value, float) else str(value)
@@ -208,7 +209,7 @@ def compare_figure(
 ) -> Figure:
     """Runs as lines and published curves as marks, one panel for each quantity."""
     style.use()
-    titles = dict.fromkeys(one.run.case["title"] for one in runs)
+    titles = dict.fromkeys(one.run.title for one in runs)
     figure, rows = series.stacked(len(names), " / ".join(titles))
     for axes, name in zip(rows, names, strict=True):
         found = entries(runs, curves, name, window)

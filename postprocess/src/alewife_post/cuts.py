@@ -7,8 +7,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from alewife_post import planes, surfaces, tetrahedra
-from alewife_post.periodic import domain_box, images, periods
+from alewife_post import planes, tetrahedra
+from alewife_post.domains import domain_box, periods
+from alewife_post.fields import nodal_values
+from alewife_post.periodic import images
 from alewife_post.read import Field
 
 if TYPE_CHECKING:
@@ -89,7 +91,7 @@ def slice_of(field: Field, cut: Cut, quantity: str) -> pyvista.PolyData:
     near &= (own_high >= cut.low).all(axis=1) & (own_low <= cut.high).all(axis=1)
     if not near.any():
         return pyvista.PolyData()
-    values = surfaces.nodal_values(field, quantity)
+    values = nodal_values(field, quantity)
     points, fine, cells = tetrahedra.pieces(field, near, values, HALVINGS)
     if quantity != "pressure":
         # A magnitude is not negative, though a quadratic between its values may be.

@@ -7,17 +7,23 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.cm import ScalarMappable
 from matplotlib.collections import LineCollection
-from matplotlib.colors import Colormap
-from matplotlib.patches import Ellipse, FancyArrow, Polygon, Rectangle
+from matplotlib.colorbar import Colorbar
+from matplotlib.colors import Colormap, Normalize
+from matplotlib.patches import Ellipse, FancyArrow, PathPatch, Polygon, Rectangle
+from matplotlib.path import Path
 from matplotlib.tri import LinearTriInterpolator, Triangulation
 from mpl_toolkits.axes_grid1.anchored_artists import AnchoredSizeBar
 
 from alewife_post import style
-from alewife_post.bodies import Heading, Pose, rotation_matrix
+from alewife_post.bodies import Heading, Pose
+from alewife_post.domains import domain_view, periods
 from alewife_post.elements import edge_curves, edges, quarters, refine, subdivide
-from alewife_post.periodic import is_joined, periods
-from alewife_post.read import Field, Shape
+from alewife_post.messages import Shape, rotation_matrix
+from alewife_post.periodic import is_joined
+from alewife_post.read import Field
+from alewife_post.streamlines import HEAD, Streamlines
 from alewife_post.units import Given, units_of
 
 Array = np.ndarray
@@ -158,9 +164,8 @@ def boundary_loops(field: Field) -> list[Array]:
     return loops
 
 
-def draw_arrows(axes: Axes, flow: list[Field], view: View, colour: str) -> None:
-    """Arrows on a regular grid, as long as the speed there."""
-    x, y, velocity = on_grid(flow, view, 28)
+def draw_arrows(axes: Axes, x: Array, y: Array, velocity: Array, colour: str) -> None:
+    """Arrows on a regular grid, as `on_grid` has it, as long as the speed there."""
     axes.quiver(
         x, y, velocity[..., 0], velocity[..., 1], color=colour, width=0.0018, zorder=3, pivot="mid"
     )
@@ -262,26 +267,6 @@ def draw_trail(axes: Axes, pieces: list[Array]) -> None:
         axes.plot(*points[:, :2].T, color=style.TRAIL, lw=1.0, alpha=0.9, zorder=5.5)
 
 
-def domain_view(case: dict[str, Any]) -> View | None:
-    """All of a domain as its case has it; none if it is a mesh."""
-    ((kind, domain),) = case["domain"].items()
-    match kind:
-        case "box":
-            (x0, y0), (x1, y1) = domain["min"], domain["max"]
-        case "channel":
-            x0, y0, x1, y1 = 0.0, 0.0, domain["length"], domain["height"]
-        case "cylinder":
-            (x0, x1), y1 = domain["x"], domain["radius"]
-            y0 = -y1
-        case "disc" | "half-disc":
-            x, y = np.append(np.atleast_1d(domain.get("center", 0.0)), 0.0)[:2]
-            r = domain["radius"]
-            x0, x1, y0, y1 = x - r, x + r, y - r, y + r
-        case _:
-            return None
-    return float(x0), float(x1), float(y0), float(y1)
-
-
 def draw_domain(axes: Axes, case: dict[str, Any], view: View) -> None:
     """The sides of a domain where there is no mesh to show them; a periodic one has none."""
     whole = domain_view(case)
@@ -302,3 +287,61 @@ def draw_domain(axes: Axes, case: dict[str, Any], view: View) -> None:
         axes.add_patch(Ellipse(center, x1 - x0, y1 - y0, **look))
     else:
         axes.add_patch(Rectangle((x0, y0), x1 - x0, y1 - y0, **look))
+
+
+def draw_streamlines(
+    axes: Axes, found: Streamlines, view: View, colour: str, zorder: float = 3.0
+) -> None:
+    """Draw streamlines with their arrow heads."""
+    axes.add_collection(
+        LineCollection(found.lines, colors=colour, linewidths=0.6, zorder=zorder, capstyle="round")
+    )
+    size = HEAD * max(view[1] - view[0], view[3] - view[2])
+    across = found.directions @ np.array([[0.0, 1.0], [-1.0, 0.0]])
+    middle = found.heads - 0.5 * size * found.directions
+    corners = [
+        middle + size * found.directions,
+        middle + 0.38 * size * across,
+        middle - 0.38 * size * across,
+    ]
+    if len(found.heads):
+        triangles = np.stack([*corners, corners[0]], axis=1)
+        codes = [Path.MOVETO, Path.LINETO, Path.LINETO, Path.CLOSEPOLY] * len(triangles)
+        path = Path(triangles.reshape(-1, 2), codes)
+        axes.add_patch(PathPatch(path, facecolor=colour, edgecolor="none", zorder=zorder))
+
+
+def colour_bar(
+    axes: Axes,
+    values: Array,
+    colour_map: str,
+    limits: style.Limits,
+    *,
+    cax: Axes | None = None,
+    is_beside: bool = False,
+    alpha: float = 1.0,
+) -> Colorbar:
+    """A bar in axes of its own, else beside a tall picture, or below a wide one, never over it."""
+    least = 1e-6 * (limits[1] - limits[0])
+    below = bool(values.min() < limits[0] - least)
+    above = bool(values.max() > limits[1] + least)
+    extend = {(0, 0): "neither", (1, 0): "min", (0, 1): "max", (1, 1): "both"}[below, above]
+    mappable = ScalarMappable(Normalize(*limits), colour_map)
+    if cax is not None:
+        box = cax.get_position()
+        width, height = axes.figure.get_size_inches() * (box.width, box.height)
+        orientation = "horizontal" if width > height else "vertical"
+        return axes.figure.colorbar(
+            mappable, cax=cax, extend=extend, orientation=orientation, alpha=alpha
+        )
+    (x0, x1), (y0, y1) = axes.get_xlim(), axes.get_ylim()
+    is_wide = x1 - x0 > 1.4 * abs(y1 - y0) and not is_beside
+    return axes.figure.colorbar(
+        mappable,
+        ax=axes,
+        location="bottom" if is_wide else "right",
+        shrink=0.6 if is_wide else 0.85,
+        aspect=40 if is_wide else 28,
+        pad=0.03,
+        extend=extend,
+    )

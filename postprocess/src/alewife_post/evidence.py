@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from alewife_post import quantities
 from alewife_post.asked import MINUS
 from alewife_post.read import Run
 
@@ -118,8 +119,6 @@ def cycle(run: Run) -> tuple[float, float, str]:
         return end - period, end, f"the last cycle ({period:.4g})"
     phase = run.case.get("statistics", {}).get("phase_of")
     if phase in run.series and len(time) > 2:
-        from alewife_post import quantities
-
         values = run.series[phase]
         late = time > 0.5 * (start + end)
         if np.isfinite(values[late]).all() and late.sum() > 2:

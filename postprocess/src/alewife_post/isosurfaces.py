@@ -7,9 +7,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from alewife_post import space, style, surfaces
-from alewife_post.periodic import domain_box, images, periods
+from alewife_post.domains import domain_box, periods
+from alewife_post.fields import nodal_values
+from alewife_post.periodic import images
+from alewife_post.quantities import percentile
 from alewife_post.read import Field
+from alewife_post.sections import pieces
 
 if TYPE_CHECKING:
     import pyvista
@@ -43,7 +46,7 @@ def samples(field: Field, quantity: str, box: Array) -> tuple[Array, Array]:
     middle = corners.mean(axis=1)
     seen = ((middle >= box[0]) & (middle <= box[1])).all(axis=1)
     volume = np.abs(np.linalg.det(corners[seen][:, 1:] - corners[seen][:, :1])) / 6.0
-    values = surfaces.nodal_values(field, quantity)[field.cells[seen][:, :4]]
+    values = nodal_values(field, quantity)[field.cells[seen][:, :4]]
     return values.ravel(), np.repeat(volume / 4.0, 4)
 
 
@@ -53,7 +56,7 @@ def level_of(found: list[tuple[Array, Array]]) -> float:
     share = np.concatenate([share for _, share in found])
     if not (values * share).any():
         raise ValueError("it is zero all over what is in view: there is no surface to show")
-    return style.percentile(values, values * share, 100.0 - WITHIN)
+    return percentile(values, values * share, 100.0 - WITHIN)
 
 
 def isosurface(
@@ -80,12 +83,12 @@ def isosurface(
 def _surface(field: Field, quantity: str, level: float) -> pyvista.PolyData:
     import pyvista
 
-    values = surfaces.nodal_values(field, quantity)
+    values = nodal_values(field, quantity)
     own = values[field.cells]
     near = (own.min(axis=1) <= level) & (own.max(axis=1) >= level)
     if not near.any():
         return pyvista.PolyData()
-    return space.pieces(field, near, values).contour([level], scalars="values")
+    return pieces(field, near, values).contour([level], scalars="values")
 
 
 def _clipped(found: pyvista.PolyData, box: Array) -> pyvista.PolyData:

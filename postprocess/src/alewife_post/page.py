@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from alewife_post.figure import colour_bar
+from alewife_post import style
+from alewife_post.drawing import colour_bar
 
 Array = np.ndarray
 
@@ -18,6 +21,18 @@ MARGINS = (0.65, 0.15, 0.5, 0.38)
 """Left, right, below and above a picture in the plane (inches)."""
 WIDE = 2.0
 """Width over height from which on the bar of colours lies below."""
+
+
+@dataclass(frozen=True)
+class Bar:
+    """A bar of colours."""
+
+    colour_map: str
+    limits: style.Limits
+    values: Array
+    """What is drawn, or its extremes: the bar has a tip where they are beyond its limits."""
+    label: str
+    alpha: float = 1.0
 
 
 def fitting(aspect: float | None, has_bar: bool) -> tuple[int, int]:
@@ -37,9 +52,9 @@ class Page:
     """A figure of fixed size whose axes are drawn anew for each frame."""
 
     def __init__(
-        self, size: tuple[int, int] | None, title: str, aspect: float | None, bar: tuple | None
+        self, size: tuple[int, int] | None, title: str, aspect: float | None, bar: Bar | None
     ) -> None:
-        """`aspect` is width over height of the picture; `bar` is what `_add_bar` draws."""
+        """`aspect` is width over height of the picture."""
         width, height = (pixels / DPI for pixels in size or fitting(aspect, bar is not None))
         self.figure = Figure(figsize=(width, height), dpi=DPI)
         self.canvas = FigureCanvasAgg(self.figure)
@@ -63,15 +78,16 @@ class Page:
         )
         self.stamp.set_bbox({"facecolor": "white", "alpha": 0.8, "lw": 0, "boxstyle": "round"})
 
-    def _add_bar(self, box: Array, scale: Array, is_wide: bool, bar: tuple) -> None:
+    def _add_bar(self, box: Array, scale: Array, is_wide: bool, bar: Bar) -> None:
         if is_wide:
             place = [box[0] + 0.2 * box[2], box[1] - 0.62, 0.6 * box[2], 0.1]
         else:
             place = [box[0] + box[2] + 0.12, box[1] + 0.1 * box[3], 0.13, 0.8 * box[3]]
-        colour_map, limits, values, label, alpha = bar
         axes = self.figure.add_axes(np.array(place) / scale)
-        drawn = colour_bar(self.axes, values, colour_map, limits, cax=axes, alpha=alpha)
-        drawn.set_label(label)
+        drawn = colour_bar(
+            self.axes, bar.values, bar.colour_map, bar.limits, cax=axes, alpha=bar.alpha
+        )
+        drawn.set_label(bar.label)
 
     def _add_title(self, title: str, width: float) -> None:
         text = self.figure.text(0.5, 0.985, title, ha="center", va="top", fontsize=10.0)

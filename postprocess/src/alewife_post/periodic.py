@@ -7,32 +7,10 @@ from typing import Any
 
 import numpy as np
 
+from alewife_post.domains import domain_low, periods
 from alewife_post.read import Field
 
 Array = np.ndarray
-
-SIDES = ("left", "bottom", "back")
-
-
-def periods(case: dict[str, Any]) -> Array:
-    """Length of each period, `(3,)`; zero along directions that are not periodic."""
-    if "domain" not in case:
-        return np.zeros(3)
-    ((kind, domain),) = case["domain"].items()
-    lengths = np.zeros(3)
-    match kind:
-        case "box":
-            across = np.subtract(domain["max"], domain["min"])
-            lengths[: len(across)] = across
-        case "channel":
-            lengths[:2] = domain["length"], domain["height"]
-        case "cylinder":
-            lengths[0] = domain["x"][1] - domain["x"][0]
-    for axis, side in enumerate(SIDES):
-        condition = case.get("boundary", {}).get(side)
-        if not (isinstance(condition, dict) and "periodic" in condition):
-            lengths[axis] = 0.0
-    return lengths
 
 
 def wrapped(case: dict[str, Any], points: Array) -> Array:
@@ -44,17 +22,6 @@ def wrapped(case: dict[str, Any], points: Array) -> Array:
     is_periodic = lengths > 0
     away = np.where(is_periodic, np.floor((points - low) / np.where(is_periodic, lengths, 1.0)), 0)
     return points - away * lengths
-
-
-def domain_low(case: dict[str, Any]) -> Array:
-    """Lowest corner `(3,)` of a domain that may be periodic."""
-    ((kind, domain),) = case["domain"].items()
-    match kind:
-        case "box":
-            return np.array([*domain["min"], 0.0])[:3]
-        case "cylinder":
-            return np.array([domain["x"][0], 0.0, 0.0])
-    return np.zeros(3)
 
 
 def images(case: dict[str, Any], low: Array, high: Array, region: tuple[Array, Array]) -> Array:
@@ -69,6 +36,11 @@ def images(case: dict[str, Any], low: Array, high: Array, region: tuple[Array, A
         last = np.floor((region[1][axis] - low[axis]) / lengths[axis] + 1e-9)
         steps.append([k * lengths[axis] for k in np.arange(first, last + 1)])
     return np.array([[x, y, z] for z in steps[2] for y in steps[1] for x in steps[0]])
+
+
+def shifts(case: dict[str, Any], points: Array, region: tuple[Array, Array]) -> Array:
+    """Shifts by which points `(n, 3)` have images in a region."""
+    return images(case, points.min(axis=0), points.max(axis=0), region)
 
 
 def is_joined(points: Array, periods: Array) -> Array:
@@ -117,19 +89,3 @@ def joined(fields: list[Field]) -> Field:
         pressure=np.concatenate([field.pressure for field in fields]),
         vorticity=np.concatenate([field.vorticity for field in fields]),
     )
-
-
-def domain_box(case: dict[str, Any]) -> tuple[Array, Array]:
-    """Lowest and highest corner `(3,)` of a domain in space; without bounds if it is a mesh."""
-    ((kind, domain),) = case["domain"].items()
-    match kind:
-        case "box":
-            return np.array(domain["min"], dtype=float), np.array(domain["max"], dtype=float)
-        case "cylinder":
-            r = domain["radius"]
-            start, end = domain["x"]
-            return np.array([start, -r, -r]), np.array([end, r, r])
-        case "sphere":
-            center = np.array(domain.get("center", [0.0, 0.0, 0.0]))
-            return center - domain["radius"], center + domain["radius"]
-    return np.full(3, -np.inf), np.full(3, np.inf)

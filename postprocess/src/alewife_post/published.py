@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import csv
 import re
-import tomllib
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -16,7 +15,7 @@ from matplotlib.figure import Figure
 from alewife_post import compare, curves, evidence, gallery, style
 from alewife_post.compare import Named
 from alewife_post.curves import Curve
-from alewife_post.read import Run, open_run
+from alewife_post.read import Run, open_run, read_case
 
 PUBLISHED = ("measured", "literature")
 """Kinds of references that others have published."""
@@ -67,7 +66,7 @@ def is_published(folder: Path) -> bool:
 
 def given_references(folder: Path) -> list[dict[str, Any]]:
     """References of a case and its variants as they are written, in `case.toml` and in its table."""
-    case = tomllib.loads((folder / "case.toml").read_text())
+    case = read_case(folder)
     single = [one for part in (case, *case.get("variant", [])) for one in part.get("reference", [])]
     table = case.get("references", {})
     text = table.get("table", "")
@@ -95,7 +94,7 @@ def picture(folder: Path, runs: Path) -> Figure:
 
 def members_of(folder: Path, runs: Path) -> list[tuple[str | None, Run]]:
     """The runs of a case and of its variants that were made, each with the name of its variant."""
-    case = tomllib.loads((folder / "case.toml").read_text())
+    case = read_case(folder)
     variants = [None, *(variant["name"] for variant in case.get("variant", []))]
     places = {
         one: runs / (folder.name if one is None else f"{folder.name}-{one}") for one in variants
@@ -189,6 +188,6 @@ def values_figure(run: Run, values: list[Value]) -> Figure:
     axes.set_xlim(-AROUND * far, AROUND * far)
     axes.set_xlabel("difference from the published value (%)")
     axes.spines[["top", "right", "left"]].set_visible(False)
-    figure.suptitle(run.case["title"], fontsize=style.PARAMETERS["axes.titlesize"])
+    figure.suptitle(run.title, fontsize=style.PARAMETERS["axes.titlesize"])
     figure.legend(loc="outside lower center", ncols=2, frameon=False, fontsize=7)
     return figure

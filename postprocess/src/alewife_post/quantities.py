@@ -81,6 +81,14 @@ def phase_average(
     return phases, table.mean(axis=0), table.std(axis=0)
 
 
+def percentile(values: Array, share: Array, wanted: float) -> float:
+    """The value `wanted` per cent of the area lies below; each value holds a share of it."""
+    order = np.argsort(values)
+    # A value stands in the middle of its share.
+    below = np.cumsum(share[order]) - 0.5 * share[order]
+    return float(np.interp(wanted / 100.0 * share.sum(), below, values[order]))
+
+
 def speed(velocity: Array) -> Array:
     """Magnitude of velocities, `(..., d)` to `(...)`."""
     return np.linalg.norm(velocity, axis=-1)

@@ -1,4 +1,4 @@
-"""Files of a run to arrays; the only file that knows the formats."""
+"""A run directory: its files to arrays, each read when it is first asked for."""
 
 from __future__ import annotations
 
@@ -19,10 +19,27 @@ from mcap.reader import NonSeekingReader
 
 from alewife_post import checked, packages
 from alewife_post.asked import Named
+from alewife_post.members import Members, from_case, from_file
+from alewife_post.messages import BodyHistory, Message, Shape, Solid, body_history, shape_of
+from alewife_post.units import Given
 
 if TYPE_CHECKING:
     import pandas
     import pyvista
+
+__all__ = [
+    "BodyHistory",
+    "Field",
+    "Frame",
+    "Message",
+    "Run",
+    "Shape",
+    "Solid",
+    "check_run",
+    "open_run",
+    "read_case",
+    "read_field",
+]
 
 Array = np.ndarray
 
@@ -66,62 +83,6 @@ class Field:
 
 
 @dataclass(frozen=True)
-class BodyHistory:
-    """One body over time; vectors are those of the world, `(n, 3)`."""
-
-    time: Array
-    """`(n,)`."""
-    center: Array
-    angle: Array
-    """Turn about z (rad), continuous, `(n,)`."""
-    rotation: Array
-    """Quaternion x, y, z, w, `(n, 4)`."""
-    velocity: Array
-    angular_velocity: Array
-    force: Array
-    torque: Array
-    surface_force: Array
-    surface_torque: Array
-    power: Array
-    """Work of the surface on the fluid per time, `(n,)`."""
-
-
-@dataclass(frozen=True)
-class Solid:
-    """An ellipsoid, or a cylinder or cone along its own z, in the frame of a body."""
-
-    kind: str
-    """`ellipsoid` or `cylinder`."""
-    position: Array
-    """`(3,)`."""
-    rotation: Array
-    """Quaternion x, y, z, w, `(4,)`."""
-    size: Array
-    """Lengths along its own axes, `(3,)`."""
-    scales: tuple[float, float]
-    """Factors of the width of a cylinder at its bottom and its top."""
-
-
-@dataclass(frozen=True)
-class Shape:
-    """What a body looks like in its own frame from a time on."""
-
-    time: float
-    solids: list[Solid]
-    lines: list[Array]
-    """Closed outlines in the plane, each `(n_points, 2)`."""
-
-
-@dataclass(frozen=True)
-class Message:
-    """One message of `run.mcap`."""
-
-    topic: str
-    time: float
-    content: dict[str, Any]
-
-
-@dataclass(frozen=True)
 class Run:
     """A run directory. Files are read when first asked for."""
 
@@ -134,7 +95,7 @@ class Run:
     @cached_property
     def case(self) -> dict[str, Any]:
         """The case as it was run, all defaults filled in."""
-        return tomllib.loads((self.path / "case.toml").read_text())
+        return read_case(self.path)
 
     @cached_property
     def status(self) -> dict[str, Any]:
@@ -171,6 +132,14 @@ class Run:
         pandas = packages.needed("pandas")
         return pandas.DataFrame(self.series).set_index("time")
 
+    @cached_property
+    def members(self) -> Members:
+        """Which bodies swim together, what joins them, and how each swims."""
+        path = self.path / "bodies.json"
+        if path.is_file():
+            return from_file(json.loads(path.read_text()))
+        return from_case(self.case, list(self.bodies), self.shapes)
+
     @property
     def bodies(self) -> dict[str, BodyHistory]:
         """All bodies of `run.mcap`, by name."""
@@ -190,8 +159,8 @@ class Run:
                 reports.setdefault(message.topic.removeprefix("/body/"), []).append(message.content)
             elif message.topic == "/scene":
                 for entity in message.content["entities"]:
-                    shapes.setdefault(entity["id"], []).append(_shape(entity, message.time))
-        histories = {name: _body_history(found) for name, found in reports.items()}
+                    shapes.setdefault(entity["id"], []).append(shape_of(entity, message.time))
+        histories = {name: body_history(found) for name, found in reports.items()}
         return (
             Named(histories, "body", "list(run.bodies)"),
             Named(shapes, "body", "list(run.shapes)"),
@@ -255,6 +224,27 @@ class Run:
         raise ValueError(f"t = {time:.6g} is not in {self.path}: {known}")
 
     @property
+    def title(self) -> str:
+        """What the case is called."""
+        return self.case["title"]
+
+    @property
+    def units(self) -> Given:
+        """Its units, as the case names them; an empty text if it names none."""
+        return self.case.get("units", "")
+
+    @property
+    def frame_name(self) -> str | None:
+        """The body or swimmer its frame goes with, if there is one."""
+        frame = self.case.get("frame")
+        return frame if isinstance(frame, str) else None
+
+    @property
+    def is_unsteady(self) -> bool:
+        """Whether the flow changes in time."""
+        return "unsteady" in self.case["time"]
+
+    @property
     def is_axisymmetric(self) -> bool:
         """Whether x is an axis of revolution and y the distance from it."""
         return self.case["geometry"] == "axisymmetric"
@@ -263,6 +253,11 @@ class Run:
     def is_spatial(self) -> bool:
         """Whether there are three dimensions."""
         return self.case["geometry"] == "spatial"
+
+
+def read_case(directory: Path) -> dict[str, Any]:
+    """The case in a directory, as it is written."""
+    return tomllib.loads((directory / "case.toml").read_text())
 
 
 def open_run(path: str | Path) -> Run:
@@ -275,6 +270,16 @@ def open_run(path: str | Path) -> Run:
             f"{path} is a case, not a run of it: alewife run {path} --out DIRECTORY makes one"
         )
     return Run(path)
+
+
+def check_run(value: object, *, is_spatial: bool | None = None, instead: str = "") -> None:
+    """TypeError where a value is no run; ValueError where it is one of the other dimension."""
+    if not isinstance(value, Run):
+        cure = f"alewife_post.open_run({str(value)!r})" if isinstance(value, str | Path) else None
+        raise TypeError(f"{value!r} is no run: {cure or 'alewife_post.open_run(DIRECTORY)'} is one")
+    if is_spatial is not None and value.is_spatial != is_spatial:
+        kind = "in space" if value.is_spatial else "in the plane or about an axis"
+        raise ValueError(f"{value.path} is a run {kind}: {instead} draws it")
 
 
 def _is_no_run(path: Path) -> str:
@@ -338,57 +343,3 @@ def _read_grid(path: Path) -> pyvista.UnstructuredGrid:
     if error or not isinstance(grid, pyvista.UnstructuredGrid) or not grid.n_cells:
         raise ValueError(f"{path} is damaged: VTK cannot read a mesh from it")
     return grid
-
-
-def _shape(entity: dict[str, Any], time: float) -> Shape:
-    def vector(value: dict[str, float], axes: str = "xyz") -> Array:
-        return np.array([value[axis] for axis in axes], dtype=float)
-
-    def solid(kind: str, item: dict[str, Any]) -> Solid:
-        pose = item["pose"]
-        return Solid(
-            kind,
-            vector(pose["position"]),
-            vector(pose["orientation"], "xyzw"),
-            vector(item["size"]),
-            (item.get("bottom_scale", 1.0), item.get("top_scale", 1.0)),
-        )
-
-    kinds = (("ellipsoid", "spheres"), ("cylinder", "cylinders"))
-    return Shape(
-        time,
-        [solid(kind, item) for kind, key in kinds for item in entity.get(key, [])],
-        [
-            np.array([vector(point, "xy") for point in line["points"]])
-            for line in entity.get("lines", [])
-        ],
-    )
-
-
-def _body_history(reports: list[dict[str, Any]]) -> BodyHistory:
-    def numbers(*path: str) -> Array:
-        values = []
-        for report in reports:
-            value: Any = report
-            for key in path:
-                value = value[key]
-            # What is not a number is null in JSON.
-            values.append(np.nan if value is None else value)
-        return np.array(values, dtype=float)
-
-    def vectors(*path: str, axes: str = "xyz") -> Array:
-        return np.stack([numbers(*path, axis) for axis in axes], axis=1)
-
-    return BodyHistory(
-        time=numbers("time"),
-        center=vectors("pose", "center"),
-        angle=np.unwrap(numbers("pose", "angle")),
-        rotation=vectors("pose", "rotation", axes="xyzw"),
-        velocity=vectors("twist", "linear"),
-        angular_velocity=vectors("twist", "angular"),
-        force=vectors("load", "force"),
-        torque=vectors("load", "torque"),
-        surface_force=vectors("surface_load", "force"),
-        surface_torque=vectors("surface_load", "torque"),
-        power=numbers("power"),
-    )

@@ -18,6 +18,9 @@ if TYPE_CHECKING:
 Array = np.ndarray
 View = tuple[float, float, float, float]
 
+CAMERA = (-50.0, 20.0)
+"""Where bodies are looked at from unless asked for: degrees about z and above the horizon."""
+
 SUBDIVISION = 4
 """Halvings of each side of a curved cell: circles look round at any size of a page."""
 

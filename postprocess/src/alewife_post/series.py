@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import Any
 
+import matplotlib
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from alewife_post import asked, checked, evidence, style
-from alewife_post.read import Run
+from alewife_post.quantities import percentile
+from alewife_post.read import Run, check_run
 from alewife_post.units import unit_of_quantity, units_of
 
 Array = np.ndarray
@@ -25,6 +27,7 @@ SQUEEZED = 3.0
 MOST_PANELS = 5
 """Panels drawn where no quantity is asked for."""
 MANY = 6
+"""Curves from which on they are told apart by a colour map."""
 DASHES: tuple[Any, ...] = ("-", (0, (5, 3)), (0, (2, 2)), (0, (6, 2, 1, 2)))
 """Lines of curves in turn, so that one under another is seen."""
 FEW = 10
@@ -35,7 +38,6 @@ LETTERS = 13
 """Letters of a legend to the inch, less its margins."""
 WIDEST = 78
 """Letters of a label."""
-"""Curves from which on they are told apart by a colour map."""
 
 
 def series_figure(
@@ -51,7 +53,7 @@ def series_figure(
     the case has references for. A transient at the start that would squeeze the rest is cut off,
     and marked, unless `is_whole`.
     """
-    checked.run(run)
+    check_run(run)
     style.use()
     wanted = checked.names(names) or suggested(run)
     panels = [asked.lines(run.series, name) for name in wanted]
@@ -59,7 +61,7 @@ def series_figure(
     if len(time) == 0:
         raise ValueError(f"{run.path} has no rows yet")
     shown = within(time, window)
-    figure, rows = stacked(len(panels), run.case["title"])
+    figure, rows = stacked(len(panels), run.title)
     for axes, lines in zip(rows, panels, strict=True):
         colours = line_colours(len(lines))
         curves = [(time[shown], line.values[shown]) for line in lines]
@@ -138,7 +140,7 @@ ENERGETICS = (
 
 def energy_figure(run: Run, *, window: Span | None = None, is_whole: bool = False) -> Figure:
     """Power, dissipation, efficiency and cost of transport of everything that swims."""
-    checked.run(run)
+    check_run(run)
     style.use()
     swimmers = {
         asked.owner(name) for name in run.series if asked.ending(name) == "shape_power"
@@ -157,7 +159,7 @@ def energy_figure(run: Run, *, window: Span | None = None, is_whole: bool = Fals
         raise ValueError(f"{run.path} has neither power nor dissipation in its series")
     time = run.series["time"]
     shown = within(time, window)
-    figure, rows = stacked(len(panels), run.case["title"])
+    figure, rows = stacked(len(panels), run.title)
     for axes, (title, names) in zip(rows, panels, strict=True):
         colours = line_colours(len(names))
         curves = [(time[shown], run.series[name][shown]) for name in names]
@@ -198,8 +200,6 @@ def line_colours(n: int) -> list[Any]:
     """Colours for so many curves."""
     if n <= MANY and n <= len(style.SERIES):
         return list(style.SERIES[:n])
-    import matplotlib
-
     return list(matplotlib.colormaps["viridis"](np.linspace(0.0, 0.9, n)))
 
 
@@ -244,7 +244,7 @@ def _shown_name(names: list[str]) -> str:
 
 def time_label(run: Run) -> str:
     """Label of the axis of time."""
-    unit = units_of(run.case.get("units", "")).time
+    unit = units_of(run.units).time
     return f"t ({unit})" if unit else "t"
 
 
@@ -321,8 +321,8 @@ def robust_limits(curves: list[tuple[Array, Array]], others: list[float]) -> Spa
             return None
         late = time >= time[0] + START * (time[-1] - time[0])
         share = np.gradient(time)
-        lows.append(min(values[late].min(), style.percentile(values, share, 100 * TAIL)))
-        highs.append(max(values[late].max(), style.percentile(values, share, 100 - 100 * TAIL)))
+        lows.append(min(values[late].min(), percentile(values, share, 100 * TAIL)))
+        highs.append(max(values[late].max(), percentile(values, share, 100 - 100 * TAIL)))
         least.append(values.min())
         most.append(values.max())
     if not lows:

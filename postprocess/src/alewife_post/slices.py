@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -16,18 +15,19 @@ from alewife_post import (
     checked,
     drawing,
     scene,
-    space,
-    streamlines,
+    sections,
     style,
     surfaces,
     tracing,
 )
 from alewife_post.cuts import Cut, samples, whole_slice, within
-from alewife_post.figure import body_velocity, colour_bar
-from alewife_post.periodic import domain_box, periods
+from alewife_post.domains import corners_of, domain_box, periods
+from alewife_post.drawing import colour_bar
+from alewife_post.fields import flow_at
+from alewife_post.periodic import shifts
 from alewife_post.planes import Plane, parsed, through_bodies
-from alewife_post.read import Field, Run
-from alewife_post.snapshot import LINES, Painter, chosen_painter, settled
+from alewife_post.read import Field, Run, check_run
+from alewife_post.snapshot import ARROWS, LINES, Painter, chosen_painter, title
 
 if TYPE_CHECKING:
     import pyvista
@@ -63,15 +63,12 @@ def slice_picture(
     others. `view` is in the two coordinates of the plane; without it, what is around the bodies.
     `frame` names a body whose velocity is subtracted.
     """
-    checked.run(run, is_spatial=True, instead="figure.picture")
+    check_run(run, is_spatial=True, instead="figure.picture")
     checked.choice("lines", lines, LINES)
     view = None if view is None else checked.view(view)
     painter = chosen_painter(painter)
     style.use()
-    field = settled(run, run.field(time))
-    if frame is not None:
-        moved = field.velocity - body_velocity(run, frame, field.time)
-        field = replace(field, velocity=moved)
+    field = flow_at(run, time, frame)
     plane_of = within(_plane(run, plane, field), field)
     view = view or _surroundings(run, field, plane_of)
     region = _region(plane_of, view)
@@ -89,21 +86,21 @@ def slice_picture(
     axes.set_aspect("equal")
     _paint(axes, part, cut, (colour_map, limits), painter)
     _draw_lines(axes, run, field, cut, (quantity, lines))
-    for section in space.sections(run, field, plane_of, region):
+    for section in sections.sections(run, field, plane_of, region):
         axes.fill(*plane_of.coordinates(section).T, color=style.BODY, zorder=3.5)
     sides = [
-        plane_of.coordinates(side) for side in space.side_sections(run, field, plane_of, region)
+        plane_of.coordinates(side) for side in sections.side_sections(run, field, plane_of, region)
     ]
     axes.add_collection(LineCollection(sides, colors=style.BOUNDARY, linewidths=0.7, zorder=4))
     _draw_motion(axes, run, plane_of, field.time, region)
-    units = run.case.get("units", "")
+    units = run.units
     axes.set_xlim(view[0], view[1])
     axes.set_ylim(view[2], view[3])
     places = plane_of.coordinates(bodies.landmarks(run, field.time))
     drawing.draw_scale_bar(axes, view, units, places)
     axes.set_xlabel(style.length_label(plane_of.names[0], units))
     axes.set_ylabel(style.length_label(plane_of.names[1], units))
-    axes.set_title(style.fitted(f"{space.title(run, field)}, {plane_of.text}", size[0]))
+    axes.set_title(style.fitted(f"{title(run, field.time)}, {plane_of.text}", size[0]))
     bar = colour_bar(axes, values, colour_map, limits)
     bar.set_label(style.label(quantity, units) + (f" relative to {frame}" if frame else ""))
     return figure
@@ -140,23 +137,18 @@ def _draw_lines(axes: Axes, run: Run, field: Field, cut: Cut, what: tuple[str, s
     view = (cut.low[0], cut.high[0], cut.low[1], cut.high[1])
     x, y = _grid_lines(view)
     at = cut.plane.points(np.stack(np.meshgrid(x, y), axis=-1))
-    found = space.sample(field, at.reshape(-1, 3), "speed", run.case)["velocity"]
+    found = sections.sample(field, at.reshape(-1, 3), "speed", run.case)["velocity"]
     flat = np.ma.masked_array(found.data @ cut.plane.across.T, found.mask[:, :2])
     velocity = flat.reshape(len(y), len(x), 2)
     if lines == "arrows":
-        _draw_arrows(axes, x, y, velocity, colour)
+        step = max(1, max(len(x), len(y)) // ARROWS)
+        drawing.draw_arrows(axes, x[::step], y[::step], velocity[::step, ::step], colour)
         return
     placed = bodies.poses(run, field.time)
     centers = np.array([center for center, _ in placed.values()]).reshape(-1, 3)
     middles = [cut.plane.coordinates(centers).mean(axis=0)] if len(centers) else []
     traced = tracing.traced(tracing.Grid.of(x, y, velocity), view, middles)
-    streamlines.draw(axes, traced, view, colour)
-
-
-def _draw_arrows(axes: Axes, x: Array, y: Array, velocity: Array, colour: str) -> None:
-    step = max(1, max(len(x), len(y)) // 28)
-    u, v = (velocity[::step, ::step, k] for k in range(2))
-    axes.quiver(x[::step], y[::step], u, v, color=colour, width=0.0018, zorder=3, pivot="mid")
+    drawing.draw_streamlines(axes, traced, view, colour)
 
 
 def _region(plane: Plane, view: View) -> tuple[Array, Array]:
@@ -177,14 +169,14 @@ def _draw_motion(
         return bool(np.abs((points - plane.origin) @ plane.normal).max() < 0.5 * size)
 
     for points in bodies.rods(run, placed, time):
-        for shift in space.shifts(run, points, region):
+        for shift in shifts(run.case, points, region):
             if is_near(points + shift):
                 drawing.draw_rod(axes, plane.coordinates(points + shift), zorder=2.5)
     extent = float(np.ptp(plane.coordinates(np.array(region)), axis=0).max())
     for known in bodies.headings(run, placed):
         arrow = bodies.fitted(known, extent)
         ends = np.array([arrow.start, arrow.start + arrow.vector])
-        for shift in space.shifts(run, ends, region):
+        for shift in shifts(run.case, ends, region):
             if is_near(ends + shift):
                 start = plane.coordinates(ends[:1] + shift)[0]
                 vector = plane.across @ arrow.vector
@@ -198,7 +190,7 @@ def _plane(run: Run, text: str | None, field: Field) -> Plane:
         return through_bodies(run, np.array([field.time]), box)
     plane = parsed(text)
     axis = int(np.argmax(np.abs(plane.normal)))
-    low, high = space.shown_box(run.case, field)
+    low, high = sections.shown_box(run.case, field)
     if not low[axis] <= plane.origin[axis] <= high[axis]:
         reach = f"{low[axis]:.6g} to {high[axis]:.6g}"
         raise ValueError(f"{plane.text} is outside the domain: {reach}")
@@ -209,9 +201,7 @@ def _surroundings(run: Run, field: Field, plane: Plane) -> View:
     """The part of the domain around the bodies, in the coordinates of a slice."""
     places = plane.coordinates(field.nodes)
     if periods(run.case).any():
-        ends = np.array(domain_box(run.case))
-        box = [[ends[i, 0], ends[j, 1], ends[k, 2]] for i, j, k in np.ndindex(2, 2, 2)]
-        places = plane.coordinates(np.array(box))
+        places = plane.coordinates(corners_of(np.array(domain_box(run.case))))
         (x0, y0), (x1, y1) = places.min(axis=0), places.max(axis=0)
         return (x0, x1, y0, y1)
     low, high = places.min(axis=0), places.max(axis=0)

@@ -10,9 +10,9 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from alewife_post import bodies, checked, drawing, scene, streamlines, style, tracing, ways
-from alewife_post.elements import inside, mirrored
-from alewife_post.periodic import domain_low, images, joined, periods, tiles, trail
-from alewife_post.quantities import speed
+from alewife_post.domains import domain_low, periods
+from alewife_post.fields import nodal_values
+from alewife_post.periodic import images, joined, trail
 from alewife_post.read import Field, Run
 from alewife_post.streamlines import Streamlines
 
@@ -29,8 +29,8 @@ LONGEST_STRIP = 8.0
 """A domain longer than this many widths is shown near its bodies only: whole, it is a line."""
 FOLLOWED = 4.0
 """Half the height of a view over the reach of the body it follows."""
-AT_REST = 1e-9
-"""Largest speed over that of the fastest body at any time at which nothing flows any more."""
+ARROWS = 28
+"""Arrows on the longer side of a view."""
 ABOVE_TRAILS = 5.7
 """Where bodies are drawn once more, so that ways end at them."""
 NEAR_SWIMMER = 0.5
@@ -64,16 +64,6 @@ def chosen_painter(painter: Painter) -> Painter:
     return painter
 
 
-def prepared(run: Run, field: Field, view: View, *, mirror: bool) -> list[Field]:
-    """The flow as a frame shows it: on both sides of an axis, with images in a periodic domain."""
-    if run.is_axisymmetric and mirror:
-        field = mirrored(field)
-    x0, x1, y0, y1 = view
-    region = (np.array([x0, y0, 0.0]), np.array([x1, y1, 0.0]))
-    found = [inside(tile, view) for tile in tiles(run.case, field, region)]
-    return [tile for tile in found if len(tile.cells)] or found[:1]
-
-
 def paint(
     axes: Axes, flow: list[Field], view: View, look: Look, lines: Streamlines | None = None
 ) -> None:
@@ -93,11 +83,13 @@ def paint(
         drawing.draw_values(axes, field, values, look.colour_map, look.limits)
     colour = style.STREAMLINE if look.quantity == "speed" else style.STREAMLINE_ON_LIGHT
     if lines is not None:
-        streamlines.draw(axes, lines, view, colour)
+        drawing.draw_streamlines(axes, lines, view, colour)
     elif look.lines == "streamlines":
-        streamlines.draw(axes, _traced(flow, view, is_mirrored=look.is_mirrored), view, colour)
+        drawing.draw_streamlines(
+            axes, _traced(flow, view, is_mirrored=look.is_mirrored), view, colour
+        )
     elif look.lines == "arrows":
-        drawing.draw_arrows(axes, flow, view, colour)
+        drawing.draw_arrows(axes, *drawing.on_grid(flow, view, ARROWS), colour)
 
 
 def _traced(flow: list[Field], view: View, *, is_mirrored: bool) -> Streamlines:
@@ -173,20 +165,9 @@ def paint_bodies(
             drawing.draw_rod(axes, points + shift)
 
 
-def settled(run: Run, field: Field) -> Field:
-    """The flow, without what rounding leaves of it where all has come to rest."""
-    largest = speed(field.velocity).max()
-    if largest > AT_REST * ways.fastest(run):
-        return field
-    return replace(field, velocity=0.0 * field.velocity)
-
-
-def nodal_values(field: Field, quantity: str) -> Array:
-    """Values of a quantity at the nodes, `(n_nodes,)`."""
-    if quantity == "speed":
-        return speed(field.velocity)
-    values = getattr(field, quantity)
-    return np.linalg.norm(values, axis=1) if values.ndim > 1 else values
+def title(run: Run, time: float) -> str:
+    """The title of a case, with the time of a flow that is not steady."""
+    return run.title + (f", {style.time_text(time, run.units)}" if run.is_unsteady else "")
 
 
 def whole_view(run: Run, field: Field, *, mirror: bool = True) -> View:

@@ -1,4 +1,4 @@
-"""Runs in space: pictures of bodies with what acts on them, samples, and where planes cut them."""
+"""Runs in space: pictures of bodies with what acts on them, and what they swim along."""
 
 from __future__ import annotations
 
@@ -7,14 +7,18 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from alewife_post import bodies, checked, drawing, scene, style, surfaces, tetrahedra
-from alewife_post.figure import colour_bar
-from alewife_post.periodic import domain_box, images, periods
-from alewife_post.planes import Plane
-from alewife_post.read import Field, Run
+from alewife_post import bodies, drawing, scene, style, surfaces
+from alewife_post.domains import domain_box
+from alewife_post.drawing import colour_bar
+from alewife_post.periodic import shifts
+from alewife_post.read import Run, check_run
+from alewife_post.sections import sample, sections, side_sections
+from alewife_post.snapshot import title
 
 if TYPE_CHECKING:
-    import pyvista
+    pass
+
+__all__ = ["motion", "sample", "sections", "side_sections", "surface_picture"]
 
 Array = np.ndarray
 Camera = tuple[float, float]
@@ -29,13 +33,13 @@ def surface_picture(
     quantity: str = "pressure",
     *,
     time: float | None = None,
-    camera: Camera = (-50.0, 20.0),
+    camera: Camera = scene.CAMERA,
 ) -> Figure:
     """The bodies, coloured by a quantity on their surfaces.
 
     `camera` is where it is looked from: degrees about z, from x, and above the horizon.
     """
-    checked.run(run, is_spatial=True, instead="figure.picture")
+    check_run(run, is_spatial=True, instead="figure.picture")
     if not scene.can_render():
         raise ValueError("VTK can have no window here: install libosmesa6")
     style.use()
@@ -56,18 +60,11 @@ def surface_picture(
     # The scale lies below, not on what is shown.
     below = BELOW * max(width, height)
     axes.set_ylim(-below, height)
-    drawing.draw_scale_bar(axes, (0.0, width, -below, height), run.case.get("units", ""))
-    axes.set_title(style.fitted(title(run, field), 6.0))
+    drawing.draw_scale_bar(axes, (0.0, width, -below, height), run.units)
+    axes.set_title(style.fitted(title(run, field.time), 6.0))
     bar = colour_bar(axes, values, colour_map, limits, is_beside=True)
-    bar.set_label(style.label(quantity, run.case.get("units", "")))
+    bar.set_label(style.label(quantity, run.units))
     return figure
-
-
-def title(run: Run, field: Field) -> str:
-    """The title of a case, with the time of a flow that is not steady."""
-    units = run.case.get("units", "")
-    is_unsteady = "unsteady" in run.case["time"]
-    return run.case["title"] + (f", {style.time_text(field.time, units)}" if is_unsteady else "")
 
 
 def motion(run: Run, time: float, extent: float) -> list[tuple[Any, str]]:
@@ -105,107 +102,6 @@ def motion(run: Run, time: float, extent: float) -> list[tuple[Any, str]]:
     return found
 
 
-def shifts(run: Run, points: Array, region: tuple[Array, Array]) -> Array:
-    """Shifts by which points `(n, 3)` have images in a region."""
-    return images(run.case, points.min(axis=0), points.max(axis=0), region)
-
-
 def _inside(run: Run, points: Array) -> list[Array]:
     """Points `(n, 3)` where a periodic domain shows them, of any other domain where they are."""
-    return [points + shift for shift in shifts(run, points, domain_box(run.case))]
-
-
-def pieces(field: Field, near: Array, values: Array) -> pyvista.UnstructuredGrid:
-    """Cells that are `near`, as straight pieces with nodal `values`."""
-    import pyvista
-
-    cells = field.cells[near][:, tetrahedra.PIECES].reshape(-1, 4)
-    grid = pyvista.UnstructuredGrid({tetrahedra.STRAIGHT: cells}, field.nodes)
-    grid.point_data["values"] = values
-    return grid
-
-
-def sample(
-    field: Field, points: Array, quantity: str, case: dict[str, Any] | None = None
-) -> dict[str, Array]:
-    """Values and velocity at points `(n, 3)`, masked outside the fluid.
-
-    With its case, a periodic domain goes on beyond its mesh.
-    """
-    import pyvista
-
-    # VTK looks for points in curved cells by iterations that end early: eight straight pieces of
-    # each cell, with its nodes, are as good in a picture
-    places = field.nodes[field.cells]
-    low, high = points.min(axis=0), points.max(axis=0)
-    extent = np.linalg.norm(high - low) or np.ptp(field.nodes, axis=0).max()
-    values = np.ma.masked_all(len(points))
-    velocity = np.ma.masked_all((len(points), 3))
-    mesh = (field.nodes.min(axis=0), field.nodes.max(axis=0))
-    for shift in images({} if case is None else case, *mesh, (low, high)):
-        near = (places.max(axis=1) >= low - shift).all(axis=1)
-        near &= (places.min(axis=1) <= high - shift).all(axis=1)
-        if not near.any():
-            continue
-        straight = pieces(field, near, surfaces.nodal_values(field, quantity))
-        straight.point_data["velocity"] = field.velocity
-        # Left to itself, VTK takes points for inside that are a part of the whole domain away
-        found = pyvista.PolyData(points - shift).sample(straight, tolerance=1e-6 * extent)
-        is_inside = np.asarray(found.point_data["vtkValidPointMask"]) == 1
-        values[is_inside] = np.asarray(found.point_data["values"])[is_inside]
-        velocity[is_inside] = np.asarray(found.point_data["velocity"])[is_inside]
-    return {"values": values, "velocity": velocity}
-
-
-def sections(
-    run: Run, field: Field, plane: Plane, region: tuple[Array, Array] | None = None
-) -> list[Array]:
-    """Curves `(n, 3)` in which a plane cuts the bodies, and their images in a region.
-
-    Of a periodic domain the region is all of the domain if it is absent.
-    """
-    try:
-        surface = surfaces.bodies_surface(run, field, "pressure")
-    except ValueError:
-        return []
-    return _sections(run, surface, plane, region or shown_box(run.case, field))
-
-
-def side_sections(run: Run, field: Field, plane: Plane, region: tuple[Array, Array]) -> list[Array]:
-    """Those in which it cuts the sides of the domain."""
-    return _sections(run, surfaces.sides_surface(run, field), plane, region)
-
-
-def _sections(
-    run: Run, surface: pyvista.PolyData, plane: Plane, region: tuple[Array, Array]
-) -> list[Array]:
-    if surface.n_cells == 0:
-        return []
-    points = np.asarray(surface.points)
-    mesh = (points.min(axis=0), points.max(axis=0))
-    return [
-        curve + shift
-        for shift in images(run.case, *mesh, region)
-        for curve in curves(surface.slice(normal=plane.normal, origin=plane.origin - shift))
-    ]
-
-
-def curves(cut) -> list[Array]:  # noqa: ANN001  (VTK)
-    """The lines of a cut, each `(n, 3)` from end to end."""
-    if cut.n_cells == 0:
-        return []
-    strips = cut.strip(join=True)
-    points, lines = np.asarray(strips.points), strips.lines
-    found, start = [], 0
-    while start < len(lines):
-        n = lines[start]
-        found.append(points[lines[start + 1 : start + 1 + n]])
-        start += n + 1
-    return found
-
-
-def shown_box(case: dict[str, Any], field: Field) -> tuple[Array, Array]:
-    """Corners of what a periodic domain shows of itself, and of any other domain's mesh."""
-    if periods(case).any():
-        return domain_box(case)
-    return field.nodes.min(axis=0), field.nodes.max(axis=0)
+    return [points + shift for shift in shifts(run.case, points, domain_box(run.case))]

@@ -12,10 +12,18 @@ from alewife_post import camera as view
 from alewife_post import isosurfaces, planes, scene, style, surfaces
 from alewife_post.cast import Cast
 from alewife_post.cuts import Cut, samples, whole_slice
-from alewife_post.film import Moment, Request, field_at, limits_of, offsets, thinned, time_stamp
+from alewife_post.domains import corners_of, domain_box
 from alewife_post.page import Page
-from alewife_post.periodic import domain_box
 from alewife_post.read import Field, Run
+from alewife_post.request import (
+    Moment,
+    Request,
+    colour_scale,
+    field_at,
+    offsets,
+    thinned,
+    time_stamp,
+)
 from alewife_post.units import unit_of
 
 if TYPE_CHECKING:
@@ -63,8 +71,8 @@ def _pages(run: Run, moments: list[Moment], request: Request, finer: int) -> Ite
     if request.quantity not in ("bodies", "iso") and not request.surface:
         cut = _cut(run, moments, request, seen, moved)
         cuts = [cut.at(offset) for offset in moved]
-    title = run.case["title"]
-    units = run.case.get("units", "")
+    title = run.title
+    units = run.units
     if request.quantity == "iso":
         parts, said = _isosurfaces(run, moments, request, seen.box, moved)
         title = f"{title}: {said}"
@@ -79,16 +87,14 @@ def _pages(run: Run, moments: list[Moment], request: Request, finer: int) -> Ite
             **style.SOLID,
         }
     elif parts is not None:
-        colour_map, limits = limits_of(
-            request.quantity, [thinned(*samples(part)) for part in parts if part.n_cells]
-        )
-        every = np.concatenate([samples(part)[0] for part in parts if part.n_cells])
         alpha = 1.0 if request.surface else SLICE_OPACITY
-        bar = (colour_map, limits, every, style.label(request.quantity, units), alpha)
-        look = {"scalars": "values", "cmap": colour_map, "clim": limits, "show_scalar_bar": False}
+        seen_parts = (samples(part) for part in parts if part.n_cells)
+        bar = colour_scale(request.quantity, seen_parts, units, alpha)
+        look = {"scalars": "values", "cmap": bar.colour_map, "clim": bar.limits}
+        look["show_scalar_bar"] = False
         look |= style.SOLID if request.surface else {"lighting": False, "opacity": alpha}
     page = Page(request.size, title, None, bar)
-    corners = view.corners_of(seen.box + np.outer([-1.0, 1.0], view.beyond(run)))
+    corners = corners_of(seen.box + np.outer([-1.0, 1.0], view.beyond(run)))
     if cut is not None and not seen.is_whole:
         corners = np.concatenate([cut.corners(), seen.points])
     direction = view.direction(run, request, cut and cut.plane)
@@ -134,7 +140,7 @@ def _cut(run: Run, moments: list[Moment], request: Request, seen: view.Seen, mov
         plane = planes.through_bodies(run, times[:1] if moves else times, seen.box)
     if moves:
         plane = replace(plane, origin=plane.origin - moved[0])
-    box = plane.coordinates(view.corners_of(seen.box))
+    box = plane.coordinates(corners_of(seen.box))
     low, high = box.min(axis=0), box.max(axis=0)
     if not seen.is_whole:
         near = plane.coordinates(seen.points)
@@ -185,7 +191,7 @@ def _isosurfaces(
     ]
     if not any(part.n_cells for part in found):
         raise ValueError(f"no surface of {quantity} {level:g} is in view")
-    unit = unit_of(quantity, run.case.get("units", ""))
+    unit = unit_of(quantity, run.units)
     return found, f"{quantity} {level:.3g}" + (f" {unit}" if unit else "")
 
 

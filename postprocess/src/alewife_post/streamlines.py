@@ -6,15 +6,12 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
-from matplotlib.patches import PathPatch
-from matplotlib.path import Path
 from matplotlib.tri import LinearTriInterpolator, Triangulation
 
+from alewife_post.domains import periods
 from alewife_post.elements import edges, inside, refine, shared_points, subdivide
-from alewife_post.periodic import images, periods
+from alewife_post.periodic import images
 from alewife_post.read import Field, Run
 from alewife_post.streamfunction import stream_function
 
@@ -294,23 +291,3 @@ def _places(line: Array, at: Array, middle: Array, spacing: float) -> Array:
     # A closed line begins anywhere: from where it is farthest from the middle of the view
     start = at[np.argmax(np.linalg.norm(line - middle, axis=1))]
     return (start + np.arange(n) / n * length) % length
-
-
-def draw(axes: Axes, found: Streamlines, view: View, colour: str, zorder: float = 3.0) -> None:
-    """Draw streamlines with their arrow heads."""
-    axes.add_collection(
-        LineCollection(found.lines, colors=colour, linewidths=0.6, zorder=zorder, capstyle="round")
-    )
-    size = HEAD * max(view[1] - view[0], view[3] - view[2])
-    across = found.directions @ np.array([[0.0, 1.0], [-1.0, 0.0]])
-    middle = found.heads - 0.5 * size * found.directions
-    corners = [
-        middle + size * found.directions,
-        middle + 0.38 * size * across,
-        middle - 0.38 * size * across,
-    ]
-    if len(found.heads):
-        triangles = np.stack([*corners, corners[0]], axis=1)
-        codes = [Path.MOVETO, Path.LINETO, Path.LINETO, Path.CLOSEPOLY] * len(triangles)
-        path = Path(triangles.reshape(-1, 2), codes)
-        axes.add_patch(PathPatch(path, facecolor=colour, edgecolor="none", zorder=zorder))

@@ -10,6 +10,7 @@ import matplotlib
 import numpy as np
 from matplotlib.colors import Colormap, ListedColormap
 
+from alewife_post.quantities import percentile
 from alewife_post.units import Given, unit_of, units_of
 
 Array = np.ndarray
@@ -134,14 +135,6 @@ TAIL = {"speed": 0.1, "pressure": 0.3}
 
 BEYOND = 25.0
 """Per cent of all vorticity, by its magnitude and area, that may lie beyond the limits."""
-
-
-def percentile(values: Array, share: Array, wanted: float) -> float:
-    """The value `wanted` per cent of the area lies below; each value holds a share of it."""
-    order = np.argsort(values)
-    # A value stands in the middle of its share.
-    below = np.cumsum(share[order]) - 0.5 * share[order]
-    return float(np.interp(wanted / 100.0 * share.sum(), below, values[order]))
 
 
 def colours(quantity: str, values: Array, share: Array | None = None) -> tuple[str, Limits]:

@@ -20,7 +20,7 @@ def summary(run: Run) -> dict[str, Any]:
     """All of it, as JSON can hold it; what is not there yet is left out or `None`."""
     series = run.series if (run.path / "series.csv").is_file() else {"time": np.empty(0)}
     time = series["time"]
-    found: dict[str, Any] = {"run": str(run.path), "title": run.case["title"]}
+    found: dict[str, Any] = {"run": str(run.path), "title": run.title}
     found["case"] = _case(run)
     found["state"] = _state(run)
     found["program"] = _program(run)

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
 from alewife_post.bodies import poses
-from alewife_post.periodic import is_joined, periods
-from alewife_post.quantities import speed
+from alewife_post.domains import distances_to_sides, periods
+from alewife_post.fields import nodal_values
+from alewife_post.periodic import is_joined
 from alewife_post.read import QUADRATIC_TRIANGLE, Field, Run
 
 Array = np.ndarray
@@ -104,8 +103,8 @@ def on_sides(run: Run, field: Field, faces: Array) -> Array | None:
     whatever the size of the domain.
     """
     nodes = field.nodes
-    frame = run.case.get("frame")
-    if isinstance(frame, str) and frame in run.bodies:
+    frame = run.members.frame
+    if frame in run.bodies:
         # The domain travels with a body: its sides are where they were, seen from there
         start, now = (poses(run, time)[frame] for time in (0.0, field.time))
         nodes = (nodes - now[0]) @ now[1] @ start[1].T + start[0]
@@ -115,38 +114,3 @@ def on_sides(run: Run, field: Field, faces: Array) -> Array | None:
     size = np.ptp(field.nodes[faces], axis=1).max(axis=1)
     near = np.abs(distances[faces]) < ON_SIDE * size[:, None, None]
     return near.all(axis=1).any(axis=1)
-
-
-def distances_to_sides(case: dict[str, Any], nodes: Array) -> Array:
-    """Distance of each node from each side of the domain, `(n_nodes, n_sides)`.
-
-    The sides of an imported mesh are not known: it has none here.
-    """
-    ((kind, domain),) = case["domain"].items()
-    match kind:
-        case "box":
-            return np.hstack([nodes - domain["min"], nodes - domain["max"]])
-        case "cylinder":
-            off_axis = np.hypot(nodes[:, 1], nodes[:, 2]) - domain["radius"]
-            ends = nodes[:, :1] - np.asarray(domain["x"])
-            return np.column_stack([ends, off_axis])
-        case "sphere":
-            off = nodes - domain.get("center", [0.0, 0.0, 0.0])
-            return np.linalg.norm(off, axis=1, keepdims=True) - domain["radius"]
-        case "mesh":
-            return np.empty((len(nodes), 0))
-        case _:
-            raise ValueError(f"a {kind} is no domain in space")
-
-
-def nodal_values(field: Field, quantity: str) -> Array:
-    """Values of a quantity at the nodes, `(n_nodes,)`; of the vorticity its magnitude."""
-    match quantity:
-        case "speed":
-            return speed(field.velocity)
-        case "vorticity":
-            return speed(field.vorticity)
-        case "pressure":
-            return field.pressure
-        case _:
-            raise ValueError(f"{quantity} is not drawn in space: speed, pressure or vorticity")

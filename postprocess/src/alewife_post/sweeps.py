@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from alewife_post import asked, evidence, quantities, series, style
-from alewife_post.compare import STATISTICS, Named, Row, Sweep, _text, short
+from alewife_post.compare import STATISTICS, Named, Row, Sweep, short, value_text
 from alewife_post.read import Run
 
 Array = np.ndarray
@@ -71,7 +71,7 @@ def sweep_figure(
     others = [one for one in sweep.swept if one != key and one not in _alongside(sweep, key)]
     families: dict[str, list[Row]] = {}
     for row in rows:
-        text = ", ".join(f"{short(one, sweep.swept)} = {_text(row[one])}" for one in others)
+        text = ", ".join(f"{short(one, sweep.swept)} = {value_text(row[one])}" for one in others)
         families.setdefault(text, []).append(row)
     figure, panels = series.stacked(len(names), sweep.points[0][1].case["title"])
     colours = series.line_colours(len(families))
@@ -131,7 +131,7 @@ def as_runs(sweep: Sweep) -> list[Named]:
     return [
         Named(
             ", ".join(
-                f"{short(key, sweep.swept)} = {_text(value)}"
+                f"{short(key, sweep.swept)} = {value_text(value)}"
                 for key, value in zip(sweep.swept, values, strict=True)
             ),
             run,

@@ -1,4 +1,7 @@
-"""Runs for pandas and pyvista: tables of comparisons, sweeps and references, fields as grids."""
+"""Runs for pandas and pyvista: tables of comparisons, sweeps and references, fields as grids.
+
+What compares runs needs matplotlib, and is imported where it is called: reading runs does not.
+"""
 
 from __future__ import annotations
 

@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from alewife_post import asked, checked, series, style
-from alewife_post.read import Run
+from alewife_post.read import Run, check_run
 
 Array = np.ndarray
 LARGEST = (5.8, 6.0)
@@ -23,7 +23,7 @@ def trajectory_figure(
     run: Run, names: Iterable[str] = (), *, window: series.Span | None = None
 ) -> Figure:
     """Paths of the centres of bodies and swimmers, from a dot to a ring."""
-    checked.run(run)
+    check_run(run)
     style.use()
     movers = tracks(run.series)
     wanted = checked.names(names) or list(movers)
@@ -41,7 +41,7 @@ def trajectory_figure(
     figure = Figure(figsize=(width, 0.8 + sum(heights)), layout="constrained")
     rows = figure.subplots(len(planes), squeeze=False, height_ratios=heights)[:, 0]
     colours = dict(zip(wanted, series.line_colours(len(wanted)), strict=True))
-    units = run.case.get("units", "")
+    units = run.units
     for axes, plane in zip(rows, planes, strict=True):
         for name in wanted:
             x, y = (movers[name][shown, axis] for axis in plane)

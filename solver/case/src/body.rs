@@ -1,7 +1,9 @@
 //! `[[body]]`: outline, pose, density, motion and gait of one body.
 
 use std::collections::BTreeMap;
+use std::f64::consts::PI;
 
+use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use super::axial_vector::AxialVector;
@@ -284,6 +286,19 @@ impl SquirmerGait {
     pub fn factors_of_modes(&self) -> Vec<Option<TimeFunction>> {
         let number = |index: usize| (index + 1).to_string();
         (0..self.modes.len()).map(|index| self.factors.get(&number(index)).cloned()).collect()
+    }
+
+    /// The swimming axis as it is written, a unit vector in the frame of the body; where the flow is revolved
+    /// about x, that or its opposite to the last bit.
+    #[must_use]
+    pub fn axis_in_body(&self, is_revolved: bool) -> Vector3<f64> {
+        if is_revolved {
+            Vector3::x() * if (self.heading.abs() - PI).abs() < 1e-3 { -1.0 } else { 1.0 }
+        } else if let Some(axis) = self.axis {
+            Vector3::from(axis).normalize()
+        } else {
+            Vector3::new(self.heading.cos(), self.heading.sin(), 0.0)
+        }
     }
 }
 

@@ -38,8 +38,8 @@ A run that was stopped or killed continues when it is run again: from its latest
 same bits as without the interruption.
 
 The run directory holds the case as it was run (case.toml), series.csv, run.mcap, fields/ and
-fields.pvd, checkpoints/, status.json, log.jsonl, provenance.json and comparison.json. A file STOP
-made in it stops the run after its step, a file CHECKPOINT has it write its state.")]
+fields.pvd, checkpoints/, status.json, log.jsonl, provenance.json, bodies.json and comparison.json. A
+file STOP made in it stops the run after its step, a file CHECKPOINT has it write its state.")]
 pub struct Options {
     /// Which case
     #[arg(add = complete::case())]

@@ -6,10 +6,11 @@ use alewife_mesh::{BoundaryKind, Facet, Mesh, NodeId, Point};
 use nalgebra::Vector3;
 use serde_json::Value;
 
+use super::bodies::joint_ends;
 use super::foxglove::WORLD;
 use super::primitives::{Arrow, Colour, Line, Primitives, SceneUpdate, Triangles, Xyz};
 use crate::body::{Pose, in_space};
-use crate::case::{Geometry, JointKind, Model};
+use crate::case::{Geometry, Model};
 use crate::run::BodyReport;
 
 /// Part of the longest extent of the walls by which they have to move to be drawn anew.
@@ -209,27 +210,10 @@ pub struct Arm {
 impl Arm {
     /// All arms between points that are given in the frames of bodies.
     pub fn all(model: &Model) -> Vec<Self> {
-        let body = |name: &str| model.bodies.iter().position(|body| body.name == name);
-        let is_planar = model.case.geometry.dimensions() == 2;
-        // Frames are at centres of mass, origins of shapes are not
-        let centroid = |body: usize| match is_planar {
-            true => model.bodies[body].shape.outline().moments(),
-            false => None,
-        };
-        let centroid = |body: usize| {
-            centroid(body).map_or_else(Vector3::zeros, |moments| {
-                Vector3::new(moments.centroid.x, moments.centroid.y, 0.0)
-            })
-        };
-        let arms = model
-            .joints
-            .iter()
-            .filter(|joint| matches!(joint.kind, JointKind::Arm { .. } | JointKind::Slider(_)));
+        let arms = model.joints.iter().filter(|joint| joint.kind.is_arm());
         arms.filter_map(|joint| {
-            let bodies = [body(&joint.parent)?, body(&joint.child)?];
-            let [on_parent, on_child] = joint.ends();
-            let ends = [on_parent - centroid(bodies[0]), on_child - centroid(bodies[1])];
-            Some(Self { bodies, ends })
+            let bodies = [model.body_index(&joint.parent)?, model.body_index(&joint.child)?];
+            Some(Self { bodies, ends: joint_ends(model, joint) })
         })
         .collect()
     }

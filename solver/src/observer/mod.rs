@@ -5,6 +5,7 @@
 //! | File | What it holds | When it is written |
 //! |---|---|---|
 //! | `case.toml` | The case as it is run, all defaults filled in | at the start |
+//! | `bodies.json` | Swimmers and their bodies, joints, gaits | at the start |
 //! | `provenance.json` | Which program ran it, where and how, in which legs | at the start and at the end |
 //! | `status.json` | State, step, time, cost of each stage | every second and at the end |
 //! | `log.jsonl` | Log, one JSON object a line | as it happens |
@@ -16,6 +17,7 @@
 //! | `lock` | Held while the run is under way | – |
 
 mod atomic;
+mod bodies;
 mod checkpoint_list;
 mod checkpoints;
 mod csv;
@@ -53,6 +55,7 @@ mod terminal;
 mod tests;
 mod write_times;
 
+use self::bodies::write_bodies;
 use crate::case::Model;
 use crate::run::{Dimension, Observer, Solve};
 
@@ -110,6 +113,7 @@ where
     Dimension<D>: Solve<D>,
 {
     let case = &model.case;
+    write_bodies(directory.path(), model)?;
     let checkpoints = CheckpointFiles::create(directory.path(), case, history, times.clone())?;
     let mut everyone: Vec<Box<dyn Observer<D>>> = vec![
         Box::new(SeriesFile::create(directory.path(), case, history)?),

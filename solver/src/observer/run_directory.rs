@@ -5,6 +5,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use super::atomic::{AtPath, UNFINISHED, write_whole};
+use super::bodies;
 use super::checkpoint_list::{self, REQUEST, checkpoints};
 use super::provenance::{Origin, Point, Provenance};
 use super::removal::{names_in, remove_if_empty, remove_if_there};
@@ -20,9 +21,10 @@ const MARKER_FILE: &str = ".alewife-run";
 const MARKER: &str = "This directory holds a run of alewife; another run may replace its files.\n";
 
 /// Files of a run. Only these, and those of its folders, are ever removed.
-const FILES: [&str; 12] = [
+const FILES: [&str; 13] = [
     "case.toml",
     MESH_FILE,
+    bodies::FILE,
     "provenance.json",
     "status.json",
     "log.jsonl",

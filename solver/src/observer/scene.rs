@@ -1,5 +1,6 @@
 //! The scene viewers are shown: all bodies, each in its own frame.
 
+use alewife_mesh::{Shape, Spline};
 use nalgebra::{Isometry3, Vector3};
 
 use super::drawing::surface;
@@ -7,6 +8,9 @@ use super::primitives::{Colour, Line, Primitives, SceneUpdate};
 use super::solids::Solids;
 use crate::case::{Body, Geometry, ShapeSpec};
 use crate::run::{BodyReport, Snapshot};
+
+/// Points of a curved outline: more than a line on a screen shows.
+const POINTS: usize = 128;
 
 /// Which bodies are shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -70,11 +74,47 @@ fn rigid(body: &Body, report: &BodyReport) -> Primitives {
         | ShapeSpec::Fish(_)
         | ShapeSpec::Flagellate(_)
         | ShapeSpec::Tube(_) => {
-            let points = body.shape.points();
-            let points: Vec<_> = points.iter().map(|p| Vector3::new(p[0], p[1], 0.0)).collect();
-            lines.push(Line::closed(&points, Colour::BODY));
+            lines.push(Line::closed(&outline(&body.shape), Colour::BODY));
         }
     }
     let Solids { spheres, cylinders } = solids;
     Primitives { lines, spheres, cylinders, ..Primitives::default() }
+}
+
+/// Points on the curved outline of a body, about its centre of mass (m).
+fn outline(shape: &ShapeSpec) -> Vec<Vector3<f64>> {
+    let shape = shape.outline();
+    let spline = match &shape {
+        Shape::Spline { points } => Spline::through(points),
+        Shape::Curve { spline } => Some(Spline::clone(spline)),
+        _ => None,
+    };
+    let Some((spline, moments)) = spline.zip(shape.moments()) else { return Vec::new() };
+    let step = spline.period() / POINTS as f64;
+    let point = |nth: usize| spline.evaluate(nth as f64 * step)[0] - moments.centroid;
+    (0..POINTS).map(point).map(|point| Vector3::new(point.x, point.y, 0.0)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_outline_is_drawn_about_its_centre_of_mass() {
+        let points =
+            vec![[0.5, 0.0], [0.2, 0.1], [-0.2, 0.1], [-0.3, 0.0], [-0.2, -0.1], [0.2, -0.1]];
+        let drawn = outline(&ShapeSpec::Spline { points });
+        let after = drawn.iter().cycle().skip(1);
+        let parts = drawn.iter().zip(after).map(|(a, b)| (a.x * b.y - b.x * a.y, a + b));
+        let (twice_area, moment) = parts
+            .fold((0.0, Vector3::zeros()), |(area, moment), (own, sum)| {
+                (area + own, moment + sum * own / 3.0)
+            });
+        assert!(twice_area > 0.25);
+        assert!((moment / twice_area).norm() < 1e-4, "{moment}");
+        let ends = drawn
+            .iter()
+            .fold([f64::MAX, f64::MIN], |[low, high], point| [low.min(point.x), high.max(point.x)]);
+        assert!((ends[1] - ends[0] - 0.8).abs() < 1e-3, "{ends:?}");
+    }
 }

@@ -180,14 +180,13 @@ fn messages(bytes: &[u8]) -> Messages {
 fn a_run_leaves_exactly_the_promised_files() {
     let place = tempfile::tempdir().unwrap();
     Run::new().complete(place.path());
-    let names: Vec<_> = files(place.path())
-        .iter()
-        .map(|file| file.strip_prefix(place.path()).unwrap().to_str().unwrap().to_owned())
-        .collect();
+    let name = |file: &PathBuf| file.strip_prefix(place.path()).unwrap().display().to_string();
+    let names: Vec<String> = files(place.path()).iter().map(name).collect();
     assert_eq!(
         names,
         [
             ".alewife-run",
+            "bodies.json",
             "case.toml",
             "fields/000000.vtu",
             "fields/000010.vtu",

@@ -141,8 +141,15 @@ fn what_cannot_be_replaced_is_named() {
     assert_eq!(half.status.code(), Some(75), "{}", told(&half));
     let whole = run(directory, "whole", &["--set", "time.unsteady.end=0.1"]);
     assert_eq!(whole.status.code(), Some(0), "{}", told(&whole));
-    let files =
-        ["case.toml", "provenance.json", "series.csv", "run.mcap", "fields.pvd", "log.jsonl"];
+    let files = [
+        "case.toml",
+        "bodies.json",
+        "provenance.json",
+        "series.csv",
+        "run.mcap",
+        "fields.pvd",
+        "log.jsonl",
+    ];
     let late = ["status.json", "comparison.json", "fields/000022.vtu", "checkpoints/000015.state"];
     for (out, name) in
         files.iter().map(|name| ("whole", *name)).chain(late.iter().map(|name| ("late", *name)))

@@ -1,7 +1,5 @@
 //! Bodies of a case as rigid bodies.
 
-use std::f64::consts::PI;
-
 use alewife_mesh::{BoundaryId, Mesh};
 use nalgebra::Vector3;
 
@@ -132,14 +130,7 @@ fn slip(body: &Body, metric: Metric) -> Option<Box<dyn Gait>> {
             | GaitSpec::Joints(_),
         ) => return None,
     };
-    // On the axis the heading is 0 or pi, and must be so to the last bit
-    let axis = if metric.is_revolved() {
-        Vector3::x() * if (squirmer.heading.abs() - PI).abs() < 1e-3 { -1.0 } else { 1.0 }
-    } else if let Some(axis) = squirmer.axis {
-        Vector3::from(axis).normalize()
-    } else {
-        Vector3::new(squirmer.heading.cos(), squirmer.heading.sin(), 0.0)
-    };
+    let axis = squirmer.axis_in_body(metric.is_revolved());
     let in_time =
         |function: TimeFunction| InTime(Box::new(move |time| factor_at(Some(&function), time)));
     let factors = squirmer.factors_of_modes().into_iter();
