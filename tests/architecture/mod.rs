@@ -2,6 +2,7 @@
 
 mod circles;
 mod limits;
+mod long;
 mod sources;
 
 use std::collections::BTreeMap;
