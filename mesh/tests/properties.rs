@@ -1,7 +1,5 @@
 //! Any valid placement of bodies gives a mesh: invariants, angles, area, symmetry, periodicity.
 
-mod common;
-
 use std::collections::HashSet;
 use std::f64::consts::{PI, TAU};
 
@@ -9,8 +7,9 @@ use alewife_mesh::{
     Domain, Mesh, NodeId, PeriodicPair, PlacedShape, Point, Quality, Shape, SizeBox, Sizing,
     check_mesh, check_placement, generate,
 };
-use common::{lobed, placed, square};
 use proptest::prelude::*;
+
+use super::common::{lobed, placed, square};
 
 /// Smallest angle promised (degrees) in smooth domains with right-angled corners.
 const SMALLEST_ANGLE: f64 = 25.0;

@@ -1,13 +1,12 @@
 //! Sizes of cells are those asked for, and nodes lie on the exact curves.
 
-mod common;
-
 use std::f64::consts::PI;
 
 use alewife_mesh::{
     CellId, Domain, Locator, Mesh, PlacedShape, Point, Shape, SizeBox, SizeField, Sizing, generate,
 };
-use common::{lobed, placed, square};
+
+use super::common::{lobed, placed, square};
 
 /// Area of the meshes for halved surface sizes: error against the number of edges on the body.
 fn area_order(body: PlacedShape, exact: f64, curved: bool) -> f64 {

@@ -2,6 +2,7 @@
 
 use alewife_core::run::RunSummary;
 use tests::cases::{PERIODIC_BOX, PERIODIC_CHANNEL, case, last, run};
+use tests::figure;
 
 /// A disc in a doubly periodic box, whose mesh does not know of its symmetries.
 fn disc(flow: &str, motion: &str) -> RunSummary {
@@ -181,7 +182,7 @@ fn a_mean_velocity_that_is_switched_on_or_changes_does_work() {
             let first = outcome.series.column("flow.energy_defect").expect("a column")[0];
             assert!(first.is_nan(), "{first}");
             let of = |name: &str| last(&outcome, &format!("flow.{name}_defect"));
-            println!("{factor} step {step}: {} {}", of("energy"), of("momentum"));
+            figure!(of("energy"), "energy defect, step {step}, {factor}");
             [of("energy").abs(), of("momentum")]
         };
         let [[coarse, impulse], [fine, fine_impulse]] = [at(0.02), at(0.01)];

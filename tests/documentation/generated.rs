@@ -18,7 +18,7 @@ fn up_to_date(page: &str, wanted: &str) {
     assert!(
         found == wanted,
         "{page} is not up to date; to write it again:\n\
-         ALEWIFE_UPDATE=1 cargo test --release -p tests --test documentation generated"
+         ALEWIFE_UPDATE=1 cargo test --release -p tests --test whole generated"
     );
 }
 

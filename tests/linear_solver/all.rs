@@ -32,7 +32,7 @@ fn members() -> Vec<String> {
 }
 
 #[test]
-#[ignore = "takes some minutes; run after changes of the linear solver"]
+#[ignore = "long: minutes; small: matrices_in_the_middle_of_runs_are_solved_to_rounding_both_ways"]
 fn matrices_in_the_middle_of_all_runs_are_solved_to_rounding() {
     let members = members();
     let run = |member| Run { member, settings: &SETTINGS, steps: STEPS, shows: |_| true };

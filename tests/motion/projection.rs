@@ -4,7 +4,7 @@ use alewife_core::coupling::{DivergenceFreeProjection, Problem, Side};
 use alewife_core::motion::Transfer;
 use alewife_core::space::{Metric, Tables};
 use alewife_mesh::{Mesh, Point, Sizing, generate};
-use tests::{Study, fluid_only, sides};
+use tests::{Study, figure, fluid_only, sides};
 
 use super::transfer::{distance, moved_and_new};
 use super::{disc, square, tube};
@@ -68,7 +68,7 @@ fn the_projection_is_divergence_free_keeps_boundary_values_and_is_one() {
         let before = largest(&projection.defect(&mesh, &field));
         let once = projection.project(&mesh, &field).unwrap();
         let after = largest(&projection.defect(&mesh, &once));
-        println!("{name}: {before:.1e} to {after:.1e}");
+        figure!(after, "{name}: divergence");
         assert!(before > 1e-3 && after < 1e-13, "{name}: {before:.1e} to {after:.1e}");
         for facet in &mesh.facets {
             for node in mesh.facet_nodes(facet) {
@@ -110,7 +110,7 @@ fn the_projection_goes_no_farther_than_the_error_of_the_transfer() {
         assert!(distance(&new, &projected, curl) < 2.0 * error);
         way
     });
-    println!("correction over error of the transfer: {ratios:?}");
+    figure!(ratios[ratios.len() - 1], "correction over error of the transfer");
     assert!(ratios.iter().all(|ratio| *ratio < 2.0), "{ratios:?}");
     study.assert_order("correction", 3.0, 0.3);
 }
@@ -147,6 +147,7 @@ fn what_is_between_the_nodes_keeps_the_energy_of_waves() {
     assert!(largest(&projection.defect(&new, &with)) < 1e-12 * 9.0);
     let whole = energy(&old, &field);
     let [without, with] = [without, with].map(|field| energy(&new, &field) / whole - 1.0);
-    println!("energy changes by {without:e} without, {with:e} with what is between the nodes");
+    figure!(without, "energy without what is between the nodes");
+    figure!(with, "energy with it");
     assert!(with.abs() < 0.4 * without.abs(), "{with:e} {without:e}");
 }

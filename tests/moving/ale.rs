@@ -9,7 +9,7 @@ use alewife_core::step::MeshPath;
 use alewife_core::time::Bdf;
 use alewife_mesh::{BoundaryKind, Domain, Mesh, NodeId, Point, Sizing, generate};
 use tests::exact::{EthierSteinman, Exact, TaylorGreen};
-use tests::{BoxOfTetrahedra, Stepping, Study, errors, fluid_only, sides};
+use tests::{BoxOfTetrahedra, Stepping, Study, errors, figure, fluid_only, sides};
 
 fn mesh(size: f64) -> Mesh<2> {
     let (min, max) = (Point::<2>::new(0.1, -0.3), Point::<2>::new(1.1, 0.7));
@@ -116,7 +116,7 @@ fn a_uniform_flow_stays_uniform_on_a_moving_mesh_of_tetrahedra() {
     let stream = Point::<3>::new(1.3, -0.7, 0.4);
     for choice in [Convection::Extrapolated, Convection::Newton] {
         let worst = off_uniform(&mesh, 15, stream, choice);
-        println!("uniform flow on tetrahedra, {choice:?}: {worst:e}");
+        figure!(worst, "uniform flow on tetrahedra, {choice:?}");
         assert!(worst < 1e-11, "{choice:?}: {worst:e}");
     }
 }
@@ -168,6 +168,6 @@ fn the_flow_on_a_moving_mesh_is_the_exact_one() {
         errors(&end.mesh, &end.now, &EXACT, end.time, Metric::Cartesian).velocity
     });
     // Nearer to 4 on cells as large as these; 3 is what is proven.
-    println!("vortices on a moving mesh: order {:.3}, {:?}", study.order(), study.errors);
+    study.record("vortices on a moving mesh");
     assert!(study.order() > 2.8, "{study:?}");
 }

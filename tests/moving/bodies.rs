@@ -45,7 +45,7 @@ fn the_pose_of_a_free_body_is_of_second_order_in_time() {
         let steps = [16.0, 32.0, 64.0].map(|n| end / n);
         let study = Study::run(&steps, |step| distance(&at(step), &fine));
         // Faster than that while the ramp takes a few steps only.
-        println!("pose, {model}: order {:.3}, errors {:?}", study.order(), study.errors);
+        study.record(&format!("pose, {model}"));
         assert!(study.order() > 1.8, "pose, {model}: {study:?}");
     }
 }

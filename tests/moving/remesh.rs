@@ -5,6 +5,7 @@ use std::sync::{Arc, Mutex};
 use alewife_core::run::{Observer, Snapshot, simulate};
 use alewife_core::space::{CellValues, Metric, Tables};
 use tests::cases::{PERIODIC_BOX, case, column, last, run};
+use tests::figure;
 
 use super::tank;
 
@@ -33,7 +34,7 @@ fn forces_go_on_smoothly_across_a_new_mesh() {
         let ahead = 2.0 * force[step - 1] - force[step - 2];
         jumps.push((force[step] - ahead).abs() / force[step].abs());
     }
-    println!("jumps {jumps:?}");
+    figure!(jumps.iter().copied().fold(0.0, f64::max), "largest jump of the force");
     assert!(jumps.len() >= 2, "{} meshes", jumps.len());
     assert!(jumps.iter().all(|jump| *jump < 0.01), "{jumps:?}");
 }
@@ -102,11 +103,7 @@ fn momentum_of_fluid_and_bodies_is_conserved() {
         let (one, two) = (of_body("one"), of_body("two"));
         let sum = [0, 1].map(|axis| fluid[axis] + one[axis] + two[axis]);
         let size = one[0].hypot(one[1]);
-        println!(
-            "step {step}: {:e} of {size}, {} meshes",
-            sum[0].hypot(sum[1]),
-            last(&outcome, "flow.remeshes")
-        );
+        figure!(sum[0].hypot(sum[1]) / size, "step {step}: momentum");
         assert!(last(&outcome, "flow.remeshes") >= 1.0);
         sum[0].hypot(sum[1]) / size
     };

@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 
 use alewife_core::run::{RunSummary, simulate};
 use tests::cases::{PERIODIC_BOX, case, last, run};
+use tests::figure;
 
 /// Place and heading of swimmers in a cell of this length, which leave no straight strip free.
 const LENGTH: f64 = 6.0;
@@ -62,7 +63,7 @@ fn velocities_do_not_depend_on_where_the_cell_is_cut() {
     // Moved by the first of these they are whole in the box, and its sides are those of the mesh
     for (by, tolerance) in [([-0.25, 0.1], 5e-4), ([0.5 * LENGTH, 0.5 * LENGTH], 1e-8)] {
         let moved = at(by);
-        println!("moved by {by:?}: {:e} apart", farthest(&first, &moved));
+        figure!(farthest(&first, &moved), "moved by {by:?}");
         assert!(farthest(&first, &moved) < tolerance, "{first:?} {moved:?}");
     }
 }
@@ -89,7 +90,8 @@ fn swimmers_moved_by_half_a_cell_swim_alike() {
     // Neither leaves the bodies whole in the box
     let (one, gap, remeshes, outcome) = path([0.8, 0.7]);
     let (other, ..) = path([0.8 - 0.5 * LENGTH, 0.7 - 0.5 * LENGTH]);
-    println!("{:e} apart, least gap {gap}, {remeshes} meshes", farthest(&one, &other));
+    figure!(farthest(&one, &other), "across the sides");
+    figure!(gap, "least gap");
     assert!(remeshes >= 2.0 && gap > 0.0 && gap < 0.1, "{remeshes} meshes, gap {gap}");
     assert!(farthest(&one, &other) < 1e-6, "{:e}", farthest(&one, &other));
     // No force acts on any of them, contact and fluid together, nor on all by the fluid
@@ -132,7 +134,7 @@ fn an_array_of_neutral_squirmers_swims_slower_by_its_own_volume() {
         let outcome = run(&case(&text));
         let speed = last(&outcome, "s.velocity.x");
         let beyond = (1.0 - phi - speed) / phi.powi(3);
-        println!("length {length}: {speed}, 1 - phi - {beyond} phi^3");
+        figure!(beyond, "length {length}: beyond phi");
         assert!((0.5..2.0).contains(&beyond), "{speed}: {beyond}");
         assert!(last(&outcome, "s.velocity.y").abs() < 1e-4);
     }

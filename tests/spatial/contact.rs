@@ -9,6 +9,7 @@ use nalgebra::Isometry3;
 use std::io;
 use std::sync::{Arc, Mutex};
 use tests::cases::case;
+use tests::figure;
 
 const RANGE: f64 = 0.15;
 const STIFFNESS: f64 = 300.0;
@@ -119,7 +120,7 @@ fn contact_found_by_a_few_solutions_is_that_of_the_law_at_the_end_of_the_step() 
     // All are in contact, and the ellipsoid is turned by it
     assert!(last.contact.iter().all(|contact| contact.force.norm() > 1.0), "{:?}", last.contact);
     assert!(last.contact[0].torque.norm() > 1e-2, "{:?}", last.contact[0]);
-    println!("{largest:.1e} of {}", last.contact[2].force.norm());
+    figure!(largest, "largest difference of a force");
     assert!(largest < 1e-5, "{largest}");
 }
 
@@ -138,6 +139,6 @@ fn steps_with_contact_are_not_repeated() {
         }
     }
     assert!(simulation.state.contact.contacts.len() >= 3, "{:?}", simulation.state.contact);
-    println!("{flows} flows in 12 steps");
+    figure!(f64::from(u32::try_from(flows).expect("few flows")), "flows in 12 steps");
     assert!(flows <= 18, "{flows}");
 }

@@ -4,6 +4,7 @@ use alewife_core::case::Model;
 use alewife_core::coupling::BodyShapes;
 use alewife_core::run::{RunSummary, build_mesh, build_problem, simulate, simulation_on};
 use tests::cases::{case, column, last};
+use tests::figure;
 
 fn run(model: &Model) -> RunSummary {
     simulate::<3>(model, &mut []).expect("the case runs")
@@ -67,7 +68,9 @@ fn force_and_torque_in_space_are_the_rates_of_momentum_and_angular_momentum() {
     let defect = column(&outcome, "flow.mass_defect").iter().fold(0.0f64, |m, d| m.max(d.abs()));
     let [least, largest] =
         inertia.iter().fold([f64::INFINITY, 0.0], |[a, b], i| [a.min(*i), b.max(*i)]);
-    println!("force {:.1e}, torque {:.1e}, mass defect {defect:.1e}", worst / size, off / most);
+    figure!(worst / size, "force");
+    figure!(off / most, "torque");
+    figure!(defect, "mass defect");
     // Iterations leave 1e-9 of the residual
     assert!(worst < 1e-6 * size && off < 1e-6 * most, "{worst:e} {off:e}");
     assert!(largest > 1.002 * least, "the inertia changes by {}", largest / least - 1.0);
@@ -86,7 +89,8 @@ fn a_fish_in_space_that_does_not_bend_is_rigid() {
     };
     let rigid = end("");
     let still = end("gait.carangiform = { period = 1.0, curvature = [[0.0, 0.0], [1.0, 0.0]] }");
-    println!("{rigid:?}\n{still:?}");
+    let off = rigid.iter().zip(still).map(|(one, other)| (one / other - 1.0).abs());
+    figure!(off.fold(0.0, f64::max), "rigid or still");
     // The surface is the same to rounding, which makes other meshes: they differ by 0.2 %
     for (name, (one, other)) in names.iter().zip(rigid.iter().zip(still)) {
         assert!((one - other).abs() < 0.01 * one.abs(), "{name}: {rigid:?} {still:?}");
@@ -134,5 +138,6 @@ fn one_mesh_follows_a_thin_tail_through_its_beat() {
         println!("{} cells, {time}: {kept:.3} kept", mesh.n_cells());
         least = least.min(kept);
     }
+    figure!(least, "quality kept");
     assert!(least > KEPT, "{least}");
 }

@@ -2,6 +2,7 @@
 
 use alewife_core::case::{Case, CaseFile, check};
 use alewife_core::run::{RunSummary, simulate};
+use tests::figure;
 
 /// A case, its mesh a file of the tests of the mesher where a name is given.
 fn case(text: &str, mesh: Option<&str>) -> CaseFile {
@@ -55,7 +56,8 @@ fn poiseuille_flow_in_a_tube_is_nearly_exact_with_bent_walls() {
         last(&run, "a.pressure") / 4.0 - 1.0
     };
     let [bent, straight] = ["pipe-2-binary", "pipe-1-binary"].map(error);
-    println!("{bent:.2e} {straight:.2e}");
+    figure!(bent, "bent walls");
+    figure!(straight, "straight walls");
     assert!(bent.abs() < 0.03 && straight > 3.0 * bent.abs(), "{bent} {straight}");
 }
 
@@ -83,7 +85,7 @@ motion = "free"
     );
     let built = simulate::<3>(&case(&built, None).model, &mut []);
     let runs = [given, built].map(|run| run.expect("the case runs"));
-    for run in &runs {
+    for (run, domain) in runs.iter().zip(["given", "built"]) {
         // It has come by 0.25 and its radius near to the end of the tube, and not a step before
         let x = run.series.column("sphere.x").expect("it is measured");
         assert!(x[x.len() - 1] > 1.5 && x[x.len() - 2] < 1.5, "{x:?}");
@@ -91,7 +93,7 @@ motion = "free"
         assert!(last(run, "flow.remeshes") >= 1.0 && last(run, "flow.minimum_gap") > 0.1);
         // Iterations leave 1e-6 of the change of a flow, of which pi / 2 enters
         let defect = last(run, "flow.mass_defect");
-        println!("defect {defect:.1e}, {} meshes", last(run, "flow.remeshes"));
+        figure!(defect, "{domain}: mass defect");
         assert!(defect.abs() < 2e-6, "{defect}");
     }
     // Both meshes are coarse; the one that is given has bent edges of a third of the radius
@@ -99,7 +101,7 @@ motion = "free"
     assert_eq!(given.steps, built.steps);
     for (name, tolerance) in [("sphere.x", 5e-3), ("sphere.y", 5e-3), ("sphere.velocity.x", 2e-2)] {
         let [one, other] = [&given, &built].map(|run| last(run, name));
-        println!("{name} {one} {other}");
+        figure!(one - other, "{name}: carried");
         assert!((one - other).abs() < tolerance, "{name}: {one} {other}");
     }
 }
@@ -129,7 +131,7 @@ motion = { imposed = { velocity = [1.0, 0.5, 0.0] } }
     let built = simulate::<3>(&case(&built, None).model, &mut []).expect("is solved");
     for name in ["sphere.force.x", "sphere.force.y"] {
         let [one, other] = [&given, &built].map(|run| last(run, name));
-        println!("{name} {one} {other}");
+        figure!(one / other - 1.0, "{name}: resistance");
         assert!((one / other - 1.0).abs() < 2e-3, "{name}: {one} {other}");
     }
 }

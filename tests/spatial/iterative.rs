@@ -12,7 +12,7 @@ use alewife_core::step::SteadyFlow;
 use alewife_core::timing::Timing;
 use alewife_mesh::{BoundaryId, BoundaryKind, Mesh, Point};
 use nalgebra::{DMatrix, Matrix3, UnitQuaternion, Vector3};
-use tests::{BoxOfTetrahedra, fluid_only, one_system_from_rest, steady_with, workspace};
+use tests::{BoxOfTetrahedra, figure, fluid_only, one_system_from_rest, steady_with, workspace};
 
 /// Viscosity and density far from one: sizes of forces and pressures are not those of velocities.
 const VISCOSITY: f64 = 2e-3;
@@ -206,7 +206,7 @@ fn steady_flow_with_convection_is_found_by_iterations() {
         };
         let flow = steady_flow(reynolds, SolverChoice::Iterative(settings));
         let differences = difference(&direct.solution, &flow.solution);
-        println!("Reynolds number {reynolds}: {differences:?}");
+        figure!(differences[0].max(differences[1]), "Reynolds number {reynolds}");
         assert!(differences.iter().all(|difference| *difference < 1e-6), "{differences:?}");
     }
 }
@@ -265,7 +265,8 @@ fn solutions_with_one_matrix_share_their_directions() {
         (solution, system.accuracy().refinements)
     };
     let ((with, few), (without, many)) = (second_of_two(false), second_of_two(true));
-    println!("{few} and {many} iterations");
+    figure!(few as f64, "iterations that share");
+    figure!(many as f64, "iterations that do not");
     assert!(few < many, "{few} {many}");
     let differences = difference(&with, &without);
     assert!(differences.iter().all(|difference| *difference < 1e-8), "{differences:?}");
@@ -301,7 +302,7 @@ fn mobilities_by_iterations_are_those_by_factors() {
     });
     let block = |matrix: &DMatrix<f64>| matrix.view((0, 0), (3, 3)).into_owned();
     assert_eq!(block(&all), block(&moves));
-    println!("{off:?}");
+    figure!(off.iter().copied().fold(0.0, f64::max), "mobility");
     assert!(off.iter().all(|off| *off < 1e-7), "{off:?}");
     for (i, j) in (0..6).flat_map(|i| (0..6).map(move |j| (i, j))).filter(|(i, j)| i.max(j) > &2) {
         assert_eq!(moves[(i, j)], 0.0);

@@ -4,6 +4,7 @@ use alewife_core::case::Model;
 use alewife_core::run::{RunSummary, simulate};
 use nalgebra::{UnitQuaternion, Vector3};
 use tests::cases::{case, column, last};
+use tests::figure;
 
 /// Two ellipsoids on a joint, turned and pulled askew, with inertia.
 fn pair(joint: &str, step: f64) -> Model {
@@ -128,7 +129,7 @@ fn a_hinge_in_space_turns_about_its_axis_alone_under_the_torque_of_its_law() {
         assert!((power - rate * torque).abs() < 1e-12 * power.abs());
         torque_off(&outcome, |angle, rate| 2.0 - 0.6 * angle - 0.2 * rate)
     });
-    println!("{offs:?}");
+    figure!(offs[0].max(offs[1]), "torque of a hinge");
     // The torque is that at the poses of the last pass, which end up elsewhere by less than the tolerance of
     // passes, whatever the step: 1e-6 and 3e-6 were found. Taken at the poses without velocity it was off
     // by up to 5e-5, with the square of the step.
@@ -149,20 +150,34 @@ fn a_ball_joint_turns_freely_and_keeps_its_ends_together() {
 
 /// Without inertia, where a run that starts at once is smooth in time. The first step is made in pieces: it has a
 /// part of the error of the others, so that the ratio is 3.6 with 10, 20 and 40 steps (3.1 with half as many).
-#[test]
-fn ball_joints_in_space_are_of_second_order_in_time() {
+fn ratios_of_changes(steps: [f64; 3]) -> [f64; 2] {
     let fluid = r#"model = "stokes", viscosity = 1.0, density = 1.0, gravity = [9.0, -12.0, 15.0]"#;
     let joint = "kind.ball = { stiffness = 3.0, damping = 0.2 }";
-    let [coarse, middle, fine] = [0.02, 0.01, 0.005].map(|step| {
+    let [coarse, middle, fine] = steps.map(|step| {
         let outcome = run(&pair_in(fluid, joint, step));
         let (apart, turned) = off(&outcome);
         assert!(apart < 1e-12, "{apart:e}");
         [turned, vector(&outcome, "rear.")]
     });
     assert!(coarse[0].norm() > 0.05, "{}", coarse[0]);
-    for what in 0..2 {
-        let ratio = (coarse[what] - middle[what]).norm() / (middle[what] - fine[what]).norm();
-        println!("{ratio}");
-        assert!((3.2..5.0).contains(&ratio), "{ratio}");
-    }
+    let ratio =
+        |what: usize| (coarse[what] - middle[what]).norm() / (middle[what] - fine[what]).norm();
+    let ratios = [ratio(0), ratio(1)];
+    figure!(ratios[0], "ratio of turns, step {}", steps[0]);
+    figure!(ratios[1], "ratio of places, step {}", steps[0]);
+    ratios
+}
+
+/// Half-way between first order, 2, and second, 4, where the start is a smaller part of a run.
+#[test]
+fn ball_joints_in_space_are_beyond_first_order_in_few_steps() {
+    let ratios = ratios_of_changes([0.04, 0.02, 0.01]);
+    assert!(ratios.iter().all(|ratio| (2.9..5.0).contains(ratio)), "{ratios:?}");
+}
+
+#[test]
+#[ignore = "long: 10 s; small: ball_joints_in_space_are_beyond_first_order_in_few_steps"]
+fn ball_joints_in_space_are_of_second_order_in_time() {
+    let ratios = ratios_of_changes([0.02, 0.01, 0.005]);
+    assert!(ratios.iter().all(|ratio| (3.2..5.0).contains(ratio)), "{ratios:?}");
 }

@@ -9,6 +9,7 @@ use alewife_core::run::{Attempt, Simulation, build_mesh, motion_settings, simula
 use alewife_mesh::{Mesh, Point};
 use nalgebra::{Quaternion, UnitQuaternion};
 use tests::cases::case;
+use tests::figure;
 use tests::mirror_image;
 
 /// The coordinate that changes its sign.
@@ -151,7 +152,7 @@ fn squirmers_that_pass_each_other_are_seen_in_the_mirror_as_they_are() {
         }
     }
     let [a, b] = [0, 1].map(|body: usize| one.state.poses[body]);
-    println!("in the mirror: {worst:.1e} off, {} new meshes", one.state.remeshes);
+    figure!(worst, "in the mirror");
     assert!(worst < 1e-6, "{worst:e}");
     assert!(one.state.remeshes >= 2 && one.state.remeshes == other.state.remeshes);
     // They have passed each other, and turned by much more than that

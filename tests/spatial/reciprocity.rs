@@ -3,6 +3,7 @@
 use alewife_core::run::{RunSummary, simulate};
 use nalgebra::Vector3;
 use tests::cases::{case, last};
+use tests::figure;
 
 const ELLIPSOID: &str = "shape.ellipsoid.semi_axes = [1.2, 0.9, 0.7]";
 
@@ -94,7 +95,7 @@ fn assert_reciprocity(shape: &str) {
     let [of_first, of_second] = [first, second].map(|motion| motion.resistance(shape));
     let [one, other] = [of_first.work(&second), of_second.work(&first)];
     let size = (of_first.work(&first) * of_second.work(&second)).sqrt();
-    println!("work of the resistance to one motion in the other: {one}, {other}, of {size}");
+    figure!((one - other) / size, "{shape}: work");
     assert!((one - other).abs() < 1e-8 * size, "{one} {other}");
 
     let [force, torque] =
@@ -102,6 +103,6 @@ fn assert_reciprocity(shape: &str) {
     let pulled = run(shape, &format!("motion = \"free\"\nforce = {force:?}\ntorque = {torque:?}"));
     let moved = Screw::of(&pulled, ["velocity", "angular_velocity"]);
     let off = (moved.linear - first.linear).amax().max((moved.angular - first.angular).amax());
-    println!("the free body differs by {off:e}");
+    figure!(off, "{shape}: free");
     assert!(off < 1e-8, "{moved:?}");
 }

@@ -144,7 +144,7 @@ fn a_free_top_keeps_its_angular_momentum_and_its_energy_to_second_order() {
         steps.iter().map(off).fold(0.0, f64::max) / momentum(&start).norm()
     });
     for (name, study) in [("angular momentum", momenta), ("energy", energies)] {
-        println!("free top, {name}: order {:.2}, {:?}", study.order(), study.errors);
+        study.record(&format!("free top, {name}"));
         assert!(study.order() > 1.8 && study.errors[2] < 1e-3, "{name}: {study:?}");
     }
 }

@@ -6,6 +6,7 @@ use alewife_core::case::Model;
 use alewife_core::run::{RunSummary, simulate};
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use tests::cases::{case, column, last};
+use tests::figure;
 
 /// Two round bodies in a round container, as text of a case.
 struct Pair {
@@ -155,11 +156,11 @@ fn ratio(coarse: f64, middle: f64, fine: f64) -> f64 {
 #[test]
 fn a_spring_relaxes_with_the_second_order_of_the_steps() {
     let [coarse, middle, fine] = [0.04, 0.02, 0.01].map(relaxed::<2>);
-    println!("planar {coarse} {middle} {fine}: {}", ratio(coarse, middle, fine));
+    figure!(ratio(coarse, middle, fine), "planar spring");
     assert!(coarse > 1.35, "{coarse}");
     assert!((3.2..5.0).contains(&ratio(coarse, middle, fine)));
     let [coarse, middle, fine] = [0.1, 0.05, 0.025].map(relaxed::<3>);
-    println!("spatial {coarse} {middle} {fine}: {}", ratio(coarse, middle, fine));
+    figure!(ratio(coarse, middle, fine), "spatial spring");
     assert!((3.2..5.0).contains(&ratio(coarse, middle, fine)));
 }
 
@@ -229,7 +230,8 @@ fn free_and_given_lengths_agree<const D: usize>() {
         }
         size = size.max(law.abs());
     }
-    println!("{D}: {:e} from the law, {:e} from that of given lengths", off_law / size, off / size);
+    figure!(off_law / size, "{D}: from the law");
+    figure!(off / size, "{D}: from that of given lengths");
     // 4e-5 and 8e-5 were found, 9e-5 and 5e-4 on the coarse mesh in space: poses of the last pass that are within
     // its tolerance, and a stroke that is cubic between the steps. Before the system was numbered anew where
     // another component is the longest, both were off by 5e-2 to 2e-1 from there on.
@@ -283,7 +285,7 @@ fn a_slider_on_the_axis_moves_as_in_space() {
     let [axis, space] = [false, true].map(on_the_axis);
     for name in ["b.joint.rate", "b.joint.force", "a.velocity.x", "b.velocity.x"] {
         let [one, other] = [&axis, &space].map(|outcome| last(outcome, name));
-        println!("{name}: {one:.6} {other:.6}");
+        figure!(one / other - 1.0, "{name}");
         assert!((one / other - 1.0).abs() < 5e-3, "{name}: {one} {other}");
     }
 }

@@ -282,9 +282,8 @@ fn walks_near_contact_get_all_the_meshes_they_need() {
     }
 }
 
-/// `cargo test --release -p tests --test spatial walks -- --ignored --nocapture`
 #[test]
-#[ignore = "takes three hours of CPU time; run after changes of the mesher, or of the motion of meshes"]
+#[ignore = "long: three hours; small: walks_near_contact_get_all_the_meshes_they_need"]
 fn ten_thousand_meshes_of_random_walks_are_made() {
     let failed: Vec<String> = (1000..1200).filter_map(|seed| walk(seed, 50).err()).collect();
     assert!(failed.is_empty(), "{}", failed.join("\n"));

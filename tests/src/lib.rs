@@ -1,7 +1,8 @@
-//! Exact solutions, error norms and refinement studies shared by the tests of the whole project.
+//! Exact solutions, error norms, refinement studies and stored figures, shared by all tests here.
 
 pub mod cases;
 pub mod exact;
+mod figures;
 mod moved;
 mod norms;
 mod setup;
@@ -12,6 +13,7 @@ mod study;
 mod swim;
 mod tetrahedra;
 
+pub use figures::record;
 pub use moved::{Moved, mirror_image};
 pub use norms::{Errors, errors};
 pub use setup::{fluid_only, rest, sides};

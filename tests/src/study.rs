@@ -1,5 +1,9 @@
 //! `Study`: errors over a sequence of cell sizes or steps, and the order fitted to them.
 
+use std::panic::Location;
+
+use crate::record;
+
 /// Errors at several resolutions.
 #[derive(Debug, Clone)]
 pub struct Study {
@@ -26,12 +30,26 @@ impl Study {
         over / x.iter().map(|x| (x - mean_x).powi(2)).sum::<f64>()
     }
 
+    /// Shows the order and the last error as figures of the file that calls, by a name of the study.
+    ///
+    /// # Panics
+    /// When there are no errors.
+    #[track_caller]
+    pub fn record(&self, name: &str) {
+        let module = Location::caller().file().trim_end_matches(".rs").replace('/', "::");
+        println!("{name}: order {:.3}, errors {:?} at {:?}", self.order(), self.errors, self.sizes);
+        record(&module, &format!("{name}: order"), self.order());
+        let last = *self.errors.last().expect("there are errors");
+        record(&module, &format!("{name}: last error"), last);
+    }
+
     /// Fails unless the order is within `slack` of `expected`.
     ///
     /// # Panics
     /// When it is not.
+    #[track_caller]
     pub fn assert_order(&self, name: &str, expected: f64, slack: f64) {
-        println!("{name}: order {:.3}, errors {:?} at {:?}", self.order(), self.errors, self.sizes);
+        self.record(name);
         assert!(
             (self.order() - expected).abs() <= slack,
             "{name}: order {:.3} where {expected} +- {slack} is expected; {self:?}",

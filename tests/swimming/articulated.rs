@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 
 use alewife_core::run::RunSummary;
 use tests::cases::{case, column, last, run};
+use tests::figure;
 
 /// Semi-axes of a link, and from its centre to the pivot.
 const LINK: [f64; 2] = [0.4, 0.12];
@@ -121,7 +122,8 @@ fn a_chain_in_next_to_nothing_is_a_double_pendulum() {
         assert!(spin.abs() < 4.0 * step * step * size * LEVER, "{spin}");
         left.push((energy - work).abs() / work);
     }
-    println!("{errors:?} {left:?}");
+    figure!(left[2], "energy left");
+    figure!(errors[2], "error");
     assert!(left[2] < 0.03 && left[2] < 0.4 * left[1] && left[1] < 0.4 * left[0], "{left:?}");
     assert!(errors[2] < 2e-3, "{errors:?}");
     assert!(errors[1] / errors[2] > 3.2 && errors[0] / errors[1] > 2.8, "{errors:?}");
@@ -244,7 +246,8 @@ fn the_motion_of_a_linked_pair_balances_its_weight() {
     let sideways = at(&apart, "one.force.x") + at(&apart, "other.force.x");
     let torque =
         at(&apart, "one.torque") + at(&apart, "other.torque") + 0.9 * (lift("other") - weights[1]);
-    println!("velocity {one:?}; off balance {sideways:e}, {torque:e}");
+    figure!(sideways, "force off balance");
+    figure!(torque, "torque off balance");
     assert!(sideways.abs() < 1e-9 && torque.abs() < 1e-9, "{sideways:e} {torque:e}");
 }
 
@@ -317,7 +320,8 @@ fn the_momentum_of_a_swimmer_changes_by_the_force_of_the_fluid() {
             off = off.max((rate - torque[n]).abs());
             most = most.max(torque[n].abs());
         }
-        println!("step {step}: force {:.1e}, torque {:.1e}", worst / size, off / most);
+        figure!(worst / size, "step {step}: force");
+        figure!(off / most, "step {step}: torque");
         off / most
     };
     let (coarse, fine) = (at(0.04), at(0.02));

@@ -2,6 +2,7 @@
 
 use alewife_core::case::Model;
 use tests::cases::{case, last, run};
+use tests::figure;
 
 /// Swimmers of three discs in a box, so many and so placed.
 fn crowd(copies: &str) -> Model {
@@ -129,7 +130,8 @@ fn swimmers_driven_together_do_not_overlap() {
         carried = carried.max(contact / weight);
         assert!((fluid + contact - weight).abs() < 1e-8 * weight);
     }
-    println!("least gap {least}, {} meshes", last(&outcome, "flow.remeshes"));
+    figure!(least, "least gap");
+    figure!(carried, "part of a weight that contact carries");
     assert!(carried > 0.1, "nobody stands on anything: {carried}");
     assert!(least > 0.0 && least < 0.1, "{least}");
 }

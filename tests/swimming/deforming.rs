@@ -5,7 +5,7 @@ use alewife_core::coupling::BodyShapes;
 use alewife_core::run::{RunError, RunSummary, build_mesh, build_problem, simulate};
 use alewife_core::step::FlowError;
 use tests::cases::{case, column, last, run};
-use tests::{resumed, stopped};
+use tests::{figure, resumed, stopped};
 
 /// A stout fish in a closed box; `gait` may be empty.
 fn fish(gait: &str, time: &str, mesh: &str) -> String {
@@ -72,12 +72,9 @@ fn force_and_torque_are_the_rates_of_momentum_and_angular_momentum() {
     let inertia = inertia.into_iter();
     let [least, largest] = inertia.fold([f64::INFINITY, 0.0], |[a, b], i| [a.min(i), b.max(i)]);
     let defect = column(&outcome, "flow.mass_defect").iter().fold(0.0f64, |m, d| m.max(d.abs()));
-    println!(
-        "force {:.1e}, torque {:.1e}, inertia changes by {:.1e}, mass defect {defect:.1e}",
-        worst / size,
-        off / most,
-        largest / least - 1.0
-    );
+    figure!(worst / size, "force");
+    figure!(off / most, "torque");
+    figure!(defect, "mass defect");
     assert!(worst < 1e-9 * size && off < 1e-9 * most, "{worst:e} {off:e}");
     assert!(largest > 1.005 * least, "the inertia changes by {}", largest / least - 1.0);
     assert!(defect < 1e-5, "{defect:e}");
@@ -126,7 +123,8 @@ fn a_new_mesh_in_the_middle_of_a_beat_changes_little() {
                 steps.map(|step| (one[step] - other[step]).abs() / size).fold(0.0, f64::max)
             };
             let (after, otherwise) = (largest(true), largest(false));
-            println!("{frame} {name}: {after:.1e} after a new mesh, {otherwise:.1e} otherwise");
+            figure!(after, "{frame}, {name} after a new mesh");
+            figure!(otherwise, "{frame}, {name} otherwise");
             let allowed = if name == "torque" { 0.015 } else { 0.005 };
             assert!(after < allowed && otherwise < allowed, "{name}: {after:e} {otherwise:e}");
         }
@@ -140,7 +138,7 @@ fn the_energy_of_a_beat_is_accounted_for() {
         let time = format!("step = {step}, end = 1.0");
         let outcome = run(&case(&fish(BEAT, &time, "size = 0.15, surface = 0.04")));
         let defect = last(&outcome, "flow.energy_defect");
-        println!("step {step}: {defect}, {} meshes", last(&outcome, "flow.remeshes"));
+        figure!(defect, "step {step}: energy defect");
         defect
     };
     let (coarse, fine) = (at(0.04), at(0.02));

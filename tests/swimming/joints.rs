@@ -1,7 +1,7 @@
 //! What is reported of joints: the loads that come through them, by an independent way.
 
 use tests::cases::{case, column, last, run};
-use tests::{resumed, stopped};
+use tests::{figure, resumed, stopped};
 
 /// Three hinged links with weights in a fluid: torques through the hinges less those of spring, damper
 /// and motor there, over the largest torque.
@@ -53,7 +53,8 @@ fn torques_off(step: f64) -> f64 {
 #[test]
 fn torques_through_hinges_are_those_of_their_laws() {
     let off = [0.02, 0.005].map(torques_off);
-    println!("{off:?}");
+    figure!(off[0], "torque, step 0.02");
+    figure!(off[1], "torque, step 0.005");
     assert!(off[0] < 4e-5 && off[1] < 1e-6, "{off:?}");
 }
 

@@ -4,6 +4,7 @@
 use alewife_core::run::{RunSummary, simulate};
 use tests::Study;
 use tests::cases::{case, last, run};
+use tests::figure;
 
 /// Three discs of different sizes, off the middle of a box and turned, so that they move and turn in
 /// every way there is.
@@ -63,7 +64,7 @@ fn explicit_steps_are_of_third_order_whether_strokes_are_smooth_or_not() {
         let study = Study::run(&[0.8 / 3.0, 0.8 / 6.0, 0.8 / 12.0], |step| {
             distance(&pose(&three_discs("rk3", step, arms)), &fine)
         });
-        println!("rk3, {name}: order {:.3}, {:?}", study.order(), study.errors);
+        study.record(&format!("rk3, {name}"));
         assert!(study.order() > 2.7, "{name}: {study:?}");
     }
 }
@@ -78,7 +79,8 @@ fn explicit_steps_are_of_third_order_with_contact_in_range() {
         Study::run(&[0.8 / 3.0, 0.8 / 6.0, 0.8 / 12.0], |step| distance(&run("rk3", step), &fine));
     let implicit = distance(&run("bdf2", 0.8 / 48.0), &fine);
     let without = distance(&pose(&three_discs("rk3", 0.8 / 12.0, SMOOTH)), &fine);
-    println!("order {:.3}, {:?}, bdf2 {implicit:e}, {without:e}", study.order(), study.errors);
+    study.record("rk3 with contact");
+    figure!(implicit, "bdf2 with contact");
     assert!(study.order() > 2.7, "{study:?}");
     assert!(implicit < 0.02 * without, "bdf2 is {implicit:e} off, and contact makes {without:e}");
     assert!(study.errors[2] < implicit, "twelve explicit steps and 48 implicit ones: {study:?}");
@@ -124,7 +126,7 @@ fn bdf2_is_of_second_order_whether_strokes_are_smooth_or_not() {
         let study = Study::run(&[0.8 / 16.0, 0.8 / 32.0, 0.8 / 64.0], |step| {
             distance(&pose(&three_discs("bdf2", step, arms)), &fine)
         });
-        println!("bdf2, {name}: order {:.3}, {:?}", study.order(), study.errors);
+        study.record(&format!("bdf2, {name}"));
         assert!(study.order() > 1.7, "{name}: {study:?}");
     }
 }

@@ -1,6 +1,7 @@
 //! Without inertia the way does not depend on how fast it is gone, and to and fro leads nowhere.
 
 use tests::cases::{case, last, run};
+use tests::figure;
 
 /// Purcell's swimmer in a container, or a scallop, with a stroke of a given period.
 fn swim(kind: &str, time: &str) -> [f64; 3] {
@@ -55,7 +56,7 @@ fn the_way_of_a_cycle_does_not_depend_on_its_rate() {
         };
         let (slow, fast) = (at(1.0), at(0.25));
         let off = slow.iter().zip(fast).map(|(one, other)| (one - other).abs()).fold(0.0, f64::max);
-        println!("{scheme}: {slow:?}, differs by {off:e}");
+        figure!(off, "{scheme}: rate");
         assert!(slow[0].hypot(slow[1]) > 1e-3);
         assert!(off < 1e-9, "{scheme}: {slow:?} {fast:?}");
     }
@@ -74,7 +75,7 @@ fn a_scallop_is_back_where_it_was() {
             let way = swim(kind, &format!("step = {step}, end = 1.0, scheme = \"rk3\""));
             way.iter().fold(0.0f64, |most, part| most.max(part.abs()))
         });
-        println!("{name}: {left:?}");
+        figure!(left[1], "{name}");
         assert!(left[1] < 1e-8 && left[1] < left[0] / 6.0, "{name}: {left:?}");
     }
 }

@@ -196,9 +196,8 @@ fn crowds_anywhere_in_periodic_boxes_give_good_meshes() {
     check_crowds(0..4);
 }
 
-/// `cargo test --release -p alewife-mesh --test tetrahedra many_crowds -- --ignored`.
 #[test]
-#[ignore = "takes half an hour"]
+#[ignore = "long: half an hour; small: crowds_anywhere_in_periodic_boxes_give_good_meshes"]
 fn many_crowds_in_periodic_boxes_give_good_meshes() {
     check_crowds(1000..1500);
 }

@@ -25,16 +25,14 @@ fn a_short_thin_tail_is_meshed_in_its_beat() {
     check_tail(12.0, 0.3);
 }
 
-/// `cargo test --release -p alewife-mesh --test tetrahedra tail -- --ignored --nocapture`
 #[test]
-#[ignore = "takes some minutes; run after changes of the mesher"]
+#[ignore = "long: minutes; small: a_short_thin_tail_is_meshed_in_its_beat"]
 fn a_long_thin_tail_is_meshed_at_all_phases_of_its_beat() {
     (0..8).for_each(|eighth| check_tail(50.0, f64::from(eighth) / 8.0));
 }
 
-/// As above.
 #[test]
-#[ignore = "takes a minute; run after changes of the mesher"]
+#[ignore = "long: a minute; small: a_short_thin_tail_is_meshed_in_its_beat"]
 fn a_short_thin_tail_is_meshed_at_other_phases_of_its_beat() {
     [0.0, 0.7].into_iter().for_each(|phase| check_tail(12.0, phase));
 }

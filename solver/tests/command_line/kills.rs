@@ -6,8 +6,6 @@ use std::time::Duration;
 
 use super::{DISC, FLUID};
 
-/// Kills in all, over all cases.
-const KILLS: usize = 50;
 /// Threads of the parts of a run, in turn.
 const THREADS: [&str; 3] = ["1", "2", "3"];
 
@@ -54,8 +52,8 @@ fn end(directory: &Path, out: &str) -> [Vec<u8>; 2] {
     [out.join("series.csv"), last].map(|path| std::fs::read(path).unwrap())
 }
 
-#[test]
-fn fifty_kills_leave_no_trace() {
+/// Kills runs of all cases, so many in all; how many of the runs that ended had resumed.
+fn kill(n: usize) -> usize {
     let (mut kills, mut resumed, mut random) = (0, 0, 1_u64);
     for (index, text) in cases().into_iter().enumerate() {
         let place = tempfile::tempdir().unwrap();
@@ -65,7 +63,7 @@ fn fifty_kills_leave_no_trace() {
         let whole = run(directory, "whole", "1").output().unwrap();
         assert!(whole.status.success(), "{}", String::from_utf8_lossy(&whole.stderr));
         let longest = started.elapsed().as_millis();
-        let due = KILLS * (index + 1) / 4;
+        let due = n * (index + 1) / 4;
         let mut round = 0;
         while kills < due {
             let out = format!("killed-{round}");
@@ -102,5 +100,18 @@ fn fifty_kills_leave_no_trace() {
         }
     }
     println!("{kills} kills, {resumed} runs resumed");
+    resumed
+}
+
+#[test]
+fn kills_leave_no_trace() {
+    let resumed = kill(12);
+    assert!(resumed >= 1, "none of the runs resumed from a checkpoint");
+}
+
+#[test]
+#[ignore = "long: minutes; small: kills_leave_no_trace"]
+fn fifty_kills_leave_no_trace() {
+    let resumed = kill(50);
     assert!(resumed >= 4, "{resumed} of the runs resumed from a checkpoint");
 }

@@ -95,7 +95,7 @@ fn the_installed_pages_of_the_manual_are_up_to_date() {
         done(place.path(), &["manual", shipped.to_str().unwrap()]);
     }
     done(place.path(), &["manual", "man1"]);
-    let remedy = "ALEWIFE_UPDATE=1 cargo test --release -p alewife --test command_line pages";
+    let remedy = "ALEWIFE_UPDATE=1 cargo test --release -p alewife --test program pages";
     assert_eq!(names(&made), names(&shipped), "to write them again: {remedy}");
     for name in names(&made) {
         let of = |folder: &Path| std::fs::read_to_string(folder.join(&name)).unwrap();

@@ -146,7 +146,6 @@ fn a_sheet_waves_on_the_bottom_of_a_periodic_box_and_alone() {
 
 #[test]
 fn sizes_that_ask_for_too_many_cells_are_refused_before_the_mesh_is_made() {
-    let started = std::time::Instant::now();
     let asks = "cells, more than 5e6";
     refused(
         "surface = 0.02",
@@ -176,7 +175,6 @@ fn sizes_that_ask_for_too_many_cells_are_refused_before_the_mesh_is_made() {
         "gap_layers = 1e6",
         &["gaps would get 1000000 layers", "4 are usual"],
     );
-    assert!(started.elapsed().as_secs() < 10, "{:?}", started.elapsed());
     // What only all sizes together ask for is found before the mesh is made, too
     let directory = tempfile::tempdir().unwrap();
     std::fs::write(

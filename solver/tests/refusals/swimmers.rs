@@ -1,6 +1,6 @@
 //! Wrong joints and swimmers.
 
-use super::{Said, alewife, assert_accepted, assert_refused, check, edited_in};
+use super::{Said, alewife, assert_accepted, assert_refused, check, check_within, edited_in};
 
 /// Swimmers and joints in an unsteady run: nothing wrong in it.
 const SWIMMING: &str = r#"
@@ -217,11 +217,9 @@ fn two_thousand_bodies_are_checked_at_once() {
         copies.lattice = { counts = [50, 40], spacing = [3.9, 3.9] }
         kind.body = { shape.disc.radius = 1.0, gait.squirmer.modes = [1.0] }
     "#;
-    let started = std::time::Instant::now();
-    let said = check(text, &[]);
+    let said = check_within(2, text, &[]);
     assert_accepted(&said);
     assert!(said.stdout.contains("disc-2000"), "{}", said.stdout);
-    assert!(started.elapsed().as_secs_f64() < 2.0, "{:?}", started.elapsed());
 }
 
 #[test]

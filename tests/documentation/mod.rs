@@ -76,7 +76,7 @@ fn table<T>(title: &str, rows: &[Quantity<T>]) -> String {
     text
 }
 
-/// To write the tables again: `ALEWIFE_UPDATE=1 cargo test --release -p tests --test documentation`.
+/// To write the tables again: `ALEWIFE_UPDATE=1 cargo test --release -p tests --test whole documentation::`.
 #[test]
 fn the_tables_of_quantities_are_those_of_the_program() {
     let tables = [

@@ -2,6 +2,7 @@
 
 mod circles;
 mod limits;
+mod long;
 mod sources;
 
 use std::collections::BTreeMap;
@@ -114,7 +115,7 @@ fn foreign_crates_are_named_where_they_live_only() {
 }
 
 /// Each file's first line is its row in the map. To write the map again:
-/// `ALEWIFE_UPDATE=1 cargo test --release -p tests --test architecture`.
+/// `ALEWIFE_UPDATE=1 cargo test --release -p tests --test whole architecture::`.
 #[test]
 fn the_map_agrees_with_the_first_line_of_each_file() {
     let page = root().join("docs/architecture.md");

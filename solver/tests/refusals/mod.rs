@@ -77,26 +77,31 @@ struct Said {
 }
 
 fn alewife(directory: &Path, arguments: &[&str]) -> Said {
-    let output = Command::new(env!("CARGO_BIN_EXE_alewife"))
-        .args(arguments)
-        .current_dir(directory)
-        .env_remove("RUST_BACKTRACE")
-        .output()
-        .unwrap();
+    said(Command::new(env!("CARGO_BIN_EXE_alewife")).args(arguments).current_dir(directory))
+}
+
+fn said(command: &mut Command) -> Said {
+    let output = command.env_remove("RUST_BACKTRACE").output().unwrap();
     Said {
-        code: output.status.code().unwrap(),
+        code: output.status.code().unwrap_or_else(|| panic!("{}", output.status)),
         stdout: String::from_utf8(output.stdout).unwrap(),
         stderr: String::from_utf8(output.stderr).unwrap(),
     }
 }
 
-/// Checks a text as `wrong.toml`, with more arguments behind it.
+/// Checks a text as `wrong.toml`, with more arguments behind it, within a second.
 fn check(text: &str, arguments: &[&str]) -> Said {
+    check_within(1, text, arguments)
+}
+
+/// The same within some seconds of CPU time, which do not depend on what else the machine does.
+fn check_within(seconds: u32, text: &str, arguments: &[&str]) -> Said {
     let directory = tempfile::tempdir().unwrap();
     std::fs::write(directory.path().join("wrong.toml"), text).unwrap();
-    let all: Vec<&str> =
-        ["check", "--no-mesh", "wrong.toml"].iter().chain(arguments).copied().collect();
-    alewife(directory.path(), &all)
+    let mut limited = Command::new("sh");
+    limited.args(["-c", &format!("ulimit -t {seconds} && exec \"$0\" \"$@\"")]);
+    limited.args([env!("CARGO_BIN_EXE_alewife"), "check", "--no-mesh", "wrong.toml"]);
+    said(limited.args(arguments).current_dir(directory.path()))
 }
 
 /// The right case with one stretch of it replaced.

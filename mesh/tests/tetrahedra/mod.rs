@@ -331,16 +331,14 @@ fn failed(seeds: std::ops::Range<u64>, check: fn(u64)) -> Vec<u64> {
     seeds.filter(|seed| std::panic::catch_unwind(|| check(*seed)).is_err()).collect()
 }
 
-/// `cargo test --release -p alewife-mesh --test tetrahedra -- --ignored --nocapture`
 #[test]
-#[ignore = "takes half an hour; run after changes of the mesher"]
+#[ignore = "long: half an hour; small: random_placements_give_good_meshes"]
 fn many_random_placements_give_good_meshes() {
     assert_eq!(failed(1000..3000, check_random_placement), []);
 }
 
-/// As above.
 #[test]
-#[ignore = "takes some minutes; run after changes of the mesher"]
+#[ignore = "long: minutes; small: random_swimmers_give_good_meshes"]
 fn many_random_swimmers_give_good_meshes() {
     assert_eq!(failed(1000..1200, check_random_swimmer), []);
 }

@@ -1,0 +1,9 @@
+//! Meshes through the door of the crate: any valid placement of bodies is meshed, and well.
+
+mod closest;
+mod common;
+mod cut;
+mod msh;
+mod properties;
+mod sizes;
+mod tetrahedra;

@@ -1,0 +1,74 @@
+"""Commits that loosen what a test or a case is held to are found, unless they say why."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+SCRIPT = Path(__file__).resolve().parents[2] / "tests" / "loosened.py"
+TEST = 'assert!(error < 1e-6 && order > 1.9, "{error}");\nlet n = 5;\n'
+CASE = "[[reference]]\nvalue = 1.0\nrelative = 1e-3\n"
+
+
+class Clone:
+    """A repository with a test and a case, and what a change of them is answered."""
+
+    def __init__(self, place: Path) -> None:
+        """Start with both."""
+        self.place = place
+        self.git("init", "--quiet")
+        self.commit("start", TEST, CASE)
+
+    def git(self, *arguments: str) -> None:
+        """Call git."""
+        who = ["-c", "user.name=a", "-c", "user.email=a@b.c"]
+        subprocess.run(["git", *who, *arguments], cwd=self.place, check=True)
+
+    def commit(self, message: str, test: str, case: str) -> None:
+        """Commit both as they are to be."""
+        for name, text in [("tests/a.rs", test), ("cases/b/case.toml", case)]:
+            file = self.place / name
+            file.parent.mkdir(parents=True, exist_ok=True)
+            file.write_text(text, encoding="utf-8")
+        self.git("add", ".")
+        self.git("commit", "--quiet", "--message", message)
+
+    def told(self) -> list[str]:
+        """What is said of the last commit."""
+        done = subprocess.run(
+            [sys.executable, SCRIPT], cwd=self.place, capture_output=True, text=True, check=False
+        )
+        assert done.returncode == (1 if done.stderr else 0), done.stderr
+        return done.stderr.splitlines()[:-1]
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "told"),
+    [
+        ("1e-6", "2e-6", "1e-6 became 2e-6"),
+        ("1.9", "1.8", "1.9 became 1.8"),
+        ("relative = 1e-3", "relative = 0.002", "1e-3 became 0.002"),
+    ],
+)
+def test_what_is_loosened_needs_a_reason(tmp_path: Path, old: str, new: str, told: str) -> None:
+    clone = Clone(tmp_path)
+    looser = TEST.replace(old, new), CASE.replace(old, new)
+    clone.commit("change", *looser)
+    (found,) = clone.told()
+    assert told in found
+    clone.commit("back", TEST, CASE)
+    assert clone.told() == []
+    clone.commit("change\n\nLoosened: the mesh is coarser", *looser)
+    assert clone.told() == []
+
+
+def test_what_is_no_limit_may_change(tmp_path: Path) -> None:
+    clone = Clone(tmp_path)
+    tighter = TEST.replace("1e-6", "1e-7").replace("1.9", "1.95").replace("n = 5", "n = 6")
+    clone.commit("tighter", tighter, CASE.replace("1e-3", "5e-4").replace("1.0", "3.0"))
+    assert clone.told() == []
+    clone.commit("moved", "// first\n" + "".join(reversed(tighter.splitlines(True))), CASE)
+    assert clone.told() != []

@@ -1,0 +1,5 @@
+//! Case files through the door of the crate: files they name, and files with mistakes.
+
+mod mesh_files;
+mod mutations;
+mod stroke_files;

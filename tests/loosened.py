@@ -1,0 +1,105 @@
+#!/usr/bin/env python3
+"""Refuses commits that loosen a number which a test or a reference is held to, unless they say why.
+
+    tests/loosened.py [COMMIT]
+
+looks at each commit since COMMIT; without it since `origin/main`, or at the last one alone. A
+number is looser where it is larger behind `<`, smaller behind `>`, or a larger tolerance of a case,
+in a line that is otherwise the same, wherever the commit moved it. A commit may do so that has a
+line
+
+    Loosened: why this number is right
+
+Lines that change otherwise, too, are left to whoever reads the commit.
+"""
+
+from __future__ import annotations
+
+import re
+import subprocess
+import sys
+from collections import defaultdict
+from collections.abc import Iterator
+
+FILES = ["*.rs", "cases/*.toml"]
+TESTS = re.compile(r"(^|/)tests?(\.rs$|/)")
+NUMBER = re.compile(r"(?<![\w.])-?\d[\d_]*(?:\.\d+)?(?:e-?\d+)?(?:_?[fu]\d+)?(?![\w])")
+LIMIT = re.compile(r"(<|>)=?\s*\(?$")
+TOLERANCE = re.compile(r"\b(absolute|relative|tolerance)\s*=\s*$")
+REASON = re.compile(r"^Loosened: \S", re.MULTILINE)
+
+
+def git(*arguments: str) -> str:
+    """What git prints."""
+    return subprocess.run(["git", *arguments], check=True, capture_output=True, text=True).stdout
+
+
+def is_commit(name: str) -> bool:
+    """Whether a name is that of a commit in this clone."""
+    found = ["git", "rev-parse", "--quiet", "--verify", f"{name}^{{commit}}"]
+    return subprocess.run(found, check=False, capture_output=True).returncode == 0
+
+
+def limits(file: str, line: str) -> Iterator[tuple[str, float]]:
+    """The numbers of a line that are limits, the sign of each such that more is looser."""
+    for number in NUMBER.finditer(line):
+        before = line[: number.start()]
+        value = float(re.sub(r"_?[fu]\d+$", "", number[0]).replace("_", ""))
+        limit = LIMIT.search(before) if TESTS.search(file) else None
+        if limit:
+            yield number[0], value if limit[1] == "<" else -value
+        elif file.endswith(".toml") and TOLERANCE.search(before):
+            yield number[0], value
+
+
+def changes(commit: str) -> dict[str, list[tuple[str, list[tuple[str, float]]]]]:
+    """Limits of the lines a commit takes and adds, by the lines with their limits left out."""
+    patch = git("show", "--format=", "--unified=0", "--no-renames", commit, "--", *FILES)
+    found = defaultdict(list)
+    file = ""
+    for line in patch.splitlines():
+        if line.startswith(("--- ", "+++ ")):
+            file = line[6:]
+        elif line.startswith(("-", "+")):
+            held = list(limits(file, line[1:]))
+            if held:
+                rest = NUMBER.sub("#", line[1:]).strip()
+                found[rest].append((line[0], held))
+    return found
+
+
+def loosened(commit: str) -> list[str]:
+    """What a commit loosens."""
+    told = []
+    for rest, sides in changes(commit).items():
+        taken = [held for side, held in sides if side == "-"]
+        added = [held for side, held in sides if side == "+"]
+        for old in list(taken):
+            if old in added:
+                taken.remove(old)
+                added.remove(old)
+        for old, new in zip(taken, added, strict=False):
+            for (was, before), (now, after) in zip(old, new, strict=True):
+                if after > before:
+                    told.append(f"{commit[:10]}: {was} became {now} in: {rest}")
+    return told
+
+
+def main() -> int:
+    """Tell what is loosened without a reason."""
+    asked = [*sys.argv[1:], "origin/main", "HEAD~1"]
+    since = next((name for name in asked if is_commit(name) and git("log", f"{name}..HEAD")), None)
+    commits = git("rev-list", "--no-merges", f"{since}..HEAD").split() if since else []
+    told = []
+    for commit in commits:
+        if not REASON.search(git("show", "--no-patch", "--format=%B", commit)):
+            told += loosened(commit)
+    for line in told:
+        print(line, file=sys.stderr)
+    if told:
+        print("say why in a line of the commit, `Loosened: ...`, or take it back", file=sys.stderr)
+    return int(bool(told))
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,11 @@
+//! What crosses rooms: orders of convergence, coupling, whole runs, architecture, pages.
+
+mod architecture;
+mod convergence;
+mod coupling;
+mod documentation;
+mod linear_solver;
+mod motion;
+mod moving;
+mod spatial;
+mod swimming;
