@@ -2,11 +2,11 @@
 
 use super::matrix::{Numbering, SaddleMatrix};
 use super::preconditioner::{Commutator, transfer};
-use super::{Interpolation, Part, SaddlePoint};
-use crate::algebra::{CellFolds, CellMaps, ConstraintBuilder, Term};
-use crate::sparse::SparseMatrix;
+use super::{Interpolation, IterativeSettings, IterativeSolver, Part, SaddlePoint, Weights};
+use crate::algebra::{CellFolds, CellMaps, ConstraintBuilder, LinearSolver, Term};
 use crate::sparse::index::to_u32;
 use crate::sparse::single::single;
+use crate::sparse::{Pattern, SparseMatrix};
 
 /// Two nodes in the plane, of which the second has no second component, two pressures and a body that
 /// turns about one axis.
@@ -151,6 +151,26 @@ fn the_commutator_inverts_the_schur_complement_of_a_diagonal_block() {
     for (found, expected) in solution.iter().zip(p) {
         assert!((f64::from(found[0]) - expected).abs() < 1e-5 * expected.abs(), "{solution:?}");
     }
+}
+
+/// A mistake of the program must not read as one of the matrix.
+#[test]
+#[should_panic(expected = "a matrix is set up before systems with it are solved")]
+fn no_system_is_solved_before_its_matrix_is_set_up() {
+    let system = system();
+    let mut interpolation = Interpolation::with_capacity(6);
+    (0..6).for_each(|unknown| interpolation.push([Term { unknown, weight: 1.0 }]));
+    let weights = Weights {
+        interpolation,
+        pressure_mass: SparseMatrix::zeros(Pattern::from_rows([[0], [1]])),
+        lumped_mass: vec![1.0; 6],
+        wall_drag: vec![0.0; 6],
+        inertia: 0.0,
+        has_convection: false,
+    };
+    let matrix = matrix(&system, different);
+    let mut solver = IterativeSolver::new(system, weights, IterativeSettings::default());
+    solver.solve(&matrix, &mut [1.0; 6]).expect("the solver asks for a set-up first");
 }
 
 /// Cells with a folded one, given values, and a body: what `CellMaps` stores is stored.
