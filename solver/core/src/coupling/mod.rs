@@ -29,7 +29,7 @@ mod system;
 mod wall_distance;
 
 pub use boundaries::{Boundaries, BoundaryNode};
-pub use constrain::{BodiesAt, BoundaryValues, count_unknowns, impose_boundary_values};
+pub use constrain::{BodiesAt, BoundaryValues, impose_boundary_values};
 pub use error::{SolveError, coordinates};
 pub use joint_loads::{BodyStates, JointReport, joint_reports};
 pub use linear_system::{SolverChoice, memory_estimate};

@@ -51,6 +51,7 @@ mod step;
 mod stepper;
 mod stop_request;
 mod successor;
+mod timed_step;
 mod workspace;
 
 pub use crate::timing::{Stage, Timing, cpu_seconds};
@@ -70,9 +71,9 @@ pub use shape_motion::{BodyRecoil, recoils, shape_motion};
 pub use sizing::sizing;
 pub use snapshot::{BodyReport, LastState, Observer, Snapshot};
 pub use solve::{Solve, simulate, simulate_from};
-pub use start::DOFS_OF_CELL;
 pub use state::{NewLevel, State};
 pub use steady::{SteadyFailure, SteadyFlow, SteadyTask, solve_steady};
 pub use stepper::{Step, StepReport, StepResult, TimeStepper};
 pub use stop_request::StopRequest;
+pub use timed_step::{Effort, TimedStep};
 pub use workspace::Workspace;

@@ -99,7 +99,7 @@ const GIGABYTE: f64 = 1e9;
 
 /// Unknowns over cells of a large mesh, planar or spatial: velocities at vertices and edges, pressures
 /// at vertices.
-pub const DOFS_OF_CELL: f64 = 4.5;
+const DOFS_OF_CELL: f64 = 4.5;
 
 /// Part by which an estimate of cells may be too high.
 const UNCERTAIN: f64 = 1.4;
