@@ -372,9 +372,8 @@ fn prepared(solver: &mut Option<Box<IterativeSolver>>) -> &mut IterativeSolver {
 /// Memory a system takes with its factors, or in space with its preconditioner (bytes), from the
 /// velocities and pressures of its mesh.
 ///
-/// Fitted to the peaks of 40 runs of planar cases with 7 10^3 to 5 10^4 free unknowns, which lie within
-/// 0.87 and 1.25 of it; 1.9 10^5 take 0.88 of it. In space, to four Stokes flows with 7 10^4 to 1.2 10^6,
-/// within 9 %.
+/// Fitted to peaks of runs, to refuse what cannot fit before there is a mesh: the study is in
+/// docs/performance.md, *What `check` measures*.
 #[must_use]
 pub fn memory_estimate(dimensions: usize, n_dofs: f64) -> f64 {
     let of_ten_thousand = if dimensions == 3 { 16e6 } else { 33e6 };
