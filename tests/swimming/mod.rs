@@ -3,9 +3,9 @@
 
 mod articulated;
 mod crowd;
+mod cycle_error;
 mod deforming;
 mod invariance;
 mod joints;
 mod orders;
 mod reciprocity;
-mod trial;

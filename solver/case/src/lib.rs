@@ -1,11 +1,9 @@
 //! `Case`: the typed contents of a case file; `Model`: what follows from them.
 
-mod ahead;
 mod angle;
 mod axial_vector;
 mod balls;
 mod body;
-mod bounce;
 mod case;
 mod case_text;
 mod check;
@@ -15,7 +13,6 @@ mod csv_line;
 mod deserialize;
 mod diagnostic;
 mod domain;
-mod encounters;
 mod extent;
 mod fluid;
 mod gait;
@@ -35,7 +32,6 @@ mod orientation;
 mod output;
 mod part_pose;
 mod parts;
-mod path;
 mod problem_keys;
 mod quantity;
 mod random;
@@ -78,7 +74,6 @@ pub use check::check;
 pub use contact::ContactSpec;
 pub use diagnostic::{CaseError, Diagnostic, Severity, printable};
 pub use domain::{BoundaryCondition, DomainSpec, Geometry, TimeFunction};
-pub use encounters::Encounter;
 pub use extent::Extent;
 pub use fluid::{FlowModel, Fluid};
 pub use gait::{

@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use super::{
     Body, BoundaryCondition, Case, ContactSpec, GaitSpec, Geometry, Joint, JointKind, Model,
-    Motion, SquirmerGait, Stroke,
+    Motion, Stroke,
 };
 
 /// Times of a stroke's period at which its rate is looked at.
@@ -98,7 +98,7 @@ pub(super) fn norm(vector: &[f64]) -> f64 {
 }
 
 /// The largest speed on a side (m/s).
-pub(super) fn side_speed(case: &Case, condition: &BoundaryCondition) -> f64 {
+fn side_speed(case: &Case, condition: &BoundaryCondition) -> f64 {
     match condition {
         BoundaryCondition::Velocity { value, .. } => norm(value),
         BoundaryCondition::Parabolic { peak, .. } => peak.abs(),
@@ -163,20 +163,8 @@ pub(super) fn load_in_space(case: &Case, body: &Body) -> [f64; 3] {
     [0, 1, 2].map(|axis| mass * part(&case.fluid.gravity, axis) + part(&body.force, axis))
 }
 
-/// The same in the plane.
-pub(super) fn load_vector(case: &Case, body: &Body) -> [f64; 2] {
-    let [x, y, _] = load_in_space(case, body);
-    [x, y]
-}
-
-/// The speed of a squirmer alone in slow flow (m/s): Lighthill 1952 for spheres, Blake 1971 for discs.
-pub(super) fn swimming_speed(case: &Case, gait: &SquirmerGait) -> f64 {
-    let part = if case.geometry == Geometry::Planar { 1.0 / 2.0 } else { 2.0 / 3.0 };
-    part * gait.modes.first().copied().unwrap_or(0.0)
-}
-
 /// The order of the speed of a body under its load: that of slow flow, or less by inertia (m/s).
-pub(super) fn terminal_speed(case: &Case, body: &Body) -> f64 {
+fn terminal_speed(case: &Case, body: &Body) -> f64 {
     let load = load(case, body);
     let slow = load / resistance(case, body);
     let area = match case.geometry {

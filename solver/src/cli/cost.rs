@@ -1,319 +1,267 @@
-//! What a run would cost: steps, linear systems, new meshes, and the CPU time and memory for them.
+//! What a run costs: one step that is made on its mesh, times its steps, and the files it writes.
 
-use crate::case::{
-    Adaptive, Body, Convection, FlowModel, Geometry, Model, Motion, Scheme, TimeSettings, Unsteady,
-};
-use crate::coupling::memory_estimate;
-use crate::run::DOFS_OF_CELL;
+use std::fmt::Write as _;
 
-// All constants are fitted to the shipped cases of over 3 s of CPU time in `docs/validation.md`, one
-// core of the machine of `docs/performance.md`; `solver/tests/command_line/estimates.rs` compares.
+use super::exit::Failure;
+use super::facts::count;
+use super::style;
+use crate::case::{Cadence, Case, Diagnostic, FlowModel, Model, Severity, TimeSettings, Unsteady};
+use crate::case::{known_quantities, significant};
+use crate::observer::{field_file_size, peak_memory, state_size};
+use crate::run::{Dimension, Effort, Solve, TimedStep};
 
-/// CPU time of a pass with 10^4 unknowns on a moving mesh (s): mesh motion, assembly, factorisation or
-/// iterations with old factors, solve, loads.
-const PASS: f64 = 0.0114;
-/// Power of the unknowns it goes with.
-const GROWTH: f64 = 1.15;
-/// Part of it on a mesh that stays, where it goes with the unknowns: without convection, where the matrix
-/// stays as well, and with it.
-const ON_FIXED_MESH: [f64; 2] = [0.5, 0.8];
-/// Linear systems of the start of an unsteady run besides its steps: the flow there, and pieces of the
-/// first step.
-const START_SYSTEMS: f64 = 5.0;
-/// Linear systems of a step in which convection is solved by Newton's method.
-const NEWTON_SYSTEMS: f64 = 2.7;
-/// Linear systems of a steady flow with convection.
-const STEADY_SYSTEMS: f64 = 6.0;
-/// Part of a pass that one takes once nothing moves any more, on a mesh that could: old factors serve.
-const OF_STILL_PASS: f64 = 0.55;
-/// Part of a pass that a stage of `rk3` takes where arms move bodies straight on: half of them are solved
-/// with old factors.
-const OF_EXPLICIT_PASS: f64 = 0.8;
-/// The same where the mesh turns with a body, which nearly always asks for new factors.
-const OF_TURNING_PASS: f64 = 1.35;
-/// Steps of an adaptive run until their size is that of its error, without and with inertia, where it
-/// begins with an acceleration and steps get longer by a fifth each (24 to 40).
-const FIRST_STEPS: [f64; 2] = [12.0, 40.0];
-/// Part of a gap that closes in a step, over the third root of the tolerance: errors of gaps count ten times,
-/// and go with the third power of that part.
-const CLOSING: f64 = 0.5;
-/// Steps in which a body in contact loses its speed down to a thousandth, where steps no longer follow it.
-const SETTLING_STEPS: f64 = 60.0;
-/// Most of what bouncing multiplies them by: what bounces more leaves contact, and flies in longer steps.
-const MOST_BOUNCING: f64 = 2.0;
-/// Passes of these steps with inertia besides the first: of a round body, and of one that contact turns as
-/// well.
-const MORE_PASSES: [f64; 2] = [0.4, 1.8];
-/// CPU time of a new mesh with 10^4 unknowns (s), and with inertia, which asks for projections.
-const NEW_MESH: [f64; 2] = [0.0265, 0.0636];
-/// New meshes for each reach that bodies move.
-const MESHES_OF_PATH: f64 = 0.7;
-/// New meshes in each period of a swimmer that deforms.
-const MESHES_OF_PERIOD: f64 = 4.0;
-/// Memory of a run with new meshes over that of one system, and with inertia.
-const REMESHED_MEMORY: [f64; 2] = [1.7, 2.3];
+/// Output above which a warning is given (bytes).
+const LARGE_OUTPUT: f64 = 2e9;
 
-// In space, fitted to runs with 7 10^4 to 7 10^5 unknowns, which are solved for by iterations.
+/// Bytes of a number in `series.csv`, where it has as many digits as it takes to read it back:
+/// seventeen at most, a sign, a point and a comma.
+const BYTES_OF_NUMBER: f64 = 20.0;
 
-/// CPU time of a linear system of a steady flow with 10^5 unknowns (s), without convection and with it:
-/// assembly, preconditioner, iterations, loads. It goes with the unknowns.
-const SYSTEM_IN_SPACE: [f64; 2] = [0.87, 1.35];
-/// Part of it that a system of a time step takes.
-const OF_STEP_IN_SPACE: f64 = 0.45;
-/// The same on a moving mesh, with its motion and the meshes that replace it.
-const OF_MOVING_STEP_IN_SPACE: f64 = 0.8;
-/// Memory with convection over that without: matrices are upwinded, and more iterations kept.
-const CONVECTIVE_MEMORY: f64 = 1.3;
+/// Bytes of a body in `run.mcap` at one time: some forty numbers of eight bytes, compressed.
+const BYTES_OF_BODY: f64 = 300.0;
 
-/// An estimate of what a run costs.
-///
-/// A run is made of passes, each of which solves one linear system, and of new meshes; both go with the
-/// unknowns, of which films that close bring more.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Cost {
-    /// Linear systems.
-    pub systems: f64,
-    /// New meshes.
-    pub new_meshes: f64,
-    /// Unknowns that films bring with them, at most.
-    pub in_films: f64,
-    /// CPU time on one core (s).
-    pub seconds: f64,
-    /// That of one step of an unsteady run (s).
-    pub step_seconds: Option<f64>,
-    /// Memory at most (bytes).
-    pub memory: f64,
-}
-
-/// What is known of the first mesh.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct FirstMesh {
-    /// Free unknowns.
-    pub free: usize,
-    /// Velocities and pressures at its nodes.
-    pub on_mesh: usize,
-    /// Length of its shortest edge (m).
-    pub shortest_edge: f64,
-    /// CPU time it took (s).
-    pub seconds: f64,
-}
-
-impl Cost {
-    /// The cost of a case whose first mesh is known.
-    #[must_use]
-    pub fn of(model: &Model, mesh: &FirstMesh) -> Self {
-        if model.case.geometry == Geometry::Spatial {
-            return Self::in_space(model, mesh);
-        }
-        let Films { most, mean } = Films::of(model);
-        let unknowns = mesh.free as f64 + mean;
-        let systems = n_systems(model, mesh.shortest_edge);
-        let steps = steps_of(model, mesh.shortest_edge);
-        let is_fixed = steps.is_some() && !model.mesh_moves();
-        let growth = if is_fixed { 1.0 } else { GROWTH };
-        let pass = PASS * (unknowns / 1e4).powf(growth);
-        let flow = model.case.fluid.model;
-        let part = part_of_pass(model);
-        let new_meshes = n_new_meshes(model);
-        let inertia = usize::from(flow != FlowModel::Stokes);
-        let start = NEW_MESH[0] * mesh.free as f64 / 1e4;
-        let seconds =
-            start + systems * part * pass + new_meshes * NEW_MESH[inertia] * unknowns / 1e4;
-        let memory = memory_estimate(2, mesh.on_mesh as f64 + most);
-        let memory = if new_meshes >= 1.0 { REMESHED_MEMORY[inertia] * memory } else { memory };
-        let in_steps = (seconds - start) * (1.0 - START_SYSTEMS / systems);
-        let step_seconds = steps.map(|steps| in_steps / steps);
-        Self { systems, new_meshes, in_films: most, seconds, step_seconds, memory }
-    }
-
-    /// That in space.
-    fn in_space(model: &Model, mesh: &FirstMesh) -> Self {
-        let unknowns = mesh.free as f64 / 1e5;
-        let systems = n_systems(model, mesh.shortest_edge);
-        let steps = steps_of(model, mesh.shortest_edge);
-        let part = match steps {
-            Some(_) if model.mesh_moves() => OF_MOVING_STEP_IN_SPACE,
-            Some(_) => OF_STEP_IN_SPACE,
-            None => 1.0,
-        };
-        let has_convection = model.case.fluid.model == FlowModel::NavierStokes;
-        let system = SYSTEM_IN_SPACE[usize::from(has_convection)];
-        let in_systems = systems * part * system * unknowns;
-        let growth = if has_convection { CONVECTIVE_MEMORY } else { 1.0 };
-        Self {
-            systems,
-            new_meshes: 0.0,
-            in_films: 0.0,
-            seconds: mesh.seconds + in_systems,
-            step_seconds: steps.map(|steps| in_systems * (1.0 - START_SYSTEMS / systems) / steps),
-            memory: growth * memory_estimate(3, mesh.on_mesh as f64),
-        }
-    }
-}
-
-/// What a pass takes over one on a moving mesh.
-fn part_of_pass(model: &Model) -> f64 {
-    let TimeSettings::Unsteady(time) = &model.case.time else { return 1.0 };
-    if !model.mesh_moves() {
-        return ON_FIXED_MESH[usize::from(model.case.fluid.model == FlowModel::NavierStokes)];
-    }
-    let still = model.time_to_stop().map_or(0.0, |stop| (1.0 - stop / time.end).max(0.0));
-    let turns = |body: &Body| {
-        body.motion == Motion::Free && body.turns() && !body.is_round() && !body.deforms()
-    };
-    let case = &model.case;
-    let has_arms = model.joints.iter().all(|joint| joint.kind.is_arm());
-    let deforms = model.bodies.iter().any(Body::deforms);
-    let part = if time.scheme == Scheme::Rk3 && has_arms && !deforms {
-        OF_EXPLICIT_PASS
-    } else if model.joints.is_empty() && case.contact.is_none() && model.bodies.iter().any(turns) {
-        OF_TURNING_PASS
-    } else {
-        1.0
-    };
-    part * (1.0 - still * (1.0 - OF_STILL_PASS))
-}
-
-/// Unknowns that films bring with them.
-struct Films {
-    /// With all of them.
-    most: f64,
-    /// Averaged in time.
-    mean: f64,
-}
-
-impl Films {
-    fn of(model: &Model) -> Self {
-        let mut films = Self { most: 0.0, mean: 0.0 };
-        let TimeSettings::Unsteady(time) = &model.case.time else { return films };
-        for met in model.encounters() {
-            let unknowns = DOFS_OF_CELL * met.film_cells;
-            let share = 1.0 - met.time / time.end;
-            if share > 0.0 {
-                films.most += unknowns;
-                films.mean += share * unknowns;
-            }
-        }
-        films
-    }
-}
-
-/// Steps of a run: exact where they are fixed.
-#[must_use]
-pub fn n_steps(model: &Model, time: &Unsteady, shortest_edge: f64) -> f64 {
-    let Some(adaptive) = &time.adaptive else { return (time.end / time.step).ceil() };
-    let largest = adaptive.largest.unwrap_or(time.end / 10.0);
-    let crossing = model.expected_speed().map(|speed| adaptive.cfl * shortest_edge / speed);
-    let moving = crossing.unwrap_or(largest).min(largest);
-    let rest = model.time_to_rest().unwrap_or(time.end).min(time.end);
-    let longest = rest / moving + (time.end - rest) / largest;
-    let StepsByError { first, closing, settling } = StepsByError::of(model, time, adaptive);
-    // A gap without contact closes until the end
-    let closes =
-        if model.case.contact.is_some() { longest + closing } else { longest.max(closing) };
-    first + closes + settling
-}
-
-/// Steps of an adaptive run that are as long as their error allows.
-struct StepsByError {
-    /// Until they have that length.
-    first: f64,
-    /// While a gap closes.
-    closing: f64,
-    /// While a body in contact comes to rest.
-    settling: f64,
-}
-
-impl StepsByError {
-    fn of(model: &Model, time: &Unsteady, adaptive: &Adaptive) -> Self {
-        let has_inertia = model.case.fluid.model != FlowModel::Stokes;
-        let met = model.encounters();
-        let met = met.iter().filter(|met| met.time < time.end);
-        let closing = met.clone().map(|met| met.closing).fold(0.0, f64::max);
-        let part = (CLOSING * adaptive.tolerance.cbrt()).min(adaptive.gap);
-        let settles = has_inertia && model.case.contact.is_some() && met.count() > 0;
-        let settling =
-            if settles { SETTLING_STEPS * model.bouncing().clamp(1.0, MOST_BOUNCING) } else { 0.0 };
-        let first = FIRST_STEPS[usize::from(has_inertia)];
-        Self { first, closing: closing / part, settling }
-    }
-}
-
-/// Steps of an unsteady run.
-fn steps_of(model: &Model, shortest_edge: f64) -> Option<f64> {
+/// Unknowns, steps, time, memory and files of a run, of which one step was made on a mesh that took
+/// some CPU time (s).
+pub fn measured<const D: usize>(
+    model: &Model,
+    timed: &TimedStep<D>,
+    seconds: f64,
+) -> Result<String, Failure>
+where
+    Dimension<D>: Solve<D>,
+{
+    let on_mesh = D * timed.mesh.n_nodes() + timed.mesh.n_vertices;
+    let mut lines = vec![Line {
+        name: "unknowns",
+        text: format!(
+            "{} free ones; {on_mesh} velocities and pressures on the mesh",
+            timed.unknowns
+        ),
+    }];
     match &model.case.time {
-        TimeSettings::Steady(_) => None,
-        TimeSettings::Unsteady(time) => Some(n_steps(model, time, shortest_edge).max(1.0)),
+        TimeSettings::Steady(_) => {
+            lines.push(Line { name: "CPU time", text: steady(model, &timed.start, seconds) });
+        }
+        TimeSettings::Unsteady(settings) => {
+            lines.push(Line { name: "steps", text: steps(settings) });
+            lines.extend(unsteady(model, settings, timed, seconds));
+        }
     }
-}
-
-/// Linear systems a run solves: exact for steady Stokes flow.
-fn n_systems(model: &Model, shortest_edge: f64) -> f64 {
-    let case = &model.case;
-    let time = match (&case.time, case.fluid.model) {
-        (TimeSettings::Steady(_), FlowModel::NavierStokes) => return STEADY_SYSTEMS,
-        (TimeSettings::Steady(_), _) => return 1.0,
-        (TimeSettings::Unsteady(time), _) => time,
-    };
-    let is_newton =
-        time.convection == Convection::Newton && case.fluid.model == FlowModel::NavierStokes;
-    let iterations = if is_newton { NEWTON_SYSTEMS } else { 1.0 };
-    let steps = n_steps(model, time, shortest_edge) + more_passes(model, time);
-    START_SYSTEMS + (steps + trial_steps(model, time)) * passes(model, time) * iterations
-}
-
-/// Steps of the first cycle with steps twice as long, which a run without inertia makes beforehand.
-fn trial_steps(model: &Model, time: &Unsteady) -> f64 {
-    let periods = model.swimmers.iter().filter_map(|swimmer| swimmer.period);
-    let longest = periods.fold(0.0, f64::max);
-    let is_made = model.case.fluid.model == FlowModel::Stokes && time.adaptive.is_none();
-    if is_made && longest <= time.end { 0.5 * longest / time.step } else { 0.0 }
-}
-
-/// Passes of an adaptive run with contact besides one of each step.
-fn more_passes(model: &Model, time: &Unsteady) -> f64 {
-    let has_contact = model.case.fluid.model != FlowModel::Stokes && model.case.contact.is_some();
-    let Some(adaptive) = time.adaptive.as_ref().filter(|_| has_contact) else { return 0.0 };
-    let is_turned = model.bodies.iter().any(|body| body.turns() && !body.is_round());
-    let StepsByError { first, closing, settling } = StepsByError::of(model, time, adaptive);
-    MORE_PASSES[usize::from(is_turned)] * (first + closing + settling)
-}
-
-/// Passes of a step: until bodies are where the mesh was made for.
-fn passes(model: &Model, time: &Unsteady) -> f64 {
-    if time.scheme == Scheme::Rk3 {
-        // One for each stage
-        return 3.0;
+    if let Some(peak) = peak_memory() {
+        let most = "the most this process held for the mesh and what was solved on it";
+        lines.push(Line { name: "memory", text: format!("{}, {most}", bytes(peak as f64)) });
     }
-    let bends = model.joints.iter().any(|joint| !joint.kind.is_arm());
-    let free = model.bodies.iter().filter(|body| body.motion == Motion::Free);
-    let n_free = free.clone().filter(|body| body.translates(model.case.geometry)).count() as f64;
-    if bends || free.clone().any(|body| body.deforms()) {
-        return 2.0;
-    }
-    // Among many some are always in contact, which stops them within a step, if that is not shortened
-    let crowd = if model.case.contact.is_some() && time.adaptive.is_none() {
-        (n_free - 2.0).max(0.0)
-    } else {
-        0.0
-    };
-    3.0 - 2.0 * (-crowd / 6.0).exp()
-}
-
-/// New meshes of a run.
-fn n_new_meshes(model: &Model) -> f64 {
-    let TimeSettings::Unsteady(time) = &model.case.time else { return 0.0 };
-    if !model.mesh_moves() {
-        return 0.0;
-    }
-    let periods = model.swimmers.iter().filter_map(|swimmer| {
-        let bends = |body: &usize| {
-            let joint = model.joint_above(*body).map(|joint| &model.joints[joint].kind);
-            model.bodies[*body].deforms() || joint.is_some_and(|kind| !kind.is_arm())
-        };
-        swimmer.bodies.iter().any(bends).then_some(time.end / swimmer.period?)
+    let output = Output::of(model, timed)?;
+    lines.push(Line {
+        name: "output",
+        text: format!("{} at most{}", bytes(output.bytes), output.parts),
     });
-    // All that deform ask for new meshes at the same times
-    let cycles = periods.fold(0.0, f64::max);
-    MESHES_OF_PATH * model.expected_paths(time.end) + MESHES_OF_PERIOD * cycles
+    warn_of_output(output.bytes);
+    let mut text = String::new();
+    for Line { name, text: line } in lines {
+        let _ = writeln!(text, "  {name:<16} {line}");
+    }
+    Ok(text.trim_end().to_owned())
+}
+
+/// A line of what is told.
+struct Line {
+    name: &'static str,
+    text: String,
+}
+
+/// What there is to say of a steady solution.
+fn steady(model: &Model, start: &Effort, mesh: f64) -> String {
+    let systems = if start.systems == 1 { "one linear system" } else { "its linear systems" };
+    let whole = duration(start.cpu + mesh);
+    let taken = duration_of_step(start.cpu);
+    match model.case.fluid.model {
+        FlowModel::NavierStokes => format!(
+            "{taken} for the flow without convection, as it took just now; Newton's method adds as \
+             many linear systems as it needs, of at least as much each"
+        ),
+        _ => format!("{taken} for {systems}, as it took just now; {whole} with the mesh"),
+    }
+}
+
+/// How many steps there are.
+fn steps(time: &Unsteady) -> String {
+    let Some(adaptive) = &time.adaptive else { return count(time.n_steps() as f64) };
+    let largest = adaptive.largest.unwrap_or(time.end / 10.0);
+    format!(
+        "chosen by their errors: {} at least, and {} if all were of the first size, {}",
+        count((time.end / largest).ceil()),
+        count((time.end / time.step).ceil()),
+        significant(time.step)
+    )
+}
+
+/// What there is to say of the time of an unsteady run.
+fn unsteady<const D: usize>(
+    model: &Model,
+    settings: &Unsteady,
+    timed: &TimedStep<D>,
+    mesh: f64,
+) -> Vec<Line> {
+    let step = match &timed.step {
+        Some(Ok(step)) => step,
+        Some(Err(error)) => {
+            let size = significant(settings.step);
+            let told = format!("not known: a step of {size} is not made in one ({error})");
+            return vec![Line {
+                name: "CPU time",
+                text: format!("{told}; a run tries shorter ones"),
+            }];
+        }
+        None => return Vec::new(),
+    };
+    let systems = match step.systems {
+        1 => "one linear system".to_owned(),
+        n => format!("{n} linear systems"),
+    };
+    let mut line = format!(
+        "{} a step of {systems}, as one took just now, {} on the clock",
+        duration_of_step(step.cpu),
+        duration_of_step(step.wall)
+    );
+    if settings.adaptive.is_none() {
+        let all = mesh + timed.start.cpu + settings.n_steps() as f64 * step.cpu;
+        line = format!("{}: {line}", duration(all));
+    }
+    let mut lines = vec![Line { name: "CPU time", text: line }];
+    let missing = missing(&model.case, model.mesh_moves());
+    if !missing.is_empty() {
+        lines.push(Line { name: "not in it", text: missing.join(", ") });
+    }
+    lines
+}
+
+/// What a first step does not show.
+fn missing(case: &Case, mesh_moves: bool) -> Vec<&'static str> {
+    let mut missing = Vec::new();
+    if mesh_moves {
+        missing.push("new meshes and thin films as bodies move");
+    }
+    if case.contact.is_some() {
+        missing.push("contact that comes later");
+    }
+    missing
+}
+
+/// The files of a run.
+struct Output {
+    /// The size of all (bytes).
+    bytes: f64,
+    /// What it is made of, in words.
+    parts: String,
+}
+
+impl Output {
+    /// By one field file and one state that are made to be measured.
+    fn of<const D: usize>(model: &Model, timed: &TimedStep<D>) -> Result<Self, Failure>
+    where
+        Dimension<D>: Solve<D>,
+    {
+        let case = &model.case;
+        let TimedStep { mesh, velocity, pressure, .. } = timed;
+        let field = field_file_size(case.output.precision, mesh, velocity, pressure)? as f64;
+        let fields = times(case.output.fields, &case.time);
+        let row = BYTES_OF_NUMBER * known_quantities(model).len() as f64
+            + BYTES_OF_BODY * model.bodies.len() as f64;
+        let rows = times(case.output.series, &case.time);
+        let mut sum = fields * field + rows * row;
+        let mut parts = format!(": {} of {} for fields", count(fields), bytes(field));
+        let kept = case.output.checkpoint.keep;
+        if let Some(state) = timed.saved.as_ref().filter(|_| kept > 0) {
+            let state = state_size(state)? as f64;
+            sum += kept as f64 * state;
+            let _ = write!(parts, ", up to {kept} of {} to resume from", bytes(state));
+        }
+        let _ = write!(parts, ", about {} for the series", bytes(rows * row));
+        Ok(Self { bytes: sum, parts })
+    }
+}
+
+/// How often something is written.
+fn times(cadence: Cadence, time: &TimeSettings) -> f64 {
+    match (cadence, time) {
+        (Cadence::Never, _) => 0.0,
+        (Cadence::End, _) | (_, TimeSettings::Steady(_)) => 1.0,
+        (Cadence::Steps(n), TimeSettings::Unsteady(time)) => {
+            1.0 + (time.end / time.step / n.max(1) as f64).ceil()
+        }
+        (Cadence::Time(interval), TimeSettings::Unsteady(time)) => {
+            // Once a step at most
+            1.0 + (time.end / interval).min(time.end / time.step).ceil()
+        }
+    }
+}
+
+fn warn_of_output(output: f64) {
+    if output <= LARGE_OUTPUT {
+        return;
+    }
+    let warning = Diagnostic {
+        severity: Severity::Warning,
+        key: "output".to_owned(),
+        message: format!("the run would write about {}", bytes(output)),
+        help: "write fields less often with output.fields = { time = ... }, or \
+               output.precision = \"f32\""
+            .to_owned(),
+        location: None,
+    };
+    style::complain(&style::diagnostic(&warning));
+}
+
+fn bytes(size: f64) -> String {
+    if size.is_nan() || size >= 1e16 {
+        return "more than any disk holds".to_owned();
+    }
+    let larger = ["kB", "MB", "GB", "TB"];
+    let (mut number, mut unit) = (size, None);
+    for name in larger {
+        if number >= 1000.0 {
+            (number, unit) = (number / 1000.0, Some(name));
+        }
+    }
+    unit.map_or_else(|| format!("{number:.0} bytes"), |unit| format!("{number:.1} {unit}"))
+}
+
+/// Steps are short: down to milliseconds.
+fn duration_of_step(seconds: f64) -> String {
+    match seconds {
+        s if s < 1e-3 => "less than 1 ms".to_owned(),
+        s if s < 0.0995 => format!("{:.0} ms", 1e3 * s),
+        s if s < 1.0 => format!("{s:.2} s"),
+        s => duration(s),
+    }
+}
+
+fn duration(seconds: f64) -> String {
+    match seconds {
+        s if s < 1.0 => "less than a second".to_owned(),
+        s if s < 9.95 => format!("{s:.1} s"),
+        s if s < 120.0 => format!("{s:.0} s"),
+        s if s < 597.0 => format!("{:.1} min", s / 60.0),
+        s if s < 7200.0 => format!("{:.0} min", s / 60.0),
+        s if s < 1e6 => format!("{:.1} h", s / 3600.0),
+        s if s < 3e9 => format!("{:.0} days", s / 86400.0),
+        _ => "more than a century".to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sizes_are_told_in_their_unit() {
+        assert_eq!(bytes(12.0), "12 bytes");
+        assert_eq!(bytes(1.5e6), "1.5 MB");
+        assert_eq!([4.23, 90.0, 250.0].map(duration), ["4.2 s", "90 s", "4.2 min"]);
+        assert_eq!(duration(9000.0), "2.5 h");
+        assert_eq!(duration(2e6), "23 days");
+        assert_eq!(duration(f64::INFINITY), "more than a century");
+        assert_eq!(bytes(f64::INFINITY), "more than any disk holds");
+    }
 }

@@ -43,7 +43,7 @@ Examples:
   alewife list                                  the shipped cases
   alewife run squirmer-alone                    run one of them, into runs/squirmer-alone
   alewife show squirmer-alone --source > my.toml
-  alewife check my.toml                         read it, mesh it, estimate the cost; no solve
+  alewife check my.toml                         read it, mesh it, measure what a step takes
   alewife run my.toml --set mesh.scale=0.5      the same on a mesh twice as fine
   alewife sweep run my.toml --set fluid.viscosity=1:100:9:log
   alewife validate --quick                      do the shipped cases agree with their references?
@@ -79,7 +79,7 @@ enum Command {
         #[arg(long)]
         source: bool,
     },
-    /// Read cases, mesh them, and estimate their cost; nothing is solved
+    /// Read cases, mesh them, and measure what a step takes; nothing is run
     Check {
         /// Which cases
         #[arg(required = true, add = complete::case())]
@@ -89,6 +89,9 @@ enum Command {
         /// Do not make the mesh: no sizes and no costs
         #[arg(long)]
         no_mesh: bool,
+        /// Make the mesh, and no step on it: no costs
+        #[arg(long)]
+        no_step: bool,
     },
     /// Make the mesh of a case, write it as VTU or for Gmsh, and report its quality
     Mesh {
@@ -163,8 +166,13 @@ fn dispatch(command: Command) -> Result<Exit, Failure> {
     match command {
         Command::List { long } => library::list(long),
         Command::Show { case, source } => library::show(&case, source),
-        Command::Check { cases, settings, no_mesh } => {
-            check::check(&cases, &settings.set, !no_mesh)
+        Command::Check { cases, settings, no_mesh, no_step } => {
+            let depth = match (no_mesh, no_step) {
+                (true, _) => check::Depth::Text,
+                (false, true) => check::Depth::Mesh,
+                (false, false) => check::Depth::Step,
+            };
+            check::check(&cases, &settings.set, depth)
         }
         Command::Mesh { case, settings, out, text } => {
             mesh::mesh(&case, &settings.set, mesh::Target { out, as_text: text })

@@ -67,22 +67,12 @@ fn progress(directory: &Path) -> Result<Progress, Failure> {
         Failure::new(Exit::NoInput, reason)
     })?;
     let part = status.end.filter(|end| *end > 0.0).map(|end| (status.time / end).clamp(0.0, 1.0));
-    let total = status.wall_seconds.get("total").copied();
     let is_running = status.state == RunState::Running;
-    let rate = |steps: usize, total: f64| {
-        let made = status.step.saturating_sub(status.restarts.step);
-        (made > 0).then(|| steps.saturating_sub(status.step) as f64 * total / made as f64)
-    };
-    let left = match (status.steps, total, part) {
-        (Some(steps), Some(total), _) => rate(steps, total),
-        (None, Some(total), Some(part)) if part > 0.0 => Some(total * (1.0 - part) / part),
-        _ => None,
-    };
     let modified = std::fs::metadata(&path).and_then(|found| found.modified());
     let age = modified.ok().and_then(|then| SystemTime::now().duration_since(then).ok());
     Ok(Progress {
         part,
-        left: left.filter(|_| is_running),
+        left: status.seconds_left().filter(|_| is_running),
         is_killed: is_running && (is_left || age.is_some_and(|age| age > SILENCE)),
         checkpoint: checkpoints(directory)?.into_iter().next(),
         legs: Provenance::read(directory).map(|provenance| provenance.legs).unwrap_or_default(),

@@ -50,10 +50,7 @@ impl FieldFiles {
             directory: directory.path().to_owned(),
             origin: format!("<!-- {origin} -->\n"),
             schedule: Schedule::new(case.output.fields, history.map(|history| history.time)),
-            precision: match case.output.precision {
-                Precision::F32 => alewife_mesh::Precision::F32,
-                Precision::F64 => alewife_mesh::Precision::F64,
-            },
+            precision: precision_of(case.output.precision),
             frames: history.map(|history| history.frames.clone()).unwrap_or_default(),
             has_stopped: directory.path().join(STOPPED).is_file(),
         }
@@ -77,22 +74,7 @@ impl FieldFiles {
     where
         Dimension<D>: Solve<D>,
     {
-        // In the plane it has one part, about z
-        let parts = if D == 2 { 2..3 } else { 0..3 };
-        let vorticity: Vec<f64> = Dimension::<D>::vorticity(mesh, velocity)
-            .iter()
-            .flat_map(|curl| curl.as_slice()[parts.clone()].to_vec())
-            .collect();
-        let velocity: Vec<f64> =
-            velocity.iter().flat_map(|u| <[f64; 3]>::from(in_space(u))).collect();
-        let pressure = Dimension::<D>::pressure(mesh, pressure);
-        let arrays = [
-            Array::new("velocity", 3, &velocity),
-            Array::new("pressure", 1, &pressure),
-            Array::new("vorticity", parts.len(), &vorticity),
-        ];
-        let mut bytes = Vec::new();
-        write_vtu_as(self.precision, &mut bytes, mesh, Some(time), &arrays, &[])?;
+        let mut bytes = content(self.precision, time, mesh, velocity, pressure)?;
         // After the first line, which says that this is XML
         let first = bytes.iter().position(|&byte| byte == b'\n').map_or(0, |end| end + 1);
         bytes.splice(first..first, self.origin.bytes());
@@ -120,6 +102,58 @@ impl FieldFiles {
         }
         text + "</Collection>\n</VTKFile>\n"
     }
+}
+
+fn precision_of(precision: Precision) -> alewife_mesh::Precision {
+    match precision {
+        Precision::F32 => alewife_mesh::Precision::F32,
+        Precision::F64 => alewife_mesh::Precision::F64,
+    }
+}
+
+/// The size of a file with a flow (bytes).
+///
+/// # Errors
+/// When it cannot be encoded.
+pub fn field_file_size<const D: usize>(
+    precision: Precision,
+    mesh: &Mesh<D>,
+    velocity: &[Point<D>],
+    pressure: &[f64],
+) -> io::Result<usize>
+where
+    Dimension<D>: Solve<D>,
+{
+    Ok(content(precision_of(precision), 0.0, mesh, velocity, pressure)?.len())
+}
+
+/// The content of one field file, without the comment that names its origin.
+fn content<const D: usize>(
+    precision: alewife_mesh::Precision,
+    time: f64,
+    mesh: &Mesh<D>,
+    velocity: &[Point<D>],
+    pressure: &[f64],
+) -> io::Result<Vec<u8>>
+where
+    Dimension<D>: Solve<D>,
+{
+    // In the plane it has one part, about z
+    let parts = if D == 2 { 2..3 } else { 0..3 };
+    let vorticity: Vec<f64> = Dimension::<D>::vorticity(mesh, velocity)
+        .iter()
+        .flat_map(|curl| curl.as_slice()[parts.clone()].to_vec())
+        .collect();
+    let velocity: Vec<f64> = velocity.iter().flat_map(|u| <[f64; 3]>::from(in_space(u))).collect();
+    let pressure = Dimension::<D>::pressure(mesh, pressure);
+    let arrays = [
+        Array::new("velocity", 3, &velocity),
+        Array::new("pressure", 1, &pressure),
+        Array::new("vorticity", parts.len(), &vorticity),
+    ];
+    let mut bytes = Vec::new();
+    write_vtu_as(precision, &mut bytes, mesh, Some(time), &arrays, &[])?;
+    Ok(bytes)
 }
 
 impl<const D: usize> Observer<D> for FieldFiles

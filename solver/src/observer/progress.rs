@@ -22,11 +22,10 @@ pub struct Progress {
     bar: Option<ProgressBar>,
     /// End of the run (s); nothing for a steady solution.
     end: Option<f64>,
-    /// Time at which this process began (s), once known.
-    start: Option<f64>,
+    /// Time of the first row of this process (s), and when it was there: what comes later is steps.
+    first: Option<(f64, Instant)>,
     /// Beginning of the names of the quantities of the first swimmer.
     swimmer: Option<String>,
-    started: Instant,
     last_line: Option<Instant>,
 }
 
@@ -58,7 +57,7 @@ impl Progress {
             TERMINAL.show_lines();
         }
         let swimmer = model.swimmers.first().map(|swimmer| format!("{}.velocity.", swimmer.name));
-        Self { bar, end, start: None, swimmer, started: Instant::now(), last_line: None }
+        Self { bar, end, first: None, swimmer, last_line: None }
     }
 
     /// One line on the step, with the time left at the pace so far.
@@ -72,11 +71,12 @@ impl Progress {
         };
         let mut line = format!("step {}  t {:.4}/{end}", snapshot.step, snapshot.time);
         line += &self.speed_and_gap(snapshot);
-        // A run that resumed has not made what was before
-        let start = self.start.unwrap_or(0.0);
-        let done = (snapshot.time - start) / (end - start);
-        if snapshot.step > 0 && done > 0.0 && !snapshot.is_last {
-            let left = self.started.elapsed().mul_f64(((1.0 - done) / done).clamp(0.0, 1e9));
+        if let Some((start, began)) = self.first
+            && snapshot.time > start
+            && !snapshot.is_last
+        {
+            let to_go = (end - snapshot.time) / (snapshot.time - start);
+            let left = began.elapsed().mul_f64(to_go.clamp(0.0, 1e9));
             line += &format!("  {:#} left", HumanDuration(left));
         }
         if snapshot.time_step > 0.0 {
@@ -117,7 +117,7 @@ impl Progress {
 
 impl<const D: usize> Observer<D> for Progress {
     fn on_step(&mut self, snapshot: &Snapshot<'_, D>) -> io::Result<()> {
-        self.start.get_or_insert(snapshot.time - snapshot.time_step);
+        self.first.get_or_insert((snapshot.time, Instant::now()));
         if let Some(bar) = &self.bar {
             if let Some(end) = self.end {
                 #[expect(

@@ -29,6 +29,21 @@ const MOST_BYTES: usize = 1 << 40;
 /// # Errors
 /// When the file system refuses.
 pub(super) fn write_state<const D: usize>(path: &Path, state: &SavedState<D>) -> io::Result<usize> {
+    let bytes = content(state)?;
+    write_atomic(path, &bytes)?;
+    Ok(bytes.len())
+}
+
+/// The size of a file with a state (bytes).
+///
+/// # Errors
+/// When it cannot be encoded.
+pub fn state_size<const D: usize>(state: &SavedState<D>) -> io::Result<usize> {
+    Ok(content(state)?.len())
+}
+
+/// All bytes of a file with a state.
+fn content<const D: usize>(state: &SavedState<D>) -> io::Result<Vec<u8>> {
     let numbers = postcard::to_stdvec(state).map_err(io::Error::other)?;
     let content = zstd::bulk::compress(&numbers, LEVEL)?;
     let mut bytes = Vec::with_capacity(HEADER + content.len());
@@ -37,8 +52,7 @@ pub(super) fn write_state<const D: usize>(path: &Path, state: &SavedState<D>) ->
     bytes.extend(crc32fast::hash(&content).to_le_bytes());
     bytes.extend((content.len() as u64).to_le_bytes());
     bytes.extend(content);
-    write_atomic(path, &bytes)?;
-    Ok(bytes.len())
+    Ok(bytes)
 }
 
 /// Reads the state in a file.

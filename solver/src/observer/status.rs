@@ -34,6 +34,15 @@ pub enum RunState {
     Stopped,
 }
 
+/// Where a process was when it had its first row: what comes later is steps.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct FirstRow {
+    /// Time of the run (s).
+    pub time: f64,
+    /// Wall-clock seconds since the start of the process's run.
+    pub wall: f64,
+}
+
 /// The content of `status.json`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Status {
@@ -56,6 +65,9 @@ pub struct Status {
     pub cpu_seconds: BTreeMap<String, f64>,
     /// Wall-clock seconds by stage, and since the start of the run as `total`.
     pub wall_seconds: BTreeMap<String, f64>,
+    /// The first row of this process, once it has one.
+    #[serde(default)]
+    pub first_row: Option<FirstRow>,
     /// Most memory the process ever held (bytes).
     pub peak_memory: Option<u64>,
     /// How often in a row it was restarted at one and the same step.
@@ -74,6 +86,16 @@ pub struct Status {
 }
 
 impl Status {
+    /// Wall-clock seconds to the end, at the rate of the steps that this process has made.
+    #[must_use]
+    pub fn seconds_left(&self) -> Option<f64> {
+        let FirstRow { time, wall } = self.first_row?;
+        let taken = self.wall_seconds.get("total")? - wall;
+        let made = self.time - time;
+        let to_go = (self.end? - self.time).max(0.0);
+        (made > 0.0).then(|| taken * to_go / made)
+    }
+
     /// The status of the run in `directory`.
     ///
     /// # Errors
@@ -125,6 +147,7 @@ impl StatusFile {
             dofs: 0,
             cpu_seconds: BTreeMap::new(),
             wall_seconds: BTreeMap::new(),
+            first_row: None,
             peak_memory: None,
             restarts: history.map_or_else(Restarts::default, |history| history.restarts),
             longest_checkpoint: None,
@@ -160,6 +183,8 @@ impl<const D: usize> Observer<D> for StatusFile {
         self.status.step = snapshot.step;
         self.status.time = snapshot.time;
         self.status.dofs = snapshot.n_dofs;
+        let wall = self.started.elapsed().as_secs_f64();
+        self.status.first_row.get_or_insert(FirstRow { time: snapshot.time, wall });
         by_stage(&mut self.status, snapshot.timing);
         if snapshot.is_last {
             self.status.steps = self.status.steps.map(|_| snapshot.step);

@@ -2,7 +2,7 @@
 #![expect(clippy::unwrap_used, reason = "a test that cannot write its files has failed")]
 
 mod continuing;
-mod estimates;
+mod costs;
 mod faults;
 mod kills;
 mod live;

@@ -120,37 +120,6 @@ fn paths_that_lead_to_no_case_or_no_run_say_so() {
     assert!(said.stderr.contains("give one you may write to with --out"), "{}", said.stderr);
 }
 
-/// A squirmer above a wall, 0.5 away from it, with a speed of 1 along its heading.
-fn above_a_wall(heading: &str, end: &str) -> String {
-    let (head, _) = ROW.split_once("[[body]]").unwrap();
-    let squirmer = format!(
-        "[[body]]\nname = \"one\"\nshape.disc.radius = 1.0\ncenter = [0.0, -3.5]\nmotion = \"free\"\n\
-         gait.squirmer = {{ modes = [2.0], heading = \"{heading} deg\" }}\n"
-    );
-    format!("{}{squirmer}", head.replace("end = 1.0", &format!("end = {end}")))
-}
-
-#[test]
-fn a_squirmer_on_its_way_to_a_wall_is_warned_of() {
-    let warned = |text: &str, more: &[&str]| {
-        let said = check(text, more);
-        assert_accepted(&said);
-        said.stderr
-    };
-    let told = warned(&above_a_wall("-90", "6.0"), &[]);
-    assert!(told.contains("\"one\" heads for a side of the domain"), "{told}");
-    assert!(told.contains("there at t = 0.5, before the end at 6"), "{told}");
-    let contact = "contact.barrier={ range = 0.1, stiffness = 10.0 }";
-    for (text, more) in [
-        // It does not come that far, goes the other way, or is kept away
-        (above_a_wall("-90", "0.4"), vec![]),
-        (above_a_wall("90", "6.0"), vec![]),
-        (above_a_wall("-90", "6.0"), vec!["--set", contact]),
-    ] {
-        assert!(!warned(&text, &more).contains("heads for"), "{more:?}: {text}");
-    }
-}
-
 /// A disc whose motion is given, 7.5 away from the left side, and one that is held 3 to its right.
 fn moved(motion: &str, end: &str) -> String {
     let (head, _) = ROW.split_once("[[body]]").unwrap();

@@ -244,23 +244,6 @@ fn cycles_are_longer_than_steps() {
 }
 
 #[test]
-fn strokes_that_lead_to_a_wall_are_told_of_contact() {
-    // The arm of the leaf, 1 long and 1.2 at most, points at the bottom, 2 - 0.3 away
-    let away = "kind.arm = { direction = -1.5707963267948966, length.sine = { mean = 1.0, amplitude = 0.2, period = 1.0 } }\n#";
-    let text = SWIMMING.replacen("kind.arm", away, 1).replacen(
-        "center = [-2.0, -3.0]",
-        "center = [-3.0, -4.0]",
-        1,
-    );
-    let said = check(&text, &[]);
-    assert_accepted(&said);
-    assert_eq!(said.stderr, "");
-    let said = check(&text, &["--set", "domain.box.min.1=-4.505"]);
-    assert_accepted(&said);
-    assert!(said.stderr.contains("of the side `bottom`, and nothing keeps"), "{}", said.stderr);
-}
-
-#[test]
 fn copies_that_are_wrong_in_the_same_way_are_not_told_of_one_by_one() {
     let copies = "name = \"chain\"\ncopies.lattice = { counts = [3, 3], spacing = [1.5, 1.5] }\ndensity = -1.0";
     let text = SWIMMING.replacen("name = \"chain\"", copies, 1);

@@ -7,8 +7,8 @@ use crate::{Case, FlowModel, Geometry, Model, Motion};
 /// Largest relative difference between a declared number and the derived one.
 const AGREEMENT: f64 = 1e-6;
 
-/// Cell Reynolds number of the finest cells above which no layer at a surface is resolved; shipped cases have 20 at
-/// most.
+/// Cell Reynolds number of the finest cells above which no layer at a surface is resolved: a cell
+/// is then more than thirty layers of the thickness sqrt(nu h / U) thick.
 const UNRESOLVED: f64 = 1e3;
 
 pub fn check(findings: &mut Findings<'_>) {

@@ -28,7 +28,6 @@ mod space;
 mod spring;
 mod strokes;
 mod swimmers;
-mod swing;
 mod time;
 
 use super::diagnostic::Diagnostic;
@@ -68,10 +67,6 @@ pub fn check(file: &CaseFile) -> Vec<Diagnostic> {
     }
     if findings.has_no_error() {
         given::check(&mut findings);
-    }
-    // Strokes in space are not followed
-    if file.model.case.geometry == Geometry::Spatial && findings.has_no_error() {
-        near::check_ahead(&mut findings);
     }
     let in_plane = file.model.case.geometry != Geometry::Spatial;
     if in_plane && findings.has_no_error() {

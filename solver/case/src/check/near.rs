@@ -1,22 +1,13 @@
-//! Bodies that come near each other or a wall in a case without `[contact]`.
+//! Bodies that are near each other or a wall at the start, in a case without `[contact]`.
 
 use alewife_mesh::{Domain, Outline, Wall, closest, closest_to_wall};
 
 use super::Findings;
-use super::strokes::{Tree, cycle_of};
-use super::swing::swing;
 use crate::balls::{Ball, BallTree};
-use crate::numbers::significant;
 use crate::{Body, BoundaryCondition, Lock, Model, Motion, TimeSettings};
 
 /// Gap over the thickness of the thinner body below which a step or two may close it.
 const NEAR: f64 = 0.05;
-
-/// Times of a cycle at which bodies are looked at.
-const TIMES: u32 = 24;
-
-/// Bodies above which strokes are not followed: their number of gaps is what `[contact]` is for.
-const FOLLOWED: usize = 100;
 
 pub fn check(findings: &mut Findings<'_>) {
     let model = findings.model();
@@ -24,10 +15,7 @@ pub fn check(findings: &mut Findings<'_>) {
     if !is_unsteady || model.case.contact.is_some() || !model.mesh_moves() {
         return;
     }
-    let Some(nearest) = Surroundings::new(model).nearest() else {
-        check_ahead(findings);
-        return;
-    };
+    let Some(nearest) = Surroundings::new(model).nearest() else { return };
     let Near { body, other, gap, thickness } = nearest;
     let of = |body: usize| format!("\"{}\"", model.bodies[body].name);
     let other = match other {
@@ -37,42 +25,13 @@ pub fn check(findings: &mut Findings<'_>) {
     findings.warning(
         &format!("body.{body}.center"),
         format!(
-            "by its place, stroke or gait {} comes within {:.1e} of {other}, and nothing keeps them \
-             apart",
+            "{} is within {:.1e} of {other} at the start, and nothing keeps them apart",
             of(body),
             gap.max(0.0)
         ),
         &format!(
             "if they may meet, add {}: without [contact] steps and cells shrink with the gap",
             barrier(model, body, thickness)
-        ),
-    );
-}
-
-/// Warns of a body that swims or is drawn to a side or another body and gets there before the end, in any
-/// geometry.
-pub fn check_ahead(findings: &mut Findings<'_>) {
-    let model = findings.model();
-    let TimeSettings::Unsteady(time) = &model.case.time else { return };
-    if model.case.contact.is_some() || !model.mesh_moves() {
-        return;
-    }
-    let Some(met) = model.first_meeting().filter(|met| met.time < time.end) else { return };
-    let other = if met.is_at_side { "a side of the domain" } else { "another body" };
-    let thickness = model.bodies[met.body].shape.half_width();
-    findings.warning(
-        &format!("body.{}.{}", met.body, if met.swims { "gait" } else { "center" }),
-        format!(
-            "\"{}\" heads for {other}: straight on, at its speed in free fluid, it is there {} t = {}, \
-             before the end at {}, and nothing keeps them apart",
-            model.bodies[met.body].name,
-            if met.swims { "at" } else { "at the latest about" },
-            significant(met.time),
-            time.end
-        ),
-        &format!(
-            "add {}, or end before: without [contact] steps and cells shrink with the gap",
-            barrier(model, met.body, thickness)
         ),
     );
 }
@@ -90,12 +49,12 @@ enum Other {
     Side(&'static str),
 }
 
-/// A body and what it comes near.
+/// A body and what is near it.
 #[derive(Debug, Clone, Copy)]
 struct Near {
     body: usize,
     other: Other,
-    /// Least gap (m).
+    /// The gap (m).
     gap: f64,
     /// Half the width of the thinner one (m).
     thickness: f64,
@@ -106,11 +65,6 @@ struct Surroundings<'a> {
     model: &'a Model,
     domain: Domain,
     outlines: Vec<Option<Outline>>,
-    /// The first of the bodies that hang together, of each body.
-    roots: Vec<usize>,
-    /// How far a gait or a stroke takes the surface of each body (m).
-    swings: Vec<f64>,
-    trees: Vec<Tree<'a>>,
 }
 
 impl<'a> Surroundings<'a> {
@@ -118,76 +72,44 @@ impl<'a> Surroundings<'a> {
         let scale = model.case.mesh.scale;
         let outlines =
             model.bodies.iter().map(|body| Outline::new(&body.placed(scale)).ok()).collect();
-        let mut swings: Vec<f64> = model.bodies.iter().map(swing).collect();
-        let mut roots: Vec<usize> = (0..model.bodies.len()).collect();
-        let children = model.children();
-        let mut trees = Vec::new();
-        for root in (0..model.bodies.len()).filter(|body| model.joint_above(*body).is_none()) {
-            if children[root].is_empty() {
-                continue;
-            }
-            let tree = Tree::new(model, &children, root);
-            for way in tree.ways(TIMES) {
-                roots[way.body] = root;
-                swings[way.body] += way.length;
-            }
-            trees.push(tree);
-        }
-        let domain = model.case.mesh_domain();
-        Self { model, domain, outlines, roots, swings, trees }
+        Self { model, domain: model.case.mesh_domain(), outlines }
     }
 
-    /// What comes nearest, relative to its thickness, if it comes near.
+    /// What is nearest, relative to its thickness, if it is near.
     fn nearest(&self) -> Option<Near> {
-        let candidates = self.candidates();
-        let followed = self.model.bodies.len() <= FOLLOWED;
-        let near = candidates.into_iter().filter_map(|mut near| {
-            if followed {
-                near.gap = near.gap.min(self.least_gap(&near));
-            }
-            (near.gap < NEAR * near.thickness).then_some(near)
-        });
-        near.min_by(|one, other| {
+        self.all_near().into_iter().min_by(|one, other| {
             (one.gap / one.thickness).total_cmp(&(other.gap / other.thickness))
         })
     }
 
-    /// Pairs that may come near each other, with their gaps at the start less what gaits take.
-    fn candidates(&self) -> Vec<Near> {
+    fn all_near(&self) -> Vec<Near> {
         let mut found = Vec::new();
         let mut placed = BallTree::<2>::empty();
+        let roots: Vec<usize> =
+            (0..self.outlines.len()).map(|body| root(self.model, body)).collect();
+        let yields = |body: usize| yields(&self.model.bodies[roots[body]]);
         for (body, outline) in self.outlines.iter().enumerate() {
             let Some(outline) = outline else { continue };
-            let spec = &self.model.bodies[body];
-            let own = spec.shape.half_width();
-            let room = outline.reach() * (1.0 + NEAR) + self.swings[body];
-            let circle = Ball { center: outline.center(), radius: room };
-            let mut near: Vec<usize> = placed.near(&circle).collect();
-            near.sort_unstable();
-            near.dedup();
-            for other in near {
+            let own = self.model.bodies[body].shape.half_width();
+            let circle = Ball { center: outline.center(), radius: outline.reach() * (1.0 + NEAR) };
+            let mut others: Vec<usize> = placed.near(&circle).collect();
+            others.sort_unstable();
+            others.dedup();
+            for other in others {
                 let Some(facing) = &self.outlines[other] else { continue };
-                let facing_spec = &self.model.bodies[other];
-                let thickness = own.min(facing_spec.shape.half_width());
-                let (body_yields, other_yields) =
-                    (yields(self.model, body), yields(self.model, other));
-                if self.roots[body] == self.roots[other] || !(body_yields || other_yields) {
+                if roots[body] == roots[other] || !(yields(body) || yields(other)) {
                     continue;
                 }
+                let thickness = own.min(self.model.bodies[other].shape.half_width());
                 let gap = closest(outline, facing).gap;
-                let swings = self.swings[body] + self.swings[other];
-                if gap - swings < NEAR * thickness {
-                    let gap = gap - swing(spec) - swing(facing_spec);
+                if gap < NEAR * thickness {
                     found.push(Near { body, other: Other::Body(other), gap, thickness });
                 }
             }
-            if yields(self.model, body) {
-                for (side, wall) in self.walls() {
-                    let gap = closest_to_wall(outline, &wall).gap;
-                    if gap - self.swings[body] < NEAR * own {
-                        let (gap, other) = (gap - swing(spec), Other::Side(side));
-                        found.push(Near { body, other, gap, thickness: own });
-                    }
+            for (side, wall) in self.walls().filter(|_| yields(body)) {
+                let gap = closest_to_wall(outline, &wall).gap;
+                if gap < NEAR * own {
+                    found.push(Near { body, other: Other::Side(side), gap, thickness: own });
                 }
             }
             placed.insert(body, &circle);
@@ -204,49 +126,20 @@ impl<'a> Surroundings<'a> {
             self.domain.wall(index).filter(|_| !is_open).map(|wall| (*side, wall))
         })
     }
-
-    /// Least gap over the cycles of the strokes, the roots where they start (m).
-    fn least_gap(&self, near: &Near) -> f64 {
-        let mut least = f64::INFINITY;
-        let tree = |body: usize| self.trees.iter().find(|tree| tree.root() == self.roots[body]);
-        let of_body = tree(near.body);
-        let of_other = match near.other {
-            Other::Body(other) => tree(other),
-            Other::Side(_) => None,
-        };
-        let end = of_body.iter().chain(&of_other).map(|tree| cycle_of(tree)).fold(0.0, f64::max);
-        if end == 0.0 {
-            return least;
-        }
-        for nth in 1..=TIMES {
-            let time = end * f64::from(nth) / f64::from(TIMES);
-            let at = |tree: Option<&Tree<'_>>, body: usize| match tree {
-                Some(tree) => tree.outline_at(body, time),
-                None => self.outlines[body].clone(),
-            };
-            let Some(outline) = at(of_body, near.body) else { continue };
-            let gap = match near.other {
-                Other::Body(other) => at(of_other, other)
-                    .map_or(f64::INFINITY, |facing| closest(&outline, &facing).gap),
-                Other::Side(side) => {
-                    let wall = self.walls().find(|(name, _)| *name == side);
-                    wall.map_or(f64::INFINITY, |(_, wall)| closest_to_wall(&outline, &wall).gap)
-                }
-            };
-            least = least.min(gap);
-        }
-        least
-    }
 }
 
-/// Whether a body, or what it hangs on, can give way.
-fn yields(model: &Model, body: usize) -> bool {
+/// What a body hangs on in the end.
+fn root(model: &Model, body: usize) -> usize {
     let mut root = body;
     while let Some(above) =
         model.joint_above(root).and_then(|joint| model.body_index(&model.joints[joint].parent))
     {
         root = above;
     }
-    let Body { motion, locked, .. } = &model.bodies[root];
+    root
+}
+
+/// Whether a body that hangs on nothing can give way.
+fn yields(Body { motion, locked, .. }: &Body) -> bool {
     *motion == Motion::Free && !(locked.contains(&Lock::X) && locked.contains(&Lock::Y))
 }

@@ -69,29 +69,13 @@ fn cycle(stroke: &Stroke) -> f64 {
     }
 }
 
-/// The time after which all strokes of a tree have been everywhere (s).
-pub(super) fn cycle_of(tree: &Tree<'_>) -> f64 {
-    let strokes = tree.joints.iter().filter_map(|link| link.joint.kind.stroke());
-    strokes.map(cycle).fold(0.0, f64::max)
-}
-
 /// Bodies that hang on each other, the one all others hang on first.
-pub(super) struct Tree<'a> {
+struct Tree<'a> {
     geometry: Geometry,
-    /// Their numbers in the model.
-    indices: Vec<usize>,
     bodies: Vec<PlacedShape>,
     /// `None` of a shape that has none.
     outlines: Vec<Option<Outline>>,
     joints: Vec<Link<'a>>,
-}
-
-/// How far a body goes in a cycle.
-pub(super) struct Way {
-    /// Its number in the model.
-    pub body: usize,
-    /// Largest displacement of its surface relative to the root (m).
-    pub length: f64,
 }
 
 /// A joint between bodies of a tree, by their positions in it.
@@ -102,7 +86,7 @@ struct Link<'a> {
 }
 
 impl<'a> Tree<'a> {
-    pub(super) fn new(model: &'a Model, children: &[Vec<usize>], root: usize) -> Self {
+    fn new(model: &'a Model, children: &[Vec<usize>], root: usize) -> Self {
         let mut indices = vec![root];
         let mut joints: Vec<Link<'a>> = Vec::new();
         let mut next = 0;
@@ -118,43 +102,7 @@ impl<'a> Tree<'a> {
         let placed = |body: &usize| model.bodies[*body].placed(model.case.mesh.scale);
         let bodies: Vec<PlacedShape> = indices.iter().map(placed).collect();
         let outlines = bodies.iter().map(|body| Outline::new(body).ok()).collect();
-        Self { geometry: model.case.geometry, indices, bodies, outlines, joints }
-    }
-
-    /// Number of the body all others hang on.
-    pub(super) fn root(&self) -> usize {
-        self.indices[0]
-    }
-
-    /// How far each body is taken from its place relative to the root in a cycle (m), with its number:
-    /// the displacement of its centre and what its rotation adds.
-    pub(super) fn ways(&self, times: u32) -> Vec<Way> {
-        let start = self.at(0.0);
-        let way = |body: &usize| Way { body: *body, length: 0.0 };
-        let mut ways: Vec<Way> = self.indices.iter().map(way).collect();
-        let end = cycle_of(self);
-        for nth in 1..=times {
-            let time = end * f64::from(nth) / f64::from(times);
-            for ((way, body), before) in ways.iter_mut().zip(self.at(time)).zip(&start) {
-                let reach = self.reach_of(way.body);
-                let turned = (body.angle - before.angle).abs().min(2.0);
-                way.length = way.length.max((body.center - before.center).norm() + reach * turned);
-            }
-        }
-        ways
-    }
-
-    fn reach_of(&self, body: usize) -> f64 {
-        let position = self.indices.iter().position(|index| *index == body);
-        position.and_then(|nth| self.outlines[nth].as_ref()).map_or(0.0, Outline::reach)
-    }
-
-    /// The outline of a body at a time (s), the root where it starts.
-    pub(super) fn outline_at(&self, body: usize, time: f64) -> Option<Outline> {
-        let position = self.indices.iter().position(|index| *index == body)?;
-        let placed = &self.at(time)[position];
-        let center = self.bodies[0].center + placed.center;
-        Some(self.outlines[position].as_ref()?.placed_at(center, placed.angle))
+        Self { geometry: model.case.geometry, bodies, outlines, joints }
     }
 
     /// The bodies at a time (s), the first one where it starts.

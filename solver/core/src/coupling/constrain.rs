@@ -22,17 +22,6 @@ pub struct BodiesAt<'a> {
     pub shapes: &'a BodyShapes,
 }
 
-/// Number of free unknowns of a problem on a mesh, without the system in which they are found.
-#[must_use]
-pub fn count_unknowns<const D: usize>(problem: &Problem<D>, mesh: &Mesh<D>) -> usize {
-    let poses: Vec<Pose> = problem.bodies.iter().map(|body| body.pose).collect();
-    let layout = DofLayout::new(mesh, problem.bodies.len(), problem.modes().len());
-    let shapes = BodyShapes::rigid(problem.bodies.len());
-    let at = BodiesAt { poses: &poses, shapes: &shapes };
-    let boundaries = Boundaries::new(mesh);
-    Constrainer { problem, mesh, layout: &layout }.constraints(&boundaries, at).n_unknowns()
-}
-
 /// What constraints are made of on one mesh.
 pub(super) struct Constrainer<'a, const D: usize> {
     pub problem: &'a Problem<D>,

@@ -16,7 +16,7 @@ mod solution;
 mod system;
 
 pub use boundaries::{Boundaries, BoundaryNode};
-pub use constrain::{BodiesAt, BoundaryValues, count_unknowns, impose_boundary_values};
+pub use constrain::{BodiesAt, BoundaryValues, impose_boundary_values};
 pub use error::{SolveError, coordinates};
 pub use linear_system::{SolverChoice, memory_estimate};
 pub use loads::{

@@ -17,8 +17,9 @@ use crate::algebra::Term;
 use crate::body::{Mode, Pose, RigidVector};
 use crate::contact::{ContactPair, Gaps, Partner};
 
-/// Square of the strain around a body over that of its rotation: with 1, 4 and 12 a run of `suspension-3d/five` took 15,
-/// 12 and 12 new meshes (19 where nothing rolls), 80 steps of twenty 7, 5 and 5 (10).
+/// Square of the strain around a body over that of its rotation, by trial: with 1, 4 and 12 five
+/// squirmers in space took 15, 12 and 12 new meshes (19 where nothing rolls), 80 steps of twenty 7,
+/// 5 and 5 (10). The runs are those of section 10 of docs/method.md.
 const AROUND: f64 = 4.0;
 /// Largest gap over the reach of the smaller body of a pair that counts.
 const WIDEST: f64 = 1.0;

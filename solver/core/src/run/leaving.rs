@@ -9,7 +9,7 @@ use crate::run::RunError;
 impl<const D: usize> Run<'_, D> {
     /// Whether bodies have left, so that the run is over before its end.
     pub(in crate::run) fn is_over(&mut self, settings: &Unsteady) -> Result<bool, RunError> {
-        let Some(until) = settings.until.filter(|_| !self.is_trial) else { return Ok(false) };
+        let Some(until) = settings.until else { return Ok(false) };
         let leaving = self.leaving(until.distance())?;
         for (body, side) in leaving.iter().enumerate() {
             let Some(side) = side.as_ref().filter(|_| !self.warned.has_left(body)) else {

@@ -3,7 +3,7 @@
 mod build;
 mod case_mesh;
 mod control;
-mod cycle_error;
+mod cycle_report;
 mod error;
 mod leaving;
 mod measure;
@@ -19,10 +19,12 @@ mod solve;
 mod soundness;
 mod spatial;
 mod start;
+mod timed_step;
 
 pub use build::{BodyRecoil, build_problem, motion_settings, recoils, shape_motion, sizing};
 pub use case_mesh::{CaseMesh, Dimension, InitialMesh, build_mesh};
 pub use control::{Piece, StepControl};
+pub use cycle_report::CycleReport;
 pub use error::RunError;
 pub use prepare::simulation_on;
 pub use resume::{Reference, ResumeError, SavedState, VERSION as STATE_VERSION};
@@ -31,4 +33,4 @@ pub use series::Series;
 pub use simulation::{Attempt, Simulation, StepScheme};
 pub use snapshot::{BodyReport, LastState, Observer, Snapshot};
 pub use solve::{Solve, simulate, simulate_from};
-pub use start::DOFS_OF_CELL;
+pub use timed_step::{Effort, TimedStep};

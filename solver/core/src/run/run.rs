@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::case_mesh::{CaseMesh, Dimension};
-use super::cycle_error::OtherSteps;
+use super::cycle_report::CycleReport;
 use super::measure::Measure;
 use super::pace::Pace;
 use super::prepare::{Prepared, prepare};
@@ -11,10 +11,10 @@ use super::resume::SavedState;
 use super::simulation::{CellCrossing, Simulation};
 use super::snapshot::{LastState, Observer, Snapshot};
 use super::{RunError, Series};
-use crate::case::{Case, Initial, Model, Steady, TimeSettings, Unsteady};
-use crate::coupling::{BodiesAt, BodyShapes, RigidBodyEquations, SurfaceLoads};
+use crate::case::{Case, Model, Steady, TimeSettings, Unsteady};
+use crate::coupling::SurfaceLoads;
 use crate::state::InitialLevels;
-use crate::step::{FlowError, SteadyFlow, SteadyTask, StopRequest, solve_steady};
+use crate::step::{FlowError, StopRequest};
 use crate::timing::{Stage, Timing};
 
 /// What a finished run leaves in memory.
@@ -28,6 +28,8 @@ pub struct RunSummary {
     pub n_dofs: usize,
     /// Steps made.
     pub steps: usize,
+    /// First cycles of swimmers without inertia that ended in this run.
+    pub cycles: Vec<CycleReport>,
 }
 
 /// Runs a case to its end, from a saved state if there is one.
@@ -70,13 +72,8 @@ where
         measure,
         warned: Warned::default(),
         pace: Pace::default(),
-        other_steps: None,
-        is_trial: false,
-        rejections: 0,
+        cycles: Vec::new(),
     };
-    if saved.is_none() {
-        run.try_other_steps(model);
-    }
     let result = run.make(saved.is_some());
     if let Err(error) = &result {
         run.notify_of_failure(error);
@@ -88,9 +85,8 @@ where
         run.notify_of_failure(&error);
         return Err(error);
     }
-    let Simulation { work, .. } = run.simulation;
-    let n_dofs = work.system.n_unknowns;
-    Ok(RunSummary { series: run.series, timing: work.timing, n_dofs, steps })
+    let Run { simulation: Simulation { work, .. }, series, cycles, .. } = run;
+    Ok(RunSummary { series, timing: work.timing, n_dofs: work.system.n_unknowns, steps, cycles })
 }
 
 /// A run under way.
@@ -104,12 +100,8 @@ pub(super) struct Run<'a, const D: usize> {
     pub pace: Pace,
     /// What it has warned of.
     pub warned: Warned,
-    /// What the error of the first cycle is told by, until it is.
-    pub other_steps: Option<OtherSteps>,
-    /// Whether nothing is measured or shown.
-    pub is_trial: bool,
-    /// Fixed steps that were halved.
-    pub rejections: usize,
+    /// First cycles that ended.
+    cycles: Vec<CycleReport>,
 }
 
 /// How near bodies have come without contact.
@@ -214,35 +206,13 @@ fn notify_all<const D: usize>(
 }
 
 impl<const D: usize> Run<'_, D> {
-    /// Solves for the flow at time zero without a time derivative.
-    fn solve_at_start(
-        &mut self,
-        settings: &Steady,
-        equations: &RigidBodyEquations,
-        has_convection: bool,
-    ) -> Result<SteadyFlow<D>, RunError> {
-        let Simulation { problem, state, work, stop, .. } = &mut self.simulation;
-        let (poses, shapes) = (state.in_mesh(&state.poses), BodyShapes::at(&problem.bodies, 0.0)?);
-        let bodies = BodiesAt { poses: &poses, shapes: &shapes };
-        let stop = stop.as_ref();
-        let task = SteadyTask { bodies, equations, settings, has_convection, stop };
-        solve_steady(work, problem, &task).map_err(|failure| {
-            state.begin(InitialLevels::steady(failure.last));
-            RunError::from(*failure.error)
-        })
-    }
-
-    /// Newton's and Euler's equations of bodies without acceleration at time zero.
-    fn steady_equations(&self) -> RigidBodyEquations {
-        let Simulation { problem, state, .. } = &self.simulation;
-        RigidBodyEquations::steady(problem, &state.poses, 0.0)
-    }
-
     fn steady(&mut self, settings: &Steady) -> Result<usize, RunError> {
-        let has_convection = self.simulation.problem.has_convection;
-        let flow = self.solve_at_start(settings, &self.steady_equations(), has_convection)?;
-        self.simulation.state.begin(InitialLevels::steady(flow.solution));
-        let loads = self.simulation.loads(&flow.residual);
+        let simulation = &mut self.simulation;
+        let has_convection = simulation.problem.has_convection;
+        let equations = simulation.steady_equations();
+        let flow = simulation.solve_at_start(settings, &equations, has_convection)?;
+        simulation.state.begin(InitialLevels::steady(flow.solution));
+        let loads = simulation.loads(&flow.residual);
         let iterations = flow.iterations;
         let summary = StepSummary { iterations, is_last: true, ..StepSummary::default() };
         self.report(&loads, summary)?;
@@ -250,24 +220,9 @@ impl<const D: usize> Run<'_, D> {
     }
 
     /// The flow an unsteady run starts from.
-    pub(super) fn begin(&mut self, settings: &Unsteady) -> Result<(), RunError> {
-        let n_bodies = self.simulation.problem.bodies.len();
-        let mut loads = SurfaceLoads::none(n_bodies);
-        let has_inertia = self.simulation.problem.has_inertia;
-        // Without inertia the flow has no memory, and is that of the bodies' poses at any time
-        if settings.initial == Initial::Stokes || !has_inertia {
-            // Where bodies have inertia their loads have not moved them yet
-            let equations = if has_inertia {
-                RigidBodyEquations::without_loads(n_bodies)
-            } else {
-                self.steady_equations()
-            };
-            let settings = Steady { tolerance: 1e-10, max_iterations: 5 };
-            let flow = self.solve_at_start(&settings, &equations, false)?;
-            self.simulation.state.begin(InitialLevels::steady(flow.solution));
-            loads = self.simulation.loads(&flow.residual);
-        }
-        self.report(&loads, StepSummary::default())
+    fn begin(&mut self, settings: &Unsteady) -> Result<(), RunError> {
+        let start = self.simulation.begin(settings)?;
+        self.report(&start.loads, StepSummary::default())
     }
 
     /// Ends the run where an observer asks for it.
@@ -287,12 +242,11 @@ impl<const D: usize> Run<'_, D> {
     ) -> Result<(), RunError> {
         self.simulation.record_propulsion(&loads.bodies);
         self.simulation.work.system.mark_solver();
-        if self.is_trial {
-            return Ok(());
+        let ended = self.simulation.first_cycles_that_end();
+        if matches!(&self.case.time, TimeSettings::Unsteady(time) if time.adaptive.is_none()) {
+            ended.iter().for_each(|cycle| cycle.log(self.simulation.scheme.method));
         }
-        if let Some(other) = self.other_steps.take_if(|own| own.is_due(&self.simulation)) {
-            other.compare(&self.simulation);
-        }
+        self.cycles.extend(ended);
         let Self { case, observers, series, simulation, measure, .. } = self;
         let measured = measure.measure(case, simulation, loads, summary.crossing)?;
         let Simulation { state, work, .. } = simulation;

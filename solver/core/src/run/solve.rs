@@ -6,13 +6,12 @@
 use alewife_mesh::{Mesh, Point, Quality};
 use nalgebra::Vector3;
 
-use super::build::build_problem;
 use super::case_mesh::{CaseMesh, Dimension};
 use super::resume::SavedState;
 use super::run::run_case;
+use super::timed_step::{TimedStep, time_step};
 use super::{Observer, RunError, RunSummary};
 use crate::case::Model;
-use crate::coupling::count_unknowns;
 use crate::flow;
 
 /// Runs cases of a dimension, and tells of their meshes and flows.
@@ -30,11 +29,11 @@ pub trait Solve<const D: usize>: CaseMesh<D> {
     /// How good a mesh is.
     fn quality(mesh: &Mesh<D>) -> Quality<D>;
 
-    /// Free unknowns of a case on its mesh.
+    /// Makes one step of a case on its mesh, to see what a step takes.
     ///
     /// # Errors
-    /// When the case makes no problem on this mesh.
-    fn count_unknowns(model: &Model, mesh: &Mesh<D>) -> Result<usize, RunError>;
+    /// When the mesh does not fit into memory, or the flow at the start is not found.
+    fn time_step(model: &Model, mesh: Mesh<D>) -> Result<TimedStep<D>, RunError>;
 
     /// Vorticity at the P2 nodes (1/s), see [`flow::nodal_vorticity`].
     fn vorticity(mesh: &Mesh<D>, velocity: &[Point<D>]) -> Vec<Vector3<f64>>;
@@ -58,8 +57,11 @@ macro_rules! solve_in {
                 Quality::of(mesh)
             }
 
-            fn count_unknowns(model: &Model, mesh: &Mesh<$dimension>) -> Result<usize, RunError> {
-                Ok(count_unknowns(&build_problem(model, mesh)?, mesh))
+            fn time_step(
+                model: &Model,
+                mesh: Mesh<$dimension>,
+            ) -> Result<TimedStep<$dimension>, RunError> {
+                time_step(model, mesh)
             }
 
             fn vorticity(

@@ -1,11 +1,15 @@
-//! What a simulation starts with: its scheme, its mesh, and the memory it needs.
+//! What a simulation starts with: its scheme, its mesh, its flow, and the memory it needs.
 
 use alewife_mesh::{Mesh, MeshError};
 
 use super::RunError;
 use super::simulation::{Simulation, StepScheme};
-use crate::case::{Case, Convection, Scheme, TimeSettings};
-use crate::coupling::{BodyShapes, Problem, memory_estimate};
+use crate::case::{Case, Convection, Initial, Scheme, Steady, TimeSettings, Unsteady};
+use crate::coupling::{
+    BodiesAt, BodyShapes, Problem, RigidBodyEquations, SurfaceLoads, memory_estimate,
+};
+use crate::state::InitialLevels;
+use crate::step::{SteadyFlow, SteadyTask, solve_steady};
 
 impl<const D: usize> Simulation<D> {
     /// Meshed with straight sides, a sheet has its shape from the beginning.
@@ -24,6 +28,58 @@ impl<const D: usize> Simulation<D> {
         state.settle(settled, minimum_gap);
         Ok(())
     }
+
+    /// Solves for the flow at time zero without a time derivative.
+    pub(super) fn solve_at_start(
+        &mut self,
+        settings: &Steady,
+        equations: &RigidBodyEquations,
+        has_convection: bool,
+    ) -> Result<SteadyFlow<D>, RunError> {
+        let Self { problem, state, work, stop, .. } = self;
+        let (poses, shapes) = (state.in_mesh(&state.poses), BodyShapes::at(&problem.bodies, 0.0)?);
+        let bodies = BodiesAt { poses: &poses, shapes: &shapes };
+        let stop = stop.as_ref();
+        let task = SteadyTask { bodies, equations, settings, has_convection, stop };
+        solve_steady(work, problem, &task).map_err(|failure| {
+            state.begin(InitialLevels::steady(failure.last));
+            RunError::from(*failure.error)
+        })
+    }
+
+    /// Newton's and Euler's equations of bodies without acceleration at time zero.
+    pub(super) fn steady_equations(&self) -> RigidBodyEquations {
+        RigidBodyEquations::steady(&self.problem, &self.state.poses, 0.0)
+    }
+
+    /// Solves for the flow an unsteady run starts from.
+    pub(super) fn begin(&mut self, settings: &Unsteady) -> Result<StartFlow, RunError> {
+        let n_bodies = self.problem.bodies.len();
+        let has_inertia = self.problem.has_inertia;
+        // Without inertia the flow has no memory, and is that of the bodies' poses at any time
+        if settings.initial != Initial::Stokes && has_inertia {
+            return Ok(StartFlow { loads: SurfaceLoads::none(n_bodies), iterations: 0 });
+        }
+        // Where bodies have inertia their loads have not moved them yet
+        let equations = if has_inertia {
+            RigidBodyEquations::without_loads(n_bodies)
+        } else {
+            self.steady_equations()
+        };
+        let settings = Steady { tolerance: 1e-10, max_iterations: 5 };
+        let flow = self.solve_at_start(&settings, &equations, false)?;
+        self.state.begin(InitialLevels::steady(flow.solution));
+        let loads = self.loads(&flow.residual);
+        Ok(StartFlow { loads, iterations: flow.iterations })
+    }
+}
+
+/// The flow an unsteady run starts from.
+pub(super) struct StartFlow {
+    /// Loads of the fluid on the bodies.
+    pub loads: SurfaceLoads,
+    /// Linear systems solved.
+    pub iterations: usize,
 }
 
 /// How the steps of a case are made.
@@ -44,7 +100,7 @@ const GIGABYTE: f64 = 1e9;
 
 /// Unknowns over cells of a large mesh, planar or spatial: velocities at vertices and edges, pressures
 /// at vertices.
-pub const DOFS_OF_CELL: f64 = 4.5;
+const DOFS_OF_CELL: f64 = 4.5;
 
 /// Part by which an estimate of cells may be too high.
 const UNCERTAIN: f64 = 1.4;

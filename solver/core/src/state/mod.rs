@@ -1,5 +1,6 @@
 //! What evolves in a run: mesh, flow and bodies at two levels, and the balances over time.
 
+mod cycle_error;
 mod cycles;
 mod energy;
 mod momentum;
@@ -9,6 +10,7 @@ mod state;
 #[cfg(test)]
 mod tests;
 
+pub use cycle_error::{CycleError, Leg, StagePoint, Waypoint};
 pub use cycles::{CycleMeans, Cycles, Record};
 pub use energy::{EnergyBalance, EnergyRecord};
 pub use momentum::{MomentumBalance, MomentumRecord, Part};

@@ -3,6 +3,7 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
+use super::cycle_error::{CycleError, Leg};
 use super::cycles::{Cycles, Record};
 use crate::body::Orientation;
 use crate::coupling::PropulsionPower;
@@ -18,6 +19,8 @@ pub struct PropulsionHistory {
     positive_work: f64,
     /// The last two cycles.
     pub cycles: Cycles,
+    /// What its steps have done wrong in the first one.
+    pub error: CycleError,
 }
 
 /// The powers of a group in a step.
@@ -27,6 +30,8 @@ pub struct PropulsionStep {
     pub shares: Vec<PowerShare>,
     /// At its end.
     pub end: PropulsionPower,
+    /// Its way, where its poses are all that evolves.
+    pub leg: Option<Leg>,
 }
 
 /// A power with its share of a step.
@@ -58,6 +63,9 @@ impl PropulsionHistory {
             self.positive_work += size * share * power.power.max(0.0);
         }
         self.power = step.end.numbers();
+        if let Some(leg) = &step.leg {
+            self.error.add_step(size, leg);
+        }
     }
 
     /// The record of a time (s) with the centre of mass (m) and how the first body is turned.

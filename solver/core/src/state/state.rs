@@ -270,6 +270,11 @@ impl<const D: usize> State<D> {
         }
     }
 
+    /// Ends the estimate of the error of a group's first cycle: it has been reported.
+    pub fn end_cycle_error(&mut self, group: usize) {
+        self.0.propulsion[group].error.end();
+    }
+
     /// Adds to the balance of energy; its defect.
     pub fn record_energy(&mut self, has_memory: bool, record: EnergyRecord) -> f64 {
         self.0.energy.add(has_memory, record)

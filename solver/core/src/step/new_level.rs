@@ -7,8 +7,8 @@ use super::stepper::TimeStepper;
 use super::workspace::Workspace;
 use crate::body::{Pose, Twist};
 use crate::contact::{ContactLoads, Gaps};
-use crate::coupling::{PropulsionPower, Solution};
-use crate::state::{NewLevel, PowerShare, PropulsionStep, State};
+use crate::coupling::{Group, MeanMotion, Problem, PropulsionPower, Solution, mean_motion};
+use crate::state::{Leg, NewLevel, PowerShare, PropulsionStep, StagePoint, State, Waypoint};
 
 /// What the last iteration of a step has found.
 pub(super) struct ConvergedStep<const D: usize> {
@@ -52,6 +52,7 @@ impl<const D: usize> StepContext<'_, D> {
             stepper.path.move_mesh(work, stepper.problem, state, &poses, &history.shapes)?;
         let rates = solution.velocity.iter().zip(&history.derivative);
         let twists = solution.twists.iter().zip(&configuration.bodies.bodies);
+        let legs = legs(stepper.problem, state, &[], &poses, &solution.twists);
         Ok(NewLevel {
             time: history.step.time,
             step: bdf.step,
@@ -64,19 +65,21 @@ impl<const D: usize> StepContext<'_, D> {
             nodes,
             poses,
             contact,
-            propulsion: propulsion_steps(state, propulsion, bdf.is_second_order()),
+            propulsion: propulsion_steps(state, propulsion, &legs, bdf.is_second_order()),
             solution,
         })
     }
 }
 
-/// What the groups do in a step that ends with these powers: their integral by the trapezoidal rule.
+/// What the groups do in a step that ends with these powers: their integral by the trapezoidal
+/// rule.
 fn propulsion_steps<const D: usize>(
     state: &State<D>,
     ends: &[PropulsionPower],
+    legs: &[Option<Leg>],
     is_second_order: bool,
 ) -> Vec<PropulsionStep> {
-    let step = |(end, before): (&PropulsionPower, PropulsionPower)| {
+    let step = |((end, before), leg): ((&PropulsionPower, PropulsionPower), &Option<Leg>)| {
         let share = |power: PropulsionPower, share: f64| PowerShare { power, share };
         // A first-order step comes after a jump: what was before it does not count
         let shares = if is_second_order {
@@ -84,7 +87,51 @@ fn propulsion_steps<const D: usize>(
         } else {
             vec![share(*end, 1.0)]
         };
-        PropulsionStep { shares, end: *end }
+        PropulsionStep { shares, end: *end, leg: leg.clone() }
     };
-    ends.iter().zip(state.propulsion.iter().map(|history| history.power())).map(step).collect()
+    let before = state.propulsion.iter().map(|history| history.power());
+    ends.iter().zip(before).zip(legs).map(step).collect()
+}
+
+/// Bodies at a stage of a step.
+pub(super) struct StageMotion {
+    /// When it is, as a part of the step.
+    pub part: f64,
+    /// Poses of the bodies.
+    pub poses: Vec<Pose>,
+    /// Their velocities.
+    pub twists: Vec<Twist>,
+}
+
+/// The ways of the groups in a step to poses with these velocities, by way of stages, of which the
+/// first one is its beginning; none where poses are not all that evolves, or without a cycle.
+pub(super) fn legs<const D: usize>(
+    problem: &Problem<D>,
+    state: &State<D>,
+    stages: &[StageMotion],
+    poses: &[Pose],
+    twists: &[Twist],
+) -> Vec<Option<Leg>> {
+    let at = |group: &Group, poses: &[Pose], twists: &[Twist]| {
+        let MeanMotion { center, twist } = mean_motion(problem, group, poses, twists);
+        let first = group.bodies[0];
+        let pose = Pose { center, orientation: poses[first].orientation };
+        Waypoint { pose, velocity: Twist { linear: twist.linear, angular: twists[first].angular } }
+    };
+    let leg = |group: &Group| {
+        let at_stage = |stage: &StageMotion| at(group, &stage.poses, &stage.twists);
+        let stage_point =
+            |stage: &StageMotion| StagePoint { part: stage.part, at: at_stage(stage) };
+        let start = || {
+            let pose = at(group, &state.poses, &state.now.twists).pose;
+            (pose, stages.first().map(|stage| at_stage(stage).velocity))
+        };
+        Leg {
+            start: (state.last_step == 0.0).then(start),
+            stages: stages.iter().skip(1).map(stage_point).collect(),
+            end: at(group, poses, twists),
+        }
+    };
+    let is_estimated = |group: &Group| group.period.is_some() && !problem.has_inertia;
+    problem.groups.iter().map(|group| is_estimated(group).then(|| leg(group))).collect()
 }

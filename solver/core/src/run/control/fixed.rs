@@ -1,7 +1,6 @@
 //! Fixed steps, halved where they must be.
 
 use super::start::pieces;
-use super::trial::is_pointless;
 use super::{NEAR, Piece, SMALLEST_PART, step_size_underflow};
 use crate::case::{Scheme, Unsteady};
 use crate::coupling::SurfaceLoads;
@@ -88,14 +87,7 @@ impl<const D: usize> Run<'_, D> {
                 Attempt::Rejected(error) if size <= smallest => {
                     return Err(step_size_underflow(self, size, &error));
                 }
-                Attempt::Rejected(error) => {
-                    self.rejections += 1;
-                    // Halves of halves may take longer than the run that is to come
-                    if self.is_trial && is_pointless(self.rejections, settings.n_steps()) {
-                        return Err(step_size_underflow(self, size, &error));
-                    }
-                    to_do.extend(halves(piece));
-                }
+                Attempt::Rejected(_) => to_do.extend(halves(piece)),
             }
             // A step in many pieces may take long. After the last one the step is reported first: a
             // resumed run begins behind it.

@@ -1,9 +1,8 @@
-//! Control of the step size: fixed steps, steps by their error, first steps, trials of other sizes.
+//! Control of the step size: fixed steps, steps by their error, first steps.
 
 mod adaptive;
 mod fixed;
 mod start;
-mod trial;
 
 use alewife_mesh::Point;
 use serde::{Deserialize, Serialize};

@@ -11,6 +11,7 @@ use super::context::{Guess, StepContext};
 use super::coupled_flow::FlowUnderLoads;
 use super::error::StepError;
 use super::history::{INSIDE, StepHistory};
+use super::new_level::{StageMotion, legs};
 use super::stepper::{StepReport, StepResult, TimeStepper};
 use super::workspace::Workspace;
 use crate::body::{Pose, RigidVector, Twist, rate_of_displacement};
@@ -73,6 +74,8 @@ struct Stages<const D: usize> {
     rates: Vec<Vec<RigidVector>>,
     /// Powers of the groups, by stage.
     powers: Vec<Vec<PropulsionPower>>,
+    /// Bodies at the beginning and at each stage.
+    motions: Vec<StageMotion>,
     /// Flow of the last stage, from which the next one starts.
     last: Solution<D>,
     iterations: usize,
@@ -80,13 +83,15 @@ struct Stages<const D: usize> {
 
 impl<const D: usize> Stages<D> {
     /// Adds the flow of bodies at poses in a step from others.
-    fn push(&mut self, flow: &InstantaneousFlow<D>, from: &[Pose], poses: &[Pose]) {
+    fn push(&mut self, flow: &InstantaneousFlow<D>, from: &[Pose], poses: &[Pose], part: f64) {
         let ways = from.iter().zip(poses).zip(&flow.solution.twists);
         let rate = |((from, pose), twist): ((&Pose, &Pose), &Twist)| {
             rate_of_displacement(&pose.displacement_from(from), twist)
         };
         self.rates.push(ways.map(rate).collect());
         self.powers.push(flow.powers.clone());
+        let twists = flow.solution.twists.clone();
+        self.motions.push(StageMotion { part, poses: poses.to_vec(), twists });
         self.last = flow.solution.clone();
         self.iterations += flow.iterations;
     }
@@ -115,17 +120,17 @@ impl<const D: usize> TimeStepper<'_, D> {
             let poses = self.stage_poses(state, &stages.rates, &stage, size);
             let flow =
                 self.flow_at(work, state, &poses, stage.instant(state, size), &stages.last)?;
-            stages.push(&flow, &state.poses, &poses);
+            stages.push(&flow, &state.poses, &poses, stage.part);
         }
         let poses = self.stage_poses(state, &stages.rates, &third, size);
         let flow = self.flow_at(work, state, &poses, third.instant(state, size), &stages.last)?;
-        stages.push(&flow, &state.poses, &poses);
+        stages.push(&flow, &state.poses, &poses, third.part);
         let report = StepReport {
             loads: flow.loads.clone(),
             iterations: stages.iterations,
             error: self.explicit_error(state, &poses, &stages.rates, size)?,
         };
-        let level = self.explicit_level(state, size, flow, poses, &stages.powers)?;
+        let level = self.explicit_level(state, size, flow, poses, &stages)?;
         Ok(StepResult { level, report })
     }
 
@@ -140,6 +145,7 @@ impl<const D: usize> TimeStepper<'_, D> {
         let mut stages = Stages {
             rates: Vec::new(),
             powers: Vec::new(),
+            motions: Vec::new(),
             last: state.now.clone(),
             iterations: 0,
         };
@@ -147,10 +153,12 @@ impl<const D: usize> TimeStepper<'_, D> {
             let rates_at = state.time + INSIDE * size;
             let at = Instant { step: size, time: state.time, rates_at };
             let flow = self.flow_at(work, state, &state.poses, at, &state.now)?;
-            stages.push(&flow, &state.poses, &state.poses);
+            stages.push(&flow, &state.poses, &state.poses, 0.0);
         } else {
             stages.rates.push(rates_of(&state.now));
             stages.powers.push(state.propulsion.iter().map(|history| history.power()).collect());
+            let (poses, twists) = (state.poses.clone(), state.now.twists.clone());
+            stages.motions.push(StageMotion { part: 0.0, poses, twists });
         }
         Ok(stages)
     }
@@ -216,7 +224,7 @@ impl<const D: usize> TimeStepper<'_, D> {
         size: f64,
         flow: InstantaneousFlow<D>,
         poses: Vec<Pose>,
-        powers: &[Vec<PropulsionPower>],
+        stages: &Stages<D>,
     ) -> Result<NewLevel<D>, StepError> {
         let time = state.time + size;
         let gaps = self.path.gaps_at_time(&self.problem.bodies, time)?;
@@ -224,11 +232,14 @@ impl<const D: usize> TimeStepper<'_, D> {
         let twists = flow.solution.twists.iter().zip(&state.now.twists);
         let accelerations = twists
             .map(|(new, old)| Twist::from_vector(&((new.to_vector() - old.to_vector()) / size)));
-        let propulsion = (0..state.propulsion.len()).map(|group| {
+        let Stages { powers, motions, .. } = stages;
+        let within = &motions[..STAGES.len()];
+        let legs = legs(self.problem, state, within, &poses, &flow.solution.twists);
+        let propulsion = legs.into_iter().enumerate().map(|(group, leg)| {
             let stages = powers.iter().zip(STAGES[2].weights);
             let shares =
                 stages.map(|(stage, share)| PowerShare { power: stage[group], share: *share });
-            PropulsionStep { shares: shares.collect(), end: powers[STAGES.len()][group] }
+            PropulsionStep { shares: shares.collect(), end: powers[STAGES.len()][group], leg }
         });
         Ok(NewLevel {
             time,

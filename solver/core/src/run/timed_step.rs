@@ -1,0 +1,122 @@
+//! `TimedStep`: one step of a run, made on its first mesh to see what a step takes.
+
+use std::time::{Duration, Instant};
+
+use alewife_mesh::{Mesh, Point};
+
+use super::case_mesh::{CaseMesh, Dimension};
+use super::error::RunError;
+use super::prepare::simulation_on;
+use super::resume::SavedState;
+use super::series::Series;
+use super::simulation::Simulation;
+use super::start::check_memory;
+use crate::case::{Model, Scheme, TimeSettings, Unsteady};
+use crate::state::InitialLevels;
+use crate::step::StepError;
+use crate::timing::cpu_seconds;
+
+/// Time on the clock after which a first step stands for all others: it takes longer than they do
+/// where bodies start suddenly, but who waits for it has waited long enough.
+const PATIENCE: Duration = Duration::from_secs(10);
+
+/// What something took.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Effort {
+    /// CPU time of all threads (s).
+    pub cpu: f64,
+    /// Time on the clock (s).
+    pub wall: f64,
+    /// Linear systems solved.
+    pub systems: usize,
+}
+
+/// What one step took, and what it left.
+#[derive(Debug)]
+pub struct TimedStep<const D: usize> {
+    /// Free unknowns.
+    pub unknowns: usize,
+    /// What comes before the first step: the system is built, and the flow at the start solved for.
+    /// Of a steady solution it is that without convection.
+    pub start: Effort,
+    /// A step of the size `step`, or why none was made; none of a steady solution.
+    pub step: Option<Result<Effort, StepError>>,
+    /// Where it led to.
+    pub mesh: Mesh<D>,
+    /// Velocity at the P2 nodes (m/s).
+    pub velocity: Vec<Point<D>>,
+    /// Pressure at the vertices (Pa).
+    pub pressure: Vec<f64>,
+    /// All of it, as a run writes it; none of a steady solution.
+    pub saved: Option<SavedState<D>>,
+}
+
+/// Makes one step of a run on its mesh, without replacing it.
+pub(super) fn time_step<const D: usize>(
+    model: &Model,
+    mesh: Mesh<D>,
+) -> Result<TimedStep<D>, RunError>
+where
+    Dimension<D>: CaseMesh<D>,
+{
+    check_memory(&mesh)?;
+    let begun = Begun::now();
+    let mut simulation = simulation_on(model, mesh)?;
+    let systems = match &model.case.time {
+        TimeSettings::Steady(settings) => {
+            let equations = simulation.steady_equations();
+            let flow = simulation.solve_at_start(settings, &equations, false)?;
+            simulation.state.begin(InitialLevels::steady(flow.solution));
+            flow.iterations
+        }
+        TimeSettings::Unsteady(settings) => simulation.begin(settings)?.iterations,
+    };
+    let start = begun.effort(systems);
+    let (step, saved) = match &model.case.time {
+        TimeSettings::Steady(_) => (None, None),
+        TimeSettings::Unsteady(settings) => {
+            let step = one_of_many(&mut simulation, settings);
+            (Some(step), Some(SavedState::of(&model.case, &simulation, &Series::default())?))
+        }
+    };
+    let Simulation { state, work, .. } = simulation;
+    let (velocity, pressure) = (state.now.velocity.clone(), state.now.pressure.clone());
+    let unknowns = work.system.n_unknowns;
+    Ok(TimedStep { unknowns, start, step, mesh: state.mesh.clone(), velocity, pressure, saved })
+}
+
+/// Makes a step as those in the midst of a run are: of second order, if it is, after one of half
+/// its size.
+fn one_of_many<const D: usize>(
+    simulation: &mut Simulation<D>,
+    settings: &Unsteady,
+) -> Result<Effort, StepError> {
+    let size = settings.step.min(settings.end);
+    let mut timed = |size: f64| {
+        let begun = Begun::now();
+        simulation.step_on_this_mesh(size).map(|report| begun.effort(report.iterations))
+    };
+    if settings.scheme == Scheme::Rk3 {
+        return timed(size);
+    }
+    let first = timed(0.5 * size)?;
+    if first.wall > PATIENCE.as_secs_f64() { Ok(first) } else { timed(size) }
+}
+
+/// When something began.
+struct Begun {
+    cpu: f64,
+    wall: Instant,
+}
+
+impl Begun {
+    fn now() -> Self {
+        Self { cpu: cpu_seconds(), wall: Instant::now() }
+    }
+
+    /// What it has taken.
+    fn effort(&self, systems: usize) -> Effort {
+        let cpu = cpu_seconds() - self.cpu;
+        Effort { cpu, wall: self.wall.elapsed().as_secs_f64(), systems }
+    }
+}
