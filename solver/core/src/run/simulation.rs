@@ -3,8 +3,8 @@
 use alewife_mesh::{CellId, NodeId};
 use rayon::prelude::*;
 
-use super::control::StepControl;
 use super::error::RunError;
+use super::step_control::StepControl;
 use crate::case::{Convection, Scheme};
 use crate::contact::{ContactError, Law};
 use crate::coupling::{BodyLoads, BodyShapes, FluidSystem, Problem, SurfaceLoads};

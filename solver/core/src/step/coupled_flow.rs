@@ -59,7 +59,8 @@ impl<'a, const D: usize> FlowUnderLoads<'a, D> {
     }
 
     fn failure(&self, error: SolveError) -> StepError {
-        FlowError::from_solve(error, &self.step.history.step).into()
+        let step = &self.step.history.step;
+        FlowError::from_solve(error, step.number, step.time).into()
     }
 }
 

@@ -2,7 +2,6 @@
 
 use thiserror::Error;
 
-use super::stepper::Step;
 use crate::case::rounded;
 use crate::contact::ContactError;
 use crate::coupling::{ShapeError, SolveError, coordinates};
@@ -136,15 +135,9 @@ pub enum FlowError {
 }
 
 impl FlowError {
-    /// The failure of a linear solve in a step.
-    #[must_use]
-    pub fn from_solve(error: SolveError, step: &Step) -> Self {
-        Self::from_solve_at(error, step.number, step.time)
-    }
-
     /// The failure of a linear solve at a step and time (s).
     #[must_use]
-    pub fn from_solve_at(error: SolveError, step: usize, time: f64) -> Self {
+    pub fn from_solve(error: SolveError, step: usize, time: f64) -> Self {
         match error {
             SolveError::NotFinite { near } => Self::NotFinite { step, time, near },
             error => Self::Singular { step, time, reason: error.to_string() },

@@ -1,9 +1,11 @@
-//! Where bodies get to: velocities extrapolated, and poses integrated from velocities.
+//! Where bodies get to: velocities extrapolated, contact expected, and poses integrated from velocities.
 
-use super::context::StepContext;
+use super::context::{Guess, Iterate, StepContext};
 use super::mesh_path::MeshPath;
 use super::stepper::{Step, TimeStepper};
+use super::workspace::Workspace;
 use crate::body::{Mode, Pose, RigidVector, Twist};
+use crate::contact::ContactPrediction;
 use crate::state::State;
 
 impl<const D: usize> TimeStepper<'_, D> {
@@ -43,6 +45,61 @@ impl<const D: usize> TimeStepper<'_, D> {
 }
 
 impl<const D: usize> StepContext<'_, D> {
+    /// Poses and flow at the new time, extrapolated, with contact as it is expected there.
+    pub fn predict(&self, work: &Workspace<D>) -> Iterate<D> {
+        let twists = self.extrapolated_twists();
+        let poses = self.integrate(&twists);
+        let in_contact = self.predict_contact(work, &twists, &poses);
+        Iterate {
+            poses: in_contact.map_or(poses, |twists| self.integrate(&twists)),
+            apart: self.state.poses.clone(),
+            guess: Guess::new(self.history.extrapolated.clone()),
+        }
+    }
+
+    /// Velocities at the new time with contact as it is expected, where there may be any.
+    fn predict_contact(
+        &self,
+        work: &Workspace<D>,
+        extrapolated: &[Twist],
+        poses: &[Pose],
+    ) -> Option<Vec<Twist>> {
+        let Self { stepper: TimeStepper { problem, .. }, state, history, .. } = self;
+        let equations = history.body_equations(problem, &state.poses);
+        let prediction = ContactPrediction {
+            contact: self.contact_at(poses, &equations)?,
+            extrapolated,
+            velocities: &state.now.twists,
+            accelerations: &state.accelerations,
+            older: equations.bodies.iter().map(|body| body.history).collect(),
+            loads: &state.contact,
+        };
+        let bodies = state.in_mesh(&state.poses);
+        let time = history.boundary_shapes().time();
+        prediction.velocities(|loaded| work.system.free_motions_at(problem, &bodies, time, loaded))
+    }
+
+    /// Shortens displacements where bodies would get too near to each other: predictions know nothing of what is in the way.
+    pub fn keep_gaps_open(&self, iterate: &mut Iterate<D>) {
+        let Some(gaps) = self.gaps() else { return };
+        let Iterate { poses, apart, .. } = iterate;
+        let between = |part: f64| -> Vec<Pose> {
+            let pairs = apart.iter().zip(&*poses);
+            pairs.map(|(from, to)| from.displaced(&(to.displacement_from(from) * part))).collect()
+        };
+        let part = gaps.part_that_keeps_open(&|part| {
+            let seen = |poses: &[Pose]| self.state.in_own_frame(self.stepper.problem, poses);
+            match part {
+                0.0 => seen(apart),
+                1.0 => seen(poses),
+                part => seen(&between(part)),
+            }
+        });
+        if part < 1.0 {
+            *poses = between(part);
+        }
+    }
+
     /// Velocities at the new time, given ones as they are then and the others extrapolated.
     pub fn extrapolated_twists(&self) -> Vec<Twist> {
         let step = &self.history.step;

@@ -1,7 +1,8 @@
 //! `ByMobility`: contact with the mobility that the factors of the system give, by Newton's method.
 
 use super::coupled_contact::CoupledContact;
-use super::loaded_flow::{CoupledSolver, LoadedFlow};
+use super::coupled_solver::CoupledSolver;
+use super::loaded_flow::LoadedFlow;
 use crate::contact::{ContactError, ContactLoads};
 
 /// Contact by the exact mobility: nothing is to be known of it beforehand.

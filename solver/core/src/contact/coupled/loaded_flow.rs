@@ -1,8 +1,7 @@
-//! `LoadedFlow`: a flow that loads on its bodies change; `CoupledSolver`: how contact is found in it.
+//! `LoadedFlow`: a flow that loads on its bodies change.
 
 use nalgebra::DMatrix;
 
-use super::CoupledContact;
 use crate::body::{BodyLoad, LoadedBody, Pose, Twist};
 use crate::contact::{ContactError, ContactLoads};
 
@@ -37,21 +36,4 @@ pub trait LoadedFlow {
     /// # Errors
     /// When the linear system cannot be solved.
     fn add_loads(&mut self, loads: &[BodyLoad], tolerance: Option<f64>) -> Result<(), Self::Error>;
-}
-
-/// A method for contact in the flow of a step; it lasts for all iterations for the poses.
-pub trait CoupledSolver<E> {
-    /// Loads with which the flow of an iteration is best solved at first; none where the flow without contact does as
-    /// well.
-    fn first_loads(&mut self, contact: &CoupledContact<'_>) -> Option<ContactLoads>;
-
-    /// Replaces the first loads in a flow by those that belong to the gaps at the end of the step, and returns them.
-    ///
-    /// # Errors
-    /// When contact forces are not found, or the linear system cannot be solved.
-    fn solve(
-        &mut self,
-        contact: &CoupledContact<'_>,
-        flow: &mut dyn LoadedFlow<Error = E>,
-    ) -> Result<ContactLoads, E>;
 }

@@ -9,6 +9,7 @@
 mod body_rows;
 mod by_mobility;
 mod coupled_contact;
+mod coupled_solver;
 mod drag_mobility;
 mod explicit;
 mod loaded_flow;
@@ -18,9 +19,10 @@ mod secant_mobility;
 
 pub use by_mobility::ByMobility;
 pub use coupled_contact::CoupledContact;
+pub use coupled_solver::CoupledSolver;
 pub use drag_mobility::BodyDynamics;
 pub use explicit::StageContact;
-pub use loaded_flow::{CoupledSolver, LoadedFlow};
+pub use loaded_flow::LoadedFlow;
 pub use predict::ContactPrediction;
 pub use quasi_newton::ByQuasiNewton;
 pub use secant_mobility::SecantMobility;

@@ -8,8 +8,9 @@ use nalgebra::{DMatrix, DVector};
 
 use super::by_mobility::solve_by_mobility;
 use super::coupled_contact::CoupledContact;
+use super::coupled_solver::CoupledSolver;
 use super::drag_mobility::DragMobility;
-use super::loaded_flow::{CoupledSolver, LoadedFlow};
+use super::loaded_flow::LoadedFlow;
 use super::secant_mobility::SecantMobility;
 use crate::body::{Twist, Wrench};
 use crate::contact::{ContactError, ContactLoads};

@@ -5,30 +5,12 @@ mod fixed;
 mod start;
 
 use alewife_mesh::Point;
-use serde::{Deserialize, Serialize};
 
 use super::error::RunError;
 use super::run::Run;
 use super::simulation::Simulation;
+use super::step_control::Piece;
 use crate::step::StepError;
-
-/// A piece of a step.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Piece {
-    /// Its size (s).
-    pub size: f64,
-    /// Whether rates jump at its beginning, so that what was before does not count.
-    pub is_restart: bool,
-}
-
-/// Where the control of the step size is.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-pub struct StepControl {
-    /// The step proposed by its error (s), none before the first or with fixed steps.
-    pub proposed_step: Option<f64>,
-    /// Pieces of the present step that are still to be made, the next one last.
-    pub pieces: Vec<Piece>,
-}
 
 /// Part of a step by which a discontinuity may be off and still be at its end.
 const NEAR: f64 = 1e-7;

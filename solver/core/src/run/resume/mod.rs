@@ -10,8 +10,8 @@ use serde::{Deserialize, Serialize};
 
 pub use self::error::{ResumeError, VERSION};
 use self::series::SavedSeries;
-use super::control::StepControl;
 use super::simulation::Simulation;
+use super::step_control::StepControl;
 use super::{RunError, Series};
 use crate::algebra::SolverMemory;
 use crate::body::Pose;

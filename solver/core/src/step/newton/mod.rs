@@ -171,7 +171,7 @@ impl<const D: usize> NewtonFailure<D> {
         let Step { number, time, .. } = *step;
         let Iterate { residual, iterations, .. } = *self.end;
         match self.reason {
-            NewtonStop::Solve(error) => FlowError::from_solve(error, step),
+            NewtonStop::Solve(error) => FlowError::from_solve(error, number, time),
             NewtonStop::Stalled => {
                 FlowError::NewtonStalled { step: number, time, residual, iterations }
             }

@@ -217,7 +217,7 @@ impl<const D: usize> Continuation<'_, D> {
                     NewtonStop::Solve(SolveError::NotFinite { .. }) if part > 0.0 => {
                         return Ok(Attempt::Stalled(end));
                     }
-                    NewtonStop::Solve(error) => FlowError::from_solve_at(error, 0, time),
+                    NewtonStop::Solve(error) => FlowError::from_solve(error, 0, time),
                     NewtonStop::Requested => FlowError::Stopped { step: 0, time },
                 };
                 Err(SteadyFailure { error: Box::new(error), last: end.solution })

@@ -1,9 +1,11 @@
-//! The level a step leads to: the mesh where the bodies get to, rates, and the work of swimmers.
+//! The end of a step: loads, error, and the level it leads to, with the mesh where the bodies get to.
 
 use super::configuration::StepConfiguration;
 use super::context::StepContext;
+use super::coupled_flow::CoupledFlow;
 use super::error::StepError;
-use super::stepper::TimeStepper;
+use super::error_estimate::{local_error, pose_errors};
+use super::stepper::{StepReport, StepResult, TimeStepper};
 use super::workspace::Workspace;
 use crate::body::{Pose, Twist};
 use crate::contact::{ContactLoads, Gaps};
@@ -11,7 +13,7 @@ use crate::coupling::{Group, MeanMotion, Problem, PropulsionPower, Solution, mea
 use crate::state::{Leg, NewLevel, PowerShare, PropulsionStep, StagePoint, State, Waypoint};
 
 /// What the last iteration of a step has found.
-pub(super) struct ConvergedStep<const D: usize> {
+struct ConvergedStep<const D: usize> {
     /// Where the bodies get to.
     pub poses: Vec<Pose>,
     pub solution: Solution<D>,
@@ -34,11 +36,39 @@ impl<const D: usize> TimeStepper<'_, D> {
 }
 
 impl<const D: usize> StepContext<'_, D> {
+    /// The step with its loads, its error and the level it leads to.
+    ///
+    /// # Errors
+    /// When the mesh degenerates where the bodies get to.
+    pub fn finish(
+        &self,
+        work: &mut Workspace<D>,
+        configuration: &StepConfiguration<D>,
+        mut flow: CoupledFlow<D>,
+        reached: Vec<Pose>,
+    ) -> Result<StepResult<D>, StepError> {
+        let Self { stepper, state, history, .. } = self;
+        let loads = self.loads(work, configuration, &mut flow);
+        let mut error = local_error(stepper, state, &history.step, &flow.solution);
+        if history.step.bdf.is_second_order() {
+            let errors = pose_errors(state, &history.step, &reached);
+            error = error.max(stepper.gap_error(self.gaps(), state, &reached, &errors));
+        }
+        let report = StepReport { loads: loads.surfaces, iterations: flow.n_systems, error };
+        let end = ConvergedStep {
+            contact: stepper.with_minimum_gap(flow.contact, self.gaps(), state, &reached),
+            solution: flow.solution,
+            poses: reached,
+        };
+        let level = self.new_level(work, configuration, end, &loads.propulsion)?;
+        Ok(StepResult { level, report })
+    }
+
     /// The new level, with the mesh moved to where the bodies get to.
     ///
     /// # Errors
     /// When it degenerates there.
-    pub fn new_level(
+    fn new_level(
         &self,
         work: &mut Workspace<D>,
         configuration: &StepConfiguration<D>,

@@ -1,10 +1,10 @@
 //! Bodies that leave through an open side, where a run may end.
 
-use super::run::Run;
 use crate::case::{Unsteady, Until};
 use crate::contact::Partner;
 use crate::coupling::{BodyShapes, Drive, RigidBody, Side};
 use crate::run::RunError;
+use crate::run::run::Run;
 
 impl<const D: usize> Run<'_, D> {
     /// Whether bodies have left, so that the run is over before its end.

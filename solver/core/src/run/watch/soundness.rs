@@ -1,12 +1,12 @@
 //! Whether a flow can be believed: it has not blown up, and its convection is resolved in time.
 
-use super::RunError;
-use super::measure::FlowMeasurement;
 use super::pace::Pace;
-use super::run::Run;
-use super::simulation::Simulation;
 use crate::case::Convection;
 use crate::coupling::Side;
+use crate::run::RunError;
+use crate::run::measure::FlowMeasurement;
+use crate::run::run::Run;
+use crate::run::simulation::Simulation;
 use crate::step::at_step;
 
 /// Kinetic energy, over that of all the fluid at the speed of the fastest boundary so far, from which
@@ -31,7 +31,10 @@ impl<const D: usize> Run<'_, D> {
     ///
     /// # Errors
     /// When it has blown up.
-    pub(super) fn check_soundness(&mut self, flow: &FlowMeasurement) -> Result<(), RunError> {
+    pub(in crate::run) fn check_soundness(
+        &mut self,
+        flow: &FlowMeasurement,
+    ) -> Result<(), RunError> {
         let simulation = &mut self.simulation;
         let speed = simulation.boundary_speed();
         simulation.state.record_boundary_speed(speed);
@@ -81,7 +84,7 @@ impl<const D: usize> Run<'_, D> {
 impl<const D: usize> Run<'_, D> {
     /// Proposes contact where bodies that could give way have come near each other without it, and stay there
     /// at the cost of one mesh after the other.
-    pub(super) fn propose_contact(&mut self) {
+    pub(in crate::run) fn propose_contact(&mut self) {
         let Simulation { problem, state, moving_mesh: Some(moving), law: None, .. } =
             &self.simulation
         else {
@@ -125,7 +128,7 @@ impl<const D: usize> Simulation<D> {
     }
 
     /// Largest speed of the fluid over that of a boundary so far (1).
-    pub(super) fn fastest(&self) -> f64 {
+    pub(in crate::run) fn fastest(&self) -> f64 {
         let speeds = self.state.now.velocity.iter().map(|velocity| velocity.norm());
         speeds.fold(0.0, f64::max) / self.state.boundary_speed
     }

@@ -10,7 +10,7 @@ const TOO_FAST: f64 = 10.0;
 
 /// How fast a flow is, beside what drives it, and how well its cells resolve it.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Pace {
+pub(in crate::run) struct Pace {
     /// Root mean square of the velocity over the largest speed of a boundary so far.
     pub times: f64,
     /// Largest cell Reynolds number.
