@@ -213,7 +213,7 @@ fn smooth_displacements_are_extended_with_second_order() {
             }
             error.sqrt()
         });
-        study.assert_order("extension of a displacement", 2.0, 0.15);
+        study.assert_order(&format!("extension of a displacement, {kind:?}"), 2.0, 0.15);
     }
 }
 

@@ -18,6 +18,9 @@ const NOISE: f64 = 1e-8;
 /// Factor by which those may differ.
 const NOISE_DRIFT: f64 = 10.0;
 
+/// Part of a figure that its three digits leave open.
+const DIGITS: f64 = 0.005;
+
 /// Figures below are as good as zero.
 const ROUNDING: f64 = 1e-12;
 
@@ -70,7 +73,7 @@ fn drift(was: f64, is: f64) -> Option<(String, bool)> {
         return Some((told, is_much));
     }
     let part = (is - was) / was.abs();
-    (part != 0.0).then(|| (format!("{told} ({:+.1} %)", 100.0 * part), part.abs() > DRIFT))
+    (part.abs() > DIGITS).then(|| (format!("{told} ({:+.1} %)", 100.0 * part), part.abs() > DRIFT))
 }
 
 /// What [`figure!`] calls, with the module of the test.
