@@ -1,8 +1,8 @@
 //! `Path`: the ball about a body on a straight way, and when it gets to sides of the domain and to other balls.
 
-use super::extent::Extent;
-use super::speed::norm;
-use super::{Body, Model};
+use crate::model::speed::norm;
+use crate::spec::extent::Extent;
+use crate::{Body, Model};
 
 /// Part of a velocity below which one of its components is rounding.
 pub(super) const ROUNDING: f64 = 1e-6;
