@@ -1,8 +1,20 @@
-//! No file uses, through others, itself.
+//! No file uses, through others, itself; rooms of the crate of cases use those below them.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::sources::{CRATES, sources, syntax};
+
+/// Rooms of the crate of cases, and those each may use. Reading a case types what it says of a sweep, whose
+/// cases are read in turn.
+const ROOMS_OF_CASES: [(&str, &[&str]); 7] = [
+    ("text", &[]),
+    ("spec", &["text"]),
+    ("model", &["spec", "text"]),
+    ("quantity", &["model", "spec"]),
+    ("read", &["model", "spec", "sweep", "text"]),
+    ("rules", &["model", "quantity", "read", "spec", "text"]),
+    ("sweep", &["model", "quantity", "read", "rules", "spec", "text"]),
+];
 
 /// A module of a crate by its path, the root of the crate having none.
 type Module = Vec<String>;
@@ -179,5 +191,27 @@ fn no_file_uses_itself_through_others() {
             }
         }
     }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn rooms_of_the_crate_of_cases_use_those_below_them() {
+    let all = Crate::read("solver/case/src");
+    let rules: BTreeMap<_, _> = ROOMS_OF_CASES.into_iter().collect();
+    let mut wrong = Vec::new();
+    let mut n_used = 0;
+    for (module, used) in all.uses() {
+        let Some(room) = module.first().filter(|room| rules.contains_key(room.as_str())) else {
+            continue;
+        };
+        let elsewhere = used.iter().filter_map(|used| used.first()).filter(|used| *used != room);
+        for used in elsewhere {
+            n_used += 1;
+            if !rules[room.as_str()].contains(&used.as_str()) {
+                wrong.push(format!("{}: `{room}` may not use `{used}`", all.files[module]));
+            }
+        }
+    }
+    assert!(n_used > 100, "{n_used}");
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }

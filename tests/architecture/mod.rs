@@ -77,7 +77,10 @@ fn rooms_use_only_the_rooms_below_them() {
     let rules: BTreeMap<_, _> = ROOMS.into_iter().collect();
     let mut wrong = Vec::new();
     for (file, text) in all_sources().filter(|(file, _)| file.starts_with("solver/")) {
-        let Some(room) = room(&file).filter(|&room| room != "lib") else { continue };
+        // The crate of cases has rooms of its own, and can use no other crate of the solver
+        let Some(room) = room(&file).filter(|room| !["lib", "case"].contains(room)) else {
+            continue;
+        };
         let allowed = rules.get(room);
         for (number, line) in text.lines().enumerate() {
             for used in line.split("crate::").skip(1) {

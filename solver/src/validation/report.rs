@@ -219,7 +219,7 @@ mod tests {
         let (kind, of) = (StatisticKind::When, Some("body.y".to_owned()));
         let when = Statistic { kind, level: Some(-0.5), of, minus: None, ..apart.clone() };
         assert_eq!(named(when), "body.force.x (when body.y = -0.5)");
-        let apart = Reference { statistic: apart, ..plain };
+        let apart = Reference { statistic: apart, ..plain.clone() };
         let json = judge("c", &apart, Ok(-2.0), 1, 0.0).to_json();
         assert_eq!(
             (&json["quantity"], &json["minus"]),

@@ -5,7 +5,7 @@
 mod row;
 mod table;
 
-use super::{FlowModel, Geometry, Model, SwimmerModel, TimeSettings};
+use crate::{FlowModel, Geometry, Model, SwimmerModel, TimeSettings};
 
 pub use self::row::{Component, Condition, NamedComponent, Quantity, Shape};
 pub use self::table::{BodyQuantity, FlowQuantity, JointQuantity, ProbeQuantity, SwimmerQuantity};
@@ -74,36 +74,34 @@ pub fn columns(model: &Model) -> Vec<Column> {
 fn conditions_of_case(model: &Model) -> Vec<Condition> {
     let case = &model.case;
     let is_spatial = case.geometry == Geometry::Spatial;
-    holding(&[
-        (Condition::Planar, !is_spatial),
-        (Condition::Spatial, is_spatial),
-        (Condition::Scales, case.has_coefficients()),
-        (Condition::Contact, case.contact.is_some()),
-        (Condition::IdleSides, model.balances_energy()),
-        (Condition::ClosedSides, model.balances_momentum()),
-        (Condition::MeanFlow, case.flow.is_some()),
-        (Condition::Convection, case.fluid.model == FlowModel::NavierStokes),
-        (Condition::Unsteady, matches!(case.time, TimeSettings::Unsteady(_))),
-        (Condition::MovingMesh, model.mesh_moves()),
-    ])
+    let has_convection = case.fluid.model == FlowModel::NavierStokes;
+    let conditions = [
+        Condition::Planar.holding_if(!is_spatial),
+        Condition::Spatial.holding_if(is_spatial),
+        Condition::Scales.holding_if(case.has_coefficients()),
+        Condition::Contact.holding_if(case.contact.is_some()),
+        Condition::IdleSides.holding_if(model.balances_energy()),
+        Condition::ClosedSides.holding_if(model.balances_momentum()),
+        Condition::MeanFlow.holding_if(case.flow.is_some()),
+        Condition::Convection.holding_if(has_convection),
+        Condition::Unsteady.holding_if(matches!(case.time, TimeSettings::Unsteady(_))),
+        Condition::MovingMesh.holding_if(model.mesh_moves()),
+    ];
+    conditions.into_iter().flatten().collect()
 }
 
 /// The conditions that hold for a swimmer.
 fn conditions_of_swimmer(model: &Model, swimmer: &SwimmerModel) -> Vec<Condition> {
     let is_unsteady = matches!(model.case.time, TimeSettings::Unsteady(_));
     let has_cycles = swimmer.period.is_some() && is_unsteady;
-    holding(&[
-        (Condition::SeveralBodies, swimmer.bodies.len() > 1),
-        (Condition::SeparateBodies, has_separate_bodies(model, &swimmer.bodies)),
-        (Condition::Cycles, has_cycles),
-        (Condition::NoCycles, !has_cycles),
-        (Condition::Resistance, swimmer.resistance.is_some()),
-    ])
-}
-
-/// Those of the conditions that hold.
-fn holding(conditions: &[(Condition, bool)]) -> Vec<Condition> {
-    conditions.iter().filter(|(_, holds)| *holds).map(|(condition, _)| *condition).collect()
+    let conditions = [
+        Condition::SeveralBodies.holding_if(swimmer.bodies.len() > 1),
+        Condition::SeparateBodies.holding_if(has_separate_bodies(model, &swimmer.bodies)),
+        Condition::Cycles.holding_if(has_cycles),
+        Condition::NoCycles.holding_if(!has_cycles),
+        Condition::Resistance.holding_if(swimmer.resistance.is_some()),
+    ];
+    conditions.into_iter().flatten().collect()
 }
 
 /// Whether two of these bodies share no pivot: there are more pairs than pivots.

@@ -88,6 +88,11 @@ pub enum Condition {
 }
 
 impl Condition {
+    /// It, if it holds.
+    pub(super) fn holding_if(self, holds: bool) -> Option<Self> {
+        holds.then_some(self)
+    }
+
     /// The same in words, for a table.
     #[must_use]
     pub fn words(self) -> &'static str {

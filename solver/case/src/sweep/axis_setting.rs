@@ -4,9 +4,10 @@ use std::sync::Arc;
 
 use super::range::{MOST_POINTS, Range};
 use super::spec::{Block, SweptKey};
-use crate::setting;
-use crate::source::{Origin, Source};
-use crate::tree::{self, TomlNode, TomlValue, TreeError};
+use crate::text::setting;
+use crate::text::source::{Origin, Source};
+use crate::text::tree;
+use crate::text::tree::{TomlNode, TomlValue, TreeError};
 
 /// Reads a setting that sweeps its key; `None` if it is one that sets it once.
 ///

@@ -7,12 +7,14 @@ use serde_json::Value;
 use super::axis_setting;
 use super::quantity::SweepQuantity;
 use super::range::MOST_POINTS;
-use super::spec::{self, Block, SweepSpec, SweptKey, overlap};
-use crate::case_text::{Located, locate};
-use crate::diagnostic::CaseError;
+use super::spec;
+use super::spec::{Block, SweepSpec, SweptKey, overlap};
+use crate::Diagnostic;
+use crate::read::case_text::{Located, locate};
 use crate::read::{CaseFile, UntypedCase, wrong};
-use crate::tree::{TomlNode, TomlValue, TreeError};
-use crate::{Diagnostic, setting};
+use crate::text::diagnostic::CaseError;
+use crate::text::setting;
+use crate::text::tree::{TomlNode, TomlValue, TreeError};
 
 /// A case of which several keys take several values.
 #[derive(Debug, Clone)]

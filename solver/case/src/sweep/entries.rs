@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use crate::source::Origin;
-use crate::tree::{TomlNode, TreeError};
+use crate::text::source::Origin;
+use crate::text::tree::{TomlNode, TreeError};
 
 /// A key of the case, and what stands behind it in the sweep.
 #[derive(Debug, Clone)]

@@ -3,7 +3,7 @@
 use alewife_mesh::whole;
 
 use super::range::Range;
-use crate::random::SplitMix64;
+use crate::model::random::SplitMix64;
 
 /// Values of all ranges at so many points, row by row; those of the seed.
 pub fn sample(ranges: &[Range], n: usize, seed: u64) -> Vec<Vec<f64>> {

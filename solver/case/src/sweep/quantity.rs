@@ -2,9 +2,9 @@
 
 use std::fmt;
 
-use crate::source::Origin;
-use crate::tree::{TomlNode, TreeError};
-use crate::type_error::suggestion;
+use crate::text::source::Origin;
+use crate::text::tree::{TomlNode, TreeError};
+use crate::text::type_error::suggestion;
 use crate::{Diagnostic, Model, Statistic, StatisticKind, known_quantities};
 
 /// Statistics that need nothing but a quantity.

@@ -1,7 +1,7 @@
 //! `Range`: values from one number to another, by equal steps or equal factors.
 
-use crate::tree::{TomlNode, TomlValue, TreeError};
-use crate::type_error::suggestion;
+use crate::text::tree::{TomlNode, TomlValue, TreeError};
+use crate::text::type_error::suggestion;
 
 /// How a range is written.
 pub const EXAMPLE: &str = "a range is { from = 1.0, to = 10.0, n = 5 }, with scale = \"log\" for equal \

@@ -4,11 +4,13 @@ use std::collections::BTreeMap;
 
 use super::entries::{Entry, entries, in_order, is_range};
 use super::latin_hypercube::sample;
-use super::quantity::{self, SweepQuantity};
-use super::range::{self, CountedRange, EXAMPLE};
-use crate::source::Origin;
-use crate::tree::{TomlNode, TomlValue, TreeError};
-use crate::type_error::suggestion;
+use super::quantity;
+use super::quantity::SweepQuantity;
+use super::range;
+use super::range::{CountedRange, EXAMPLE};
+use crate::text::source::Origin;
+use crate::text::tree::{TomlNode, TomlValue, TreeError};
+use crate::text::type_error::suggestion;
 
 /// Keys of a sweep.
 const KEYS: [&str; 5] = ["grid", "zip", "list", "latin-hypercube", "quantities"];

@@ -1,0 +1,199 @@
+//! The speed a case can be expected to have before anything is solved, and the force with it.
+
+use std::f64::consts::{PI, TAU};
+
+use crate::{
+    Body, BoundaryCondition, Case, ContactSpec, GaitSpec, Geometry, Joint, JointKind, Model,
+    Motion, Stroke,
+};
+
+/// Times of a stroke's period at which its rate is looked at.
+const TIMES: u32 = 32;
+
+impl Model {
+    /// The largest speed that is given or follows from what is given (m/s): of sides, mean flow, imposed
+    /// motions, gaits, strokes, and of bodies that fall or are pulled, by the order of their terminal
+    /// speed; `None` where nothing moves.
+    #[must_use]
+    pub fn expected_speed(&self) -> Option<f64> {
+        let case = &self.case;
+        let sides = case.boundary.values().map(|condition| side_speed(case, condition));
+        let flow = case.flow.iter().flat_map(|flow| &flow.mean_velocity).map(|v| norm(v));
+        let bodies = self.bodies.iter().map(|body| body_speed(case, body));
+        let joints = self.joints.iter().map(|joint| {
+            let Some(stroke) = joint.kind.stroke() else { return self.slider_speed(joint) };
+            let period = stroke.period().unwrap_or(1.0);
+            let time = |n: u32| period * (f64::from(n) + 0.5) / f64::from(TIMES);
+            let rate = (0..TIMES).map(|n| stroke.at(time(n))[1].abs()).fold(0.0, f64::max);
+            let child = self.body_index(&joint.child).map(|child| &self.bodies[child]);
+            match joint.kind {
+                JointKind::Arm { .. } => rate,
+                _ => rate * child.map_or(0.0, |child| 2.0 * child.shape.reach()),
+            }
+        });
+        let scale = case.scales.iter().map(|scales| scales.velocity);
+        let all = sides.chain(flow).chain(bodies).chain(joints).chain(scale);
+        Some(all.fold(0.0, f64::max)).filter(|speed| *speed > 0.0)
+    }
+
+    /// Whether nothing in a case drives anything.
+    #[must_use]
+    pub fn is_at_rest(&self) -> bool {
+        let is_driven = |body: &Body| !body.torque.is_zero() || body.spring.is_some();
+        let is_loose = |joint: &Joint| {
+            matches!(joint.kind, JointKind::Hinge(_) | JointKind::Slider(_) | JointKind::Ball(_))
+        };
+        self.expected_speed().is_none()
+            && self.case.flow.is_none()
+            && !self.case.has_waving_sheet()
+            && !self.bodies.iter().any(is_driven)
+            && !self.joints.iter().any(is_loose)
+    }
+
+    /// The order of the rate at which forces change the length of an arm (m/s): by the resistance of its
+    /// child; 0 of other joints.
+    fn slider_speed(&self, joint: &Joint) -> f64 {
+        let (JointKind::Slider(slider), Some(child)) = (&joint.kind, self.body_index(&joint.child))
+        else {
+            return 0.0;
+        };
+        let motor = slider.force.as_ref().map_or([0.0; 2], Stroke::range);
+        let center = |body: usize, axis: usize| self.bodies[body].center.get(axis).copied();
+        let way = |parent: usize| {
+            let along = |axis| Some(center(child, axis)? - center(parent, axis)?);
+            norm(&(0..3).filter_map(along).collect::<Vec<_>>())
+        };
+        // Its length by that between the bodies
+        let length = self.body_index(&joint.parent).map_or(0.0, way);
+        let spring = slider.stiffness * (length - slider.rest).abs();
+        let force = motor.iter().fold(spring, |force, end| force.max(end.abs()));
+        force / (resistance(&self.case, &self.bodies[child]) + slider.damping)
+    }
+
+    /// The order of the force that presses bodies together (N; N/m planar): the largest drag at the
+    /// expected speed, weight or load of one.
+    #[must_use]
+    pub fn expected_force(&self) -> Option<f64> {
+        let speed = self.expected_speed()?;
+        let force = |body: &Body| resistance(&self.case, body) * speed + load(&self.case, body);
+        Some(self.bodies.iter().map(force).fold(0.0, f64::max)).filter(|force| *force > 0.0)
+    }
+
+    /// The stiffness of a barrier, or the epsilon of the quadratic law, with which a force as large as
+    /// [`Self::expected_force`] leaves half the range as gap.
+    #[must_use]
+    pub fn proposed_contact(&self) -> Option<f64> {
+        let force = self.expected_force()?;
+        Some(match self.case.contact? {
+            // The forces of both laws at half the range
+            ContactSpec::Barrier { range, .. } => force / (range * (0.5 + 2f64.ln())),
+            ContactSpec::Quadratic { range, .. } => range * range / (4.0 * force),
+        })
+    }
+}
+
+/// Length of a vector.
+pub(crate) fn norm(vector: &[f64]) -> f64 {
+    vector.iter().map(|part| part * part).sum::<f64>().sqrt()
+}
+
+/// The largest speed on a side (m/s).
+fn side_speed(case: &Case, condition: &BoundaryCondition) -> f64 {
+    match condition {
+        BoundaryCondition::Velocity { value, .. } => norm(value),
+        BoundaryCondition::Parabolic { peak, .. } => peak.abs(),
+        BoundaryCondition::Shear { rate, origin, .. } => {
+            let [min, max] = case.extent().in_plane();
+            (rate * (min[1] - origin)).abs().max((rate * (max[1] - origin)).abs())
+        }
+        BoundaryCondition::WavingSheet { amplitude, period, .. } => {
+            (TAU * amplitude / period).abs()
+        }
+        _ => 0.0,
+    }
+}
+
+fn body_speed(case: &Case, body: &Body) -> f64 {
+    let reach = body.shape.reach();
+    let imposed = match &body.motion {
+        Motion::Imposed(motion) => norm(&motion.velocity) + motion.angular_velocity.norm() * reach,
+        Motion::Held => return 0.0,
+        Motion::Free => terminal_speed(case, body),
+    };
+    let gait = match &body.gait {
+        Some(GaitSpec::Squirmer(squirmer)) => squirmer.modes.iter().map(|mode| mode.abs()).sum(),
+        // Tails and waves move at the order of a length in a period
+        Some(gait) => gait.period().map_or(0.0, |period| 2.0 * reach / period),
+        None => 0.0,
+    };
+    imposed.max(gait)
+}
+
+/// Force per velocity of a body in slow flow, by its reach (N s/m; N s/m2 planar).
+fn resistance(case: &Case, body: &Body) -> f64 {
+    match case.geometry {
+        Geometry::Planar => 4.0 * PI * case.fluid.viscosity,
+        Geometry::Axisymmetric | Geometry::Spatial => {
+            6.0 * PI * case.fluid.viscosity * body.shape.reach()
+        }
+    }
+}
+
+/// Weight less buoyancy of a body over the acceleration of gravity (kg; kg/m planar); 0 of a shape that is
+/// none.
+fn excess_mass(case: &Case, body: &Body) -> f64 {
+    let volume = body.shape.volume_in(case.geometry);
+    (body.density.unwrap_or(case.fluid.density) - case.fluid.density) * volume
+}
+
+/// Weight less buoyancy and force on a body (N; N/m planar).
+fn load(case: &Case, body: &Body) -> f64 {
+    weight(case, body) + norm(&body.force)
+}
+
+/// Weight less buoyancy of a body, or the other way round (N; N/m planar).
+pub(crate) fn weight(case: &Case, body: &Body) -> f64 {
+    excess_mass(case, body).abs() * norm(&case.fluid.gravity)
+}
+
+/// The same with the force on it, as a vector.
+pub(crate) fn load_in_space(case: &Case, body: &Body) -> [f64; 3] {
+    let mass = excess_mass(case, body);
+    let part = |vector: &[f64], axis: usize| vector.get(axis).copied().unwrap_or(0.0);
+    [0, 1, 2].map(|axis| mass * part(&case.fluid.gravity, axis) + part(&body.force, axis))
+}
+
+/// The order of the speed of a body under its load: that of slow flow, or less by inertia (m/s).
+fn terminal_speed(case: &Case, body: &Body) -> f64 {
+    let load = load(case, body);
+    let slow = load / resistance(case, body);
+    let area = match case.geometry {
+        Geometry::Planar => 2.0 * body.shape.reach(),
+        Geometry::Axisymmetric | Geometry::Spatial => PI * body.shape.reach().powi(2),
+    };
+    let fast = (2.0 * load / (case.fluid.density * area)).sqrt();
+    slow.min(fast)
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::Case;
+
+    #[test]
+    fn speeds_have_the_order_of_those_of_runs() {
+        // Largest speeds of a boundary in runs of the cases
+        for (case, speed) in [
+            ("dfg-2d-2", 1.5),
+            ("lid-driven-cavity", 1.0),
+            ("periodic-cylinders", 1.0),
+            ("squirmer-alone", 4.9),
+            ("disc-settling/slow", 5.4),
+            ("three-sphere", 1.1),
+            ("carangiform", 1.2),
+        ] {
+            let model = Case::read(case, &[]).unwrap().model;
+            let expected = model.expected_speed().unwrap();
+            assert!((0.3..4.0).contains(&(expected / speed)), "{case}: {expected} for {speed}");
+        }
+    }
+}

@@ -1,0 +1,345 @@
+//! Problems of `[[body]]`: names, shapes, motions, and gaits that do not fit.
+
+use std::collections::HashMap;
+use std::f64::consts::PI;
+
+use super::{gait, solid, spring};
+use crate::rules::Findings;
+use crate::rules::flow::boundary::check_factor;
+use crate::text::names::{LONGEST_NAME, is_word};
+use crate::{Body, GaitSpec, Geometry, Lock, Motion, ShapeSpec, SwimmerKind};
+
+/// Largest difference between a heading and the axis that is taken for rounding (rad).
+const HEADING_ROUNDING: f64 = 1e-3;
+
+/// Density over that of the fluid, or its inverse, that is warned about; a million is lead in air.
+const DENSEST: f64 = 1e6;
+
+/// Names that stand for something else in `series.csv`.
+const RESERVED: [&str; 2] = ["flow", "time"];
+
+pub fn check(findings: &mut Findings<'_>) {
+    let case = findings.case();
+    let mut taken: HashMap<&str, usize> = HashMap::new();
+    for (index, body) in findings.model().bodies.iter().enumerate() {
+        let key = format!("body.{index}");
+        // Names of bodies that are made follow from that of their swimmer
+        if findings.model().swimmer_of_body(index).is_none() {
+            check_word(findings, &format!("{key}.name"), &body.name);
+        }
+        match (findings.model().swimmer_of_body(index), taken.get(body.name.as_str())) {
+            (Some(swimmer), Some(other)) => name_of_swimmer(findings, *other, swimmer),
+            (_, other) => check_name(findings, &format!("{key}.name"), &body.name, other.is_some()),
+        }
+        taken.entry(&body.name).or_insert(index);
+        // Radii of swimmers are looked at where they are written
+        if !has_radii_of_swimmer(findings, index) {
+            check_shape(findings, &format!("{key}.shape"), &body.shape);
+        }
+        let has_place = findings.vector(&format!("{key}.center"), &body.center);
+        if let Some(density) = body.density {
+            findings.not_negative(&format!("{key}.density"), density);
+        }
+        if let Some(size) = body.size {
+            findings.positive(&format!("{key}.size"), size);
+        }
+        if !body.force.is_empty() {
+            findings.vector(&format!("{key}.force"), &body.force);
+        }
+        check_density(findings, &key, body);
+        check_motion(findings, &key, body);
+        spring::check(findings, &key, body);
+        gait::check(findings, &key, body);
+        if case.geometry == Geometry::Axisymmetric && has_place {
+            check_on_axis(findings, &key, body);
+        }
+    }
+    for (index, probe) in case.probe.iter().enumerate() {
+        check_word(findings, &format!("probe.{index}.name"), &probe.name);
+        let is_taken = taken.contains_key(probe.name.as_str());
+        check_name(findings, &format!("probe.{index}.name"), &probe.name, is_taken);
+        taken.insert(&probe.name, usize::MAX);
+    }
+}
+
+/// Whether the shape of a body is a radius of the swimmer it is made for.
+fn has_radii_of_swimmer(findings: &Findings<'_>, body: usize) -> bool {
+    let swimmer = findings.model().swimmer_of_body(body);
+    let kind = swimmer.map(|swimmer| &findings.case().swimmer[swimmer].kind);
+    matches!(kind, Some(SwimmerKind::LinkedSpheres { .. } | SwimmerKind::Star { .. }))
+}
+
+/// A body has the name of one that is made for a swimmer.
+fn name_of_swimmer(findings: &mut Findings<'_>, body: usize, swimmer: usize) {
+    let model = findings.model();
+    let mut of_swimmer = (0..model.bodies.len())
+        .filter(|body| model.swimmer_of_body(*body) == Some(swimmer))
+        .map(|body| model.bodies[body].name.as_str());
+    let (first, last) = (of_swimmer.clone().next(), of_swimmer.next_back());
+    let [first, last] = [first, last].map(Option::unwrap_or_default);
+    let (own, name) = (&findings.case().swimmer[swimmer].name, &model.bodies[body].name);
+    findings.error(
+        &format!("body.{body}.name"),
+        format!(
+            "the name \"{name}\" is that of a body of the swimmer \"{own}\", which has \"{first}\" to \
+             \"{last}\""
+        ),
+        "give the body another name",
+    );
+}
+
+/// A name is one word, and no novel.
+pub(crate) fn check_word(findings: &mut Findings<'_>, key: &str, name: &str) {
+    let n = name.chars().count();
+    if n > LONGEST_NAME {
+        let start: String = name.chars().take(20).collect();
+        findings.error(
+            key,
+            format!("the name \"{start}...\" has {n} characters"),
+            &format!("names have at most {LONGEST_NAME}"),
+        );
+    } else if !is_word(name) {
+        findings.error(
+            key,
+            format!("\"{name}\" cannot be a name"),
+            "write one word of the letters a-z, digits, - and _",
+        );
+    }
+}
+
+/// A name means one thing.
+fn check_name(findings: &mut Findings<'_>, key: &str, name: &str, is_taken: bool) {
+    let sides = findings.case().sides();
+    if is_taken {
+        findings.error(
+            key,
+            format!("the name \"{name}\" is taken by a body or probe above"),
+            "give every body and every probe a name of its own",
+        );
+    }
+    if sides.contains(&name) || RESERVED.contains(&name) {
+        findings.error(
+            key,
+            format!("\"{name}\" cannot be a name here: it stands for something else"),
+            &format!("taken are the sides {} and the words flow, time", sides.join(", ")),
+        );
+    }
+}
+
+/// A shape that can stand in the case, of lengths that make one.
+pub(crate) fn check_shape(findings: &mut Findings<'_>, key: &str, shape: &ShapeSpec) {
+    let case = findings.case();
+    let geometry = case.geometry.name();
+    let allowed = ShapeSpec::names_in(case.geometry).join(", ");
+    let name = shape.name();
+    if !shape.geometries().contains(&case.geometry) {
+        findings.error(
+            key,
+            format!("a {name} cannot stand in a case with `geometry = \"{geometry}\"`"),
+            &format!("{geometry} shapes: {allowed}"),
+        );
+    }
+    match shape {
+        ShapeSpec::Disc { radius } | ShapeSpec::Sphere { radius } => {
+            findings.positive(&format!("{key}.{name}.radius"), *radius);
+        }
+        ShapeSpec::Ellipse { semi_axes } | ShapeSpec::Spheroid { semi_axes } => {
+            check_semi_axes(findings, key, name, semi_axes);
+        }
+        ShapeSpec::Ellipsoid { semi_axes } => check_semi_axes(findings, key, name, semi_axes),
+        ShapeSpec::Capsule { length, radius } => check_capsule(findings, key, *length, *radius),
+        ShapeSpec::Cylinder { radius, .. } => {
+            findings.positive(&format!("{key}.cylinder.radius"), *radius);
+        }
+        ShapeSpec::Fish(_) | ShapeSpec::Flagellate(_) => gait::check_shape(findings, key, shape),
+        ShapeSpec::Helix(helix) => solid::check_helix(findings, &format!("{key}.helix"), helix),
+        ShapeSpec::Curve(curve) => solid::check_curve(findings, &format!("{key}.curve"), curve),
+        ShapeSpec::Revolved { profile } => {
+            solid::check_profile(findings, &format!("{key}.revolved.profile"), profile);
+        }
+        ShapeSpec::Union(parts) => {
+            solid::check_parts(findings, &format!("{key}.union"), parts, check_shape);
+        }
+        // Its links are checked
+        ShapeSpec::Tube(_) => {}
+        ShapeSpec::Spline { points } => {
+            let key = format!("{key}.spline.points");
+            let n = points.len();
+            if n < 3 {
+                findings.error(
+                    &key,
+                    format!("a closed spline through {n} points has no inside"),
+                    "give at least 3 points, the first not repeated",
+                );
+            } else if signed_area(points) <= 0.0 {
+                findings.error(
+                    &key,
+                    "the points of the spline run clockwise".to_owned(),
+                    "list them counter-clockwise",
+                );
+            }
+        }
+    }
+}
+
+fn check_capsule(findings: &mut Findings<'_>, key: &str, length: f64, radius: f64) {
+    findings.positive(&format!("{key}.capsule.radius"), radius);
+    if length <= 2.0 * radius {
+        findings.error(
+            &format!("{key}.capsule.length"),
+            format!("the capsule is {length} long and its ends have the radius {radius}"),
+            "the length from end to end is larger than twice the radius",
+        );
+    }
+}
+
+fn check_semi_axes(findings: &mut Findings<'_>, key: &str, name: &str, semi_axes: &[f64]) {
+    for (axis, length) in semi_axes.iter().enumerate() {
+        findings.positive(&format!("{key}.{name}.semi_axes.{axis}"), *length);
+    }
+}
+
+/// A density that is hardly meant: of another unit, or a slip of the exponent.
+fn check_density(findings: &mut Findings<'_>, key: &str, body: &Body) {
+    let fluid = findings.case().fluid.density;
+    let Some(own) = body.density else { return };
+    let is_absurd = own > DENSEST * fluid || (own > 0.0 && own * DENSEST < fluid);
+    if fluid > 0.0 && body.motion == Motion::Free && is_absurd {
+        findings.warning(
+            &format!("{key}.density"),
+            format!(
+                "\"{}\" has {:.3e} times the density of the fluid: is that its unit?",
+                body.name,
+                own / fluid
+            ),
+            "densities are those of the fluid, in the same units; 0.0 is a massless body",
+        );
+    }
+}
+
+/// Area of a polygon (m2), positive if its corners run counter-clockwise.
+fn signed_area(points: &[[f64; 2]]) -> f64 {
+    let n = points.len();
+    let twice: f64 = (0..n)
+        .map(|i| {
+            let ([ax, ay], [bx, by]) = (points[i], points[(i + 1) % n]);
+            ax * by - bx * ay
+        })
+        .sum();
+    0.5 * twice
+}
+
+fn check_motion(findings: &mut Findings<'_>, key: &str, body: &Body) {
+    if let Motion::Imposed(imposed) = &body.motion {
+        let motion = format!("{key}.motion.imposed");
+        if !imposed.velocity.is_empty() {
+            findings.vector(&format!("{motion}.velocity"), &imposed.velocity);
+        }
+        if let Some(factor) = &imposed.factor {
+            check_factor(findings, &format!("{motion}.factor"), factor);
+        }
+    }
+    if let Some(factor) = &body.load_factor {
+        check_factor(findings, &format!("{key}.load_factor"), factor);
+    }
+    let all: &[Lock] = findings.case().geometry.motions();
+    if body.motion == Motion::Free && all.iter().all(|lock| body.locked.contains(lock)) {
+        findings.warning(
+            &format!("{key}.locked"),
+            format!("\"{}\" is free, but all its motions are locked", body.name),
+            "write motion = \"held\", or take a lock away",
+        );
+    }
+    let is_pulled = body.force.iter().any(|part| *part != 0.0);
+    if body.motion == Motion::Free {
+        if body.load_factor.is_some() && !is_pulled && body.torque.is_zero() {
+            findings.warning(
+                &format!("{key}.load_factor"),
+                format!("`load_factor` has no force or torque of \"{}\" to multiply", body.name),
+                "add force = [x, y] or torque = ..., or leave it out",
+            );
+        }
+        if !body.load_frame.is_laboratory() && !is_pulled && body.torque.is_zero() {
+            findings.warning(
+                &format!("{key}.load_frame"),
+                format!("`load_frame` has no force or torque of \"{}\" to turn", body.name),
+                "add force = [x, y] or torque = ..., or leave it out",
+            );
+        }
+        return;
+    }
+    let idle = [
+        ("locked", !body.locked.is_empty()),
+        ("force", is_pulled),
+        ("torque", !body.torque.is_zero()),
+        ("load_factor", body.load_factor.is_some()),
+        ("load_frame", !body.load_frame.is_laboratory()),
+    ];
+    for (name, is_given) in idle {
+        if is_given {
+            findings.warning(
+                &format!("{key}.{name}"),
+                format!("`{name}` has no effect on body \"{}\", which is not free", body.name),
+                "leave it out, or write motion = \"free\"",
+            );
+        }
+    }
+}
+
+/// What moves or points off the axis breaks the symmetry.
+fn check_on_axis(findings: &mut Findings<'_>, key: &str, body: &Body) {
+    let name = &body.name;
+    let mut zero = |field: &str, value: f64, what: &str| {
+        if value != 0.0 {
+            findings.error(
+                &format!("{key}.{field}"),
+                format!("`{key}.{field}` is {value}: {what} of \"{name}\" breaks the symmetry"),
+                match field {
+                    "angle" => {
+                        "in an axisymmetric case it must be 0; a squirmer faces -x with \
+                         gait.squirmer.heading = 3.141592653589793, linked spheres are given from left \
+                         to right"
+                    }
+                    _ => "in an axisymmetric case it must be 0",
+                },
+            );
+        }
+    };
+    zero("center.1", body.center[1], "the distance from the axis");
+    zero("angle", body.angle, "the angle");
+    zero("torque", body.torque.z(), "the torque");
+    let across = |values: &[f64]| values.get(1).copied().unwrap_or(0.0);
+    zero("force.1", across(&body.force), "the force across the axis");
+    if let Motion::Imposed(imposed) = &body.motion {
+        let velocity = across(&imposed.velocity);
+        zero("motion.imposed.velocity.1", velocity, "the velocity across the axis");
+        zero("motion.imposed.angular_velocity", imposed.angular_velocity.z(), "the rotation");
+    }
+    if let Some(spring) = &body.spring {
+        zero("spring.stiffness.1", across(&spring.stiffness), "the stiffness across the axis");
+        zero("spring.damping.1", across(&spring.damping), "the damping across the axis");
+        zero("spring.anchor.1", across(&spring.anchor), "the anchor off the axis");
+        zero("spring.torsion", spring.torsion, "the torsion");
+        zero("spring.torsion_damping", spring.torsion_damping, "the damping of the rotation");
+        zero("spring.rest_angle", spring.rest_angle.unwrap_or(0.0), "the angle at rest");
+    }
+    if let Some(GaitSpec::Squirmer(squirmer)) = &body.gait {
+        let heading = squirmer.heading;
+        if heading != 0.0 && (heading.abs() - PI).abs() > HEADING_ROUNDING {
+            findings.error(
+                &format!("{key}.gait.squirmer.heading"),
+                format!("the heading {heading} of \"{name}\" is not along the axis"),
+                "write heading = 0.0 (towards +x) or heading = 3.141592653589793 (towards -x)",
+            );
+        }
+        if squirmer.turn.is_some() {
+            findings.error(
+                &format!("{key}.gait.squirmer.turn"),
+                format!(
+                    "the swimming axis of \"{name}\" turns: off the axis it breaks the symmetry"
+                ),
+                "leave it out; to swim to and fro write factors = { 1 = ... }",
+            );
+        }
+    }
+}

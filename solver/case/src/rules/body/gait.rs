@@ -1,0 +1,389 @@
+//! Problems of `body.gait`, and of the shapes that swim by it.
+
+use std::f64::consts::TAU;
+
+use crate::rules::Findings;
+use crate::rules::flow::boundary::check_factor;
+use crate::{
+    AnguilliformGait, Body, CarangiformGait, FishShape, FlagellumGait, GaitSpec, Geometry,
+    PulsatingGait, ShapeSpec, SquirmerGait, TimeSettings,
+};
+
+/// Lengths of a fish or a flagellate.
+pub fn check_shape(findings: &mut Findings<'_>, key: &str, shape: &ShapeSpec) {
+    let (name, lengths) = match shape {
+        ShapeSpec::Fish(fish) => (
+            "fish",
+            vec![
+                ("length", fish.length),
+                ("head_width", fish.head_width),
+                ("tail_width", fish.tail_width),
+                ("head_end", fish.head_end),
+                ("tail_start", fish.tail_start),
+                ("tip_radius", fish.tip_radius),
+                ("corner_radius", fish.corner_radius),
+            ],
+        ),
+        ShapeSpec::Flagellate(body) => (
+            "flagellate",
+            vec![
+                ("head.0", body.head[0]),
+                ("head.1", body.head[1]),
+                ("tail_length", body.tail_length),
+                ("thickness", body.thickness),
+                ("fillet", body.fillet.unwrap_or(body.thickness)),
+            ],
+        ),
+        _ => return,
+    };
+    if let ShapeSpec::Fish(FishShape { height: Some(height), .. }) = shape {
+        check_height(findings, &format!("{key}.fish.height"), *height);
+    }
+    for (field, value) in &lengths {
+        findings.positive(&format!("{key}.{name}.{field}"), *value);
+    }
+    if lengths.iter().any(|(_, value)| *value <= 0.0) || shape.profile().is_some() {
+        return;
+    }
+    match shape {
+        ShapeSpec::Fish(fish) if fish.head_end > fish.head_width => findings.error(
+            &format!("{key}.fish.head_end"),
+            format!(
+                "the head ends at {} of the length, behind its widest section at {}",
+                fish.head_end, fish.head_width
+            ),
+            "head_end must not be larger than head_width, the radius of the head",
+        ),
+        ShapeSpec::Fish(_) => findings.error(
+            &format!("{key}.fish"),
+            "these lengths make no fish".to_owned(),
+            "head_end < tail_start < 1, tail_width less than the width of the head, and tip_radius \
+             and corner_radius much smaller than both",
+        ),
+        ShapeSpec::Flagellate(body) if body.thickness >= 2.0 * body.head[1] => findings.error(
+            &format!("{key}.flagellate.thickness"),
+            format!(
+                "the tail is {} thick, and the head {} only",
+                body.thickness,
+                2.0 * body.head[1]
+            ),
+            "make the tail thinner than the head",
+        ),
+        _ => findings.error(
+            &format!("{key}.flagellate"),
+            "these lengths make no flagellate".to_owned(),
+            "make the tail longer than its thickness and its fillet, or the fillet smaller",
+        ),
+    }
+}
+
+/// A height of sections is one across the plane.
+fn check_height(findings: &mut Findings<'_>, key: &str, height: f64) {
+    findings.positive(key, height);
+    if findings.case().geometry == Geometry::Planar {
+        findings.error(
+            key,
+            "a fish in the plane has no height".to_owned(),
+            "leave it out, or take geometry = \"spatial\"",
+        );
+    }
+}
+
+/// Whether a gait fits its body, and its numbers make a motion.
+pub fn check(findings: &mut Findings<'_>, key: &str, body: &Body) {
+    let Some(gait) = &body.gait else { return };
+    if body.deforms() && matches!(findings.case().time, TimeSettings::Steady(_)) {
+        findings.error(
+            &format!("{key}.gait"),
+            format!("body \"{}\" deforms, and a steady flow has no time for it", body.name),
+            "write time.unsteady = { step = ..., end = ... }",
+        );
+    }
+    match gait {
+        GaitSpec::Squirmer(gait) => squirmer(findings, key, body, gait),
+        GaitSpec::Carangiform(gait) => {
+            fits(findings, key, body, matches!(body.shape, ShapeSpec::Fish(_)), "fish");
+            carangiform(findings, &format!("{key}.gait.carangiform"), gait);
+        }
+        GaitSpec::Anguilliform(gait) => {
+            fits(findings, key, body, matches!(body.shape, ShapeSpec::Fish(_)), "fish");
+            anguilliform(findings, &format!("{key}.gait.anguilliform"), gait);
+        }
+        GaitSpec::Flagellum(gait) => {
+            let is_flagellate = matches!(body.shape, ShapeSpec::Flagellate(_));
+            fits(findings, key, body, is_flagellate, "flagellate");
+            flagellum(findings, &format!("{key}.gait.flagellum"), body, gait);
+        }
+        GaitSpec::Pulsating(gait) => {
+            let is_round = body.is_round();
+            fits(findings, key, body, is_round, "disc or sphere");
+            pulsating(findings, &format!("{key}.gait.pulsating"), gait);
+        }
+        // The joints it is made from are checked
+        GaitSpec::Joints(_) => {}
+    }
+}
+
+fn fits(findings: &mut Findings<'_>, key: &str, body: &Body, does_fit: bool, wanted: &str) {
+    if !does_fit {
+        findings.error(
+            &format!("{key}.gait"),
+            format!(
+                "this gait is that of a {wanted}, but \"{}\" is of shape `{}`",
+                body.name,
+                body.shape.name()
+            ),
+            &format!("give the body the shape of a {wanted}, or another gait"),
+        );
+    }
+}
+
+fn carangiform(findings: &mut Findings<'_>, key: &str, gait: &CarangiformGait) {
+    findings.positive(&format!("{key}.period"), gait.period);
+    findings.not_negative(&format!("{key}.ramp"), gait.ramp.unwrap_or(0.0));
+    let positions: Vec<f64> = gait.curvature.iter().map(|row| row[0]).collect();
+    let does_rise = positions.windows(2).all(|pair| pair[1] > pair[0]);
+    if positions.len() < 2
+        || !does_rise
+        || positions[0] != 0.0
+        || positions[positions.len() - 1] != 1.0
+    {
+        findings.error(
+            &format!("{key}.curvature"),
+            format!("the curvature is given at s/L = {positions:?}, not from head to tail"),
+            "write [[0.0, K L], ..., [1.0, K L]] with rising positions, or leave it out",
+        );
+    }
+}
+
+fn anguilliform(findings: &mut Findings<'_>, key: &str, gait: &AnguilliformGait) {
+    findings.positive(&format!("{key}.period"), gait.period);
+    findings.positive(&format!("{key}.amplitude"), gait.amplitude);
+    findings.not_negative(&format!("{key}.offset"), gait.offset);
+    findings.not_negative(&format!("{key}.ramp"), gait.ramp.unwrap_or(0.0));
+    // Slope at the tail: the displacement may not grow faster than the midline is long
+    let slope = gait.amplitude * (TAU * (1.0 + gait.offset)).hypot(1.0);
+    if slope >= 1.0 {
+        findings.error(
+            &format!("{key}.amplitude"),
+            format!(
+                "the tail would be displaced by {slope:.3} per length of midline, which it cannot \
+                 be without being stretched"
+            ),
+            &format!("write an amplitude below {:.4}", gait.amplitude / slope),
+        );
+    }
+}
+
+fn flagellum(findings: &mut Findings<'_>, key: &str, body: &Body, gait: &FlagellumGait) {
+    for (field, value) in
+        [("period", gait.period), ("wavelength", gait.wavelength), ("amplitude", gait.amplitude)]
+    {
+        findings.positive(&format!("{key}.{field}"), value);
+    }
+    findings.not_negative(&format!("{key}.ramp"), gait.ramp.unwrap_or(0.0));
+    let Some(joint) = gait.joint else { return };
+    findings.positive(&format!("{key}.joint"), joint);
+    if let ShapeSpec::Flagellate(flagellate) = &body.shape
+        && joint > flagellate.tail_length
+    {
+        findings.error(
+            &format!("{key}.joint"),
+            format!("the joint is {joint} long, and the tail {}", flagellate.tail_length),
+            "make it a small part of the tail, or leave it out",
+        );
+    }
+}
+
+fn pulsating(findings: &mut Findings<'_>, key: &str, gait: &PulsatingGait) {
+    if let Some(period) = gait.period {
+        findings.positive(&format!("{key}.period"), period);
+    }
+    if gait.amplitude.is_some() != gait.table.is_empty() {
+        findings.error(
+            key,
+            "a pulsating body needs either an `amplitude` or a `table`".to_owned(),
+            "write amplitude = ... and period = ..., or table = [[0.0, 1.0], [time, ratio], ...]",
+        );
+        return;
+    }
+    if let Some(amplitude) = gait.amplitude {
+        if amplitude.abs() >= 1.0 {
+            findings.error(
+                &format!("{key}.amplitude"),
+                format!("with the amplitude {amplitude} the body would vanish"),
+                "write a number between -1 and 1: the change of area or volume over that at rest",
+            );
+        }
+        if gait.period.is_none() {
+            findings.error(
+                &format!("{key}.amplitude"),
+                "the amplitude has no `period`".to_owned(),
+                "write period = ...",
+            );
+        }
+        return;
+    }
+    let does_rise = gait.table.windows(2).all(|rows| rows[1][0] > rows[0][0]);
+    let does_start = gait.table.first().is_some_and(|row| row[0] == 0.0);
+    if !does_rise || !does_start || gait.table.iter().any(|row| row[1] <= 0.0) {
+        findings.error(
+            &format!("{key}.table"),
+            "the table is not one of positive ratios at times that rise from 0".to_owned(),
+            "write [[0.0, ratio], [time, ratio], ...] with rising times and ratios above 0",
+        );
+    }
+    let last = gait.table.last().copied().unwrap_or_default();
+    if let Some(period) = gait.period
+        && (period < last[0] || last[1] != gait.table[0][1])
+    {
+        findings.error(
+            &format!("{key}.period"),
+            format!(
+                "the table ends at t = {} with the ratio {}, and begins again at t = {period} with \
+                 {}",
+                last[0], last[1], gait.table[0][1]
+            ),
+            "let it end with the ratio it begins with, at the period or before",
+        );
+    }
+}
+
+fn squirmer(findings: &mut Findings<'_>, key: &str, body: &Body, squirmer: &SquirmerGait) {
+    if !matches!(body.shape, ShapeSpec::Disc { .. } | ShapeSpec::Sphere { .. }) {
+        findings.error(
+            &format!("{key}.gait"),
+            format!(
+                "a squirmer is a disc or a sphere, but \"{}\" is of shape `{}`",
+                body.name,
+                body.shape.name()
+            ),
+            "write shape = { disc = ... } (planar) or { sphere = ... } (axisymmetric)",
+        );
+    }
+    if squirmer.modes.is_empty() {
+        findings.error(
+            &format!("{key}.gait.squirmer.modes"),
+            format!("the squirmer \"{}\" has no modes", body.name),
+            "write modes = [B1, B2, ...]",
+        );
+    }
+    resolved_modes(findings, key, body, squirmer);
+    let n_modes = squirmer.modes.len();
+    for (mode, factor) in &squirmer.factors {
+        let factor_key = format!("{key}.gait.squirmer.factors.{mode}");
+        // "02" would be another key for the same mode.
+        if !(1..=n_modes).any(|number| number.to_string() == *mode) {
+            findings.error(
+                &factor_key,
+                format!(
+                    "the squirmer \"{}\" has {n_modes} mode{}, and none is `{mode}`",
+                    body.name,
+                    if n_modes == 1 { "" } else { "s" }
+                ),
+                "name factors by the number of their mode: factors = { 1 = ..., 2 = ... }",
+            );
+        }
+        check_factor(findings, &factor_key, factor);
+    }
+    if let Some(turn) = &squirmer.turn {
+        check_factor(findings, &format!("{key}.gait.squirmer.turn"), turn);
+    }
+}
+
+/// Modes whose waves are shorter than the edges on the body.
+fn resolved_modes(findings: &mut Findings<'_>, key: &str, body: &Body, squirmer: &SquirmerGait) {
+    let mesh = &findings.case().mesh;
+    let size = body.size.or(mesh.surface).unwrap_or(mesh.size) * mesh.scale;
+    // Mode n has n half waves from pole to pole of a sphere, n waves around a disc
+    let half_waves = match body.shape {
+        ShapeSpec::Sphere { .. } => 1.0,
+        _ => 2.0,
+    };
+    let most = body.shape.perimeter() / size / half_waves;
+    let highest = squirmer.modes.iter().rposition(|mode| *mode != 0.0).map_or(0, |last| last + 1);
+    if highest as f64 > most.max(2.0) {
+        findings.warning(
+            &format!("{key}.gait.squirmer.modes"),
+            format!(
+                "mode {highest} of \"{}\" is not resolved: half a wave of it is shorter than an edge",
+                body.name
+            ),
+            &format!("leave out modes above {most:.0}, or lower the edge length on the body"),
+        );
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::{Case, Severity, check};
+
+    /// Keys of the errors of a case with this body.
+    fn errors(body: &str) -> Vec<String> {
+        let text = format!(
+            "title = 't'
+geometry = 'planar'
+fluid = {{ model = 'stokes', viscosity = 1.0 }}
+domain.box = {{ min = [-4.0, -4.0], max = [4.0, 4.0] }}
+boundary = {{ left = 'no-slip', right = 'do-nothing', bottom = 'no-slip', top = 'no-slip' }}
+mesh = {{ size = 0.5, surface = 0.01 }}
+time.unsteady = {{ step = 0.1, end = 1.0 }}
+[[body]]
+name = 'b'
+center = [0, 0]
+motion = 'free'
+{body}
+"
+        );
+        let file = Case::parse("t.toml", &text, &[]).unwrap();
+        let problems = check(&file).into_iter();
+        problems.filter(|p| p.severity == Severity::Error).map(|p| p.key).collect()
+    }
+
+    #[test]
+    fn swimmers_as_published_have_no_errors() {
+        for body in [
+            "shape.fish.length = 1.0\ngait.carangiform.period = 1.0",
+            "shape.fish.length = 1.0\ngait.anguilliform.period = 1.0",
+            "shape.flagellate = { head = [0.2, 0.1], tail_length = 5.0, thickness = 0.02 }\n\
+             gait.flagellum = { period = 0.3, wavelength = 2.0, amplitude = 0.4 }",
+            "shape.disc.radius = 1.0\ngait.pulsating = { amplitude = 0.5, period = 1.0 }",
+            "shape.disc.radius = 1.0\ngait.pulsating.table = [[0.0, 1.0], [1.0, 2.0]]",
+        ] {
+            assert_eq!(errors(body), Vec::<String>::new(), "{body}");
+        }
+    }
+
+    #[test]
+    fn what_cannot_swim_is_refused_at_its_key() {
+        let fish = |gait: &str| format!("shape.fish.length = 1.0\n{gait}");
+        let disc = |gait: &str| format!("shape.disc.radius = 1.0\n{gait}");
+        let tail = |numbers: &str| {
+            format!("shape.flagellate = {{ head = [0.2, 0.1], tail_length = 5.0, {numbers} }}")
+        };
+        let cases = [
+            (fish("shape.fish.head_end = 0.05"), "body.0.shape.fish.head_end"),
+            (fish("shape.fish.tail_width = 0.1"), "body.0.shape.fish"),
+            (fish("shape.fish.height = 0.1"), "body.0.shape.fish.height"),
+            (tail("thickness = 0.3"), "body.0.shape.flagellate.thickness"),
+            (tail("thickness = 0.02, fillet = 900.0"), "body.0.shape.flagellate"),
+            (disc("gait.carangiform.period = 1.0"), "body.0.gait"),
+            (fish("gait.pulsating = { amplitude = 0.5, period = 1.0 }"), "body.0.gait"),
+            (fish("gait.carangiform.period = 0.0"), "body.0.gait.carangiform.period"),
+            (
+                fish("gait.carangiform = { period = 1.0, curvature = [[0.0, 1.0], [0.5, 1.0]] }"),
+                "body.0.gait.carangiform.curvature",
+            ),
+            (
+                fish("gait.anguilliform = { period = 1.0, amplitude = 0.3 }"),
+                "body.0.gait.anguilliform.amplitude",
+            ),
+            (disc("gait.pulsating.period = 1.0"), "body.0.gait.pulsating"),
+            (disc("gait.pulsating.amplitude = 0.5"), "body.0.gait.pulsating.amplitude"),
+            (disc("gait.pulsating.table = [[1.0, 1.0]]"), "body.0.gait.pulsating.table"),
+        ];
+        for (body, key) in cases {
+            assert_eq!(errors(&body), [key], "{body}");
+        }
+    }
+}

@@ -1,0 +1,329 @@
+//! Problems of `[[joint]]`: ends, trees, poses at the start, and numbers of strokes.
+
+use std::f64::consts::TAU;
+
+use super::joints_in_space::{forms, place_of_child};
+use crate::rules::Findings;
+use crate::spec::body::joint::{PlanarPose, child_pose};
+use crate::{Geometry, Hinge, Joint, JointKind, Model, Motion, Slider, Stroke, TimeSettings};
+
+/// Distance between a child and where its joint puts it, over the size of the joint, that is taken
+/// for rounding.
+const ROUNDING: f64 = 1e-6;
+
+pub fn check(findings: &mut Findings<'_>) {
+    let model = findings.model();
+    let mut parents: Vec<Option<usize>> = vec![None; model.bodies.len()];
+    let mut attached = Vec::new();
+    for (index, joint) in model.joints.iter().enumerate() {
+        let key = format!("joint.{index}");
+        if model.swimmer_of_joint(index).is_none() {
+            stroke_of_joint(findings, &key, &joint.kind);
+            forms(findings, &key, joint);
+        }
+        let Some(ends) = ends(findings, &key, joint) else { continue };
+        if parents[ends.child].is_some() || ends.parent == ends.child {
+            findings.error(
+                &format!("{key}.child"),
+                if ends.parent == ends.child {
+                    format!("\"{}\" hangs on itself", joint.child)
+                } else {
+                    let above = parents[ends.child].map(|parent| &model.bodies[parent].name);
+                    let above = above.map_or("another body", String::as_str);
+                    format!(
+                        "\"{}\" hangs on \"{}\", and on \"{above}\" already",
+                        joint.child, joint.parent
+                    )
+                },
+                "bodies make trees: a body hangs on one other body at most",
+            );
+            continue;
+        }
+        parents[ends.child] = Some(ends.parent);
+        attached.push((index, ends));
+    }
+    // Within a loop no body is where its joint puts it
+    if let Some(bodies) = find_loop(&parents) {
+        loop_of_joints(findings, &bodies);
+        return;
+    }
+    for (index, ends) in attached {
+        if model.swimmer_of_joint(index).is_none() {
+            let (key, joint) = (format!("joint.{index}"), &model.joints[index]);
+            motion_of_child(findings, &key, joint, ends);
+            if findings.case().geometry == Geometry::Spatial {
+                place_of_child(findings, &key, joint, [ends.parent, ends.child]);
+            } else {
+                pose_of_child(findings, &key, joint, ends);
+            }
+        }
+    }
+    if findings.case().geometry == Geometry::Axisymmetric {
+        along_the_axis(findings);
+    }
+}
+
+/// Bodies that hang on each other in a loop.
+fn loop_of_joints(findings: &mut Findings<'_>, bodies: &[usize]) {
+    let model = findings.model();
+    let names: Vec<String> = bodies
+        .iter()
+        .chain(bodies.first())
+        .map(|body| format!("\"{}\"", model.bodies[*body].name))
+        .collect();
+    let joint = bodies.iter().find_map(|body| model.joint_above(*body));
+    findings.error(
+        &joint.map_or_else(|| "joint".to_owned(), |joint| format!("joint.{joint}")),
+        format!("the joints make a loop: {}", names.join(" hangs on ")),
+        "bodies make trees: one of them must hang on nothing; leave out one of these joints",
+    );
+}
+
+/// Indices of the bodies a joint is between.
+#[derive(Clone, Copy)]
+struct Ends {
+    parent: usize,
+    child: usize,
+}
+
+fn ends(findings: &mut Findings<'_>, key: &str, joint: &Joint) -> Option<Ends> {
+    let model = findings.model();
+    let mut end = |what: &str, name: &str| {
+        let body = model.body_index(name);
+        if body.is_none() {
+            let names: Vec<&str> = model.bodies.iter().map(|body| body.name.as_str()).collect();
+            findings.error(
+                &format!("{key}.{what}"),
+                format!("`{what}` is \"{name}\", but no body has that name"),
+                &crate::text::type_error::suggestion(name, &names),
+            );
+        }
+        body
+    };
+    let (parent, child) = (end("parent", &joint.parent), end("child", &joint.child));
+    Some(Ends { parent: parent?, child: child? })
+}
+
+fn motion_of_child(findings: &mut Findings<'_>, key: &str, joint: &Joint, ends: Ends) {
+    if findings.model().bodies[ends.child].motion != Motion::Free {
+        findings.error(
+            &format!("{key}.child"),
+            format!(
+                "\"{}\" hangs on \"{}\", and cannot be held or moved besides",
+                joint.child, joint.parent
+            ),
+            "write motion = \"free\" for it; the body all others hang on may be held or moved",
+        );
+    }
+}
+
+/// The child starts where the joint puts it.
+fn pose_of_child(findings: &mut Findings<'_>, key: &str, joint: &Joint, ends: Ends) {
+    let [parent, found] = [ends.parent, ends.child].map(|body| start(findings.model(), body));
+    let [on_parent, on_child] = joint.ends_in_plane();
+    // What is free may start at any angle and length: those of the bodies
+    let kind = match &joint.kind {
+        JointKind::Hinge(hinge) => {
+            JointKind::Hinge(Hinge { rest: found.angle - parent.angle, ..hinge.clone() })
+        }
+        JointKind::Slider(slider) => {
+            let rest = slider.length_in_plane([parent, found], [on_parent, on_child]);
+            JointKind::Slider(Slider { rest, ..slider.clone() })
+        }
+        kind => kind.clone(),
+    };
+    let wanted = child_pose(parent, on_parent, on_child, &kind, 0.0);
+    let size = (wanted.center - parent.center).norm();
+    let off = (wanted.center - found.center).norm();
+    if off > ROUNDING * size {
+        findings.error(
+            &format!("{key}.child"),
+            format!(
+                "the joint puts \"{}\" at [{}, {}] at time 0, not at [{}, {}]",
+                joint.child, wanted.center.x, wanted.center.y, found.center.x, found.center.y
+            ),
+            &format!("write center = [{}, {}] for it", wanted.center.x, wanted.center.y),
+        );
+    }
+    let turned = (wanted.angle - found.angle + TAU / 2.0).rem_euclid(TAU) - TAU / 2.0;
+    if matches!(joint.kind, JointKind::Bent { .. }) && turned.abs() > ROUNDING {
+        findings.error(
+            &format!("{key}.child"),
+            format!(
+                "the joint turns \"{}\" to {} at time 0, not to {}",
+                joint.child, wanted.angle, found.angle
+            ),
+            &format!("write angle = {} for it", wanted.angle),
+        );
+    }
+}
+
+/// Pose in which a body starts.
+fn start(model: &Model, body: usize) -> PlanarPose {
+    let body = &model.bodies[body];
+    let at = |axis: usize| body.center.get(axis).copied().unwrap_or(0.0);
+    PlanarPose { center: [at(0), at(1)].into(), angle: body.angle }
+}
+
+/// Bodies each of which hangs on the next, and the last one on the first.
+fn find_loop(parents: &[Option<usize>]) -> Option<Vec<usize>> {
+    // Known to lead to a body that hangs on nothing
+    let mut is_safe = vec![false; parents.len()];
+    let mut is_on_path = vec![false; parents.len()];
+    for start in 0..parents.len() {
+        let mut path = Vec::new();
+        let mut above = Some(start);
+        while let Some(body) = above.filter(|body| !is_safe[*body]) {
+            if is_on_path[body] {
+                return Some(path.into_iter().skip_while(|first| *first != body).collect());
+            }
+            is_on_path[body] = true;
+            path.push(body);
+            above = parents[body];
+        }
+        for body in path {
+            is_safe[body] = true;
+        }
+    }
+    None
+}
+
+/// Axisymmetric bodies hang on arms along the axis.
+fn along_the_axis(findings: &mut Findings<'_>) {
+    for (index, joint) in findings.model().joints.iter().enumerate() {
+        let is_along = match &joint.kind {
+            JointKind::Arm { direction, .. } | JointKind::Slider(Slider { direction, .. }) => {
+                direction.sin().abs() < 1e-9
+            }
+            JointKind::Bent { .. } | JointKind::Hinge(_) | JointKind::Ball(_) => false,
+        };
+        if !is_along || joint.ends_in_plane().iter().any(|end| end[1] != 0.0) {
+            findings.error(
+                &format!("joint.{index}.kind"),
+                format!("the joint of \"{}\" leaves the axis", joint.child),
+                "axisymmetric bodies hang on arms along the axis: direction = 0.0 or \
+                 3.141592653589793",
+            );
+        }
+    }
+}
+
+fn stroke_of_joint(findings: &mut Findings<'_>, key: &str, kind: &JointKind) {
+    match kind {
+        JointKind::Arm { length, .. } => {
+            stroke(findings, &format!("{key}.kind.arm.length"), length);
+            arm(findings, &format!("{key}.kind.arm.length"), length);
+        }
+        JointKind::Bent { angle, .. } => stroke(findings, &format!("{key}.kind.bent.angle"), angle),
+        JointKind::Hinge(one) => hinge(findings, &format!("{key}.kind.hinge"), one),
+        JointKind::Slider(one) => slider(findings, &format!("{key}.kind.slider"), one),
+        JointKind::Ball(ball) => {
+            findings.not_negative(&format!("{key}.kind.ball.stiffness"), ball.stiffness);
+            findings.not_negative(&format!("{key}.kind.ball.damping"), ball.damping);
+        }
+    }
+}
+
+/// Numbers of a free pivot.
+pub(crate) fn hinge(findings: &mut Findings<'_>, key: &str, hinge: &Hinge) {
+    findings.not_negative(&format!("{key}.stiffness"), hinge.stiffness);
+    findings.not_negative(&format!("{key}.damping"), hinge.damping);
+    if let Some(torque) = &hinge.torque {
+        stroke(findings, &format!("{key}.torque"), torque);
+    }
+}
+
+/// Numbers of an arm of free length.
+fn slider(findings: &mut Findings<'_>, key: &str, slider: &Slider) {
+    findings.not_negative(&format!("{key}.stiffness"), slider.stiffness);
+    findings.not_negative(&format!("{key}.damping"), slider.damping);
+    if let Some(force) = &slider.force {
+        stroke(findings, &format!("{key}.force"), force);
+    }
+}
+
+/// An arm of given length has a positive one at all times.
+pub(crate) fn arm(findings: &mut Findings<'_>, key: &str, length: &Stroke) {
+    let [least, _] = length.range();
+    if least <= 0.0 {
+        findings.error(
+            key,
+            format!("the arm is as short as {least}"),
+            "its length must be positive at all times",
+        );
+    }
+}
+
+/// Numbers of a stroke.
+pub(crate) fn stroke(findings: &mut Findings<'_>, key: &str, stroke: &Stroke) {
+    match stroke {
+        Stroke::Constant(_) | Stroke::Steady { .. } => {}
+        Stroke::Sine { period, ramp, .. } => {
+            findings.positive(&format!("{key}.sine.period"), *period);
+            findings.not_negative(&format!("{key}.sine.ramp"), *ramp);
+        }
+        Stroke::Legs { knots, period, .. } => {
+            findings.positive(&format!("{key}.legs.period"), *period);
+            let is_rising = knots.windows(2).all(|pair| pair[1][0] > pair[0][0]);
+            let is_inside = knots.first().is_some_and(|knot| knot[0] == 0.0)
+                && knots.last().is_some_and(|knot| knot[0] < *period);
+            if !is_rising || !is_inside {
+                findings.error(
+                    &format!("{key}.legs.knots"),
+                    "the times of the knots must rise from 0 to below the period".to_owned(),
+                    "write knots = [[0.0, v0], [t1, v1], ...]; at the period the value is v0 again",
+                );
+            }
+        }
+        Stroke::Table(knots) => {
+            let is_rising = knots.windows(2).all(|pair| pair[1][0] > pair[0][0]);
+            if knots.is_empty() || !is_rising {
+                findings.error(
+                    &format!("{key}.table"),
+                    "the times of a table must rise from knot to knot".to_owned(),
+                    "write table = [[t0, v0], [t1, v1], ...] with t0 < t1 < ...",
+                );
+            }
+        }
+        Stroke::Cubic(knots) => cubic(findings, &format!("{key}.cubic"), knots),
+    }
+}
+
+/// Knots with rates: nothing is said of what is before the first or after the last one.
+fn cubic(findings: &mut Findings<'_>, key: &str, knots: &[[f64; 3]]) {
+    let is_rising = knots.len() > 1 && knots.windows(2).all(|pair| pair[1][0] > pair[0][0]);
+    let (Some([first, ..]), Some([last, ..]), true) = (knots.first(), knots.last(), is_rising)
+    else {
+        findings.error(
+            key,
+            "there must be two knots or more, and their times must rise".to_owned(),
+            "write cubic = [[t0, v0, rate0], [t1, v1, rate1], ...] with t0 < t1 < ...",
+        );
+        return;
+    };
+    let end = match &findings.case().time {
+        TimeSettings::Steady(_) => 0.0,
+        TimeSettings::Unsteady(time) => time.end,
+    };
+    if *first > 0.0 || *last < end * (1.0 - ROUNDING) {
+        findings.error(
+            key,
+            format!("its times go from {first} to {last}, and the run from 0 to {end}"),
+            "give values for the whole run, or lower time.unsteady.end",
+        );
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::find_loop;
+
+    #[test]
+    fn loops_are_told_from_trees() {
+        assert_eq!(find_loop(&[None, Some(0), Some(1), Some(1), None]), None);
+        assert_eq!(find_loop(&[Some(1), Some(2), Some(3), None]), None);
+        assert_eq!(find_loop(&[None, Some(2), Some(3), Some(1)]), Some(vec![1, 2, 3]));
+        assert_eq!(find_loop(&[Some(2), Some(0), Some(3), Some(2)]), Some(vec![2, 3]));
+        assert_eq!(find_loop(&[Some(1), Some(0)]), Some(vec![0, 1]));
+    }
+}

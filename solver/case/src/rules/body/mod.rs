@@ -1,0 +1,11 @@
+//! Problems of bodies, of what they are joined by and of how they move.
+
+pub(super) mod bodies;
+mod gait;
+pub(super) mod joints;
+mod joints_in_space;
+mod skin;
+mod solid;
+mod spring;
+pub(super) mod strokes;
+pub(super) mod swimmers;

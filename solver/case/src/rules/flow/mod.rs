@@ -1,0 +1,8 @@
+//! Problems of the fluid, of the sides of its domain and of the mesh.
+
+pub(super) mod boundary;
+pub(super) mod cells;
+pub(super) mod fluid;
+pub(super) mod given_mesh;
+pub(super) mod mean_flow;
+pub(super) mod mesh;

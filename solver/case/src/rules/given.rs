@@ -1,0 +1,232 @@
+//! Bodies whose motion is given for the whole run: where it leads them out of the domain, or into each other.
+
+use alewife_mesh::{MeshError, Point, check_wrapped_placement, spatial};
+
+use super::Findings;
+use super::placement::{coordinates, message};
+use crate::model::numbers::significant;
+use crate::model::speed::norm;
+use crate::{
+    Body, Geometry, ImposedMotion, Model, Motion, ShapeSpec, TimeFunction, TimeSettings, Unsteady,
+};
+
+/// Times of a run, and of a period, at which bodies are looked at.
+const TIMES: [f64; 2] = [400.0, 64.0];
+
+/// Most times of a run.
+const MOST_TIMES: u32 = 4000;
+
+/// Most bodies that are followed.
+const MOST_BODIES: usize = 100;
+
+/// Angle of a turn in one step above which the step is too long for it (rad).
+const MOST_TURNED: f64 = 1.0;
+
+/// Halvings of the time in which something happens.
+const HALVINGS: usize = 30;
+
+/// Reports the first thing that each of these bodies meets.
+pub fn check(findings: &mut Findings<'_>) {
+    let model = findings.model();
+    let TimeSettings::Unsteady(time) = &model.case.time else { return };
+    // With a frame sides travel, and other bodies may end the run before
+    if model.case.frame.is_some() || time.until.is_some() {
+        return;
+    }
+    let bodies: Vec<&Body> = model.bodies.iter().filter(|body| is_known(model, body)).collect();
+    if bodies.len() > MOST_BODIES {
+        return;
+    }
+    for (index, body) in model.bodies.iter().enumerate() {
+        let Motion::Imposed(_) = body.motion else { continue };
+        if !is_known(model, body) || !(body.translates(model.case.geometry) || body.turns()) {
+            continue;
+        }
+        let others =
+            bodies.iter().copied().filter(|other| may_meet(model, [body, other], time.end));
+        let course = Course { model, time, body, others: others.collect() };
+        let Some(Trouble { time: when, error }) = course.first_trouble() else { continue };
+        findings.error(
+            &format!("body.{index}.motion"),
+            format!(
+                "by its motion \"{}\" comes to {} at t = {}, before the end at {}",
+                body.name,
+                met(&error),
+                significant(when),
+                time.end,
+            ),
+            "end before, lead it back with motion.imposed.factor, or enlarge the domain: no contact holds a \
+             body whose motion is given",
+        );
+    }
+    if let (None, true) = (&time.adaptive, findings.has_no_error()) {
+        check_turns(findings, time.step);
+    }
+}
+
+/// Warns of a body that turns by more than a step resolves, as one does whose rate is in degrees.
+fn check_turns(findings: &mut Findings<'_>, step: f64) {
+    for (index, body) in findings.model().bodies.iter().enumerate() {
+        let Motion::Imposed(motion) = &body.motion else { continue };
+        let rate = motion.angular_velocity.norm();
+        if rate * step > MOST_TURNED {
+            findings.warning(
+                &format!("body.{index}.motion"),
+                format!(
+                    "\"{}\" turns by {} rad in a step: angular velocities are in radians per time",
+                    body.name,
+                    significant(rate * step)
+                ),
+                &format!(
+                    "for {} degrees per time write {}, else lower time.unsteady.step",
+                    significant(rate),
+                    significant(rate.to_radians())
+                ),
+            );
+        }
+    }
+}
+
+/// What a body comes to.
+fn met(error: &MeshError) -> String {
+    match error {
+        MeshError::Outside { x, y, .. } => format!("the boundary at {}", coordinates(&[*x, *y])),
+        MeshError::BodyMeetsSide { side, at, .. } => {
+            format!("the side `{side}` at {}", coordinates(at))
+        }
+        MeshError::Overlap { first, x, y, .. } => {
+            format!("\"{first}\" at {}", coordinates(&[*x, *y]))
+        }
+        MeshError::BodiesMeet { first, at, .. } => format!("\"{first}\" at {}", coordinates(at)),
+        other => format!("where it cannot be: {}", message(other)),
+    }
+}
+
+/// Whether all places of a body are known beforehand.
+fn is_known(model: &Model, body: &Body) -> bool {
+    // Of other shapes the centre of mass, about which they turn, is not where the centre is
+    let is_ellipse = matches!(body.shape, ShapeSpec::Ellipse { .. });
+    let turns_about_center = is_ellipse && model.case.geometry == Geometry::Planar;
+    match &body.motion {
+        Motion::Free => false,
+        Motion::Held => !body.deforms(),
+        Motion::Imposed(_) => {
+            !body.deforms() && (body.is_round() || turns_about_center || !body.turns())
+        }
+    }
+}
+
+/// Whether two bodies may come near each other by the end of a run (s).
+fn may_meet(model: &Model, [body, other]: [&Body; 2], end: f64) -> bool {
+    let excursion = |body: &Body| {
+        let Motion::Imposed(motion) = &body.motion else { return 0.0 };
+        let way = motion.factor.as_ref().map_or(end, |factor| factor.largest_integral(end));
+        norm(&motion.velocity) * way
+    };
+    let is_periodic = model.case.periodic_axes().contains(&true);
+    body.name != other.name
+        && (is_periodic || are_near(body, other, excursion(body) + excursion(other)))
+}
+
+/// Whether the balls around two bodies, where they are, are nearer to each other than this (m).
+fn are_near(body: &Body, other: &Body, apart: f64) -> bool {
+    let parts = body.center.iter().zip(&other.center);
+    let distance = parts.map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
+    distance < body.shape.reach() + other.shape.reach() + apart
+}
+
+/// A place where a body cannot be.
+struct Trouble {
+    /// When it gets there (s).
+    time: f64,
+    error: MeshError,
+}
+
+/// A body on its way through a run.
+struct Course<'a> {
+    model: &'a Model,
+    time: &'a Unsteady,
+    body: &'a Body,
+    /// Other ones that are where their motions say, as far as it may come near them.
+    others: Vec<&'a Body>,
+}
+
+impl Course<'_> {
+    /// Where it first cannot be.
+    fn first_trouble(&self) -> Option<Trouble> {
+        let end = self.time.end;
+        let period = match &self.body.motion {
+            Motion::Imposed(ImposedMotion {
+                factor: Some(TimeFunction::Sine { period, .. }),
+                ..
+            }) => *period,
+            _ => end,
+        };
+        let n_times = TIMES[0].max(TIMES[1] * end / period).min(f64::from(MOST_TIMES)).floor();
+        let at = |nth: f64| end * nth / n_times;
+        let mut nths = (1..=MOST_TIMES).map(f64::from).take_while(|nth| *nth <= n_times);
+        let nth = nths.find(|nth| self.trouble(at(*nth)).is_some())?;
+        let mut bounds = [at(nth - 1.0), at(nth)];
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (bounds[0] + bounds[1]);
+            bounds[usize::from(self.trouble(middle).is_some())] = middle;
+        }
+        let time = bounds[1];
+        self.trouble(time).map(|error| Trouble { time, error })
+    }
+
+    /// Why it cannot be where it is at a time (s).
+    fn trouble(&self, time: f64) -> Option<MeshError> {
+        let moved = self.at(self.body, time);
+        let outside = if self.is_well_inside(&moved) { None } else { self.refused(&[&moved]) };
+        outside.or_else(|| {
+            let others = self.others.iter().map(|other| self.at(other, time));
+            let mut near = others.filter(|other| are_near(&moved, other, 0.0));
+            near.find_map(|other| self.refused(&[&other, &moved]))
+        })
+    }
+
+    /// A body where its motion leads it until a time (s); across periodic sides back into the domain.
+    fn at(&self, body: &Body, time: f64) -> Body {
+        let mut moved = body.clone();
+        let Motion::Imposed(motion) = &body.motion else { return moved };
+        let way = motion.factor.as_ref().map_or(time, |factor| factor.integral(time));
+        for (own, part) in moved.center.iter_mut().zip(&motion.velocity) {
+            *own += way * part;
+        }
+        let extent = self.model.case.extent();
+        for axis in (0..moved.center.len()).filter(|axis| self.model.case.periodic_axes()[*axis]) {
+            let (min, period) = (extent.min[axis], extent.lengths()[axis]);
+            moved.center[axis] = min + (moved.center[axis] - min).rem_euclid(period);
+        }
+        moved.angle += way * motion.angular_velocity.z();
+        moved
+    }
+
+    /// Whether the ball around a body is inside the domain.
+    fn is_well_inside(&self, body: &Body) -> bool {
+        let reach = body.shape.reach() * (1.0 + 1e-6);
+        let at = |axis: usize| body.center.get(axis).copied().unwrap_or(0.0);
+        if self.model.case.geometry == Geometry::Spatial {
+            let Some(domain) = self.model.case.domain_in_space() else { return true };
+            let center = Point::<3>::new(at(0), at(1), at(2));
+            let walls = (0..domain.sides().len()).filter(|side| !domain.is_periodic(*side));
+            return walls.map(|side| domain.side_gap(side, center)).all(|gap| gap > reach);
+        }
+        let domain = self.model.case.mesh_domain();
+        domain.clearance(Point::<2>::new(at(0), at(1))) > reach
+    }
+
+    /// Why bodies cannot be where they are.
+    fn refused(&self, bodies: &[&Body]) -> Option<MeshError> {
+        let scale = self.model.case.mesh.scale;
+        if self.model.case.geometry == Geometry::Spatial {
+            let domain = self.model.case.domain_in_space()?;
+            let solids: Option<Vec<spatial::Body>> =
+                bodies.iter().map(|body| body.solid(scale)).collect();
+            return spatial::check_placement(&domain, &solids?).err();
+        }
+        let placed: Vec<_> = bodies.iter().map(|body| body.placed(scale)).collect();
+        check_wrapped_placement(&self.model.case.mesh_domain(), &placed).err()
+    }
+}

@@ -1,0 +1,63 @@
+//! What a case means: all its diagnostics at once, each with its location and a remedy.
+//!
+//! Reading has made sure of keys and types. Here every number is compared with what it stands for,
+//! and every name against what it names. Nothing is meshed or solved.
+
+mod angles;
+mod body;
+mod contact;
+mod extremes;
+mod findings;
+mod flow;
+mod general;
+mod given;
+mod near;
+mod placement;
+mod references;
+mod space;
+mod time;
+
+use self::body::{bodies, joints, strokes, swimmers};
+use self::findings::Findings;
+use self::flow::{boundary, cells, fluid, mean_flow, mesh};
+use crate::{CaseFile, Diagnostic, Geometry};
+
+/// All diagnostics of a case: errors, which stop a run, and warnings.
+#[must_use]
+pub fn check(file: &CaseFile) -> Vec<Diagnostic> {
+    let mut findings = Findings::new(file);
+    extremes::check_numbers(&mut findings, file);
+    if !findings.has_no_error() {
+        return findings.into_diagnostics();
+    }
+    // What follows from degrees that are taken for radians is told after them
+    angles::check(&mut findings, file);
+    general::check(&mut findings);
+    fluid::check(&mut findings);
+    boundary::check(&mut findings);
+    mean_flow::check(&mut findings);
+    bodies::check(&mut findings);
+    space::check(&mut findings);
+    joints::check(&mut findings);
+    swimmers::check(&mut findings);
+    contact::check(&mut findings);
+    mesh::check(&mut findings);
+    time::check(&mut findings);
+    references::check(&mut findings);
+    extremes::check(&mut findings, file);
+    if findings.has_no_error() {
+        cells::check(&mut findings);
+    }
+    if findings.has_no_error() {
+        placement::check(&mut findings);
+    }
+    if findings.has_no_error() {
+        given::check(&mut findings);
+    }
+    let in_plane = file.model.case.geometry != Geometry::Spatial;
+    if in_plane && findings.has_no_error() {
+        strokes::check(&mut findings);
+        near::check(&mut findings);
+    }
+    findings.into_diagnostics()
+}

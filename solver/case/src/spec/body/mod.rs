@@ -1,0 +1,380 @@
+//! `[[body]]`: outline, pose, density, motion and gait of one body.
+
+pub(crate) mod axial_vector;
+pub(crate) mod gait;
+pub(crate) mod joint;
+pub(crate) mod link;
+pub(crate) mod orientation;
+mod shape_names;
+pub(crate) mod skin;
+mod solid;
+pub(crate) mod solid_shape;
+pub(crate) mod spring;
+pub(crate) mod stroke;
+pub(crate) mod swimmer;
+
+use std::collections::BTreeMap;
+use std::f64::consts::PI;
+
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+use self::axial_vector::AxialVector;
+use self::gait::{
+    AnguilliformGait, CarangiformGait, FishShape, FlagellateShape, FlagellumGait, JointsGait,
+    PulsatingGait, TubeShape,
+};
+use self::orientation::Orientation;
+use self::spring::SpringSpec;
+use super::domain::{Geometry, TimeFunction};
+
+/// `shape`: one of these, in the body's own frame.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub enum ShapeSpec {
+    /// Disc (planar).
+    Disc {
+        /// Radius (m).
+        radius: f64,
+    },
+    /// Ellipse (planar).
+    Ellipse {
+        /// Semi-axes along the body's x and y (m).
+        semi_axes: [f64; 2],
+    },
+    /// Closed smooth spline (planar).
+    Spline {
+        /// Points counter-clockwise in the body frame (m), the first not repeated.
+        points: Vec<[f64; 2]>,
+    },
+    /// Fish (planar, spatial).
+    Fish(FishShape),
+    /// Head with a tail (planar, spatial).
+    Flagellate(FlagellateShape),
+    /// Chain with a skin; made from the links of a swimmer only.
+    #[serde(skip)]
+    Tube(TubeShape),
+    /// Sphere (axisymmetric, spatial).
+    Sphere {
+        /// Radius (m).
+        radius: f64,
+    },
+    /// Ellipsoid of revolution about the body's x axis (axisymmetric, spatial).
+    Spheroid {
+        /// Semi-axes along and across the axis of revolution (m).
+        semi_axes: [f64; 2],
+    },
+    /// Ellipsoid (spatial).
+    Ellipsoid {
+        /// Semi-axes along the body's x, y and z (m).
+        semi_axes: [f64; 3],
+    },
+    /// Cylinder about the body's x axis with half spheres at its ends (spatial).
+    Capsule {
+        /// Length from end to end (m).
+        length: f64,
+        /// Radius (m).
+        radius: f64,
+    },
+    /// Circular cylinder from side to side of a box (spatial).
+    Cylinder {
+        /// Radius (m).
+        radius: f64,
+        /// Coordinate along which it goes through the box.
+        axis: CylinderAxis,
+        /// Length of the box along it (m), which is not written.
+        #[serde(skip)]
+        length: f64,
+    },
+    /// Tube along a helix about the body's x axis (spatial).
+    Helix(HelixShape),
+    /// Tube along a smooth curve through points (spatial).
+    Curve(CurveShape),
+    /// Smooth profile turned about the body's x axis (spatial).
+    Revolved {
+        /// Points (x, distance from the axis) of the profile (m), the first and the last on the axis.
+        profile: Vec<[f64; 2]>,
+    },
+    /// All points of several parts, such as a head and a flagellum (spatial).
+    Union(Vec<PartSpec>),
+}
+
+/// A coordinate along which a cylinder goes through a box.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(rename_all = "lowercase")]
+pub enum CylinderAxis {
+    /// From left to right.
+    X,
+    /// From bottom to top.
+    Y,
+    /// From back to front.
+    Z,
+}
+
+impl CylinderAxis {
+    /// 0 for x, 1 for y, 2 for z.
+    #[must_use]
+    pub fn index(self) -> usize {
+        match self {
+            Self::X => 0,
+            Self::Y => 1,
+            Self::Z => 2,
+        }
+    }
+}
+
+/// `helix`: a tube along a helix about the body's x axis, from x = 0 towards +x, with round ends.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct HelixShape {
+    /// Distance of the midline from the axis (m); it starts in the half plane y > 0.
+    pub radius: f64,
+    /// Length along the axis of one turn (m).
+    pub pitch: f64,
+    /// Number of turns: right-handed if positive, left-handed if negative.
+    pub turns: f64,
+    /// Radius of the tube (m).
+    pub tube_radius: f64,
+}
+
+/// `curve`: a tube with round ends along the natural cubic spline through points.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct CurveShape {
+    /// Points of the midline in the body frame (m), two or more.
+    pub points: Vec<[f64; 3]>,
+    /// Radius of the tube (m).
+    pub tube_radius: f64,
+}
+
+/// A part of a `union`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct PartSpec {
+    /// What it is.
+    pub shape: ShapeSpec,
+    /// Where its origin is in the frame of the body (m).
+    #[serde(default)]
+    pub center: [f64; 3],
+    /// How it is turned from the frame of the body; not at all if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub orientation: Option<Orientation>,
+}
+
+/// How a body moves as a whole.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Motion {
+    /// It does not move.
+    Held,
+    /// It obeys Newton and Euler under the fluid's load, gravity and external loads.
+    Free,
+    /// Its velocity is given; the reaction is an output.
+    Imposed(ImposedMotion),
+}
+
+/// A rigid velocity given as a function of time.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct ImposedMotion {
+    /// Velocity (m/s), one number per dimension.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub velocity: Vec<f64>,
+    /// Angular velocity (rad/s): counter-clockwise in planar cases, [x, y, z] in space.
+    #[serde(default, skip_serializing_if = "AxialVector::is_zero")]
+    pub angular_velocity: AxialVector,
+    /// Factor in time for both.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub factor: Option<TimeFunction>,
+}
+
+/// A motion a free body may not make.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Lock {
+    /// Along x.
+    X,
+    /// Along y.
+    Y,
+    /// Along z.
+    Z,
+    /// Turning, about any axis.
+    Rotation,
+}
+
+impl Geometry {
+    /// Motions of a free body, each of which may be locked.
+    #[must_use]
+    pub fn motions(self) -> &'static [Lock] {
+        match self {
+            Self::Planar => &[Lock::X, Lock::Y, Lock::Rotation],
+            Self::Axisymmetric => &[Lock::X],
+            Self::Spatial => &[Lock::X, Lock::Y, Lock::Z, Lock::Rotation],
+        }
+    }
+}
+
+/// `load_frame`: axes along which the external force and torque of a body are given.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(rename_all = "kebab-case")]
+pub enum LoadFrame {
+    /// Those of the laboratory.
+    #[default]
+    Laboratory,
+    /// Those of the body, with which the load turns.
+    Body,
+}
+
+impl LoadFrame {
+    /// Whether it is that of the laboratory.
+    #[must_use]
+    pub fn is_laboratory(&self) -> bool {
+        *self == Self::Laboratory
+    }
+}
+
+/// How a swimmer's surface moves by itself.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub enum GaitSpec {
+    /// Tangential slip of a spherical or circular squirmer.
+    Squirmer(SquirmerGait),
+    /// A wave of curvature along a fish.
+    Carangiform(CarangiformGait),
+    /// A wave of displacements along a fish.
+    Anguilliform(AnguilliformGait),
+    /// A wave along the tail of a flagellate.
+    Flagellum(FlagellumGait),
+    /// Area or volume of a round body as a function of time.
+    Pulsating(PulsatingGait),
+    /// Angles of the pivots of a chain with a skin; made from the joints of a swimmer only.
+    #[serde(skip)]
+    Joints(JointsGait),
+}
+
+/// `gait.squirmer`: u_theta = sum of B_n V_n(theta), theta from the swimming axis.
+///
+/// V_n = 2/(n(n+1)) sin(theta) P_n'(cos theta) on a sphere (V_1 = sin, V_2 = sin cos);
+/// V_n = sin(n theta) on a disc.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct SquirmerGait {
+    /// B_1, B_2, ... (m/s).
+    pub modes: Vec<f64>,
+    /// Direction of the swimming axis in the body frame, from x, counter-clockwise (rad);
+    /// 0 or pi for a body on the axis.
+    #[serde(default, deserialize_with = "crate::text::angle::deserialize")]
+    #[cfg_attr(test, schemars(with = "crate::text::angle::Angle"))]
+    pub heading: f64,
+    /// Direction of the swimming axis in the body frame, of any length (spatial); x if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub axis: Option<[f64; 3]>,
+    /// Factors of modes in time, by the number of the mode: `2` is that of B_2.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub factors: BTreeMap<String, TimeFunction>,
+    /// Angle in time by which the swimming axis is turned from `heading`, counter-clockwise (rad);
+    /// planar only. The body itself does not turn by it.
+    #[serde(
+        default,
+        skip_serializing_if = "Option::is_none",
+        deserialize_with = "crate::text::angle::deserialize"
+    )]
+    pub turn: Option<TimeFunction>,
+}
+
+impl SquirmerGait {
+    /// Factor of each mode in time, as many as there are modes.
+    #[must_use]
+    pub fn factors_of_modes(&self) -> Vec<Option<TimeFunction>> {
+        let number = |index: usize| (index + 1).to_string();
+        (0..self.modes.len()).map(|index| self.factors.get(&number(index)).cloned()).collect()
+    }
+
+    /// The swimming axis as it is written, a unit vector in the frame of the body; where the flow is revolved
+    /// about x, that or its opposite to the last bit.
+    #[must_use]
+    pub fn axis_in_body(&self, is_revolved: bool) -> Vector3<f64> {
+        if is_revolved {
+            Vector3::x() * if (self.heading.abs() - PI).abs() < 1e-3 { -1.0 } else { 1.0 }
+        } else if let Some(axis) = self.axis {
+            Vector3::from(axis).normalize()
+        } else {
+            Vector3::new(self.heading.cos(), self.heading.sin(), 0.0)
+        }
+    }
+}
+
+/// `[[body]]`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct Body {
+    /// Name, used in outputs, references and as the name of its boundary.
+    pub name: String,
+    /// Outline.
+    pub shape: ShapeSpec,
+    /// Position of the shape's origin (m), one number per dimension.
+    pub center: Vec<f64>,
+    /// Rotation of the body frame, counter-clockwise (rad; planar).
+    #[serde(default, deserialize_with = "crate::text::angle::deserialize")]
+    #[cfg_attr(test, schemars(with = "crate::text::angle::Angle"))]
+    pub angle: f64,
+    /// Rotation of the body frame in space; none if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub orientation: Option<Orientation>,
+    /// Density (kg/m3); that of the fluid if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub density: Option<f64>,
+    /// How it moves as a whole.
+    pub motion: Motion,
+    /// Motions a free body may not make.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub locked: Vec<Lock>,
+    /// Surface motion of a swimmer.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub gait: Option<GaitSpec>,
+    /// External force (N; N/m in planar cases), one number per dimension.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub force: Vec<f64>,
+    /// External torque (N m; N planar): counter-clockwise in planar cases, [x, y, z] in space.
+    #[serde(default, skip_serializing_if = "AxialVector::is_zero")]
+    pub torque: AxialVector,
+    /// Factor in time for the external force and torque.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub load_factor: Option<TimeFunction>,
+    /// Axes along which the external force and torque are given.
+    #[serde(default, skip_serializing_if = "LoadFrame::is_laboratory")]
+    pub load_frame: LoadFrame,
+    /// Spring and damper that tie it to a point.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub spring: Option<SpringSpec>,
+    /// Cell size on its surface (m); that of `[mesh]` if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub size: Option<f64>,
+}
+
+impl GaitSpec {
+    /// The time after which it begins again (s), if it does.
+    #[must_use]
+    pub fn period(&self) -> Option<f64> {
+        match self {
+            Self::Squirmer(_) => None,
+            Self::Carangiform(gait) => Some(gait.period),
+            Self::Anguilliform(gait) => Some(gait.period),
+            Self::Flagellum(gait) => Some(gait.period),
+            Self::Pulsating(gait) => gait.period,
+            Self::Joints(gait) => gait.period(),
+        }
+    }
+}

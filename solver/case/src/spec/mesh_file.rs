@@ -1,0 +1,155 @@
+//! `MeshFile`: a domain that is given as a mesh made by Gmsh, and what is known of its sides.
+
+use std::sync::Arc;
+
+use alewife_mesh::spatial::Imported;
+use alewife_mesh::{
+    BoundaryId, Bounds, Mesh, MshError, SideShape, read_planar_msh, read_spatial_msh,
+};
+use serde::{Deserialize, Serialize};
+
+use super::extent::Extent;
+
+/// `domain.mesh`: a mesh in a file.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct MeshFile {
+    /// Path of a file of Gmsh, MSH 4.1, relative to the file in which it is written.
+    pub file: String,
+    /// Factor that makes its lengths those of the case (1).
+    #[serde(default = "one")]
+    pub scale: f64,
+    /// Checksum of the file, as runs write it: a file with another one is refused.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub checksum: Option<String>,
+    /// What the file holds.
+    #[serde(skip)]
+    #[cfg_attr(test, schemars(skip))]
+    pub(crate) contents: Option<Arc<Contents>>,
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+/// Files with the same content are the same wherever they are.
+impl PartialEq for MeshFile {
+    fn eq(&self, other: &Self) -> bool {
+        (self.scale, &self.checksum) == (other.scale, &other.checksum)
+    }
+}
+
+/// What a file holds.
+#[derive(Debug)]
+pub(crate) struct Contents {
+    bytes: Vec<u8>,
+    mesh: GivenMesh,
+    sides: Vec<NamedSide>,
+    extent: Extent,
+    n_cells: usize,
+    measure: f64,
+}
+
+/// A mesh of the dimension of the case.
+#[derive(Debug)]
+enum GivenMesh {
+    Planar(Mesh<2>),
+    Spatial(Imported),
+}
+
+#[derive(Debug)]
+struct NamedSide {
+    name: String,
+    shape: SideShape,
+}
+
+impl Contents {
+    /// Reads the content of a file as a mesh of this many dimensions.
+    pub(crate) fn read(bytes: Vec<u8>, scale: f64, dimensions: usize) -> Result<Self, MshError> {
+        if dimensions == 2 {
+            let mesh = read_planar_msh(&bytes, scale)?;
+            Ok(Self::of(bytes, &mesh, GivenMesh::Planar(mesh.clone())))
+        } else {
+            let imported = Imported::new(read_spatial_msh(&bytes, scale)?);
+            Ok(Self::of(bytes, imported.mesh(), GivenMesh::Spatial(imported.clone())))
+        }
+    }
+
+    fn of<const D: usize>(bytes: Vec<u8>, from: &Mesh<D>, mesh: GivenMesh) -> Self {
+        let sides = from.boundaries.iter().enumerate().map(|(index, boundary)| NamedSide {
+            name: boundary.name.clone(),
+            shape: from.side_shape(BoundaryId::new(index)),
+        });
+        let bounds = Bounds::around(&from.nodes);
+        Self {
+            bytes,
+            sides: sides.collect(),
+            extent: Extent::between(bounds.min.as_slice(), bounds.max.as_slice()),
+            n_cells: from.n_cells(),
+            measure: from.measure(),
+            mesh,
+        }
+    }
+}
+
+impl MeshFile {
+    fn sides(&self) -> &[NamedSide] {
+        self.contents.as_ref().map_or(&[], |contents| contents.sides.as_slice())
+    }
+
+    /// Names of its sides.
+    #[must_use]
+    pub fn side_names(&self) -> Vec<&str> {
+        self.sides().iter().map(|side| side.name.as_str()).collect()
+    }
+
+    /// What a side looks like; `None` where there is none of that name.
+    #[must_use]
+    pub fn side_shape(&self, name: &str) -> Option<&SideShape> {
+        self.sides().iter().find(|side| side.name == name).map(|side| &side.shape)
+    }
+
+    /// The smallest box around it.
+    #[must_use]
+    pub fn extent(&self) -> Extent {
+        let extent = self.contents.as_ref().map(|contents| contents.extent);
+        extent.unwrap_or_else(|| Extent::between(&[], &[]))
+    }
+
+    /// Its number of cells.
+    #[must_use]
+    pub fn n_cells(&self) -> usize {
+        self.contents.as_ref().map_or(0, |contents| contents.n_cells)
+    }
+
+    /// Its area, in space its volume (m2, m3).
+    #[must_use]
+    pub fn measure(&self) -> f64 {
+        self.contents.as_ref().map_or(0.0, |contents| contents.measure)
+    }
+
+    /// Its mesh in the plane; `None` in space.
+    #[must_use]
+    pub fn planar(&self) -> Option<&Mesh<2>> {
+        match &self.contents.as_ref()?.mesh {
+            GivenMesh::Planar(mesh) => Some(mesh),
+            GivenMesh::Spatial(_) => None,
+        }
+    }
+
+    /// Its mesh in space; `None` in the plane.
+    #[must_use]
+    pub fn spatial(&self) -> Option<&Imported> {
+        match &self.contents.as_ref()?.mesh {
+            GivenMesh::Planar(_) => None,
+            GivenMesh::Spatial(imported) => Some(imported),
+        }
+    }
+
+    /// The content of the file.
+    #[must_use]
+    pub fn bytes(&self) -> Option<&[u8]> {
+        self.contents.as_ref().map(|contents| contents.bytes.as_slice())
+    }
+}

@@ -1,0 +1,17 @@
+//! What the keys of a case are: its types, and what each of them means by itself.
+
+pub(crate) mod body;
+pub(crate) mod case;
+pub(crate) mod contact;
+pub(crate) mod domain;
+pub(crate) mod extent;
+pub(crate) mod fluid;
+pub(crate) mod mean_flow;
+pub(crate) mod mesh;
+pub(crate) mod mesh_file;
+pub(crate) mod output;
+pub(crate) mod reference;
+pub(crate) mod statistic;
+pub(crate) mod time;
+mod time_function;
+pub(crate) mod units;

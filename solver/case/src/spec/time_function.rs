@@ -1,0 +1,126 @@
+//! Functions of time at a time, and their integrals: how far a motion with a factor leads.
+
+use std::f64::consts::{PI, TAU};
+
+use crate::TimeFunction;
+
+impl TimeFunction {
+    /// Its value at a time (s). Inlined, as this package is compiled to read files, not to compute.
+    #[inline]
+    #[must_use]
+    pub fn at(&self, time: f64) -> f64 {
+        match self {
+            Self::Ramp { duration } => (time / duration).clamp(0.0, 1.0),
+            Self::SmoothRamp { duration } => {
+                (1.0 - (PI * (time / duration).clamp(0.0, 1.0)).cos()) / 2.0
+            }
+            Self::Sine { mean, amplitude, period, phase } => {
+                mean + amplitude * (TAU * (time / period + phase)).sin()
+            }
+            Self::Table(knots) => table_at(knots, time),
+        }
+    }
+
+    /// Its integral from time 0 to a time that is not before (s).
+    #[must_use]
+    pub fn integral(&self, time: f64) -> f64 {
+        match self {
+            Self::Ramp { duration } if time < *duration => 0.5 * time * time / duration,
+            Self::SmoothRamp { duration } if time < *duration => {
+                0.5 * (time - duration / PI * (PI * time / duration).sin())
+            }
+            Self::Ramp { duration } | Self::SmoothRamp { duration } => time - 0.5 * duration,
+            Self::Sine { mean, amplitude, period, phase } => {
+                let cosine = |time: f64| (TAU * (time / period + phase)).cos();
+                mean * time + amplitude * period / TAU * (cosine(0.0) - cosine(time))
+            }
+            Self::Table(knots) => {
+                let (Some([first, low]), Some([last, high])) = (knots.first(), knots.last()) else {
+                    return time;
+                };
+                let pieces = knots.windows(2).map(|pair| under([pair[0], pair[1]], time));
+                let before = low * time.min(*first).max(0.0);
+                before + pieces.sum::<f64>() + high * (time - last.max(0.0)).max(0.0)
+            }
+        }
+    }
+
+    /// What its integrals from time 0 to times up to an end (s) do not exceed in size.
+    #[must_use]
+    pub fn largest_integral(&self, end: f64) -> f64 {
+        match self {
+            Self::Ramp { .. } | Self::SmoothRamp { .. } => end,
+            Self::Sine { mean, amplitude, period, .. } => {
+                mean.abs() * end + amplitude.abs() * period / PI
+            }
+            Self::Table(knots) => {
+                let values = knots.iter().map(|[_, value]| value.abs());
+                end * values.max_by(f64::total_cmp).unwrap_or(1.0)
+            }
+        }
+    }
+}
+
+/// The integral of a straight line between two knots from time 0 to a time (s), as far as it goes.
+fn under([[start, low], [end, high]]: [[f64; 2]; 2], time: f64) -> f64 {
+    let (from, to) = (start.max(0.0), end.min(time));
+    if from >= to {
+        return 0.0;
+    }
+    let at = |time: f64| low + (high - low) * (time - start) / (end - start);
+    0.5 * (at(from) + at(to)) * (to - from)
+}
+
+#[inline]
+fn table_at(knots: &[[f64; 2]], time: f64) -> f64 {
+    let after = knots.partition_point(|knot| knot[0] <= time);
+    match (after.checked_sub(1).map(|before| knots[before]), knots.get(after)) {
+        (Some([t0, v0]), Some(&[t1, v1])) => v0 + (v1 - v0) * (time - t0) / (t1 - t0),
+        (Some([_, value]), None) | (None, Some(&[_, value])) => value,
+        (None, None) => 1.0,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_function_has_its_values() {
+        let at = |function: &TimeFunction, t| function.at(t);
+        assert_eq!(at(&TimeFunction::Ramp { duration: 2.0 }, 0.5), 0.25);
+        assert_eq!(at(&TimeFunction::Ramp { duration: 2.0 }, 5.0), 1.0);
+        assert!((at(&TimeFunction::SmoothRamp { duration: 2.0 }, 1.0) - 0.5).abs() < 1e-15);
+        let sine = |phase| TimeFunction::Sine { mean: 1.0, amplitude: 2.0, period: 4.0, phase };
+        assert!((at(&sine(0.0), 1.0) - 3.0).abs() < 1e-15);
+        assert!((at(&sine(0.25), 0.0) - 3.0).abs() < 1e-15);
+        let table = TimeFunction::Table(vec![[0.0, 1.0], [1.0, 3.0]]);
+        assert_eq!(at(&table, -1.0), 1.0);
+        assert_eq!(at(&table, 0.5), 2.0);
+        assert_eq!(at(&table, 2.0), 3.0);
+    }
+
+    #[test]
+    fn integrals_are_those_of_the_values() {
+        let table = vec![[0.5, 1.0], [1.0, 3.0], [2.5, -1.0]];
+        for function in [
+            TimeFunction::Ramp { duration: 2.0 },
+            TimeFunction::SmoothRamp { duration: 1.5 },
+            TimeFunction::Sine { mean: 0.3, amplitude: 2.0, period: 1.7, phase: 0.1 },
+            TimeFunction::Table(table.clone()),
+            // Begins before the run
+            TimeFunction::Table(table.iter().map(|[time, value]| [time - 0.75, *value]).collect()),
+        ] {
+            for end in [0.2, 0.7, 1.9, 4.0] {
+                let n = 20_000_u32;
+                let at = |nth: u32| function.at(end * (f64::from(nth) + 0.5) / f64::from(n));
+                let sum = (0..n).map(at).sum::<f64>() * end / f64::from(n);
+                let error = (function.integral(end) - sum).abs();
+                // The midpoint rule with a kink: second order
+                assert!(error < 1e-6, "{function:?} until {end}: {error:.1e}");
+                let least = 0.999 * function.integral(end).abs();
+                assert!(function.largest_integral(4.0) >= least, "{function:?} until {end}");
+            }
+        }
+    }
+}
