@@ -182,11 +182,7 @@ fn steps_are_counted_on_when_a_run_resumes_with_another_length() {
 #[test]
 fn a_validation_that_is_stopped_prints_what_is_done() {
     let directory = tempfile::tempdir().unwrap();
-    let text = std::fs::read_to_string(
-        std::path::Path::new(env!("CARGO_MANIFEST_DIR"))
-            .join("../cases/lid-driven-cavity/case.toml"),
-    )
-    .unwrap();
+    let text = alewife::case::Case::text("lid-driven-cavity").unwrap();
     let long = directory.path().join("long.toml");
     std::fs::write(&long, text.replacen("[mesh]", "[mesh]\nscale = 0.25", 1)).unwrap();
     let mut run = Command::new(env!("CARGO_BIN_EXE_alewife"))

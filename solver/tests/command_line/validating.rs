@@ -77,7 +77,7 @@ fn what_is_kept_is_run_again_only_where_the_case_or_the_program_has_changed() {
         (mark(RUN).is_file(), json)
     };
     assert_eq!(is_kept(&[]), (true, json));
-    case(here, "value = 7.294", "value = 7.394");
+    case(here, " 7.294", " 7.394");
     let output = alewife(here, &["validate", "c.toml", "--out", "kept", "--threads", "1"]);
     assert_eq!(output.status.code(), Some(20));
     assert!(mark(RUN).is_file(), "only a reference has changed");
