@@ -139,5 +139,6 @@ fn steps_with_contact_are_not_repeated() {
     }
     assert!(simulation.state.contact.contacts.len() >= 3, "{:?}", simulation.state.contact);
     println!("{flows} flows in 12 steps");
-    assert!(flows <= 18, "{flows}");
+    // A pass for each step but the first few, from a jump of all forces, whose poses cannot be predicted
+    assert!(flows <= 16, "{flows}");
 }

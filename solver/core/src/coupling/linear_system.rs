@@ -175,6 +175,14 @@ impl LinearSystem {
         }
     }
 
+    /// Has solutions by iterations leave no larger sum of the sizes of the residuals of pressures (m3/s) than this, once
+    /// the solver is prepared.
+    pub(super) fn limit_mass(&mut self, limit: f64) {
+        if let Method::Iterative { solver: Some(solver), .. } = &mut self.method {
+            solver.limit_mass(limit);
+        }
+    }
+
     /// Memory of the preconditioner (bytes), zero with factors.
     pub(super) fn preconditioner_bytes(&self) -> usize {
         match &self.method {

@@ -9,6 +9,7 @@ mod joint_loads;
 mod kinematics;
 mod linear_system;
 mod loads;
+mod mass_tolerance;
 mod mean_flow;
 mod mobility;
 mod nullspace;

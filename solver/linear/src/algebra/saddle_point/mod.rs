@@ -7,11 +7,13 @@
 
 mod block_maps;
 mod commutator;
+mod conjugate_gradients;
 mod data;
 mod gradient;
 mod guess;
 mod iterative;
 mod krylov_space;
+mod mass_rows;
 mod matrix;
 mod numbering;
 mod preconditioner;
