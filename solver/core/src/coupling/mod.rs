@@ -27,6 +27,7 @@ mod solution;
 mod solver_memory;
 mod surface_load;
 mod system;
+mod uniform_flows;
 mod wall_distance;
 
 pub use boundaries::{Boundaries, BoundaryNode};

@@ -137,8 +137,13 @@ impl<'a, const D: usize> Takeover<'a, D> {
             if !std::mem::take(&mut self.is_placed) {
                 projection.move_to(self.problem, level.new);
             }
-            solution.velocity =
-                projection.project_with(level.new, &solution.velocity, &residual)?;
+            let momentum = projection.integral(level.old, &level.solution.velocity);
+            solution.velocity = projection.project_with_integral(
+                level.new,
+                &solution.velocity,
+                &residual,
+                &momentum,
+            )?;
         }
         Ok(Taken { solution, transfer })
     }
