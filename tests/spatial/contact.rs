@@ -140,5 +140,6 @@ fn steps_with_contact_are_not_repeated() {
     }
     assert!(simulation.state.contact.contacts.len() >= 3, "{:?}", simulation.state.contact);
     figure!(f64::from(u32::try_from(flows).expect("few flows")), "flows in 12 steps");
-    assert!(flows <= 18, "{flows}");
+    // One iteration for the poses a step but the first few, from a jump of all forces, whose poses cannot be predicted
+    assert!(flows <= 16, "{flows}");
 }

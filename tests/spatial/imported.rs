@@ -91,7 +91,8 @@ motion = "free"
         assert!(x[x.len() - 1] > 1.5 && x[x.len() - 2] < 1.5, "{x:?}");
         assert_eq!(run.steps + 1, x.len());
         assert!(last(run, "flow.remeshes") >= 1.0 && last(run, "flow.minimum_gap") > 0.1);
-        // Iterations leave 1e-6 of the change of a flow, of which pi / 2 enters
+        // Of pi / 2 that enters: the mesh is moved to where the flow leads after that is solved, within 1e-3 of an edge
+        // (factors and iterations alike; 1e-17 where the sphere is held)
         let defect = last(run, "flow.mass_defect");
         figure!(defect, "{domain}: mass defect");
         assert!(defect.abs() < 2e-6, "{defect}");

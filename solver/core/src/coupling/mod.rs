@@ -6,6 +6,7 @@ mod error;
 mod kinematics;
 mod linear_system;
 mod loads;
+mod mass_tolerance;
 mod mean_flow;
 mod pressure_mean;
 mod problem;
@@ -14,6 +15,7 @@ mod rigid_equations;
 mod shapes;
 mod solution;
 mod system;
+mod uniform_flows;
 
 pub use boundaries::{Boundaries, BoundaryNode};
 pub use constrain::{BodiesAt, BoundaryValues, impose_boundary_values};

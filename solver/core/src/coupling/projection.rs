@@ -12,10 +12,11 @@ use super::linear_system::{
 };
 use super::pressure_mean::PressureMean;
 use super::problem::{Problem, Side};
+use super::uniform_flows::{UniformFlows, integral, node_integrals};
 
 use crate::algebra::{AffineConstraints, ConstraintBuilder, LinearError};
 use crate::flow::{Assembly, Convection, Fields, FlowTerms, assemble, residual};
-use crate::space::{DofLayout, straight_cell};
+use crate::space::{DofLayout, Metric, straight_cell};
 use crate::timing::Timing;
 
 /// Minimises ||v - u|| in L2 over the v with div v = 0 (tested with all pressures) that agree with
@@ -31,7 +32,12 @@ pub struct DivergenceFreeProjection<const D: usize> {
     linear: Box<dyn SystemSolver>,
     /// Distributes a net flux where the flow is enclosed.
     enclosed: Option<PressureMean>,
+    /// Coordinates along which nothing but a period may bound the fluid: its momentum is no matter of boundaries.
+    open_axes: usize,
 }
+
+/// What the flows that change the momentum leave of their equations: they are small parts of the flow.
+const ACCURACY: f64 = 1e-6;
 
 /// Viscosity (Pa s) over density, rate and the square of an edge length that preconditions a fluid without any:
 /// its part in the pressures is lost beside that of the mass.
@@ -59,7 +65,14 @@ impl<const D: usize> DivergenceFreeProjection<D> {
         let assembly = Assembly::new(mesh, layout, &constraints, problem.metric, &[], None);
         let saddle_point = saddle_point(&layout, &constraints, problem.modes());
         let linear = system_solver(&assembly, &constraints, saddle_point, SolverChoice::Automatic);
-        let mut projection = Self { layout, constraints, assembly, linear, enclosed: None };
+        let has_periods = problem.sides.iter().any(|side| matches!(side, Some(Side::Periodic)));
+        let open_axes = match (problem.is_enclosed() && has_periods, problem.metric) {
+            (false, _) => 0,
+            (true, Metric::Revolved) => 1,
+            (true, Metric::Cartesian) => D,
+        };
+        let mut projection =
+            Self { layout, constraints, assembly, linear, enclosed: None, open_axes };
         projection.move_to(problem, mesh);
         projection
     }
@@ -143,11 +156,55 @@ impl<const D: usize> DivergenceFreeProjection<D> {
             return Ok(velocity.to_vec());
         }
         self.linear.solve(&mut free, None, &mut Timing::default())?;
-        let correction = self.constraints.expand(&free);
-        let corrected = self.layout.nodes().zip(velocity).map(|(node, velocity)| {
-            velocity + Point::<D>::from_fn(|axis, _| correction[self.layout.velocity(node, axis)])
-        });
-        Ok(corrected.collect())
+        let correction = self.at_nodes(&free);
+        Ok(velocity.iter().zip(&correction).map(|(velocity, part)| velocity + part).collect())
+    }
+
+    /// The same with an integral over the fluid (m4/s; m3/s planar), as far as boundaries leave that open: along periods
+    /// neither they nor the divergence determine the momentum, and boundary values that are held change it.
+    ///
+    /// # Errors
+    /// As [`Self::project`].
+    pub fn project_with_integral(
+        &mut self,
+        mesh: &Mesh<D>,
+        velocity: &[Point<D>],
+        residual: &[Point<D>],
+        wanted: &Point<D>,
+    ) -> Result<Vec<Point<D>>, LinearError> {
+        let mut projected = self.project_with(mesh, velocity, residual)?;
+        if self.open_axes > 0 {
+            self.uniform_flows(mesh)?.give(wanted, &mut projected);
+        }
+        Ok(projected)
+    }
+
+    /// The integral of a velocity (m/s at the nodes) over the fluid (m4/s; m3/s planar).
+    #[must_use]
+    pub fn integral(&self, mesh: &Mesh<D>, velocity: &[Point<D>]) -> Point<D> {
+        integral(&node_integrals(mesh, self.assembly.tables()), velocity)
+    }
+
+    fn uniform_flows(&mut self, mesh: &Mesh<D>) -> Result<UniformFlows<D>, LinearError> {
+        let integrals = node_integrals(mesh, self.assembly.tables());
+        let mut flows = Vec::with_capacity(self.open_axes);
+        for axis in 0..self.open_axes {
+            let mut raw = vec![0.0; self.layout.n_raw()];
+            for (node, integral) in self.layout.nodes().zip(&integrals) {
+                raw[self.layout.velocity(node, axis)] = *integral;
+            }
+            let mut free = self.constraints.restrict(&raw);
+            self.linear.solve(&mut free, Some(ACCURACY), &mut Timing::default())?;
+            flows.push(self.at_nodes(&free));
+        }
+        Ok(UniformFlows::new(integrals, flows))
+    }
+
+    /// The velocities at the nodes that free unknowns give.
+    fn at_nodes(&self, free: &[f64]) -> Vec<Point<D>> {
+        let raw = self.constraints.expand(free);
+        let at = |node| Point::<D>::from_fn(|axis, _| raw[self.layout.velocity(node, axis)]);
+        self.layout.nodes().map(at).collect()
     }
 }
 

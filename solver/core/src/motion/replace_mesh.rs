@@ -143,8 +143,13 @@ impl<'a, const D: usize> FieldTransfer<'a, D> {
             if !std::mem::take(&mut self.is_placed) {
                 projection.move_to(self.problem, level.new);
             }
-            solution.velocity =
-                projection.project_with(level.new, &solution.velocity, &residual)?;
+            let momentum = projection.integral(level.old, &level.solution.velocity);
+            solution.velocity = projection.project_with_integral(
+                level.new,
+                &solution.velocity,
+                &residual,
+                &momentum,
+            )?;
         }
         Ok(TransferredLevel { solution, transfer })
     }

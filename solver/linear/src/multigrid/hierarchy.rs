@@ -165,6 +165,11 @@ impl<const B: usize> Multigrid<B> {
         self.matrix.n_bytes() + self.hierarchy.n_bytes()
     }
 
+    /// Overwrites y with A x.
+    pub fn multiply(&self, x: &[[f32; B]], y: &mut [[f32; B]]) {
+        self.matrix.multiply(x, y);
+    }
+
     /// Overwrites x with an approximation of A^-1 b by one V-cycle.
     pub fn cycle(&mut self, b: &[[f32; B]], x: &mut [[f32; B]]) {
         self.hierarchy.cycle(&self.matrix, b, x);

@@ -162,6 +162,12 @@ impl SystemSolver for IterativeSystem {
         true
     }
 
+    fn limit_mass(&mut self, limit: f64) {
+        if let Some(solver) = &mut self.solver {
+            solver.limit_mass(limit);
+        }
+    }
+
     fn preconditioner_bytes(&self) -> usize {
         self.solver.as_ref().map_or(0, |solver| solver.n_bytes())
     }

@@ -39,6 +39,10 @@ pub(in super::super) trait SystemSolver: Send + Sync {
     ) {
     }
 
+    /// Has solutions by iterations leave no larger sum of the sizes of the residuals of pressures (m3/s) than this, once
+    /// the solver is prepared.
+    fn limit_mass(&mut self, _limit: f64) {}
+
     /// Takes note that the mesh has moved.
     fn forget_weights(&mut self) {}
 

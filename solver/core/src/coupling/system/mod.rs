@@ -24,6 +24,7 @@ use super::linear_system::{
     Coefficients, Discretised, SolverChoice, SystemSolver, saddle_point, system_solver,
 };
 use super::loads::{ResidualOnMesh, SurfaceLoads, SurfaceStress, surface_loads};
+use super::mass_tolerance::mass_tolerance;
 use super::mean_flow::{CellIntegrals, MeanFlowResponse};
 use super::pressure_mean::PressureMean;
 use super::problem::{MeanFlowAt, Problem};
@@ -320,6 +321,9 @@ impl<const D: usize> FluidSystem<D> {
         };
         self.linear.prepare(coefficients, &|| discretised.weights(coefficients), timing);
         self.linear.recall_with_weights()?;
+        if self.linear.is_iterative() {
+            self.linear.limit_mass(mass_tolerance(at.problem, at.mesh, &solution.velocity));
+        }
         let mut free = at.constraints.pick(&self.pinned(solution).to_raw(self.modes));
         let mut step: Vec<f64> = reduced.iter().map(|value| -value).collect();
         let solved = self.linear.solve_correction(&free, &mut step, reduction, timing);

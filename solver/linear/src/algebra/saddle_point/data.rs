@@ -66,6 +66,19 @@ pub struct Weights {
     pub has_convection: bool,
 }
 
+impl Weights {
+    /// # Panics
+    /// When they do not fit the unknowns of a system.
+    pub(super) fn check(&self, system: &SaddlePoint) {
+        let n = system.parts.len();
+        let n_pressures = system.n_pressures() + usize::from(system.has_held_pressure);
+        assert_eq!(self.interpolation.n(), n, "a sum for each unknown");
+        assert_eq!(self.pressure_mass.n(), n_pressures, "a row for each pressure");
+        assert_eq!(self.lumped_mass.len(), n, "a mass for each unknown");
+        assert_eq!(self.wall_drag.len(), n, "a drag for each unknown");
+    }
+}
+
 impl SaddlePoint {
     /// What each unknown is, for a direct solver.
     #[must_use]

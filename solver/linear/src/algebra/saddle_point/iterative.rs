@@ -7,6 +7,7 @@ use super::super::solver::{Accuracy, LinearError, LinearSolver};
 use super::data::{SaddlePoint, Weights};
 use super::guess::EarlierSolutions;
 use super::krylov_space::{Correction, KrylovSpace};
+use super::mass_rows::MassRows;
 use super::matrix::SaddleMatrix;
 use super::preconditioner::Preconditioner;
 use super::scaled::{Iterate, Scaled};
@@ -36,9 +37,9 @@ impl Default for IterativeSettings {
 
 /// What iterations in single precision reduce a residual to at most; the next one is computed in double
 /// precision.
-const CYCLE: f64 = 1e-3;
+pub(super) const CYCLE: f64 = 1e-3;
 /// Part of the tolerance that they are to reach, since their own residual is not exact.
-const AIM: f64 = 0.8;
+pub(super) const AIM: f64 = 0.8;
 
 /// Iterations after which the residual is looked at.
 const LONG: usize = 60;
@@ -57,6 +58,8 @@ pub struct IterativeSolver {
     earlier: EarlierSolutions,
     marked: Marked,
     iterations: usize,
+    /// Largest sum of the sizes of the residuals of pressures.
+    mass_limit: f64,
     /// In place of everything else, once iterations have stalled.
     direct: Option<Box<Direct>>,
 }
@@ -100,9 +103,10 @@ impl IterativeSolver {
             earlier: EarlierSolutions::default(),
             marked: Marked::default(),
             iterations: 0,
+            mass_limit: f64::INFINITY,
             direct: None,
         };
-        solver.check(&solver.weights);
+        solver.weights.check(&solver.system);
         solver
     }
 
@@ -111,18 +115,15 @@ impl IterativeSolver {
     /// # Panics
     /// When they do not fit the unknowns.
     pub fn set_weights(&mut self, weights: Weights) {
-        self.check(&weights);
+        weights.check(&self.system);
         self.weights = weights;
         self.set_up = None;
     }
 
-    fn check(&self, weights: &Weights) {
-        let n = self.system.parts.len();
-        let n_pressures = self.system.n_pressures() + usize::from(self.system.has_held_pressure);
-        assert_eq!(weights.interpolation.n(), n, "a sum for each unknown");
-        assert_eq!(weights.pressure_mass.n(), n_pressures, "a row for each pressure");
-        assert_eq!(weights.lumped_mass.len(), n, "a mass for each unknown");
-        assert_eq!(weights.wall_drag.len(), n, "a drag for each unknown");
+    /// The sum of the sizes of the residuals of pressures that solutions leave from now on at most, whatever part of
+    /// the right-hand side that is; infinite at first.
+    pub fn limit_mass(&mut self, limit: f64) {
+        self.mass_limit = limit;
     }
 
     /// Iterations of the last solution.
@@ -220,15 +221,23 @@ impl IterativeSolver {
             }
         }
         let (mut iterations, start) = (0, reached);
+        let limit = if uses_earlier { self.mass_limit } else { f64::INFINITY };
+        let mut mass = MassRows::new(limit, self.system.has_held_pressure, tolerance);
         loop {
             if !reached.is_finite() {
                 return Err(LinearError::NotFinite);
             }
-            if reached <= tolerance {
-                break;
+            if reached <= mass.goal {
+                if mass.is_met(&mut system, rhs, &mut iterate, &mut reached) {
+                    break;
+                }
+                continue;
             }
             let left = self.settings.max_iterations.saturating_sub(iterations);
             let is_hopeless = iterations >= LONG && reached > HOPELESS * start;
+            if reached <= tolerance && (left == 0 || is_hopeless) {
+                break;
+            }
             if left == 0 || is_hopeless {
                 let stalled_at = Some(reached / initial);
                 return Ok(Iterated { iterate, iterations, stalled_at });
@@ -237,7 +246,7 @@ impl IterativeSolver {
                 *space = KrylovSpace::default();
             }
             let most = left.min(LONG).min(self.settings.restart - space.n_directions());
-            let wanted = (AIM * tolerance / reached).max(CYCLE);
+            let wanted = (AIM * mass.goal / reached).max(CYCLE);
             let b = system.single(&iterate.residual, reached);
             let Correction { x, iterations: more } =
                 space.correction(&mut system, b, |iterations, residual| {

@@ -5,10 +5,12 @@
 //! Laplacian (@cahouet1988, @elman2014). What is in [`SaddlePoint`] and [`Weights`] is all that is known of
 //! flow and mesh here.
 
+mod conjugate_gradients;
 mod data;
 mod guess;
 mod iterative;
 mod krylov_space;
+mod mass_rows;
 mod matrix;
 mod preconditioner;
 mod scaled;

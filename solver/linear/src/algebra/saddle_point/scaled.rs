@@ -37,6 +37,31 @@ impl Scaled<'_> {
         norm(&scaled.collect::<Vec<f64>>())
     }
 
+    /// Sum of the sizes of the residuals of pressures, with that of the one that is held: what all parts of the fluid
+    /// gain or lose.
+    pub fn mass(&self, residual: &[f64], has_held_pressure: bool) -> f64 {
+        let pressures = || self.matrix.numbering().pressures.iter().map(|&p| residual[p as usize]);
+        let held = if has_held_pressure { pressures().sum::<f64>().abs() } else { 0.0 };
+        pressures().map(f64::abs).sum::<f64>() + held
+    }
+
+    /// The iterate with what is left of the part `reduction` of the residuals of pressures; none where the
+    /// preconditioner has no means for it.
+    pub fn without_divergence(
+        &mut self,
+        from: &Iterate,
+        rhs: &[f64],
+        size: f64,
+        reduction: f64,
+    ) -> Option<Iterate> {
+        let residual = self.single(&from.residual, size);
+        let mut correction = residual.zeros_alike();
+        let matrix = self.matrix;
+        self.preconditioner
+            .divergence_correction(matrix, &residual, reduction, &mut correction)
+            .then(|| self.corrected(from, rhs, size, &correction))
+    }
+
     /// A residual of this size, as one of norm one in single precision.
     pub fn single(&self, residual: &[f64], size: f64) -> Blocks {
         let scales = self.preconditioner.scales();

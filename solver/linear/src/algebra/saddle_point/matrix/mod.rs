@@ -15,7 +15,7 @@ use rayon::prelude::*;
 use self::block_maps::{BlockMaps, BlockPattern, CellBlocks, RowsOfCells};
 pub(super) use self::gradient::Gradient;
 pub(super) use self::numbering::Numbering;
-pub(super) use self::vector::{B, Blocks, Place};
+pub(super) use self::vector::{B, Blocks, Place, dot};
 use super::super::cell_unknowns::CellUnknowns;
 use super::data::SaddlePoint;
 use crate::multigrid::{Block, BlockMatrix};

@@ -99,7 +99,7 @@ impl Blocks {
 }
 
 /// Scalar product, its chunks in double precision.
-fn dot(a: &[f32], b: &[f32]) -> f64 {
+pub(in super::super) fn dot(a: &[f32], b: &[f32]) -> f64 {
     let chunk = |(a, b): (&[f32], &[f32])| {
         let mut sums = [0.0f32; LANES];
         let (a_lanes, b_lanes) = (a.chunks_exact(LANES), b.chunks_exact(LANES));

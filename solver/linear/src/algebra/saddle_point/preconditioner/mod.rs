@@ -37,6 +37,8 @@ pub(super) struct Preconditioner {
     divergence: Gradient,
     schur: SchurComplement,
     scales: Scales,
+    /// D of the lumped Schur complement.
+    damping: Vec<[f32; B]>,
     scaled: Blocks,
 }
 
@@ -78,11 +80,12 @@ impl Preconditioner {
             }
         };
         let held = system.has_held_pressure;
+        let damping = damping(weights, numbering);
         let schur = || {
             if is_commutator {
                 SchurComplement::convective(block, gradient, numbering, held)
             } else {
-                SchurComplement::new(weights, gradient, &damping(weights, numbering), held)
+                SchurComplement::new(weights, gradient, &damping, held)
             }
         };
         let rest = || (schur(), gradient.transposed(), Scales::new(matrix));
@@ -93,6 +96,7 @@ impl Preconditioner {
             divergence,
             schur,
             scales,
+            damping,
             scaled: Blocks::zeros(numbering.blocks.len(), numbering.pressures.len()),
         }
     }
@@ -143,6 +147,38 @@ impl Preconditioner {
             }
         }
         scales.divide(z);
+    }
+}
+
+impl Preconditioner {
+    /// Overwrites z with a correction S^-1 (D^-1 G q, -q) that leaves the part `reduction` of the rows of pressures in
+    /// a scaled residual r: the equations of a fluid in which D stands for F (@chorin1968). Whether there is such a D.
+    pub fn divergence_correction(
+        &mut self,
+        matrix: &SaddleMatrix,
+        r: &Blocks,
+        reduction: f64,
+        z: &mut Blocks,
+    ) -> bool {
+        let Self { schur, scales, damping, scaled, .. } = self;
+        scaled.clone_from(r);
+        scales.divide(scaled);
+        z.pressure.copy_from_slice(&scaled.pressure);
+        if !schur.solve_lumped(&mut z.pressure, reduction) {
+            return false;
+        }
+        z.velocity.fill([0.0; B]);
+        matrix.gradient().multiply_add(&z.pressure, &mut z.velocity);
+        z.pressure.iter_mut().for_each(|value| *value = -*value);
+        // Bodies have no D
+        z.velocity[damping.len()..].fill([0.0; B]);
+        for (velocity, damping) in z.velocity.iter_mut().zip(damping.iter()) {
+            for (value, damping) in velocity.iter_mut().zip(damping) {
+                *value = if *damping > 0.0 { *value / damping } else { 0.0 };
+            }
+        }
+        scales.divide(z);
+        true
     }
 }
 

@@ -5,6 +5,7 @@
 //! lumped D. The sum of both inverses serves all between (@cahouet1988). Where convection is more than
 //! diffusion in steady flow, the least-squares commutator.
 
+use super::super::conjugate_gradients::conjugate_gradients;
 use super::super::data::Weights;
 use super::super::matrix::{B, Gradient, Numbering};
 use super::commutator::{Commutator, laplacian};
@@ -77,19 +78,40 @@ impl SchurComplement {
     /// Where one more pressure is held, its equation is minus the sum of the others, and the pressures
     /// found for all are shifted to let it be zero.
     pub fn solve(&mut self, block: &BlockMatrix<B>, p: &mut [f32]) {
-        for (rhs, value) in self.rhs.iter_mut().zip(p.iter()) {
-            rhs[0] = *value;
-        }
-        if self.has_held_pressure {
-            let sum: f64 = p.iter().map(|value| f64::from(*value)).sum();
-            self.rhs[p.len()] = [single(-sum)];
-        }
+        self.take(p);
         match &mut self.inverse {
             Inverse::Masses(masses) => masses.solve(&self.rhs, &mut self.solution),
             Inverse::Commutator(commutator) => {
                 commutator.solve(block, &self.rhs, &mut self.solution);
             }
         }
+        self.give(p);
+    }
+
+    /// Overwrites pressures p with q where G^T D^-1 G q = p to a part `reduction` of p, with the lumped D. Whether
+    /// there is such a matrix.
+    pub fn solve_lumped(&mut self, p: &mut [f32], reduction: f64) -> bool {
+        self.take(p);
+        let Inverse::Masses(masses) = &mut self.inverse else { return false };
+        let Some(laplacian) = &mut masses.laplacian else { return false };
+        conjugate_gradients(laplacian, &self.rhs, &mut self.solution, reduction);
+        self.give(p);
+        true
+    }
+
+    /// Right-hand sides from those of pressures: that of the one that is held is minus their sum.
+    fn take(&mut self, p: &[f32]) {
+        for (rhs, value) in self.rhs.iter_mut().zip(p) {
+            rhs[0] = *value;
+        }
+        if self.has_held_pressure {
+            let sum: f64 = p.iter().map(|value| f64::from(*value)).sum();
+            self.rhs[p.len()] = [single(-sum)];
+        }
+    }
+
+    /// Overwrites pressures with the solution, in which the one that is held is zero.
+    fn give(&self, p: &mut [f32]) {
         let level = if self.has_held_pressure { self.solution[p.len()][0] } else { 0.0 };
         for (value, solution) in p.iter_mut().zip(&self.solution) {
             *value = solution[0] - level;
