@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use alewife_mesh::Point;
 use nalgebra::{Isometry3, UnitQuaternion};
 
-use super::balls::{Ball, BallTree};
+use super::balls::{Ball, BallGrid};
 use super::part_pose::PartPose;
 use super::parts::{Part, poses};
 use super::random::SplitMix64;
@@ -143,7 +143,7 @@ impl RandomCopies<'_> {
             corners.each_ref().map(|corner| coordinates(corner).fixed_rows::<D>(0).into_owned())
         });
         let [min, max] = within.unwrap_or(domain.corners);
-        let mut taken = Taken::new(domain);
+        let mut taken = Taken::new(domain, [min, max], present.len() + count);
         for body in present.iter().filter(|body| body.center.len() == D) {
             let center = Point::<D>::from_fn(|axis, _| body.center[axis]);
             taken.add(Ball { center, radius: body.shape.reach() });
@@ -203,16 +203,16 @@ fn reach(parts: &[Part], geometry: Geometry) -> f64 {
 struct Taken<const D: usize> {
     domain: Room<D>,
     balls: Vec<Ball<D>>,
-    tree: BallTree<D>,
+    grid: BallGrid<D>,
 }
 
 impl<const D: usize> Taken<D> {
-    fn new(domain: Room<D>) -> Self {
-        Self { domain, balls: Vec::new(), tree: BallTree::empty() }
+    fn new(domain: Room<D>, [min, max]: [Point<D>; 2], expected: usize) -> Self {
+        Self { domain, balls: Vec::new(), grid: BallGrid::new(min, max, expected) }
     }
 
     fn add(&mut self, ball: Ball<D>) {
-        self.tree.insert(self.balls.len(), &ball);
+        self.grid.insert(self.balls.len(), &ball);
         self.balls.push(ball);
     }
 
@@ -227,6 +227,6 @@ impl<const D: usize> Taken<D> {
         };
         let image = |shift| Ball { center: center - shift, radius: reach + gap };
         (self.domain.clearance)(&center) >= reach + gap
-            && images.iter().all(|shift| self.tree.near(&image(shift)).all(is_apart))
+            && images.iter().all(|shift| self.grid.near(&image(shift)).all(is_apart))
     }
 }

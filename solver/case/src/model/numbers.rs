@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use alewife_mesh::{Point, whole};
 
-use super::balls::{Ball, BallTree};
+use super::balls::{Ball, BallGrid};
 use crate::text::diagnostic::printable;
 use crate::{
     Body, Case, ContactSpec, FlowModel, GaitSpec, Geometry, Model, ShapeSpec, SquirmerGait,
@@ -198,9 +198,12 @@ fn gaps<const D: usize>(model: &Model) -> Vec<DerivedNumber> {
             circles.push((index, Ball { center, radius: body.shape.reach() }));
         }
     }
-    let mut tree = BallTree::<D>::empty();
+    let extent = model.case.extent();
+    let [min, max] =
+        [extent.min, extent.max].map(|corner| Point::<D>::from_fn(|axis, _| corner[axis]));
+    let mut grid = BallGrid::<D>::new(min, max, circles.len());
     for (nth, (_, circle)) in circles.iter().enumerate() {
-        tree.insert(nth, circle);
+        grid.insert(nth, circle);
     }
     // All gaps up to a ratio are found by circles that are larger by it
     let mut found = Vec::new();
@@ -210,7 +213,7 @@ fn gaps<const D: usize>(model: &Model) -> Vec<DerivedNumber> {
         found.clear();
         for (nth, (index, circle)) in circles.iter().enumerate() {
             let larger = Ball { radius: (1.0 + ratio) * circle.radius, ..*circle };
-            let mut near: Vec<usize> = tree.near(&larger).filter(|other| *other > nth).collect();
+            let mut near: Vec<usize> = grid.near(&larger).filter(|other| *other > nth).collect();
             near.sort_unstable();
             near.dedup();
             for (other_index, other) in near.into_iter().map(|other| &circles[other]) {

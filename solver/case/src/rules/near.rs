@@ -3,7 +3,7 @@
 use alewife_mesh::{Domain, Outline, Wall, closest, closest_to_wall};
 
 use super::Findings;
-use crate::model::balls::{Ball, BallTree};
+use crate::model::balls::{Ball, BallGrid};
 use crate::{Body, BoundaryCondition, Lock, Model, Motion, TimeSettings};
 
 /// Gap over the thickness of the thinner body below which a step or two may close it.
@@ -84,7 +84,8 @@ impl<'a> Surroundings<'a> {
 
     fn all_near(&self) -> Vec<Near> {
         let mut found = Vec::new();
-        let mut placed = BallTree::<2>::empty();
+        let [min, max] = self.model.case.extent().in_plane();
+        let mut placed = BallGrid::<2>::new(min.into(), max.into(), self.outlines.len());
         let roots: Vec<usize> =
             (0..self.outlines.len()).map(|body| root(self.model, body)).collect();
         let yields = |body: usize| yields(&self.model.bodies[roots[body]]);

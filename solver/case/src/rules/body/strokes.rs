@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use alewife_mesh::{Domain, MeshError, Outline, PlacedShape, Point, check_placement, closest};
 
-use crate::model::balls::{Ball, BallTree};
+use crate::model::balls::{Ball, BallGrid};
 use crate::rules::Findings;
 use crate::spec::body::joint::{PlanarPose, child_pose};
 use crate::{Geometry, Joint, Model, Stroke, TimeSettings};
@@ -133,12 +133,12 @@ impl<'a> Tree<'a> {
             .iter()
             .flatten()
             .fold(0.0f64, |far, outline| far.max(outline.center().norm() + outline.reach()));
-        let mut tested = BallTree::empty();
+        let mut grid = BallGrid::new([-far; 2].into(), [far; 2].into(), bodies.len());
         for (index, outline) in outlines.iter().enumerate() {
             let Some(outline) = outline else { continue };
             let radius = (1.0 + APART) * outline.reach();
             let circle = Ball { center: outline.center(), radius };
-            let mut near: Vec<usize> = tested.near(&circle).collect();
+            let mut near: Vec<usize> = grid.near(&circle).collect();
             near.sort_unstable();
             near.dedup();
             for other in near {
@@ -152,7 +152,7 @@ impl<'a> Tree<'a> {
                     }
                 }
             }
-            tested.insert(index, &circle);
+            grid.insert(index, &circle);
         }
         None
     }

@@ -4,7 +4,7 @@ use alewife_mesh::{Domain, MeshError, Outline, PlacedShape, Point, check_wrapped
 
 use super::arrangement::{Arrangement, Misplaced, ROUNDING};
 use crate::Model;
-use crate::model::balls::{Ball, BallTree};
+use crate::model::balls::{Ball, BallGrid};
 
 /// The bodies of a model in their places in a domain.
 pub fn placed_bodies(model: &Model, domain: &Domain) -> Vec<PlacedShape> {
@@ -31,7 +31,7 @@ pub struct Layout<'a> {
     bodies: &'a [PlacedShape],
     /// `None` of a shape that has none.
     outlines: Vec<Option<Outline>>,
-    tree: BallTree<2>,
+    grid: BallGrid<2>,
 }
 
 impl<'a> Layout<'a> {
@@ -39,13 +39,13 @@ impl<'a> Layout<'a> {
     pub fn new(domain: &'a Domain, bodies: &'a [PlacedShape], extent: [[f64; 2]; 2]) -> Self {
         let outlines: Vec<Option<Outline>> =
             bodies.iter().map(|body| Outline::new(body).ok()).collect();
-        let mut tree = BallTree::empty();
+        let mut grid = BallGrid::new(extent[0].into(), extent[1].into(), bodies.len());
         for (body, outline) in outlines.iter().enumerate() {
             if let Some(outline) = outline {
-                tree.insert(body, &circle(outline));
+                grid.insert(body, &circle(outline));
             }
         }
-        Self { domain, extent, images: domain.images(), bodies, outlines, tree }
+        Self { domain, extent, images: domain.images(), bodies, outlines, grid }
     }
 
     /// Bodies with circles around them that may meet that of a body or of an image of it, itself
@@ -65,7 +65,7 @@ impl<'a> Layout<'a> {
                     (image.center - other.center).norm() <= image.radius + other.radius
                 })
             };
-            found.extend(self.tree.near(&image).filter(does_meet));
+            found.extend(self.grid.near(&image).filter(does_meet));
         }
         found.sort_unstable();
         found.dedup();

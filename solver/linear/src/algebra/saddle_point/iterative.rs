@@ -7,7 +7,7 @@ use super::super::solver::{Accuracy, LinearError, LinearSolver};
 use super::data::{SaddlePoint, Weights};
 use super::guess::EarlierSolutions;
 use super::krylov_space::{Correction, KrylovSpace};
-use super::mass_rows::MassRows;
+use super::mass_rows::{AIM, CYCLE, MassRows};
 use super::matrix::SaddleMatrix;
 use super::preconditioner::Preconditioner;
 use super::scaled::{Iterate, Scaled};
@@ -34,12 +34,6 @@ impl Default for IterativeSettings {
         Self { tolerance: 1e-8, restart: 240, max_iterations: 480, max_factor_entries: 400_000_000 }
     }
 }
-
-/// What iterations in single precision reduce a residual to at most; the next one is computed in double
-/// precision.
-pub(super) const CYCLE: f64 = 1e-3;
-/// Part of the tolerance that they are to reach, since their own residual is not exact.
-pub(super) const AIM: f64 = 0.8;
 
 /// Iterations after which the residual is looked at.
 const LONG: usize = 60;

@@ -1,7 +1,12 @@
 //! `MassRows`: what iterations may leave of the rows of pressures, beside what they may leave of all rows.
 
-use super::iterative::{AIM, CYCLE};
 use super::scaled::{Iterate, Scaled};
+
+/// What iterations in single precision reduce a residual to at most; the next one is computed in double
+/// precision.
+pub(super) const CYCLE: f64 = 1e-3;
+/// Part of the tolerance that they are to reach, since their own residual is not exact.
+pub(super) const AIM: f64 = 0.8;
 
 /// Most times that iterations go on for these rows, and what they are to leave of the residual each time.
 const ROUNDS: usize = 4;
