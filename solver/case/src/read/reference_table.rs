@@ -54,7 +54,9 @@ pub fn resolve(root: &mut TomlNode) -> Result<(), CaseError> {
                 None => Some(&mut *root),
                 Some(name) => variant_of(root, name),
             };
-            owner.and_then(TomlNode::table_mut).map(|entries| add(entries, reference));
+            if let Some(entries) = owner.and_then(TomlNode::table_mut) {
+                add(entries, reference);
+            }
         }
     }
     name_sources(root, &node, &asked.sources)

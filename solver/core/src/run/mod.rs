@@ -9,6 +9,7 @@ mod measure;
 mod planar;
 mod prepare;
 mod resume;
+#[expect(clippy::module_inception, reason = "the run itself is what the room is named after")]
 mod run;
 mod series;
 mod simulation;

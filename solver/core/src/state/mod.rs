@@ -6,6 +6,7 @@ mod energy;
 mod momentum;
 mod propulsion_history;
 mod saved_mesh;
+#[expect(clippy::module_inception, reason = "the state itself is what the room is named after")]
 mod state;
 #[cfg(test)]
 mod tests;

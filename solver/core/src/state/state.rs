@@ -243,8 +243,18 @@ impl<const D: usize> State<D> {
         own.remeshes += 1;
     }
 
-    /// Gives a state that was read from a file the boundaries of its mesh, and the positions of its nodes: the file has
-    /// neither.
+    /// The same without what is known from elsewhere or follows from the rest, as a file has it: boundaries and nodes of
+    /// the mesh, single contacts.
+    #[must_use]
+    pub fn without_derived(&self) -> Self {
+        let mut state = self.clone();
+        state.0.mesh.nodes = Vec::new();
+        state.0.mesh.topology_mut().boundaries = Vec::new();
+        state.0.contact.contacts = Vec::new();
+        state
+    }
+
+    /// Gives a state that was read from a file the boundaries of its mesh, and the positions of its nodes.
     pub fn complete_mesh(&mut self, boundaries: &[Boundary]) {
         let own = &mut self.0;
         let origin = on_mesh::<D>(&own.origin);

@@ -3,7 +3,7 @@
 mod broad_phase;
 mod curvature;
 mod encounter;
-#[expect(clippy::module_inception, reason = "the file has the trait the room is named after")]
+#[expect(clippy::module_inception, reason = "the trait is what the folder is named after")]
 mod gaps;
 mod pair;
 mod pair_vector;

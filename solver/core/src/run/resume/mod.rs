@@ -79,7 +79,7 @@ impl<const D: usize> SavedState<D> {
         Ok(Self {
             version: VERSION,
             case: case.problem_keys()?,
-            state: simulation.state.clone(),
+            state: simulation.state.without_derived(),
             control: simulation.control.clone(),
             reference: simulation.moving_mesh.as_ref().map(SavedReference::of),
             solver: simulation.work.system.solver_memory(),
