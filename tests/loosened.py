@@ -15,13 +15,14 @@ Lines that change otherwise, too, are left to whoever reads the commit.
 
 from __future__ import annotations
 
+import csv
 import re
 import subprocess
 import sys
 from collections import defaultdict
 from collections.abc import Iterator
 
-FILES = ["*.rs", "cases/*.toml"]
+FILES = ["*.rs", "cases/*.toml", "cases/*.csv"]
 TESTS = re.compile(r"(^|/)tests?(\.rs$|/)")
 NUMBER = re.compile(r"(?<![\w.])-?\d[\d_]*(?:\.\d+)?(?:e-?\d+)?(?:_?[fu]\d+)?(?![\w])")
 LIMIT = re.compile(r"(<|>)=?\s*\(?$")
@@ -40,8 +41,17 @@ def is_commit(name: str) -> bool:
     return subprocess.run(found, check=False, capture_output=True).returncode == 0
 
 
-def limits(file: str, line: str) -> Iterator[tuple[str, float]]:
-    """The numbers of a line that are limits, the sign of each such that more is looser."""
+def limits(file: str, line: str, table: list[str]) -> Iterator[tuple[str, float]]:
+    """The numbers of a line that are limits, the sign of each such that more is looser.
+
+    `table` has the names of the columns where the file is one.
+    """
+    if file.endswith(".csv"):
+        cells = next(csv.reader([line], skipinitialspace=True), [])
+        for name, cell in zip(table, cells, strict=False):
+            if name.strip() in ("absolute", "relative") and NUMBER.fullmatch(cell.strip()):
+                yield cell.strip(), float(cell)
+        return
     for number in NUMBER.finditer(line):
         before = line[: number.start()]
         value = float(re.sub(r"_?[fu]\d+$", "", number[0]).replace("_", ""))
@@ -52,16 +62,29 @@ def limits(file: str, line: str) -> Iterator[tuple[str, float]]:
             yield number[0], value
 
 
+def columns(commit: str, file: str) -> list[str]:
+    """Names of the columns of a table, as a commit has it or had it before."""
+    for version in (commit, f"{commit}~1"):
+        if is_commit(version):
+            shown = ["git", "show", f"{version}:{file}"]
+            text = subprocess.run(shown, check=False, capture_output=True, text=True).stdout
+            if text:
+                return next(csv.reader([text.splitlines()[0]], skipinitialspace=True), [])
+    return []
+
+
 def changes(commit: str) -> dict[str, list[tuple[str, list[tuple[str, float]]]]]:
     """Limits of the lines a commit takes and adds, by the lines with their limits left out."""
     patch = git("show", "--format=", "--unified=0", "--no-renames", commit, "--", *FILES)
     found = defaultdict(list)
     file = ""
+    table: list[str] = []
     for line in patch.splitlines():
         if line.startswith(("--- ", "+++ ")):
             file = line[6:]
+            table = columns(commit, file) if file.endswith(".csv") else []
         elif line.startswith(("-", "+")):
-            held = list(limits(file, line[1:]))
+            held = list(limits(file, line[1:], table))
             if held:
                 rest = NUMBER.sub("#", line[1:]).strip()
                 found[rest].append((line[0], held))

@@ -11,13 +11,14 @@ import pytest
 SCRIPT = Path(__file__).resolve().parents[2] / "tests" / "loosened.py"
 TEST = 'assert!(error < 1e-6 && order > 1.9, "{error}");\nlet n = 5;\n'
 CASE = "[[reference]]\nvalue = 1.0\nrelative = 1e-3\n"
+TABLE = "quantity, value, absolute, kind\nsphere.x, 1.0, 3e-4, exact\n"
 
 
 class Clone:
-    """A repository with a test and a case, and what a change of them is answered."""
+    """A repository with a test, a case and its table, and what a change of them is answered."""
 
     def __init__(self, place: Path) -> None:
-        """Start with both."""
+        """Start with all."""
         self.place = place
         self.git("init", "--quiet")
         self.commit("start", TEST, CASE)
@@ -27,9 +28,10 @@ class Clone:
         who = ["-c", "user.name=a", "-c", "user.email=a@b.c"]
         subprocess.run(["git", *who, *arguments], cwd=self.place, check=True)
 
-    def commit(self, message: str, test: str, case: str) -> None:
-        """Commit both as they are to be."""
-        for name, text in [("tests/a.rs", test), ("cases/b/case.toml", case)]:
+    def commit(self, message: str, test: str, case: str, table: str = TABLE) -> None:
+        """Commit all as they are to be."""
+        files = {"tests/a.rs": test, "cases/b/case.toml": case, "cases/b/references.csv": table}
+        for name, text in files.items():
             file = self.place / name
             file.parent.mkdir(parents=True, exist_ok=True)
             file.write_text(text, encoding="utf-8")
@@ -51,11 +53,12 @@ class Clone:
         ("1e-6", "2e-6", "1e-6 became 2e-6"),
         ("1.9", "1.8", "1.9 became 1.8"),
         ("relative = 1e-3", "relative = 0.002", "1e-3 became 0.002"),
+        ("3e-4", "4e-4", "3e-4 became 4e-4"),
     ],
 )
 def test_what_is_loosened_needs_a_reason(tmp_path: Path, old: str, new: str, told: str) -> None:
     clone = Clone(tmp_path)
-    looser = TEST.replace(old, new), CASE.replace(old, new)
+    looser = [text.replace(old, new) for text in (TEST, CASE, TABLE)]
     clone.commit("change", *looser)
     (found,) = clone.told()
     assert told in found
