@@ -65,7 +65,7 @@ def is_published(folder: Path) -> bool:
 
 
 def given_references(folder: Path) -> list[dict[str, Any]]:
-    """References of a case and its variants as they are written, in `case.toml` and in its table."""
+    """References of a case and its variants as written, in `case.toml` and in its table."""
     case = read_case(folder)
     single = [one for part in (case, *case.get("variant", [])) for one in part.get("reference", [])]
     table = case.get("references", {})
