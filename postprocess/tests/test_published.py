@@ -60,9 +60,10 @@ def test_a_case_is_published_by_the_kinds_in_its_table(
     tmp_path: Path, kind: str, is_beside: bool
 ) -> None:
     table = f"quantity, value, relative, kind,    source\n# one\n\ndisc.y,   6.0, 0.1, {kind}, a\n"
-    folder = case(tmp_path, "[references]\n" + (
-        'file = "references.csv"' if is_beside else f"table = '''\n{table}'''"
-    ))
+    folder = case(
+        tmp_path,
+        "[references]\n" + ('file = "references.csv"' if is_beside else f"table = '''\n{table}'''"),
+    )
     (folder / "references.csv").write_text(table)
     assert published.is_published(folder) == (kind == "measured")
 
