@@ -1,4 +1,5 @@
-//! Short-range forces that keep bodies apart from each other and from walls, taken implicitly.
+//! Short-range forces that keep bodies apart from each other and from walls, taken implicitly, or at the gaps of a stage where steps
+//! are explicit.
 //!
 //! [`Gaps`] gives the close pairs of points of all surfaces with their exact gaps and derivatives,
 //! in the plane those of outlines ([`PlanarGaps`]), in space those of surfaces ([`SpatialGaps`]). The law of the force, the time step with

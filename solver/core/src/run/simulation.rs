@@ -65,7 +65,7 @@ pub struct CellCrossing {
 pub enum Attempt {
     /// The state has moved on.
     Made(StepReport),
-    /// The state is where it was; a shorter step may help.
+    /// Time has not advanced, though the mesh may have been replaced; a shorter step may help.
     Rejected(StepError),
 }
 

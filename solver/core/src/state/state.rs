@@ -18,8 +18,9 @@ use crate::coupling::{
 };
 use crate::space::DofLayout;
 
-/// Everything that evolves. It can be read everywhere; it changes here only: it moves on in [`State::accept`], and to another
-/// mesh in [`State::replace_mesh`]; [`State::restart`] lets rates jump.
+/// Everything that evolves. It can be read everywhere and changes in this file only: it moves on in [`State::accept`], to another
+/// mesh in [`State::replace_mesh`]; [`State::restart`] lets rates jump. `begin`, `settle` and `complete_mesh` set it up;
+/// the `record_` methods and their like keep the books.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct State<const D: usize>(pub(super) Evolving<D>);

@@ -23,7 +23,7 @@ pub(super) struct StepContext<'a, const D: usize> {
 pub(super) struct Iterate<const D: usize> {
     /// Poses of the bodies at the new time, in the laboratory.
     pub poses: Vec<Pose>,
-    /// Poses in which bodies are apart.
+    /// Poses in which bodies are expected to be apart.
     pub apart: Vec<Pose>,
     /// First guess of the flow.
     pub guess: Guess<D>,
@@ -32,9 +32,9 @@ pub(super) struct Iterate<const D: usize> {
 /// What a flow is solved from.
 pub(super) struct Guess<const D: usize> {
     pub solution: Solution<D>,
-    /// First residual of the first iteration, which all others are relative to.
+    /// Initial residual of the first iteration for the poses: it sets the linear tolerance of later ones.
     pub scale: Option<f64>,
-    /// Linear systems solved before.
+    /// Linear systems of the flow solved before, without those for contact.
     pub n_systems: usize,
 }
 

@@ -18,9 +18,9 @@ pub(super) struct CoupledFlow<const D: usize> {
     /// Raw residual of the fluid's equations; none since loads of contact have changed it.
     residual: Option<Vec<f64>>,
     pub contact: ContactLoads,
-    /// What residuals were relative to.
+    /// Initial residual of the first iteration for the poses.
     pub scale: f64,
-    /// Linear systems solved.
+    /// Linear systems of the flow solved, without those for contact.
     pub n_systems: usize,
 }
 

@@ -7,8 +7,8 @@ use crate::contact::ContactError;
 use crate::coupling::{ShapeError, SolveError, coordinates};
 use crate::motion::MotionError;
 
-/// Why a step was not made. Remeshing or a shorter step may help, unless it is a flow error that is not Newton's
-/// method's.
+/// Why a step was not made. A shorter step or a new mesh may help, but against [`ContactError::TooWeak`] and flow errors
+/// other than [`FlowError::NewtonStalled`].
 #[derive(Debug, Error)]
 pub enum StepError {
     /// No flow was found.

@@ -111,7 +111,7 @@ fn propulsion_steps<const D: usize>(
 ) -> Vec<PropulsionStep> {
     let step = |((end, before), leg): ((&PropulsionPower, PropulsionPower), &Option<Leg>)| {
         let share = |power: PropulsionPower, share: f64| PowerShare { power, share };
-        // A first-order step comes after a jump: what was before it does not count
+        // Of a first-order step, by its scheme or after a jump, what was before does not count
         let shares = if is_second_order {
             vec![share(before, 0.5), share(*end, 0.5)]
         } else {

@@ -28,7 +28,7 @@ pub struct StepHistory<const D: usize> {
     pub extrapolated: Solution<D>,
     /// Velocity of the frame extrapolated to the new time (m/s).
     pub frame_velocity: Point<D>,
-    /// Poses at the new time of bodies without velocity there.
+    /// The constant part of the update of poses: those of bodies without velocity at the new time.
     unmoved: Vec<Pose>,
     /// The bodies at the present level and the one before; none of an instantaneous flow.
     older: Option<[OlderBodies; 2]>,

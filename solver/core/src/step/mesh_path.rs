@@ -11,7 +11,7 @@ use crate::motion::{GapsAt, MovingMesh};
 use crate::state::State;
 use crate::timing::Stage;
 
-/// Part of an edge within which poses have converged.
+/// Largest difference of poses at convergence, over the shortest edge on the body.
 const TOLERANCE: f64 = 1e-3;
 /// The same where there is contact: twenty squirmers had forces of contact that differed by
 /// 0.2 % from those of further iterations, a twentieth of what half the time step changed.

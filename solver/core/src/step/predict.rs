@@ -79,7 +79,8 @@ impl<const D: usize> StepContext<'_, D> {
         prediction.velocities(|loaded| work.system.free_motions_at(problem, &bodies, time, loaded))
     }
 
-    /// Shortens displacements where bodies would get too near to each other: predictions know nothing of what is in the way.
+    /// Shortens the displacements of all bodies by one factor where some would get too near to each other: predictions know
+    /// nothing of what is in the way.
     pub fn keep_gaps_open(&self, iterate: &mut Iterate<D>) {
         let Some(gaps) = self.gaps() else { return };
         let Iterate { poses, apart, .. } = iterate;

@@ -2,8 +2,7 @@
 //!
 //! The poses of the bodies are found by a fixed-point iteration. Predicted to second order, they give the mesh; on it fluid,
 //! bodies and contact are one system, linear but for contact and for convection by Newton's method; its velocities
-//! give the poses again. The iteration ends where they differ from those of the mesh by less than the discretisation
-//! leaves open.
+//! give the poses again. The iteration ends where they differ from those of the mesh by 1e-3 of an edge, or 6e-3 in contact.
 //!
 //! The mesh velocity w is the backward difference of the positions of the nodes, the same as for the
 //! flow: a uniform flow stays uniform, and on the surface of a body w has the body's velocity (that of

@@ -1,4 +1,4 @@
-//! `TimeStepper`: what makes steps; what a step starts from, works with and leaves.
+//! `TimeStepper`: problem, mesh motion and contact law of a step; `Step` and what it leaves.
 
 use std::sync::Arc;
 
@@ -68,10 +68,10 @@ impl Step {
 pub struct StepReport {
     /// Loads of the fluid on the bodies, where the flow was solved for.
     pub loads: SurfaceLoads,
-    /// Linear systems solved.
+    /// Linear systems of the flow solved, without those for contact.
     pub iterations: usize,
-    /// Estimate of the error of the step, relative to the size of the velocities; zero for a step of
-    /// first order.
+    /// Estimate of the error of the step, relative to the largest speed, or ten times that of the smallest gap, relative to
+    /// it, where that is more; zero for a step of first order.
     pub error: f64,
 }
 

@@ -1,4 +1,4 @@
-//! `BodyRows`: velocities and loads of the bodies that may be in contact as one column of numbers.
+//! `BodyRows`: velocities and loads of the bodies that may be in contact as one stacked vector.
 
 use nalgebra::DVector;
 

@@ -8,7 +8,7 @@ use super::loaded_flow::LoadedFlow;
 use crate::body::{BodyLoad, LoadedBody, Pose, Twist, Wrench};
 use crate::contact::{ContactError, ContactLoads, ContactSolution, ContactStep, Gaps, Law};
 
-/// Contact is looked for where bodies may get to with this times their displacement.
+/// Bodies that could be in contact within this times their displacement are candidates.
 const CONTACT_MARGIN: f64 = 2.0;
 
 /// Contact in the flow of one configuration. Poses are of all bodies, as seen in its mesh.
@@ -17,7 +17,7 @@ pub struct CoupledContact<'a> {
     pub gaps: &'a dyn Gaps,
     /// The law.
     pub law: &'a Law,
-    /// Poses before the step, in which bodies are apart.
+    /// Poses before the step, in which bodies are expected to be apart.
     pub start: Vec<Pose>,
     /// Poses for which the flow is solved.
     pub predicted: Vec<Pose>,

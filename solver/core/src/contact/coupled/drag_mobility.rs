@@ -1,6 +1,7 @@
 //! `DragMobility`: a first estimate of the mobility of bodies in contact: inertia, drag, and the films between them.
 //!
-//! It has to be of the right size only: secants correct it. Each body has
+//! It has to be of the right size only: secants correct it. In the plane, where loads are per length, the drag of spheres is
+//! not even that for bodies much smaller or larger than the unit of length. Each body has
 //! the drag of a sphere in an unbounded fluid, 6 pi mu R and 8 pi mu R^3 with its reach R, and a film of the
 //! thickness g between surfaces with the mean relative curvature 1 / r resists their approach by
 //! 6 pi mu r^2 / g, the leading term of lubrication between spheres (@kim1991).
@@ -13,17 +14,17 @@ use super::secant_mobility::SecantMobility;
 use crate::body::{Pose, RigidVector};
 use crate::contact::{ContactPair, Gaps, Law, Partner};
 
-/// Part of the range below which films are taken for as thick as that.
+/// Smallest thickness of a film over the range.
 const THINNEST: f64 = 0.05;
 /// Bodies within this times the range are in one cluster.
 const NEAR: f64 = 2.0;
-/// Part of the largest singular value below which motions depend on each other.
+/// Singular value below which motions depend on each other, of a matrix scaled to a unit diagonal.
 const DEPENDENT: f64 = 1e-10;
 
-/// What bodies themselves put up against a change of their velocities, and the fluid they are in.
+/// Inertia and damping of the bodies themselves, and the viscosity of the fluid they are in.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BodyDynamics {
-    /// Factor of the new velocity in its time derivative (1/s).
+    /// Leading coefficient of the backward difference: the factor of the new velocity in its rate (1/s).
     pub rate: f64,
     /// Mass matrix of each body in the world (kg, kg m2).
     pub inertia: Vec<Matrix6<f64>>,

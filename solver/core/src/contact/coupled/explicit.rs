@@ -13,7 +13,7 @@ use crate::body::Pose;
 use crate::contact::{ContactError, ContactLoads, ContactPair, Gaps, Law, Partner};
 
 /// Largest rate at which contact moves bodies back, times the step; explicit steps are stable up to
-/// 2.5, and at 1 the factor exp(-1) of what decays is 0.333.
+/// 2.5, and at 1 what decays by exp(-1) = 0.368 does so by 1/3.
 const LARGEST_DECAY: f64 = 1.0;
 
 /// What contact does at the poses of a stage.

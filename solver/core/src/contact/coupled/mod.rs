@@ -1,4 +1,5 @@
-//! Contact coupled with the flow: its forces belong to the gaps at the end of a step, and the flow is linear in them.
+//! Contact coupled with the flow: its forces belong to the gaps at the end of a step, or of a stage (`explicit.rs`), and the flow
+//! is linear in them: contact is refused with convection by Newton's method.
 //!
 //! On one configuration of the mesh the velocities of bodies are U = U* + M f, with loads f and the mobility M: the
 //! equations of fluid and bodies condensed to the bodies. [`ContactStep`] finds the loads by Newton's method where M is known.

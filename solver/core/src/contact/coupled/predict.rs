@@ -1,7 +1,7 @@
 //! Where bodies in contact get to: velocities that are extrapolated know nothing of how contact changes in the step.
 //!
 //! Contact is solved for as after the flow, with a mobility that is estimated, and all other loads on the bodies stay as they
-//! are. With the inertia M, the resistance R and the acceleration a of the present level, the load that extrapolated
+//! are. With the mass matrix M, the resistance R and the acceleration a of the present level, the load that extrapolated
 //! velocities V imply beside those is
 //!
 //! f + (M rate + R) (V - U) + M (rate U + h - a),

@@ -2,7 +2,8 @@
 //!
 //! The flow is solved with loads of contact that are nearly right: those of the law where bodies are predicted, or
 //! those of the iteration before. Only a small correction is left to be solved for, by an estimate of the mobility
-//! that each solution improves by a secant pair (`secant_mobility.rs`).
+//! that each solution improves by a secant pair (`secant_mobility.rs`). Where that does not converge, the exact mobility is
+//! solved for, column by column.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -15,21 +16,21 @@ use super::secant_mobility::SecantMobility;
 use crate::body::{Twist, Wrench};
 use crate::contact::{ContactError, ContactLoads};
 
-/// Error of a pose by the error of the mobility over the smallest gap, or the range, that is small enough.
+/// Largest displacement error at convergence over the smallest gap, or the range where that is less.
 const TOLERANCE: f64 = 1e-6;
 /// The same where another iteration for the poses follows.
 const TOLERANCE_IN_BETWEEN: f64 = 1e-4;
 /// Most secant pairs.
 const MAX_SECANTS: usize = 16;
-/// Least accurate solution for a load.
+/// Largest relative residual of a linear solve.
 const LARGEST_FORCING: f64 = 1e-2;
-/// Part of the largest load to which solutions for all others are accurate: the flow is so to 1e-6 of what changes it.
+/// Accuracy of the solutions for loads, relative to the largest load: the flow is solved to 1e-6 of what changes it.
 const ACCURACY: f64 = 1e-7;
 
 /// Contact by secants, with what the iterations for the poses of a step have given so far.
 #[derive(Debug, Clone, Default)]
 pub struct ByQuasiNewton {
-    /// Loads of the iteration before.
+    /// Loads of the iteration before, or those the flow was solved with at first.
     loads: Option<ContactLoads>,
     mobility: Option<KnownMobility>,
 }

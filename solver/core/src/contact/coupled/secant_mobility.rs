@@ -15,7 +15,8 @@
 
 use nalgebra::{DMatrix, DVector};
 
-/// Part of the largest singular value of the loads below which one is a combination of the others.
+/// Part of the largest singular value of S^T B S below which a load is a combination of the others: 1e-4 of the loads in
+/// the norm of B.
 const DEPENDENT: f64 = 1e-8;
 
 /// An approximation of the mobility of some bodies, with the secant pairs it satisfies.
