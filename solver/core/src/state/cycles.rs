@@ -14,7 +14,7 @@ pub struct Record {
     pub center: Vector3<f64>,
     /// How its first body is turned.
     pub orientation: Orientation,
-    /// Time integrals of the numbers of a [`PropulsionPower`] (J; N s for thrust and drag).
+    /// Time integrals of the numbers of a [`PropulsionPower`](crate::coupling::PropulsionPower) (J; N s for thrust and drag).
     pub work: [f64; 6],
     /// Time integral of the power where it is positive (J).
     pub positive_work: f64,
