@@ -4,15 +4,16 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use super::atomic::{AtPath, UNFINISHED, write_whole};
 use super::bodies;
 use super::checkpoint_list::{self, REQUEST, checkpoints};
 use super::provenance::{Origin, Point, Provenance};
-use super::removal::{names_in, remove_if_empty, remove_if_there};
 use super::run_directory_error::RunDirectoryError;
 use super::run_lock::RunLock;
 use super::status::{RunState, Status};
 use crate::case::{Case, MeshFile};
+use crate::observer::system::{
+    AtPath, UNFINISHED, names_in, remove_if_empty, remove_if_there, write_whole,
+};
 
 /// The file by which a run directory is known.
 const MARKER_FILE: &str = ".alewife-run";
@@ -59,7 +60,7 @@ pub const FAILURE_FOLDER: &str = "failure";
 pub const FAILURE_STATE: &str = "last.state";
 
 /// The flow of a run that failed, in [`FAILURE_FOLDER`].
-pub(super) const FAILURE_FLOW: &str = "flow.vtu";
+pub(in crate::observer) const FAILURE_FLOW: &str = "flow.vtu";
 
 /// What a new run does with one that is in its directory.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -230,7 +231,7 @@ fn clear(path: &Path) -> io::Result<()> {
 }
 
 /// Removes the state and the flow of a run that failed, once its end or a newer state is safe on the disk.
-pub(super) fn remove_failure(path: &Path) -> io::Result<()> {
+pub(in crate::observer) fn remove_failure(path: &Path) -> io::Result<()> {
     let folder = path.join(FAILURE_FOLDER);
     for name in [FAILURE_STATE, FAILURE_FLOW] {
         remove_if_there(&folder.join(name))?;

@@ -10,7 +10,7 @@ use tungstenite::http::HeaderValue;
 use tungstenite::protocol::WebSocketConfig;
 use tungstenite::{Error, Message, WebSocket};
 
-use super::live_hub::{LiveMessage, Shared};
+use super::hub::{LiveMessage, Shared};
 
 /// Protocols that are spoken; what is used of them is the same in both.
 const PROTOCOLS: [&str; 2] = ["foxglove.sdk.v1", "foxglove.websocket.v1"];

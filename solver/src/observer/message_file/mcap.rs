@@ -16,19 +16,17 @@ use mcap::records::{MessageHeader, Metadata};
 use mcap::{Attachment, Compression, McapError, Schema, WriteOptions, Writer};
 use serde::Serialize;
 
-use super::atomic::{AtPath, unfinished_file};
 use super::drawing::{Arm, WallBox, arms, forces, walls};
 use super::foxglove::{self, Kind, Severity};
-use super::history::History;
-use super::live::LiveServer;
-use super::live_hub::LiveChannel;
 use super::messages::Messages;
 use super::primitives::nanoseconds;
 use super::quantities::Group;
-use super::run_directory::RunDirectory;
 use super::scene::{Shown, scene};
-use super::schedule::Schedule;
 use crate::case::{Body, Model};
+use crate::observer::live::{LiveChannel, LiveServer};
+use crate::observer::run_directory::{History, RunDirectory};
+use crate::observer::schedule::Schedule;
+use crate::observer::system::{AtPath, unfinished_file};
 use crate::run::{LastState, Observer, RunError, SavedState, Snapshot};
 
 /// Size of a chunk, the unit of compression (bytes).

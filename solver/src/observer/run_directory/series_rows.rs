@@ -4,11 +4,11 @@ use std::fs;
 use std::io;
 use std::path::Path;
 
-use super::atomic::AtPath;
+use crate::observer::system::AtPath;
 use crate::run::Series;
 
 /// The file of a run directory.
-pub(super) const SERIES_FILE: &str = "series.csv";
+pub(in crate::observer) const SERIES_FILE: &str = "series.csv";
 
 /// All whole rows that the run in `directory` has written so far; none if there is no header yet.
 ///

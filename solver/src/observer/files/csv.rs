@@ -9,11 +9,10 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use super::atomic::{AtPath, write_whole};
-use super::history::History;
-use super::schedule::Schedule;
-use super::series_rows::SERIES_FILE;
 use crate::case::Case;
+use crate::observer::run_directory::{History, SERIES_FILE};
+use crate::observer::schedule::Schedule;
+use crate::observer::system::{AtPath, write_whole};
 use crate::run::{LastState, Observer, RunError, SavedState, Snapshot};
 
 /// Longest time a row waits in memory.

@@ -13,9 +13,9 @@ use tracing_subscriber::fmt;
 use tracing_subscriber::layer::{Context, Layer, SubscriberExt};
 use tracing_subscriber::util::SubscriberInitExt;
 
-use super::atomic::AtPath;
 use super::terminal::{AboveBars, TERMINAL};
 use crate::case::significant;
+use crate::observer::system::AtPath;
 
 /// The file JSON lines go to just now. One process has one log, but may make several runs.
 static FILE: Mutex<Option<File>> = Mutex::new(None);

@@ -7,9 +7,8 @@ use std::sync::OnceLock;
 
 use serde::{Deserialize, Serialize};
 
-use super::atomic::write_whole;
-use super::process;
 use super::status::Status;
+use crate::observer::system::{process, write_whole};
 
 /// Where it is written in the directory of a run.
 const FILE: &str = "provenance.json";

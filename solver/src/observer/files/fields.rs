@@ -9,14 +9,14 @@ use std::path::PathBuf;
 
 use alewife_mesh::{Array, Mesh, Point, write_vtu_as};
 
-use super::atomic::{AtPath, write_atomic};
-use super::history::{Frame, History};
-use super::removal::remove_if_there;
-use super::run_directory::{FAILURE_FLOW, FAILURE_FOLDER, FAILURE_STATE, RunDirectory};
-use super::schedule::Schedule;
 use super::state_file::write_state;
 use crate::body::in_space;
 use crate::case::{Case, Precision};
+use crate::observer::run_directory::{
+    FAILURE_FLOW, FAILURE_FOLDER, FAILURE_STATE, Frame, History, RunDirectory,
+};
+use crate::observer::schedule::Schedule;
+use crate::observer::system::{AtPath, remove_if_there, write_atomic};
 use crate::run::{Dimension, LastState, Observer, RunError, Snapshot, Solve};
 use crate::step::FlowError;
 use crate::timing::Timing;

@@ -3,9 +3,9 @@
 use std::io;
 use std::path::Path;
 
-use super::atomic::AtPath;
 use super::series_rows::{SERIES_FILE, series_of};
 use super::status::{RunState, Status};
+use crate::observer::system::AtPath;
 use crate::run::RunSummary;
 use crate::timing::{Stage, Timing};
 

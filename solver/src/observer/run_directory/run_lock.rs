@@ -6,8 +6,7 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
-use super::atomic::AtPath;
-use super::process;
+use crate::observer::system::{AtPath, process};
 
 /// The file that is locked.
 const FILE: &str = "lock";

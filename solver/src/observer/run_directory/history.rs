@@ -4,10 +4,10 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use super::atomic::AtPath;
 use super::restarts::Restarts;
 use super::series_rows::read_series;
 use crate::case::Cadence;
+use crate::observer::system::AtPath;
 use crate::run::Series;
 
 /// One field file.

@@ -3,6 +3,9 @@
 //! It speaks the WebSocket protocol of Foxglove. The run only puts messages into queues of limited
 //! length; each client has a thread of its own, and one that is slow misses messages.
 
+mod client;
+mod hub;
+
 use std::io;
 use std::net::{SocketAddr, TcpListener};
 use std::sync::Arc;
@@ -10,8 +13,9 @@ use std::sync::atomic::Ordering;
 use std::thread;
 use std::time::{Duration, Instant};
 
-use super::live_client;
-use super::live_hub::{LiveChannel, Shared};
+use hub::Shared;
+
+pub use hub::LiveChannel;
 
 /// Clients at one time.
 const MOST_CLIENTS: usize = 16;
@@ -86,7 +90,7 @@ fn accept_clients(listener: &TcpListener, shared: &Arc<Shared>, name: &str) {
         shared.n_clients.fetch_add(1, Ordering::AcqRel);
         let started = thread::Builder::new().name("live client".to_owned()).spawn(move || {
             // What goes wrong between a viewer and its network is no matter of the run
-            let _ = live_client::serve(stream, &own, &name);
+            let _ = client::serve(stream, &own, &name);
             own.n_clients.fetch_sub(1, Ordering::AcqRel);
         });
         if started.is_err() {

@@ -3,14 +3,14 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-use super::removal::names_in;
+use crate::observer::system::names_in;
 
 /// The folder they are in.
-pub(super) const FOLDER: &str = "checkpoints";
+pub(in crate::observer) const FOLDER: &str = "checkpoints";
 /// How the names of states end.
-pub(super) const ENDING: &str = ".state";
+pub(in crate::observer) const ENDING: &str = ".state";
 /// A file of this name in the directory of a run asks for a checkpoint; it is removed then.
-pub(super) const REQUEST: &str = "CHECKPOINT";
+pub(in crate::observer) const REQUEST: &str = "CHECKPOINT";
 
 /// The checkpoints of the run in a directory, the latest first.
 pub fn checkpoints(directory: &Path) -> io::Result<Vec<PathBuf>> {
@@ -19,7 +19,10 @@ pub fn checkpoints(directory: &Path) -> io::Result<Vec<PathBuf>> {
 }
 
 /// Those of later steps than one.
-pub(super) fn checkpoints_after(directory: &Path, step: usize) -> io::Result<Vec<PathBuf>> {
+pub(in crate::observer) fn checkpoints_after(
+    directory: &Path,
+    step: usize,
+) -> io::Result<Vec<PathBuf>> {
     let folder = directory.join(FOLDER);
     let later = numbered(&folder)?.into_iter().filter(|one| one.step > step as u64);
     Ok(later.map(|one| folder.join(one.name)).collect())

@@ -12,7 +12,7 @@
 use std::io;
 use std::path::Path;
 
-use super::atomic::{AtPath, write_atomic};
+use crate::observer::system::{AtPath, write_atomic};
 use crate::run::{STATE_VERSION, SavedState};
 
 /// How such a file begins.

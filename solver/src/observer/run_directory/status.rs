@@ -7,12 +7,11 @@ use std::time::{Duration, Instant};
 
 use serde::{Deserialize, Serialize};
 
-use super::atomic::{write_atomic, write_whole};
 use super::history::History;
-use super::process;
 use super::restarts::Restarts;
 use super::write_times::WriteTimes;
 use crate::case::{Case, TimeSettings};
+use crate::observer::system::{process, write_atomic, write_whole};
 use crate::run::{LastState, Observer, RunError, Snapshot};
 use crate::step::FlowError;
 use crate::timing::{Stage, Timing, cpu_seconds};

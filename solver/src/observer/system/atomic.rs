@@ -10,7 +10,7 @@ use tempfile::NamedTempFile;
 pub const UNFINISHED: &str = ".unfinished-";
 
 /// An error of the file system that names the file.
-pub(super) trait AtPath<T> {
+pub(in crate::observer) trait AtPath<T> {
     /// The same with the path in front of it, once.
     fn at(self, path: &Path) -> io::Result<T>;
 }
@@ -43,7 +43,7 @@ pub fn write_atomic(path: &Path, bytes: &[u8]) -> io::Result<()> {
 ///
 /// # Errors
 /// When the file system refuses, with the path; the old file is then still there.
-pub(super) fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
+pub(in crate::observer) fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
     replace(path, bytes).at(path)
 }
 
@@ -65,7 +65,7 @@ fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
 ///
 /// # Errors
 /// When the file system refuses.
-pub(super) fn unfinished_file(directory: &Path) -> io::Result<NamedTempFile> {
+pub(in crate::observer) fn unfinished_file(directory: &Path) -> io::Result<NamedTempFile> {
     let mut builder = tempfile::Builder::new();
     builder.prefix(UNFINISHED);
     // Temporary files are for their owner only; what a run leaves is for whoever may read it.

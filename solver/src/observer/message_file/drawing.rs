@@ -6,11 +6,11 @@ use alewife_mesh::{BoundaryKind, Facet, Mesh, NodeId, Point};
 use nalgebra::Vector3;
 use serde_json::Value;
 
-use super::bodies::joint_ends;
 use super::foxglove::WORLD;
 use super::primitives::{Arrow, Colour, Line, Primitives, SceneUpdate, Triangles, Xyz};
 use crate::body::{Pose, in_space};
 use crate::case::{Geometry, Model};
+use crate::observer::run_directory::joint_ends;
 use crate::run::BodyReport;
 
 /// Part of the longest extent of the walls by which they have to move to be drawn anew.

@@ -6,8 +6,8 @@ use std::path::Path;
 use nalgebra::Vector3;
 use serde::Serialize;
 
-use super::atomic::write_whole;
 use crate::case::{Body, GaitSpec, Geometry, Joint, JointKind, Model};
+use crate::observer::system::write_whole;
 
 /// Where it is written in the directory of a run.
 pub(super) const FILE: &str = "bodies.json";
@@ -55,14 +55,14 @@ struct OneJoint<'a> {
 ///
 /// # Errors
 /// When the file system refuses.
-pub(super) fn write_bodies(directory: &Path, model: &Model) -> io::Result<()> {
+pub(in crate::observer) fn write_bodies(directory: &Path, model: &Model) -> io::Result<()> {
     let mut text = serde_json::to_vec_pretty(&bodies(model))?;
     text.push(b'\n');
     write_whole(&directory.join(FILE), &text)
 }
 
 /// Ends of a joint in the frames of its parent and its child as messages have them (m).
-pub(super) fn joint_ends(model: &Model, joint: &Joint) -> [Vector3<f64>; 2] {
+pub(in crate::observer) fn joint_ends(model: &Model, joint: &Joint) -> [Vector3<f64>; 2] {
     let [on_parent, on_child] = joint.ends();
     [on_parent - centroid(model, &joint.parent), on_child - centroid(model, &joint.child)]
 }

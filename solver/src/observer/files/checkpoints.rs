@@ -7,14 +7,13 @@ use std::sync::Arc;
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
-use super::atomic::AtPath;
-use super::checkpoint_list::{ENDING, FOLDER, REQUEST, checkpoints, checkpoints_after};
-use super::history::History;
-use super::removal::remove_if_there;
-use super::run_directory::remove_failure;
 use super::state_file::{read_state, write_state};
-use super::write_times::WriteTimes;
 use crate::case::{Case, Checkpoints, TimeSettings};
+use crate::observer::run_directory::checkpoint_list::{
+    ENDING, FOLDER, REQUEST, checkpoints, checkpoints_after,
+};
+use crate::observer::run_directory::{History, WriteTimes, remove_failure};
+use crate::observer::system::{AtPath, remove_if_there};
 use crate::run::{LastState, Observer, RunError, SavedState, Snapshot};
 use crate::step::FlowError;
 
