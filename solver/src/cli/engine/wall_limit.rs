@@ -5,8 +5,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant, SystemTime};
 
-use super::exit::{Exit, Failure};
 use crate::case::WallTime;
+use crate::cli::exit::{Exit, Failure};
 use crate::observer::WriteTimes;
 use crate::run::{Observer, Snapshot};
 use crate::step::StopRequest;

@@ -1,7 +1,7 @@
 //! What a run has come to, as it is told on the terminal.
 
-use super::style::{Ink, on_stdout, say};
 use crate::case::{Model, significant};
+use crate::cli::style::{Ink, on_stdout, say};
 use crate::run::RunSummary;
 use crate::validation::{Comparison, Verdict, comparison_table};
 

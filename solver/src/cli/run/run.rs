@@ -8,15 +8,14 @@ use std::time::Instant;
 use clap::{Args, ValueHint};
 
 use super::continuation::{Beginning, beginning, n_requeued};
-use super::engine::{Resumed, RunInto};
-use super::exit::{Exit, Failure};
-use super::read::{Settings, read_case};
+use super::live;
 use super::results::{print_comparisons, tell_cell_numbers, tell_last_values};
-use super::signal::SignalWatch;
-use super::style::{complain, say};
-use super::wall_limit::WallLimit;
-use super::{complete, engine, live, threads, too_large};
 use crate::case::{Case, CaseFile, TimeSettings, rounded};
+use crate::cli::complete;
+use crate::cli::engine::{self, Resumed, RunInto, SignalWatch, WallLimit, threads, too_large};
+use crate::cli::exit::{Exit, Failure};
+use crate::cli::read::{Settings, read_case};
+use crate::cli::style::{complain, say};
 use crate::observer::{
     COMPARISON_FILE, Earlier, FAILURE_STATE, History, Point, RunDirectory, Shown, Start,
     checkpoints, read_state, run_of_state, write_atomic,

@@ -1,20 +1,20 @@
 //! `check`: what a case is, what follows from it, and what it would cost, by one step that is made.
 
+mod cost;
+
 use std::fmt::Write as _;
 
 use alewife_mesh::Quality;
 
-use super::cost;
-use super::engine;
-use super::exit::{Exit, Failure};
-use super::facts::{facts, one_line};
-use super::read::{CheckedCase, read_and_check};
-use super::style::{self, Ink, on_stdout, say};
-use super::sweep::check_points;
-use super::{threads, too_large};
 use crate::case::{
     CaseFile, FlowModel, Model, Sweep, TimeSettings, number_table, printable, significant,
 };
+use crate::cli::engine::{self, threads, too_large};
+use crate::cli::exit::{Exit, Failure};
+use crate::cli::facts::{facts, one_line};
+use crate::cli::read::{CheckedCase, read_and_check};
+use crate::cli::style::{self, Ink, on_stdout, say};
+use crate::cli::sweep::check_points;
 use crate::observer::reset_peak_memory;
 use crate::run::{BodyRecoil, Dimension, RunError, Solve, recoils};
 use crate::timing::cpu_seconds;

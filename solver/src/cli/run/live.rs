@@ -1,7 +1,7 @@
 //! `--live`: where viewers connect to a run.
 
-use super::exit::{Exit, Failure};
-use super::style::complain;
+use crate::cli::exit::{Exit, Failure};
+use crate::cli::style::complain;
 use crate::observer::LiveServer;
 
 /// Where viewers look first; of this machine alone.

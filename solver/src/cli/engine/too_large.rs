@@ -1,7 +1,7 @@
 //! A mesh that does not fit into memory, by the key of the case that asks for it.
 
-use super::exit::Failure;
 use crate::case::{CaseFile, Diagnostic, Severity};
+use crate::cli::exit::Failure;
 use crate::run::RunError;
 
 /// Growth of cells below which it is likely what makes a mesh large: half of what it is by default.

@@ -1,16 +1,22 @@
 //! The one place where the command line meets mesh and solver.
 
+mod signal;
+mod stop_file;
+pub mod threads;
+pub mod too_large;
+mod wall_limit;
+
 use std::path::{Path, PathBuf};
 
 use alewife_mesh::Mesh;
 
-use super::signal::SignalWatch;
-use super::stop_file::StopFile;
-use super::threads;
-use super::wall_limit::WallLimit;
 use crate::case::Model;
 use crate::observer::{self, History, RunDirectory, Shown, WriteTimes};
 use crate::run::{self, Dimension, RunError, RunSummary, SavedState, Solve};
+use stop_file::StopFile;
+
+pub use signal::{SignalWatch, outlive_file_size_limit};
+pub use wall_limit::WallLimit;
 
 /// The mesh of a case.
 pub fn build_mesh<const D: usize>(model: &Model) -> Result<Mesh<D>, RunError>

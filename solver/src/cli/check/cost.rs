@@ -2,11 +2,11 @@
 
 use std::fmt::Write as _;
 
-use super::exit::Failure;
-use super::facts::count;
-use super::style;
 use crate::case::{Cadence, Case, Diagnostic, FlowModel, Model, Severity, TimeSettings, Unsteady};
 use crate::case::{known_quantities, significant};
+use crate::cli::exit::Failure;
+use crate::cli::facts::count;
+use crate::cli::style;
 use crate::observer::{field_file_size, peak_memory, state_size};
 use crate::run::{Dimension, Effort, Solve, TimedStep};
 

@@ -1,6 +1,6 @@
 //! How many threads a run uses.
 
-use super::exit::{Exit, Failure};
+use crate::cli::exit::{Exit, Failure};
 
 /// Variables that say how many threads there are to be, the first one set decides.
 ///
