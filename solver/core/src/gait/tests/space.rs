@@ -6,10 +6,6 @@ use alewife_mesh::spatial::SectionHeight;
 use alewife_mesh::{GaussRule, Profile, SecondMoments};
 use nalgebra::{Matrix3, Vector3};
 
-use super::grid::Grid;
-use super::midline::{Frames, Midline};
-use super::momentum::offset;
-use super::tests::{all, difference};
 use super::*;
 
 /// A swimmer and what it is made of.

@@ -4,7 +4,7 @@ use std::sync::{Mutex, PoisonError};
 
 use alewife_mesh::{GaussRule, whole};
 
-use super::error::GaitError;
+use crate::gait::error::GaitError;
 
 /// Intervals of the table in a period.
 const INTERVALS: usize = 16;

@@ -2,7 +2,6 @@
 
 use alewife_mesh::{GaussRule, Point, Shape};
 
-use super::tests::{all, difference};
 use super::*;
 
 /// Momentum of whatever fills the outline and keeps its volume everywhere is given by the velocity of

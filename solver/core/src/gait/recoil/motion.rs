@@ -2,7 +2,7 @@
 
 use alewife_mesh::Point;
 
-use super::error::GaitError;
+use crate::gait::error::GaitError;
 
 /// Times of a period at which the motion is taken: the largest values are then within 1e-3.
 const TIMES: usize = 128;
@@ -31,7 +31,7 @@ pub struct RecoilMotion {
 
 /// Position and velocity of the rigid motion at one time.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Recoil {
+pub(in crate::gait) struct Recoil {
     /// Centre of area as seen from the head (m).
     pub center: Point<2>,
     /// Its velocity (m/s).
@@ -42,7 +42,7 @@ pub(super) struct Recoil {
 
 impl RecoilMotion {
     /// From a start (s) on for a duration (s), which is a number of periods.
-    pub(super) fn over(
+    pub(in crate::gait) fn over(
         start: f64,
         duration: f64,
         n_periods: usize,
