@@ -4,11 +4,10 @@ use std::path::{Path, PathBuf};
 
 use alewife_mesh::{Encoding, write_msh, write_vtu};
 
-use super::engine;
+use super::engine::{self, too_large};
 use super::exit::{Exit, Failure};
 use super::read::read_case;
 use super::style::say;
-use super::too_large;
 use crate::case::CaseFile;
 use crate::observer::write_atomic;
 use crate::run::{Dimension, Solve};

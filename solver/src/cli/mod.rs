@@ -2,29 +2,20 @@
 
 mod check;
 mod complete;
-mod continuation;
-mod cost;
 mod engine;
 mod exit;
 mod facts;
 mod library;
-mod live;
 mod manual;
 mod mesh;
 mod panic;
 mod plot;
 mod read;
-mod results;
 mod run;
-mod signal;
 mod status;
-mod stop_file;
 mod style;
 mod sweep;
-mod threads;
-mod too_large;
 mod validate;
-mod wall_limit;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -162,7 +153,7 @@ pub fn run() -> ExitCode {
 }
 
 fn dispatch(command: Command) -> Result<Exit, Failure> {
-    signal::outlive_file_size_limit()?;
+    engine::outlive_file_size_limit()?;
     match command {
         Command::List { long } => library::list(long),
         Command::Show { case, source } => library::show(&case, source),

@@ -16,76 +16,35 @@
 //! | `comparison.json` | Computed against references, by the command line | at the end |
 //! | `lock` | Held while the run is under way | – |
 
-mod atomic;
-mod bodies;
-mod checkpoint_list;
-mod checkpoints;
-mod csv;
-mod drawing;
-mod fields;
-mod foxglove;
-mod history;
-mod kept;
-mod legs;
+mod console;
+mod files;
 mod live;
-mod live_client;
-mod live_hub;
-mod log;
-mod mcap;
-mod messages;
-mod primitives;
-mod process;
-mod progress;
-mod provenance;
-mod quantities;
-mod removal;
-mod restarts;
+mod message_file;
 mod run_directory;
-mod run_directory_error;
-mod run_lock;
-mod scene;
 mod schedule;
-mod series_rows;
-mod solids;
-mod state_file;
-mod status;
-mod tally;
-mod terminal;
+mod system;
 #[cfg(test)]
 mod tests;
-mod write_times;
 
-use self::bodies::write_bodies;
 use crate::case::Model;
 use crate::run::{Dimension, Observer, Solve};
+use run_directory::write_bodies;
 
-pub use atomic::{UNFINISHED, directory_of, write_atomic};
-pub use checkpoint_list::checkpoints;
-pub use checkpoints::{Checkpoint, CheckpointFiles, latest_checkpoint};
-pub use csv::SeriesFile;
-pub use fields::{FieldFiles, field_file_size};
-pub use history::History;
-pub use kept::read_outcome;
-pub use legs::LegFile;
-pub use live::LiveServer;
-pub use log::start_log;
-pub use mcap::MessageFile;
-pub use process::{peak_memory, reset_peak_memory};
-pub use progress::Progress;
-pub use provenance::{Leg, Origin, Point, Provenance, executable};
-pub use restarts::Restarts;
-pub use run_directory::{
-    COMPARISON_FILE, Earlier, FAILURE_FOLDER, FAILURE_STATE, MESH_SIZE_FILE, RunDirectory, STOP,
-    Start, run_of_state,
+pub use console::{Progress, Tally, columns_of, start_log};
+pub use files::{
+    Checkpoint, CheckpointFiles, FieldFiles, SeriesFile, field_file_size, latest_checkpoint,
+    read_state, state_size,
 };
-pub use run_directory_error::RunDirectoryError;
-pub use run_lock::{LockError, RunLock};
-pub use series_rows::read_series;
-pub use state_file::{read_state, state_size};
-pub use status::{RunState, Status, StatusFile};
-pub use tally::Tally;
-pub use terminal::columns_of;
-pub use write_times::WriteTimes;
+pub use live::LiveServer;
+pub use message_file::MessageFile;
+pub use run_directory::{
+    COMPARISON_FILE, Earlier, FAILURE_FOLDER, FAILURE_STATE, History, Leg, LegFile, LockError,
+    MESH_SIZE_FILE, Origin, Point, Provenance, Restarts, RunDirectory, RunDirectoryError, RunLock,
+    RunState, STOP, Start, Status, StatusFile, WriteTimes, checkpoints, executable, read_outcome,
+    read_series, run_of_state,
+};
+pub use system::process::{peak_memory, reset_peak_memory};
+pub use system::{UNFINISHED, directory_of, write_atomic};
 
 /// What is shown of a run while it is under way.
 #[derive(Debug, Default)]

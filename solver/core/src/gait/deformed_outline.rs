@@ -9,7 +9,7 @@ use nalgebra::{Isometry3, Vector3};
 use super::closed_surface::on_outline;
 
 use super::error::GaitError;
-use super::recoil_motion::RecoilMotion;
+use super::recoil::RecoilMotion;
 
 /// A material point of a body that deforms.
 #[derive(Debug, Clone, Copy, PartialEq)]

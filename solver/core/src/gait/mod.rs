@@ -8,16 +8,11 @@ mod grid;
 mod hull;
 mod midline;
 mod momentum;
-#[cfg(test)]
-mod momentum_tests;
 mod number;
 mod pulse;
 mod recoil;
-mod recoil_motion;
 mod sheet;
 mod slender_body;
-#[cfg(test)]
-mod space_tests;
 mod squirmer;
 mod surface_motion;
 #[cfg(test)]
@@ -27,7 +22,7 @@ pub use deformed_outline::{DeformedOutline, MaterialPoint, RecoilCorrection, Sha
 pub use error::GaitError;
 pub use midline::{AngleInTime, Anguilliform, Carangiform, Flagellum, Joint, Joints, Midline};
 pub use pulse::{Pulse, PulseLaw};
-pub use recoil_motion::RecoilMotion;
+pub use recoil::RecoilMotion;
 pub use sheet::WavingSheet;
 pub use slender_body::SlenderBody;
 pub use squirmer::Squirmer;

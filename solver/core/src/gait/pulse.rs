@@ -8,7 +8,7 @@ use num_dual::{Dual64, DualNum, first_derivative};
 
 use super::deformed_outline::{DeformedOutline, MaterialCurve, RecoilCorrection, ShapeMotion};
 use super::error::GaitError;
-use super::recoil_motion::RecoilMotion;
+use super::recoil::RecoilMotion;
 
 /// A round body that grows and shrinks.
 #[derive(Debug, Clone, PartialEq)]

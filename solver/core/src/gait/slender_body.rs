@@ -10,8 +10,7 @@ use super::grid::Grid;
 use super::hull::{Closed, Hull};
 use super::midline::{Frame, Midline};
 use super::momentum::Interior;
-use super::recoil::RecoilAngle;
-use super::recoil_motion::{Recoil, RecoilMotion};
+use super::recoil::{Recoil, RecoilAngle, RecoilMotion};
 
 /// Largest speed of the correction of the area, over the mean normal speed of a cycle.
 const LARGEST_CORRECTION: f64 = 1e-3;

@@ -1,5 +1,9 @@
 //! Deforming outlines against finite differences, published numbers and other quadratures.
 
+mod momentum;
+mod pulse;
+mod space;
+
 use std::time::Instant;
 
 use alewife_mesh::{
@@ -74,7 +78,7 @@ fn flagellum(inextensible: bool) -> Midline {
 }
 
 /// Name, profile, midline and times of all swimmers.
-pub(super) fn all() -> Vec<(&'static str, Profile, Midline, [f64; 3])> {
+fn all() -> Vec<(&'static str, Profile, Midline, [f64; 3])> {
     vec![
         ("carangiform", fish(), carangiform(), [0.4, 1.3, 7.77]),
         ("anguilliform", fish(), anguilliform(4.0 / 33.0), [0.4, 1.3, 7.77]),
@@ -92,7 +96,7 @@ fn polar(deformed: &DeformedOutline) -> f64 {
 }
 
 /// Derivative by central differences of sixth order.
-pub(super) fn difference<
+fn difference<
     V: std::ops::Sub<Output = V> + std::ops::Add<Output = V> + std::ops::Mul<f64, Output = V>,
 >(
     f: impl Fn(f64) -> V,
@@ -350,35 +354,6 @@ fn gaits_that_cannot_be_made_are_refused() {
     assert_eq!(refused, GaitError::Curvature { points: 0 });
     let refused = SlenderBody::new(&fish(), bent).unwrap_err();
     assert!(matches!(refused, GaitError::Crossing { .. }), "{refused}");
-}
-
-#[test]
-fn the_rates_of_pulses_are_the_derivatives_of_positions() {
-    let table = vec![[0.0, 1.0], [1.0, 2.0], [2.0, 1.0]];
-    let laws = [
-        PulseLaw::Sine { amplitude: 0.5, period: 2.0, phase: 0.1 },
-        PulseLaw::Table { knots: table, period: Some(3.0) },
-    ];
-    for law in laws {
-        for is_sphere in [false, true] {
-            let pulse = Pulse { radius: 0.7, is_sphere, law: law.clone() };
-            for time in [0.4, 1.3, 4.7, 8.6] {
-                let now = pulse.at(time).unwrap();
-                let rate = difference(|t| pulse.at(t).unwrap().position(0.6), time, 1e-2);
-                assert!((rate - now.rate(0.6)).norm() < 1e-7);
-                let inertia = |t: f64| polar(&pulse.at(t).unwrap());
-                assert!((difference(inertia, time, 1e-2) - now.inertia_rate).abs() < 1e-7);
-            }
-        }
-    }
-    let pulse = Pulse {
-        radius: 1.0,
-        is_sphere: false,
-        law: PulseLaw::Table { knots: vec![[0.0, 1.0], [1.0, 2.0], [2.0, 1.0]], period: Some(2.0) },
-    };
-    assert_eq!(pulse.discontinuities(0.5, 4.5), vec![1.0, 2.0, 3.0, 4.0]);
-    let area = pulse.at(3.25).unwrap().moments.measure / std::f64::consts::PI;
-    assert!((area - 1.75).abs() < 1e-14);
 }
 
 /// The outline crosses itself between the times at which the gait is evaluated when it is made.

@@ -12,11 +12,9 @@ use super::points::check_points;
 use super::run_options::Options;
 use super::swept::directory_of;
 use crate::case::Sweep;
+use crate::cli::engine::{SignalWatch, WallLimit, threads};
 use crate::cli::exit::{Exit, Failure};
-use crate::cli::signal::SignalWatch;
 use crate::cli::style::{self, complain, say};
-use crate::cli::threads;
-use crate::cli::wall_limit::WallLimit;
 use crate::observer::{STOP, Tally};
 use crate::sweep::{
     Ended, Ending, Launch, Plan, PointFailure, PointState, SweepDirectory, run_children, stand,

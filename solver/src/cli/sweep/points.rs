@@ -4,8 +4,9 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 use crate::case::{Diagnostic, Severity, Sweep};
+use crate::cli::engine::threads;
 use crate::cli::exit::Failure;
-use crate::cli::{style, threads};
+use crate::cli::style;
 
 /// Different mistakes that are shown at most.
 const MOST_SHOWN: usize = 10;

@@ -9,10 +9,11 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::complete;
+use super::engine::{SignalWatch, threads};
 use super::exit::{Exit, Failure};
-use super::signal::SignalWatch;
+use super::run::print_comparisons;
 use super::style::{Ink, complain, on_stdout, say};
-use super::{complete, results, threads};
 use crate::case::library;
 use crate::validation::{
     CaseReport, Comparison, ReportPage, comparisons_to_json, count_table, summary,
@@ -209,7 +210,7 @@ fn print(reports: &[CaseReport], options: &Options) {
         say(page.text(&[]).trim_end());
     } else {
         say(&format!("{}\n", count_table(&comparisons).join("\n")));
-        results::print_comparisons(&comparisons);
+        print_comparisons(&comparisons);
         say(&on_stdout(if is_good { Ink::Green } else { Ink::Red }, &summary(&comparisons)));
     }
 }

@@ -2,9 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use super::super::engine::{self, RunInto};
+use super::super::engine::{self, RunInto, SignalWatch};
 use super::super::exit::{Exit, Failure};
-use super::super::signal::SignalWatch;
 use super::kept::{self, Found};
 use super::members::Member;
 use crate::case::{Case, CaseFile, Model, Severity, check};

@@ -1,6 +1,6 @@
 //! Of a damaged `run.mcap` all whole chunks before the damage are kept, and what is lost is told.
 
-use super::super::messages::{Messages, OwnMessage};
+use super::super::message_file::messages::{Messages, OwnMessage};
 use super::*;
 
 /// A linear congruential generator (Knuth, MMIX): the same damage in each run.

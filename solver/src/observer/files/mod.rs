@@ -1,0 +1,11 @@
+//! The files a run writes as it goes on: rows, fields, and states to resume from.
+
+mod checkpoints;
+mod csv;
+mod fields;
+mod state_file;
+
+pub use checkpoints::{Checkpoint, CheckpointFiles, latest_checkpoint};
+pub use csv::SeriesFile;
+pub use fields::{FieldFiles, field_file_size};
+pub use state_file::{read_state, state_size};

@@ -1,0 +1,12 @@
+//! `run.mcap`: bodies, quantities and a picture of them as messages for viewers.
+
+mod drawing;
+mod foxglove;
+mod mcap;
+pub(super) mod messages;
+mod primitives;
+mod quantities;
+mod scene;
+mod solids;
+
+pub use mcap::MessageFile;
