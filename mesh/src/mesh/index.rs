@@ -90,12 +90,12 @@ typed_index! {
 }
 
 typed_index! {
-    /// A boundary facet of a mesh: an index into [`Mesh::facets`](crate::Mesh::facets).
+    /// A boundary facet of a mesh: an index into [`Topology::facets`](crate::Topology::facets).
     FacetId, u32
 }
 
 typed_index! {
-    /// A boundary of a mesh: an index into [`Mesh::boundaries`](crate::Mesh::boundaries).
+    /// A boundary of a mesh: an index into [`Topology::boundaries`](crate::Topology::boundaries).
     BoundaryId, u16
 }
 
