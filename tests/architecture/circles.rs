@@ -50,6 +50,9 @@ fn flatten(tree: &syn::UseTree, before: &[String], all: &mut Vec<(Vec<String>, S
 struct Paths(Vec<Vec<String>>);
 
 impl<'ast> syn::visit::Visit<'ast> for Paths {
+    /// Who may use an item is no use of that module.
+    fn visit_visibility(&mut self, _visibility: &'ast syn::Visibility) {}
+
     fn visit_path(&mut self, path: &'ast syn::Path) {
         if path.segments.len() > 1 {
             self.0.push(path.segments.iter().map(|segment| segment.ident.to_string()).collect());
