@@ -15,7 +15,7 @@ use self::two_triangles::two_triangles;
 use super::*;
 use crate::body::{Pose, Twist, Wrench};
 use crate::case::{Case, Model};
-use crate::run::{BodyReport, RunError, Snapshot};
+use crate::run::{BodyReport, Observer, RunError, Snapshot};
 use crate::step::FlowError;
 use crate::timing::{Timing, cpu_seconds};
 
