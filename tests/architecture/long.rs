@@ -2,11 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::sources::{CRATES, sources};
-
-/// Folders of tests beside the sources of crates.
-const TESTS: [&str; 5] =
-    ["mesh/tests", "solver/case/tests", "solver/core/tests", "solver/tests", "tests"];
+use super::sources::{CRATES, TESTS, sources};
 
 #[test]
 fn long_tests_have_small_ones() {

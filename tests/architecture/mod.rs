@@ -3,6 +3,7 @@
 mod circles;
 mod limits;
 mod long;
+mod orphans;
 mod sources;
 
 use std::collections::BTreeMap;

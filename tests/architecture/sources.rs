@@ -36,6 +36,10 @@ pub const CRATES: [&str; 6] = [
     "solver/src",
 ];
 
+/// Folders of tests beside the sources of crates.
+pub const TESTS: [&str; 5] =
+    ["mesh/tests", "solver/case/tests", "solver/core/tests", "solver/tests", "tests"];
+
 /// The source files of all crates, by path relative to the root.
 pub fn all_sources() -> impl Iterator<Item = (String, String)> {
     CRATES.into_iter().flat_map(sources)

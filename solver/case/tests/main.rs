@@ -2,4 +2,5 @@
 
 mod mesh_files;
 mod mutations;
+mod reference_tables;
 mod stroke_files;
