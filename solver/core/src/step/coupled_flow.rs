@@ -121,11 +121,14 @@ impl<const D: usize> StepContext<'_, D> {
         let mut residual_of = |solution: &Solution<D>| {
             timing.measure(Stage::Loads, || flow_residual(system, &at, &equations, solution))
         };
-        let mut residual = flow.residual.take().unwrap_or_else(|| residual_of(&flow.solution));
-        system.center_pressure(problem, &mut flow.solution);
-        if problem.power_depends_on_pressure_level() {
-            residual = residual_of(&flow.solution);
-        }
+        let residual = if problem.power_depends_on_pressure_level() {
+            system.center_pressure(problem, &mut flow.solution);
+            residual_of(&flow.solution)
+        } else {
+            let found = flow.residual.take().unwrap_or_else(|| residual_of(&flow.solution));
+            system.center_pressure(problem, &mut flow.solution);
+            found
+        };
         let (poses, solution) = (&configuration.poses, &flow.solution);
         let in_mesh = state.in_mesh(poses);
         let surfaces = system.surface_loads(problem, mesh, &in_mesh, solution, &residual);

@@ -80,9 +80,10 @@ impl ByQuasiNewton {
             let off = mobility.free_part(off) / contact.dynamics.rate;
             contact.gaps.largest_displacement(bodies, rows.modes, &off)
         };
-        let is_small = |error: f64, flow: &dyn LoadedFlow<Error = E>, loads: &ContactLoads| {
-            error <= TOLERANCE || error <= TOLERANCE_IN_BETWEEN && !flow.poses_have_converged(loads)
-        };
+        let is_enough_for_now =
+            |error: f64, flow: &dyn LoadedFlow<Error = E>, loads: &ContactLoads| {
+                error <= TOLERANCE_IN_BETWEEN && !flow.poses_have_converged(loads)
+            };
         let range = contact.law.range();
         let mut largest = mobility.size(&contact.loads(bodies, applied));
         let mut has_converged = false;
@@ -97,10 +98,8 @@ impl ByQuasiNewton {
             let gap = found.loads.minimum_gap.map_or(range, |least| least.gap.min(range));
             let off = error(&expected - &before, &mobility) / gap;
             let is_unchanged = size <= TOLERANCE * largest && off <= TOLERANCE;
-            let is_nearly = off <= TOLERANCE_IN_BETWEEN && !flow.poses_have_converged(applied);
-            if is_unchanged || is_nearly {
+            if is_unchanged || is_enough_for_now(off, flow, applied) {
                 tracing::debug!(secant, size, off, gap, "loads of contact stay");
-                applied.minimum_gap = found.loads.minimum_gap;
                 has_converged = true;
                 break;
             }
@@ -110,7 +109,7 @@ impl ByQuasiNewton {
             mobility.update(change, &now - before);
             let off = error(now - expected, &mobility) / gap;
             tracing::debug!(secant, size, off, gap, bodies = bodies.len(), "contact");
-            if is_small(off, flow, applied) {
+            if off <= TOLERANCE || is_enough_for_now(off, flow, applied) {
                 has_converged = true;
                 break;
             }
