@@ -1,4 +1,4 @@
-//! `observers`: all who see a run, in the order in which they are told of it.
+//! `observers`: all who see a run, in the order in which they are notified.
 
 use super::console::Progress;
 use super::files::{CheckpointFiles, FieldFiles, SeriesFile};
