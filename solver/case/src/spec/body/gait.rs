@@ -197,6 +197,36 @@ pub struct BentJoint {
     pub is_behind_root: bool,
 }
 
+impl CarangiformGait {
+    /// Duration of the ramp at the start (s).
+    #[must_use]
+    pub fn ramp(&self) -> f64 {
+        self.ramp.unwrap_or(self.period)
+    }
+}
+
+impl AnguilliformGait {
+    /// Duration of the ramp at the start (s).
+    #[must_use]
+    pub fn ramp(&self) -> f64 {
+        self.ramp.unwrap_or(self.period)
+    }
+}
+
+impl FlagellumGait {
+    /// Time constant of the ramp (s); 0 for none.
+    #[must_use]
+    pub fn ramp(&self) -> f64 {
+        self.ramp.unwrap_or(self.period)
+    }
+
+    /// Length over which a tail of some length begins to bend (m).
+    #[must_use]
+    pub fn joint(&self, tail: f64) -> f64 {
+        self.joint.unwrap_or(tail / 20.0)
+    }
+}
+
 impl TubeShape {
     /// Half width along the midline; `None` for lengths that make no body.
     #[must_use]
