@@ -5,7 +5,7 @@ use std::process::ExitCode;
 
 use super::style;
 use crate::case::{CaseError, Diagnostic};
-use crate::observer::RunDirectoryError;
+use crate::observer::{LockError, RunDirectoryError};
 use crate::run::RunError;
 use crate::step::FlowError;
 use crate::sweep::SweepDirectoryError;
@@ -36,6 +36,8 @@ pub enum Exit {
     Stopped = 75,
     /// It was restarted again and again without a step.
     NoProgress = 76,
+    /// Another process has the point of a sweep; told to the process of the sweep alone.
+    InUse = 77,
 }
 
 impl From<Exit> for ExitCode {
@@ -141,6 +143,7 @@ impl From<RunDirectoryError> for Failure {
             RunDirectoryError::Finished { .. }
             | RunDirectoryError::Resumable { .. }
             | RunDirectoryError::NotADirectory { .. }
+            | RunDirectoryError::Lock(LockError::NotALock { .. })
             | RunDirectoryError::NotARun { .. } => Exit::Usage,
             _ => Exit::InputOutput,
         };
@@ -151,12 +154,14 @@ impl From<RunDirectoryError> for Failure {
 impl From<SweepDirectoryError> for Failure {
     fn from(error: SweepDirectoryError) -> Self {
         let exit = match error {
-            SweepDirectoryError::NotASweep { .. } => Exit::Usage,
+            SweepDirectoryError::Case(error) => return error.into(),
+            SweepDirectoryError::NotASweep { .. }
+            | SweepDirectoryError::Lock(LockError::NotALock { .. }) => Exit::Usage,
             SweepDirectoryError::None { .. } => Exit::NoInput,
             SweepDirectoryError::Other { .. } | SweepDirectoryError::Damaged { .. } => {
                 Exit::BadCase
             }
-            SweepDirectoryError::Io(_) => Exit::InputOutput,
+            SweepDirectoryError::Lock(_) | SweepDirectoryError::Io(_) => Exit::InputOutput,
         };
         Self::new(exit, error.to_string())
     }

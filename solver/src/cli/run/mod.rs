@@ -5,6 +5,8 @@ mod live;
 mod results;
 #[expect(clippy::module_inception, reason = "the command itself is what the room is named after")]
 mod run;
+mod typed;
 
 pub use results::print_comparisons;
-pub use run::{Options, PointRun, quoted, run, run_file};
+pub use run::{Options, PointRun, run, run_file};
+pub use typed::quoted;

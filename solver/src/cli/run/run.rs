@@ -10,6 +10,7 @@ use clap::{Args, ValueHint};
 use super::continuation::{Beginning, beginning, n_requeued};
 use super::live;
 use super::results::{print_comparisons, tell_cell_numbers, tell_last_values};
+use super::typed::{program, quoted};
 use crate::case::{Case, CaseFile, TimeSettings, rounded};
 use crate::cli::complete;
 use crate::cli::engine::{self, Resumed, RunInto, SignalWatch, WallLimit, threads, too_large};
@@ -17,7 +18,7 @@ use crate::cli::exit::{Exit, Failure};
 use crate::cli::read::{Settings, read_case};
 use crate::cli::style::{complain, say};
 use crate::observer::{
-    COMPARISON_FILE, Earlier, FAILURE_STATE, History, Point, RunDirectory, Shown, Start,
+    COMPARISON_FILE, Earlier, FAILURE_STATE, History, Point, RunDirectory, RunLock, Shown, Start,
     checkpoints, read_state, run_of_state, write_atomic,
 };
 use crate::run::{Dimension, RunError, RunSummary, SavedState, Solve};
@@ -84,12 +85,17 @@ pub struct Options {
     /// Print more on the terminal; repeat for details
     #[arg(long, short, action = clap::ArgAction::Count)]
     verbose: u8,
+    /// Its directory, where that is held already
+    #[arg(skip)]
+    lock: Option<RunLock>,
 }
 
 /// How a point of a sweep is run.
 pub struct PointRun {
     /// Its directory.
     pub out: PathBuf,
+    /// That, held.
+    pub lock: RunLock,
     /// Threads.
     pub threads: Option<usize>,
     /// Its time on the clock.
@@ -103,7 +109,7 @@ pub struct PointRun {
 impl Options {
     /// What a point of a sweep is asked for, whose case has been read.
     pub fn of_point(point: PointRun) -> Self {
-        let PointRun { out, threads, max_walltime, overwrite, quiet } = point;
+        let PointRun { out, lock, threads, max_walltime, overwrite, quiet } = point;
         Self {
             case: String::new(),
             settings: Settings { set: Vec::new() },
@@ -117,6 +123,7 @@ impl Options {
             overwrite,
             quiet,
             verbose: 0,
+            lock: Some(lock),
         }
     }
 }
@@ -145,7 +152,7 @@ where
     let limit = WallLimit::new(options.max_walltime.as_deref())?;
     let has_limit_asked = limit.as_ref().map(WallLimit::has_asked);
     let live = options.live.as_deref().map(|address| live::start(address, &name)).transpose()?;
-    let lock = RunDirectory::hold(&out)?;
+    let lock = options.lock.clone().map_or_else(|| RunDirectory::hold(&out), Ok)?;
     let resumed: Option<Resumed<D>> = match beginning_of(options, file, &out)? {
         Beginning::AtStart => None,
         Beginning::From(resumed) => Some(*resumed),
@@ -167,7 +174,7 @@ where
         step: resumed.state.step(),
         time: resumed.state.time(),
     });
-    let start = Start { threads: n_threads, from, lock };
+    let start = Start { threads: n_threads, from, lock: Some(lock) };
     let directory = RunDirectory::create(&out, file.case(), start, earlier)?;
     let verbosity = i8::try_from(options.verbose).unwrap_or(i8::MAX) - i8::from(options.quiet);
     engine::start_log(Some(&out), verbosity)?;
@@ -274,10 +281,8 @@ fn write_comparisons(directory: &RunDirectory, all: &[Comparison]) -> std::io::R
 
 /// Whether a file lies in a directory.
 fn is_inside(file: &Path, directory: &Path) -> bool {
-    match (file.canonicalize(), directory.canonicalize()) {
-        (Ok(file), Ok(directory)) => file.starts_with(directory),
-        _ => false,
-    }
+    let both = file.canonicalize().ok().zip(directory.canonicalize().ok());
+    both.is_some_and(|(file, directory)| file.starts_with(directory))
 }
 
 /// Why a run was stopped, as far as that is known: whether its time was over, and whether it made a step.
@@ -312,11 +317,6 @@ fn stopped(error: &RunError, why: &str, out: &Path) -> Failure {
     Failure { exit: Exit::Stopped, message: format!("{error}{why}; {remedy}") }
 }
 
-/// How the program was called: from here that works again.
-fn program(typed: &str) -> String {
-    if typed.is_empty() { "alewife".to_owned() } else { quoted(typed) }
-}
-
 /// The state a path names: the latest checkpoint, where it is the directory of a run, or its last state.
 fn state_in(path: &Path) -> PathBuf {
     if !path.is_dir() {
@@ -325,16 +325,6 @@ fn state_in(path: &Path) -> PathBuf {
     let last = path.join(FAILURE_STATE);
     let latest = checkpoints(path).ok().and_then(|found| found.into_iter().next());
     latest.or_else(|| last.is_file().then_some(last)).unwrap_or_else(|| path.to_owned())
-}
-
-/// A word as a shell reads it.
-pub fn quoted(word: &str) -> String {
-    let is_plain = |c: char| c.is_ascii_alphanumeric() || "-_./=,:+@%".contains(c);
-    if !word.is_empty() && word.chars().all(is_plain) {
-        word.to_owned()
-    } else {
-        format!("'{}'", word.replace('\'', r"'\''"))
-    }
 }
 
 /// Reads a state, and what the run it lies in has written up to there.
@@ -382,17 +372,4 @@ fn read_unfinished<const D: usize>(path: &Path, case: &Case) -> Result<SavedStat
         return Err(Failure::new(Exit::BadCase, reason));
     }
     Ok(saved)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_command_is_what_was_typed() {
-        assert_eq!(program("alewife"), "alewife");
-        assert_eq!(program("./my tools/alewife"), "'./my tools/alewife'");
-        assert_eq!(program("target/release/alewife"), "target/release/alewife");
-        assert_eq!(program("/home/me/targets/alewife"), "/home/me/targets/alewife");
-    }
 }
