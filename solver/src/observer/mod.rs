@@ -27,7 +27,7 @@ mod system;
 #[cfg(test)]
 mod tests;
 
-pub use console::{Progress, Tally, columns_of, start_log};
+pub use console::{Progress, Tally, columns_of, print_line, start_log};
 pub use files::{
     Checkpoint, CheckpointFiles, FieldFiles, SeriesFile, field_file_size, latest_checkpoint,
     read_state, state_size,

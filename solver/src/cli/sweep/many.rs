@@ -12,10 +12,10 @@ use super::points::check_points;
 use super::run_options::Options;
 use super::swept::directory_of;
 use crate::case::Sweep;
-use crate::cli::engine::{SignalWatch, WallLimit, threads};
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::style::{self, complain, say};
 use crate::observer::{STOP, Tally};
+use crate::runner::{SignalWatch, WallLimit, threads};
 use crate::sweep::{
     Ended, Ending, Launch, Plan, PointFailure, PointState, SweepDirectory, run_children, stand,
 };
@@ -44,7 +44,7 @@ pub fn run(options: &Options) -> Result<Exit, Failure> {
     let started = Instant::now();
     let n_threads = options.threads.unwrap_or(1);
     let jobs = n_jobs(options.jobs, n_threads)?;
-    let end = WallLimit::end(options.max_walltime.as_deref())?;
+    let end = WallLimit::end(options.max_walltime);
     let sweep = options.swept.read()?;
     let range = match options.index {
         Some(index) => index.range(sweep.n_points())?,

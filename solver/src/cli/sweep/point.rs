@@ -4,8 +4,9 @@ use super::points::check_points;
 use super::run_options::Options;
 use super::swept::directory_of;
 use crate::cli::exit::{Exit, Failure};
-use crate::cli::run::{self, PointRun};
+use crate::cli::run::report;
 use crate::cli::style::{self, complain, say};
+use crate::runner::{self, RunPlan};
 use crate::sweep::{Plan, PointFailure, PointState, SweepDirectory, stand};
 
 /// Runs the point of an index from 0.
@@ -30,23 +31,26 @@ pub fn run(options: &Options, index: usize) -> Result<Exit, Failure> {
         return Ok(Exit::Done);
     }
     PointFailure::forget(&directory, index)?;
-    let asked = run::Options::of_point(PointRun {
-        out,
+    let plan = RunPlan {
         threads: options.threads,
-        max_walltime: options.max_walltime.clone(),
+        continues: true,
         overwrite: before.has_failed_run(),
+        max_walltime: options.max_walltime,
         quiet: options.quiet || options.parent.is_some(),
-    });
-    run::run_file(&asked, &file).inspect_err(|failure| {
-        if failure.exit != Exit::Stopped {
-            let reason = without_colours(&failure.message);
-            let failure = PointFailure { exit: Some(failure.exit as u8), reason };
+        ..RunPlan::new(file, out)
+    };
+    match runner::run(&plan) {
+        Ok(outcome) => report(&plan, outcome, "the same call again continues"),
+        Err(failure) => {
+            let reason = failure.message.clone();
+            let of_point = PointFailure { exit: Some(failure.exit as u8), reason };
             // Where it cannot be written the point is run again
-            if let Err(error) = failure.write(&directory, index) {
-                complain(&style::error(&error.to_string()));
+            if let Err(error) = of_point.write(&directory, index) {
+                complain(&format!("error: {error}"));
             }
+            Err(failure)
         }
-    })
+    }
 }
 
 /// Has this process asked to stop when the one that runs the sweep is killed.
@@ -61,25 +65,4 @@ fn stop_with(parent: Option<u32>) -> Result<(), Failure> {
         return Ok(());
     }
     Err(Failure::new(Exit::Stopped, "the process that ran the sweep is gone"))
-}
-
-/// A message as it is written to files.
-fn without_colours(message: &str) -> String {
-    let mut text = String::new();
-    for (nth, part) in message.split("\x1b[").enumerate() {
-        let rest = if nth == 0 { part } else { part.split_once('m').map_or("", |(_, rest)| rest) };
-        text += rest;
-    }
-    text
-}
-
-#[cfg(test)]
-mod tests {
-    use super::without_colours;
-
-    #[test]
-    fn colours_are_left_out() {
-        assert_eq!(without_colours("\x1b[1;31merror\x1b[0m: m"), "error: m");
-        assert_eq!(without_colours("plain"), "plain");
-    }
 }

@@ -5,9 +5,9 @@ use std::path::Path;
 
 use serde_json::Value;
 
+use super::failure::{Exit, Failure};
+use super::simulate::Resumed;
 use crate::case::{Case, CaseFile, TimeSettings, collect_keys};
-use crate::cli::engine::Resumed;
-use crate::cli::exit::{Exit, Failure};
 use crate::observer::{Checkpoint, History, RunState, Status, checkpoints, latest_checkpoint};
 
 /// Tables of a case that change nothing of what is computed.
