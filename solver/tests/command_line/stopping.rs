@@ -46,8 +46,8 @@ fn checkpoints(run: &Path) -> Vec<String> {
 fn a_signal_ends_a_run_after_its_step_with_all_files_complete() {
     let directory = tempfile::tempdir().unwrap();
     let told = stopped_fall(directory.path());
-    let command = " run sphere-free-fall --out fall --quiet --threads 1 --set \
-                   time.unsteady.end=1e6 --set mesh.scale=2";
+    let command = " run sphere-free-fall --set time.unsteady.end=1e6 --set mesh.scale=2 --out fall \
+                   --threads 1 --quiet";
     assert!(told.contains(command), "{told}");
     let out = directory.path().join("fall");
     let status = std::fs::read_to_string(out.join("status.json")).unwrap();

@@ -9,14 +9,14 @@ use alewife_mesh::Quality;
 use crate::case::{
     CaseFile, FlowModel, Model, Sweep, TimeSettings, number_table, printable, significant,
 };
-use crate::cli::engine::{self, threads, too_large};
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::facts::{facts, one_line};
 use crate::cli::read::{CheckedCase, read_and_check};
 use crate::cli::style::{self, Ink, on_stdout, say};
 use crate::cli::sweep::check_points;
 use crate::observer::reset_peak_memory;
-use crate::run::{BodyRecoil, Dimension, RunError, Solve, recoils};
+use crate::run::{BodyRecoil, Dimension, RunError, Solve, build_mesh, recoils};
+use crate::runner::{threads, too_large};
 use crate::timing::cpu_seconds;
 
 /// How far a case is looked at.
@@ -89,7 +89,7 @@ where
 {
     reset_peak_memory();
     let (before, model) = (cpu_seconds(), &file.model);
-    let mesh = engine::build_mesh::<D>(model).map_err(|error| too_large::failure(file, error))?;
+    let mesh = build_mesh::<D>(model).map_err(|error| too_large(file, error))?;
     let seconds = cpu_seconds() - before;
     say(&format!("\n{}", on_stdout(Ink::Bold, "mesh")));
     let quality = Dimension::<D>::quality(&mesh);

@@ -4,9 +4,8 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 use crate::case::{Diagnostic, Severity, Sweep};
-use crate::cli::engine::threads;
 use crate::cli::exit::Failure;
-use crate::cli::style;
+use crate::runner::threads;
 
 /// Different mistakes that are shown at most.
 const MOST_SHOWN: usize = 10;
@@ -98,7 +97,7 @@ fn failure_of(sweep: &Sweep, wrong: Vec<Wrong>) -> Option<Failure> {
     }
     let n = sweep.n_points();
     let verb = if n_wrong == 1 { "is" } else { "are" };
-    texts.push(style::error(&format!("{n_wrong} of {n} points {verb} wrong; nothing was run")));
+    texts.push(format!("error: {n_wrong} of {n} points {verb} wrong; nothing was run"));
     Some(Failure { exit, message: texts.join("\n\n") })
 }
 

@@ -10,11 +10,11 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::complete;
-use super::engine::{SignalWatch, threads};
 use super::exit::{Exit, Failure};
 use super::run::print_comparisons;
 use super::style::{Ink, complain, on_stdout, say};
 use crate::case::library;
+use crate::runner::{SignalWatch, threads};
 use crate::validation::{
     CaseReport, Comparison, ReportPage, comparisons_to_json, count_table, summary,
 };
