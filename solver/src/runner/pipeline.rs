@@ -44,7 +44,7 @@ where
     let limit = WallLimit::new(plan.max_walltime);
     let has_limit_asked = limit.as_ref().map(WallLimit::has_asked);
     let live = plan.live.as_deref().map(|address| live::start(address, &name)).transpose()?;
-    let lock = RunDirectory::hold(out)?;
+    let lock = plan.lock.clone().map_or_else(|| RunDirectory::hold(out), Ok)?;
     let resumed: Option<Resumed<D>> = match beginning_of(plan)? {
         Beginning::AtStart => None,
         Beginning::From(resumed) => Some(*resumed),
@@ -63,7 +63,7 @@ where
         step: resumed.state.step(),
         time: resumed.state.time(),
     });
-    let start = Start { threads: n_threads, from, lock };
+    let start = Start { threads: n_threads, from, lock: Some(lock) };
     let directory = RunDirectory::create(out, file.case(), start, earlier)?;
     let verbosity = i8::try_from(plan.verbose).unwrap_or(i8::MAX) - i8::from(plan.quiet);
     start_log(Some(out), verbosity)?;

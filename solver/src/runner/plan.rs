@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use crate::case::{CaseFile, WallTime};
+use crate::observer::RunLock;
 use crate::run::RunSummary;
 use crate::validation::Comparison;
 
@@ -13,6 +14,8 @@ pub struct RunPlan {
     pub file: CaseFile,
     /// The directory of the run.
     pub out: PathBuf,
+    /// That, where it is held already.
+    pub lock: Option<RunLock>,
     /// Threads; those the batch system or the machine grants if absent.
     pub threads: Option<usize>,
     /// A state to continue from, or a run that holds one.
@@ -40,6 +43,7 @@ impl RunPlan {
         Self {
             file,
             out,
+            lock: None,
             threads: None,
             resume: None,
             continues: false,
