@@ -6,6 +6,7 @@
 mod angles;
 mod body;
 mod contact;
+mod drive;
 mod extremes;
 mod findings;
 mod flow;
@@ -16,6 +17,8 @@ mod placement;
 mod references;
 mod space;
 mod time;
+
+pub use self::drive::at_rest;
 
 use self::body::{bodies, joints, strokes, swimmers};
 use self::findings::Findings;
