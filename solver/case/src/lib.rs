@@ -21,7 +21,7 @@ pub use read::CaseFile;
 pub use read::library;
 pub use read::problem_keys::collect_keys;
 pub use read::schema::schema;
-pub use rules::check;
+pub use rules::{at_rest, check};
 pub use spec::body::axial_vector::AxialVector;
 pub use spec::body::gait::{
     AnguilliformGait, BentJoint, CarangiformGait, FishShape, FlagellateShape, FlagellumGait,

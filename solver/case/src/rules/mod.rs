@@ -8,6 +8,7 @@ mod angles;
 mod body;
 mod contact;
 mod declared;
+mod drive;
 mod extremes;
 mod findings;
 mod flow;
@@ -18,6 +19,8 @@ mod placement;
 mod references;
 mod space;
 mod time;
+
+pub use self::drive::at_rest;
 
 use self::body::{bodies, joints, strokes, swimmers};
 use self::findings::Findings;

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use crate::case::{Diagnostic, Severity, Sweep};
+use crate::case::{Diagnostic, Severity, Sweep, at_rest};
 use crate::cli::exit::Failure;
 use crate::runner::threads;
 
@@ -55,10 +55,11 @@ type PointCheck = Result<Vec<Diagnostic>, Failure>;
 
 fn check(sweep: &Sweep, index: usize) -> PointCheck {
     let file = sweep.case(index)?;
-    let found = sweep.check(&file);
+    let mut found = sweep.check(&file);
     if found.iter().any(|one| one.severity == Severity::Error) {
         return Err(Failure::wrong(&found));
     }
+    found.extend(at_rest(&file));
     Ok(found)
 }
 

@@ -161,7 +161,7 @@ fn pose_of_child(findings: &mut Findings<'_>, key: &str, joint: &Joint, ends: En
 }
 
 /// Pose in which a body starts.
-fn start(model: &Model, body: usize) -> PlanarPose {
+pub(crate) fn start(model: &Model, body: usize) -> PlanarPose {
     let body = &model.bodies[body];
     let at = |axis: usize| body.center.get(axis).copied().unwrap_or(0.0);
     PlanarPose { center: [at(0), at(1)].into(), angle: body.angle }
