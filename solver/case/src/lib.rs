@@ -39,7 +39,7 @@ pub use spec::body::{
     PartSpec, ShapeSpec,
 };
 pub use spec::case::Case;
-pub use spec::contact::ContactSpec;
+pub use spec::contact::{ContactLosses, ContactSpec};
 pub use spec::domain::{BoundaryCondition, DomainSpec, Geometry, TimeFunction};
 pub use spec::extent::Extent;
 pub use spec::fluid::{FlowModel, Fluid};

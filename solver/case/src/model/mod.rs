@@ -3,6 +3,7 @@
 pub(crate) mod balls;
 pub(crate) mod copies;
 mod geometry;
+pub(crate) mod impact;
 pub(crate) mod numbers;
 mod part_pose;
 mod parts;

@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use alewife_mesh::{Point, whole};
 
 use super::balls::{Ball, BallGrid};
+use super::impact::numbers_of_impact;
 use crate::text::diagnostic::printable;
 use crate::{
     Body, Case, ContactSpec, FlowModel, GaitSpec, Geometry, Model, ShapeSpec, SquirmerGait,
@@ -68,6 +69,7 @@ pub fn derived_numbers(model: &Model) -> Vec<DerivedNumber> {
                        leaves half of `range` as gap";
         table.add(name, value, formula);
     }
+    table.0.extend(numbers_of_impact(model));
     table.0
 }
 

@@ -150,7 +150,7 @@ pub(crate) fn load_in_space(case: &Case, body: &Body) -> [f64; 3] {
 }
 
 /// The order of the speed of a body under its load: that of slow flow, or less by inertia (m/s).
-fn terminal_speed(case: &Case, body: &Body) -> f64 {
+pub(crate) fn terminal_speed(case: &Case, body: &Body) -> f64 {
     let load = load(case, body);
     let slow = load / resistance(case, body);
     let area = match case.geometry {

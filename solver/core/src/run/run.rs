@@ -281,6 +281,15 @@ impl<const D: usize> Run<'_, D> {
         if is_wanted { self.show_state() } else { Ok(()) }
     }
 
+    /// Notes a piece of a step in which bodies may touch, which has no row.
+    pub(super) fn note_piece(&mut self, loads: &SurfaceLoads) {
+        let Self { simulation, measure, .. } = self;
+        // The pieces of the first step are those of a start
+        if simulation.law.is_some() && simulation.state.step > 0 {
+            measure.balance_piece(simulation, loads);
+        }
+    }
+
     /// Gives the observers the whole state.
     fn show_state(&mut self) -> Result<(), RunError> {
         let Self { case, observers, series, simulation, .. } = self;

@@ -114,6 +114,10 @@ fn state() -> State<2> {
         top_speed: 9.5,
         boundary_speed: 8.5,
         contact: ContactLoads {
+            last_impulses: vec![Vector3::x()],
+            impulses: vec![Vector3::y()],
+            energy: 0.5,
+            energy_made: -0.01,
             wrenches: vec![Wrench { force: vectors(7.0, 1)[0], torque: vectors(7.5, 1)[0] }],
             contacts: Vec::new(),
             minimum_gap: Some(MinimumGap { body: 0, partner: Partner::Wall(2), gap: 0.01 }),
