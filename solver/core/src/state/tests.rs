@@ -71,7 +71,11 @@ fn energy() -> EnergyBalance {
 fn momentum() -> MomentumBalance {
     let mut balance = MomentumBalance::default();
     for nth in 0..30 {
-        let part = |seed: f64| Part { momentum: vectors(seed, 1)[0], force: vectors(-seed, 1)[0] };
+        let part = |seed: f64| {
+            let [momentum, force, contact] =
+                [seed, -seed, 2.0 * seed].map(|seed| vectors(seed, 1)[0]);
+            Part { momentum, force, contact }
+        };
         balance.add(MomentumRecord {
             time: f64::from(nth),
             fluid: part(f64::from(nth)),
