@@ -31,6 +31,30 @@ fn steps_too_long_for_extrapolated_convection_are_told() {
     assert!(!run("time.unsteady.convection=\"newton\"").contains("CFL"));
 }
 
+#[test]
+fn check_warns_of_steps_in_which_fluid_crosses_several_cells() {
+    let directory = tempfile::tempdir().unwrap();
+    let told = |settings: &[&str]| {
+        let mut command = vec!["check", "dfg-2d-2", "--no-step", "--set", "mesh.scale=4"];
+        settings.iter().for_each(|setting| command.extend(["--set", setting]));
+        let output = alewife(directory.path(), &command);
+        assert_eq!(output.status.code(), Some(0));
+        String::from_utf8_lossy(&output.stderr).into_owned()
+    };
+    let long = "time.unsteady.step=0.1";
+    let warned = told(&[long, "time.unsteady.convection=\"extrapolated\""]);
+    assert!(
+        warned.contains("the CFL number is up to") && warned.contains("hold up to 5"),
+        "{warned}"
+    );
+    let warned = told(&[long, "time.unsteady.convection=\"newton\""]);
+    assert!(warned.contains("what changes within a step is not resolved"), "{warned}");
+    for fine in ["time.unsteady.step=0.005", "fluid.model=\"unsteady-stokes\""] {
+        assert!(!told(&[long, fine]).contains("CFL number"), "{fine}");
+    }
+    assert!(!told(&[long, "time.unsteady.adaptive={}"]).contains("CFL number"));
+}
+
 /// Three links above a wall, their joints bent in quadrature, at steps of a size.
 const THREE_LINKS: &str = r#"
 title = "three links above a wall"
