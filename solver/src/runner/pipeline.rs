@@ -15,8 +15,8 @@ use super::wall_limit::WallLimit;
 use super::{live, threads};
 use crate::case::{CaseFile, rounded};
 use crate::observer::{
-    COMPARISON_FILE, Earlier, Point, Provenance, RunDirectory, Shown, Start, checkpoints,
-    print_line, start_log, write_atomic,
+    COMPARISON_FILE, Earlier, Point, Provenance, RunDirectory, Shown, Start, Status, Warning,
+    begin_warnings, checkpoints, continue_warnings, print_line, start_log, write_atomic,
 };
 use crate::run::{Dimension, RunError, Solve};
 use crate::step::FlowError;
@@ -45,6 +45,10 @@ where
     let has_limit_asked = limit.as_ref().map(WallLimit::has_asked);
     let live = plan.live.as_deref().map(|address| live::start(address, &name)).transpose()?;
     let lock = RunDirectory::hold(out)?;
+    let verbosity = i8::try_from(plan.verbose).unwrap_or(i8::MAX) - i8::from(plan.quiet);
+    // What is wrong with files of an earlier part is reported, too
+    start_log(None, verbosity)?;
+    begin_warnings(plan.warnings.iter().map(Warning::of_case).collect());
     let resumed: Option<Resumed<D>> = match beginning_of(plan)? {
         Beginning::AtStart => None,
         Beginning::From(resumed) => Some(*resumed),
@@ -63,9 +67,13 @@ where
         step: resumed.state.step(),
         time: resumed.state.time(),
     });
+    if let Some(resumed) = &resumed {
+        let of_run = Status::read(out).ok().filter(|_| resumed.is_in_place);
+        let earlier = of_run.map_or_else(Vec::new, |status| status.warnings);
+        continue_warnings(resumed.state.time(), earlier);
+    }
     let start = Start { threads: n_threads, from, lock };
     let directory = RunDirectory::create(out, file.case(), start, earlier)?;
-    let verbosity = i8::try_from(plan.verbose).unwrap_or(i8::MAX) - i8::from(plan.quiet);
     start_log(Some(out), verbosity)?;
     if let Some(resumed) = &resumed {
         report_resuming(resumed, plan.quiet);

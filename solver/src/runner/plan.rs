@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::case::{CaseFile, WallTime};
+use crate::case::{CaseFile, Diagnostic, WallTime};
 use crate::run::RunSummary;
 use crate::validation::Comparison;
 
@@ -11,6 +11,8 @@ use crate::validation::Comparison;
 pub struct RunPlan {
     /// The case, which has been checked.
     pub file: CaseFile,
+    /// What is odd in it.
+    pub warnings: Vec<Diagnostic>,
     /// The directory of the run.
     pub out: PathBuf,
     /// Threads; those the batch system or the machine grants if absent.
@@ -39,6 +41,7 @@ impl RunPlan {
     pub fn new(file: CaseFile, out: PathBuf) -> Self {
         Self {
             file,
+            warnings: Vec::new(),
             out,
             threads: None,
             resume: None,
