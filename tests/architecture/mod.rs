@@ -24,7 +24,7 @@ const ROOMS: [(&str, &[&str]); 23] = [
     ("time", &["case"]),
     ("body", &["time"]),
     ("contact", &["body"]),
-    ("gait", &["body"]),
+    ("gait", &["body", "case"]),
     ("flow", &["algebra", "space"]),
     ("coupling", &["algebra", "body", "flow", "gait", "space", "time", "timing"]),
     ("state", &["body", "contact", "coupling", "space"]),

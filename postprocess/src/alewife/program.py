@@ -78,7 +78,7 @@ def call(*arguments: str | Path, progress: bool = False) -> str:
         try:
             output, messages = process.communicate()
         except KeyboardInterrupt:
-            # The terminal has told the program, too: it ends after its step
+            # The terminal has signalled the program, too: it ends after its step
             process.wait()
             raise
     if process.returncode != 0:

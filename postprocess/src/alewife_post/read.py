@@ -177,7 +177,7 @@ class Run:
             # Killed before anything was written.
             return
         with (self.path / "run.mcap").open("rb") as file:
-            # The index at the end of the file is missing while the run goes on.
+            # The index at the end of the file is missing while the run continues.
             found = NonSeekingReader(file).iter_messages(log_time_order=False)
             try:
                 for _schema, channel, message in found:

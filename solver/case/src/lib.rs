@@ -31,11 +31,12 @@ pub use spec::body::joint::{Ball, Hinge, Joint, JointKind, Slider};
 pub use spec::body::link::{Link, ShapedLink};
 pub use spec::body::orientation::Orientation;
 pub use spec::body::spring::SpringSpec;
+pub use spec::body::squirmer::SquirmerGait;
 pub use spec::body::stroke::{Stroke, smooth_ramp};
 pub use spec::body::swimmer::{Copies, Pivot, Skin, SwimmerKind, SwimmerSpec};
 pub use spec::body::{
     Body, CurveShape, CylinderAxis, GaitSpec, HelixShape, ImposedMotion, LoadFrame, Lock, Motion,
-    PartSpec, ShapeSpec, SquirmerGait,
+    PartSpec, ShapeSpec,
 };
 pub use spec::case::Case;
 pub use spec::contact::ContactSpec;

@@ -48,7 +48,7 @@ pub fn beginning<const D: usize>(
     file: &CaseFile,
     is_asked: bool,
 ) -> Result<Beginning<D>, Failure> {
-    let Ok(status) = Status::read(out) else { return Ok(Beginning::AtStart) };
+    let Some(status) = status_of(out, file)? else { return Ok(Beginning::AtStart) };
     // Of a steady solution there is nothing to continue from
     let end = match &file.case().time {
         TimeSettings::Unsteady(settings) => Some(settings.end),
@@ -109,6 +109,16 @@ pub fn beginning<const D: usize>(
         is_in_place: true,
         from: path,
     })))
+}
+
+/// The status of the run in a directory, if there is one; where it is lost and checkpoints are there, that of a run
+/// that was killed.
+fn status_of(out: &Path, file: &CaseFile) -> Result<Option<Status>, Failure> {
+    match Status::read(out) {
+        Ok(status) => Ok(Some(status)),
+        Err(_) if checkpoints(out)?.is_empty() => Ok(None),
+        Err(_) => Ok(Some(Status::lost(file.case()))),
+    }
 }
 
 /// Refuses to begin again at the start in a job that was put back into its queue too often.

@@ -4,7 +4,7 @@ use std::io;
 use std::process::ExitCode;
 
 use crate::case::{CaseError, Diagnostic, Severity};
-use crate::observer::RunDirectoryError;
+use crate::observer::{LockError, RunDirectoryError};
 use crate::run::RunError;
 use crate::step::FlowError;
 
@@ -37,6 +37,8 @@ pub enum Exit {
     Stopped = 75,
     /// It was restarted again and again without a step.
     NoProgress = 76,
+    /// Another process has the point of a sweep; said to the process of the sweep alone.
+    InUse = 77,
 }
 
 impl From<Exit> for ExitCode {
@@ -156,6 +158,7 @@ impl From<RunDirectoryError> for Failure {
             RunDirectoryError::Finished { .. }
             | RunDirectoryError::Resumable { .. }
             | RunDirectoryError::NotADirectory { .. }
+            | RunDirectoryError::Lock(LockError::NotALock { .. })
             | RunDirectoryError::NotARun { .. } => Exit::Usage,
             _ => Exit::InputOutput,
         };

@@ -44,7 +44,7 @@ where
     let limit = WallLimit::new(plan.max_walltime);
     let has_limit_asked = limit.as_ref().map(WallLimit::has_asked);
     let live = plan.live.as_deref().map(|address| live::start(address, &name)).transpose()?;
-    let lock = RunDirectory::hold(out)?;
+    let lock = plan.lock.clone().map_or_else(|| RunDirectory::hold(out), Ok)?;
     let verbosity = i8::try_from(plan.verbose).unwrap_or(i8::MAX) - i8::from(plan.quiet);
     // What is wrong with files of an earlier part is reported, too
     start_log(None, verbosity)?;
@@ -67,16 +67,11 @@ where
         step: resumed.state.step(),
         time: resumed.state.time(),
     });
-    if let Some(resumed) = &resumed {
-        let of_run = Status::read(out).ok().filter(|_| resumed.is_in_place);
-        let earlier = of_run.map_or_else(Vec::new, |status| status.warnings);
-        continue_warnings(resumed.state.time(), earlier);
-    }
-    let start = Start { threads: n_threads, from, lock };
+    let start = Start { threads: n_threads, from, lock: Some(lock) };
     let directory = RunDirectory::create(out, file.case(), start, earlier)?;
     start_log(Some(out), verbosity)?;
     if let Some(resumed) = &resumed {
-        report_resuming(resumed, plan.quiet);
+        report_resuming(resumed, plan);
     }
 
     let shown = Shown { quiet: plan.quiet, live };
@@ -112,10 +107,13 @@ fn beginning_of<const D: usize>(plan: &RunPlan) -> Result<Beginning<D>, Failure>
 }
 
 /// Reports from where a run continues.
-fn report_resuming<const D: usize>(resumed: &Resumed<D>, quiet: bool) {
+fn report_resuming<const D: usize>(resumed: &Resumed<D>, plan: &RunPlan) {
+    let of_run = Status::read(&plan.out).ok().filter(|_| resumed.is_in_place);
+    let earlier = of_run.map_or_else(Vec::new, |status| status.warnings);
+    continue_warnings(resumed.state.time(), earlier);
     let (step, time, from) = (resumed.state.step(), resumed.state.time(), resumed.from.display());
     tracing::info!(step, time, from = %from, "resumed");
-    if !quiet {
+    if !plan.quiet {
         let time = rounded(time);
         print_line(&format!("continues at step {step}, t {time}, from {from}"));
     }

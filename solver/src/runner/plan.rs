@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use crate::case::{CaseFile, Diagnostic, WallTime};
+use crate::observer::RunLock;
 use crate::run::RunSummary;
 use crate::validation::Comparison;
 
@@ -15,6 +16,8 @@ pub struct RunPlan {
     pub warnings: Vec<Diagnostic>,
     /// The directory of the run.
     pub out: PathBuf,
+    /// That, where it is held already.
+    pub lock: Option<RunLock>,
     /// Threads; those the batch system or the machine grants if absent.
     pub threads: Option<usize>,
     /// A state to continue from, or a run that holds one.
@@ -43,6 +46,7 @@ impl RunPlan {
             file,
             warnings: Vec::new(),
             out,
+            lock: None,
             threads: None,
             resume: None,
             continues: false,

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::comparison::Verdict;
 use super::report::{Judged, count_cells, count_header, counts, summary_of};
-use super::section::{CaseReport, Coverage, known_outside, row, section};
+use super::section::{CaseReport, Coverage, VERDICT, known_outside, row, section};
 use crate::case::ReferenceKind;
 
 /// How the page begins, by which it is known.
@@ -18,24 +18,26 @@ const OUTSIDE: &str = "- `";
 
 const HEAD: &str = "\
 Written by `alewife validate --report`, not edited by hand. A section is replaced when its case is
-validated again; each says which program made its runs and when.";
+validated again; each says which program made its runs and when. Runs with the same mesh, steps and
+companion share a row, their CPU times in the order of their names; a variant is named in the first row
+of its values. Behind the tolerance stands what is not within it.";
 
 /// The rule the tolerances of the shipped cases follow.
 const TOLERANCES: &str = "\
 A *tolerance* is at most five times the discretisation error of the shipped mesh and step, or the own
-uncertainty of the reference where that is larger (± reference). Where the error is small by
+uncertainty of the reference (the second ±) where that is larger. Where the error is small by
 chance, it is the size of the differences of the same quantity in the case; a value that is zero but
 for rounding has a tolerance far above rounding and far below anything that matters.";
 
 /// The rule of `uncertainty.rs`.
 const UNCERTAINTIES: &str = "\
-The *numerical* uncertainty (± numerical) is the discretisation error of a computed value as the rule of
+The *numerical* uncertainty (the first ±) is the discretisation error of a computed value as the rule of
 Roache estimates it: 3 |f - g| / (r^p - 1), where g is the value of a companion with cells and steps r times as
 long, p the order and 3 the factor of safety where the order is not observed. The companion has
 `mesh.scale` and the step times the square root of 2; r is what its numbers of cells and steps come
 to, the smaller one. p is 2, or 1 with steps by backward Euler: Taylor-Hood elements on smooth flow
 do better, and then the uncertainty is too large. Where the value has no companion, or the companion
-failed or is hardly coarser, there is a dash.";
+failed or is hardly coarser, there is none.";
 
 /// A page under way.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -156,13 +158,16 @@ fn judged_in(text: &str) -> Vec<Judged> {
         let cells: Vec<&str> = inner.split(" | ").collect();
         let Some([kind, verdict]) = columns else {
             let of = |name: &str| cells.iter().position(|cell| *cell == name);
-            columns = of("kind").zip(of("verdict")).map(<[usize; 2]>::from);
+            // Pages of earlier programs have a column of verdicts
+            columns = of("kind").zip(of("verdict").or(of("tolerance"))).map(<[usize; 2]>::from);
             continue;
         };
         let cell = |column: usize| cells.get(column).copied().unwrap_or_default();
         let kind = ReferenceKind::ALL.into_iter().find(|one| one.name() == cell(kind));
-        let verdict = Verdict::ALL.into_iter().find(|one| one.name() == cell(verdict));
-        all.extend(kind.zip(verdict).map(|(kind, verdict)| Judged { kind, verdict }));
+        let said = cell(verdict).split(VERDICT).last().unwrap_or_default();
+        let verdict = Verdict::ALL.into_iter().find(|one| one.name() == said);
+        let verdict = verdict.unwrap_or(Verdict::Within);
+        all.extend(kind.map(|kind| Judged { kind, verdict }));
     }
     all
 }
@@ -173,6 +178,7 @@ mod tests {
     use crate::case::{Case, Reference};
     use crate::validation::comparison::judge;
     use crate::validation::section::{Links, MemberReport};
+    use crate::validation::uncertainty::{MeshSize, RunSize};
 
     /// The section of a case whose computed values are its references times these factors.
     fn report(name: &str, factors: [f64; 2]) -> CaseReport {
@@ -229,6 +235,28 @@ mod tests {
         let mut page = ReportPage::read(&page).unwrap();
         page.set(&report("a", [1.0, 1.0]));
         assert!(!page.text(&[]).contains("it is hard"));
+    }
+
+    #[test]
+    fn runs_alike_share_a_row_and_pages_with_a_column_of_verdicts_are_counted() {
+        let mut case = report("a", [1.0, 2.0]);
+        let mut own = case.members[0].clone();
+        own.name = "a".to_owned();
+        case.members.insert(0, own);
+        for (member, cpu_seconds) in case.members.iter_mut().zip([1.0, 2.0]) {
+            let mesh = MeshSize { cells: 7, shortest_edge: 0.5 };
+            member.size = Some(RunSize { mesh, dofs: 9, steps: 3, cpu_seconds });
+        }
+        let mut page = ReportPage::default();
+        page.set(&case);
+        let text = page.text(&[]);
+        assert!(text.contains("\n| (itself), v | 7 | 9 | 0.5 | 3 | 1.00, 2.00 | - |\n"), "{text}");
+        assert_eq!(text.matches(": OUTSIDE |\n").count(), 2, "{text}");
+        assert!(text.contains("2 of 4 values within"), "{text}");
+        let old = "| quantity | kind | tolerance | verdict |\n|---|---|---|---|\n\
+                   | q | exact | 1.0% | within |\n| q | exact | 1.0% | OUTSIDE |\n";
+        let old = ReportPage::read(&format!("{TITLE}{HEADING}a\n\n{old}")).unwrap().text(&[]);
+        assert!(old.contains("1 of 2 values within"), "{old}");
     }
 
     #[test]

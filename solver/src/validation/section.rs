@@ -12,7 +12,7 @@ pub struct CaseReport {
     pub name: String,
     /// Its title.
     pub title: String,
-    /// The sentence that tells its set-up.
+    /// The sentence that says its set-up.
     pub gist: String,
     /// Its page and pictures.
     pub links: Links,
@@ -58,27 +58,61 @@ fn variant_of(name: &str) -> &str {
     name.split_once('/').map_or("", |(_, variant)| variant)
 }
 
-impl MemberReport {
-    /// The row of its mesh and its companion.
-    fn size_row(&self) -> String {
-        let mut cells = vec![variant_of(&self.name).to_owned()];
-        match &self.size {
-            Some(size) => cells.extend([
-                size.mesh.cells.to_string(),
-                size.dofs.to_string(),
-                significant(size.mesh.shortest_edge),
-                size.steps.to_string(),
-                format!("{:.2}", size.cpu_seconds),
-            ]),
-            None => cells.extend(["-"; 5].map(str::to_owned)),
-        }
-        cells.push(match &self.companion {
+/// The row of runs that have one mesh, number of steps and companion in common.
+struct SizeRow {
+    /// Cells, unknowns, shortest edge, steps, companion.
+    common: [String; 5],
+    variants: Vec<String>,
+    cpu_seconds: Vec<String>,
+}
+
+impl SizeRow {
+    fn from_member(member: &MemberReport) -> Self {
+        let companion = match &member.companion {
             None => "-".to_owned(),
             Some(Err(reason)) => format!("none: {}", in_a_cell(reason)),
             Some(Ok(companion)) => companion.in_words(),
-        });
-        row(&cells)
+        };
+        let none = || "-".to_owned();
+        let (common, cpu_seconds) = match &member.size {
+            Some(size) => {
+                let edge = significant(size.mesh.shortest_edge);
+                let [cells, steps] = [size.mesh.cells, size.steps].map(|n| n.to_string());
+                let common = [cells, size.dofs.to_string(), edge, steps, companion];
+                (common, format!("{:.2}", size.cpu_seconds))
+            }
+            None => ([none(), none(), none(), none(), companion], none()),
+        };
+        let variants = vec![variant_of(&member.name).to_owned()];
+        Self { common, variants, cpu_seconds: vec![cpu_seconds] }
     }
+
+    fn as_text(&self) -> String {
+        let named = |variant: &String| match variant.as_str() {
+            "" if self.variants.len() > 1 => "(itself)".to_owned(),
+            variant => variant.to_owned(),
+        };
+        let variants: Vec<String> = self.variants.iter().map(named).collect();
+        let [cells, unknowns, edge, steps, companion] = self.common.clone();
+        let cpu_seconds = self.cpu_seconds.join(", ");
+        row(&[variants.join(", "), cells, unknowns, edge, steps, cpu_seconds, companion])
+    }
+}
+
+/// The table of meshes, steps and companions.
+fn sizes(members: &[MemberReport]) -> String {
+    let mut rows: Vec<SizeRow> = Vec::new();
+    for one in members.iter().map(SizeRow::from_member) {
+        if let Some(row) = rows.iter_mut().find(|row| row.common == one.common) {
+            row.variants.extend(one.variants);
+            row.cpu_seconds.extend(one.cpu_seconds);
+        } else {
+            rows.push(one);
+        }
+    }
+    let header = "\n| variants | cells | unknowns | shortest edge | steps | CPU (s) | companion |\n\
+                  |---|---|---|---|---|---|---|\n";
+    header.to_owned() + &rows.iter().map(SizeRow::as_text).collect::<String>()
 }
 
 impl Companion {
@@ -99,6 +133,9 @@ fn in_a_cell(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ").replace('|', "\\|")
 }
 
+/// What is between a tolerance and the verdict, which most rows do without: they are within.
+pub(super) const VERDICT: &str = ": ";
+
 pub(super) fn row(cells: &[String]) -> String {
     format!("| {} |\n", cells.join(" | "))
 }
@@ -114,18 +151,14 @@ pub(super) fn section(case: &CaseReport) -> String {
     let made_by = each_once(members.iter().map(|member| member.made_by.clone()));
     text += &format!("\nRuns by {}.\n", made_by.join("; "));
     if members.iter().any(|member| member.size.is_some()) {
-        text += "\n| variant | cells | unknowns | shortest edge | steps | CPU (s) | companion |\n\
-                 |---|---|---|---|---|---|---|\n";
-        for member in members {
-            text += &member.size_row();
-        }
+        text += &sizes(members);
     }
-    text += "\n| variant | quantity | computed | ± numerical | reference | kind | ± reference \
-             | difference | tolerance | verdict |\n\
-             |---|---|---|---|---|---|---|---|---|---|\n";
+    text += "\n| variant | quantity | computed | ± | reference | ± | kind | difference | tolerance \
+             |\n|---|---|---|---|---|---|---|---|---|\n";
     for member in members {
-        for value in &member.comparisons {
-            text += &value_row(variant_of(&member.name), value);
+        for (index, value) in member.comparisons.iter().enumerate() {
+            let variant = if index == 0 { variant_of(&member.name) } else { "" };
+            text += &value_row(variant, value);
         }
     }
     let values: Vec<&Comparison> = members.iter().flat_map(|member| &member.comparisons).collect();
@@ -137,22 +170,25 @@ pub(super) fn section(case: &CaseReport) -> String {
 
 fn value_row(variant: &str, value: &Comparison) -> String {
     let [_, quantity, computed, reference, kind, difference, tolerance, verdict] = value.cells();
-    let numerical = value.numerical_share().map_or("-".to_owned(), |share| value.share(share));
-    let uncertainty =
-        value.reference.expected.uncertainty.map_or("-".to_owned(), |own| value.share(own));
-    let cells = [
-        variant.to_owned(),
+    let share = |own: Option<f64>| own.map_or(String::new(), |own| value.share(own));
+    let numerical = share(value.numerical_share());
+    let uncertainty = share(value.reference.expected.uncertainty);
+    let variant = variant.to_owned();
+    let tolerance = match value.verdict {
+        Verdict::Within => tolerance,
+        _ => format!("{tolerance}{VERDICT}{verdict}"),
+    };
+    row(&[
+        variant,
         quantity,
         computed,
         numerical,
         reference,
-        kind,
         uncertainty,
+        kind,
         difference,
         tolerance,
-        verdict,
-    ];
-    row(&cells)
+    ])
 }
 
 /// How often the numerical uncertainty covers what is wrong with a value, where that is known: a check of

@@ -1,4 +1,4 @@
-//! Problems of `[contact]`: laws that are not valid, and cases without contact.
+//! Problems of `[contact]`: laws too weak or of long range, and cases without contact.
 
 use super::Findings;
 use crate::model::speed::weight;
@@ -11,16 +11,9 @@ pub fn check(findings: &mut Findings<'_>) {
     let case = findings.case();
     let (key, range) = match case.contact {
         None => return,
-        Some(ContactSpec::Quadratic { range, epsilon }) => {
-            findings.positive("contact.quadratic.epsilon", epsilon);
-            ("contact.quadratic.range", range)
-        }
-        Some(ContactSpec::Barrier { range, stiffness }) => {
-            findings.positive("contact.barrier.stiffness", stiffness);
-            ("contact.barrier.range", range)
-        }
+        Some(ContactSpec::Quadratic { range, .. }) => ("contact.quadratic.range", range),
+        Some(ContactSpec::Barrier { range, .. }) => ("contact.barrier.range", range),
     };
-    findings.positive(key, range);
     check_range(findings, key, range);
     match &case.time {
         TimeSettings::Steady(_) => findings.error(

@@ -56,10 +56,6 @@ pub fn check(findings: &mut Findings<'_>) {
         check_tolerance(findings, &key, reference);
         check_evidence(findings, &key, expected);
         check_statistic(findings, &key, statistic, end);
-        if expected.per == 0.0 {
-            let help = "leave it out, or write the scale the quantity is divided by";
-            findings.error(&format!("{key}.per"), "`per` is 0".to_owned(), help);
-        }
         if expected.source.trim().is_empty() {
             findings.error(
                 &format!("{key}.source"),
@@ -199,17 +195,12 @@ fn check_tolerance(findings: &mut Findings<'_>, key: &str, reference: &Reference
             format!("the reference for `{}` has no tolerance", reference.statistic.quantity),
             "add relative = ... (a fraction of the value) or absolute = ...",
         ),
-        (Some(relative), None) => {
-            findings.positive(&format!("{key}.relative"), relative);
-            if reference.expected.value == 0.0 {
-                findings.error(
-                    &format!("{key}.relative"),
-                    "no value but 0 is near 0 in relative terms".to_owned(),
-                    "write absolute = ... instead",
-                );
-            }
-        }
-        (None, Some(absolute)) => findings.positive(&format!("{key}.absolute"), absolute),
+        (Some(_), None) if reference.expected.value == 0.0 => findings.error(
+            &format!("{key}.relative"),
+            "no value but 0 is near 0 in relative terms".to_owned(),
+            "write absolute = ... instead",
+        ),
+        _ => {}
     }
 }
 

@@ -4,6 +4,8 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
+#[cfg(test)]
+use crate::spec::number::{NonZero, Positive};
 use crate::{Statistic, StatisticKind};
 
 /// `[scales]`: what makes coefficients and numbers dimensionless.
@@ -14,12 +16,15 @@ use crate::{Statistic, StatisticKind};
 #[serde(deny_unknown_fields)]
 pub struct Scales {
     /// Length (m).
+    #[cfg_attr(test, schemars(with = "Positive"))]
     pub length: f64,
     /// Velocity (m/s).
+    #[cfg_attr(test, schemars(with = "Positive"))]
     pub velocity: f64,
     /// Area of force coefficients (m2); `length` per unit width in planar cases, and
     /// pi length^2 / 4 in axisymmetric ones, if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(test, schemars(with = "Option<Positive>"))]
     pub area: Option<f64>,
 }
 
@@ -178,12 +183,15 @@ struct WrittenReference {
     value: f64,
     /// What the computed quantity is divided by before it is compared (say, 6 pi mu a U).
     #[serde(default = "one")]
+    #[cfg_attr(test, schemars(with = "NonZero"))]
     per: f64,
     /// Accepted difference relative to the value (1); this or `absolute`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(test, schemars(with = "Option<Positive>"))]
     relative: Option<f64>,
     /// Accepted difference; this or `relative`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(test, schemars(with = "Option<Positive>"))]
     absolute: Option<f64>,
     /// The value's own uncertainty, relative to it if the tolerance is `relative`; of a
     /// `regression`, what refinement of mesh and step changes.

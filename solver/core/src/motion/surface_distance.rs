@@ -12,7 +12,7 @@ const ROUNDING: f64 = 1e-12;
 /// Each vertex learns a surface vertex from its neighbours and walks from there along the surface
 /// to the nearest one, since far away cells are wider than the strips that have a surface vertex
 /// in common. The time is about in proportion to the mesh. In space a mesh may be cut open right beside
-/// bodies, and the way goes on across periodic sides.
+/// bodies, and the way continues across periodic sides.
 pub(super) fn surface_distances<const D: usize>(
     mesh: &Mesh<D>,
     surface: impl Iterator<Item = NodeId>,

@@ -99,6 +99,43 @@ impl Status {
         (made > 0.0).then(|| taken * to_go / made)
     }
 
+    /// That of a run whose own is lost: it was under way, and its checkpoints tell more.
+    #[must_use]
+    pub fn lost(case: &Case) -> Self {
+        Self::beginning(case, 0, 0.0)
+    }
+
+    /// That of a run which begins in this process, after so many steps up to a time (s).
+    fn beginning(case: &Case, step: usize, time: f64) -> Self {
+        let (steps, end) = match &case.time {
+            TimeSettings::Steady(_) => (None, None),
+            TimeSettings::Unsteady(settings) => {
+                let left = settings.n_steps().saturating_sub(settings.n_steps_to(time));
+                let steps = settings.adaptive.is_none().then_some(step + left);
+                (steps, Some(settings.end))
+            }
+        };
+        Self {
+            state: RunState::Running,
+            reason: None,
+            step,
+            steps,
+            time,
+            end,
+            dofs: 0,
+            cpu_seconds: BTreeMap::new(),
+            wall_seconds: BTreeMap::new(),
+            first_row: None,
+            peak_memory: None,
+            restarts: Restarts::default(),
+            longest_checkpoint: None,
+            is_interrupted: false,
+            warnings: Vec::new(),
+            pid: std::process::id(),
+            updated_at: String::new(),
+        }
+    }
+
     /// The status of the run in `directory`.
     ///
     /// # Errors
@@ -131,34 +168,9 @@ impl StatusFile {
         history: Option<&History>,
         times: WriteTimes,
     ) -> io::Result<Self> {
-        let (steps, end) = match &case.time {
-            TimeSettings::Steady(_) => (None, None),
-            TimeSettings::Unsteady(settings) => {
-                let (step, time) = history.map_or((0, 0.0), |history| (history.step, history.time));
-                let left = settings.n_steps().saturating_sub(settings.n_steps_to(time));
-                let steps = settings.adaptive.is_none().then_some(step + left);
-                (steps, Some(settings.end))
-            }
-        };
-        let status = Status {
-            state: RunState::Running,
-            reason: None,
-            step: history.map_or(0, |history| history.step),
-            steps,
-            time: history.map_or(0.0, |history| history.time),
-            end,
-            dofs: 0,
-            cpu_seconds: BTreeMap::new(),
-            wall_seconds: BTreeMap::new(),
-            first_row: None,
-            peak_memory: None,
-            restarts: history.map_or_else(Restarts::default, |history| history.restarts),
-            longest_checkpoint: None,
-            is_interrupted: false,
-            warnings: Vec::new(),
-            pid: std::process::id(),
-            updated_at: String::new(),
-        };
+        let (step, time) = history.map_or((0, 0.0), |history| (history.step, history.time));
+        let restarts = history.map_or_else(Restarts::default, |history| history.restarts);
+        let status = Status { restarts, ..Status::beginning(case, step, time) };
         let now = Instant::now();
         let path = directory.join("status.json");
         let cpu_before = cpu_seconds();

@@ -8,16 +8,6 @@ use crate::{CurveShape, HelixShape, PartSpec, ShapeSpec};
 
 pub fn check_helix(findings: &mut Findings<'_>, key: &str, helix: &HelixShape) {
     let HelixShape { radius, pitch, turns, tube_radius } = *helix;
-    for (name, value) in [("radius", radius), ("pitch", pitch), ("tube_radius", tube_radius)] {
-        findings.positive(&format!("{key}.{name}"), value);
-    }
-    if turns == 0.0 {
-        findings.error(
-            &format!("{key}.turns"),
-            "a helix of no turns has no length".to_owned(),
-            "write a number of turns, negative for a left-handed helix",
-        );
-    }
     let widest = Centreline::Helix { radius, pitch, turns }.widest_tube();
     if tube_radius >= widest {
         findings.error(
@@ -29,12 +19,8 @@ pub fn check_helix(findings: &mut Findings<'_>, key: &str, helix: &HelixShape) {
 }
 
 pub fn check_curve(findings: &mut Findings<'_>, key: &str, curve: &CurveShape) {
-    findings.positive(&format!("{key}.tube_radius"), curve.tube_radius);
     let points = format!("{key}.points");
     if curve.points.len() < 2 {
-        let n = curve.points.len();
-        let help = "give two points [x, y, z] or more";
-        findings.error(&points, format!("{n} points make no curve"), help);
         return;
     }
     if let Some(index) = curve.points.windows(2).position(|pair| pair[0] == pair[1]) {
@@ -62,14 +48,6 @@ pub fn check_curve(findings: &mut Findings<'_>, key: &str, curve: &CurveShape) {
 
 pub fn check_profile(findings: &mut Findings<'_>, key: &str, profile: &[[f64; 2]]) {
     let n = profile.len();
-    if n < 3 {
-        findings.error(
-            key,
-            format!("a profile of {n} points has no inside"),
-            "give at least 3 points [x, distance from the axis], the first and the last on the axis",
-        );
-        return;
-    }
     for (index, [_, off]) in profile.iter().enumerate() {
         let is_end = index == 0 || index == n - 1;
         let is_right = if is_end { *off == 0.0 } else { *off > 0.0 };
@@ -91,10 +69,6 @@ pub fn check_parts(
     parts: &[PartSpec],
     check_shape: impl Fn(&mut Findings<'_>, &str, &ShapeSpec),
 ) {
-    if parts.is_empty() {
-        let help = "write [{ shape = ..., center = [x, y, z] }, ...]";
-        findings.error(key, "a union of no parts is no body".to_owned(), help);
-    }
     for (index, part) in parts.iter().enumerate() {
         let key = format!("{key}.{index}");
         check_shape(findings, &format!("{key}.shape"), &part.shape);
