@@ -25,6 +25,10 @@ class AlewifeError(RuntimeError):
         self.code = code
 
 
+class AlewifeWarning(UserWarning):
+    """Something odd in a case, or that a run warned of."""
+
+
 class BadCaseError(AlewifeError):
     """A case is wrong; the message names file, line and key, and what would be accepted."""
 

@@ -103,6 +103,11 @@ class Run:
         return json.loads((self.path / "status.json").read_text())
 
     @cached_property
+    def warnings(self) -> list[dict[str, Any]]:
+        """What the run warned of: `message`, `time` (None before its first row) and `count`."""
+        return list(self.status.get("warnings", []))
+
+    @cached_property
     def provenance(self) -> dict[str, Any]:
         """Which program ran the case, where and how."""
         return json.loads((self.path / "provenance.json").read_text())

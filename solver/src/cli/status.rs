@@ -123,6 +123,9 @@ impl Progress {
         if let Some(reason) = reason {
             say(&format!("  {reason}"));
         }
+        for warning in &self.status.warnings {
+            say(&format!("  warning: {}", warning.line()));
+        }
         match &self.checkpoint {
             Some(path) => say(&format!("  latest checkpoint: {}", path.display())),
             None => say("  no checkpoint"),

@@ -15,8 +15,8 @@ use super::wall_limit::WallLimit;
 use super::{live, threads};
 use crate::case::{CaseFile, rounded};
 use crate::observer::{
-    COMPARISON_FILE, Earlier, Point, Provenance, RunDirectory, Shown, Start, checkpoints,
-    print_line, start_log, write_atomic,
+    COMPARISON_FILE, Earlier, Point, Provenance, RunDirectory, Shown, Start, Status, Warning,
+    begin_warnings, checkpoints, continue_warnings, print_line, start_log, write_atomic,
 };
 use crate::run::{Dimension, RunError, Solve};
 use crate::step::FlowError;
@@ -45,6 +45,10 @@ where
     let has_limit_asked = limit.as_ref().map(WallLimit::has_asked);
     let live = plan.live.as_deref().map(|address| live::start(address, &name)).transpose()?;
     let lock = plan.lock.clone().map_or_else(|| RunDirectory::hold(out), Ok)?;
+    let verbosity = i8::try_from(plan.verbose).unwrap_or(i8::MAX) - i8::from(plan.quiet);
+    // What is wrong with files of an earlier part is reported, too
+    start_log(None, verbosity)?;
+    begin_warnings(plan.warnings.iter().map(Warning::of_case).collect());
     let resumed: Option<Resumed<D>> = match beginning_of(plan)? {
         Beginning::AtStart => None,
         Beginning::From(resumed) => Some(*resumed),
@@ -65,10 +69,9 @@ where
     });
     let start = Start { threads: n_threads, from, lock: Some(lock) };
     let directory = RunDirectory::create(out, file.case(), start, earlier)?;
-    let verbosity = i8::try_from(plan.verbose).unwrap_or(i8::MAX) - i8::from(plan.quiet);
     start_log(Some(out), verbosity)?;
     if let Some(resumed) = &resumed {
-        report_resuming(resumed, plan.quiet);
+        report_resuming(resumed, plan);
     }
 
     let shown = Shown { quiet: plan.quiet, live };
@@ -104,10 +107,13 @@ fn beginning_of<const D: usize>(plan: &RunPlan) -> Result<Beginning<D>, Failure>
 }
 
 /// Reports from where a run continues.
-fn report_resuming<const D: usize>(resumed: &Resumed<D>, quiet: bool) {
+fn report_resuming<const D: usize>(resumed: &Resumed<D>, plan: &RunPlan) {
+    let of_run = Status::read(&plan.out).ok().filter(|_| resumed.is_in_place);
+    let earlier = of_run.map_or_else(Vec::new, |status| status.warnings);
+    continue_warnings(resumed.state.time(), earlier);
     let (step, time, from) = (resumed.state.step(), resumed.state.time(), resumed.from.display());
     tracing::info!(step, time, from = %from, "resumed");
-    if !quiet {
+    if !plan.quiet {
         let time = rounded(time);
         print_line(&format!("continues at step {step}, t {time}, from {from}"));
     }

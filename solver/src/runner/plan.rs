@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::case::{CaseFile, WallTime};
+use crate::case::{CaseFile, Diagnostic, WallTime};
 use crate::observer::RunLock;
 use crate::run::RunSummary;
 use crate::validation::Comparison;
@@ -12,6 +12,8 @@ use crate::validation::Comparison;
 pub struct RunPlan {
     /// The case, which has been checked.
     pub file: CaseFile,
+    /// What is odd in it.
+    pub warnings: Vec<Diagnostic>,
     /// The directory of the run.
     pub out: PathBuf,
     /// That, where it is held already.
@@ -42,6 +44,7 @@ impl RunPlan {
     pub fn new(file: CaseFile, out: PathBuf) -> Self {
         Self {
             file,
+            warnings: Vec::new(),
             out,
             lock: None,
             threads: None,

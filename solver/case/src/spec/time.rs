@@ -158,6 +158,12 @@ pub enum Convection {
     Newton,
 }
 
+impl Convection {
+    /// CFL number up to which extrapolated convection was found to agree with Newton's method
+    /// (docs/method.md, section 6).
+    pub const LARGEST_CFL: f64 = 5.0;
+}
+
 /// The state at time zero.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]

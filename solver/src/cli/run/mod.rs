@@ -5,4 +5,4 @@ mod results;
 mod run;
 
 pub use results::print_comparisons;
-pub use run::{Options, command, report, run};
+pub use run::{Options, command, run, run_plan};

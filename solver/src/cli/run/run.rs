@@ -4,11 +4,11 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueHint};
 
-use super::results::{print_comparisons, tell_cell_numbers, tell_last_values};
+use super::results::{print_comparisons, tell_cell_numbers, tell_last_values, tell_warnings};
 use crate::case::{CaseFile, TimeSettings, WallTime};
 use crate::cli::complete;
 use crate::cli::exit::{Exit, Failure};
-use crate::cli::read::{Settings, read_case};
+use crate::cli::read::{CheckedCase, Settings, read_and_check, tell};
 use crate::cli::style::say;
 use crate::runner::{self, Finished, Outcome, RunPlan, Stopped};
 use crate::timing::cpu_seconds;
@@ -118,12 +118,21 @@ impl Options {
 
 /// Runs a case.
 pub fn run(options: &Options) -> Result<Exit, Failure> {
-    let plan = options.plan(read_case(&options.case, &options.settings.set)?);
-    report(&plan, runner::run(&plan)?, &format!("it continues with\n  {}", options.command()))
+    let CheckedCase { file, warnings } = read_and_check(&options.case, &options.settings.set)?;
+    tell(&warnings);
+    let plan = RunPlan { warnings, ..options.plan(file) };
+    run_plan(&plan, &format!("it continues with\n  {}", options.command()))
 }
 
-/// Prints what became of a run, with the remedy if it was stopped and left a state.
-pub fn report(plan: &RunPlan, outcome: Outcome, remedy: &str) -> Result<Exit, Failure> {
+/// Runs a plan and prints what became of it, with the remedy if it was stopped and left a state.
+pub fn run_plan(plan: &RunPlan, remedy: &str) -> Result<Exit, Failure> {
+    let exit = runner::run(plan).and_then(|outcome| report(plan, outcome, remedy));
+    // However a run ends, and last
+    tell_warnings();
+    exit
+}
+
+fn report(plan: &RunPlan, outcome: Outcome, remedy: &str) -> Result<Exit, Failure> {
     match outcome {
         Outcome::WasFinished => {
             say(&format!("{} has come to its end before", plan.out.display()));

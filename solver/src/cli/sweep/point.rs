@@ -8,10 +8,11 @@ use super::points::check_points;
 use super::run_options::Options;
 use super::swept::directory_of;
 use crate::cli::exit::{Exit, Failure};
-use crate::cli::run::report;
-use crate::cli::style::{self, complain, say};
+use crate::cli::read::tell;
+use crate::cli::run::run_plan;
+use crate::cli::style::{complain, say};
 use crate::observer::{LockError, RunDirectory, RunDirectoryError, RunLock};
-use crate::runner::{self, RunPlan};
+use crate::runner::RunPlan;
 use crate::sweep::{Plan, PointFailure, PointState, SweepDirectory, stand_of_own};
 
 /// How often it is looked whether another process has given a point free.
@@ -26,8 +27,8 @@ pub fn run(options: &Options, index: usize) -> Result<Exit, Failure> {
         named.range(all.len())?;
     }
     let warnings = check_points(&sweep, index..index + 1)?;
-    if !warnings.is_empty() && options.parent.is_none() {
-        complain(&style::diagnostics(&warnings));
+    if options.parent.is_none() {
+        tell(&warnings);
     }
     let file = sweep.case(index)?;
     let first = if index == 0 { file.clone() } else { sweep.case(0)? };
@@ -46,6 +47,7 @@ pub fn run(options: &Options, index: usize) -> Result<Exit, Failure> {
     }
     PointFailure::forget(&directory, index)?;
     let plan = RunPlan {
+        warnings,
         lock: Some(lock),
         threads: options.threads,
         continues: true,
@@ -54,18 +56,16 @@ pub fn run(options: &Options, index: usize) -> Result<Exit, Failure> {
         quiet: options.quiet || options.parent.is_some(),
         ..RunPlan::new(file, out)
     };
-    match runner::run(&plan) {
-        Ok(outcome) => report(&plan, outcome, "the same call again continues"),
-        Err(failure) => {
+    run_plan(&plan, "the same call again continues").inspect_err(|failure| {
+        if failure.exit != Exit::Stopped {
             let reason = failure.message.clone();
-            let of_point = PointFailure::new(Some(failure.exit as u8), reason);
+            let failure = PointFailure::new(Some(failure.exit as u8), reason);
             // Where it cannot be written the point is run again
-            if let Err(error) = of_point.write(&directory, index) {
+            if let Err(error) = failure.write(&directory, index) {
                 complain(&format!("error: {error}"));
             }
-            Err(failure)
         }
-    }
+    })
 }
 
 /// Holds the directory of a point. A process of a sweep has other points to run; one of a single point waits.

@@ -14,6 +14,7 @@ use super::exit::{Exit, Failure};
 use super::run::print_comparisons;
 use super::style::{Ink, complain, on_stdout, say};
 use crate::case::library;
+use crate::observer::start_log;
 use crate::runner::{SignalWatch, threads};
 use crate::validation::{
     CaseReport, Comparison, ReportPage, comparisons_to_json, count_table, summary,
@@ -89,6 +90,8 @@ pub fn validate(options: &Options) -> Result<Exit, Failure> {
     };
     let members = all_members(&names, options.quick)?;
     let n_threads = threads::start(options.threads)?;
+    // What runs warn of is in the status of those that are kept
+    start_log(None, -1)?;
 
     if members.is_empty() {
         let names = names.join(", ");

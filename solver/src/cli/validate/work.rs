@@ -6,7 +6,7 @@ use super::super::exit::{Exit, Failure};
 use super::kept::{self, Found};
 use super::members::Member;
 use crate::case::{Case, CaseFile, Model, Severity, check};
-use crate::observer::{Earlier, Origin, Provenance, RunDirectory, Shown, Start};
+use crate::observer::{Earlier, Origin, Provenance, RunDirectory, Shown, Start, begin_warnings};
 use crate::run::{RunError, RunSummary};
 use crate::runner::{self, RunInto, SignalWatch};
 use crate::step::FlowError;
@@ -193,6 +193,7 @@ impl Work {
             RunDirectory::create(place, &model.case, start, earlier).map_err(Failure::from)?;
         let shown = Shown { quiet: true, live: None };
         let watch = self.watch.clone();
+        begin_warnings(Vec::new());
         let run = RunInto { directory: &directory, shown, watch, limit: None };
         Ok(runner::simulate_afresh(&model, run)?)
     }

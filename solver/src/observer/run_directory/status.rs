@@ -12,6 +12,7 @@ use super::restarts::Restarts;
 use super::write_times::WriteTimes;
 use crate::case::{Case, TimeSettings};
 use crate::observer::system::{process, write_atomic, write_whole};
+use crate::observer::warnings::{self, Warning};
 use crate::run::{LastState, Observer, RunError, Snapshot};
 use crate::step::FlowError;
 use crate::timing::{Stage, Timing, cpu_seconds};
@@ -78,6 +79,9 @@ pub struct Status {
     /// Whether it ended for a reason outside of it, and continues when it is run again.
     #[serde(default)]
     pub is_interrupted: bool,
+    /// What the run warned of so far.
+    #[serde(default)]
+    pub warnings: Vec<Warning>,
     /// The process.
     pub pid: u32,
     /// When this was written (UTC).
@@ -126,6 +130,7 @@ impl Status {
             restarts: Restarts::default(),
             longest_checkpoint: None,
             is_interrupted: false,
+            warnings: Vec::new(),
             pid: std::process::id(),
             updated_at: String::new(),
         }
@@ -182,6 +187,7 @@ impl StatusFile {
         self.status.cpu_seconds.insert("total".to_owned(), cpu);
         self.status.longest_checkpoint = self.times.longest().map(|time| time.as_secs_f64());
         self.status.peak_memory = process::peak_memory();
+        self.status.warnings = warnings::warnings();
         self.status.updated_at = process::now();
         let mut text = serde_json::to_vec_pretty(&self.status)?;
         text.push(b'\n');
@@ -194,6 +200,7 @@ impl<const D: usize> Observer<D> for StatusFile {
         self.status.step = snapshot.step;
         self.status.time = snapshot.time;
         self.status.dofs = snapshot.n_dofs;
+        warnings::reach(snapshot.time);
         let wall = self.started.elapsed().as_secs_f64();
         self.status.first_row.get_or_insert(FirstRow { time: snapshot.time, wall });
         by_stage(&mut self.status, snapshot.timing);
