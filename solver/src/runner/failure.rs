@@ -31,6 +31,8 @@ pub enum Exit {
     NoInput = 66,
     /// A bug in the program.
     Bug = 70,
+    /// Memory has run out.
+    OutOfMemory = 71,
     /// A file could not be read or written.
     InputOutput = 74,
     /// The run was stopped, and continues when it is run again.

@@ -17,7 +17,7 @@ pub use failure::{Exit, Failure, listing};
 pub use live::DEFAULT_ADDRESS;
 pub use pipeline::{run, write_comparisons};
 pub use plan::{Finished, Outcome, RunPlan, Stopped};
-pub use signal::{SignalWatch, outlive_file_size_limit};
+pub use signal::{SignalWatch, end_aborted_with, outlive_file_size_limit};
 pub use simulate::{RunInto, simulate, simulate_afresh};
 pub use too_large::too_large;
 pub use wall_limit::WallLimit;

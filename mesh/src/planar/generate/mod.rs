@@ -20,7 +20,7 @@ use mirror::Mirror;
 
 use crate::planar::boundary::BoundaryLoops;
 use crate::planar::placement::{place, place_wrapped};
-use crate::{Cut, Domain, Mesh, MeshError, PlacedShape, Quality, SizeField, Sizing};
+use crate::{Cut, Domain, Mesh, MeshError, PlacedShape, Quality, SizeField, Sizing, interrupt};
 
 /// A mesh made by reflection is taken unless an angle is below this (degrees), as where the line of
 /// symmetry passes a narrow place.
@@ -109,6 +109,8 @@ fn fill(border: &BoundaryLoops, sizes: &SizeField, is_curved: bool) -> Result<Me
     let boundary = BoundaryEdges::new(border, sizes)?;
     let interior = front::advance_front(&boundary, sizes)?;
     let mut triangles = delaunay::triangulate(&boundary, &interior, sizes)?;
+    interrupt::check()?;
     improve::improve(&mut triangles, border, is_curved);
+    interrupt::check()?;
     quadratic::finish(triangles, border, &boundary.periodic, is_curved)
 }
