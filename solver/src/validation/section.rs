@@ -1,6 +1,7 @@
 //! The section of a case on the page of a validation: set-up, meshes, values, sources, disagreements.
 
 use super::comparison::{Comparison, Verdict};
+use super::evidence::Evidence;
 use super::report::two_digits;
 use super::uncertainty::{Refinement, RunSize};
 use crate::case::{ReferenceKind, significant};
@@ -121,8 +122,8 @@ pub(super) fn section(case: &CaseReport) -> String {
         }
     }
     text += "\n| variant | quantity | computed | ± numerical | reference | kind | ± reference \
-             | difference | tolerance | verdict |\n\
-             |---|---|---|---|---|---|---|---|---|---|\n";
+             | difference | evidence | band | verdict |\n\
+             |---|---|---|---|---|---|---|---|---|---|---|\n";
     for member in members {
         for value in &member.comparisons {
             text += &value_row(variant_of(&member.name), value);
@@ -136,10 +137,10 @@ pub(super) fn section(case: &CaseReport) -> String {
 }
 
 fn value_row(variant: &str, value: &Comparison) -> String {
-    let [_, quantity, computed, reference, kind, difference, tolerance, verdict] = value.cells();
+    let [_, quantity, computed, reference, kind, difference, evidence, band, verdict] =
+        value.cells();
     let numerical = value.numerical_share().map_or("-".to_owned(), |share| value.share(share));
-    let uncertainty =
-        value.reference.expected.uncertainty.map_or("-".to_owned(), |own| value.share(own));
+    let uncertainty = value.reference_share().map_or("-".to_owned(), |own| value.share(own));
     let cells = [
         variant.to_owned(),
         quantity,
@@ -149,7 +150,8 @@ fn value_row(variant: &str, value: &Comparison) -> String {
         kind,
         uncertainty,
         difference,
-        tolerance,
+        evidence,
+        band,
         verdict,
     ];
     row(&cells)
@@ -216,6 +218,7 @@ fn reasons(members: &[MemberReport]) -> String {
     let mut lines = each_once(values().filter_map(|value| {
         Some(format!("Outside, known: {}.", value.reference.expected.outside.as_ref()?))
     }));
+    lines.extend(causes(members));
     let named = |value: &Comparison| {
         let variant = variant_of(&value.case);
         let between = if variant.is_empty() { "" } else { ", " };
@@ -237,19 +240,30 @@ fn reasons(members: &[MemberReport]) -> String {
     each_once(lines.into_iter()).iter().map(|line| format!("\n{line}\n")).collect()
 }
 
+/// Why values are only consistent with their references, a line for each cause.
+fn causes(members: &[MemberReport]) -> Vec<String> {
+    let values = members.iter().flat_map(|member| &member.comparisons);
+    let told = values.filter_map(|value| {
+        let cause = value.reference.expected.cause.as_ref()?;
+        let is_open = matches!(value.evidence(), Some(Evidence::Consistent(_)));
+        is_open.then(|| format!("Consistent, not confirmed: {cause}."))
+    });
+    each_once(told)
+}
+
 /// The values that are known to be outside, as lines of a list with the reason of each.
 pub(super) fn known_outside(case: &CaseReport) -> Vec<String> {
     let values = case.members.iter().flat_map(|member| &member.comparisons);
     let outside = values.filter(|value| value.verdict == Verdict::KnownOutside);
     let line = |value: &Comparison| {
-        let [case, quantity, computed, reference, _, difference, tolerance, _] = value.cells();
+        let [case, quantity, computed, reference, _, difference, _, band, _] = value.cells();
         let reason = value.reference.expected.outside.as_deref().unwrap_or_default();
         let numerical = value
             .numerical_uncertainty()
             .map_or(String::new(), |own| format!(" ± {}", two_digits(own)));
         format!(
             "- `{case}`, {quantity}: {computed}{numerical} for {reference} ({difference}, \
-             tolerance {tolerance}): {reason}."
+             band {band}): {reason}."
         )
     };
     outside.map(line).collect()
