@@ -54,6 +54,7 @@ pub use spec::statistic::{ForceComponent, Statistic, StatisticKind};
 pub use spec::time::{
     Adaptive, Convection, Initial, Scheme, Steady, TimeSettings, Unsteady, Until,
 };
+pub use spec::uncertainty::Uncertainty;
 pub use spec::units::{UnitLabels, Units};
 pub use sweep::{Sweep, SweepPoint, SweepQuantity};
 pub use text::diagnostic::{CaseError, Diagnostic, Severity, printable};

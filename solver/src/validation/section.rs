@@ -1,6 +1,7 @@
 //! The section of a case on the page of a validation: set-up, meshes, values, sources, disagreements.
 
 use super::comparison::{Comparison, Verdict};
+use super::evidence::Evidence;
 use super::report::two_digits;
 use super::uncertainty::{Refinement, RunSize};
 use crate::case::{ReferenceKind, significant};
@@ -153,8 +154,8 @@ pub(super) fn section(case: &CaseReport) -> String {
     if members.iter().any(|member| member.size.is_some()) {
         text += &sizes(members);
     }
-    text += "\n| variant | quantity | computed | ± | reference | ± | kind | difference | tolerance \
-             |\n|---|---|---|---|---|---|---|---|---|\n";
+    text += "\n| variant | quantity | computed | ± | reference | ± | kind | difference | evidence | band \
+             |\n|---|---|---|---|---|---|---|---|---|---|\n";
     for member in members {
         for (index, value) in member.comparisons.iter().enumerate() {
             let variant = if index == 0 { variant_of(&member.name) } else { "" };
@@ -169,17 +170,17 @@ pub(super) fn section(case: &CaseReport) -> String {
 }
 
 fn value_row(variant: &str, value: &Comparison) -> String {
-    let [_, quantity, computed, reference, kind, difference, tolerance, verdict] = value.cells();
-    let share = |own: Option<f64>| own.map_or(String::new(), |own| value.share(own));
+    let [_, quantity, computed, reference, kind, difference, evidence, band, verdict] =
+        value.cells();
+    let share = |own: Option<f64>| own.map_or("-".to_owned(), |own| value.share(own));
     let numerical = share(value.numerical_share());
-    let uncertainty = share(value.reference.expected.uncertainty);
-    let variant = variant.to_owned();
-    let tolerance = match value.verdict {
-        Verdict::Within => tolerance,
-        _ => format!("{tolerance}{VERDICT}{verdict}"),
+    let uncertainty = share(value.reference_share());
+    let band = match value.verdict {
+        Verdict::Within => band,
+        _ => format!("{band}{VERDICT}{verdict}"),
     };
     row(&[
-        variant,
+        variant.to_owned(),
         quantity,
         computed,
         numerical,
@@ -187,7 +188,8 @@ fn value_row(variant: &str, value: &Comparison) -> String {
         uncertainty,
         kind,
         difference,
-        tolerance,
+        evidence,
+        band,
     ])
 }
 
@@ -252,6 +254,7 @@ fn reasons(members: &[MemberReport]) -> String {
     let mut lines = each_once(values().filter_map(|value| {
         Some(format!("Outside, known: {}.", value.reference.expected.outside.as_ref()?))
     }));
+    lines.extend(causes(members));
     let named = |value: &Comparison| {
         let variant = variant_of(&value.case);
         let between = if variant.is_empty() { "" } else { ", " };
@@ -273,19 +276,30 @@ fn reasons(members: &[MemberReport]) -> String {
     each_once(lines.into_iter()).iter().map(|line| format!("\n{line}\n")).collect()
 }
 
+/// Why values are only consistent with their references, a line for each cause.
+fn causes(members: &[MemberReport]) -> Vec<String> {
+    let values = members.iter().flat_map(|member| &member.comparisons);
+    let told = values.filter_map(|value| {
+        let cause = value.reference.expected.cause.as_ref()?;
+        let is_open = matches!(value.evidence(), Some(Evidence::Consistent(_)));
+        is_open.then(|| format!("Consistent, not confirmed: {cause}."))
+    });
+    each_once(told)
+}
+
 /// The values that are known to be outside, as lines of a list with the reason of each.
 pub(super) fn known_outside(case: &CaseReport) -> Vec<String> {
     let values = case.members.iter().flat_map(|member| &member.comparisons);
     let outside = values.filter(|value| value.verdict == Verdict::KnownOutside);
     let line = |value: &Comparison| {
-        let [case, quantity, computed, reference, _, difference, tolerance, _] = value.cells();
+        let [case, quantity, computed, reference, _, difference, _, band, _] = value.cells();
         let reason = value.reference.expected.outside.as_deref().unwrap_or_default();
         let numerical = value
             .numerical_uncertainty()
             .map_or(String::new(), |own| format!(" ± {}", two_digits(own)));
         format!(
             "- `{case}`, {quantity}: {computed}{numerical} for {reference} ({difference}, \
-             tolerance {tolerance}): {reason}."
+             band {band}): {reason}."
         )
     };
     outside.map(line).collect()

@@ -16,4 +16,5 @@ pub(crate) mod reference;
 pub(crate) mod statistic;
 pub(crate) mod time;
 mod time_function;
+pub(crate) mod uncertainty;
 pub(crate) mod units;

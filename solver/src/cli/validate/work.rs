@@ -12,7 +12,7 @@ use crate::runner::{self, RunInto, SignalWatch};
 use crate::step::FlowError;
 use crate::validation::{
     Companion, Comparison, MemberReport, Refinement, RunSize, coarser_settings, compare,
-    not_computed, set_uncertainties,
+    no_companion, not_computed, set_uncertainties,
 };
 
 /// What the directories of companions end with.
@@ -127,15 +127,25 @@ impl Work {
             }
             _ => None,
         };
-        if let (Place::Kept { .. }, Some(directory)) = (&self.place, &directory) {
-            runner::write_comparisons(directory, &comparisons)?;
-        }
+        self.keep(member, &comparisons)?;
         let made_by = made_by(directory.as_deref(), self.n_threads);
         Ok(MemberReport { name, size, companion, comparisons, made_by })
     }
 
+    /// Writes a comparison to the run it is of, where that is kept.
+    pub fn keep(&self, member: &Member, comparisons: &[Comparison]) -> Result<(), Failure> {
+        let directory = self.directory(&member.file, Which::Itself);
+        if let (Place::Kept { .. }, Some(directory)) = (&self.place, &directory) {
+            runner::write_comparisons(directory, comparisons)?;
+        }
+        Ok(())
+    }
+
     /// The run of a companion.
     fn companion_run(&self, member: &Member) -> Result<SizedRun, NoResult> {
+        if let Some(reason) = no_companion(member.file.case()) {
+            return Err(NoResult::Reported(reason.to_owned()));
+        }
         let settings = coarser_settings(member.file.case());
         let file = readable(&member.name, &settings).map_err(NoResult::Reported)?;
         let directory = self.directory(&file, Which::Companion);
