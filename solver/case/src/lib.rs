@@ -8,9 +8,8 @@ mod spec;
 mod sweep;
 mod text;
 
-pub use model::numbers::{
-    DerivedNumber, derived_numbers, geometry_name, number_table, rounded, significant,
-};
+pub use model::derived_number::DerivedNumber;
+pub use model::numbers::{derived_numbers, geometry_name, number_table, rounded, significant};
 pub use model::region::{normal_axis, opposite};
 pub use model::{Model, SwimmerModel};
 pub use quantity::{

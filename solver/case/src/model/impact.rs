@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::numbers::DerivedNumber;
+use super::derived_number::DerivedNumber;
 use super::speed::{load_in_space, norm, terminal_speed};
 use crate::{Body, Case, ContactSpec, FlowModel, Geometry, Model, Motion};
 

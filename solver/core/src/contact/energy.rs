@@ -4,8 +4,9 @@
 //! changes of the energy stored in contact and of the kinetic energy of the bodies is the error of the step. Where it is
 //! small beside the energy of the impact, bodies leave with the velocity they came with, whatever the stiffness: half a
 //! period of contact then takes some fifty steps of BDF2, which by itself loses 24 / n^3 of the velocity in n steps.
-//! Bodies that rest on each other, or that the fluid stops before, have no impact to follow: the scale of the
-//! energy is the kinetic one of their approach, what is stored, and the work of all other forces over the range.
+//! Bodies that rest on each other, or that the fluid stops, have no impact to follow: of the energy stored counts what
+//! the loads of contact give to the motion, and its scale is the kinetic one of the approach, what is stored, and the
+//! work of all other forces over the range.
 
 use nalgebra::{Matrix6, Vector3};
 
@@ -77,7 +78,8 @@ impl StepEnergy<'_> {
         if !inertia {
             return ContactEnergy { stored, ..ContactEnergy::default() };
         }
-        let potential = self.work_of_contact(&pairs) + stored - before;
+        let share = self.inertial_share(&involved);
+        let potential = share * (self.work_of_contact(&pairs) + stored - before);
         let kinetic: f64 = involved.iter().map(|&body| self.bodies[body].kinetic_defect()).sum();
         let others: f64 = involved.iter().map(|&body| self.other_forces(body)).sum();
         let scale = impact + before + range * others;
@@ -130,6 +132,17 @@ impl StepEnergy<'_> {
         bodies.sort_unstable();
         bodies.dedup();
         bodies
+    }
+
+    /// Part of the loads of contact at the end of the step that changes velocities; the rest balances other forces.
+    fn inertial_share(&self, involved: &[usize]) -> f64 {
+        let loads = involved.iter().map(|&body| self.loads.wrenches[body].force.norm());
+        let loads: f64 = loads.sum();
+        let rates = involved.iter().map(|&body| {
+            let BodyInStep { inertia, accelerations, .. } = &self.bodies[body];
+            (inertia * accelerations[1].to_vector()).fixed_rows::<3>(0).norm()
+        });
+        if loads > 0.0 { (rates.sum::<f64>() / loads).min(1.0) } else { 1.0 }
     }
 
     /// All other forces on a body at the end of the step (N).
