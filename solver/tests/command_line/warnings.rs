@@ -67,6 +67,34 @@ fn warnings_of_case_and_run_are_in_the_status_and_the_last_lines() {
 }
 
 #[test]
+fn points_of_a_sweep_with_warnings_are_counted() {
+    let directory = tempfile::tempdir().unwrap();
+    let text = r#"
+        title = "a disc at rest, or turned"
+        geometry = "planar"
+        fluid = { model = "stokes", viscosity = 1.0 }
+        domain.disc.radius = 2.0
+        boundary.wall = "no-slip"
+        mesh = { size = 0.8, surface = 0.3 }
+        time.unsteady = { step = 0.5, end = 0.5 }
+        [[body]]
+        name = "disc"
+        shape.disc.radius = 0.5
+        center = [0.0, 0.0]
+        motion = "free"
+    "#;
+    std::fs::write(directory.path().join("disc.toml"), text).unwrap();
+    let command = ["sweep", "run", "disc.toml", "--set", "body.0.torque=0,1", "--out", "s"];
+    let output = alewife(directory.path(), &command);
+    let said = String::from_utf8_lossy(&output.stdout);
+    assert!(said.contains("2 of 2 points finished, 1 with warnings;"), "{said}");
+    let table = std::fs::read_to_string(directory.path().join("s/sweep.csv")).unwrap();
+    let rows: Vec<Vec<&str>> = table.lines().map(|line| line.split(',').collect()).collect();
+    let column = rows[0].iter().position(|name| *name == "warnings").unwrap();
+    assert_eq!([rows[1][column], rows[2][column]], ["1", "0"], "{table}");
+}
+
+#[test]
 fn check_warns_of_steps_in_which_fluid_crosses_several_cells() {
     let directory = tempfile::tempdir().unwrap();
     let told = |settings: &[&str]| {

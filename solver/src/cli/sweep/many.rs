@@ -241,10 +241,15 @@ fn tell_beginning(options: &Options, directory: &SweepDirectory, score: &Score, 
 
 fn tell_end(directory: &SweepDirectory, score: &Score, n: usize, elapsed: Duration) {
     let finished = score.finished;
-    let seconds: f64 = (0..directory.n_points())
+    let statuses: Vec<Status> = (0..directory.n_points())
         .filter_map(|index| Status::read(&directory.point(index)).ok())
-        .filter_map(|status| status.cpu_seconds.get("total").copied())
-        .sum();
+        .collect();
+    let cpu_seconds = statuses.iter().filter_map(|status| status.cpu_seconds.get("total"));
+    let seconds: f64 = cpu_seconds.sum();
+    let warned = match statuses.iter().filter(|status| !status.warnings.is_empty()).count() {
+        0 => String::new(),
+        n => format!(", {n} with warnings"),
+    };
     let failed = match score.failed.len() {
         0 => String::new(),
         n => format!(", {n} failed"),
@@ -253,7 +258,7 @@ fn tell_end(directory: &SweepDirectory, score: &Score, n: usize, elapsed: Durati
     let place = if finished > 0 { "written to" } else { "in" };
     let elapsed = elapsed.as_secs_f64();
     say(&format!(
-        "{finished} of {n} points finished{failed}; {elapsed:.1} s for {seconds:.1} s of CPU time; \
+        "{finished} of {n} points finished{failed}{warned}; {elapsed:.1} s for {seconds:.1} s of CPU time; \
          {place} {path}"
     ));
     for FailedPoint { index, failure } in score.failed.iter().take(MOST_LISTED) {
