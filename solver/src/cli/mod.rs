@@ -8,6 +8,7 @@ mod library;
 mod manual;
 mod mesh;
 mod panic;
+mod parent;
 mod plot;
 mod read;
 mod run;
@@ -26,7 +27,7 @@ use exit::{Exit, Failure};
 use read::Settings;
 use style::{complain, say};
 
-use crate::runner::outlive_file_size_limit;
+use crate::runner::{end_aborted_with, outlive_file_size_limit};
 
 pub use panic::guard;
 
@@ -43,8 +44,8 @@ Examples:
 A CASE is the path of a .toml file, the name of a shipped case, or either with /VARIANT behind it.
 
 Exit codes: 0 done; 2 usage; 10 solver diverged; 11 mesh; 20 outside tolerance;
-65 bad case; 66 no such case; 70 bug in alewife; 74 input or output; 75 stopped,
-run it again to continue; 76 restarted without progress.";
+65 bad case; 66 no such case; 70 bug in alewife; 71 out of memory; 74 input or
+output; 75 stopped, run it again to continue; 76 restarted without progress.";
 
 /// Swimmers in viscous fluid: Taylor-Hood finite elements on body-fitted meshes.
 #[derive(Debug, Parser)]
@@ -155,6 +156,8 @@ pub fn run() -> ExitCode {
 
 fn dispatch(command: Command) -> Result<Exit, Failure> {
     outlive_file_size_limit()?;
+    end_aborted_with(Exit::OutOfMemory)?;
+    parent::follow_named()?;
     match command {
         Command::List { long } => library::list(long),
         Command::Show { case, source } => library::show(&case, source),
