@@ -16,6 +16,7 @@ mod status;
 mod style;
 mod sweep;
 mod validate;
+mod verify;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -107,6 +108,8 @@ enum Command {
     Plot(plot::Options),
     /// Show how far a run is
     Status(status::Options),
+    /// Check that what runs and sweeps have left is whole and agrees; nothing is run
+    Verify(verify::Options),
     /// Run a case at many points: with several values of some of its keys
     Sweep(sweep::Options),
     /// Run shipped cases and compare them with their references
@@ -175,6 +178,7 @@ fn dispatch(command: Command) -> Result<Exit, Failure> {
         Command::Run(options) => run::run(&options),
         Command::Plot(options) => plot::plot(&options),
         Command::Status(options) => status::status(&options),
+        Command::Verify(options) => verify::verify(&options),
         Command::Sweep(options) => sweep::sweep(&options),
         Command::Validate(options) => validate::validate(&options),
         Command::Schema => {
