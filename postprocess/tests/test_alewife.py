@@ -1,5 +1,6 @@
 """The Python interface over the program: cases set, run and swept."""
 
+import json
 import os
 import signal
 import subprocess
@@ -154,6 +155,32 @@ def test_the_program_is_found_or_missed(monkeypatch: pytest.MonkeyPatch, tmp_pat
     monkeypatch.setattr(sys, "executable", str(tmp_path / "python"))
     with pytest.raises(FileNotFoundError, match="pip install alewife"):
         alewife.find_program()
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="the end of a parent is told on Linux")
+@pytest.mark.parametrize("sent", [signal.SIGINT, signal.SIGKILL])
+def test_a_run_ends_with_an_interrupt_of_python_alone_and_with_its_death(
+    tmp_path: Path, sent: signal.Signals
+) -> None:
+    text = (
+        "import alewife, signal; signal.signal(signal.SIGINT, signal.default_int_handler); "
+        "alewife.load('added-mass').set('time.unsteady.end', 1e3)"
+        f".run({str(tmp_path / 'r')!r}, threads=1)"
+    )
+    process = subprocess.Popen([sys.executable, "-c", text], stderr=subprocess.DEVNULL)
+    deadline = time.monotonic() + 60
+    while not (tmp_path / "r" / "series.csv").is_file() and time.monotonic() < deadline:
+        time.sleep(0.05)
+    time.sleep(0.5)
+    # No terminal tells the program
+    process.send_signal(sent)
+    process.wait(timeout=60)
+    status = {"state": "running"}
+    while status["state"] == "running" and time.monotonic() < deadline:
+        time.sleep(0.05)
+        status = json.loads((tmp_path / "r" / "status.json").read_text())
+    assert status["state"] == "stopped"
+    assert list((tmp_path / "r" / "checkpoints").glob("*.state"))
 
 
 @pytest.mark.skipif(os.name == "nt", reason="signals of Unix")

@@ -46,7 +46,6 @@ mod tests {
     #[test]
     fn parts_that_touch_or_do_not_are_apart_and_those_that_overlap_are_not() {
         let helix = Centreline::Helix { radius: 0.3, pitch: 0.8, turns: -2.0 };
-        let [long, short] = [1.0, 0.5];
         let shapes = [
             (Shape::Sphere { radius: 0.5 }, 0.5),
             (Shape::Ellipsoid { semi_axes: [0.5, 0.3, 0.2] }, 0.5),
@@ -62,9 +61,12 @@ mod tests {
                 }
             }
         }
-        // A tube whose end is in a sphere, or not
-        let tube = at(Shape::Tube { centreline: helix, radius: 0.08 }, long);
-        let sphere = |x: f64| at(Shape::Sphere { radius: short }, x);
-        assert!(!tube.is_apart_from(&sphere(0.0)) && tube.is_apart_from(&sphere(-1.0)));
+        // A tube that begins at x = 1, and spheres that its end is in, deep or by a little, or not
+        let tube = at(Shape::Tube { centreline: helix, radius: 0.08 }, 1.0);
+        for (x, is_apart) in [(0.9, false), (0.55, false), (0.45, true), (-1.0, true)] {
+            let sphere = at(Shape::Sphere { radius: 0.5 }, x);
+            assert_eq!(tube.is_apart_from(&sphere), is_apart, "{x}");
+            assert_eq!(sphere.is_apart_from(&tube), is_apart, "{x}");
+        }
     }
 }

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import shutil
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -67,23 +68,39 @@ def find_program() -> Path:
 def call(*arguments: str | Path, progress: bool = False) -> str:
     """Call the program and return what it prints.
 
-    With `progress` its messages go to the terminal as they come. Ctrl-C reaches the program, too,
-    which writes its state and ends; KeyboardInterrupt is raised once it has.
+    With `progress` its messages go to the terminal as they come. An interrupt is passed on: the
+    program ends at its next step and writes its state; KeyboardInterrupt is raised once it has. A
+    second one ends it at once. Where this process dies, the program is stopped, too (on Linux).
     """
     command = [str(find_program()), *map(str, arguments)]
     errors = None if progress else subprocess.PIPE
     with subprocess.Popen(
-        command, stdout=subprocess.PIPE, stderr=errors, text=True, encoding="utf-8"
+        command,
+        stdout=subprocess.PIPE,
+        stderr=errors,
+        text=True,
+        encoding="utf-8",
+        env={**os.environ, "ALEWIFE_PARENT": str(os.getpid())},
     ) as process:
         try:
             output, messages = process.communicate()
         except KeyboardInterrupt:
-            # The terminal has signalled the program, too: it ends after its step
-            process.wait()
+            _interrupt(process)
             raise
     if process.returncode != 0:
         raise _error(messages or "", process.returncode, command)
     return output
+
+
+def _interrupt(process: subprocess.Popen[str]) -> None:
+    """Interrupt a process until it has ended: in a notebook no terminal has signalled it."""
+    while process.poll() is None:
+        # One within half a second of that of a terminal counts as the same
+        process.send_signal(signal.SIGINT)
+        try:
+            process.communicate()
+        except KeyboardInterrupt:
+            continue
 
 
 def _error(messages: str, code: int, command: list[str]) -> AlewifeError:

@@ -8,6 +8,7 @@ mod library;
 mod manual;
 mod mesh;
 mod panic;
+mod parent;
 mod plot;
 mod read;
 mod run;
@@ -15,6 +16,7 @@ mod status;
 mod style;
 mod sweep;
 mod validate;
+mod verify;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -26,7 +28,7 @@ use exit::{Exit, Failure};
 use read::Settings;
 use style::{complain, say};
 
-use crate::runner::outlive_file_size_limit;
+use crate::runner::{end_aborted_with, outlive_file_size_limit};
 
 pub use panic::guard;
 
@@ -43,8 +45,8 @@ Examples:
 A CASE is the path of a .toml file, the name of a shipped case, or either with /VARIANT behind it.
 
 Exit codes: 0 done; 2 usage; 10 solver diverged; 11 mesh; 20 outside tolerance;
-65 bad case; 66 no such case; 70 bug in alewife; 74 input or output; 75 stopped,
-run it again to continue; 76 restarted without progress.";
+65 bad case; 66 no such case; 70 bug in alewife; 71 out of memory; 74 input or
+output; 75 stopped, run it again to continue; 76 restarted without progress.";
 
 /// Swimmers in viscous fluid: Taylor-Hood finite elements on body-fitted meshes.
 #[derive(Debug, Parser)]
@@ -106,6 +108,8 @@ enum Command {
     Plot(plot::Options),
     /// Show how far a run is
     Status(status::Options),
+    /// Check that what runs and sweeps have left is whole and agrees; nothing is run
+    Verify(verify::Options),
     /// Run a case at many points: with several values of some of its keys
     Sweep(sweep::Options),
     /// Run shipped cases and compare them with their references
@@ -155,6 +159,8 @@ pub fn run() -> ExitCode {
 
 fn dispatch(command: Command) -> Result<Exit, Failure> {
     outlive_file_size_limit()?;
+    end_aborted_with(Exit::OutOfMemory)?;
+    parent::follow_named()?;
     match command {
         Command::List { long } => library::list(long),
         Command::Show { case, source } => library::show(&case, source),
@@ -172,6 +178,7 @@ fn dispatch(command: Command) -> Result<Exit, Failure> {
         Command::Run(options) => run::run(&options),
         Command::Plot(options) => plot::plot(&options),
         Command::Status(options) => status::status(&options),
+        Command::Verify(options) => verify::verify(&options),
         Command::Sweep(options) => sweep::sweep(&options),
         Command::Validate(options) => validate::validate(&options),
         Command::Schema => {

@@ -34,13 +34,13 @@ pub use files::{
     read_state, state_size,
 };
 pub use live::LiveServer;
-pub use message_file::MessageFile;
+pub use message_file::{MessageFile, MessageSummary, read_messages};
 pub use observers::{Shown, observers};
 pub use run_directory::{
-    COMPARISON_FILE, Earlier, FAILURE_FOLDER, FAILURE_STATE, History, LOCK_FILE, Leg, LegFile,
-    LockError, MESH_SIZE_FILE, Origin, Point, Provenance, Restarts, RunDirectory,
+    COMPARISON_FILE, Earlier, FAILURE_FOLDER, FAILURE_STATE, Frame, History, LOCK_FILE, Leg,
+    LegFile, LockError, MESH_SIZE_FILE, Origin, Point, Provenance, Restarts, RunDirectory,
     RunDirectoryError, RunLock, RunState, STOP, Start, Status, StatusFile, WriteTimes, checkpoints,
-    executable, read_outcome, read_series, run_of_state,
+    checksum, executable, frames, read_outcome, read_series, run_of_state,
 };
 pub use system::process::{peak_memory, reset_peak_memory};
 pub use system::{UNFINISHED, directory_of, write_atomic};

@@ -85,6 +85,9 @@ pub fn beginning<const D: usize>(
         Failure::new(Exit::BadCase, format!("cannot continue from {}: {error}", path.display()))
     })?;
     if end.is_some_and(|end| state.time() >= end) {
+        if Status::read(out).is_err() {
+            Status::lost_end(file.case(), state.step(), state.time()).write(out)?;
+        }
         return Ok(Beginning::IsDone);
     }
     let mut history = History::read(out, state.step(), state.time())?;

@@ -7,7 +7,7 @@ use crate::observer::{LiveServer, print_line};
 pub const DEFAULT_ADDRESS: &str = "127.0.0.1:8765";
 
 /// Listens from now on, before anything of a run is made.
-pub fn start(address: &str, name: &str) -> Result<LiveServer, Failure> {
+pub fn start(address: &str, name: &str, origins: &[String]) -> Result<LiveServer, Failure> {
     let is_whole = address
         .rsplit_once(':')
         .is_some_and(|(host, port)| !host.is_empty() && port.parse::<u16>().is_ok());
@@ -18,7 +18,7 @@ pub fn start(address: &str, name: &str) -> Result<LiveServer, Failure> {
         );
         return Err(Failure::new(Exit::Usage, reason));
     }
-    let server = LiveServer::start(address, name).map_err(|error| {
+    let server = LiveServer::start(address, name, origins).map_err(|error| {
         let reason = format!("--live: cannot listen at {address}: {error}; give another port");
         Failure::new(Exit::Usage, reason)
     })?;

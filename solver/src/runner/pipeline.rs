@@ -43,7 +43,8 @@ where
     let watch = SignalWatch::start()?;
     let limit = WallLimit::new(plan.max_walltime);
     let has_limit_asked = limit.as_ref().map(WallLimit::has_asked);
-    let live = plan.live.as_deref().map(|address| live::start(address, &name)).transpose()?;
+    let live = plan.live.as_deref();
+    let live = live.map(|address| live::start(address, &name, &plan.live_origins)).transpose()?;
     let lock = plan.lock.clone().map_or_else(|| RunDirectory::hold(out), Ok)?;
     let verbosity = i8::try_from(plan.verbose).unwrap_or(i8::MAX) - i8::from(plan.quiet);
     // What is wrong with files of an earlier part is reported, too

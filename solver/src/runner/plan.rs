@@ -30,6 +30,8 @@ pub struct RunPlan {
     pub max_walltime: Option<WallTime>,
     /// Where viewers connect to.
     pub live: Option<String>,
+    /// Origins of web pages that may look on, besides those of this machine.
+    pub live_origins: Vec<String>,
     /// Whether it is compared with the references of its case.
     pub compares: bool,
     /// Whether there is no progress on the terminal.
@@ -53,6 +55,7 @@ impl RunPlan {
             overwrite: false,
             max_walltime: None,
             live: None,
+            live_origins: Vec::new(),
             compares: true,
             quiet: false,
             verbose: 0,

@@ -1,6 +1,7 @@
 //! How many threads a run uses.
 
 use super::failure::{Exit, Failure};
+use crate::observer::print_line;
 
 /// Variables that say how many threads there are to be, the first one set decides.
 ///
@@ -21,6 +22,13 @@ pub fn start(wanted: Option<usize>) -> Result<usize, Failure> {
     if !(1..=MOST).contains(&threads) {
         let message = format!("{threads} threads are asked for; write a number from 1 to {MOST}");
         return Err(Failure::new(Exit::Usage, message));
+    }
+    let cores = granted();
+    if threads > cores {
+        print_line(&format!(
+            "warning: {threads} threads share {cores} {}: more than there are cores make a run slower",
+            if cores == 1 { "core" } else { "cores" }
+        ));
     }
     rayon::ThreadPoolBuilder::new()
         .num_threads(threads)

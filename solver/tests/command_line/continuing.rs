@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
-use super::alewife;
+use super::{DISC, FLUID, alewife, done};
 
 /// A run of a falling sphere far too long to end by itself.
 pub(super) const LONG: [&str; 10] = [
@@ -206,4 +206,32 @@ fn a_finished_run_continues_to_a_later_end_where_that_is_asked_for() {
     let (code, told, _) = run("0.04", &["--continue"]);
     assert_eq!(code, Some(0), "{told}");
     assert!(told.contains("continues at step"), "{told}");
+}
+
+#[test]
+fn a_run_whose_status_is_lost_continues_from_its_latest_checkpoint() {
+    let place = tempfile::tempdir().unwrap();
+    let short = format!(
+        "{FLUID}mesh = {{ size = 0.5, surface = 0.1 }}\ntime.unsteady = {{ step = 0.01, end = 0.05 }}\n{DISC}"
+    );
+    std::fs::write(place.path().join("case.toml"), short).unwrap();
+    let run = ["run", "case.toml", "--threads", "1", "--out", "r"];
+    done(place.path(), &run);
+    let status = place.path().join("r/status.json");
+    for lost in [Some(""), Some("{"), None] {
+        match lost {
+            Some(text) => std::fs::write(&status, text).unwrap(),
+            None => std::fs::remove_file(&status).unwrap(),
+        }
+        let said = done(place.path(), &run);
+        assert!(said.contains("has come to its end before"), "{said}");
+        done(place.path(), &["verify", "r"]);
+    }
+    std::fs::write(&status, "").unwrap();
+    let later = [&run[..], &["--set", "time.unsteady.end=0.08"]].concat();
+    let output = alewife(place.path(), &later);
+    let told = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(0), "{told}");
+    assert!(told.contains("continues at step 5"), "{told}");
+    done(place.path(), &["verify", "r"]);
 }

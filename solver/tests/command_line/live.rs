@@ -1,6 +1,6 @@
 //! `--live`: viewers connect to a run under way, and change nothing of it.
 
-use std::io::{BufRead, BufReader, Read};
+use std::io::{BufRead, BufReader, Read, Write};
 use std::net::{TcpListener, TcpStream};
 use std::path::Path;
 use std::process::{Child, ChildStderr, Command, Stdio};
@@ -211,4 +211,90 @@ fn a_request_of_a_web_page_is_refused() {
     // It may be closed without a word
     let _ = stream.read_to_end(&mut answer);
     assert!(!answer.starts_with(b"HTTP/1.1 101"), "{}", String::from_utf8_lossy(&answer));
+}
+
+/// The status with which a server answers an upgrade as a browser sends it, and whether it was made.
+fn upgrade(address: &str, host: &str, origin: Option<&str>) -> String {
+    let mut stream = TcpStream::connect(address).unwrap();
+    stream.set_read_timeout(Some(Duration::from_secs(20))).unwrap();
+    let origin = origin.map_or_else(String::new, |origin| format!("Origin: {origin}\r\n"));
+    let request = format!(
+        "GET / HTTP/1.1\r\nHost: {host}\r\n{origin}Upgrade: websocket\r\nConnection: Upgrade\r\n\
+         Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\nSec-WebSocket-Version: 13\r\n\
+         Sec-WebSocket-Protocol: foxglove.sdk.v1\r\n\r\n"
+    );
+    stream.write_all(request.as_bytes()).unwrap();
+    let mut line = String::new();
+    BufReader::new(stream).read_line(&mut line).unwrap();
+    line.split_whitespace().nth(1).unwrap_or_default().to_owned()
+}
+
+#[test]
+fn a_page_of_another_origin_or_under_another_name_is_refused() {
+    let directory = tempfile::tempdir().unwrap();
+    let live = start(
+        directory.path(),
+        &[&LONG[..], &["--live-origin", "https://viewer.example"]].concat(),
+    );
+    let here = live.address.as_str();
+    let port = here.rsplit_once(':').unwrap().1;
+    let named = format!("localhost:{port}");
+    for (host, origin, status) in [
+        (here, None, "101"),
+        (&named, None, "101"),
+        (here, Some("http://localhost:3000"), "101"),
+        (here, Some("https://viewer.example"), "101"),
+        (here, Some("http://evil.example"), "403"),
+        (here, Some("http://localhost.evil.example"), "403"),
+        (here, Some("null"), "403"),
+        // Its name stands for this machine's address: DNS rebinding
+        ("evil.example", Some("http://evil.example"), "403"),
+        ("evil.example", None, "403"),
+        (&format!("evil.example:{port}"), Some(&format!("http://evil.example:{port}")), "403"),
+    ] {
+        assert_eq!(upgrade(here, host, origin), status, "{host} {origin:?}");
+    }
+    let alone = alewife(directory.path(), &["run", "squirmer-pair", "--live-origin", "a.example"]);
+    assert_eq!(alone.status.code(), Some(2));
+}
+
+#[test]
+fn a_viewer_that_asks_for_too_much_is_closed_and_the_run_goes_on() {
+    let directory = tempfile::tempdir().unwrap();
+    let live = start(directory.path(), &LONG);
+    let flood = |of: &dyn Fn(usize) -> Value, n: usize| {
+        let mut viewer = Viewer::connect(&live.address, "foxglove.sdk.v1");
+        assert_eq!(viewer.text()["op"], "serverInfo");
+        viewer.channels("/forces");
+        let subscriptions: Vec<Value> = (0..n).map(of).collect();
+        let request = json!({"op": "subscribe", "subscriptions": subscriptions}).to_string();
+        // Sooner or later nothing is taken any more
+        for _ in 0..400 {
+            if viewer.socket.send(Message::text(request.clone())).is_err() {
+                return;
+            }
+        }
+        let started = Instant::now();
+        while viewer.socket.read().is_ok() {
+            assert!(started.elapsed() < Duration::from_secs(20), "it was not closed");
+        }
+    };
+    flood(&|nth| json!({"id": nth, "channelId": 99_999}), 30_000);
+    flood(&|nth| json!({"id": nth, "channelId": 0}), 3000);
+    flood(&|nth| json!({"id": nth, "channelId": 0}), 1);
+    // One channel is sent once, however often it is asked for
+    let mut viewer = Viewer::connect(&live.address, "foxglove.sdk.v1");
+    assert_eq!(viewer.text()["op"], "serverInfo");
+    let channels = viewer.channels("/forces");
+    for id in [1, 2, 3] {
+        viewer.subscribe(id, channel(&channels, "/step"));
+    }
+    let mut steps: Vec<u64> = Vec::new();
+    let mut last = 0;
+    while steps.len() < 20 || last != 3 {
+        let message = viewer.message();
+        steps.push(message.content["step"].as_u64().unwrap());
+        last = message.subscription;
+    }
+    assert!(steps.windows(2).all(|pair| pair[0] < pair[1]), "{steps:?}");
 }

@@ -14,6 +14,7 @@ mod sweep_kills;
 mod sweep_races;
 mod sweeps;
 mod validating;
+mod verifying;
 mod warnings;
 
 use std::path::Path;

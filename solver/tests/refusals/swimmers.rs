@@ -305,7 +305,12 @@ fn angles_come_from_the_columns_of_a_file() {
     for (from, to, wanted) in [
         ("0.1,0.2", "0.1,x0.2", ["column `q2`: `x0.2` is not a finite number", "angles.csv:4:1"]),
         ("1.0,0.0,0.1", "1.0,0.0,nan", ["`nan` is not a finite number", "angles.csv:6:1"]),
-        ("1.0,0.0,0.1", "1.0,0.0", ["column `q2` is empty here", "angles.csv:6:1"]),
+        ("1.0,0.0,0.1", "1.0,0.0,", ["column `q2` is empty here", "angles.csv:6:1"]),
+        (
+            "1.0,0.0,0.1",
+            "1.0,0.0",
+            ["this row has 2 cells, and the header has 3", "angles.csv:6:1"],
+        ),
         ("1.0,0.0", "0.5,0.0", ["`t, s`: time 0.5 does not come after 0.5", "angles.csv:6:1"]),
         ("\r\n1.0,0.0", "\n0.9,0.0", ["go from 0 to 0.9, and the run from 0 to 1", "whole run"]),
         ("\n0.0, 0.0,", "\n0.1,0.0,", ["go from 0.1 to 1, and the run", "robot/case.toml:35:"]),

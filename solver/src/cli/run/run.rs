@@ -60,6 +60,10 @@ pub struct Options {
         default_missing_value = runner::DEFAULT_ADDRESS
     )]
     live: Option<String>,
+    /// Let web pages of this origin look on, too, such as https://app.foxglove.dev; pages of this machine and programs
+    /// other than browsers always may. A name alone is one by which viewers call this machine. May be repeated
+    #[arg(long, value_name = "ORIGIN", requires = "live")]
+    live_origin: Vec<String>,
     /// Do not compare with references
     #[arg(long)]
     no_references: bool,
@@ -86,6 +90,7 @@ impl Options {
             overwrite: self.overwrite,
             max_walltime: self.max_walltime,
             live: self.live.clone(),
+            live_origins: self.live_origin.clone(),
             compares: !self.no_references,
             quiet: self.quiet,
             verbose: self.verbose,
@@ -104,6 +109,7 @@ impl Options {
         option("threads", self.threads.map(|threads| threads.to_string()));
         option("max-walltime", self.max_walltime.map(String::from));
         option("live", self.live.clone());
+        self.live_origin.iter().for_each(|origin| option("live-origin", Some(origin.clone())));
         let flags = [
             ("--continue", self.continues),
             ("--no-references", self.no_references),

@@ -13,6 +13,7 @@ use super::run_options::Options;
 use super::swept::directory_of;
 use crate::case::Sweep;
 use crate::cli::exit::{Exit, Failure};
+use crate::cli::parent;
 use crate::cli::style::{self, complain, say};
 use crate::observer::{STOP, Status, Tally};
 use crate::runner::{SignalWatch, WallLimit, threads};
@@ -183,6 +184,8 @@ impl Calls<'_> {
         if let Some(left) = left {
             command.args(["--max-walltime", &format!("{} s", left.as_secs_f64())]);
         }
+        // Of this process, and not of its points
+        command.env_remove(parent::VARIABLE);
         command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::piped());
         Launch::Start(Box::new(command))
     }
@@ -275,7 +278,7 @@ fn tell_end(directory: &SweepDirectory, score: &Score, n: usize, elapsed: Durati
 /// The code of a point that failed.
 pub fn exit_of(failure: &PointFailure) -> Exit {
     let known = [Exit::Diverged, Exit::Mesh, Exit::BadCase, Exit::NoInput, Exit::InputOutput];
-    let more = [Exit::NoProgress, Exit::Usage];
+    let more = [Exit::NoProgress, Exit::OutOfMemory, Exit::Usage];
     let all = known.into_iter().chain(more);
     all.into_iter().find(|exit| Some(*exit as u8) == failure.exit).unwrap_or(Exit::Bug)
 }

@@ -20,7 +20,7 @@ const LOOK_EVERY: Duration = Duration::from_millis(200);
 
 /// Runs the point of an index from 0.
 pub fn run(options: &Options, index: usize) -> Result<Exit, Failure> {
-    stop_with(options.parent)?;
+    parent::stop_with(options.parent)?;
     let sweep = options.swept.read()?;
     let all = 0..sweep.n_points();
     if let Some(named) = options.index {
@@ -93,18 +93,4 @@ fn hold(out: &Path, options: &Options) -> Result<RunLock, Failure> {
 fn is_kept(failure: &PointFailure, options: &Options) -> bool {
     let is_asked = options.retry || options.parent.is_none();
     failure.is_for_good() && (!is_asked || failure.is_of_another_case)
-}
-
-/// Has this process asked to stop when the one that runs the sweep is killed.
-fn stop_with(parent: Option<u32>) -> Result<(), Failure> {
-    let Some(parent) = parent else { return Ok(()) };
-    #[cfg(target_os = "linux")]
-    rustix::process::set_parent_process_death_signal(Some(rustix::process::Signal::TERM))
-        .map_err(std::io::Error::from)?;
-    let has_parent = rustix::process::getppid()
-        .is_some_and(|now| u32::try_from(now.as_raw_pid()).is_ok_and(|now| now == parent));
-    if has_parent {
-        return Ok(());
-    }
-    Err(Failure::new(Exit::Stopped, "the process that ran the sweep is gone"))
 }

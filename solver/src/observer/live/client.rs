@@ -2,14 +2,18 @@
 
 use std::io;
 use std::net::TcpStream;
-use std::time::Duration;
+use std::sync::atomic::Ordering;
+use std::time::{Duration, Instant};
 
+use serde::Deserialize;
 use serde_json::{Value, json};
+use tungstenite::handshake::HandshakeError;
 use tungstenite::handshake::server::{ErrorResponse, Request, Response};
-use tungstenite::http::HeaderValue;
+use tungstenite::http::{HeaderValue, StatusCode};
 use tungstenite::protocol::WebSocketConfig;
-use tungstenite::{Error, Message, WebSocket};
+use tungstenite::{Bytes, Error, Message, WebSocket};
 
+use super::Host;
 use super::hub::{LiveMessage, Shared};
 
 /// Protocols that are spoken; what is used of them is the same in both.
@@ -24,30 +28,71 @@ const TIME: u8 = 2;
 const TICK: Duration = Duration::from_millis(20);
 /// Longest handshake, and longest wait for a client that takes nothing.
 const PATIENCE: Duration = Duration::from_secs(5);
-/// Longest message of a client (bytes): subscriptions to all channels are far less.
-const LONGEST_REQUEST: usize = 1 << 20;
+/// Longest message of a client (bytes): subscriptions to ten thousand channels.
+const LONGEST_REQUEST: usize = 1 << 18;
+/// Messages of a client in [`SPAN`]: viewers send a few when a panel is opened.
+const MOST_REQUESTS: usize = 200;
+/// Time over which messages of a client are counted.
+const SPAN: Duration = Duration::from_secs(10);
+/// Time between two questions whether a client is there.
+const ASK_EVERY: Duration = Duration::from_secs(10);
+/// A client is closed that says nothing for so long, not even that it is there, or that wants nothing.
+const IDLE: Duration = Duration::from_secs(30);
 
-/// Serves a client until it goes or the run is over.
+/// Serves a client until it goes, wants nothing, asks too much, or the run is over.
 ///
 /// # Errors
 /// What went wrong with the connection.
-pub fn serve(stream: TcpStream, shared: &Shared, name: &str) -> Result<(), Error> {
+pub fn serve(stream: TcpStream, shared: &Shared, host: &Host) -> Result<(), Error> {
     stream.set_nonblocking(false)?;
     stream.set_nodelay(true)?;
-    stream.set_read_timeout(Some(PATIENCE))?;
+    stream.set_read_timeout(Some(TICK))?;
     stream.set_write_timeout(Some(PATIENCE))?;
-    let config = WebSocketConfig::default().max_message_size(Some(LONGEST_REQUEST));
-    let socket = tungstenite::accept_hdr_with_config(stream, choose_protocol, Some(config))
-        .map_err(|refused| Error::Io(io::Error::other(refused.to_string())))?;
-    socket.get_ref().set_read_timeout(Some(TICK))?;
+    let socket = shake_hands(stream, host)?;
     let client = shared.enter();
-    let served = Connection { socket, shared, client, n_known: 0, time: None }.run(name);
+    let heard = Heard::now();
+    let connection = Connection { socket, shared, client, n_known: 0, time: None, heard };
+    let served = connection.run(&host.name);
     shared.leave(client);
     served
 }
 
+/// The handshake, within its time.
+fn shake_hands(stream: TcpStream, host: &Host) -> Result<WebSocket<TcpStream>, Error> {
+    let started = Instant::now();
+    let config = WebSocketConfig::default()
+        .max_message_size(Some(LONGEST_REQUEST))
+        .max_frame_size(Some(LONGEST_REQUEST));
+    let answer = |request: &Request, response: Response| answer(request, response, host);
+    let mut shaken = tungstenite::accept_hdr_with_config(stream, answer, Some(config));
+    loop {
+        match shaken {
+            Ok(socket) => return Ok(socket),
+            Err(HandshakeError::Interrupted(half)) if started.elapsed() < PATIENCE => {
+                shaken = half.handshake();
+            }
+            Err(refused) => return Err(Error::Io(io::Error::other(refused.to_string()))),
+        }
+    }
+}
+
 #[expect(clippy::result_large_err, reason = "the signature is that of the handshake")]
-fn choose_protocol(request: &Request, mut response: Response) -> Result<Response, ErrorResponse> {
+fn answer(
+    request: &Request,
+    mut response: Response,
+    host: &Host,
+) -> Result<Response, ErrorResponse> {
+    let refuse = |status: StatusCode, reason: String| {
+        let mut refusal = ErrorResponse::new(Some(reason));
+        *refusal.status_mut() = status;
+        Err(refusal)
+    };
+    if let Err(reason) = host.visitors.check(request) {
+        if !host.has_refused.swap(true, Ordering::Relaxed) {
+            tracing::warn!("--live: a viewer was refused: {reason}; --live-origin lets others in");
+        }
+        return refuse(StatusCode::FORBIDDEN, format!("{reason}; see --live-origin"));
+    }
     let offered = request.headers().get_all(PROTOCOL_HEADER);
     let offered: Vec<&str> = offered
         .iter()
@@ -59,13 +104,55 @@ fn choose_protocol(request: &Request, mut response: Response) -> Result<Response
             response.headers_mut().insert(PROTOCOL_HEADER, HeaderValue::from_static(known));
             Ok(response)
         }
-        None => {
-            let mut refusal =
-                ErrorResponse::new(Some(format!("protocols: {}", PROTOCOLS.join(", "))));
-            *refusal.status_mut() = tungstenite::http::StatusCode::BAD_REQUEST;
-            Err(refusal)
-        }
+        None => refuse(StatusCode::BAD_REQUEST, format!("protocols: {}", PROTOCOLS.join(", "))),
     }
+}
+
+/// When a client was last heard, and how often of late.
+#[derive(Debug)]
+struct Heard {
+    last: Instant,
+    /// When it was last asked whether it is there.
+    asked: Instant,
+    /// When it last wanted something.
+    wanted: Instant,
+    span: Instant,
+    n_in_span: usize,
+}
+
+impl Heard {
+    fn now() -> Self {
+        let now = Instant::now();
+        Self { last: now, asked: now, wanted: now, span: now, n_in_span: 0 }
+    }
+
+    /// One more message; whether there are too many.
+    fn message(&mut self) -> bool {
+        self.last = Instant::now();
+        if self.span.elapsed() > SPAN {
+            (self.span, self.n_in_span) = (self.last, 0);
+        }
+        self.n_in_span += 1;
+        self.n_in_span > MOST_REQUESTS
+    }
+}
+
+/// What a client says; what else it may want is not offered.
+#[derive(Debug, Deserialize)]
+#[serde(rename_all = "camelCase")]
+struct Words {
+    op: String,
+    #[serde(default)]
+    subscriptions: Vec<Subscription>,
+    #[serde(default)]
+    subscription_ids: Vec<u32>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(rename_all = "camelCase")]
+struct Subscription {
+    id: u32,
+    channel_id: u32,
 }
 
 struct Connection<'a> {
@@ -76,6 +163,7 @@ struct Connection<'a> {
     n_known: usize,
     /// Latest simulated time that was sent to it (ns).
     time: Option<u64>,
+    heard: Heard,
 }
 
 impl Connection<'_> {
@@ -93,17 +181,41 @@ impl Connection<'_> {
             let is_over = self.shared.is_over();
             self.tell_news()?;
             if is_over {
-                self.socket.close(None)?;
-                return self.socket.flush();
+                return self.close();
             }
             match self.socket.read() {
-                Ok(Message::Text(text)) => self.hear(&text),
-                Ok(_) => {}
+                Ok(message) => {
+                    let is_too_much = self.heard.message();
+                    if is_too_much || !self.hear(&message) {
+                        self.close()?;
+                        return Err(Error::Io(io::Error::other("it asks for too much")));
+                    }
+                }
                 Err(Error::Io(error)) if is_timeout(&error) => {}
                 Err(Error::ConnectionClosed) => return Ok(()),
                 Err(error) => return Err(error),
             }
+            if self.is_idle()? {
+                return self.close();
+            }
         }
+    }
+
+    fn close(mut self) -> Result<(), Error> {
+        self.socket.close(None)?;
+        self.socket.flush()
+    }
+
+    /// Whether the client is gone or wants nothing; it is asked from time to time.
+    fn is_idle(&mut self) -> Result<bool, Error> {
+        if self.shared.wants_something(self.client) {
+            self.heard.wanted = Instant::now();
+        }
+        if self.heard.asked.elapsed() > ASK_EVERY {
+            self.heard.asked = Instant::now();
+            self.socket.send(Message::Ping(Bytes::new()))?;
+        }
+        Ok(self.heard.last.elapsed() > IDLE || self.heard.wanted.elapsed() > IDLE)
     }
 
     fn tell_news(&mut self) -> Result<(), Error> {
@@ -145,27 +257,24 @@ impl Connection<'_> {
         self.socket.send(Message::text(what.to_string()))
     }
 
-    /// Subscriptions; what else a client may want is not offered.
-    fn hear(&self, text: &str) {
-        let Ok(request) = serde_json::from_str::<Value>(text) else { return };
-        let list = |key: &str| request[key].as_array().cloned().unwrap_or_default();
-        let number = |value: &Value| value.as_u64().and_then(|number| u32::try_from(number).ok());
-        match request["op"].as_str() {
-            Some("subscribe") => {
-                for one in list("subscriptions") {
-                    let [id, channel] = ["id", "channelId"].map(|key| number(&one[key]));
-                    if let (Some(id), Some(channel)) = (id, channel) {
-                        self.shared.subscribe(self.client, id, channel as usize);
-                    }
+    /// Subscriptions; whether they are such as a viewer sends: no more than there are channels.
+    fn hear(&self, message: &Message) -> bool {
+        let Message::Text(text) = message else { return true };
+        let Ok(words) = serde_json::from_str::<Words>(text) else { return true };
+        let most = self.n_known;
+        if words.subscriptions.len() > most || words.subscription_ids.len() > most {
+            return false;
+        }
+        match words.op.as_str() {
+            "subscribe" => {
+                for Subscription { id, channel_id } in words.subscriptions {
+                    self.shared.subscribe(self.client, id, channel_id as usize);
                 }
             }
-            Some("unsubscribe") => {
-                for id in list("subscriptionIds").iter().filter_map(number) {
-                    self.shared.unsubscribe(self.client, id);
-                }
-            }
+            "unsubscribe" => self.shared.unsubscribe(self.client, &words.subscription_ids),
             _ => {}
         }
+        true
     }
 }
 

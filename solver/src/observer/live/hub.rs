@@ -6,8 +6,8 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// Messages that wait for a client; older ones are then left out.
 const LONGEST_QUEUE: usize = 4096;
-/// Bytes that wait for a client; older messages are then left out.
-const LARGEST_QUEUE: usize = 1 << 26;
+/// Bytes that wait for a client; older messages are then left out, and the latest never.
+const LARGEST_QUEUE: usize = 1 << 20;
 
 /// A topic of the run.
 #[derive(Debug, Clone)]
@@ -34,8 +34,8 @@ pub struct LiveMessage {
 /// What is kept for one client.
 #[derive(Debug, Default)]
 struct Client {
-    /// Channel of each subscription.
-    subscriptions: BTreeMap<u32, usize>,
+    /// Subscription of each channel that is wanted: one of each, however often a client asks.
+    subscriptions: BTreeMap<usize, u32>,
     waiting: VecDeque<LiveMessage>,
     n_bytes: usize,
 }
@@ -44,7 +44,9 @@ impl Client {
     fn push(&mut self, message: LiveMessage) {
         self.n_bytes += message.data.len();
         self.waiting.push_back(message);
-        while self.waiting.len() > LONGEST_QUEUE || self.n_bytes > LARGEST_QUEUE {
+        let is_full =
+            |queue: &Self| queue.waiting.len() > LONGEST_QUEUE || queue.n_bytes > LARGEST_QUEUE;
+        while self.waiting.len() > 1 && is_full(self) {
             let Some(oldest) = self.waiting.pop_front() else { break };
             self.n_bytes -= oldest.data.len();
         }
@@ -66,6 +68,8 @@ pub struct Shared {
     state: Mutex<State>,
     /// Whether the run is over.
     pub is_over: AtomicBool,
+    /// Whether a client was refused of late, or asked for too much.
+    pub was_wrong: AtomicBool,
     /// Connections there are.
     pub n_clients: AtomicUsize,
 }
@@ -99,7 +103,7 @@ impl Shared {
             }
         }
         for client in state.clients.values_mut() {
-            if client.subscriptions.values().any(|own| *own == channel) {
+            if client.subscriptions.contains_key(&channel) {
                 client.push(message.clone());
             }
         }
@@ -128,21 +132,33 @@ impl Shared {
         self.state().clients.remove(&client);
     }
 
-    /// A client wants a channel; it is given what was last said there, and what was said first.
+    /// A client wants a channel, if there is such a one; it is given what was said there first, and last, unless it
+    /// had the channel before.
     pub fn subscribe(&self, client: usize, subscription: u32, channel: usize) {
         let mut state = self.state();
-        let kept = state.kept.get(channel).cloned().unwrap_or_default();
+        let Some(kept) = state.kept.get(channel).cloned() else { return };
         if let Some(client) = state.clients.get_mut(&client) {
-            client.subscriptions.insert(subscription, channel);
-            kept.into_iter().flatten().for_each(|message| client.push(message));
+            let before = client.subscriptions.insert(channel, subscription);
+            if before.is_none() {
+                kept.into_iter().flatten().for_each(|message| client.push(message));
+            }
         }
     }
 
-    /// A client wants no more of a channel.
-    pub fn unsubscribe(&self, client: usize, subscription: u32) {
+    /// A client wants no more of what some subscriptions are of.
+    pub fn unsubscribe(&self, client: usize, subscriptions: &[u32]) {
         if let Some(client) = self.state().clients.get_mut(&client) {
-            client.subscriptions.remove(&subscription);
+            let mut subscriptions = subscriptions.to_vec();
+            subscriptions.sort_unstable();
+            client.subscriptions.retain(|_, own| subscriptions.binary_search(own).is_err());
         }
+    }
+
+    /// Whether a client has asked for a channel, or there is none to ask for.
+    pub fn wants_something(&self, client: usize) -> bool {
+        let state = self.state();
+        let wants = |client: &Client| !client.subscriptions.is_empty();
+        state.channels.is_empty() || state.clients.get(&client).is_some_and(wants)
     }
 
     /// What has come up for a client that knows the first `n_known` channels.
@@ -154,8 +170,8 @@ impl Shared {
         let waiting = std::mem::take(&mut client.waiting);
         let mut messages = Vec::with_capacity(waiting.len());
         for message in waiting {
-            let wanted = client.subscriptions.iter().find(|(_, own)| **own == message.channel);
-            messages.extend(wanted.map(|(&subscription, _)| (subscription, message)));
+            let wanted = client.subscriptions.get(&message.channel);
+            messages.extend(wanted.map(|&subscription| (subscription, message)));
         }
         News { channels, messages }
     }

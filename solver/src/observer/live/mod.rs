@@ -5,24 +5,40 @@
 
 mod client;
 mod hub;
+mod visitors;
 
 use std::io;
 use std::net::{SocketAddr, TcpListener};
 use std::sync::Arc;
-use std::sync::atomic::Ordering;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::{Duration, Instant};
 
 use hub::Shared;
+use visitors::Visitors;
 
 pub use hub::LiveChannel;
 
 /// Clients at one time.
-const MOST_CLIENTS: usize = 16;
+const MOST_CLIENTS: usize = 8;
 /// Time between two looks for new clients.
 const INTERVAL: Duration = Duration::from_millis(50);
+/// Shortest time between two clients that are let in.
+const PAUSE: Duration = Duration::from_millis(10);
+/// The same after one that was refused, or closed since it asked for too much: it may come again at once.
+const PENALTY: Duration = Duration::from_millis(250);
 /// Longest time for the last messages after the end of a run.
 const FAREWELL: Duration = Duration::from_millis(500);
+
+/// What is the same for all clients.
+#[derive(Debug)]
+pub struct Host {
+    /// What viewers show.
+    name: String,
+    visitors: Visitors,
+    /// Whether somebody was refused, which is told once.
+    has_refused: AtomicBool,
+}
 
 /// Serves the messages of one run.
 #[derive(Debug)]
@@ -32,18 +48,22 @@ pub struct LiveServer {
 }
 
 impl LiveServer {
-    /// Listens at an address from now on; `name` is what viewers show.
+    /// Listens at an address from now on; `name` is what viewers show, `origins` are those of web pages that may
+    /// look on besides those of this machine.
     ///
     /// # Errors
     /// When the address is taken or is not one of this machine.
-    pub fn start(address: &str, name: &str) -> io::Result<Self> {
+    pub fn start(address: &str, name: &str, origins: &[String]) -> io::Result<Self> {
         let listener = TcpListener::bind(address)?;
         listener.set_nonblocking(true)?;
         let address = listener.local_addr()?;
         let shared = Arc::new(Shared::default());
-        let (own, name) = (Arc::clone(&shared), name.to_owned());
+        let visitors = Visitors::new(address, origins);
+        let (name, has_refused) = (name.to_owned(), AtomicBool::new(false));
+        let host = Arc::new(Host { name, visitors, has_refused });
+        let own = Arc::clone(&shared);
         thread::Builder::new().name("live".to_owned()).spawn(move || {
-            accept_clients(&listener, &own, &name);
+            accept_clients(&listener, &own, &host);
         })?;
         Ok(Self { shared, address })
     }
@@ -76,21 +96,26 @@ impl Drop for LiveServer {
     }
 }
 
-fn accept_clients(listener: &TcpListener, shared: &Arc<Shared>, name: &str) {
+fn accept_clients(listener: &TcpListener, shared: &Arc<Shared>, host: &Arc<Host>) {
     while !shared.is_over() {
         let is_full = shared.n_clients.load(Ordering::Acquire) >= MOST_CLIENTS;
         let Ok((stream, _)) = listener.accept() else {
             thread::sleep(INTERVAL);
             continue;
         };
+        // However many come, the run has its time
+        let was_wrong = shared.was_wrong.swap(false, Ordering::AcqRel);
+        thread::sleep(if was_wrong { PENALTY } else { PAUSE });
         if is_full {
             continue;
         }
-        let (own, name) = (Arc::clone(shared), name.to_owned());
+        let (own, host) = (Arc::clone(shared), Arc::clone(host));
         shared.n_clients.fetch_add(1, Ordering::AcqRel);
         let started = thread::Builder::new().name("live client".to_owned()).spawn(move || {
             // What goes wrong between a viewer and its network is no matter of the run
-            let _ = client::serve(stream, &own, &name);
+            if client::serve(stream, &own, &host).is_err() {
+                own.was_wrong.store(true, Ordering::Release);
+            }
             own.n_clients.fetch_sub(1, Ordering::AcqRel);
         });
         if started.is_err() {

@@ -122,11 +122,15 @@ pub struct WallBox {
 }
 
 impl WallBox {
-    /// That of a mesh; nothing without sides.
+    /// That of a mesh; nothing without sides that are drawn.
     pub fn of<const D: usize>(mesh: &Mesh<D>) -> Option<Self> {
         let mut found: Option<Self> = None;
+        let mut is_drawn = false;
+        let periodic = periodic_nodes(mesh);
         for facet in sides(mesh) {
-            for node in mesh.facet_vertices(facet) {
+            is_drawn |= !is_periodic(mesh, facet, &periodic);
+            // Nodes on curved edges, too: they are where the side is, however coarse its facets
+            for node in mesh.facet_nodes(facet) {
                 let at: [f64; 3] = in_space(&mesh.nodes[node.index()]).into();
                 let all = found.get_or_insert(Self { low: at, high: at });
                 for axis in 0..3 {
@@ -135,7 +139,7 @@ impl WallBox {
                 }
             }
         }
-        found
+        found.filter(|_| is_drawn)
     }
 
     /// Whether it is noticeably elsewhere.
@@ -162,6 +166,14 @@ fn sides<const D: usize>(mesh: &Mesh<D>) -> impl Iterator<Item = &Facet> {
     mesh.facets.iter().filter(is_side)
 }
 
+fn periodic_nodes<const D: usize>(mesh: &Mesh<D>) -> HashSet<NodeId> {
+    mesh.periodic.iter().flat_map(|pair| [pair.copy, pair.original]).collect()
+}
+
+fn is_periodic<const D: usize>(mesh: &Mesh<D>, facet: &Facet, periodic: &HashSet<NodeId>) -> bool {
+    mesh.facet_vertices(facet).iter().all(|node| periodic.contains(node))
+}
+
 /// The sides of the domain but for periodic ones, in the world.
 pub fn walls<const D: usize>(
     mesh: &Mesh<D>,
@@ -169,11 +181,10 @@ pub fn walls<const D: usize>(
     place: &WallBox,
     time: f64,
 ) -> SceneUpdate {
-    let periodic: HashSet<NodeId> =
-        mesh.periodic.iter().flat_map(|pair| [pair.copy, pair.original]).collect();
+    let periodic = periodic_nodes(mesh);
     let mut by_name: BTreeMap<&str, Vec<&Facet>> = BTreeMap::new();
     for facet in sides(mesh) {
-        if !mesh.facet_vertices(facet).iter().all(|node| periodic.contains(node)) {
+        if !is_periodic(mesh, facet, &periodic) {
             let name = mesh.boundaries[facet.boundary.index()].name.as_str();
             by_name.entry(name).or_default().push(facet);
         }

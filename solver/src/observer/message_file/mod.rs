@@ -8,5 +8,7 @@ mod primitives;
 mod quantities;
 mod scene;
 mod solids;
+mod summary;
 
 pub use mcap::MessageFile;
+pub use summary::{MessageSummary, read_messages};

@@ -51,8 +51,7 @@ impl History {
         let n_rows = series.times.partition_point(|&then| then <= time);
         series.times.truncate(n_rows);
         series.rows.truncate(n_rows);
-        let list = read_text(&directory.join("fields.pvd"))?;
-        let frames = list.lines().filter_map(frame).filter(|frame| {
+        let frames = frames(directory)?.into_iter().filter(|frame| {
             let is_step = !frame.file.ends_with("stopped.vtu");
             frame.time <= time && is_step && directory.join(&frame.file).is_file()
         });
@@ -87,6 +86,14 @@ impl History {
             self.series = all.clone();
         }
     }
+}
+
+/// The field files that the list of the run in a directory names; none where there is no list.
+///
+/// # Errors
+/// When it cannot be read.
+pub fn frames(directory: &Path) -> io::Result<Vec<Frame>> {
+    Ok(read_text(&directory.join("fields.pvd"))?.lines().filter_map(frame).collect())
 }
 
 /// The text of a file, empty if there is none.

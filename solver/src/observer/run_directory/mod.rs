@@ -19,10 +19,10 @@ mod write_times;
 
 pub(super) use bodies::{joint_ends, write_bodies};
 pub use checkpoint_list::checkpoints;
-pub use history::{Frame, History};
+pub use history::{Frame, History, frames};
 pub use kept::read_outcome;
 pub use legs::LegFile;
-pub use provenance::{Leg, Origin, Point, Provenance, executable};
+pub use provenance::{Leg, Origin, Point, Provenance, checksum, executable};
 pub use restarts::Restarts;
 pub use run_directory::{
     COMPARISON_FILE, Earlier, FAILURE_FOLDER, FAILURE_STATE, MESH_SIZE_FILE, RunDirectory, STOP,

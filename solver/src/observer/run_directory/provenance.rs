@@ -164,7 +164,9 @@ pub fn executable() -> Option<&'static str> {
     CHECKSUM.get_or_init(read).as_deref()
 }
 
-fn checksum(bytes: &[u8]) -> String {
+/// The checksum of bytes, as it is written of cases and programs.
+#[must_use]
+pub fn checksum(bytes: &[u8]) -> String {
     format!("crc32:{:08x}", crc32fast::hash(bytes))
 }
 

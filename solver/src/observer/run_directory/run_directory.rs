@@ -139,6 +139,12 @@ impl RunDirectory {
         Ok(Self { path: path.to_owned(), case_text, provenance, _lock: lock })
     }
 
+    /// Whether a directory is that of a run.
+    #[must_use]
+    pub fn is_one(path: &Path) -> bool {
+        is_a_run(path)
+    }
+
     /// Holds the directory of a run, made if it is not there, before anything is read from it. Where nothing is
     /// made in it, it goes with the lock.
     ///

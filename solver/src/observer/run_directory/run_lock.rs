@@ -18,7 +18,7 @@ use crate::observer::system::{AtPath, process, remove_if_there};
 /// The file that is locked.
 pub const LOCK_FILE: &str = "lock";
 /// Longest name of a holder that is told (bytes).
-const LONGEST: u64 = 300;
+const LONGEST: usize = 300;
 /// How the name of a holder begins; a file that begins otherwise was written by somebody else.
 const NAMED: &str = "process ";
 /// How long a lock is tried for: who only looks whether it is held has it for an instant.
@@ -194,8 +194,10 @@ fn open(path: &Path) -> Result<File, LockError> {
         Err(error) => return Err(error).at(path)?,
     };
     let found = file.metadata().at(path)?;
-    let is_named = || found.len() == 0 || holder_of(&file).is_some();
-    if !found.is_file() || found.nlink() > 1 || !is_named() {
+    // One look, as whoever holds it may just take the name away
+    let text = text_of(&file);
+    let is_ours = text.as_ref().is_some_and(|text| text.is_empty() || text.starts_with(NAMED));
+    if !found.is_file() || found.nlink() > 1 || !is_ours {
         return Err(not_a_lock());
     }
     Ok(file)
@@ -210,10 +212,14 @@ fn is_still_there(file: &File, path: &Path) -> bool {
 
 /// The holder a file names.
 fn holder_of(file: &File) -> Option<String> {
-    let mut bytes = vec![0; usize::try_from(LONGEST).unwrap_or_default()];
+    text_of(file).map(|text| text.trim().to_owned()).filter(|text| text.starts_with(NAMED))
+}
+
+/// What a file says, the first bytes of it; nothing where it cannot be read.
+fn text_of(file: &File) -> Option<String> {
+    let mut bytes = vec![0; LONGEST];
     let n = file.read_at(&mut bytes, 0).ok()?;
-    let text = String::from_utf8_lossy(&bytes[..n]).trim().to_owned();
-    text.starts_with(NAMED).then_some(text)
+    Some(String::from_utf8_lossy(&bytes[..n]).into_owned())
 }
 
 /// The holder of a lock that this process was given, where it may still run: on another computer, by a file system
@@ -322,6 +328,18 @@ mod tests {
         fs::remove_dir(&path).unwrap();
         put(place.path(), "of somebody");
         refused();
+    }
+
+    #[test]
+    fn who_takes_a_lock_that_is_just_given_free_finds_a_lock() {
+        let place = tempfile::tempdir().unwrap();
+        fs::write(place.path().join(super::super::marker::MARKER_FILE), "").unwrap();
+        let visit = || {
+            for _ in 0..100 {
+                assert!(RunLock::wait(place.path(), || false).unwrap().is_some());
+            }
+        };
+        thread::scope(|scope| (0..4).for_each(|_| drop(scope.spawn(visit))));
     }
 
     #[test]

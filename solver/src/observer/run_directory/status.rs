@@ -105,6 +105,22 @@ impl Status {
         Self::beginning(case, 0, 0.0)
     }
 
+    /// That of a run which came to its end, and whose own is lost: it made so many steps up to a time (s).
+    #[must_use]
+    pub fn lost_end(case: &Case, step: usize, time: f64) -> Self {
+        Self { state: RunState::Finished, ..Self::beginning(case, step, time) }
+    }
+
+    /// Writes it to the directory of a run.
+    ///
+    /// # Errors
+    /// When the file system refuses.
+    pub fn write(&self, directory: &Path) -> io::Result<()> {
+        let mut text = serde_json::to_vec_pretty(self)?;
+        text.push(b'\n');
+        write_atomic(&directory.join("status.json"), &text)
+    }
+
     /// That of a run which begins in this process, after so many steps up to a time (s).
     fn beginning(case: &Case, step: usize, time: f64) -> Self {
         let (steps, end) = match &case.time {

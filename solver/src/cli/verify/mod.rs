@@ -1,0 +1,70 @@
+//! `verify`: whether what a run or a sweep has left is whole and agrees with itself; nothing is run.
+
+mod fields;
+mod found;
+mod records;
+mod run;
+mod states;
+mod sweep;
+
+use std::path::{Path, PathBuf};
+
+use clap::{Args, ValueHint};
+
+use super::exit::{Exit, Failure};
+use super::style::say;
+use crate::observer::RunDirectory;
+use crate::sweep::PLAN_FILE;
+use found::Found;
+
+/// What `verify` is asked for.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  alewife verify runs/squirmer-alone
+  alewife verify sweeps/my --json
+
+Of a run: its case, with the checksum in provenance.json; status.json and the legs; that times in series.csv
+rise, and its rows are those of the states; that states can be read, and continue this case; that all fields
+of fields.pvd are there, whole and of this run; messages, comparison and log. Of a sweep: that each point is
+the one of its place, all of that for each point, and the table. Points that are missing are counted.
+
+Exit codes: 0 all is sound; 65 something is not; 66 there is no run or sweep.")]
+pub struct Options {
+    /// Directories of runs or sweeps
+    #[arg(required = true, value_name = "DIR", value_hint = ValueHint::DirPath)]
+    directories: Vec<PathBuf>,
+    /// As JSON
+    #[arg(long)]
+    json: bool,
+}
+
+/// Tells what is wrong in directories of runs and sweeps.
+pub fn verify(options: &Options) -> Result<Exit, Failure> {
+    let mut all = Vec::new();
+    let mut is_sound = true;
+    for directory in &options.directories {
+        let found = look_at(directory)?;
+        is_sound &= found.is_sound();
+        if options.json {
+            all.push(found.to_json());
+        } else {
+            found.print();
+        }
+    }
+    if options.json {
+        say(&format!("{:#}", serde_json::Value::from(all)));
+    }
+    Ok(if is_sound { Exit::Done } else { Exit::BadCase })
+}
+
+fn look_at(directory: &Path) -> Result<Found, Failure> {
+    if directory.join(PLAN_FILE).exists() {
+        return Ok(sweep::verify(directory));
+    }
+    if RunDirectory::is_one(directory) {
+        return Ok(run::verify(directory));
+    }
+    let reason = format!("{} is the directory of no run and no sweep", directory.display());
+    Err(Failure::new(Exit::NoInput, reason))
+}
