@@ -84,7 +84,7 @@ impl EvidenceCount {
         (all > 0).then(|| {
             format!(
                 "of {all} with a reference that is evidence, {} confirmed and {} consistent to the \
-                 per cent shown",
+                 difference shown",
                 self.confirmed, self.consistent
             )
         })
@@ -98,9 +98,11 @@ mod tests {
     use crate::validation::comparison::judge;
 
     fn row(factor: f64, change: impl Fn(&mut Comparison)) -> Comparison {
-        let reference: Reference =
+        let mut reference: Reference =
             Case::read("dfg-2d-1", &[]).unwrap().model.case.reference.remove(0);
-        assert!(reference.expected.relative.is_some());
+        let expected = &mut reference.expected;
+        (expected.relative, expected.absolute) = (Some(0.05), None);
+        expected.kind = ReferenceKind::Literature;
         let computed = Ok(factor * reference.expected.value);
         let mut row = judge("c", &reference, computed, 1, 0.0);
         row.reference.expected.uncertainty = None;

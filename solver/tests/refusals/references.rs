@@ -43,7 +43,7 @@ fn a_reference_says_what_kind_of_evidence_it_is() {
     let kind = "kind = \"literature\"";
     refused(kind, "", &["missing key `kind`", "wrong.toml:43:", "measured, literature, exact"]);
     refused(kind, "kind = \"exakt\"", &["did you mean `exact`?", "wrong.toml:47:8"]);
-    refused(kind, "kind = \"regression\"", &["add uncertainty = ...", "add date = "]);
+    refused(kind, "kind = \"regression\"", &["add uncertainty = \"... %\"", "add date = "]);
     let regression = "kind = \"regression\"\ndate = \"2026-11-21\"\nuncertainty = \"1 %\"";
     assert_accepted(&check(&RIGHT.replace(kind, regression), &[]));
     refused(
