@@ -14,7 +14,6 @@ mod generate;
 mod geometry;
 mod imported;
 mod least_gap;
-mod periods;
 mod placement;
 mod sections;
 mod shape;
